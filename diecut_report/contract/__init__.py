@@ -1,0 +1,1 @@
+"""What a mechanism plugin declares: inputs, steps of the calculation, checks, figures."""

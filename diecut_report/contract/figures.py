@@ -1,0 +1,175 @@
+"""Figures are data: a plot names curves, a drawing holds shapes in metres. The report draws them."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from typing import Any, Protocol
+
+Point = tuple[float, float]
+Shape = dict[str, Any]
+
+
+class View(Protocol):
+    """What a drawing may ask of the calculated machine."""
+
+    def __getitem__(self, name: str) -> float:
+        """A number by its id, SI."""
+
+    def __contains__(self, name: str) -> bool:
+        """Whether there is a number of this id."""
+
+    def at(self, curve: str, place: float) -> float:
+        """A curve's value at a place of its abscissa, SI."""
+
+    def text(self, name: str) -> str:
+        """A quantity as it is printed: ``h = 40 mm``."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class Series:
+    """One curve in a plot."""
+
+    curve: str
+    label: str
+
+
+@dataclass(frozen=True, kw_only=True)
+class Level:
+    """A horizontal line at a quantity's value."""
+
+    value: str
+    label: str
+
+
+@dataclass(frozen=True, kw_only=True)
+class Mark:
+    """A marked point: ids of its place and its value."""
+
+    x: str
+    y: str
+    label: str
+
+
+@dataclass(frozen=True, kw_only=True)
+class Span:
+    """A marked range of the abscissa between two quantities."""
+
+    start: str
+    end: str
+    label: str
+
+
+@dataclass(frozen=True, kw_only=True)
+class Panel:
+    """One diagram of a plot: curves of one unit over the abscissa."""
+
+    title: str
+    unit: str
+    series: tuple[Series, ...]
+    levels: tuple[Level, ...] = ()
+    marks: tuple[Mark, ...] = ()
+    spans: tuple[Span, ...] = ()
+
+
+@dataclass(frozen=True, kw_only=True)
+class Figure:
+    """What all figures have; ``needs`` names the optional inputs without which it is left out."""
+
+    id: str
+    title: str
+    caption: str
+    needs: tuple[str, ...] = ()
+
+
+@dataclass(frozen=True, kw_only=True)
+class Plot(Figure):
+    """Diagrams one below the other over a common abscissa."""
+
+    abscissa: str
+    panels: tuple[Panel, ...]
+
+
+@dataclass(frozen=True, kw_only=True)
+class Polar(Figure):
+    """Curves over an angle, as distance from the pole; negative values are drawn with another line."""
+
+    abscissa: str
+    unit: str
+    series: tuple[Series, ...]
+
+
+@dataclass(frozen=True, kw_only=True)
+class Bars(Figure):
+    """Bars in groups: each group has its own unit, each bar the id of a quantity."""
+
+    groups: tuple[BarGroup, ...]
+
+
+@dataclass(frozen=True, kw_only=True)
+class BarGroup:
+    """Bars of one unit; a bar is a label and the id of its quantity, subtracted ones with ``-ID``."""
+
+    label: str
+    unit: str
+    bars: tuple[tuple[str, str], ...]
+
+
+@dataclass(frozen=True, kw_only=True)
+class Drawing(Figure):
+    """A drawing to scale: ``build`` gives its shapes from the calculated machine."""
+
+    build: Callable[[View], list[Shape]]
+    unit: str = "mm"
+
+
+def polyline(points: Sequence[Point], role: str = "outline", *, closed: bool = False) -> Shape:
+    """Straight lines from point to point."""
+    return {"shape": "polyline", "points": [list(p) for p in points], "closed": closed, "role": role}
+
+
+def region(outer: Sequence[Point], holes: Sequence[Sequence[Point]] = (), role: str = "section") -> Shape:
+    """A cut area, hatched."""
+    return {"shape": "region", "outer": [list(p) for p in outer], "holes": [[list(p) for p in h] for h in holes], "role": role}
+
+
+def circle(center: Point, radius: float, role: str = "outline") -> Shape:
+    """A full circle."""
+    return {"shape": "circle", "center": list(center), "radius": radius, "role": role}
+
+
+def arc(center: Point, radius: float, start: float, end: float, role: str = "outline") -> Shape:
+    """An arc, counter-clockwise from ``start`` to ``end`` (rad)."""
+    return {"shape": "arc", "center": list(center), "radius": radius, "start": start, "end": end, "role": role}
+
+
+def dimension(start: Point, end: Point, offset: float, text: str) -> Shape:
+    """A dimension line between two points, set off to the left of the direction start → end by ``offset`` (m)."""
+    return {"shape": "dimension", "from": list(start), "to": list(end), "offset": offset, "text": text}
+
+
+def radius_dimension(center: Point, radius: float, angle: float, text: str) -> Shape:
+    """A radius with its text, drawn at an angle (rad)."""
+    return {"shape": "radius_dimension", "center": list(center), "radius": radius, "angle": angle, "text": text}
+
+
+def label(at: Point, text: str, anchor: str = "left") -> Shape:
+    """A text in the drawing."""
+    return {"shape": "label", "at": list(at), "text": text, "anchor": anchor}
+
+
+def point(at: Point, role: str = "mark", text: str = "") -> Shape:
+    """A marked point or pivot."""
+    return {"shape": "point", "at": list(at), "role": role} | ({"label": text} if text else {})
+
+
+def plain(declared: Any, value_of: View) -> dict[str, Any]:
+    """A level, mark or span with its ids replaced by SI values."""
+    match declared:
+        case Level(value=value, label=words):
+            return {"value": value_of[value], "label": words}
+        case Mark(x=x, y=y, label=words):
+            return {"x": value_of[x], "y": value_of[y], "label": words}
+        case Span(start=start, end=end, label=words):
+            return {"from": value_of[start], "to": value_of[end], "label": words}
+    raise TypeError(declared)

@@ -1,0 +1,245 @@
+"""Inputs of a mechanism: quantities with unit, bounds and description, as a pydantic model.
+
+Values are SI floats once validated. Defaults and bounds are written in the display unit, as on the method sheet.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+from dataclasses import dataclass
+from functools import cached_property
+from typing import Annotated, Any, get_args, get_origin
+
+from pydantic import BaseModel, ConfigDict, GetCoreSchemaHandler, GetJsonSchemaHandler
+from pydantic.json_schema import JsonSchemaValue
+from pydantic_core import CoreSchema, core_schema
+
+from diecut_report.expressions import Formula
+from diecut_report.units import Unit, parse_quantity, pretty, to_display, unit
+
+
+@dataclass(frozen=True)
+class SI:
+    """A number that is already in SI, from a reference or a default of the press; ``told`` says from where."""
+
+    value: float | int
+    unit: str
+    told: str
+
+
+@dataclass(frozen=True)
+class Pending:
+    """A reference whose value is not known yet; ``unit`` is that of what it refers to, None where it is not a number."""
+
+    path: str
+    unit: str | None
+    is_curve: bool = False
+
+
+@dataclass(frozen=True)
+class FromPress:
+    """A default that the press gives: a press field's path and, where it is not that number itself, a formula of it."""
+
+    path: str
+    formula: Formula | None = None
+
+
+BOUNDS = (("gt", ">"), ("ge", "≥"), ("lt", "<"), ("le", "≤"))
+
+
+@dataclass(frozen=True)
+class Quantity:
+    """A number with a unit: symbol, display unit, description and bounds (in the display unit).
+
+    Put into ``Annotated[float, Quantity(...)]`` of an input model. The validated value is an SI float
+    (an int where ``integer``).
+    """
+
+    symbol: str
+    unit: str
+    description: str
+    gt: float | None = None
+    ge: float | None = None
+    lt: float | None = None
+    le: float | None = None
+    integer: bool = False
+    press: FromPress | None = None
+
+    @cached_property
+    def parsed_unit(self) -> Unit:
+        """The display unit with its factor and kind."""
+        return unit(self.unit)
+
+    @property
+    def allowed(self) -> str:
+        """The range in words, for example ``> 0 mm, ≤ 80 mm``; empty without bounds."""
+        limits = [(sign, getattr(self, name)) for name, sign in BOUNDS]
+        shown = pretty(self.unit)
+        return ", ".join(f"{sign} {limit:g} {shown}".rstrip() for sign, limit in limits if limit is not None)
+
+    def validate(self, given: Any) -> Any:
+        """The SI value of what was given; ValueError in words where it is not allowed."""
+        match given:
+            case None:
+                raise ValueError(f"has no value; give a number in {pretty(self.unit) or 'plain form'} or remove the key")
+            case Pending(unit=None):
+                raise ValueError(f"${{{given.path}}} is no number; a quantity in {self.unit} is needed")
+            case Pending(is_curve=True):
+                raise ValueError(f"${{{given.path}}} is a curve; a single number is needed here")
+            case Pending(unit=str() as other):
+                self._same_kind(other, f"${{{given.path}}}")
+                return given
+            case SI(value=value, unit=other, told=told):
+                self._same_kind(other, told)
+                return self._bounded(value, f"{to_display(value, self.unit):.6g} {pretty(self.unit)} (from {told})")
+            case bool() | list() | dict():
+                raise ValueError(f"is {given!r}; a number or a text such as “10 {pretty(self.unit)}” is needed")
+        value = parse_quantity(given, self.unit)
+        return self._bounded(value, f"{given}" if isinstance(given, str) else f"{given} {pretty(self.unit)}")
+
+    def _same_kind(self, other: str, told: str) -> None:
+        if unit(other).kind != self.parsed_unit.kind:
+            raise ValueError(f"{told} is in {other}; a quantity in {self.unit} is needed here")
+
+    def _bounded(self, value: float, told: str) -> float | int:
+        shown = value / self.parsed_unit.factor
+        if not math.isfinite(shown):
+            raise ValueError(f"{told.strip()} is not a finite number")
+        outside = (self.gt is not None and not shown > self.gt, self.ge is not None and not shown >= self.ge,
+                   self.lt is not None and not shown < self.lt, self.le is not None and not shown <= self.le)  # fmt: skip
+        if any(outside):
+            raise ValueError(f"{told.strip()} is out of range; allowed: {self.allowed}")
+        if self.integer and not float(shown).is_integer():
+            raise ValueError(f"{told.strip()} is not a whole number")
+        return int(shown) if self.integer else value
+
+    def __get_pydantic_core_schema__(self, source: Any, handler: GetCoreSchemaHandler) -> CoreSchema:
+        optional = type(None) in get_args(source)
+
+        def validate(given: Any) -> Any:
+            return None if given is None and optional else self.validate(given)
+
+        return core_schema.no_info_plain_validator_function(validate)
+
+    def __get_pydantic_json_schema__(self, core: CoreSchema, handler: GetJsonSchemaHandler) -> JsonSchemaValue:
+        shown = pretty(self.unit)
+        described = f"{self.description}. Unit: {shown or 'none (a pure number)'}."
+        described += f" Allowed: {self.allowed}." if self.allowed else ""
+        described += f" Default: from {self.press.path}." if self.press else ""
+        kinds = ["integer", "string"] if self.integer else ["number", "string"]
+        schema: JsonSchemaValue = {"type": kinds, "description": described}
+        if self.unit == "1" and not self.integer or self.integer:
+            names = {"gt": "exclusiveMinimum", "ge": "minimum", "lt": "exclusiveMaximum", "le": "maximum"}
+            schema |= {n: getattr(self, b) for b, n in names.items() if getattr(self, b) is not None}
+        return schema
+
+
+@dataclass(frozen=True)
+class Text:
+    """An input that is a text, a choice or yes/no: its description (the annotation says what is allowed)."""
+
+    description: str
+    symbol: str = ""
+
+
+@dataclass(frozen=True)
+class CurveInput:
+    """A curve taken by reference, or a list of equally spaced numbers over one period.
+
+    The validated value is a ``Pending``, the referred curve, or a tuple of SI floats.
+    """
+
+    symbol: str
+    unit: str
+    description: str
+
+    def validate(self, given: Any) -> Any:
+        """What the engine makes a curve of; ValueError in words where it cannot."""
+        if isinstance(given, Pending):
+            if given.unit is None or unit(given.unit).kind != unit(self.unit).kind or not given.is_curve:
+                raise ValueError(f"${{{given.path}}} is no curve in {self.unit}")
+            return given
+        if isinstance(given, list):
+            if len(given) < 4:
+                raise ValueError(f"has {len(given)} values; a curve over one turn needs at least 4")
+            return tuple(parse_quantity(value, self.unit) for value in given)
+        if hasattr(given, "curve_id"):
+            return given
+        raise ValueError(f"is {given!r}; a reference to a curve or a list of values in {self.unit} is needed")
+
+    def __get_pydantic_core_schema__(self, source: Any, handler: GetCoreSchemaHandler) -> CoreSchema:
+        return core_schema.no_info_plain_validator_function(lambda given: None if given is None else self.validate(given))
+
+    def __get_pydantic_json_schema__(self, core: CoreSchema, handler: GetJsonSchemaHandler) -> JsonSchemaValue:
+        values = {"type": "array", "minItems": 4, "items": {"type": ["number", "string"]}}
+        return {"anyOf": [{"type": "string"}, values], "description": f"{self.description}. Unit: {pretty(self.unit)}."}
+
+
+class Block(BaseModel):
+    """A block of inputs inside a mechanism, or one of a list of like parts."""
+
+    model_config = ConfigDict(extra="forbid", validate_default=True, frozen=True)
+
+
+class Inputs(Block):
+    """Base of a mechanism's inputs: one annotated field for each key of the config."""
+
+
+POINTS = Quantity("N", "1", "Samples of each curve over one turn", ge=36, le=100_000, integer=True)
+
+Meta = Quantity | Text | CurveInput
+
+
+def meta_of(model: type[Block], name: str) -> Meta | None:
+    """What a field declares of itself."""
+    return next((m for m in model.model_fields[name].metadata if isinstance(m, Quantity | Text | CurveInput)), None)
+
+
+def nested(annotation: Any) -> tuple[type[Block], bool] | None:
+    """The block type behind a field's annotation, and whether the field is a list of it."""
+    if isinstance(annotation, type) and issubclass(annotation, Block):
+        return annotation, False
+    inner = [found for found in map(nested, get_args(annotation)) if found]
+    if not inner:
+        return None
+    return inner[0][0], inner[0][1] or get_origin(annotation) is list
+
+
+def fields(model: type[Block], prefix: str = "") -> Iterator[tuple[str, Meta]]:
+    """Each declared input by its path (``gears.driver_teeth`` for a field of a block or of a list's parts)."""
+    for name, field in model.model_fields.items():
+        block = nested(field.annotation)
+        meta = meta_of(model, name)
+        if block:
+            yield from fields(block[0], f"{prefix}{name}.")
+        elif meta is not None:
+            yield prefix + name, meta
+
+
+def list_inputs(model: type[Block]) -> list[str]:
+    """The paths of the quantities that come in rows, one for each part of a list."""
+    blocks = {name: nested(field.annotation) for name, field in model.model_fields.items()}
+    return [f"{name}.{path}" for name, b in blocks.items() if b and b[1] for path, _ in fields(b[0])]
+
+
+def flatten(block: Block, prefix: str = "") -> dict[str, Any]:
+    """The validated inputs by id, SI; the parts of a list as a tuple for each of their fields; absent ones left out."""
+    flat: dict[str, Any] = {}
+    for name in type(block).model_fields:
+        value = getattr(block, name)
+        match value:
+            case None:
+                continue
+            case Block():
+                flat |= {prefix + name: True} | flatten(value, f"{prefix}{name}.")
+            case [Block(), *_]:
+                rows = [flatten(part, f"{prefix}{name}.") for part in value]
+                flat |= {prefix + name: True} | {key: tuple(row[key] for row in rows) for key in rows[0]}
+            case _:
+                flat[prefix + name] = value
+    return flat
+
+
+__all__ = ["POINTS", "SI", "Annotated", "Block", "CurveInput", "FromPress", "Inputs", "Meta", "Pending", "Quantity", "Text",
+           "fields", "flatten", "list_inputs", "meta_of", "nested"]  # fmt: skip

@@ -1,0 +1,194 @@
+"""The state of one calculation: numbers, curves and their pieces, for one machine or an array of variants."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from diecut_report.contract.inputs import CurveInput, Meta, Quantity, fields
+from diecut_report.contract.mechanism import Mechanism
+from diecut_report.contract.steps import Bound, Choice, FromCurve, Step, Value, bound
+from diecut_report.engine.domain import LOBATTO, Domain
+from diecut_report.expressions import Array, Formula
+
+CurveStep = Value | Choice | FromCurve
+
+
+class Impossible(Exception):
+    """The machine cannot exist: the key to change, and why in words."""
+
+    def __init__(self, key: str, message: str) -> None:
+        super().__init__(message)
+        self.key, self.message = key, message
+
+
+class Unproven(Exception):
+    """A result did not meet the equation or check that proves it; nothing is printed then."""
+
+
+@dataclass(frozen=True)
+class CurveHandle:
+    """A curve of one mechanism as the input of another: function, breakpoints and period travel together."""
+
+    calculation: Calculation
+    curve_id: str
+
+    @property
+    def domain(self) -> Domain:
+        """The abscissa that the curve runs over."""
+        return self.calculation.domains[self.calculation.axis[self.curve_id]]
+
+    def values(self, share: Array, rows: Array | None) -> Array:
+        """Values at shares of the period, shape (rows, points); rows are variants (default all)."""
+        x = share * self.domain.period
+        return self.calculation.sample(self.curve_id, x, self.domain.middle_of(x, rows), rows)
+
+    @property
+    def breakpoints(self) -> Array:
+        """Where the curve jumps or has a corner, as shares of the period, shape (variants, places)."""
+        return self.domain.edges[:, 1:-1] / self.domain.period
+
+
+@dataclass(frozen=True)
+class SampledCurve:
+    """A curve given as equally spaced values over one period; between them it runs straight."""
+
+    numbers: tuple[float, ...]
+
+    def values(self, share: Array, rows: Array | None) -> Array:
+        """Values at shares of the period, of any shape (all variants have the same curve)."""
+        places = np.arange(len(self.numbers) + 1) / len(self.numbers)
+        return np.interp(share % 1, places, [*self.numbers, self.numbers[0]])
+
+    @property
+    def breakpoints(self) -> Array:
+        """The given places, where the curve has its corners, as shares of the period, shape (1, places)."""
+        return np.arange(len(self.numbers))[None, :] / len(self.numbers)
+
+
+class Calculation:
+    """All that is known of a mechanism's machines; filled by ``engine.run``."""
+
+    def __init__(self, mechanism: Mechanism, inputs: Mapping[str, Any], variants: int) -> None:
+        self.mechanism = mechanism
+        self.count = variants
+        self.given = frozenset(inputs)
+        self.meta: dict[str, Meta] = dict(fields(mechanism.inputs))
+        self.inputs: dict[str, Any] = {name: _column(value, variants) for name, value in inputs.items()}
+        self.steps: dict[str, Step] = {step.id: step for _, step in mechanism.active(self.given)}
+        self.axis = mechanism.axes(self.given)
+        self.values: dict[str, Array] = {}
+        self.curves: dict[str, CurveStep] = {}
+        self.domains: dict[str, Domain] = {}
+        self.branch: dict[str, Array] = {}  # for each choice, the case taken by each variant
+        self.middle: dict[str, Array] = {}  # for each place of an extreme, the middle of its smooth piece
+        self.proof: dict[str, float] = {}  # for each result that is no closed formula, its greatest residual
+        self._kept: dict[tuple[str, str], tuple[Array, _Sampler]] = {}  # curves already known at often used places
+        self.extremes: dict[tuple[str, float], tuple[Array, tuple[Array, Array, Array]]] = {}  # with the pieces they are of
+        self.flaws: dict[int, tuple[str, str]] = {}  # for each impossible variant the key and the message
+
+    def __getitem__(self, name: str) -> Array:
+        """A number of all variants, shape (variants, 1) or (variants, parts)."""
+        if name in self.values:
+            return self.values[name]
+        found: Array = self.inputs[name.removeprefix("inputs.")]
+        return found
+
+    def apply(self, part: Bound | Formula) -> Array:
+        """A formula of numbers (or rows over like parts), for all variants."""
+        link = bound(part)
+        result = link.formula(*(self[n] if isinstance(n, str) else n for n in link.names.values()))
+        return np.broadcast_to(result, (self.count, *np.shape(result)[1:]) if np.ndim(result) == 2 else (self.count, 1))
+
+    def sample(self, curve: str, x: Array, middle: Array, rows: Array | None = None) -> Array:
+        """A curve at x (rows, points), each x being in the smooth piece whose middle is given; rows are variants (default all)."""
+        found = _Sampler(self, self.axis[curve], x, middle, rows)[curve]
+        return np.broadcast_to(found, np.broadcast_shapes(np.shape(found), np.shape(x)))
+
+    def kept(self, use: str, axis: str, places: Callable[[Domain], tuple[Array, Array]], rows: Array | None = None) -> _Sampler:
+        """A sampler that is used again (for the search grid, the samples, the shown place) until the pieces change."""
+        domain = self.domains[axis]
+        edges, sampler = self._kept.get((use, axis), (None, None))
+        if sampler is None or edges is not domain.edges:
+            sampler = _Sampler(self, axis, *places(domain), rows)
+            self._kept[use, axis] = domain.edges, sampler
+        return sampler
+
+    def curve_samples(self, curve: str) -> Array:
+        """A curve at the samples of its abscissa, shape (variants, points)."""
+        sampler = self.kept("samples", self.axis[curve], lambda domain: (domain.samples, domain.middle_of(domain.samples)))
+        return np.broadcast_to(sampler[curve], sampler.x.shape)
+
+    def on_search_grid(self, curve: str) -> Array:
+        """A curve on the search grid of its smooth pieces, shape (variants, pieces, points)."""
+        sampler = self.kept("grid", self.axis[curve], Domain.flat_grid)
+        return np.broadcast_to(sampler[curve], sampler.x.shape).reshape(self.count, -1, LOBATTO + 1)
+
+    def step_or_input(self, name: str) -> Step | Quantity:
+        """What declares a quantity: its symbol, unit and description."""
+        own = name.removeprefix("inputs.")
+        if own == name and name.removesuffix("_at") in self.steps and name not in self.steps:
+            return self.steps[self.axis[self.steps[name.removesuffix("_at")].of]]  # type: ignore[attr-defined]
+        meta = self.steps[name] if name in self.steps else self.meta[own]
+        assert isinstance(meta, Step | Quantity | CurveInput)
+        return meta  # type: ignore[return-value]
+
+
+class _Sampler:
+    """Curves at given places of their abscissa; each is computed once."""
+
+    def __init__(self, owner: Calculation, axis: str, x: Array, middle: Array, rows: Array | None) -> None:
+        self.owner, self.axis, self.x, self.mid, self.rows = owner, axis, x, middle, rows
+        self.known: dict[str, Array] = {axis: x}
+
+    def __getitem__(self, name: str) -> Array:
+        if name not in self.known:
+            self.known[name] = self._compute(name)
+        return self.known[name]
+
+    def _compute(self, name: str) -> Array:
+        step = self.owner.curves.get(name)
+        match step:
+            case None:
+                number = self.owner[name]
+                return number if self.rows is None else number[self.rows]
+            case FromCurve(given=given):
+                found: Array = self.owner.inputs[given].values(self.x / self.owner.domains[self.axis].period, self.rows)
+                return found
+            case Value(per_piece=True) | Choice(per_piece=True) if self.mid is not self.x:
+                return _Sampler(self.owner, self.axis, self.mid, self.mid, self.rows)[name]
+            case Value(formula=part):
+                return self._apply(part)
+            case Choice(cases=cases):
+                held = [self._apply(c.condition) for c in cases if c.condition is not None]
+                taken = [self._apply(c.value) for c in cases if not isinstance(c.value, str)]
+                return np.select(np.broadcast_arrays(*held), np.broadcast_arrays(*taken[:-1]), taken[-1])
+
+    def _apply(self, part: Bound | Formula) -> Array:
+        link = bound(part)
+        found: Array = link.formula(*(self[n] if isinstance(n, str) else n for n in link.names.values()))
+        return found
+
+
+def _column(value: Any, variants: int) -> Any:
+    """An input as an array (variants, 1) or (variants, parts); texts, flags and curves stay as they are."""
+    match value:
+        case bool() | str() | CurveHandle() | SampledCurve():
+            return value
+        case tuple():
+            return _row(value, variants)
+        case np.ndarray():
+            return value.reshape(variants, -1)
+    return np.full((variants, 1), value, dtype=float)
+
+
+def _row(value: tuple[Any, ...], variants: int) -> Any:
+    if any(isinstance(v, str | bool | type(None)) for v in value):
+        return value
+    return np.tile(np.asarray(value, dtype=float), (variants, 1))
+
+
+__all__ = ["Calculation", "CurveHandle", "Impossible", "SampledCurve", "Unproven"]

@@ -1,0 +1,215 @@
+"""The calculation as it is printed: for each step an item with its formula, the numbers in it and the result."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+
+from diecut_report.contract.steps import (
+    Abscissa,
+    Bound,
+    Choice,
+    Crossings,
+    Pick,
+    Reduction,
+    Root,
+    Step,
+    Total,
+    Value,
+    bound,
+)
+from diecut_report.engine.calculation import Calculation
+from diecut_report.engine.printing import Substitution, number_text, printed, shown
+from diecut_report.expressions import Array, Formula, Node
+from diecut_report.units import unit
+
+Item = dict[str, Any]
+FIRST = np.zeros(1, dtype=int)  # the variant that is printed
+
+METHODS = {
+    "max": "bounded search on the curve within each smooth piece, one-sided limits at the breakpoints included",
+    "mean": "Gauss–Legendre between the breakpoints, repeated with the doubled order",
+}
+SERIES_WORDS = {"above": "the next standard value at or above", "below": "the next standard value at or below", "nearest": "the nearest standard value to"}  # fmt: skip
+
+
+def section_items(calc: Calculation) -> list[dict[str, Any]]:
+    """The chapters of the calculation with their items, for the first (only) machine."""
+    chapters: dict[str, dict[str, Any]] = {}
+    for section, step in calc.mechanism.active(calc.given):
+        chapter = chapters.setdefault(section.title, {"title": section.title, "text": section.text, "items": []})
+        chapter["items"] += items(calc, step)
+    return [chapter for chapter in chapters.values() if chapter["items"]]
+
+
+def items(calc: Calculation, step: Step) -> list[Item]:
+    """What is printed of a step (nothing of breakpoints and requirements)."""
+    if step.exists is not None and step.id in calc.values and calc.values[step.id][0, 0] != calc.values[step.id][0, 0]:
+        return [_head(step) | {"type": "note", "text": f"{step.description}: does not apply to this machine."}]
+    match step:
+        case Value(formula=part):
+            return _value(calc, step, bound(part))
+        case Choice():
+            return [_choice(calc, step)]
+        case Root():
+            return [_root(calc, step)]
+        case Reduction():
+            return [_reduction(calc, step)]
+        case Crossings():
+            return [_crossings(calc, step)]
+        case Total(of=of, operation=operation):
+            return [_head(step) | _reduced(calc, step, of) | {"operation": operation, "method": ""}]
+        case Pick():
+            return [_pick(calc, step)]
+        case Abscissa(points=points):
+            text = f"{step.description}; curves are sampled at {printed(calc, points)} places of it."
+            return [_head(step) | {"type": "note", "text": f"{text} Formulas over it are shown with their numbers at {_at(calc, step)}."}]
+    return []
+
+
+def _head(step: Step) -> Item:
+    return {"id": step.id, "symbol": step.symbol, "description": step.description, "source": step.source}
+
+
+def shown_place(calc: Calculation, axis: str) -> tuple[Array, Array]:
+    """The place of an abscissa at which formulas are shown, and the middle of its smooth piece, each of shape (1, 1)."""
+    step = calc.steps[axis]
+    assert isinstance(step, Abscissa)
+    if step.shown_at:
+        return calc[step.shown_at][:1], calc.middle[step.shown_at][:1]
+    place = calc.domains[axis].samples[:1, calc.domains[axis].samples.shape[1] // 8][:, None]
+    return place, calc.domains[axis].middle_of(place, rows=FIRST)
+
+
+def value_at(calc: Calculation, name: str, axis: str | None, *, flag: bool = False) -> float:
+    """A number, or a curve's value where formulas are shown, or the first of a row over like parts.
+
+    What goes into a flag of smooth pieces is taken at the middle of the piece.
+    """
+    if axis in calc.domains and calc.axis.get(name) == axis:
+        place, middle = shown_place(calc, str(axis))
+        sampler = calc.kept(f"shown {flag}", str(axis), lambda _: (middle if flag else place, middle), FIRST)
+        return float(sampler[name][0, 0])
+    return float(calc[name][0, 0])
+
+
+def _at(calc: Calculation, axis: Step) -> str:
+    place = shown_place(calc, axis.id)[0][0, 0]
+    return f"{axis.symbol} = {number_text(place / unit(axis.unit).factor, 6)} {axis.unit}"
+
+
+def _value(calc: Calculation, step: Value, part: Bound) -> list[Item]:
+    axis = calc.axis.get(step.id)
+    item = _head(step) | {"type": "formula"} | _formula(calc, part, step, axis)
+    if axis in calc.domains:
+        item["at"] = _symbolled(calc, str(axis), step.per_piece)
+    elif axis is not None:
+        return [item, _rows(calc, step, part)]
+    return [item]
+
+
+def _symbolled(calc: Calculation, axis: str, flag: bool) -> Item:
+    return _place(calc, axis, float(shown_place(calc, axis)[flag][0, 0]))
+
+
+def _place(calc: Calculation, axis: str, place: float) -> Item:
+    step = calc.steps[axis]
+    return {"symbol": step.symbol} | shown(place, step.unit, 6)
+
+
+def _formula(calc: Calculation, part: Bound, step: Step, axis: str | None) -> Item:
+    target = value_at(calc, step.id, axis)
+    flag = isinstance(step, Value | Choice) and step.per_piece
+    substitution = Substitution(calc, part, lambda name: value_at(calc, name, axis, flag=flag))
+    takes = [name for name in part.names.values() if isinstance(name, str)]
+    numeric = substitution.numeric(target, step.unit) if takes else None
+    item: Item = {"equation": substitution.symbolic().to_json(), "substituted": numeric and numeric.to_json()}
+    if takes and numeric is None:
+        item["note"] = "the terms are equal up to the rounding of the computer"
+    return item | {"result": shown(target, step.unit, step.digits)}
+
+
+def _rows(calc: Calculation, step: Value, part: Bound) -> Item:
+    names = [name for name in part.names.values() if isinstance(name, str)] + [step.id]
+    declared = [calc.step_or_input(name) for name in names]
+    columns = [{"title": d.description, "symbol": d.symbol, "unit": d.unit} for d in declared]
+    count = calc[step.id].shape[1]
+    rows = [[number_text(float(calc[n][0, min(i, calc[n].shape[1] - 1)]) / unit(d.unit).factor) for n, d in zip(names, declared, strict=True)]
+            for i in range(count)]  # fmt: skip
+    return {"type": "table", "title": step.description, "columns": columns, "rows": rows}
+
+
+def _choice(calc: Calculation, step: Choice) -> Item:
+    axis = calc.axis.get(step.id)
+    index = _case_taken(calc, step, axis)
+    case = step.cases[index]
+    item = _head(step) | {"type": "choice", "words": case.words}
+    held = case.condition if case.condition is not None else step.cases[index - 1].condition
+    if held is not None:
+        substitution = Substitution(calc, bound(held), lambda name: value_at(calc, name, axis, flag=step.per_piece))
+        condition = substitution.symbolic(), substitution.comparison(case.condition is not None)
+        if case.condition is None:
+            condition = Node("not", (condition[0],)), condition[1]
+        item |= {"condition": condition[0].to_json(), "condition_substituted": condition[1].to_json()}
+    if axis is not None:
+        item["at"] = _symbolled(calc, axis, step.per_piece)
+    if isinstance(case.value, Bound | Formula):
+        return item | _formula(calc, bound(case.value), step, axis)
+    return item | {"equation": None, "substituted": None, "result": {"text": str(case.value), "unit": "1"}}
+
+
+def _case_taken(calc: Calculation, step: Choice, axis: str | None) -> int:
+    if axis is None:
+        return int(calc.branch[step.id][0, 0])
+    for index, case in enumerate(step.cases):
+        if case.condition is None:
+            return index
+        link = bound(case.condition)
+        taken = (value_at(calc, n, axis, flag=step.per_piece) if isinstance(n, str) else n for n in link.names.values())
+        if link.formula(*taken):
+            return index
+    return len(step.cases) - 1
+
+
+def _root(calc: Calculation, step: Root) -> Item:
+    sides = [Substitution(calc, bound(side), lambda name: value_at(calc, name, None)).symbolic() for side in (step.left, step.right)]
+    residual = number_text(calc.proof[step.id], 2)
+    method = "bracketed root search, proved by the relation shown, which was not used to find it"
+    return _head(step) | {
+        "type": "found",
+        "relation": Node("cmp", ("==", *sides)).to_json(),
+        "method": method,
+        "result": shown(value_at(calc, step.id, None), step.unit, step.digits),
+        "residual": {"text": residual, "unit": "1"},
+    }
+
+
+def _reduced(calc: Calculation, step: Step, of: str) -> Item:
+    result = shown(value_at(calc, step.id, None), step.unit, step.digits)
+    return {"type": "reduction", "of": calc.step_or_input(of).symbol, "result": result}
+
+
+def _reduction(calc: Calculation, step: Reduction) -> Item:
+    integrated = step.operation in ("mean", "rms", "integral")
+    item = _head(step) | _reduced(calc, step, step.of) | {"operation": step.operation}
+    item["method"] = METHODS["mean" if integrated else "max"]
+    item["residual"] = {"text": number_text(calc.proof[step.id], 2), "unit": "1"}
+    if f"{step.id}_at" in calc.values:
+        item["at"] = _place(calc, calc.axis[step.of], float(calc[f"{step.id}_at"][0, 0]))
+    return item
+
+
+def _crossings(calc: Calculation, step: Crossings) -> Item:
+    places = [float(x) for x in calc[step.id][0] if x == x]
+    rows = [[str(i), number_text(x / unit(step.unit).factor, 6)] for i, x in enumerate(places, 1)]
+    columns = [{"title": "No.", "symbol": "", "unit": "1"}, {"title": step.description, "symbol": step.symbol, "unit": step.unit}]
+    return {"type": "table", "id": step.id, "title": step.description, "columns": columns, "rows": rows}
+
+
+def _pick(calc: Calculation, step: Pick) -> Item:
+    series = sorted(step.series)
+    index = int(calc.branch[step.id][0, 0])
+    beside = [f"{series[i]:g} {step.unit}" for i in (index - 1, index + 1) if 0 <= i < len(series)]
+    words = f"{SERIES_WORDS[step.rule]}; neighbours not taken: {', '.join(beside)}"
+    return _head(step) | _reduced(calc, step, step.of) | {"operation": "pick", "method": words}

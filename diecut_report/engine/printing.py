@@ -1,0 +1,149 @@
+"""Numbers as texts: rounded for print, in their display unit; formulas with these numbers in, proved by computing them again.
+
+Texts are neutral here (decimal point, ``1.2e-05``): the report gives them their local form.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Mapping
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from diecut_report.contract.steps import Bound
+from diecut_report.expressions import Node, evaluate, transform
+from diecut_report.units import pretty, unit
+
+if TYPE_CHECKING:
+    from diecut_report.engine.calculation import Calculation
+
+DIGITS = 4
+MOST_DIGITS = 17
+TRIGONOMETRIC = ("sin", "cos", "tan")
+
+
+def number_text(value: float, digits: int = DIGITS) -> str:
+    """A number with so many significant digits; whole numbers below a million stand as they are."""
+    if abs(value - round(value)) <= 1e-12 * abs(value) and abs(value) < 1e6:
+        return f"{round(value)}"
+    exponent = math.floor(math.log10(abs(float(f"{value:.{digits - 1}e}"))))
+    if -4 <= exponent < 6:
+        return f"{value:.{max(digits - 1 - exponent, 0)}f}"
+    mantissa, power = f"{value:.{digits - 1}e}".split("e")
+    return f"{mantissa}e{int(power)}"
+
+
+def shortest(value: float, digits: int = 6) -> str:
+    """What was typed, without the noise of a unit conversion: as few digits as say it, else ``digits``."""
+    short = f"{value:.10g}"
+    return number_text(value, digits) if len(short.replace(".", "").lstrip("0-")) > digits else short
+
+
+def shown(value: float, unit_text: str, digits: int = DIGITS) -> dict[str, str]:
+    """An SI value as text in a display unit."""
+    return {"text": number_text(value / unit(unit_text).factor, digits), "unit": unit_text}
+
+
+def printed(calc: Calculation, name: str, variant: int = 0) -> str:
+    """A quantity as one would say it: ``40 mm``."""
+    declared = calc.step_or_input(name)
+    value = calc[name][variant, 0]
+    if isinstance(value, str):
+        return value
+    number = float(value) / unit(declared.unit).factor
+    typed = name not in calc.values
+    text = shortest(number) if typed else number_text(number, getattr(declared, "digits", DIGITS))
+    return f"{text} {pretty(declared.unit)}".rstrip()
+
+
+def formula_unit(display: str) -> str:
+    """The unit in which a number stands inside a formula: the display unit where it is a power of ten of SI, else SI."""
+    own = unit(display)
+    decade = math.log10(own.factor)
+    return display if abs(decade - round(decade)) < 1e-12 else own.si
+
+
+class Substitution:
+    """A formula with numbers in, so precise that computing what is printed gives the printed result."""
+
+    def __init__(self, calc: Calculation, part: Bound, value_of: Callable[[str], float]) -> None:
+        self.calc, self.part, self.value_of = calc, part, value_of
+        self.constants: Mapping[str, Any] = part.formula.constants
+
+    def symbolic(self) -> Node:
+        """The expression in the plugin's symbols."""
+        return transform(self.part.formula.tree, self._symbol)
+
+    def _symbol(self, leaf: Node) -> Node:
+        name = self.part.names.get(leaf.args[0]) if leaf.op == "sym" else None
+        if name is None:
+            return leaf
+        return Node("sym", (self.calc.step_or_input(name).symbol,)) if isinstance(name, str) else Node("num", (f"{name:g}",))
+
+    def numeric(self, target: float, display: str) -> Node | None:
+        """The expression with numbers and units; computed as printed it gives ``target`` (SI) as printed in ``display``.
+
+        None where the target is a difference of equal terms, rounding alone: no number of digits would show it.
+        """
+        if abs(target) <= 1e-11 * self._size(self._with_numbers(self.part.formula.tree, MOST_DIGITS, angle=False)):
+            return None
+        for digits in range(DIGITS, MOST_DIGITS + 1):
+            tree = self._with_numbers(self.part.formula.tree, digits, angle=False)
+            with np.errstate(all="ignore"):
+                again = float(evaluate(tree, self._printed_value))
+            if math.isfinite(again) and self._agrees(tree, again, target, display):
+                return tree
+        raise ArithmeticError(f"formula {self.part.formula.__name__} does not give {target!r} when computed as printed")
+
+    def comparison(self, holds: bool) -> Node:
+        """A condition with numbers, precise enough that it holds (or not) as printed."""
+        for digits in range(DIGITS, MOST_DIGITS + 1):
+            tree = self._with_numbers(self.part.formula.tree, digits, angle=False)
+            if bool(evaluate(tree, self._printed_value)) is holds:
+                return tree
+        raise ArithmeticError(f"condition {self.part.formula.__name__} does not come out as printed")
+
+    def _agrees(self, tree: Node, again: float, target: float, display: str) -> bool:
+        return shown(again, display) == shown(target, display) or abs(again - target) <= 1e-11 * self._size(tree)
+
+    def _size(self, tree: Node) -> float:
+        """The size of the terms that a result is the sum of: what its rounding is to be judged by."""
+        inner = tree.args[1] if tree.op == "call" and tree.args[0] == "abs" else tree
+        if inner.op == "/":
+            return self._size(inner.args[0]) / abs(float(evaluate(inner.args[1], self._printed_value)))
+        terms = inner.args if inner.op in ("+", "-") else (inner,)
+        with np.errstate(all="ignore"):
+            return max(abs(float(evaluate(term, self._printed_value))) for term in terms)
+
+    def _printed_value(self, leaf: Node) -> float:
+        if leaf.op == "qty":
+            return float(leaf.args[0]) * unit(leaf.args[1]).factor
+        return float(self.constants[leaf.args[0]])
+
+    def _with_numbers(self, node: Node, digits: int, *, angle: bool) -> Node:
+        """Angles stand in degrees where a trigonometric function takes them, else in rad."""
+        if node.op == "sym":
+            return self._number(node, digits, angle=angle)
+        if node.op in ("num", "qty"):
+            return node
+        inside = node.args[0] in TRIGONOMETRIC if node.op == "call" else angle and node.op in ("+", "-", "neg")
+
+        def descend(part: Any) -> Any:
+            if isinstance(part, Node):
+                return self._with_numbers(part, digits, angle=inside)
+            return tuple(map(descend, part)) if isinstance(part, tuple) else part
+
+        return Node(node.op, tuple(map(descend, node.args)))
+
+    def _number(self, leaf: Node, digits: int, *, angle: bool) -> Node:
+        name = self.part.names.get(leaf.args[0])
+        if name is None:
+            return leaf
+        if not isinstance(name, str):
+            return Node("num", (f"{name:g}",))
+        declared = self.calc.step_or_input(name)
+        display = "deg" if angle and unit(declared.unit).si == "rad" else formula_unit(declared.unit)
+        number = self.value_of(name) / unit(display).factor
+        text = shortest(number, max(digits, 6)) if name not in self.calc.values and name not in self.calc.curves else number_text(number, digits)
+        return Node("qty", (text, display))

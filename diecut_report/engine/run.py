@@ -1,0 +1,183 @@
+"""Runs the steps of a mechanism in their order, for one machine or for an array of variants."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from typing import Any
+
+import numpy as np
+
+from diecut_report.contract.mechanism import Mechanism
+from diecut_report.contract.steps import (
+    Abscissa,
+    Breakpoints,
+    Choice,
+    Crossings,
+    FromCurve,
+    Pick,
+    Reduction,
+    Require,
+    Root,
+    Step,
+    Total,
+    Value,
+)
+from diecut_report.engine import solve
+from diecut_report.engine.calculation import Calculation, Impossible, SampledCurve, Unproven
+from diecut_report.engine.domain import Domain
+from diecut_report.engine.printing import printed
+from diecut_report.expressions import Array
+from diecut_report.units import unit
+
+
+def calculate(mechanism: Mechanism, values: Mapping[str, Any], variants: int = 1) -> Calculation:
+    """Calculate a mechanism.
+
+    ``values`` holds the inputs by id in SI: numbers, or arrays of shape (variants,); tuples for the parts of a list;
+    texts, flags, ``CurveHandle``. Optional inputs that are not given are left out.
+    Raises ``Impossible`` when a single machine cannot exist (among several it is marked in ``flaws``), ``Unproven`` when a
+    result does not meet what proves it.
+    """
+    curves = {n: SampledCurve(v) if n in mechanism.curve_inputs and isinstance(v, tuple) else v for n, v in values.items()}
+    calc = Calculation(mechanism, curves, variants)
+    with np.errstate(all="ignore"):
+        for _, step in mechanism.active(calc.given):
+            RUN[type(step)](calc, step)
+            _finite(calc, step)
+    return calc
+
+
+def _possible(calc: Calculation) -> Array:
+    possible = np.ones(calc.count, dtype=bool)
+    possible[list(calc.flaws)] = False
+    return possible
+
+
+def _value(calc: Calculation, step: Value) -> None:
+    if step.id in calc.axis and calc.axis[step.id] in calc.domains:
+        calc.curves[step.id] = step
+    else:
+        calc.values[step.id] = _existing(calc, step, calc.apply(step.formula))
+
+
+def _existing(calc: Calculation, step: Step, values: Array) -> Array:
+    return values if step.exists is None else np.where(calc.apply(step.exists), values, np.nan)
+
+
+def _choice(calc: Calculation, step: Choice) -> None:
+    if step.id in calc.axis and calc.axis[step.id] in calc.domains:
+        calc.curves[step.id] = step
+        return
+    held = [calc.apply(c.condition).astype(bool) for c in step.cases if c.condition is not None]
+    last = np.full((calc.count, 1), len(held))
+    calc.branch[step.id] = np.select(held, [np.full_like(last, i) for i in range(len(held))], last)
+    taken = [
+        np.full((calc.count, 1), c.value, dtype=object) if isinstance(c.value, str) else calc.apply(c.value) for c in step.cases
+    ]
+    calc.values[step.id] = _existing(calc, step, np.choose(calc.branch[step.id], taken))
+
+
+def _root(calc: Calculation, step: Root) -> None:
+    _, residual = solve.root(calc, step)
+    calc.proof[step.id] = solve.demand(residual, step.tolerance, step.description, _possible(calc))
+
+
+def _abscissa(calc: Calculation, step: Abscissa) -> None:
+    points = int(calc[step.points][0, 0])
+    samples = np.tile(np.arange(points) * (step.period / points), (calc.count, 1))
+    calc.domains[step.id] = Domain(step.period, samples)
+
+
+def _breakpoints(calc: Calculation, step: Breakpoints) -> None:
+    for place in step.places:
+        calc.domains[step.abscissa].cut(calc[place])
+
+
+def _crossings(calc: Calculation, step: Crossings) -> None:
+    calc.values[step.id], residual = solve.crossings(calc, step.of)
+    calc.proof[step.id] = solve.demand(residual, solve.SAMPLE_TOLERANCE, step.description, _possible(calc))
+
+
+def _reduction(calc: Calculation, step: Reduction) -> None:
+    if step.operation in ("mean", "rms", "integral"):
+        _integrated(calc, step)
+        return
+    signs = {"max": (1.0,), "min": (-1.0,)}.get(step.operation, (1.0, -1.0))
+    ends = [solve.extreme(calc, step.of, sign) for sign in signs]
+    residual = np.maximum.reduce([solve.outruns(calc, step.of, end[0], sign) for end, sign in zip(ends, signs, strict=True)])
+    calc.proof[step.id] = solve.demand(residual, solve.SAMPLE_TOLERANCE, step.description, _possible(calc))
+    if step.operation == "range":
+        calc.values[step.id] = ends[0][0] - ends[1][0]
+        return
+    upper = np.abs(ends[0][0]) >= np.abs(ends[-1][0])
+    value, place, middle = (np.where(upper, top, bottom) for top, bottom in zip(ends[0], ends[-1], strict=True))
+    calc.values[step.id] = np.abs(value) if step.operation == "abs_max" else value
+    calc.values[f"{step.id}_at"], calc.middle[f"{step.id}_at"] = place, middle
+
+
+def _integrated(calc: Calculation, step: Reduction) -> None:
+    whole, residual = solve.integral(calc, step.of, 2 if step.operation == "rms" else 1)
+    calc.proof[step.id] = solve.demand(residual, solve.SAMPLE_TOLERANCE, step.description, _possible(calc))
+    mean = whole / calc.domains[calc.axis[step.of]].period
+    calc.values[step.id] = {"integral": whole, "mean": mean, "rms": np.sqrt(np.abs(mean))}[step.operation]
+
+
+def _total(calc: Calculation, step: Total) -> None:
+    parts = calc[step.of]
+    calc.values[step.id] = (parts.sum if step.operation == "sum" else parts.prod)(axis=1, keepdims=True)
+
+
+def _pick(calc: Calculation, step: Pick) -> None:
+    series = np.sort(np.asarray(step.series) * unit(step.unit).factor)
+    sought = calc[step.of]
+    above = np.clip(np.searchsorted(series, sought * (1 - 1e-12)), 0, len(series) - 1)
+    below = np.clip(np.searchsorted(series, sought * (1 + 1e-12), side="right") - 1, 0, len(series) - 1)
+    nearer = np.where(sought - series[below] <= series[above] - sought, below, above)
+    calc.branch[step.id] = {"above": above, "below": below, "nearest": nearer}[step.rule]
+    calc.values[step.id] = series[calc.branch[step.id]]
+
+
+def _from_curve(calc: Calculation, step: FromCurve) -> None:
+    calc.curves[step.id] = step
+    domain = calc.domains[step.abscissa]
+    places = calc.inputs[step.given].breakpoints * domain.period
+    domain.cut(np.broadcast_to(places, (calc.count, places.shape[1])))
+
+
+def _require(calc: Calculation, step: Require) -> None:
+    for variant in np.flatnonzero(~calc.apply(step.condition).astype(bool)[:, 0]):
+        message = step.message.format_map(_Printed(calc, int(variant)))
+        calc.flaws.setdefault(int(variant), (step.key, message))
+        if calc.count == 1:
+            raise Impossible(step.key, message)
+
+
+class _Printed(dict[str, str]):
+    """Quantities as they are printed, for the texts of messages."""
+
+    def __init__(self, calc: Calculation, variant: int) -> None:
+        super().__init__()
+        self.calc, self.variant = calc, variant
+
+    def __missing__(self, name: str) -> str:
+        return printed(self.calc, name, self.variant)
+
+
+def _finite(calc: Calculation, step: Step) -> None:
+    """No number of a possible machine may be NaN or infinite, but for an absent output and the padding of crossings."""
+    values = calc.values.get(step.id)
+    if values is None or values.dtype == object or step.exists is not None or isinstance(step, Crossings):
+        return
+    bad = ~np.isfinite(values).all(axis=1) & _possible(calc)
+    if not bad.any():
+        return
+    words = f"{step.description} ({step.id}) has no value with these inputs"
+    if calc.count == 1:
+        raise Unproven(words)
+    calc.flaws |= {int(variant): (step.id, words) for variant in np.flatnonzero(bad)}
+
+
+RUN: dict[type[Step], Callable[[Calculation, Any], None]] = {
+    Value: _value, Choice: _choice, Root: _root, Abscissa: _abscissa, Breakpoints: _breakpoints, Crossings: _crossings,
+    Reduction: _reduction, Total: _total, Pick: _pick, FromCurve: _from_curve, Require: _require,
+}  # fmt: skip

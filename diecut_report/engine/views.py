@@ -1,0 +1,69 @@
+"""Figures as plain data: ids replaced by values, drawings built from the calculated machine."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+
+from diecut_report.contract.figures import Bars, Drawing, Figure, Plot, Polar, plain
+from diecut_report.engine.calculation import Calculation
+from diecut_report.engine.printing import printed
+
+
+class MachineView:
+    """What a drawing may ask of the calculated machine (the first variant)."""
+
+    def __init__(self, calc: Calculation) -> None:
+        self.calc = calc
+
+    def __getitem__(self, name: str) -> float:
+        """A number by its id, SI."""
+        return float(self.calc[name][0, 0])
+
+    def __contains__(self, name: str) -> bool:
+        """Whether there is a number of this id."""
+        return name in self.calc.values or name in self.calc.inputs
+
+    def at(self, curve: str, place: float) -> float:
+        """A curve's value at a place of its abscissa, SI."""
+        x = np.array([[place]])
+        rows = np.zeros(1, dtype=int)
+        middle = self.calc.domains[self.calc.axis[curve]].middle_of(x, rows)
+        return float(self.calc.sample(curve, x, middle, rows)[0, 0])
+
+    def text(self, name: str) -> str:
+        """A quantity as it is printed: ``h = 40 mm``."""
+        return f"{self.calc.step_or_input(name).symbol} = {printed(self.calc, name)}"
+
+
+def figures(calc: Calculation) -> list[dict[str, Any]]:
+    """The figures whose needs are given."""
+    return [_figure(calc, figure) for figure in calc.mechanism.figures if calc.given.issuperset(figure.needs)]
+
+
+def _figure(calc: Calculation, figure: Figure) -> dict[str, Any]:
+    view = MachineView(calc)
+    head = {"id": figure.id, "title": figure.title, "caption": figure.caption}
+    match figure:
+        case Plot(abscissa=abscissa, panels=panels):
+            return head | {"type": "plot", "abscissa": abscissa, "panels": [_panel(p, view) for p in panels]}
+        case Polar(abscissa=abscissa, unit=unit, series=series):
+            return head | {"type": "polar", "abscissa": abscissa, "unit": unit, "series": [vars(s) for s in series]}
+        case Bars(groups=groups):
+            return head | {"type": "bars", "groups": [_group(g, view) for g in groups]}
+        case Drawing(build=build, unit=unit):
+            return head | {"type": "drawing", "unit": unit, "shapes": build(view)}
+    raise TypeError(f"{figure.id} is no known figure")
+
+
+def _panel(panel: Any, view: MachineView) -> dict[str, Any]:
+    named = {"levels": panel.levels, "marks": panel.marks, "spans": panel.spans}
+    return {"title": panel.title, "unit": panel.unit, "series": [vars(s) for s in panel.series]} | {
+        key: [plain(part, view) for part in parts] for key, parts in named.items()
+    }
+
+
+def _group(group: Any, view: MachineView) -> dict[str, Any]:
+    bars = [{"label": label, "value": -view[name[1:]] if name[0] == "-" else view[name]} for label, name in group.bars]
+    return {"label": group.label, "unit": group.unit, "bars": bars}

@@ -1,0 +1,249 @@
+"""From a calculation to plain data: what the results file holds, and all that the report prints."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import Any, Literal
+
+import numpy as np
+
+from diecut_report.contract.checks import Check
+from diecut_report.contract.inputs import CurveInput, Quantity, fields
+from diecut_report.contract.steps import Breakpoints, Crossings, Require, Step
+from diecut_report.engine import Calculation
+from diecut_report.engine.derive import section_items
+from diecut_report.engine.printing import printed, shortest, shown
+from diecut_report.engine.views import figures
+from diecut_report.units import pretty, unit
+
+Data = dict[str, Any]
+Status = Literal["pass", "warn", "fail"]
+RANK = {"pass": 0, "warn": 1, "fail": 2, "error": 3, "skipped": 3}
+
+
+@dataclass(frozen=True)
+class Provenance:
+    """Where an input comes from, the path it refers to, and its text as typed."""
+
+    origin: Literal["given", "default", "reference"]
+    path: str = ""
+    text: str | None = None
+
+
+def mechanism_results(calc: Calculation, provenance: Mapping[str, Provenance]) -> Data:
+    """The results of one machine's mechanism, as the contract names them."""
+    mechanism = calc.mechanism
+    checks = check_results(calc)
+    return {
+        "kind": mechanism.kind,
+        "title": mechanism.title,
+        "plugin_version": mechanism.version,
+        "status": worst(check["status"] for check in checks),
+        "summary": mechanism.summary,
+        "assumptions": list(mechanism.assumptions),
+        "sources": [{"id": s.id, "citation": s.citation} for s in mechanism.sources],
+        "inputs": inputs(calc, provenance),
+        **numbers(calc),
+        "curves": curves(calc),
+        "checks": checks,
+        "warnings": [c["message"] for c in checks if c["status"] == "warn"],
+        "sections": section_items(calc),
+        "absent": [
+            {"title": s.title, "text": s.absent} for s in mechanism.sections if s.absent and not calc.given.issuperset(s.needs)
+        ],
+        "figures": figures(calc),
+        "errata": [{"source": e.source, "text": e.text, "touches": list(e.touches)} for e in mechanism.errata],
+    }
+
+
+def worst(statuses: Any) -> str:
+    """The worst of statuses; pass where there are none."""
+    return max(statuses, key=RANK.__getitem__, default="pass")
+
+
+def inputs(calc: Calculation, provenance: Mapping[str, Provenance]) -> Data:
+    """Each input with value, unit, origin and typed text; the parts of a list as ``gears.0.driver_teeth``."""
+    found: Data = {}
+    for name, meta in fields(calc.mechanism.inputs):
+        if name not in calc.inputs:
+            continue
+        row = calc.inputs[name]
+        parted = name in calc.axis
+        parts = row[0] if parted and isinstance(row, np.ndarray) else row if parted else [row]
+        for index, part in enumerate(parts):
+            path = name.replace(".", f".{index}.", 1) if parted else name
+            found[path] = _input(meta, part) | _origin(provenance.get(path))
+    return found
+
+
+def _origin(provenance: Provenance | None) -> Data:
+    known = provenance or Provenance("default")
+    return {"origin": known.origin} | ({"path": known.path} if known.path else {}) | ({"text": known.text} if known.text else {})
+
+
+def _input(meta: Any, value: Any) -> Data:
+    if not isinstance(meta, Quantity):
+        is_curve = isinstance(meta, CurveInput)
+        text = "a curve" if is_curve else str(value)
+        return {"value": text if is_curve else value, "unit": unit(meta.unit).si if is_curve else "1", "symbol": meta.symbol,
+                "description": meta.description, "display": {"text": text, "unit": "1"}}  # fmt: skip
+    number = float(np.ravel(value)[0])
+    return {
+        "value": int(number) if meta.integer else number,
+        "unit": meta.parsed_unit.si,
+        "symbol": meta.symbol,
+        "description": meta.description,
+        "display": {"text": shortest(number / meta.parsed_unit.factor), "unit": meta.unit},
+    }
+
+
+def numbers(calc: Calculation) -> Data:
+    """Outputs and intermediate values: each step's number, with the place where an extreme occurs."""
+    groups: dict[bool, Data] = {True: {}, False: {}}
+    for step in calc.steps.values():
+        if step.id in calc.values and not isinstance(step, Require | Breakpoints):
+            groups[step.output] |= _listed(calc, step) if isinstance(step, Crossings) else _rowed(calc, step)
+    return {"outputs": groups[True], "values": groups[False]}
+
+
+def _rowed(calc: Calculation, step: Step) -> Data:
+    row = calc[step.id][0]
+    if len(row) > 1:
+        return {f"{step.id}.{i}": _number(step, value) for i, value in enumerate(row)}
+    if not isinstance(row[0], str) and math.isnan(row[0]):
+        return {}
+    found = _number(step, row[0])
+    place = f"{step.id}_at"
+    if place in calc.values:
+        axis = calc.steps[calc.axis[step.of]]  # type: ignore[attr-defined]
+        found["at"] = {"symbol": axis.symbol} | shown(float(calc[place][0, 0]), axis.unit, 6)
+    return {step.id: found}
+
+
+def _listed(calc: Calculation, step: Crossings) -> Data:
+    places = [x for x in calc[step.id][0] if not math.isnan(x)]
+    count = {"value": len(places), "unit": "1", "symbol": "", "description": f"{step.description}: how many",
+             "source": step.source, "display": {"text": str(len(places)), "unit": "1"}}  # fmt: skip
+    return {f"{step.id}_count": count} | {f"{step.id}_{i}": _number(step, x) for i, x in enumerate(places, 1)}
+
+
+def _number(step: Step, value: Any) -> Data:
+    said = {"symbol": step.symbol, "description": step.description, "source": step.source}
+    if isinstance(value, str):
+        return {"value": value, "unit": "1"} | said | {"display": {"text": value, "unit": "1"}}
+    if isinstance(value, bool | np.bool_):
+        return {"value": bool(value), "unit": "1"} | said | {"display": {"text": "yes" if value else "no", "unit": "1"}}
+    return {"value": float(value), "unit": unit(step.unit).si} | said | {"display": shown(float(value), step.unit, step.digits)}
+
+
+def curves(calc: Calculation) -> Data:
+    """Each curve at the samples of its abscissa, with its one-sided values at the breakpoints."""
+    found: Data = {}
+    for name, domain in calc.domains.items():
+        step = calc.steps[name]
+        found[name] = _curve(step, domain.samples[0])
+        edges = np.unique(domain.edges[0, 1:-1])
+        edges = edges[edges < domain.period]
+        if not len(edges):
+            continue
+        found[name]["breakpoints"] = edges.tolist()
+    for name, curve in calc.curves.items():
+        if curve.output:
+            found[name] = _curve(curve, calc.curve_samples(name)[0]) | _limits(calc, name)
+    return found
+
+
+def _curve(step: Step, values: Any) -> Data:
+    return {"unit": unit(step.unit).si, "values": [float(v) for v in values], "symbol": step.symbol,
+            "description": step.description, "display_unit": step.unit, "source": step.source}  # fmt: skip
+
+
+def _limits(calc: Calculation, name: str) -> Data:
+    domain = calc.domains[calc.axis[name]]
+    wide = domain.widths[0] > 1e-12 * domain.period
+    starts, ends = domain.edges[:1, :-1][:, wide], domain.edges[:1, 1:][:, wide]
+    middles = domain.middles[:1, wide]
+    first = np.zeros(1, dtype=int)
+    after = calc.sample(name, starts, middles, first)[0]
+    before = calc.sample(name, ends, middles, first)[0]
+    places = starts[0, 1:]
+    return {"abscissa": calc.axis[name], "breakpoints": places.tolist(), "left": before[:-1].tolist(), "right": after[1:].tolist()}
+
+
+def check_results(calc: Calculation) -> list[Data]:
+    """Each check with demand, limit, margin, utilisation and verdict."""
+    return [_check(calc, check) for check in calc.mechanism.checks if _applies(calc, check)]
+
+
+def _applies(calc: Calculation, check: Check) -> bool:
+    """A check is left out where an optional input of it is not given, or what it judges is absent."""
+    sides = [side for side in (check.demand, check.limit) if isinstance(side, str)]
+    there = all(side in calc.values or side in calc.inputs for side in sides) and calc.given.issuperset(check.needs)
+    return there and not any(calc.steps[s].exists is not None and np.isnan(calc[s][0, 0]) for s in sides if s in calc.steps)
+
+
+def sides(calc: Calculation, check: Check) -> tuple[Any, Any]:
+    """Demand and limit of all variants, SI, each of shape (variants, 1)."""
+    factor = unit(check.unit).factor
+    demand, limit = (calc[s] if isinstance(s, str) else np.full((calc.count, 1), s * factor) for s in (check.demand, check.limit))
+    return demand, limit
+
+
+def verdict(check: Check, demand: Any, limit: Any) -> tuple[Any, Any]:
+    """Whether the check holds, and its utilisation (NaN where the limit is not above zero), for arrays of variants."""
+    with np.errstate(all="ignore"):
+        allowed = limit * (1 + check.tolerance)
+        held = demand < allowed if check.operator == "<" else demand <= allowed
+        return held, np.where(limit > 0, demand / limit, np.nan)
+
+
+def _check(calc: Calculation, check: Check) -> Data:
+    demand, limit = (float(side[0, 0]) for side in sides(calc, check))
+    if not (math.isfinite(demand) and math.isfinite(limit)):
+        raise ValueError(f"check {check.id} compares {demand} with {limit}")
+    held, ratio = verdict(check, demand, limit)
+    status: Status = "pass" if held else check.severity
+    told = _told(demand, limit, check.unit)
+    sentence = f"{check.demand_label} {_said(told['demand'])}, {check.limit_label} {_said(told['limit'])}"
+    message = f"{sentence}." if held else f"{sentence}: {check.consequence.format_map(_Said(calc))}"
+    return {
+        "id": check.id,
+        "title": check.title,
+        "status": status,
+        "demand": demand,
+        "limit": limit,
+        "operator": check.operator,
+        "unit": unit(check.unit).si,
+        "utilisation": None if math.isnan(ratio) else float(ratio),
+        "source": check.source,
+        "message": message[0].upper() + message[1:],
+        "demand_label": check.demand_label,
+        "limit_label": check.limit_label,
+        **{f"{name}_display": text for name, text in told.items()},
+    }
+
+
+def _told(demand: float, limit: float, display: str) -> dict[str, dict[str, str]]:
+    """Demand, limit and margin as texts, with so many digits that the margin can be seen in the two others."""
+    margin = limit - demand
+    for digits in range(4, 10):
+        texts = [shown(value, display, digits) for value in (demand, limit)]
+        seen = (float(texts[1]["text"]) - float(texts[0]["text"])) * unit(display).factor
+        if abs(seen - margin) <= 0.05 * abs(margin):
+            break
+    return {"demand": texts[0], "limit": texts[1], "margin": shown(margin, display)}
+
+
+def _said(text: Mapping[str, str]) -> str:
+    return f"{text['text']} {pretty(text['unit'])}".strip()
+
+
+class _Said(dict[str, str]):
+    def __init__(self, calc: Calculation) -> None:
+        super().__init__()
+        self.calc = calc
+
+    def __missing__(self, name: str) -> str:
+        return printed(self.calc, name)

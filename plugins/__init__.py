@@ -1,0 +1,1 @@
+"""The built-in mechanisms, one module or folder each."""

@@ -1,0 +1,61 @@
+"""Impression cylinder drive: crank-rocker, sector and pinion (000 eq. 1–12, 18–21)."""
+
+from __future__ import annotations
+
+from diecut_report.api import Check, Erratum, Mechanism, Source
+from diecut_report.plugins.cylinder_drive import forces, linkage
+from diecut_report.plugins.cylinder_drive.figures import FIGURES
+from diecut_report.plugins.cylinder_drive.inputs import CylinderDrive
+
+MECHANISM = Mechanism(
+    kind="cylinder_drive",
+    version="1.0",
+    title="Impression cylinder drive: crank-rocker, sector and pinion",
+    summary="A crank-rocker swings a toothed sector; the sector turns a pinion, which rolls the cylinder over the die, there and "
+    "back. One turn of the crank gives two working strokes with a pause at each end, so two sheets. Calculated are the motion "
+    "of the cylinder, the moments on it, and torque, power and forces over a turn of the crank.",
+    inputs=CylinderDrive,
+    sections=(linkage.LINKAGE, linkage.STROKE, linkage.CUTTING, linkage.KINEMATICS, forces.MOMENTS, forces.TORQUE, forces.ENERGY,
+              forces.CLEARANCE, forces.TEETH, forces.JOINTS),
+    checks=(
+        Check(id="grashof", title="Crank-rocker (Grashof)", demand="grashof_demand", limit="grashof_limit", unit="1", operator="<",
+              demand_label="shortest and longest link", limit_label="the other two", source="Grashof",
+              consequence="the crank cannot turn fully; change the ratios."),
+        Check(id="transmission_angle", title="Transmission angle", demand="min_transmission_angle", limit="transmission_angle_worst",
+              unit="deg", demand_label="required", limit_label="worst position", source="practice",
+              consequence="the coupler pushes the rocker's joint more than it turns the rocker; lengthen the rocker or the frame."),
+        Check(id="stroke", title="Full turn of the cylinder over the stroke", demand="stroke_error", limit=0.5, unit="deg",
+              demand_label="rotation off a full turn", limit_label="accepted", source="000, Fig. 1",
+              consequence="the flat stands tilted at an end of the stroke; make the sector ratio 2π/δ_max."),
+        Check(id="energy_balance", title="Energy balance over a turn", demand="energy_residual", limit=1e-6, unit="1",
+              demand_label="relative difference", limit_label="accepted", source="conservation of energy",
+              consequence="the calculation contradicts itself; do not use it."),
+    ),
+    figures=FIGURES,
+    assumptions=(
+        "The crank turns at constant speed; links, joints and teeth are rigid and without clearance; the cylinder rolls without slip.",
+        "The technological moment is constant over the cutting part of the stroke, counted in rolled length, and resists the motion "
+        "on both strokes.",
+        "One efficiency for each transmission, the same in both directions of power.",
+        "Mass and inertia of the links, the sector and the pinion are not included.",
+    ),
+    sources=(
+        Source("000", "Topolnytskyi P. V., Shustykevych A. I., Kolomiiets A. B., Vatuliak Yu. V. Research of the drive parameters "
+               "of the pressure cylinder of a flat-bed type die-cutting machine. 2024. "
+               "doi: 10.32403/1998-6912-2024-2-69-140-150."),
+    ),
+    errata=(
+        Erratum("000", "Eq. 3 and 4 print √(1 + λ₁² − 2λ₁cos φ) where its square belongs.", ("pin_angle", "transmission_angle")),
+        Erratum("000", "Eq. 2 gives the direction of the diagonal by arccos, right only for 0 ≤ φ ≤ 180°; over the other half of the "
+                "turn it mirrors the linkage. Here the direction is taken by arctan2.", ("diagonal_direction",)),
+        Erratum("000", "b = √(2·105·0.6 − 0.6²) is 11.21 mm, not the printed 10.8 mm; so k = 3.363 mm and M_m = 70.6 N·m instead of "
+                "3.23 mm and 67.8 N·m. 0.3·10.8 is 3.24, not 3.23.", ("cutting_length", "rolling_arm", "cutting_moment")),
+        Erratum("000", "The conditions M_in > 0 and M_Σ > 0 choose the side of the efficiency rightly only on the forward stroke; power "
+                "decides. θ₃ holds η_z and η_v, which θ₂ and θ₁ apply again; η_v is not defined, η_zp not used.", ("crank_torque",)),
+        Erratum("000", "M_m is added without the sign of the motion (eq. 11, 20), so on the return stroke it helps instead of "
+                "resisting. Its moment also acts over the flat.", ("total_moment", "crank_torque")),
+        Erratum("000", "The abstract's “6000 cycles per minute” are per hour (100 rpm if a cycle is a turn of the crank, 50 rpm if it is "
+                "a sheet). The printed peak of 3.4 kN·m cannot be reproduced: the paper prints neither efficiencies nor the ratio u, "
+                "and names the main shaft.", ("crank_torque_peak",)),
+    ),
+)  # fmt: skip

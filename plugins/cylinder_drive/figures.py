@@ -1,0 +1,193 @@
+"""Figures of the impression cylinder's drive."""
+
+from __future__ import annotations
+
+from math import cos, pi, sin
+
+from diecut_report.api import (
+    Drawing,
+    Level,
+    Mark,
+    Panel,
+    Plot,
+    Point,
+    Polar,
+    Series,
+    Shape,
+    Span,
+    View,
+    arc,
+    circle,
+    label,
+    point,
+    polyline,
+)
+
+STROKES = (Span(start="dead_center_outer", end="dead_center_inner", label="forward stroke"),)
+
+
+def _crank_length(view: View) -> float:
+    """The crank's length; without one the drawing is in crank lengths."""
+    return view["crank_length"] if "crank_length" in view else 1.0
+
+
+def _joints(view: View, phi: float) -> tuple[Point, Point, Point, Point]:
+    """Crank pivot, crank pin, rocker joint and rocker pivot at a crank angle."""
+    a, beta = _crank_length(view), view.at("rocker_direction", phi)
+    rocker, frame = a * view["rocker_ratio"], a * view["frame_ratio"]
+    return (0.0, 0.0), (a * cos(phi), a * sin(phi)), (frame + rocker * cos(beta), rocker * sin(beta)), (frame, 0.0)
+
+
+def _path(view: View) -> list[Shape]:
+    """The paths of the crank pin and of the rocker's joint."""
+    a = _crank_length(view)
+    outer = view["outer_direction"]
+    pivot = (a * view["frame_ratio"], 0.0)
+    return [
+        circle((0.0, 0.0), a, "ghost"),
+        arc(pivot, a * view["rocker_ratio"], outer, outer + view["swing_angle"], "ghost"),
+        polyline([(-1.3 * a, 0.0), (pivot[0] + 0.8 * a, 0.0)], "centerline"),
+    ]
+
+
+def _sector(view: View, phi: float) -> list[Shape]:
+    """Sector and pinion with the cylinder, opposite the rocker in the middle of its swing."""
+    if "pinion_radius" not in view:
+        return []
+    pivot = _joints(view, phi)[3]
+    radius, pinion = view["sector_radius"], view["pinion_radius"]
+    middle = view["outer_direction"] + view["swing_angle"] / 2 + pi
+    turned = view.at("rocker_direction", phi) - (middle - pi)
+    half = view["swing_angle"] / 2 + 0.1
+    start, end = middle + turned - half, middle + turned + half
+    center = (pivot[0] + (radius + pinion) * cos(middle), pivot[1] + (radius + pinion) * sin(middle))
+    rim = [(pivot[0] + radius * cos(start + (end - start) * i / 40), pivot[1] + radius * sin(start + (end - start) * i / 40))
+           for i in range(41)]  # fmt: skip
+    return [
+        polyline([pivot, *rim], "body", closed=True),
+        circle(center, pinion, "outline"),
+        circle(center, view["cylinder_radius"], "hidden"),
+        point(center, "pivot", "cylinder and pinion"),
+    ]
+
+
+def linkage(view: View) -> list[Shape]:
+    """The linkage in its dead centres (light) and at the crank angle of the torque's peak, with sector and cylinder."""
+    peak = view["crank_torque_peak_at"]
+    shapes = _path(view)
+    for place in (view["dead_center_outer"], view["dead_center_inner"]):
+        shapes.append(polyline(_joints(view, place), "ghost"))
+    crank_pivot, pin, joint, rocker_pivot = _joints(view, peak)
+    a = _crank_length(view)
+    return [
+        *shapes,
+        *_sector(view, peak),
+        polyline([crank_pivot, pin, joint, rocker_pivot], "link"),
+        point(crank_pivot, "pivot", "O₁"),
+        point(rocker_pivot, "pivot", "O₃"),
+        point(pin, "joint"),
+        point(joint, "joint"),
+        label((-1.2 * a, 1.25 * a), f"crank at {view.text('crank_torque_peak_at')}"),
+    ]
+
+
+FIGURES = (
+    Drawing(
+        id="linkage",
+        title="Linkage",
+        caption="The linkage to scale at the crank angle of the greatest torque, light: in its dead centres. With a crank length and "
+        "a pinion also sector, pinion and cylinder (dashed); the place of the pinion around the sector is free and chosen here.",
+        build=linkage,
+    ),
+    Plot(
+        id="motion",
+        title="Motion of the cylinder",
+        caption="Displacement, velocity and acceleration over a turn of the crank (figure 2 of 000).",
+        abscissa="crank_angle",
+        panels=(
+            Panel(title="Displacement", unit="mm", series=(Series(curve="displacement", label="S"),), spans=STROKES),
+            Panel(
+                title="Velocity",
+                unit="m/s",
+                series=(Series(curve="velocity", label="V"),),
+                spans=STROKES,
+            ),
+            Panel(title="Acceleration", unit="m/s**2", series=(Series(curve="acceleration", label="W"),), spans=STROKES),
+        ),
+    ),
+    Plot(
+        id="moments",
+        title="Moments on the cylinder",
+        caption="Moment of the inertia forces and total moment on the cylinder's axis; the jumps are where cutting begins and ends.",
+        abscissa="crank_angle",
+        panels=(
+            Panel(
+                title="Moment",
+                unit="N*m",
+                series=(
+                    Series(curve="total_moment", label="total moment"),
+                    Series(curve="inertia_moment", label="inertia forces"),
+                ),
+                spans=STROKES,
+            ),
+        ),
+    ),
+    Plot(
+        id="torque",
+        title="Torque at the crank",
+        caption="Torque over a turn of the crank with its extremes, mean and root mean square (figure 3 of 000); "
+        "negative: the cylinder drives back.",
+        abscissa="crank_angle",
+        panels=(
+            Panel(
+                title="Torque",
+                unit="N*m",
+                series=(Series(curve="crank_torque", label="torque"),),
+                levels=(Level(value="crank_torque_mean", label="mean"), Level(value="crank_torque_rms", label="rms")),
+                marks=(
+                    Mark(x="crank_torque_max_at", y="crank_torque_max", label="greatest driving"),
+                    Mark(x="crank_torque_min_at", y="crank_torque_min", label="greatest braking"),
+                ),
+                spans=STROKES,
+            ),
+        ),
+    ),
+    Polar(
+        id="torque_polar",
+        title="Torque over the crank circle",
+        caption="Size of the torque as distance from the centre over the crank angle; dashed where the cylinder drives back.",
+        abscissa="crank_angle",
+        unit="N*m",
+        series=(Series(curve="crank_torque", label="torque"),),
+    ),
+    Plot(
+        id="joint_forces",
+        title="Force in the coupler",
+        caption="Force along the coupler, tension positive; its joints and the crank's bearing carry it.",
+        abscissa="crank_angle",
+        needs=("crank_length",),
+        panels=(
+            Panel(
+                title="Force",
+                unit="kN",
+                series=(
+                    Series(curve="coupler_force", label="coupler"),
+                    Series(curve="crank_bearing_force_x", label="crank's bearing, along the frame"),
+                    Series(curve="crank_bearing_force_y", label="crank's bearing, square to it"),
+                ),
+                marks=(Mark(x="coupler_tension_max_at", y="coupler_tension_max", label="greatest tension"),),
+                spans=STROKES,
+            ),
+        ),
+    ),
+    Plot(
+        id="tooth_forces",
+        title="Tooth force of the sector",
+        caption="Tangential force between the teeth of sector and pinion; where it changes its sign the flanks change.",
+        abscissa="crank_angle",
+        needs=("pinion_radius",),
+        panels=(
+            Panel(title="Tangential force", unit="kN", series=(Series(curve="tooth_force", label="tooth force"),), spans=STROKES),
+        ),
+    ),
+)

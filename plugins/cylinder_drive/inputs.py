@@ -1,0 +1,67 @@
+"""Inputs of the impression cylinder's drive."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+
+from diecut_report.api import POINTS, Annotated, FromPress, Inputs, Quantity, formula
+
+
+@formula
+def two_sheets_a_turn(productivity: Any) -> Any:
+    """Angular speed of the crank at two sheets for each of its turns."""
+    return 2 * np.pi * productivity / 2
+
+
+def _efficiency(index: str, of: str) -> Quantity:
+    return Quantity(f"η_{index}", "1", f"Efficiency of the {of}", gt=0, le=1)
+
+
+class CylinderDrive(Inputs):
+    """Keys of ``cylinder_drive``."""
+
+    frame_ratio: Annotated[float, Quantity("λ_1", "1", "Frame to crank, d/a", gt=0)] = 5.0
+    coupler_ratio: Annotated[float, Quantity("λ_2", "1", "Coupler to crank, b/a", gt=0)] = 5.0
+    rocker_ratio: Annotated[float, Quantity("λ_3", "1", "Rocker to crank, c/a", gt=0)] = 2.05
+    crank_speed: Annotated[
+        float | None,
+        Quantity("ω_1", "rpm", "Speed of the crank; two sheets a turn", gt=0, press=FromPress("press.productivity", two_sheets_a_turn)),
+    ] = None
+    sector_ratio: Annotated[
+        float | None, Quantity("u", "1", "Ratio of sector to pinion; default: the full swing turns the cylinder once", gt=0)
+    ] = None
+    cylinder_radius: Annotated[float, Quantity("R", "mm", "Radius of the cylinder", gt=0)]
+    cylinder_length: Annotated[float, Quantity("L", "mm", "Length of the cylinder's generatrix", gt=0)]
+    cylinder_mass: Annotated[float, Quantity("m", "kg", "Mass of the cylinder", gt=0)]
+    cylinder_inertia: Annotated[float, Quantity("I", "kg*m**2", "Moment of inertia of the cylinder about its axis", gt=0)]
+    cutting_force_per_length: Annotated[float, Quantity("q_a", "N/mm", "Cutting force for each length of the rules", ge=0)] = 25
+    ejection_force_per_length: Annotated[float, Quantity("q_e", "N/mm", "Force of the ejection material for each length", ge=0)] = 5
+    material_thickness: Annotated[
+        float | None,
+        Quantity("Δ", "mm", "Thickness of the board (below the radius)", gt=0, press=FromPress("press.sheet.thickness")),
+    ] = None
+    rolling_coefficient: Annotated[float, Quantity("k_0", "1", "Rolling arm to cutting length", gt=0)] = 0.3
+    cutting_arc_fraction: Annotated[
+        float, Quantity("κ", "1", "Share of the stroke, of the rolled length, in whose middle the board is cut", gt=0, le=1)
+    ] = 1.0
+    static_unbalance: Annotated[float, Quantity("me", "kg*m", "Static unbalance of the cylinder", ge=0)] = 0
+    efficiency_sector: Annotated[float, _efficiency("sector", "sector and pinion")] = 0.96
+    efficiency_gear: Annotated[float, _efficiency("gear", "gear, where one lies between crank and cylinder")] = 1.0
+    efficiency_four_bar: Annotated[float, _efficiency("four-bar", "four-bar linkage")] = 0.95
+    efficiency_bearings: Annotated[float, _efficiency("bearings", "bearings")] = 0.99
+    efficiency_chain: Annotated[float, _efficiency("chain", "chain")] = 0.95
+    n_points: Annotated[int, POINTS] = 720
+    min_transmission_angle: Annotated[float, Quantity("μ_min", "deg", "Least transmission angle that is accepted", gt=0, le=90)] = 40
+    segment_height: Annotated[
+        float | None, Quantity("h", "mm", "Height of the cylinder's segment; with it the window of the carriages", gt=0)
+    ] = None
+    carriage_clearance: Annotated[
+        float | None, Quantity("c_r", "mm", "Clearance that the carriages need under the cylinder", gt=0)
+    ] = None
+    crank_length: Annotated[float | None, Quantity("a", "mm", "Length of the crank; with it the forces in the joints", gt=0)] = None
+    pinion_radius: Annotated[
+        float | None, Quantity("r_p", "mm", "Pitch radius of the pinion; with it the tooth force of the sector", gt=0)
+    ] = None
+    pressure_angle: Annotated[float, Quantity("α_w", "deg", "Pressure angle of the teeth", gt=0, lt=45)] = 20

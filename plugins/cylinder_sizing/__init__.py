@@ -1,0 +1,98 @@
+"""Impression cylinder: size, mass and inertia (002 eq. 1–6, 000 eq. 13–17)."""
+
+from __future__ import annotations
+
+from diecut_report.api import Check, Erratum, Mechanism, Source
+from diecut_report.plugins.cylinder_sizing.drawing import FIGURES
+from diecut_report.plugins.cylinder_sizing.inputs import CylinderSizing
+from diecut_report.plugins.cylinder_sizing.steps import SECTIONS
+
+MECHANISM = Mechanism(
+    kind="cylinder_sizing",
+    version="1.0",
+    title="Impression cylinder: size, mass and inertia",
+    summary="The hollow cylinder rolls over the flat die; a circular segment is cut away from it, so that the gripper carriages of "
+    "the sheet conveyor pass under the flat while the cylinder dwells. From the sheet and the segment follow the radius, the "
+    "mass, the inertia and the unbalance; the wall that is left at the flat is checked.",
+    inputs=CylinderSizing,
+    sections=SECTIONS,
+    checks=(
+        Check(
+            id="wall_at_flat",
+            title="Wall between bore and flat",
+            demand="min_wall",
+            limit="wall_at_flat",
+            unit="mm",
+            demand_label="required wall",
+            limit_label="wall at the flat",
+            source="000 erratum 4",
+            consequence="the wall at the flat is too thin, and at or below 0 mm the bore breaks through the flat; "
+            "a bore radius of at most {bore_radius_limit} keeps the wall.",
+        ),
+        Check(
+            id="radius",
+            title="Radius against the exact one",
+            demand="radius_exact",
+            limit="radius",
+            unit="mm",
+            demand_label="exact radius",
+            limit_label="adopted radius",
+            source="002 eq. 1",
+            tolerance=1e-9,
+            consequence="the circumference beside the flat is shorter than the working length; "
+            "make the radius at least {radius_exact} or the segment lower.",
+        ),
+        Check(
+            id="closed_form_error",
+            title="Error of the closed form",
+            demand="closed_form_error_size",
+            limit=0.5,
+            unit="%",
+            demand_label="closed form against exact",
+            limit_label="accepted",
+            source="002 eq. 6",
+            severity="warn",
+            consequence="Huygens' arc is used beyond its range (segment height over radius above about 0.65); "
+            "rely on the exact radius.",
+        ),
+        Check(
+            id="deflection",
+            title="Bending deflection",
+            demand="deflection",
+            limit="allowable_deflection",
+            unit="mm",
+            demand_label="deflection",
+            limit_label="allowed",
+            source="simply supported beam",
+            needs=("bearing_span", "allowable_deflection"),
+            consequence="the cut is lighter in the middle of the sheet than at its sides; a smaller bore, a lower segment or "
+            "a shorter bearing span stiffens the cylinder.",
+        ),
+    ),
+    figures=FIGURES,
+    assumptions=(
+        "The cylinder rolls without slip; the unrolled circumference beside the flat is the working length.",
+        "The body is homogeneous and of one section along the generatrix; journals, keyways and the pinion are not included.",
+        "Where the bore breaks through the flat, the overlap of bore and segment is subtracted once only.",
+        "Bending: a simply supported beam with the line load over the generatrix in the middle of the span, about the weakest axis "
+        "of the section; shear deformation is left out.",
+    ),
+    sources=(
+        Source("000", "Topolnytskyi P. V., Shustykevych A. I., Kolomiiets A. B., Vatuliak Yu. V. Research of the drive parameters "
+               "of the pressure cylinder of a flat-bed type die-cutting machine. 2024. "
+               "doi: 10.32403/1998-6912-2024-2-69-140-150."),
+        Source("002", "Loizyk et al. Flat-cylinder die-cutting press: parameters of the working parts. "
+               "Lviv Polytechnic National University (in Ukrainian)."),
+    ),
+    errata=(
+        Erratum("000", "The bore radius is stated as 80 mm, but all numbers of the paper use 70 mm.", ("bore_mass", "mass")),
+        Erratum("000", "The printed inertia 0.973 kg·m² is 1.042 − 0.206 + 0.137: the segment's term was added, although eq. 17 "
+                "subtracts it. By eq. 17 with the printed figures it is 0.698 kg·m²; with exact segment properties and the "
+                "segment's own inertia 0.636 kg·m².", ("inertia", "inertia_source")),
+        Erratum("000", "The chord 2√(0.04(0.21 − 0.04)) is 0.165 m, not 0.16 m; this makes the centroid distance 0.081 m instead of "
+                "0.074 m. The printed factors of the segment's area give 4.72·10⁻³ m², not 4.6·10⁻³ m² (which is right).",
+                ("chord", "centroid_distance", "segment_area")),
+        Erratum("000", "With a radius of 105 mm, a segment of 40 mm and a bore radius of 70 mm the wall at the flat is −5 mm: the "
+                "published bore breaks through the flat.", ("wall_at_flat",)),
+    ),
+)  # fmt: skip
