@@ -79,7 +79,8 @@ def dimensions(mechanism: Mechanism) -> Iterator[str]:
     units = units_of(mechanism)
     for step, part, link in formulas(mechanism):
         try:
-            result = _dimensioned(link.formula)(*(_quantity(name, units) for name in link.names.values()))
+            with np.errstate(all="ignore"):
+                result = _dimensioned(link.formula)(*(_quantity(name, units) for name in link.names.values()))
         except (pint.DimensionalityError, pint.OffsetUnitCalculusError) as error:
             yield f"{step.id}: {link.formula.__name__}: {error}"
             continue

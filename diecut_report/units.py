@@ -1,0 +1,287 @@
+"""Quantities with units: texts such as "21 kN" to SI numbers and back, with the dimension checked.
+
+Everyday units come from `units_table.json`, which `tools/make_units_table.py` makes from pint. Any other unit is
+read by pint itself, which is imported only then (its registry costs about half a second).
+The plane angle counts as a dimension of its own here, so that an angular speed (rpm, rad/s) and a frequency (1/min,
+Hz) are different kinds.
+"""
+
+from __future__ import annotations
+
+import json
+import math
+import re
+from dataclasses import dataclass
+from functools import cache, lru_cache
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    import pint
+
+TABLE_FILE = Path(__file__).with_name("units_table.json")
+DIMENSIONS = ("mass", "length", "time", "temperature", "current", "substance", "luminosity", "angle")
+BASE_UNITS = ("kg", "m", "s", "K", "A", "mol", "cd", "rad")
+MAX_UNIT_LENGTH = 60
+
+Kind = tuple[float, ...]
+
+
+class UnitError(ValueError):
+    """A unit or a quantity that cannot be used; the text says why and what to write instead."""
+
+
+@dataclass(frozen=True)
+class Unit:
+    """A unit of measure: `text` is its ASCII form that pint reads, `factor` the SI value of one unit.
+
+    `si` is the coherent SI unit as results write it; `kind` the exponents of DIMENSIONS, the angle included.
+    """
+
+    text: str
+    factor: float
+    si: str
+    kind: Kind
+
+    def to_si(self, value: float) -> float:
+        """SI value of `value` units."""
+        inverse = _whole_inverse(self.factor)
+        return value / inverse if inverse else value * self.factor
+
+    def from_si(self, value: float) -> float:
+        """Number of units in an SI value."""
+        inverse = _whole_inverse(self.factor)
+        return value * inverse if inverse else value / self.factor
+
+
+@cache
+def _whole_inverse(factor: float) -> int:
+    # 470.7 / 1000 is the float nearest to 0.4707, 470.7 * 0.001 is not: whole divisors keep typed digits intact.
+    inverse = round(1.0 / factor) if factor < 1.0 else 0
+    return inverse if inverse and 1.0 / inverse == factor else 0
+
+
+@cache
+def _table() -> dict[str, Any]:
+    table: dict[str, Any] = json.loads(TABLE_FILE.read_text(encoding="utf-8"))
+    return table
+
+
+# --- reading units ---------------------------------------------------------------------------------------------------
+
+_CHARACTERS = str.maketrans(
+    {"·": "*", "⋅": "*", "×": "*", "∙": "*", "µ": "u", "μ": "u", "−": "-", "∕": "/", "⁄": "/", "º": "°", "^": "**"}
+)
+_SUPERSCRIPTS = {"⁰": "0", "¹": "1", "²": "2", "³": "3", "⁴": "4", "⁵": "5", "⁶": "6", "⁷": "7", "⁸": "8", "⁹": "9"}
+_SUPERSCRIPT = re.compile("(⁻?)([" + "".join(_SUPERSCRIPTS) + "]+)")
+_GLUED = re.compile(r"(/?)(?<!\w)((?:[kMm]?N|kg|g)(?=mm|cm|m))(m|mm|cm)(\*\*-?\d+)?(?!\w)")
+_FACTOR = r"\(*(?:[^\W\d]\w*|%)(?:\*\*-?\d\d?)?\)*"
+_GRAMMAR = re.compile(rf"(?:1/)?{_FACTOR}(?:[*/]{_FACTOR})*")
+
+
+@lru_cache(maxsize=2048)
+def unit(text: str) -> Unit:
+    """The unit that a text names, in any usual spelling: "kg*m**2", "kg·m²", "kg m^2", "Nm", "°", "m/s2".
+
+    Raises UnitError, with a suggestion where one is near, for what is no unit or has no fixed zero (degC).
+    """
+    canonical = _canonical(text)
+    known = _table()["units"].get(canonical)
+    if known is None:
+        return _read_with_pint(canonical, text)
+    factor, family = known
+    entry = _table()["families"][family]
+    return Unit(canonical, factor, entry["si"], tuple(entry["kind"]))
+
+
+def _canonical(text: str) -> str:
+    for spelling in (text.strip(), _normalise(text)):
+        if spelling in _table()["units"]:
+            return spelling
+        if spelling in _table()["aliases"]:
+            return str(_table()["aliases"][spelling])
+    return spelling
+
+
+def _normalise(text: str) -> str:
+    text = text.translate(_CHARACTERS).replace("°C", "degC").replace("°F", "degF").replace("°", "deg")
+    text = _SUPERSCRIPT.sub(_plain_exponent, text)
+    text = re.sub(r"\s*(\*\*|[*/()])\s*", r"\1", text.strip())
+    text = re.sub(r"\s+|(?<=\))(?=\w)", "*", text)
+    text = re.sub(r"(?<=[^\W\d])(-?\d+)(?!\w)", r"**\1", text)
+    text = _GLUED.sub(_unglued, text)
+    return "1" + text if text.startswith("/") else text
+
+
+def _plain_exponent(match: re.Match[str]) -> str:
+    return "**" + match[1].replace("⁻", "-") + "".join(_SUPERSCRIPTS[digit] for digit in match[2])
+
+
+def _unglued(match: re.Match[str]) -> str:
+    slash, first, second, power = match.groups(default="")
+    return f"/({first}*{second}{power})" if slash else f"{first}*{second}{power}"
+
+
+def _read_with_pint(canonical: str, typed: str) -> Unit:
+    # The grammar also bounds what pint is given: no numbers, no towers of powers.
+    readable = len(canonical) <= MAX_UNIT_LENGTH and _GRAMMAR.fullmatch(canonical)
+    measured = measure_with_pint(canonical) if readable else None
+    if measured is None:
+        raise UnitError(f"{_shortened(typed)} is not a known unit.{_suggestion(canonical)}")
+    factor, kind = measured
+    family = _family(kind)
+    return Unit(canonical, factor, family["si"] if family else _si_text(kind), kind)
+
+
+def _suggestion(text: str) -> str:
+    names = list(_table()["units"])
+    same_letters = [name for name in names if name.casefold() == text.casefold()]
+    if not same_letters:
+        import difflib
+
+        same_letters = difflib.get_close_matches(text[:MAX_UNIT_LENGTH], names, n=1, cutoff=0.6)
+    return f" Did you mean {same_letters[0]}?" if same_letters else ""
+
+
+def _shortened(text: str) -> str:
+    return repr(text if len(text) <= MAX_UNIT_LENGTH else text[: MAX_UNIT_LENGTH - 1] + "…")
+
+
+def _family(kind: Kind, si: str = "") -> dict[str, Any] | None:
+    alike = [family for family in _table()["families"] if tuple(family["kind"]) == kind]
+    exact = [family for family in alike if family["si"] == si]
+    return next(iter(exact or alike), None)
+
+
+def _si_text(kind: Kind) -> str:
+    powers = [(base, exponent) for base, exponent in zip(BASE_UNITS, kind, strict=True) if exponent]
+    above = [_power(base, exponent) for base, exponent in powers if exponent > 0]
+    below = [_power(base, -exponent) for base, exponent in powers if exponent < 0]
+    return "/".join(["*".join(above) or "1", *below])
+
+
+def _power(base: str, exponent: float) -> str:
+    return base if exponent == 1 else f"{base}**{exponent:g}"
+
+
+# --- pint ------------------------------------------------------------------------------------------------------------
+
+
+@cache
+def pint_registry() -> pint.UnitRegistry[Any]:
+    """Pint's own definitions with the radian as a base unit, in exact fractions."""
+    from fractions import Fraction
+
+    import pint
+
+    folder = Path(pint.__file__).parent
+    constants = (folder / "constants_en.txt").read_text(encoding="utf-8")
+    text = (folder / "default_en.txt").read_text(encoding="utf-8").replace("@import constants_en.txt", constants)
+    return pint.UnitRegistry(text.replace("radian = []", "radian = [angle]").splitlines(), non_int_type=Fraction)
+
+
+def measure_with_pint(text: str) -> tuple[float, Kind] | None:
+    """SI factor and kind of a unit by pint; None for what pint does not know. UnitError for a shifted zero (degC)."""
+    registry: Any = pint_registry()
+    try:
+        units = registry.parse_units(text)
+        one, two = (registry.Quantity(number, units).to_base_units().magnitude for number in (1, 2))
+    except Exception:  # pint raises a dozen unrelated types (AssertionError, TokenError, …) for what it cannot read
+        return None
+    if two != 2 * one:
+        raise UnitError(f"{text} has no fixed zero; give a temperature difference in K.")
+    exponents = {str(name).strip("[]"): float(power) for name, power in units.dimensionality.items()}
+    if not exponents.keys() <= set(DIMENSIONS):
+        return None
+    return float(one), tuple(exponents.get(name, 0.0) for name in DIMENSIONS)
+
+
+# --- reading quantities ----------------------------------------------------------------------------------------------
+
+_QUANTITY = re.compile(r"([+-]?(?:[0-9]+\.?[0-9]*|\.[0-9]+)(?:[eE][+-]?[0-9]+)?)(.*)", re.DOTALL)
+
+
+def parse_quantity(value: int | float | str, unit_text: str) -> float:
+    """SI value of a quantity as a user gives it: a bare number counts in `unit_text`, a text may carry its own unit.
+
+    Raises UnitError for another dimension, no number, a decimal comma, NaN or infinity.
+    """
+    if isinstance(value, str):
+        return _parse_text(value, unit_text)
+    if isinstance(value, bool):
+        raise UnitError(f"{str(value).lower()} is not a quantity; {_needed(unit(unit_text))}.")
+    try:
+        return _finite(unit(unit_text).to_si(float(value)), f"{value:g}" if isinstance(value, float) else "The number")
+    except OverflowError:
+        raise UnitError("The number is too large to calculate with.") from None
+
+
+@lru_cache(maxsize=4096)
+def _parse_text(text: str, unit_text: str) -> float:
+    wanted = unit(unit_text)
+    number, own = _split(text, wanted)
+    given = wanted if own in ("", wanted.text) else _own_unit(own, wanted)
+    if given.kind != wanted.kind:
+        raise UnitError(f"{text.strip()} is {kind_name(given)}; {_needed(wanted)}.")
+    return _finite(given.to_si(number), _shortened(text))
+
+
+def _own_unit(text: str, wanted: Unit) -> Unit:
+    try:
+        return unit(text)
+    except UnitError as error:
+        needed = _needed(wanted)
+        raise UnitError(f"{error} {needed[0].upper()}{needed[1:]}.") from None
+
+
+def _split(text: str, wanted: Unit) -> tuple[float, str]:
+    text = text.strip().replace("−", "-")
+    match = _QUANTITY.fullmatch(text)
+    if re.match(r"[+-]?[0-9]*,[0-9]", text) or (match and re.match(r",\s*[0-9]", match[2])):
+        raise UnitError(f"{_shortened(text)} holds a comma; write a decimal point and no thousands separator.")
+    if match is None:
+        raise UnitError(f"{_shortened(text)} does not begin with a finite number; {_needed(wanted)}.")
+    own = match[2].strip().removeprefix("*").strip()
+    if re.match(r"[0-9.+-]", own) and not own.startswith("1/"):
+        raise UnitError(f"{_shortened(text)} is not one number and a unit; {_needed(wanted)}.")
+    return float(match[1]), own
+
+
+def _finite(value: float, typed: str) -> float:
+    if not math.isfinite(value):
+        raise UnitError(f"{typed} is not a finite number, or too large to calculate with.")
+    return value
+
+
+def kind_name(of: Unit) -> str:
+    """What a unit measures, with its article: "an angular speed"; "a quantity in kg/s**3" where it has no name."""
+    family = _family(of.kind, of.si)
+    return str(family["name"]) if family else f"a quantity in {of.si}"
+
+
+def _needed(wanted: Unit) -> str:
+    family = _family(wanted.kind, wanted.si)
+    typical = float(f"{wanted.from_si(family['example'] if family else wanted.factor):.1g}")
+    example = f"{typical:.15g}" + ("" if wanted.text == "1" else f" {wanted.text}")
+    return f"{kind_name(wanted)} is needed, for example {example}"
+
+
+# --- writing ---------------------------------------------------------------------------------------------------------
+
+
+def to_display(value_si: float, unit_text: str) -> float:
+    """An SI value as a number of display units."""
+    return unit(unit_text).from_si(value_si)
+
+
+_RAISED = str.maketrans("0123456789-", "⁰¹²³⁴⁵⁶⁷⁸⁹⁻")
+_PRINTED_NAMES = {"deg": "°", "um": "µm", "us": "µs", "revolution": "rev"}
+
+
+@lru_cache(maxsize=512)
+def pretty(unit_text: str) -> str:
+    """A unit as a report prints it: "kg·m²", "°/s", "1/h"; nothing for the pure number "1"."""
+    text = unit(unit_text).text
+    text = re.sub(r"\*\*(-?\d+)", lambda match: match[1].translate(_RAISED), text)
+    text = re.sub(r"[A-Za-z_]+", lambda match: _PRINTED_NAMES.get(match[0], match[0]), text)
+    return "" if text == "1" else text.replace("*", "·")

@@ -1,0 +1,300 @@
+"""Safe YAML with positions: plain data, and for every value the line, the column and the text as typed.
+
+The tree is built from PyYAML's event stream, never by its constructors: no object is made from a tag, nothing
+recurses deeper than MAX_DEPTH, and an alias is a second way to the same node instead of a copy.
+
+Plain scalars follow the YAML 1.2 core schema, a little narrower: null, true and false, decimal integers (010 is ten)
+and floats (1e5 too). All else is text: yes, on, dates, 1:30, 0x10, .inf, .nan. What stands in quotes is text.
+Merge keys (<<) and tags are refused.
+"""
+
+from __future__ import annotations
+
+import hashlib
+import math
+import re
+import stat
+from collections.abc import Iterator
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Any, NoReturn
+
+import yaml
+
+from diecut_report.errors import Problem, UserError
+
+MAX_BYTES = 5_000_000
+MAX_DEPTH = 50
+MAX_VALUES = 200_000
+
+KeyPath = tuple[str | int, ...]
+Position = tuple[int, int]
+
+_LOADER: Any = getattr(yaml, "CSafeLoader", yaml.SafeLoader)
+_CONTROL = re.compile("[^\t\n\r\x20-\x7e\x85\xa0-\ud7ff\ue000-\ufffd\U00010000-\U0010ffff]")
+_WORDS: dict[str, bool | None] = dict.fromkeys(["", "~", "null", "Null", "NULL"])
+_WORDS |= {word: word.lower() == "true" for word in ("true", "True", "TRUE", "false", "False", "FALSE")}
+_INTEGER = re.compile(r"[-+]?[0-9]{1,300}")
+_FLOAT = re.compile(r"[-+]?(?:\.[0-9]+|[0-9]+(?:\.[0-9]*)?)(?:[eE][-+]?[0-9]+)?")
+
+
+@dataclass
+class Node:
+    """One value of the file: its place (from 1), its content, and its size and depth with all aliases expanded."""
+
+    position: Position
+    scalar: Any = None
+    typed: str | None = None
+    children: dict[str | int, Node] | None = None
+    is_list: bool = False
+    key_positions: dict[str | int, Position] = field(default_factory=dict)
+    size: int = 1
+    depth: int = 0
+
+    def add(self, key: str | int, child: Node) -> None:
+        """Put a child in, or only account for it where the key is there already."""
+        self.size += child.size
+        self.depth = max(self.depth, child.depth + 1)
+        if self.children is not None:
+            self.children.setdefault(key, child)
+
+    def plain(self) -> Any:
+        """Dicts, lists and scalars of its own: nothing is shared between two aliases."""
+        if self.children is None:
+            return self.scalar
+        plain = {key: child.plain() for key, child in self.children.items()}
+        return list(plain.values()) if self.is_list else plain
+
+
+class Tree:
+    """A YAML file as data, with its places.
+
+    `data` holds plain dicts, lists and scalars; `text` the file's text; `sha256` the hash of its bytes.
+    """
+
+    def __init__(self, root: Node, file: str, text: str, sha256: str) -> None:
+        self._root = root
+        self.data: Any = root.plain()
+        self.file, self.text, self.sha256 = file, text, sha256
+
+    def position(self, path: KeyPath) -> Position:
+        """Line and column (from 1) of the value at `path`, or of its nearest parent that exists.
+
+        Within an alias it is the place where the value is written, at the anchor.
+        """
+        return self._walk(path)[-1].position
+
+    def key_position(self, path: KeyPath) -> Position:
+        """Line and column (from 1) of the key at the end of `path`; for list items and unknown keys as `position`."""
+        nodes = self._walk(path)
+        if path and len(nodes) == len(path) + 1:
+            return nodes[-2].key_positions.get(path[-1], nodes[-1].position)
+        return nodes[-1].position
+
+    def typed(self, path: KeyPath) -> str | None:
+        """The scalar at `path` as typed, without quotes; None for a dict, a list, or what is not there."""
+        nodes = self._walk(path)
+        return nodes[-1].typed if len(nodes) == len(path) + 1 else None
+
+    def _walk(self, path: KeyPath) -> list[Node]:
+        nodes = [self._root]
+        for step in path:
+            child = (nodes[-1].children or {}).get(step)
+            if child is None:
+                break
+            nodes.append(child)
+        return nodes
+
+
+def load(path: Path) -> Tree:
+    """Read a YAML file. UserError with all that is wrong with it, or the reason why it cannot be read."""
+    raw = _read(path)
+    try:
+        text = raw.decode("utf-8-sig")
+    except UnicodeDecodeError as error:
+        line = raw.count(b"\n", 0, error.start) + 1
+        _refuse(str(path), "The file is not UTF-8 text. Give a YAML file, saved as UTF-8.", (line, None))
+    return _parse(text, str(path), hashlib.sha256(raw).hexdigest())
+
+
+def parse(text: str, file: str) -> Tree:
+    """The same for a text; `file` is the name that messages show."""
+    return _parse(text, file, hashlib.sha256(text.encode("utf-8")).hexdigest())
+
+
+def _refuse(file: str, message: str, place: tuple[int | None, int | None] = (None, None)) -> NoReturn:
+    raise UserError(Problem(message, file, *place))
+
+
+def _read(path: Path) -> bytes:
+    try:
+        status = path.stat()
+        if not stat.S_ISREG(status.st_mode):
+            found = "a folder" if stat.S_ISDIR(status.st_mode) else "not a regular file"
+            _refuse(str(path), f"This is {found}. Give a YAML file.")
+        raw = b""
+        if status.st_size <= MAX_BYTES:
+            with path.open("rb") as stream:
+                raw = stream.read(MAX_BYTES + 1)  # bounded too: a file may grow, and some system files state no size
+    except FileNotFoundError:
+        _refuse(str(path), "There is no such file. Check the name and the folder.")
+    except OSError as error:
+        _refuse(str(path), f"The file cannot be read: {error.strerror or error}. Check its name and its permissions.")
+    size = max(status.st_size, len(raw))
+    if size > MAX_BYTES:
+        _refuse(str(path), f"The file is too large: {size / 1e6:.1f} MB; at most {MAX_BYTES / 1e6:g} MB are allowed.")
+    return raw
+
+
+def _parse(text: str, file: str, sha256: str) -> Tree:
+    control = _CONTROL.search(text)
+    if control:
+        before = text[: control.start()]
+        place = before.count("\n") + 1, len(before) - before.rfind("\n")
+        message = f"The control character U+{ord(control[0]):04X} stands here; this is no YAML text. Give a text file."
+        _refuse(file, message, place)
+    builder = _Builder(file)
+    try:
+        root = builder.build(yaml.parse(text, Loader=_LOADER))
+    except yaml.MarkedYAMLError as error:
+        builder.problems.append(_syntax_problem(error, text, file))
+    if builder.problems:
+        raise UserError(builder.problems)
+    return Tree(root, file, text, sha256)
+
+
+def _syntax_problem(error: Any, text: str, file: str) -> Problem:
+    mark = error.problem_mark
+    line = [*text.splitlines(), ""][mark.line]
+    indentation = len(line) - len(line.lstrip())
+    tab = line.find("\t", 0, max(indentation, mark.column + 1))
+    if tab in range(indentation) or tab == mark.column:
+        return Problem("A tab stands here; YAML is indented with spaces. Put spaces.", file, mark.line + 1, tab + 1)
+    return Problem(f"This is not valid YAML: {_explained(error, line)}", file, mark.line + 1, mark.column + 1)
+
+
+def _explained(error: Any, line: str) -> str:
+    if "mapping values are not allowed" in error.problem:
+        return "a second colon or a wrong indentation. Align keys of one block; put text that holds ': ' in quotes."
+    begin = f" that begins in line {error.context_mark.line + 1}" if error.context_mark else ""
+    said = f"{error.problem} {error.context}{begin}" if error.context else error.problem
+    if "${" in line:
+        return f'{said}. Within braces or brackets put references in quotes: "${{…}}".'
+    return f"{said}. Check quotes, brackets and indentation here and just above."
+
+
+class _Builder:
+    """Builds the tree of one document and gathers `problems` on the way; UserError only where going on is senseless."""
+
+    def __init__(self, file: str) -> None:
+        self.file = file
+        self.problems: list[Problem] = []
+        self._anchors: dict[str, Node | None] = {}  # None while the anchored value is still open
+        self._values = 0
+        self._events: Iterator[Any] = iter(())
+
+    def build(self, events: Iterator[Any]) -> Node:
+        self._events = events
+        next(events)
+        if isinstance(next(events), yaml.StreamEndEvent):
+            self._stop("The file is empty. Write a YAML document.", (None, None))
+        root = self._node(next(events), ())
+        next(events)
+        if isinstance(second := next(events), yaml.DocumentStartEvent):
+            self._report("A second YAML document begins here. Keep one document in a file.", _position(second), ())
+        if root.typed == "" and not self.problems:
+            self._stop("The file is empty. Write a YAML document.", (None, None))
+        return root
+
+    def _report(self, message: str, place: tuple[int | None, int | None], path: KeyPath) -> None:
+        self.problems.append(Problem(message, self.file, *place, path=".".join(str(step) for step in path)))
+
+    def _stop(self, message: str, place: tuple[int | None, int | None], path: KeyPath = ()) -> NoReturn:
+        self._report(message, place, path)
+        raise UserError(self.problems)
+
+    def _node(self, event: Any, path: KeyPath) -> Node:
+        if isinstance(event, yaml.AliasEvent):
+            return self._alias(event, path)
+        self._count(1, event, path)
+        self._refuse_tag(event, path)
+        if event.anchor is not None:
+            self._anchors[event.anchor] = None
+        if isinstance(event, yaml.ScalarEvent):
+            node = Node(_position(event), _resolved(event.value) if event.implicit[0] else event.value, event.value)
+        else:
+            node = self._collection(event, path)
+        if event.anchor is not None:
+            self._anchors[event.anchor] = node
+        return node
+
+    def _count(self, more: int, event: Any, path: KeyPath) -> None:
+        self._values += more
+        if self._values > MAX_VALUES:
+            message = f"More than {MAX_VALUES} values, those repeated by aliases (*name) included. Write fewer."
+            self._stop(message, _position(event), path)
+
+    def _refuse_tag(self, event: Any, path: KeyPath) -> None:
+        if event.tag is not None:
+            tag = event.tag.replace("tag:yaml.org,2002:", "!!")
+            message = f"The tag {tag} is not allowed. Remove it; put the value in quotes where text is meant."
+            self._report(message, _position(event), path)
+
+    def _alias(self, event: Any, path: KeyPath) -> Node:
+        name, place = event.anchor, _position(event)
+        anchored = self._anchors.get(name)
+        if anchored is None:
+            fault = "stands in its own anchor, a loop" if name in self._anchors else f"has no anchor &{name} above it"
+            advice = "Write the value itself, or put text that begins with * in quotes."
+            self._report(f"The alias *{name} {fault}. {advice}", place, path)
+            return Node(place)
+        self._count(anchored.size, event, path)
+        self._check_depth(anchored, event, path)
+        return anchored
+
+    def _collection(self, event: Any, path: KeyPath) -> Node:
+        node = Node(_position(event), children={}, is_list=isinstance(event, yaml.SequenceStartEvent), depth=1)
+        self._check_depth(node, event, path)
+        while not isinstance(event := next(self._events), (yaml.SequenceEndEvent, yaml.MappingEndEvent)):
+            if node.is_list:
+                index = len(node.children or ())
+                node.add(index, self._node(event, (*path, index)))
+            else:
+                key = self._key(event, node, path)
+                node.add(key, self._node(next(self._events), (*path, key)))
+        return node
+
+    def _check_depth(self, node: Node, event: Any, path: KeyPath) -> None:
+        if len(path) + node.depth > MAX_DEPTH:
+            message = f"The nesting is deeper than {MAX_DEPTH} levels, aliases included. Flatten it."
+            self._stop(message, _position(event), path[:3])
+
+    def _key(self, event: Any, node: Node, path: KeyPath) -> str:
+        """The key as text, with a problem reported if it is not text, a merge key, or a duplicate."""
+        key, place = self._node(event, (*path, "?")), _position(event)
+        text = key.typed if key.typed is not None else "(a list)" if key.is_list else "(a mapping)"
+        if not isinstance(key.scalar, str):
+            self._report(f"The key {text or '(empty)'} is not text. Put it in quotes, or rename it.", place, path)
+        elif text == "<<" and isinstance(event, yaml.ScalarEvent) and event.implicit[0]:
+            self._report("Merge keys (<<) are not supported. Write the keys out, or alias whole values.", place, path)
+        elif text in node.key_positions:
+            first = node.key_positions[text][0]
+            message = f"The key {text!r} stands here again; it is first in line {first}. Remove one of the two."
+            self._report(message, place, (*path, text))
+        node.size += key.size
+        node.key_positions.setdefault(text, place)
+        return text
+
+
+def _position(event: Any) -> Position:
+    return event.start_mark.line + 1, event.start_mark.column + 1
+
+
+def _resolved(text: str) -> Any:
+    """The value of a plain scalar by the core schema."""
+    if text in _WORDS:
+        return _WORDS[text]
+    if _INTEGER.fullmatch(text):
+        return int(text)
+    value = float(text) if _FLOAT.fullmatch(text) else math.inf
+    return value if math.isfinite(value) else text

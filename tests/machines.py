@@ -1,0 +1,50 @@
+"""Machines that several tests calculate."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from diecut_report.contract.inputs import flatten
+from diecut_report.contract.mechanism import Mechanism
+from diecut_report.engine import Calculation, calculate
+from diecut_report.plugins.cylinder_drive import MECHANISM as DRIVE
+from diecut_report.plugins.cylinder_sizing import MECHANISM as SIZING
+
+PUBLISHED_CYLINDER: dict[str, Any] = {
+    "working_length": "470.7 mm",
+    "segment_height": "40 mm",
+    "generatrix_length": "700 mm",
+    "bore_radius": "70 mm",
+    "radius": "105 mm",
+}
+PUBLISHED_DRIVE: dict[str, Any] = {
+    "crank_speed": "100 rpm",
+    "cylinder_radius": "105 mm",
+    "cylinder_length": "700 mm",
+    "cylinder_mass": "80 kg",
+    "cylinder_inertia": "0.973 kg*m**2",
+    "material_thickness": "0.6 mm",
+}
+LOSSLESS: dict[str, Any] = {
+    f"efficiency_{name}": 1 for name in ("sector", "gear", "four_bar", "bearings", "chain")
+}
+
+
+def inputs(mechanism: Mechanism, keys: dict[str, Any]) -> dict[str, Any]:
+    """The validated inputs of a mechanism in SI, as the engine takes them."""
+    return flatten(mechanism.inputs.model_validate(keys))
+
+
+def cylinder(**changes: Any) -> Calculation:
+    """The published cylinder with changes."""
+    return calculate(SIZING, inputs(SIZING, PUBLISHED_CYLINDER | changes))
+
+
+def drive(**changes: Any) -> Calculation:
+    """The published drive with changes."""
+    return calculate(DRIVE, inputs(DRIVE, PUBLISHED_DRIVE | changes))
+
+
+def number(calculation: Calculation, name: str) -> float:
+    """A number of a single machine, SI."""
+    return float(calculation[name][0, 0])

@@ -1,0 +1,218 @@
+"""The cylinder's drive against energy, finite differences, dense sampling and virtual work."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from diecut_report.contract.inputs import flatten
+from diecut_report.engine import Calculation, Impossible, calculate
+from diecut_report.plugins.cylinder_drive import MECHANISM
+from diecut_report.testing import check_mechanism
+from tests.machines import LOSSLESS, PUBLISHED_DRIVE, drive, inputs, number
+
+UNBALANCED: dict[str, Any] = {
+    "cylinder_mass": "80.9077 kg",
+    "cylinder_inertia": "0.63623 kg*m**2",
+    "static_unbalance": "1.97727 kg*m",
+    "cutting_arc_fraction": 0.712481,
+}
+
+
+def dense(calc: Calculation, curve: str, points: int = 200_001) -> np.ndarray:
+    """A curve at many places of the turn, each taken in the smooth piece that it lies in."""
+    phi = np.linspace(0, 2 * np.pi, points)[None, :]
+    domain = calc.domains["crank_angle"]
+    return calc.sample(curve, phi, np.concatenate([domain.middle_of(part) for part in np.array_split(phi, 50, axis=1)], axis=1))[0]
+
+
+@pytest.mark.parametrize("changes", [{}, UNBALANCED, UNBALANCED | {"sector_ratio": 5.0}, {"rocker_ratio": 3.0, "frame_ratio": 6}])
+def test_a_lossless_turn_takes_the_work_of_cutting_alone(changes: dict[str, Any]) -> None:
+    calc = drive(**LOSSLESS, **changes)
+    torque = dense(calc, "crank_torque")
+    work = np.sum((torque[1:] + torque[:-1]) / 2) * 2 * np.pi / (len(torque) - 1)
+    fraction, u, swing = (number(calc, n) for n in ("cutting_arc_fraction", "sector_ratio", "swing_angle"))
+    assert work == pytest.approx(2 * fraction * number(calc, "cutting_moment") * u * swing, rel=2e-4)
+    assert number(calc, "energy_residual") < 1e-12
+
+
+@pytest.mark.parametrize("changes", [{}, UNBALANCED])
+def test_means_and_extremes_are_those_of_dense_sampling(changes: dict[str, Any]) -> None:
+    calc = drive(**changes)
+    torque = dense(calc, "crank_torque")
+    assert number(calc, "crank_torque_max") == pytest.approx(torque.max(), rel=1e-4)
+    assert number(calc, "crank_torque_min") == pytest.approx(torque.min(), rel=1e-4)
+    assert number(calc, "crank_torque_max") >= torque.max() * (1 - 1e-12)
+    assert number(calc, "crank_torque_mean") == pytest.approx(torque[:-1].mean(), rel=1e-3)
+    assert number(calc, "crank_torque_rms") == pytest.approx(np.sqrt((torque[:-1] ** 2).mean()), rel=1e-4)
+
+
+@pytest.mark.parametrize("name", ["crank_torque_peak", "acceleration_max", "inertia_moment_max", "crank_torque_rms"])
+def test_results_do_not_depend_on_the_number_of_samples(name: str) -> None:
+    few, many = drive(**UNBALANCED, n_points=36), drive(**UNBALANCED, n_points=5000)
+    assert number(few, name) == pytest.approx(number(many, name), rel=1e-8)
+
+
+def test_velocity_and_acceleration_are_the_derivatives_of_the_displacement() -> None:
+    calc = drive()
+    phi = np.linspace(0.01, 6.2, 2001)
+    step, omega = phi[1] - phi[0], 100 * 2 * np.pi / 60
+    domain = calc.domains["crank_angle"]
+    s, v, w = (calc.sample(n, phi[None, :], domain.middle_of(phi[None, :]))[0] for n in ("displacement", "velocity", "acceleration"))
+    np.testing.assert_allclose((s[2:] - s[:-2]) / (2 * step) * omega, v[1:-1], atol=2e-5 * abs(v).max())
+    np.testing.assert_allclose((v[2:] - v[:-2]) / (2 * step) * omega, w[1:-1], atol=2e-5 * abs(w).max())
+
+
+def test_moment_of_inertia_forces_is_the_rate_of_the_cylinders_energy() -> None:
+    calc = drive(**UNBALANCED)
+    t = np.linspace(0.0, 0.59, 20_001)
+    phi = (t * 100 * 2 * np.pi / 60)[None, :]
+    mid = calc.domains["crank_angle"].middle_of(phi)
+    theta, rate, moment = (calc.sample(n, phi, mid)[0] for n in ("cylinder_rotation", "cylinder_speed", "inertia_moment"))
+    radius, mass, unbalance = 0.105, 80.9077, 1.97727
+    vx, vy = radius * rate + unbalance / mass * np.cos(theta) * rate, -unbalance / mass * np.sin(theta) * rate
+    about_center = 0.63623 - unbalance**2 / mass
+    energy = mass * (vx**2 + vy**2) / 2 + about_center * rate**2 / 2 + 9.80665 * unbalance * np.cos(theta)
+    power = np.gradient(energy, t)[2:-2]
+    np.testing.assert_allclose(power, (moment * rate)[2:-2], atol=1e-3 * np.abs(power).max())
+
+
+def test_losses_add_where_the_crank_drives_and_take_where_the_cylinder_drives() -> None:
+    ideal, real = drive(**LOSSLESS), drive()
+    efficiency = 0.96 * 0.95 * 0.99 * 0.95
+    without, with_losses = dense(ideal, "crank_torque", 5001), dense(real, "crank_torque", 5001)
+    expected = np.where(without >= 0, without / efficiency, without * efficiency)
+    np.testing.assert_allclose(with_losses, expected, rtol=1e-12, atol=1e-9)
+
+
+def test_reversals_are_where_the_densely_sampled_torque_changes_its_sign() -> None:
+    calc = drive(**UNBALANCED)
+    torque = dense(calc, "crank_torque")
+    phi = np.linspace(0, 2 * np.pi, len(torque))
+    changes = phi[:-1][np.sign(torque[:-1]) * np.sign(torque[1:]) < 0]
+    found = calc["torque_reversal"][0]
+    np.testing.assert_allclose(np.sort(found[np.isfinite(found)]), changes, atol=2 * phi[1])
+
+
+def test_the_coupler_force_turns_the_crank_with_the_torque_without_losses() -> None:
+    """Moment equilibrium of the crank, which was not used to find the coupler's force (that came from the rocker)."""
+    calc = drive(**LOSSLESS, **UNBALANCED, crank_length="120 mm")
+    phi = np.linspace(0, 2 * np.pi, 5001)
+    force, direction, torque = (dense(calc, n, 5001) for n in ("coupler_force", "coupler_direction", "crank_torque"))
+    np.testing.assert_allclose(-0.12 * force * np.sin(direction - phi), torque, atol=1e-9 * np.abs(torque).max())
+
+
+def test_tooth_force_and_sector_carry_the_moment() -> None:
+    calc = drive(pinion_radius="60 mm", pressure_angle="20 deg")
+    tangential, moment = dense(calc, "tooth_force", 2001), dense(calc, "total_moment", 2001)
+    np.testing.assert_allclose(tangential * 0.06, moment, atol=1e-9)
+    top = np.abs(tangential).max()
+    assert number(calc, "tooth_force_max") == pytest.approx(top, rel=1e-3)
+    assert number(calc, "tooth_normal_force_max") == pytest.approx(number(calc, "tooth_force_max") / np.cos(np.radians(20)))
+    assert number(calc, "sector_radius") == pytest.approx(0.06 * 2 * np.pi / number(calc, "swing_angle"))
+
+
+def lowest_point(radius: float, height: float, theta: np.ndarray) -> np.ndarray:
+    """Clearance over the die, from points all around the cut circle turned by theta from the flat's lowest position."""
+    around = np.linspace(-np.pi, np.pi, 20_001)
+    depth = np.where(np.abs(around) <= np.arccos(1 - height / radius), (radius - height) / np.cos(around), radius)
+    below = depth[None, :] * np.cos(around[None, :] - theta[:, None])
+    return radius - np.max(np.where(np.abs(around) < np.pi / 2 - 1e-9, below, -np.inf), axis=1)
+
+
+def test_the_carriages_window_is_where_the_turned_section_clears_the_die() -> None:
+    calc = drive(segment_height="40 mm", carriage_clearance="30 mm")
+    edge = number(calc, "clear_rotation")
+    inside, outside = lowest_point(0.105, 0.04, np.array([edge * 0.999, edge * 1.001]))
+    assert inside > 0.03 > outside
+    for name, sign in (("clearance_outer_start", -1), ("clearance_outer_end", 1)):
+        phi = np.array([[number(calc, name) % (2 * np.pi)]])
+        theta = calc.sample("cylinder_rotation", phi, phi)[0, 0]
+        rate = calc.sample("cylinder_speed", phi, phi)[0, 0]
+        assert theta == pytest.approx(edge, abs=1e-9)
+        assert np.sign(rate) == sign
+    for name in ("clearance_inner_start", "clearance_inner_end"):
+        phi = np.array([[number(calc, name)]])
+        assert 2 * np.pi - calc.sample("cylinder_rotation", phi, phi)[0, 0] == pytest.approx(edge, abs=1e-9)
+
+
+def test_without_a_full_turn_the_flat_does_not_come_down_at_the_inner_end() -> None:
+    calc = drive(segment_height="40 mm", carriage_clearance="30 mm", sector_ratio=5.5)
+    assert np.isnan(calc["clearance_inner_time"][0, 0])
+    assert np.isfinite(calc["clearance_outer_time"][0, 0])
+
+
+@pytest.mark.parametrize(
+    "changes, key, words",
+    [
+        ({"rocker_ratio": 0.5}, "rocker_ratio", "Grashof"),
+        ({"frame_ratio": 8}, "rocker_ratio", "frame_ratio = 8"),
+        ({"material_thickness": "105 mm"}, "material_thickness", "105 mm"),
+        ({"segment_height": "105 mm", "carriage_clearance": "20 mm"}, "segment_height", "lower than the radius"),
+        ({"segment_height": "20 mm", "carriage_clearance": "30 mm"}, "carriage_clearance", "20 mm"),
+    ],
+)
+def test_an_impossible_drive_is_refused_in_words(changes: dict[str, Any], key: str, words: str) -> None:
+    with pytest.raises(Impossible) as refused:
+        drive(**changes)
+    assert refused.value.key == key
+    assert words in refused.value.message
+
+
+def random_machines(count: int, seed: int) -> dict[str, np.ndarray]:
+    """Machines as a designer might vary them, a few of them impossible."""
+    draw = np.random.default_rng(seed)
+    return {
+        "frame_ratio": draw.uniform(4.6, 6.2, count),
+        "coupler_ratio": draw.uniform(4.6, 5.6, count),
+        "rocker_ratio": draw.uniform(1.9, 3.0, count),
+        "crank_speed": draw.uniform(3, 13, count),
+        "cylinder_mass": draw.uniform(40, 160, count),
+        "static_unbalance": draw.uniform(0, 3, count),
+        "cutting_arc_fraction": draw.uniform(0.3, 1.0, count),
+        "efficiency_four_bar": draw.uniform(0.6, 1.0, count),
+        "cutting_force_per_length": draw.uniform(0, 8e4, count),
+    }
+
+
+@pytest.mark.slow
+def test_a_thousand_variants_at_once_are_a_thousand_single_runs() -> None:
+    base = inputs(MECHANISM, PUBLISHED_DRIVE | {"n_points": 72})
+    varied = random_machines(1000, seed=7)
+    together = calculate(MECHANISM, base | varied, variants=1000)
+    names = [n for n, v in together.values.items() if v.shape == (1000, 1)]
+    assert 5 < len(together.flaws) < 500
+    torque = together.curve_samples("crank_torque")
+    for i in range(1000):
+        single = base | {name: float(values[i]) for name, values in varied.items()}
+        if i in together.flaws:
+            with pytest.raises(Impossible):
+                calculate(MECHANISM, single)
+            continue
+        alone = calculate(MECHANISM, single)
+        for name in names:
+            tolerance = 1e-7 if name.endswith("_at") else 1e-11
+            assert together[name][i, 0] == pytest.approx(number(alone, name), rel=tolerance, abs=1e-9 if "residual" in name else 1e-12)
+        np.testing.assert_allclose(torque[i], alone.curve_samples("crank_torque")[0], rtol=1e-11, atol=1e-9)
+        found, expected = together["torque_reversal"][i], alone["torque_reversal"][0]
+        np.testing.assert_allclose(found[np.isfinite(found)], expected[np.isfinite(expected)], atol=1e-9)
+
+
+@given(frame=st.floats(4.6, 6.2), coupler=st.floats(4.6, 5.6), rocker=st.floats(1.9, 3.0), fraction=st.floats(0.05, 1))
+@settings(max_examples=40, deadline=None)
+def test_the_energy_balance_holds_for_random_linkages(frame: float, coupler: float, rocker: float, fraction: float) -> None:
+    keys = PUBLISHED_DRIVE | UNBALANCED | {"frame_ratio": frame, "coupler_ratio": coupler, "rocker_ratio": rocker}
+    values = flatten(MECHANISM.inputs.model_validate(keys | {"cutting_arc_fraction": fraction}))
+    try:
+        calc = calculate(MECHANISM, values)
+    except Impossible:
+        return
+    assert number(calc, "energy_residual") < 1e-10
+
+
+def test_the_declaration_keeps_the_plugin_contract() -> None:
+    check_mechanism(MECHANISM)

@@ -1,0 +1,298 @@
+"""Units and quantities: the table against pint, spellings, dimensions, and the wording of refusals."""
+
+from __future__ import annotations
+
+import json
+import math
+import subprocess
+import sys
+from typing import Any
+
+import pint
+import pytest
+
+from diecut_report import units
+from diecut_report.units import UnitError, parse_quantity, pretty, to_display, unit
+
+TABLE: dict[str, Any] = json.loads(units.TABLE_FILE.read_text(encoding="utf-8"))
+PINT = pint.UnitRegistry()
+# In pint an angle is a pure number. A radian counts by its power in the root units, which pint keeps.
+DIMENSION_OF_ROOT_UNIT = {
+    "kilogram": "mass",
+    "gram": "mass",
+    "meter": "length",
+    "second": "time",
+    "kelvin": "temperature",
+    "ampere": "current",
+    "mole": "substance",
+    "candela": "luminosity",
+    "radian": "angle",
+}
+
+
+def measured_by_pint(text: str) -> tuple[float, dict[str, float]]:
+    """SI factor and non-zero exponents by pint's own registry, which counts no angle among its dimensions."""
+    in_si = PINT.Quantity(1.0, PINT.parse_units(text)).to_base_units()
+    exponents = {DIMENSION_OF_ROOT_UNIT[name]: float(power) for name, power in in_si.unit_items()}
+    return float(in_si.magnitude), exponents
+
+
+@pytest.mark.parametrize("text", [text for text in TABLE["units"] if text != "1"])
+def test_every_unit_of_the_table_agrees_with_pint(text: str) -> None:
+    factor, exponents = measured_by_pint(text)
+    found = unit(text)
+    assert found.text == text
+    assert found.factor == pytest.approx(factor, rel=1e-12)
+    assert {name: power for name, power in zip(units.DIMENSIONS, found.kind, strict=True) if power} == exponents
+
+
+@pytest.mark.parametrize("text", sorted({family["si"] for family in TABLE["families"]} - {"1"}))
+def test_every_si_unit_of_the_table_is_coherent(text: str) -> None:
+    assert measured_by_pint(text)[0] == 1.0
+    assert unit(text).factor == 1.0
+    assert unit(text).si == text
+
+
+@pytest.mark.parametrize("text", TABLE["units"])
+def test_a_unit_and_its_si_unit_are_of_one_kind(text: str) -> None:
+    assert unit(unit(text).si).kind == unit(text).kind
+
+
+@pytest.mark.parametrize(("spelling", "text"), TABLE["aliases"].items())
+def test_aliases_lead_into_the_table(spelling: str, text: str) -> None:
+    assert text in TABLE["units"]
+    assert unit(spelling) == unit(text)
+
+
+def test_aliases_that_pint_reads_mean_the_same_there() -> None:
+    read = {}
+    for spelling, text in TABLE["aliases"].items():
+        try:
+            read[spelling] = (measured_by_pint(spelling), measured_by_pint(text))
+        except pint.UndefinedUnitError:
+            continue
+    # pint reads "Nm" as a textile unit; "rev" and "r" are unknown to it or mean something else
+    wrong = {spelling for spelling, (one, other) in read.items() if one[0] != pytest.approx(other[0], rel=1e-12)}
+    assert wrong <= {"r/min", "Nm/rad"}
+    assert len(read) > 30
+
+
+@pytest.mark.parametrize(
+    ("spelling", "text"),
+    [
+        ("kg*m^2", "kg*m**2"),
+        ("kg·m²", "kg*m**2"),
+        ("kg m2", "kg*m**2"),
+        ("kgm²", "kg*m**2"),
+        ("N·m", "N*m"),
+        ("Nm", "N*m"),
+        ("kNm", "kN*m"),
+        ("Nmm", "N*mm"),
+        ("Nm/rad", "N*m/rad"),
+        ("m/s²", "m/s**2"),
+        ("m·s⁻²", "m/s**2"),
+        ("m s-2", "m/s**2"),
+        ("N/mm2", "N/mm**2"),
+        ("N / mm^2", "N/mm**2"),
+        ("°", "deg"),
+        ("°/s", "deg/s"),
+        ("µm", "um"),
+        ("μm", "um"),
+        (" mm ", "mm"),
+        ("J/(kg·K)", "J/(kg*K)"),
+        ("/h", "1/h"),
+        ("rev/h", "1/h"),
+        ("rev/min", "rpm"),
+        ("gmm", "g*mm"),
+    ],
+)
+def test_usual_spellings_mean_the_unit_of_the_table(spelling: str, text: str) -> None:
+    assert unit(spelling) == unit(text)
+    assert unit(spelling).text == text
+
+
+def test_a_glued_product_in_a_denominator_stays_there() -> None:
+    assert unit("1/Nm").kind == tuple(-exponent for exponent in unit("N*m").kind)
+
+
+@pytest.mark.parametrize(
+    ("value", "display", "expected"),
+    [
+        (40, "mm", 0.04),
+        (470.7, "mm", 0.4707),
+        ("40", "mm", 0.04),
+        ("0.07 m", "mm", 0.07),
+        ("700mm", "mm", 0.7),
+        ("21 kN", "N", 21000.0),
+        ("0.3 MPa", "Pa", 3e5),
+        ("60 deg", "deg", math.pi / 3),
+        ("60°", "rad", math.pi / 3),
+        ("50 rpm", "rad/s", 50 * 2 * math.pi / 60),
+        (50, "rpm", 50 * 2 * math.pi / 60),
+        ("6000 1/h", "1/h", 6000 / 3600),
+        ("100 1/min", "1/h", 100 / 60),
+        ("6000/h", "1/h", 6000 / 3600),
+        ("6000 rev/h", "1/h", 6000 / 3600),
+        ("1e5", "N", 1e5),
+        ("1e5 N/mm**2", "Pa", 1e11),
+        ("2.1e+5 MPa", "MPa", 2.1e11),
+        (".5 m", "m", 0.5),
+        ("−5 mm", "mm", -0.005),
+        ("+5 mm", "mm", 0.005),
+        ("30 %", "1", 0.3),
+        ("12 kgf", "N", 12 * 9.80665),
+        ("5 kJ", "N*m", 5000.0),
+        ("2 in", "mm", 0.0508),
+        ("40*mm", "mm", 0.04),
+    ],
+)
+def test_a_quantity_becomes_si(value: float | str, display: str, expected: float) -> None:
+    assert parse_quantity(value, display) == pytest.approx(expected, rel=1e-15)
+
+
+@pytest.mark.parametrize(("typed", "expected"), [("470.7 mm", 0.4707), ("0.6 mm", 0.0006), ("7.3 um", 7.3e-6)])
+def test_decimal_prefixes_keep_the_typed_digits(typed: str, expected: float) -> None:
+    assert parse_quantity(typed, "m") == expected
+
+
+@pytest.mark.parametrize(
+    ("value", "display", "message"),
+    [
+        ("12 kg", "rpm", "12 kg is a mass; an angular speed is needed, for example 50 rpm."),
+        ("50 1/min", "rpm", "50 1/min is a frequency; an angular speed is needed, for example 50 rpm."),
+        ("50 rpm", "1/h", "50 rpm is an angular speed; a frequency is needed, for example 6000 1/h."),
+        ("5 N*m", "N*m/rad", "5 N*m is a moment; an angular stiffness is needed, for example 5000 N*m/rad."),
+        ("5 mm", "1", "5 mm is a length; a pure number is needed, for example 0.5."),
+        ("5 rad", "1", "5 rad is an angle; a pure number is needed, for example 0.5."),
+        ("3 cd", "mm", "3 cd is a quantity in cd; a length is needed, for example 40 mm."),
+    ],
+)
+def test_another_dimension_is_refused_with_an_example(value: str, display: str, message: str) -> None:
+    with pytest.raises(UnitError) as caught:
+        parse_quantity(value, display)
+    assert str(caught.value) == message
+
+
+@pytest.mark.parametrize("value", ["1,5 mm", "1,000 mm", "1,000.5 mm", "0, 5"])
+def test_a_comma_is_refused(value: str) -> None:
+    with pytest.raises(UnitError, match="holds a comma; write a decimal point and no thousands separator"):
+        parse_quantity(value, "mm")
+
+
+@pytest.mark.parametrize(
+    "value", [math.nan, math.inf, -math.inf, "nan", ".nan", "inf mm", ".inf", "1e400", "1e308 km", 10**400, "", "mm"]
+)
+def test_what_is_no_finite_number_is_refused(value: float | str) -> None:
+    with pytest.raises(UnitError, match="finite number|too large"):
+        parse_quantity(value, "mm")
+
+
+@pytest.mark.parametrize("value", ["1 000 mm", "2*3 mm", "5 - 3 mm"])
+def test_several_numbers_are_refused(value: str) -> None:
+    with pytest.raises(UnitError, match="is not one number and a unit; a length is needed, for example 40 mm"):
+        parse_quantity(value, "mm")
+
+
+@pytest.mark.parametrize("value", [True, False])
+def test_a_boolean_is_no_quantity(value: bool) -> None:
+    with pytest.raises(UnitError, match=f"{str(value).lower()} is not a quantity; a length is needed"):
+        parse_quantity(value, "mm")
+
+
+@pytest.mark.parametrize(
+    ("text", "suggestion"), [("KN", "kN"), ("Mpa", "MPa"), ("RPM", "rpm"), ("N*mn", "N*m"), ("kg/m**33", "kg/m**3")]
+)
+def test_an_unknown_unit_is_refused_with_a_near_one(text: str, suggestion: str) -> None:
+    with pytest.raises(UnitError) as caught:
+        unit(text)
+    assert f"{text!r} is not a known unit. Did you mean {suggestion}?" in str(caught.value)
+
+
+def test_an_unknown_unit_of_a_quantity_says_what_is_needed() -> None:
+    with pytest.raises(UnitError) as caught:
+        parse_quantity("5 Mpa", "MPa")
+    assert str(caught.value) == (
+        "'Mpa' is not a known unit. Did you mean MPa? A pressure or stress is needed, for example 0.3 MPa."
+    )
+
+
+@pytest.mark.parametrize(
+    "text", ["(((", "m**", "m**0.5", "m**999999999", "x" * 100_000, "blurb", "", "2", "pixel", "dB"]
+)
+def test_what_is_no_unit_is_refused_at_once(text: str) -> None:
+    with pytest.raises(UnitError, match="is not a known unit"):
+        unit(text)
+
+
+@pytest.mark.parametrize("text", ["degC", "°C", "degF"])
+def test_a_unit_without_fixed_zero_is_refused(text: str) -> None:
+    with pytest.raises(UnitError, match="has no fixed zero; give a temperature difference in K"):
+        unit(text)
+
+
+@pytest.mark.parametrize(
+    ("text", "factor", "si"),
+    [
+        ("yard", 0.9144, "m"),
+        ("lbf*ft", 4.4482216152605 * 0.3048, "N*m"),
+        ("kg*m**2/s", 1.0, "kg*m**2/s"),
+        ("turn/hour", 2 * math.pi / 3600, "rad/s"),
+        ("N/A", 1.0, "kg*m/s**2/A"),
+    ],
+)
+def test_units_outside_the_table_are_read_by_pint(text: str, factor: float, si: str) -> None:
+    assert text not in TABLE["units"]
+    found = unit(text)
+    assert found.factor == pytest.approx(factor, rel=1e-14)
+    assert found.si == si
+
+
+@pytest.mark.parametrize("text", TABLE["units"])
+def test_display_is_the_inverse_of_parsing(text: str) -> None:
+    assert to_display(parse_quantity(12.5, text), text) == pytest.approx(12.5, rel=1e-15)
+
+
+@pytest.mark.parametrize(("value", "text", "expected"), [(0.105, "mm", 105.0), (0.0006, "mm", 0.6), (2e4, "kN", 20.0)])
+def test_display_values_have_no_stray_digits(value: float, text: str, expected: float) -> None:
+    assert to_display(value, text) == expected
+
+
+@pytest.mark.parametrize(
+    ("text", "printed"),
+    [
+        ("kg*m**2", "kg·m²"),
+        ("N/mm", "N/mm"),
+        ("deg", "°"),
+        ("deg/s", "°/s"),
+        ("1/h", "1/h"),
+        ("1", ""),
+        ("%", "%"),
+        ("m/s**2", "m/s²"),
+        ("um", "µm"),
+        ("J/(kg*K)", "J/(kg·K)"),
+        ("mm**4", "mm⁴"),
+        ("rev/s", "rev/s"),
+        ("kg*s**-12", "kg·s⁻¹²"),
+    ],
+)
+def test_pretty_units(text: str, printed: str) -> None:
+    assert pretty(text) == printed
+
+
+def test_every_printed_unit_is_read_back() -> None:
+    assert [text for text in TABLE["units"] if text != "1" and unit(pretty(text)) != unit(text)] == []
+
+
+def test_everyday_units_do_without_pint() -> None:
+    script = """
+import sys
+from diecut_report.units import parse_quantity, pretty
+assert parse_quantity("21 kN·m", "N*m") == 21000.0
+assert parse_quantity("100 1/min", "1/h") > 1.6
+assert pretty("kg*m**2") == "kg·m²"
+print("pint" in sys.modules)
+parse_quantity("1 furlong", "m")
+print("pint" in sys.modules)
+"""
+    run = subprocess.run([sys.executable, "-X", "utf8", "-c", script], capture_output=True, text=True, check=True)
+    assert run.stdout.split() == ["False", "True"]
