@@ -229,7 +229,7 @@ def flatten(block: Block, prefix: str = "") -> dict[str, Any]:
     for name in type(block).model_fields:
         value = getattr(block, name)
         match value:
-            case None:
+            case None | []:
                 continue
             case Block():
                 flat |= {prefix + name: True} | flatten(value, f"{prefix}{name}.")

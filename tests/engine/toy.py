@@ -1,0 +1,215 @@
+"""A made-up mechanism that uses everything the plugin contract can say."""
+
+from __future__ import annotations
+
+from typing import Any, Literal
+
+import numpy as np
+
+from diecut_report.api import (
+    Abscissa,
+    Annotated,
+    Block,
+    Breakpoints,
+    Case,
+    Check,
+    Choice,
+    Crossings,
+    CurveInput,
+    FromCurve,
+    Inputs,
+    Mechanism,
+    Pick,
+    Quantity,
+    Reduction,
+    Require,
+    Root,
+    Section,
+    Text,
+    Total,
+    Value,
+    bind,
+    formula,
+    prefixed,
+)
+
+
+class Pair(Block):
+    driver_teeth: Annotated[int, Quantity("z_1", "1", "Teeth of the driver", ge=12, integer=True)]
+    driven_teeth: Annotated[int, Quantity("z_2", "1", "Teeth of the driven gear", ge=12, integer=True)]
+    efficiency: Annotated[float, Quantity("η", "1", "Efficiency", gt=0, le=1)] = 0.97
+
+
+class Spring(Block):
+    stiffness: Annotated[float, Quantity("c", "N/mm", "Stiffness", gt=0)]
+
+
+class Toy(Inputs):
+    force: Annotated[float, Quantity("F", "kN", "Force", gt=0)] = 2
+    arm: Annotated[float, Quantity("a", "mm", "Arm", gt=0, lt=1000)] = 100
+    step_angle: Annotated[float, Quantity("φ_s", "deg", "Place of the step", ge=0, lt=360)] = 120
+    gears: Annotated[list[Pair], Text("Gear pairs")] = []
+    spring: Annotated[Spring | None, Text("Spring, if there is one")] = None
+    torque_curve: Annotated[Any, CurveInput("M", "N*m", "Torque over a turn")] = None
+    grade: Annotated[Literal["fine", "coarse"], Text("Grade of the toy")] = "fine"
+    n_points: Annotated[int, Quantity("N", "1", "Samples", ge=36, le=100_000, integer=True)] = 90
+
+
+@formula
+def moment(force: Any, arm: Any) -> Any:
+    return force * arm
+
+
+@formula
+def wave(place: Any, moment: Any, on: Any) -> Any:
+    return moment * (np.sin(place) + on)
+
+
+@formula
+def is_on(place: Any, step_angle: Any) -> Any:
+    return place >= step_angle
+
+
+@formula
+def one() -> Any:
+    return 1
+
+
+@formula
+def zero() -> Any:
+    return 0
+
+
+@formula
+def ratio(driver_teeth: Any, driven_teeth: Any) -> Any:
+    return driven_teeth / driver_teeth
+
+
+@formula
+def cube(x: Any, force: Any) -> Any:
+    return x**3 - force
+
+
+@formula
+def cubed(x: Any) -> Any:
+    return x * x * x
+
+
+@formula
+def same(quantity: Any) -> Any:
+    return quantity
+
+
+@formula
+def plus_one(force: Any) -> Any:
+    return 1 + force
+
+
+@formula
+def heavy(force: Any) -> Any:
+    return force > 5000
+
+
+@formula
+def sag(force: Any, stiffness: Any) -> Any:
+    return force / stiffness
+
+
+@formula
+def doubled(moment: Any) -> Any:
+    return 2 * moment
+
+
+@formula
+def is_light(moment: Any) -> Any:
+    return moment < 500
+
+
+@formula
+def shorter(arm: Any, limit: Any) -> Any:
+    return arm < limit
+
+
+FAMILY = (
+    Value(id="load", symbol="F", unit="kN", description="Load of the variant", formula=bind(same, quantity="force")),
+    Value(id="load_moment", symbol="M", unit="N*m", description="Its moment", formula=bind(moment, force="load")),
+)
+
+MECHANISM = Mechanism(
+    kind="toy",
+    version="1",
+    title="Toy",
+    summary="Everything that can be said.",
+    inputs=Toy,
+    sections=(
+        Section(
+            "Numbers",
+            steps=(
+                Value(id="moment", symbol="M_0", unit="N*m", description="Moment", formula=moment),
+                Require(id="arm_limit", condition=bind(shorter, limit=0.5), key="arm", message="is {arm}, too long for {force}"),
+                Value(id="twice", symbol="2M_0", unit="N*m", description="Doubled, where it is light", formula=doubled, exists=is_light),
+                Choice(id="verdict", symbol="v", description="In words",
+                       cases=(Case("heavy", "F > 5 kN", heavy), Case("light", "F ≤ 5 kN"))),
+                Pick(id="rated", symbol="M_r", unit="N*m", description="Rated moment", of="moment", rule="above", series=(100, 200, 400, 800)),
+                *prefixed("first_", FAMILY, shared=()),
+                *prefixed("second_", FAMILY, shared=()),
+            ),
+        ),
+        Section(
+            "Gears",
+            needs=("gears",),
+            absent="no gears are given",
+            steps=(
+                Value(id="pair_ratio", symbol="i", description="Ratio of the pair",
+                      formula=bind(ratio, driver_teeth="gears.driver_teeth", driven_teeth="gears.driven_teeth")),
+                Total(id="total_ratio", symbol="i_Σ", description="Total ratio", of="pair_ratio", operation="product"),
+                Total(id="total_teeth", symbol="z_Σ", description="Teeth of all drivers", of="gears.driver_teeth", operation="sum"),
+            ),
+        ),
+        Section("Spring", needs=("spring",), absent="no spring is given",
+                steps=(Value(id="sag", symbol="f", unit="mm", description="Sag", formula=bind(sag, stiffness="spring.stiffness")),)),
+        Section(
+            "Curve",
+            steps=(
+                Abscissa(id="place", symbol="φ", unit="deg", description="Place", period=2 * np.pi),
+                Breakpoints(id="step", abscissa="place", places=("step_angle",)),
+                Choice(id="on", symbol="s", description="Switched", per_piece=True, output=False,
+                       cases=(Case(one, "after the step", is_on), Case(zero, "before the step"))),
+                Value(id="torque", symbol="M", unit="N*m", description="Torque", formula=wave),
+                Reduction(id="torque_max", symbol="M_max", unit="N*m", description="Greatest torque", of="torque", operation="max"),
+                Reduction(id="torque_min", symbol="M_min", unit="N*m", description="Least torque", of="torque", operation="min"),
+                Reduction(id="torque_range", symbol="ΔM", unit="N*m", description="Range", of="torque", operation="range"),
+                Reduction(id="torque_mean", symbol="M_m", unit="N*m", description="Mean", of="torque", operation="mean"),
+                Reduction(id="torque_rms", symbol="M_q", unit="N*m", description="Root mean square", of="torque", operation="rms"),
+                Reduction(id="work", symbol="W", unit="J", description="Work", of="torque", operation="integral"),
+                Crossings(id="turns", symbol="φ_0", unit="deg", description="Changes of sign", of="torque"),
+            ),
+        ),
+        Section("Taken over", needs=("torque_curve",),
+                steps=(FromCurve(id="taken", symbol="M_t", unit="N*m", description="Torque taken over", given="torque_curve", abscissa="place"),
+                       Reduction(id="taken_max", symbol="M_tmax", unit="N*m", description="Its greatest value", of="taken", operation="max"),
+                       Reduction(id="taken_mean", symbol="M_tm", unit="N*m", description="Its mean", of="taken", operation="mean"))),
+    ),
+    checks=(Check(id="rated", title="Rated", demand="moment", limit="rated", unit="N*m", demand_label="moment", limit_label="rated",
+                  consequence="take a greater one."),
+            Check(id="light", title="Light", demand="twice", limit=900.0, unit="N*m", demand_label="twice", limit_label="most",
+                  consequence="too much.", severity="warn", operator="<")),
+)  # fmt: skip
+
+
+ROOTED = Mechanism(
+    kind="rooted",
+    version="1",
+    title="A root",
+    summary="A number found.",
+    inputs=Toy,
+    sections=(
+        Section(
+            "Root",
+            steps=(
+                Root(id="x", symbol="x", description="Cube root", equation=cube, unknown="x", low=bind(zero), high=plus_one,
+                     left=cubed, right=bind(same, quantity="force")),
+            ),
+        ),
+    ),
+)  # fmt: skip
