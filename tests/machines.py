@@ -29,6 +29,13 @@ LOSSLESS: dict[str, Any] = {
     f"efficiency_{name}": 1 for name in ("sector", "gear", "four_bar", "bearings", "chain")
 }
 
+UNBALANCED: dict[str, Any] = {
+    "cylinder_mass": "80.9077 kg",
+    "cylinder_inertia": "0.63623 kg*m**2",
+    "static_unbalance": "1.97727 kg*m",
+    "cutting_arc_fraction": 0.712481,
+}
+
 
 def inputs(mechanism: Mechanism, keys: dict[str, Any]) -> dict[str, Any]:
     """The validated inputs of a mechanism in SI, as the engine takes them."""

@@ -13,14 +13,7 @@ from diecut_report.contract.inputs import flatten
 from diecut_report.engine import Calculation, Impossible, calculate
 from diecut_report.plugins.cylinder_drive import MECHANISM
 from diecut_report.testing import check_mechanism
-from tests.machines import LOSSLESS, PUBLISHED_DRIVE, drive, inputs, number
-
-UNBALANCED: dict[str, Any] = {
-    "cylinder_mass": "80.9077 kg",
-    "cylinder_inertia": "0.63623 kg*m**2",
-    "static_unbalance": "1.97727 kg*m",
-    "cutting_arc_fraction": 0.712481,
-}
+from tests.machines import LOSSLESS, PUBLISHED_DRIVE, UNBALANCED, drive, inputs, number
 
 
 def dense(calc: Calculation, curve: str, points: int = 200_001) -> np.ndarray:

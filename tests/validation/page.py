@@ -1,0 +1,47 @@
+"""Makes docs/validation.md from the rows that the tests check: ``python -m tests.validation.page``."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+from diecut_report.engine.printing import number_text
+from tests.validation import source_000
+from tests.validation.rows import Row
+
+PAGE = Path(__file__).parents[2] / "docs" / "validation.md"
+
+HEAD = """# Validation: what the papers print, and what the program computes
+
+Made from the rows in `tests/validation/` by `python -m tests.validation.page`; the tests check each of them.
+A number *agrees* when ours rounds to the printed one. For a *mistake* the test follows the source's own arithmetic to the
+printed number, so that its reason is known and not guessed.
+
+"""
+
+
+def shown(row: Row, value: float) -> str:
+    """A number with four significant digits in the row's unit."""
+    power = int(row.printed.partition("e")[2] or 0)
+    return number_text(value / 10.0**power) + (f"e{power}" if power else "")
+
+
+def line(row: Row) -> str:
+    """A row of the table."""
+    return f"| {row.place} | {row.quantity} | {row.printed} | {shown(row, row.ours())} | {row.unit} | {row.verdict} | {row.why} |"
+
+
+def page() -> str:
+    """The whole page."""
+    title, _, source = (source_000.__doc__ or "").partition("\n\n")
+    table = [
+        "| place | quantity | printed | computed | unit | verdict | why |",
+        "| --- | --- | --- | --- | --- | --- | --- |",
+        *map(line, source_000.ROWS),
+    ]
+    paragraph = " ".join(source.split())
+    return HEAD + f"## 000\n\n{title.strip()} {paragraph}\n\n" + "\n".join(table) + "\n"
+
+
+if __name__ == "__main__":
+    PAGE.parent.mkdir(exist_ok=True)
+    PAGE.write_text(page(), encoding="utf-8")

@@ -1,0 +1,39 @@
+"""What a validation row is: a number that a source prints, ours, and why they differ; test and documentation read it."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import Literal
+
+Verdict = Literal["agrees", "mistake", "cannot be reproduced"]
+
+
+@dataclass(frozen=True)
+class Row:
+    """A printed number.
+
+    ``printed`` is its text, in ``unit``, as the source prints it (the last digit tells how it was rounded);
+    ``ours`` computes it with the program (SI · ``scale``); ``by_source`` follows the source's own, mistaken arithmetic to
+    the printed number, where that can be found out; ``why`` tells the reader the reason of a difference.
+    """
+
+    place: str
+    quantity: str
+    printed: str
+    unit: str
+    ours: Callable[[], float]
+    verdict: Verdict = "agrees"
+    by_source: Callable[[], float] | None = None
+    why: str = ""
+
+    @property
+    def rounding(self) -> float:
+        """Half a unit of the last printed digit."""
+        mantissa, _, exponent = self.printed.partition("e")
+        decimals = len(mantissa.partition(".")[2])
+        return 0.5 * 10.0 ** (int(exponent or 0) - decimals)
+
+    def reproduces(self, value: float) -> bool:
+        """Whether a value rounds to the printed number."""
+        return abs(value - float(self.printed)) <= self.rounding * (1 + 1e-9)
