@@ -123,7 +123,7 @@ def _formula(calc: Calculation, part: Bound, step: Step, axis: str | None) -> It
     flag = isinstance(step, Value | Choice) and step.per_piece
     substitution = Substitution(calc, part, lambda name: value_at(calc, name, axis, flag=flag))
     takes = [name for name in part.names.values() if isinstance(name, str)]
-    numeric = substitution.numeric(target, step.unit) if takes else None
+    numeric = substitution.numeric(target, step.unit, step.digits) if takes else None
     item: Item = {"equation": substitution.symbolic().to_json(), "substituted": numeric and numeric.to_json()}
     if takes and numeric is None:
         item["note"] = "the terms are equal up to the rounding of the computer"

@@ -81,7 +81,7 @@ class Substitution:
             return leaf
         return Node("sym", (self.calc.step_or_input(name).symbol,)) if isinstance(name, str) else Node("num", (f"{name:g}",))
 
-    def numeric(self, target: float, display: str) -> Node | None:
+    def numeric(self, target: float, display: str, result_digits: int) -> Node | None:
         """The expression with numbers and units; computed as printed it gives ``target`` (SI) as printed in ``display``.
 
         None where the target is a difference of equal terms, rounding alone: no number of digits would show it.
@@ -92,7 +92,7 @@ class Substitution:
             tree = self._with_numbers(self.part.formula.tree, digits, angle=False)
             with np.errstate(all="ignore"):
                 again = float(evaluate(tree, self._printed_value))
-            if math.isfinite(again) and self._agrees(tree, again, target, display):
+            if math.isfinite(again) and self._agrees(tree, again, target, (display, result_digits)):
                 return tree
         raise ArithmeticError(f"formula {self.part.formula.__name__} does not give {target!r} when computed as printed")
 
@@ -104,8 +104,8 @@ class Substitution:
                 return tree
         raise ArithmeticError(f"condition {self.part.formula.__name__} does not come out as printed")
 
-    def _agrees(self, tree: Node, again: float, target: float, display: str) -> bool:
-        return shown(again, display) == shown(target, display) or abs(again - target) <= 1e-11 * self._size(tree)
+    def _agrees(self, tree: Node, again: float, target: float, form: tuple[str, int]) -> bool:
+        return shown(again, *form) == shown(target, *form) or abs(again - target) <= 1e-11 * self._size(tree)
 
     def _size(self, tree: Node) -> float:
         """The size of the terms that a result is the sum of: what its rounding is to be judged by."""
