@@ -51,7 +51,9 @@ def mechanism_results(calc: Calculation, provenance: Mapping[str, Provenance]) -
         "warnings": [c["message"] for c in checks if c["status"] == "warn"],
         "sections": section_items(calc),
         "absent": [
-            {"title": s.title, "text": s.absent} for s in mechanism.sections if s.absent and not calc.given.issuperset(s.needs)
+            {"title": s.title, "text": s.absent}
+            for s in mechanism.sections
+            if s.absent and not calc.given.issuperset(s.needs)
         ],
         "figures": figures(calc),
         "errata": [{"source": e.source, "text": e.text, "touches": list(e.touches)} for e in mechanism.errata],
@@ -80,7 +82,11 @@ def inputs(calc: Calculation, provenance: Mapping[str, Provenance]) -> Data:
 
 def _origin(provenance: Provenance | None) -> Data:
     known = provenance or Provenance("default")
-    return {"origin": known.origin} | ({"path": known.path} if known.path else {}) | ({"text": known.text} if known.text else {})
+    return (
+        {"origin": known.origin}
+        | ({"path": known.path} if known.path else {})
+        | ({"text": known.text} if known.text else {})
+    )
 
 
 def _input(meta: Any, value: Any) -> Data:
@@ -135,7 +141,11 @@ def _number(step: Step, value: Any) -> Data:
         return {"value": value, "unit": "1"} | said | {"display": {"text": value, "unit": "1"}}
     if isinstance(value, bool | np.bool_):
         return {"value": bool(value), "unit": "1"} | said | {"display": {"text": "yes" if value else "no", "unit": "1"}}
-    return {"value": float(value), "unit": unit(step.unit).si} | said | {"display": shown(float(value), step.unit, step.digits)}
+    return (
+        {"value": float(value), "unit": unit(step.unit).si}
+        | said
+        | {"display": shown(float(value), step.unit, step.digits)}
+    )
 
 
 def curves(calc: Calculation) -> Data:
@@ -169,7 +179,12 @@ def _limits(calc: Calculation, name: str) -> Data:
     after = calc.sample(name, starts, middles, first)[0]
     before = calc.sample(name, ends, middles, first)[0]
     places = starts[0, 1:]
-    return {"abscissa": calc.axis[name], "breakpoints": places.tolist(), "left": before[:-1].tolist(), "right": after[1:].tolist()}
+    return {
+        "abscissa": calc.axis[name],
+        "breakpoints": places.tolist(),
+        "left": before[:-1].tolist(),
+        "right": after[1:].tolist(),
+    }
 
 
 def check_results(calc: Calculation) -> list[Data]:
@@ -181,13 +196,17 @@ def _applies(calc: Calculation, check: Check) -> bool:
     """A check is left out where an optional input of it is not given, or what it judges is absent."""
     sides = [side for side in (check.demand, check.limit) if isinstance(side, str)]
     there = all(side in calc.values or side in calc.inputs for side in sides) and calc.given.issuperset(check.needs)
-    return there and not any(calc.steps[s].exists is not None and np.isnan(calc[s][0, 0]) for s in sides if s in calc.steps)
+    return there and not any(
+        calc.steps[s].exists is not None and np.isnan(calc[s][0, 0]) for s in sides if s in calc.steps
+    )
 
 
 def sides(calc: Calculation, check: Check) -> tuple[Any, Any]:
     """Demand and limit of all variants, SI, each of shape (variants, 1)."""
     factor = unit(check.unit).factor
-    demand, limit = (calc[s] if isinstance(s, str) else np.full((calc.count, 1), s * factor) for s in (check.demand, check.limit))
+    demand, limit = (
+        calc[s] if isinstance(s, str) else np.full((calc.count, 1), s * factor) for s in (check.demand, check.limit)
+    )
     return demand, limit
 
 

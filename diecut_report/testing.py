@@ -85,7 +85,7 @@ def dimensions(mechanism: Mechanism) -> Iterator[str]:
             yield f"{step.id}: {link.formula.__name__}: {error}"
             continue
         wanted = _wanted(step, part, units)
-        if wanted is None or not isinstance(result, pint.Quantity) and result == 0:
+        if wanted is None or (not isinstance(result, pint.Quantity) and result == 0):
             continue
         if not REGISTRY.Quantity(result).check(REGISTRY.Quantity(1, wanted).dimensionality):
             yield f"{step.id}: {link.formula.__name__} gives {REGISTRY.Quantity(result).units}, declared is {wanted}"

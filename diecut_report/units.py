@@ -12,6 +12,7 @@ import json
 import math
 import re
 from dataclasses import dataclass
+from decimal import Decimal
 from functools import cache, lru_cache
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -44,21 +45,23 @@ class Unit:
     kind: Kind
 
     def to_si(self, value: float) -> float:
-        """SI value of `value` units."""
-        inverse = _whole_inverse(self.factor)
-        return value / inverse if inverse else value * self.factor
+        """SI value of `value` units, rounded once: 7.3 um give 7.3e-06 m, not 7.2999999999999996e-06."""
+        multiplier, divisor = _ratio(self.factor)
+        return float(Decimal(repr(float(value))) * multiplier / divisor)
 
     def from_si(self, value: float) -> float:
-        """Number of units in an SI value."""
-        inverse = _whole_inverse(self.factor)
-        return value * inverse if inverse else value / self.factor
+        """Number of units in an SI value, rounded once."""
+        multiplier, divisor = _ratio(self.factor)
+        return float(Decimal(repr(float(value))) * divisor / multiplier)
 
 
 @cache
-def _whole_inverse(factor: float) -> int:
-    # 470.7 / 1000 is the float nearest to 0.4707, 470.7 * 0.001 is not: whole divisors keep typed digits intact.
+def _ratio(factor: float) -> tuple[Decimal, Decimal]:
+    # 1/60 and 1/3600 have no short decimal form, but their inverse has.
     inverse = round(1.0 / factor) if factor < 1.0 else 0
-    return inverse if inverse and 1.0 / inverse == factor else 0
+    return (
+        (Decimal(1), Decimal(inverse)) if inverse and 1.0 / inverse == factor else (Decimal(repr(factor)), Decimal(1))
+    )
 
 
 @cache

@@ -113,7 +113,7 @@ def load(path: Path) -> Tree:
         text = raw.decode("utf-8-sig")
     except UnicodeDecodeError as error:
         line = raw.count(b"\n", 0, error.start) + 1
-        _refuse(str(path), "The file is not UTF-8 text. Give a YAML file, saved as UTF-8.", (line, None))
+        _refuse(path, "The file is not UTF-8 text. Give a YAML file, saved as UTF-8.", line)
     return _parse(text, str(path), hashlib.sha256(raw).hexdigest())
 
 
@@ -122,8 +122,8 @@ def parse(text: str, file: str) -> Tree:
     return _parse(text, file, hashlib.sha256(text.encode("utf-8")).hexdigest())
 
 
-def _refuse(file: str, message: str, place: tuple[int | None, int | None] = (None, None)) -> NoReturn:
-    raise UserError(Problem(message, file, *place))
+def _refuse(path: Path, message: str, line: int | None = None) -> NoReturn:
+    raise UserError(Problem(message, str(path), line))
 
 
 def _read(path: Path) -> bytes:
@@ -131,28 +131,27 @@ def _read(path: Path) -> bytes:
         status = path.stat()
         if not stat.S_ISREG(status.st_mode):
             found = "a folder" if stat.S_ISDIR(status.st_mode) else "not a regular file"
-            _refuse(str(path), f"This is {found}. Give a YAML file.")
+            _refuse(path, f"This is {found}. Give a YAML file.")
         raw = b""
         if status.st_size <= MAX_BYTES:
             with path.open("rb") as stream:
                 raw = stream.read(MAX_BYTES + 1)  # bounded too: a file may grow, and some system files state no size
     except FileNotFoundError:
-        _refuse(str(path), "There is no such file. Check the name and the folder.")
+        _refuse(path, "There is no such file. Check the name and the folder.")
     except OSError as error:
-        _refuse(str(path), f"The file cannot be read: {error.strerror or error}. Check its name and its permissions.")
+        _refuse(path, f"The file cannot be read: {error.strerror or error}. Check its name and its permissions.")
     size = max(status.st_size, len(raw))
     if size > MAX_BYTES:
-        _refuse(str(path), f"The file is too large: {size / 1e6:.1f} MB; at most {MAX_BYTES / 1e6:g} MB are allowed.")
+        _refuse(path, f"The file is too large: {size / 1e6:.1f} MB; at most {MAX_BYTES / 1e6:g} MB are allowed.")
     return raw
 
 
 def _parse(text: str, file: str, sha256: str) -> Tree:
-    control = _CONTROL.search(text)
-    if control:
+    if control := _CONTROL.search(text):
         before = text[: control.start()]
         place = before.count("\n") + 1, len(before) - before.rfind("\n")
         message = f"The control character U+{ord(control[0]):04X} stands here; this is no YAML text. Give a text file."
-        _refuse(file, message, place)
+        raise UserError(Problem(message, file, *place))
     builder = _Builder(file)
     try:
         root = builder.build(yaml.parse(text, Loader=_LOADER))
@@ -231,14 +230,14 @@ class _Builder:
     def _count(self, more: int, event: Any, path: KeyPath) -> None:
         self._values += more
         if self._values > MAX_VALUES:
-            message = f"More than {MAX_VALUES} values, those repeated by aliases (*name) included. Write fewer."
+            message = f"More than {MAX_VALUES} values, with those that aliases (*name) repeat. Write fewer."
             self._stop(message, _position(event), path)
 
     def _refuse_tag(self, event: Any, path: KeyPath) -> None:
         if event.tag is not None:
             tag = event.tag.replace("tag:yaml.org,2002:", "!!")
-            message = f"The tag {tag} is not allowed. Remove it; put the value in quotes where text is meant."
-            self._report(message, _position(event), path)
+            advice = "Remove it; put the value in quotes where text is meant."
+            self._report(f"The tag {tag} is not allowed. {advice}", _position(event), path)
 
     def _alias(self, event: Any, path: KeyPath) -> Node:
         name, place = event.anchor, _position(event)

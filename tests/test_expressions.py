@@ -60,7 +60,9 @@ def test_the_tree_computes_what_the_function_computes() -> None:
 
 
 def test_the_tree_of_a_called_formula_stands_in_place_of_the_call() -> None:
-    assert "call" not in [node[0] for node in chained.tree.to_json()[1:] if isinstance(node, list) and node[0] == "segment_area"]
+    assert "call" not in [
+        node[0] for node in chained.tree.to_json()[1:] if isinstance(node, list) and node[0] == "segment_area"
+    ]
     assert symbols(chained.tree) == ["a", "b", "c"]
 
 
@@ -72,7 +74,9 @@ def test_a_formula_takes_arrays_of_variants() -> None:
 @pytest.mark.parametrize("torque", [-3.0, 0.0, 5.0])
 def test_a_choice_prints_as_cases(torque: float) -> None:
     assert braking.tree.op == "cases"
-    assert evaluate(braking.tree, leaf_values(torque=torque, efficiency=0.8)) == pytest.approx(float(braking(torque, 0.8)))
+    assert evaluate(braking.tree, leaf_values(torque=torque, efficiency=0.8)) == pytest.approx(
+        float(braking(torque, 0.8))
+    )
 
 
 def test_constants_print_with_their_symbol_and_are_known_through_called_formulas() -> None:
@@ -119,7 +123,7 @@ def foreign(a: Any) -> Any:
 
 @formula
 def unknown_name(a: Any) -> Any:
-    return a + leaf_values  # type: ignore[operator]
+    return a + leaf_values
 
 
 @formula

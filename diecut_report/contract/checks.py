@@ -8,7 +8,9 @@ from typing import Literal
 
 @dataclass(frozen=True, kw_only=True)
 class Check:
-    """``demand`` ≤ ``limit`` (ids of numbers, or plain numbers in ``unit``): the utilisation is demand / limit, and null where the limit is not above zero.
+    """``demand`` ≤ ``limit`` (ids of numbers, or plain numbers in ``unit``).
+
+    The utilisation is demand / limit, and null where the limit is not above zero.
 
     For an upper bound the demand is the machine's and the limit the allowed value; for a lower bound the demand is
     what is required and the limit what there is, so that the utilisation is required / available.

@@ -19,6 +19,9 @@ class View(Protocol):
     def __contains__(self, name: str) -> bool:
         """Whether there is a number of this id."""
 
+    def get(self, name: str, default: float) -> float:
+        """A number by its id, or the default where there is none."""
+
     def at(self, curve: str, place: float) -> float:
         """A curve's value at a place of its abscissa, SI."""
 
@@ -130,7 +133,12 @@ def polyline(points: Sequence[Point], role: str = "outline", *, closed: bool = F
 
 def region(outer: Sequence[Point], holes: Sequence[Sequence[Point]] = (), role: str = "section") -> Shape:
     """A cut area, hatched."""
-    return {"shape": "region", "outer": [list(p) for p in outer], "holes": [[list(p) for p in h] for h in holes], "role": role}
+    return {
+        "shape": "region",
+        "outer": [list(p) for p in outer],
+        "holes": [[list(p) for p in h] for h in holes],
+        "role": role,
+    }
 
 
 def circle(center: Point, radius: float, role: str = "outline") -> Shape:

@@ -82,7 +82,9 @@ class Quantity:
         """The SI value of what was given; ValueError in words where it is not allowed."""
         match given:
             case None:
-                raise ValueError(f"has no value; give a number in {pretty(self.unit) or 'plain form'} or remove the key")
+                raise ValueError(
+                    f"has no value; give a number in {pretty(self.unit) or 'plain form'} or remove the key"
+                )
             case Pending(unit=None):
                 raise ValueError(f"${{{given.path}}} is no number; a quantity in {self.unit} is needed")
             case Pending(is_curve=True):
@@ -129,7 +131,7 @@ class Quantity:
         described += f" Default: from {self.press.path}." if self.press else ""
         kinds = ["integer", "string"] if self.integer else ["number", "string"]
         schema: JsonSchemaValue = {"type": kinds, "description": described}
-        if self.unit == "1" and not self.integer or self.integer:
+        if (self.unit == "1" and not self.integer) or self.integer:
             names = {"gt": "exclusiveMinimum", "ge": "minimum", "lt": "exclusiveMaximum", "le": "maximum"}
             schema |= {n: getattr(self, b) for b, n in names.items() if getattr(self, b) is not None}
         return schema
@@ -169,7 +171,9 @@ class CurveInput:
         raise ValueError(f"is {given!r}; a reference to a curve or a list of values in {self.unit} is needed")
 
     def __get_pydantic_core_schema__(self, source: Any, handler: GetCoreSchemaHandler) -> CoreSchema:
-        return core_schema.no_info_plain_validator_function(lambda given: None if given is None else self.validate(given))
+        return core_schema.no_info_plain_validator_function(
+            lambda given: None if given is None else self.validate(given)
+        )
 
     def __get_pydantic_json_schema__(self, core: CoreSchema, handler: GetJsonSchemaHandler) -> JsonSchemaValue:
         values = {"type": "array", "minItems": 4, "items": {"type": ["number", "string"]}}

@@ -204,7 +204,9 @@ class Section:
     absent: str = ""
 
 
-def prefixed(prefix: str, steps: tuple[Step, ...], shared: tuple[str, ...], symbol_suffix: str = "") -> tuple[Step, ...]:
+def prefixed(
+    prefix: str, steps: tuple[Step, ...], shared: tuple[str, ...], symbol_suffix: str = ""
+) -> tuple[Step, ...]:
     """One family of steps for another variant: each id gets the prefix, except what is ``shared`` by all variants."""
     own = {step.id for step in steps} - set(shared)
 
@@ -225,7 +227,8 @@ def prefixed(prefix: str, steps: tuple[Step, ...], shared: tuple[str, ...], symb
     names = ("id", "formula", "cases", "of", "abscissa", "places", "shown_at", "equation", "low", "high", "left", "right",
              "condition", "exists")  # fmt: skip
     return tuple(
-        replace(s, **{n: rename(getattr(s, n)) for n in names if hasattr(s, n)}, symbol=s.symbol + symbol_suffix) for s in steps
+        replace(s, **{n: rename(getattr(s, n)) for n in names if hasattr(s, n)}, symbol=s.symbol + symbol_suffix)
+        for s in steps
     )
 
 

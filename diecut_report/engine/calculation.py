@@ -61,7 +61,8 @@ class SampledCurve:
     def values(self, share: Array, rows: Array | None) -> Array:
         """Values at shares of the period, of any shape (all variants have the same curve)."""
         places = np.arange(len(self.numbers) + 1) / len(self.numbers)
-        return np.interp(share % 1, places, [*self.numbers, self.numbers[0]])
+        found: Array = np.interp(share % 1, places, [*self.numbers, self.numbers[0]])
+        return found
 
     @property
     def breakpoints(self) -> Array:
@@ -87,7 +88,9 @@ class Calculation:
         self.middle: dict[str, Array] = {}  # for each place of an extreme, the middle of its smooth piece
         self.proof: dict[str, float] = {}  # for each result that is no closed formula, its greatest residual
         self._kept: dict[tuple[str, str], tuple[Array, _Sampler]] = {}  # curves already known at often used places
-        self.extremes: dict[tuple[str, float], tuple[Array, tuple[Array, Array, Array]]] = {}  # with the pieces they are of
+        self.extremes: dict[
+            tuple[str, float], tuple[Array, tuple[Array, Array, Array]]
+        ] = {}  # with the pieces they are of
         self.flaws: dict[int, tuple[str, str]] = {}  # for each impossible variant the key and the message
 
     def __getitem__(self, name: str) -> Array:
@@ -108,7 +111,9 @@ class Calculation:
         found = _Sampler(self, self.axis[curve], x, middle, rows)[curve]
         return np.broadcast_to(found, np.broadcast_shapes(np.shape(found), np.shape(x)))
 
-    def kept(self, use: str, axis: str, places: Callable[[Domain], tuple[Array, Array]], rows: Array | None = None) -> _Sampler:
+    def kept(
+        self, use: str, axis: str, places: Callable[[Domain], tuple[Array, Array]], rows: Array | None = None
+    ) -> _Sampler:
         """A sampler that is used again (for the search grid, the samples, the shown place) until the pieces change."""
         domain = self.domains[axis]
         edges, sampler = self._kept.get((use, axis), (None, None))
@@ -119,7 +124,9 @@ class Calculation:
 
     def curve_samples(self, curve: str) -> Array:
         """A curve at the samples of its abscissa, shape (variants, points)."""
-        sampler = self.kept("samples", self.axis[curve], lambda domain: (domain.samples, domain.middle_of(domain.samples)))
+        sampler = self.kept(
+            "samples", self.axis[curve], lambda domain: (domain.samples, domain.middle_of(domain.samples))
+        )
         return np.broadcast_to(sampler[curve], sampler.x.shape)
 
     def on_search_grid(self, curve: str) -> Array:

@@ -31,7 +31,11 @@ METHODS = {
     "max": "bounded search on the curve within each smooth piece, one-sided limits at the breakpoints included",
     "mean": "Gauss–Legendre between the breakpoints, repeated with the doubled order",
 }
-SERIES_WORDS = {"above": "the next standard value at or above", "below": "the next standard value at or below", "nearest": "the nearest standard value to"}  # fmt: skip
+SERIES_WORDS = {
+    "above": "the next standard value at or above",
+    "below": "the next standard value at or below",
+    "nearest": "the nearest standard value to",
+}
 
 
 def section_items(calc: Calculation) -> list[dict[str, Any]]:
@@ -64,7 +68,13 @@ def items(calc: Calculation, step: Step) -> list[Item]:
             return [_pick(calc, step)]
         case Abscissa(points=points):
             text = f"{step.description}; curves are sampled at {printed(calc, points)} places of it."
-            return [_head(step) | {"type": "note", "text": f"{text} Formulas over it are shown with their numbers at {_at(calc, step)}."}]
+            return [
+                _head(step)
+                | {
+                    "type": "note",
+                    "text": f"{text} Formulas over it are shown with their numbers at {_at(calc, step)}.",
+                }
+            ]
     return []
 
 
@@ -173,7 +183,10 @@ def _case_taken(calc: Calculation, step: Choice, axis: str | None) -> int:
 
 
 def _root(calc: Calculation, step: Root) -> Item:
-    sides = [Substitution(calc, bound(side), lambda name: value_at(calc, name, None)).symbolic() for side in (step.left, step.right)]
+    sides = [
+        Substitution(calc, bound(side), lambda name: value_at(calc, name, None)).symbolic()
+        for side in (step.left, step.right)
+    ]
     residual = number_text(calc.proof[step.id], 2)
     method = "bracketed root search, proved by the relation shown, which was not used to find it"
     return _head(step) | {
@@ -203,7 +216,10 @@ def _reduction(calc: Calculation, step: Reduction) -> Item:
 def _crossings(calc: Calculation, step: Crossings) -> Item:
     places = [float(x) for x in calc[step.id][0] if x == x]
     rows = [[str(i), number_text(x / unit(step.unit).factor, 6)] for i, x in enumerate(places, 1)]
-    columns = [{"title": "No.", "symbol": "", "unit": "1"}, {"title": step.description, "symbol": step.symbol, "unit": step.unit}]
+    columns = [
+        {"title": "No.", "symbol": "", "unit": "1"},
+        {"title": step.description, "symbol": step.symbol, "unit": step.unit},
+    ]
     return {"type": "table", "id": step.id, "title": step.description, "columns": columns, "rows": rows}
 
 

@@ -79,7 +79,11 @@ class Substitution:
         name = self.part.names.get(leaf.args[0]) if leaf.op == "sym" else None
         if name is None:
             return leaf
-        return Node("sym", (self.calc.step_or_input(name).symbol,)) if isinstance(name, str) else Node("num", (f"{name:g}",))
+        return (
+            Node("sym", (self.calc.step_or_input(name).symbol,))
+            if isinstance(name, str)
+            else Node("num", (f"{name:g}",))
+        )
 
     def numeric(self, target: float, display: str, result_digits: int) -> Node | None:
         """The expression with numbers and units; computed as printed it gives ``target`` (SI) as printed in ``display``.
@@ -145,5 +149,9 @@ class Substitution:
         declared = self.calc.step_or_input(name)
         display = "deg" if angle and unit(declared.unit).si == "rad" else formula_unit(declared.unit)
         number = self.value_of(name) / unit(display).factor
-        text = shortest(number, max(digits, 6)) if name not in self.calc.values and name not in self.calc.curves else number_text(number, digits)
+        text = (
+            shortest(number, max(digits, 6))
+            if name not in self.calc.values and name not in self.calc.curves
+            else number_text(number, digits)
+        )
         return Node("qty", (text, display))

@@ -38,7 +38,9 @@ def calculate(mechanism: Mechanism, values: Mapping[str, Any], variants: int = 1
     Raises ``Impossible`` when a single machine cannot exist (among several it is marked in ``flaws``), ``Unproven`` when a
     result does not meet what proves it.
     """
-    curves = {n: SampledCurve(v) if n in mechanism.curve_inputs and isinstance(v, tuple) else v for n, v in values.items()}
+    curves = {
+        n: SampledCurve(v) if n in mechanism.curve_inputs and isinstance(v, tuple) else v for n, v in values.items()
+    }
     calc = Calculation(mechanism, curves, variants)
     with np.errstate(all="ignore"):
         for _, step in mechanism.active(calc.given):
@@ -51,6 +53,25 @@ def _possible(calc: Calculation) -> Array:
     possible = np.ones(calc.count, dtype=bool)
     possible[list(calc.flaws)] = False
     return possible
+
+
+def _prove(calc: Calculation, step: Step, residual: Array, tolerance: float) -> None:
+    """A result that is not proved is refused for a single machine, and marks the variant among several."""
+    unproved = ~(residual[:, 0] <= tolerance) & _possible(calc)
+    calc.proof[step.id] = float(np.max(residual[_possible(calc) & ~unproved], initial=0.0))
+    if unproved.any():
+        _mark(
+            calc,
+            step,
+            unproved,
+            f"{step.description}: the proof leaves {np.max(residual[unproved]):.1e}, not {tolerance:.0e}",
+        )
+
+
+def _mark(calc: Calculation, step: Step, bad: Array, words: str) -> None:
+    if calc.count == 1:
+        raise Unproven(words)
+    calc.flaws |= {int(variant): (step.id, words) for variant in np.flatnonzero(bad)}
 
 
 def _value(calc: Calculation, step: Value) -> None:
@@ -72,14 +93,15 @@ def _choice(calc: Calculation, step: Choice) -> None:
     last = np.full((calc.count, 1), len(held))
     calc.branch[step.id] = np.select(held, [np.full_like(last, i) for i in range(len(held))], last)
     taken = [
-        np.full((calc.count, 1), c.value, dtype=object) if isinstance(c.value, str) else calc.apply(c.value) for c in step.cases
+        np.full((calc.count, 1), c.value, dtype=object) if isinstance(c.value, str) else calc.apply(c.value)
+        for c in step.cases
     ]
     calc.values[step.id] = _existing(calc, step, np.choose(calc.branch[step.id], taken))
 
 
 def _root(calc: Calculation, step: Root) -> None:
     _, residual = solve.root(calc, step)
-    calc.proof[step.id] = solve.demand(residual, step.tolerance, step.description, _possible(calc))
+    _prove(calc, step, residual, step.tolerance)
 
 
 def _abscissa(calc: Calculation, step: Abscissa) -> None:
@@ -95,7 +117,7 @@ def _breakpoints(calc: Calculation, step: Breakpoints) -> None:
 
 def _crossings(calc: Calculation, step: Crossings) -> None:
     calc.values[step.id], residual = solve.crossings(calc, step.of)
-    calc.proof[step.id] = solve.demand(residual, solve.SAMPLE_TOLERANCE, step.description, _possible(calc))
+    _prove(calc, step, residual, solve.SAMPLE_TOLERANCE)
 
 
 def _reduction(calc: Calculation, step: Reduction) -> None:
@@ -104,8 +126,10 @@ def _reduction(calc: Calculation, step: Reduction) -> None:
         return
     signs = {"max": (1.0,), "min": (-1.0,)}.get(step.operation, (1.0, -1.0))
     ends = [solve.extreme(calc, step.of, sign) for sign in signs]
-    residual = np.maximum.reduce([solve.outruns(calc, step.of, end[0], sign) for end, sign in zip(ends, signs, strict=True)])
-    calc.proof[step.id] = solve.demand(residual, solve.SAMPLE_TOLERANCE, step.description, _possible(calc))
+    residual = np.maximum.reduce(
+        [solve.outruns(calc, step.of, end[0], sign) for end, sign in zip(ends, signs, strict=True)]
+    )
+    _prove(calc, step, residual, solve.SAMPLE_TOLERANCE)
     if step.operation == "range":
         calc.values[step.id] = ends[0][0] - ends[1][0]
         return
@@ -117,7 +141,7 @@ def _reduction(calc: Calculation, step: Reduction) -> None:
 
 def _integrated(calc: Calculation, step: Reduction) -> None:
     whole, residual = solve.integral(calc, step.of, 2 if step.operation == "rms" else 1)
-    calc.proof[step.id] = solve.demand(residual, solve.SAMPLE_TOLERANCE, step.description, _possible(calc))
+    _prove(calc, step, residual, solve.SAMPLE_TOLERANCE)
     mean = whole / calc.domains[calc.axis[step.of]].period
     calc.values[step.id] = {"integral": whole, "mean": mean, "rms": np.sqrt(np.abs(mean))}[step.operation]
 
@@ -169,12 +193,8 @@ def _finite(calc: Calculation, step: Step) -> None:
     if values is None or values.dtype == object or step.exists is not None or isinstance(step, Crossings):
         return
     bad = ~np.isfinite(values).all(axis=1) & _possible(calc)
-    if not bad.any():
-        return
-    words = f"{step.description} ({step.id}) has no value with these inputs"
-    if calc.count == 1:
-        raise Unproven(words)
-    calc.flaws |= {int(variant): (step.id, words) for variant in np.flatnonzero(bad)}
+    if bad.any():
+        _mark(calc, step, bad, f"{step.description} ({step.id}) has no value with these inputs")
 
 
 RUN: dict[type[Step], Callable[[Calculation, Any], None]] = {

@@ -25,6 +25,11 @@ class MachineView:
         """Whether there is a number of this id."""
         return name in self.calc.values or name in self.calc.inputs
 
+    def get(self, name: str, default: float) -> float:
+        """A number by its id, or the default where there is none."""
+        known = name in self
+        return self[name] if known else default
+
     def at(self, curve: str, place: float) -> float:
         """A curve's value at a place of its abscissa, SI."""
         x = np.array([[place]])

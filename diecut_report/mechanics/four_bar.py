@@ -87,17 +87,13 @@ def inner_dead_center(frame_ratio: Any, coupler_ratio: Any, rocker_ratio: Any) -
 @formula
 def least_transmission_angle(frame_ratio: Any, coupler_ratio: Any, rocker_ratio: Any) -> Any:
     """Transmission angle with the crank along the frame, towards the rocker's pivot."""
-    return arccos(
-        (coupler_ratio**2 + rocker_ratio**2 - (frame_ratio - 1) ** 2) / (2 * coupler_ratio * rocker_ratio)
-    )
+    return arccos((coupler_ratio**2 + rocker_ratio**2 - (frame_ratio - 1) ** 2) / (2 * coupler_ratio * rocker_ratio))
 
 
 @formula
 def greatest_transmission_angle(frame_ratio: Any, coupler_ratio: Any, rocker_ratio: Any) -> Any:
     """Transmission angle with the crank along the frame, away from the rocker's pivot."""
-    return arccos(
-        (coupler_ratio**2 + rocker_ratio**2 - (frame_ratio + 1) ** 2) / (2 * coupler_ratio * rocker_ratio)
-    )
+    return arccos((coupler_ratio**2 + rocker_ratio**2 - (frame_ratio + 1) ** 2) / (2 * coupler_ratio * rocker_ratio))
 
 
 @formula
@@ -173,7 +169,14 @@ class Motion(NamedTuple):
     rocker_acceleration_ratio: Array
 
 
-def motion(crank_angle: Array, frame_ratio: Array, coupler_ratio: Array, rocker_ratio: Array, branch: int = 1) -> Motion:
+def motion(
+    crank_angle: Array | float,
+    frame_ratio: Array | float,
+    coupler_ratio: Array | float,
+    rocker_ratio: Array | float,
+    *,
+    branch: int = 1,
+) -> Motion:
     """The whole motion of a crank-rocker in one of its two assemblies (branch +1, or -1: mirrored about the frame line).
 
     Ratios and crank angle (rad) broadcast together. NaN where the linkage does not close.

@@ -28,7 +28,7 @@ STROKES = (Span(start="dead_center_outer", end="dead_center_inner", label="forwa
 
 def _crank_length(view: View) -> float:
     """The crank's length; without one the drawing is in crank lengths."""
-    return view["crank_length"] if "crank_length" in view else 1.0
+    return view.get("crank_length", 1.0)
 
 
 def _joints(view: View, phi: float) -> tuple[Point, Point, Point, Point]:
@@ -112,7 +112,9 @@ FIGURES = (
                 series=(Series(curve="velocity", label="V"),),
                 spans=STROKES,
             ),
-            Panel(title="Acceleration", unit="m/s**2", series=(Series(curve="acceleration", label="W"),), spans=STROKES),
+            Panel(
+                title="Acceleration", unit="m/s**2", series=(Series(curve="acceleration", label="W"),), spans=STROKES
+            ),
         ),
     ),
     Plot(
@@ -187,7 +189,12 @@ FIGURES = (
         abscissa="crank_angle",
         needs=("pinion_radius",),
         panels=(
-            Panel(title="Tangential force", unit="kN", series=(Series(curve="tooth_force", label="tooth force"),), spans=STROKES),
+            Panel(
+                title="Tangential force",
+                unit="kN",
+                series=(Series(curve="tooth_force", label="tooth force"),),
+                spans=STROKES,
+            ),
         ),
     ),
 )

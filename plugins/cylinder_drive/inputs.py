@@ -27,24 +27,40 @@ class CylinderDrive(Inputs):
     rocker_ratio: Annotated[float, Quantity("λ_3", "1", "Rocker to crank, c/a", gt=0)] = 2.05
     crank_speed: Annotated[
         float | None,
-        Quantity("ω_1", "rpm", "Speed of the crank; two sheets a turn", gt=0, press=FromPress("press.productivity", two_sheets_a_turn)),
+        Quantity(
+            "ω_1",
+            "rpm",
+            "Speed of the crank; two sheets a turn",
+            gt=0,
+            press=FromPress("press.productivity", two_sheets_a_turn),
+        ),
     ] = None
     sector_ratio: Annotated[
-        float | None, Quantity("u", "1", "Ratio of sector to pinion; default: the full swing turns the cylinder once", gt=0)
+        float | None,
+        Quantity("u", "1", "Ratio of sector to pinion; default: the full swing turns the cylinder once", gt=0),
     ] = None
     cylinder_radius: Annotated[float, Quantity("R", "mm", "Radius of the cylinder", gt=0)]
     cylinder_length: Annotated[float, Quantity("L", "mm", "Length of the cylinder's generatrix", gt=0)]
     cylinder_mass: Annotated[float, Quantity("m", "kg", "Mass of the cylinder", gt=0)]
-    cylinder_inertia: Annotated[float, Quantity("I", "kg*m**2", "Moment of inertia of the cylinder about its axis", gt=0)]
-    cutting_force_per_length: Annotated[float, Quantity("q_a", "N/mm", "Cutting force for each length of the rules", ge=0)] = 25
-    ejection_force_per_length: Annotated[float, Quantity("q_e", "N/mm", "Force of the ejection material for each length", ge=0)] = 5
+    cylinder_inertia: Annotated[
+        float, Quantity("I", "kg*m**2", "Moment of inertia of the cylinder about its axis", gt=0)
+    ]
+    cutting_force_per_length: Annotated[
+        float, Quantity("q_a", "N/mm", "Cutting force for each length of the rules", ge=0)
+    ] = 25
+    ejection_force_per_length: Annotated[
+        float, Quantity("q_e", "N/mm", "Force of the ejection material for each length", ge=0)
+    ] = 5
     material_thickness: Annotated[
         float | None,
-        Quantity("Δ", "mm", "Thickness of the board (below the radius)", gt=0, press=FromPress("press.sheet.thickness")),
+        Quantity(
+            "Δ", "mm", "Thickness of the board (below the radius)", gt=0, press=FromPress("press.sheet.thickness")
+        ),
     ] = None
     rolling_coefficient: Annotated[float, Quantity("k_0", "1", "Rolling arm to cutting length", gt=0)] = 0.3
     cutting_arc_fraction: Annotated[
-        float, Quantity("κ", "1", "Share of the stroke, of the rolled length, in whose middle the board is cut", gt=0, le=1)
+        float,
+        Quantity("κ", "1", "Share of the stroke, of the rolled length, in whose middle the board is cut", gt=0, le=1),
     ] = 1.0
     static_unbalance: Annotated[float, Quantity("me", "kg*m", "Static unbalance of the cylinder", ge=0)] = 0
     efficiency_sector: Annotated[float, _efficiency("sector", "sector and pinion")] = 0.96
@@ -53,14 +69,18 @@ class CylinderDrive(Inputs):
     efficiency_bearings: Annotated[float, _efficiency("bearings", "bearings")] = 0.99
     efficiency_chain: Annotated[float, _efficiency("chain", "chain")] = 0.95
     n_points: Annotated[int, POINTS] = 720
-    min_transmission_angle: Annotated[float, Quantity("μ_min", "deg", "Least transmission angle that is accepted", gt=0, le=90)] = 40
+    min_transmission_angle: Annotated[
+        float, Quantity("μ_min", "deg", "Least transmission angle that is accepted", gt=0, le=90)
+    ] = 40
     segment_height: Annotated[
         float | None, Quantity("h", "mm", "Height of the cylinder's segment; with it the window of the carriages", gt=0)
     ] = None
     carriage_clearance: Annotated[
         float | None, Quantity("c_r", "mm", "Clearance that the carriages need under the cylinder", gt=0)
     ] = None
-    crank_length: Annotated[float | None, Quantity("a", "mm", "Length of the crank; with it the forces in the joints", gt=0)] = None
+    crank_length: Annotated[
+        float | None, Quantity("a", "mm", "Length of the crank; with it the forces in the joints", gt=0)
+    ] = None
     pinion_radius: Annotated[
         float | None, Quantity("r_p", "mm", "Pitch radius of the pinion; with it the tooth force of the sector", gt=0)
     ] = None

@@ -16,18 +16,6 @@ def segment_height_limit(working_length: Any) -> Any:
 
 
 @formula
-def is_below(smaller: Any, greater: Any) -> Any:
-    """Whether one quantity is below another."""
-    return smaller < greater
-
-
-@formula
-def is_at_most(smaller: Any, greater: Any) -> Any:
-    """Whether one quantity is not above another."""
-    return smaller <= greater
-
-
-@formula
 def radius_closed_form(working_length: Any, segment_height: Any) -> Any:
     """Radius with Huygens' arc; the other root of the quadratic gives a negative arc."""
     root = np.sqrt(12 * segment_height * (3 * segment_height + 3 * np.pi * working_length + np.pi**2 * segment_height))
@@ -59,12 +47,6 @@ def arc_of_segment(radius: Any, segment_height: Any) -> Any:
 
 
 @formula
-def same(quantity: Any) -> Any:
-    """The quantity itself."""
-    return quantity
-
-
-@formula
 def rounded_up(radius_exact: Any, radius_step: Any) -> Any:
     """The next multiple of the step; 1e-9 of a step below, so that what is a multiple stays as it is."""
     return radius_step * np.ceil(radius_exact / radius_step - 1e-9)
@@ -77,27 +59,9 @@ def relative_error(approximate: Any, exact: Any) -> Any:
 
 
 @formula
-def size_of(quantity: Any) -> Any:
-    """Absolute value."""
-    return abs(quantity)
-
-
-@formula
-def twice(quantity: Any) -> Any:
-    """Twice the quantity."""
-    return 2 * quantity
-
-
-@formula
 def foot(radius: Any, half_angle: Any) -> Any:
     """Distance of a segment's chord from the circle's centre."""
     return radius * np.cos(half_angle)
-
-
-@formula
-def difference(greater: Any, smaller: Any) -> Any:
-    """Difference of two quantities."""
-    return greater - smaller
 
 
 @formula
@@ -110,12 +74,6 @@ def wall_at_flat(radius: Any, segment_height: Any, bore_radius: Any) -> Any:
 def overlap_half_angle(flat_distance: Any, bore_radius: Any) -> Any:
     """Half the angle of the bore that lies beyond the flat."""
     return arccos(flat_distance / bore_radius)
-
-
-@formula
-def none() -> Any:
-    """Zero."""
-    return 0
 
 
 @formula
@@ -205,15 +163,11 @@ def second_moment_across_flat(
 
 
 @formula
-def smaller_of(first: Any, second: Any) -> Any:
-    """The smaller of two quantities."""
-    return np.minimum(first, second)
-
-
-@formula
 def deflection(line_load: Any, length: Any, span: Any, elastic_modulus: Any, second_moment: Any) -> Any:
     """Deflection in the middle of a simply supported beam, loaded over ``length`` in the middle of its span."""
-    return line_load * length * (8 * span**3 - 4 * span * length**2 + length**3) / (384 * elastic_modulus * second_moment)
+    return (
+        line_load * length * (8 * span**3 - 4 * span * length**2 + length**3) / (384 * elastic_modulus * second_moment)
+    )
 
 
 @formula

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from diecut_report.api import Case, Choice, Require, Root, Section, Value, bind
 from diecut_report.mechanics import circular_segment as segment
+from diecut_report.mechanics import common
 from diecut_report.plugins.cylinder_sizing import formulas as f
 
 SIZE = Section(
@@ -13,7 +14,7 @@ SIZE = Section(
     steps=(
         Value(id="segment_height_limit", symbol="h_lim", unit="mm", description="Segment height from which no radius exists",
               formula=f.segment_height_limit, output=False),
-        Require(id="radius_exists", condition=bind(f.is_below, smaller="segment_height", greater="segment_height_limit"),
+        Require(id="radius_exists", condition=bind(common.is_below, smaller="segment_height", greater="segment_height_limit"),
                 key="segment_height",
                 message="is {segment_height}, but no cylinder with a working length of {working_length} has a segment that high: "
                 "h < l_1/π = {segment_height_limit} is needed; make the segment lower or the working length greater"),
@@ -26,15 +27,15 @@ SIZE = Section(
         Value(id="radius_closed_form_error", symbol="e_cf", unit="%", description="Error of the closed form against the exact radius",
               formula=bind(f.relative_error, approximate="radius_closed_form", exact="radius_exact")),
         Value(id="closed_form_error_size", symbol="|e_cf|", unit="%", description="Size of that error", output=False,
-              formula=bind(f.size_of, quantity="radius_closed_form_error")),
+              formula=bind(common.size_of, quantity="radius_closed_form_error")),
         Value(id="radius", symbol="R", unit="mm", description="Adopted radius: as given", needs=("radius",), source="input",
-              formula=bind(f.same, quantity="inputs.radius")),
+              formula=bind(common.same, quantity="inputs.radius")),
         Value(id="radius", symbol="R", unit="mm", description="Adopted radius: the exact one rounded up to the step",
               lacks=("radius",), formula=f.rounded_up),
-        Require(id="segment_below_radius", condition=bind(f.is_below, smaller="segment_height", greater="radius"),
+        Require(id="segment_below_radius", condition=bind(common.is_below, smaller="segment_height", greater="radius"),
                 key="segment_height",
                 message="is {segment_height}, but the segment must be lower than the radius: h < R = {radius}"),
-        Require(id="bore_below_radius", condition=bind(f.is_below, smaller="bore_radius", greater="radius"), key="bore_radius",
+        Require(id="bore_below_radius", condition=bind(common.is_below, smaller="bore_radius", greater="radius"), key="bore_radius",
                 message="is {bore_radius}, but the bore must be narrower than the cylinder: 0 ≤ R_b < R = {radius}"),
     ),
 )  # fmt: skip
@@ -48,7 +49,7 @@ FLAT = Section(
         Value(id="half_angle", symbol="α", unit="deg", description="Half the central angle of the segment", output=False,
               formula=bind(segment.half_angle, height="segment_height")),
         Value(id="segment_angle", symbol="2α", unit="deg", description="Central angle of the segment",
-              formula=bind(f.twice, quantity="half_angle")),
+              formula=bind(common.twice, quantity="half_angle")),
         Value(id="arc_length", symbol="l_2", unit="mm", description="Arc of the segment, exactly", source="002 eq. 1",
               formula=segment.arc_length),
         Value(id="arc_length_huygens", symbol="l_2H", unit="mm", description="Arc of the segment by Huygens",
@@ -58,7 +59,7 @@ FLAT = Section(
         Value(id="centroid_distance", symbol="ρ", unit="mm", description="Distance of the segment's centroid from the axis",
               source="000 eq. 17", formula=bind(segment.centroid_distance, area="segment_area")),
         Value(id="flat_distance", symbol="d", unit="mm", description="Distance of the flat from the axis", output=False,
-              formula=bind(f.difference, greater="radius", smaller="segment_height")),
+              formula=bind(common.difference, greater="radius", smaller="segment_height")),
         Value(id="wall_at_flat", symbol="w", unit="mm", description="Wall between bore and flat", formula=f.wall_at_flat),
         Value(id="bore_radius_limit", symbol="R_b,max", unit="mm", description="Bore radius that keeps the required wall",
               output=False, formula=f.bore_radius_limit),
@@ -74,8 +75,8 @@ OVERLAP = Section(
     steps=(
         Choice(id="overlap_half_angle", symbol="α_b", unit="deg", description="Half the angle of the bore beyond the flat", output=False,
                cases=(Case(f.overlap_half_angle, "the bore breaks through the flat",
-                           bind(f.is_below, smaller="flat_distance", greater="bore_radius")),
-                      Case(bind(f.none), "the bore stays behind the flat: no overlap"))),
+                           bind(common.is_below, smaller="flat_distance", greater="bore_radius")),
+                      Case(bind(common.zero), "the bore stays behind the flat: no overlap"))),
         Value(id="overlap_chord", symbol="c_b", unit="mm", description="Width of the opening in the flat", output=False,
               formula=bind(segment.chord_of_angle, radius="bore_radius", half_angle="overlap_half_angle")),
         Value(id="overlap_area", symbol="A_b", unit="mm**2", description="Area of the overlap", output=False,
@@ -137,7 +138,7 @@ BENDING = Section(
     absent="not calculated: bearing_span is not given",
     text="The section is weakest about one of its two principal axes, which lie parallel and square to the flat.",
     steps=(
-        Require(id="span_over_generatrix", condition=bind(f.is_at_most, smaller="generatrix_length", greater="bearing_span"),
+        Require(id="span_over_generatrix", condition=bind(common.is_at_most, smaller="generatrix_length", greater="bearing_span"),
                 key="bearing_span",
                 message="is {bearing_span}, but the bearings stand outside the generatrix: at least {generatrix_length} is needed"),
         Value(id="segment_second_moment", symbol="I_x1", unit="cm**4", output=False,
@@ -154,7 +155,7 @@ BENDING = Section(
               formula=bind(f.second_moment_across_flat, segment="segment_second_moment", overlap="overlap_second_moment",
                            length="generatrix_length")),
         Value(id="second_moment_min", symbol="I_min", unit="cm**4", description="Least second moment of the section",
-              formula=bind(f.smaller_of, first="second_moment_parallel", second="second_moment_square")),
+              formula=bind(common.smaller_of, first="second_moment_parallel", second="second_moment_square")),
         Value(id="bearing_load", symbol="F_b", unit="kN", description="Load on each bearing from the line load",
               formula=bind(f.bearing_load, length="generatrix_length")),
         Value(id="bending_moment", symbol="M_b", unit="N*m", description="Greatest bending moment",

@@ -81,7 +81,9 @@ def test_like_parts_make_rows_sums_and_products() -> None:
     results = mechanism_results(calc, {})
     assert results["outputs"]["pair_ratio.1"]["value"] == 2.5
     assert results["inputs"]["gears.1.driven_teeth"]["value"] == 45
-    tables = [i for s in results["sections"] for i in s["items"] if i["type"] == "table" and i["title"] == "Ratio of the pair"]
+    tables = [
+        i for s in results["sections"] for i in s["items"] if i["type"] == "table" and i["title"] == "Ratio of the pair"
+    ]
     assert [row[-1] for row in tables[0]["rows"]] == ["3", "2.500"]
 
 
@@ -110,19 +112,25 @@ def test_a_list_of_values_is_a_curve_that_runs_straight_between_them() -> None:
     assert number(calc, "taken_mean") == pytest.approx(0, abs=1e-12)
 
 
+def root_step() -> Root:
+    """The only step of the mechanism with a root."""
+    step = ROOTED.sections[0].steps[0]
+    assert isinstance(step, Root)
+    return step
+
+
 def test_a_root_is_found_and_proved() -> None:
     assert number(calculate(ROOTED, inputs(ROOTED, {})), "x") == pytest.approx(2000 ** (1 / 3), rel=1e-13)
 
 
 def test_a_root_that_its_relation_does_not_confirm_is_refused() -> None:
-    wrong = replace(ROOTED.sections[0].steps[0], right=plus_one)
-    assert isinstance(wrong, Root)
+    wrong = replace(root_step(), right=plus_one)
     with pytest.raises(Unproven, match="Cube root"):
         calculate(replace(ROOTED, sections=(Section("Root", (wrong,)),)), inputs(ROOTED, {}))
 
 
 def test_a_bracket_without_a_root_is_no_silent_nan() -> None:
-    empty = replace(ROOTED.sections[0].steps[0], high=zero, low=zero, equation=cube)
+    empty = replace(root_step(), high=zero, low=zero, equation=cube)
     with pytest.raises(Unproven):
         calculate(replace(ROOTED, sections=(Section("Root", (empty,)),)), inputs(ROOTED, {}))
 

@@ -34,12 +34,12 @@ def test_what_was_typed_is_not_rounded(typed: str) -> None:
     assert shortest(unit("mm").to_si(float(typed)) / unit("mm").factor) == typed
 
 
-def node(tree: Any) -> Node:
+def node(tree: Any) -> Any:
     """A tree of the results as nodes."""
     if not isinstance(tree, list):
         return tree
     if tree and isinstance(tree[0], list):
-        return tuple(map(node, tree))  # type: ignore[return-value]
+        return tuple(map(node, tree))
     return Node(tree[0], tuple(map(node, tree[1:])))
 
 

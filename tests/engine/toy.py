@@ -48,7 +48,7 @@ class Toy(Inputs):
     force: Annotated[float, Quantity("F", "kN", "Force", gt=0)] = 2
     arm: Annotated[float, Quantity("a", "mm", "Arm", gt=0, lt=1000)] = 100
     step_angle: Annotated[float, Quantity("φ_s", "deg", "Place of the step", ge=0, lt=360)] = 120
-    gears: Annotated[list[Pair], Text("Gear pairs")] = []
+    gears: Annotated[list[Pair], Text("Gear pairs")] = []  # noqa: RUF012
     spring: Annotated[Spring | None, Text("Spring, if there is one")] = None
     torque_curve: Annotated[Any, CurveInput("M", "N*m", "Torque over a turn")] = None
     grade: Annotated[Literal["fine", "coarse"], Text("Grade of the toy")] = "fine"

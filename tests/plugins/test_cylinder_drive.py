@@ -11,19 +11,24 @@ from hypothesis import strategies as st
 
 from diecut_report.contract.inputs import flatten
 from diecut_report.engine import Calculation, Impossible, calculate
+from diecut_report.expressions import Array
 from diecut_report.plugins.cylinder_drive import MECHANISM
 from diecut_report.testing import check_mechanism
 from tests.machines import LOSSLESS, PUBLISHED_DRIVE, UNBALANCED, drive, inputs, number
 
 
-def dense(calc: Calculation, curve: str, points: int = 200_001) -> np.ndarray:
+def dense(calc: Calculation, curve: str, points: int = 200_001) -> Array:
     """A curve at many places of the turn, each taken in the smooth piece that it lies in."""
     phi = np.linspace(0, 2 * np.pi, points)[None, :]
     domain = calc.domains["crank_angle"]
-    return calc.sample(curve, phi, np.concatenate([domain.middle_of(part) for part in np.array_split(phi, 50, axis=1)], axis=1))[0]
+    return calc.sample(
+        curve, phi, np.concatenate([domain.middle_of(part) for part in np.array_split(phi, 50, axis=1)], axis=1)
+    )[0]
 
 
-@pytest.mark.parametrize("changes", [{}, UNBALANCED, UNBALANCED | {"sector_ratio": 5.0}, {"rocker_ratio": 3.0, "frame_ratio": 6}])
+@pytest.mark.parametrize(
+    "changes", [{}, UNBALANCED, UNBALANCED | {"sector_ratio": 5.0}, {"rocker_ratio": 3.0, "frame_ratio": 6}]
+)
 def test_a_lossless_turn_takes_the_work_of_cutting_alone(changes: dict[str, Any]) -> None:
     calc = drive(**LOSSLESS, **changes)
     torque = dense(calc, "crank_torque")
@@ -55,7 +60,10 @@ def test_velocity_and_acceleration_are_the_derivatives_of_the_displacement() -> 
     phi = np.linspace(0.01, 6.2, 2001)
     step, omega = phi[1] - phi[0], 100 * 2 * np.pi / 60
     domain = calc.domains["crank_angle"]
-    s, v, w = (calc.sample(n, phi[None, :], domain.middle_of(phi[None, :]))[0] for n in ("displacement", "velocity", "acceleration"))
+    s, v, w = (
+        calc.sample(n, phi[None, :], domain.middle_of(phi[None, :]))[0]
+        for n in ("displacement", "velocity", "acceleration")
+    )
     np.testing.assert_allclose((s[2:] - s[:-2]) / (2 * step) * omega, v[1:-1], atol=2e-5 * abs(v).max())
     np.testing.assert_allclose((v[2:] - v[:-2]) / (2 * step) * omega, w[1:-1], atol=2e-5 * abs(w).max())
 
@@ -65,7 +73,9 @@ def test_moment_of_inertia_forces_is_the_rate_of_the_cylinders_energy() -> None:
     t = np.linspace(0.0, 0.59, 20_001)
     phi = (t * 100 * 2 * np.pi / 60)[None, :]
     mid = calc.domains["crank_angle"].middle_of(phi)
-    theta, rate, moment = (calc.sample(n, phi, mid)[0] for n in ("cylinder_rotation", "cylinder_speed", "inertia_moment"))
+    theta, rate, moment = (
+        calc.sample(n, phi, mid)[0] for n in ("cylinder_rotation", "cylinder_speed", "inertia_moment")
+    )
     radius, mass, unbalance = 0.105, 80.9077, 1.97727
     vx, vy = radius * rate + unbalance / mass * np.cos(theta) * rate, -unbalance / mass * np.sin(theta) * rate
     about_center = 0.63623 - unbalance**2 / mass
@@ -105,11 +115,13 @@ def test_tooth_force_and_sector_carry_the_moment() -> None:
     np.testing.assert_allclose(tangential * 0.06, moment, atol=1e-9)
     top = np.abs(tangential).max()
     assert number(calc, "tooth_force_max") == pytest.approx(top, rel=1e-3)
-    assert number(calc, "tooth_normal_force_max") == pytest.approx(number(calc, "tooth_force_max") / np.cos(np.radians(20)))
+    assert number(calc, "tooth_normal_force_max") == pytest.approx(
+        number(calc, "tooth_force_max") / np.cos(np.radians(20))
+    )
     assert number(calc, "sector_radius") == pytest.approx(0.06 * 2 * np.pi / number(calc, "swing_angle"))
 
 
-def lowest_point(radius: float, height: float, theta: np.ndarray) -> np.ndarray:
+def lowest_point(radius: float, height: float, theta: Array) -> Array:
     """Clearance over the die, from points all around the cut circle turned by theta from the flat's lowest position."""
     around = np.linspace(-np.pi, np.pi, 20_001)
     depth = np.where(np.abs(around) <= np.arccos(1 - height / radius), (radius - height) / np.cos(around), radius)
@@ -156,7 +168,7 @@ def test_an_impossible_drive_is_refused_in_words(changes: dict[str, Any], key: s
     assert words in refused.value.message
 
 
-def random_machines(count: int, seed: int) -> dict[str, np.ndarray]:
+def random_machines(count: int, seed: int) -> dict[str, Array]:
     """Machines as a designer might vary them, a few of them impossible."""
     draw = np.random.default_rng(seed)
     return {
@@ -189,7 +201,9 @@ def test_a_thousand_variants_at_once_are_a_thousand_single_runs() -> None:
         alone = calculate(MECHANISM, single)
         for name in names:
             tolerance = 1e-7 if name.endswith("_at") else 1e-11
-            assert together[name][i, 0] == pytest.approx(number(alone, name), rel=tolerance, abs=1e-9 if "residual" in name else 1e-12)
+            assert together[name][i, 0] == pytest.approx(
+                number(alone, name), rel=tolerance, abs=1e-9 if "residual" in name else 1e-12
+            )
         np.testing.assert_allclose(torque[i], alone.curve_samples("crank_torque")[0], rtol=1e-11, atol=1e-9)
         found, expected = together["torque_reversal"][i], alone["torque_reversal"][0]
         np.testing.assert_allclose(found[np.isfinite(found)], expected[np.isfinite(expected)], atol=1e-9)
@@ -197,7 +211,9 @@ def test_a_thousand_variants_at_once_are_a_thousand_single_runs() -> None:
 
 @given(frame=st.floats(4.6, 6.2), coupler=st.floats(4.6, 5.6), rocker=st.floats(1.9, 3.0), fraction=st.floats(0.05, 1))
 @settings(max_examples=40, deadline=None)
-def test_the_energy_balance_holds_for_random_linkages(frame: float, coupler: float, rocker: float, fraction: float) -> None:
+def test_the_energy_balance_holds_for_random_linkages(
+    frame: float, coupler: float, rocker: float, fraction: float
+) -> None:
     keys = PUBLISHED_DRIVE | UNBALANCED | {"frame_ratio": frame, "coupler_ratio": coupler, "rocker_ratio": rocker}
     values = flatten(MECHANISM.inputs.model_validate(keys | {"cutting_arc_fraction": fraction}))
     try:

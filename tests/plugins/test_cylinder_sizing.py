@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from itertools import pairwise
 from typing import Any
 
 import numpy as np
@@ -27,16 +28,22 @@ def strips(radius: float, flat: float, bore: float, moment: Any) -> float:
         return float(outer - (moment(y, np.sqrt(bore**2 - y**2)) if abs(y) < bore else 0))
 
     breaks = sorted({-flat, max(-bore, -flat), 0.0, bore, radius})
-    return sum(quad(strip, a, b, epsabs=0, epsrel=1e-11, limit=400)[0] for a, b in zip(breaks, breaks[1:], strict=False) if b > a)
+    return sum(quad(strip, a, b, epsabs=0, epsrel=1e-11, limit=400)[0] for a, b in pairwise(breaks) if b > a)
 
 
 SECTIONS = [(105, 40, 70), (105, 40, 50), (105, 40, 0), (105, 60, 90), (200, 20, 150), (105, 104, 30)]
 
 
 @pytest.mark.parametrize("radius, height, bore", SECTIONS)
-def test_mass_inertia_and_unbalance_are_the_integrals_over_the_section(radius: float, height: float, bore: float) -> None:
+def test_mass_inertia_and_unbalance_are_the_integrals_over_the_section(
+    radius: float, height: float, bore: float
+) -> None:
     calc = cylinder(
-        radius=f"{radius} mm", segment_height=f"{height} mm", bore_radius=f"{bore} mm", working_length="700 mm", bearing_span="900 mm"
+        radius=f"{radius} mm",
+        segment_height=f"{height} mm",
+        bore_radius=f"{bore} mm",
+        working_length="700 mm",
+        bearing_span="900 mm",
     )
     r, d, b = radius / 1e3, (radius - height) / 1e3, bore / 1e3
     prism = 7800 * 0.7
@@ -113,7 +120,10 @@ def test_an_impossible_cylinder_is_refused_in_words(changes: dict[str, str], key
 @settings(max_examples=25, deadline=None)
 def test_variants_together_are_the_variants_alone(working: list[float], height: float, bore: list[float]) -> None:
     keys = {"segment_height": height, "generatrix_length": 700, "working_length": 500}
-    together = inputs(MECHANISM, keys) | {"working_length": np.array(working) / 1e3, "bore_radius": np.array(bore) / 1e3}
+    together = inputs(MECHANISM, keys) | {
+        "working_length": np.array(working) / 1e3,
+        "bore_radius": np.array(bore) / 1e3,
+    }
     calc = calculate(MECHANISM, together, variants=5)
     assume(len(calc.flaws) < 5)
     for i, (length, hole) in enumerate(zip(working, bore, strict=True)):

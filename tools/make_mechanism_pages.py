@@ -1,0 +1,97 @@
+"""Makes docs/mechanisms/KIND.md from what each built-in mechanism declares: ``python tools/make_mechanism_pages.py``."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from pathlib import Path
+
+from pydantic_core import PydanticUndefined
+
+from diecut_report.contract.inputs import CurveInput, Meta, Quantity, meta_of
+from diecut_report.contract.mechanism import Mechanism
+from diecut_report.contract.steps import Breakpoints, Crossings, Reduction, Require, Step
+from diecut_report.units import pretty, unit
+
+PAGES = Path(__file__).parents[1] / "docs" / "mechanisms"
+
+
+def pages() -> dict[Path, str]:
+    """The text of each page by its file."""
+    from diecut_report.plugins.cylinder_drive import MECHANISM as DRIVE
+    from diecut_report.plugins.cylinder_sizing import MECHANISM as SIZING
+
+    return {PAGES / f"{m.kind}.md": "\n".join(page(m)) for m in (SIZING, DRIVE)}
+
+
+def page(mechanism: Mechanism) -> Iterator[str]:
+    """The lines of one mechanism's page."""
+    yield f"# {mechanism.title} — `{mechanism.kind}`\n"
+    yield f"{mechanism.summary}\n"
+    yield "Made from the plugin's declaration by `python tools/make_mechanism_pages.py`.\n"
+    yield "## Inputs\n"
+    yield from _table("key", "symbol", "unit", "default", "allowed", "meaning")
+    yield from _inputs(mechanism)
+    yield "\n## Outputs\n"
+    yield "Units are those of the results file. Optional chapters need the inputs named.\n"
+    yield from _table("id", "symbol", "unit", "meaning", "source", "needs")
+    yield from _outputs(mechanism)
+    yield "\n## Checks\n"
+    yield from _table("id", "demanded", "limited by", "source")
+    yield from (f"| `{c.id}` | {c.demand_label} | {c.limit_label} | {c.source} |" for c in mechanism.checks)
+    yield "\n## Assumptions\n"
+    yield from (f"- {text}" for text in mechanism.assumptions)
+    yield "\n## Errata of the sources\n"
+    yield from (f"- {e.source}: {e.text}" for e in mechanism.errata)
+    yield "\n## Sources\n"
+    yield from (f"- {s.id}: {s.citation}" for s in mechanism.sources)
+    yield ""
+
+
+def _table(*columns: str) -> Iterator[str]:
+    yield f"| {' | '.join(columns)} |"
+    yield f"| {' | '.join('---' for _ in columns)} |"
+
+
+def _inputs(mechanism: Mechanism) -> Iterator[str]:
+    for name, field in mechanism.inputs.model_fields.items():
+        meta = meta_of(mechanism.inputs, name)
+        if meta is not None:
+            yield f"| `{name}` | {meta.symbol} | {_unit(meta)} | {_default(meta, field.default)} | {_allowed(meta)} | {meta.description} |"
+
+
+def _unit(meta: Meta) -> str:
+    return (pretty(meta.unit) or "–") if isinstance(meta, Quantity | CurveInput) else "–"
+
+
+def _allowed(meta: Meta) -> str:
+    return meta.allowed if isinstance(meta, Quantity) else ""
+
+
+def _default(meta: Meta, default: object) -> str:
+    if isinstance(meta, Quantity) and meta.press:
+        return f"from `{meta.press.path}`"
+    if default is PydanticUndefined:
+        return "required"
+    return "optional" if default is None else str(default)
+
+
+def _outputs(mechanism: Mechanism) -> Iterator[str]:
+    seen: set[str] = set()
+    for section, step in mechanism.steps:
+        if step.output and not isinstance(step, Require | Breakpoints) and step.id not in seen:
+            seen.add(step.id)
+            needs = ", ".join(f"`{n}`" for n in dict.fromkeys((*section.needs, *step.needs)))
+            yield f"| {_id(step)} | {step.symbol} | {unit(step.unit).si} | {step.description} | {step.source} | {needs} |"
+
+
+def _id(step: Step) -> str:
+    if isinstance(step, Crossings):
+        return f"`{step.id}_count`, `{step.id}_1` …"
+    place = isinstance(step, Reduction) and step.operation in ("max", "min", "abs_max")
+    return f"`{step.id}`" + (" (and its place)" if place else "")
+
+
+if __name__ == "__main__":
+    PAGES.mkdir(parents=True, exist_ok=True)
+    for file, text in pages().items():
+        file.write_text(text, encoding="utf-8")
