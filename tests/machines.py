@@ -25,9 +25,7 @@ PUBLISHED_DRIVE: dict[str, Any] = {
     "cylinder_inertia": "0.973 kg*m**2",
     "material_thickness": "0.6 mm",
 }
-LOSSLESS: dict[str, Any] = {
-    f"efficiency_{name}": 1 for name in ("sector", "gear", "four_bar", "bearings", "chain")
-}
+LOSSLESS: dict[str, Any] = {f"efficiency_{name}": 1 for name in ("sector", "gear", "four_bar", "bearings", "chain")}
 
 UNBALANCED: dict[str, Any] = {
     "cylinder_mass": "80.9077 kg",

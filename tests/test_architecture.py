@@ -31,7 +31,7 @@ LAYERS = [
     {"contract"},
     {"api"},
     {"yaml_tree"},
-    {"config", "references", "discovery", "schema"},
+    {"config", "discovery", "references", "schema", "validation"},
     {"engine"},
     {"results"},
     {"testing"},

@@ -88,7 +88,10 @@ def test_the_sources_unsigned_torque() -> None:
 def test_the_unbalance_raises_the_braking_peak() -> None:
     exact = {"cylinder_mass": "80.908 kg", "cylinder_inertia": "0.63623 kg*m**2"}
     lossless = {f"efficiency_{n}": 1 for n in ("sector", "gear", "four_bar", "bearings", "chain")}
-    level, heavy = drive(**exact, **lossless), drive(**exact, **lossless, static_unbalance=UNBALANCED["static_unbalance"])
+    level, heavy = (
+        drive(**exact, **lossless),
+        drive(**exact, **lossless, static_unbalance=UNBALANCED["static_unbalance"]),
+    )
     assert number(level, "crank_torque_min") == pytest.approx(-1232, abs=1)
     assert number(heavy, "crank_torque_min") == pytest.approx(-1436, abs=1)
     assert number(level, "inertia_moment_max") == pytest.approx(785, abs=1)

@@ -1,0 +1,12 @@
+"""Settings of the whole test suite."""
+
+from __future__ import annotations
+
+import os
+
+from hypothesis import settings
+
+# No deadline: a first call may compile, import or wait for a busy machine, which says nothing about the code.
+# In CI the examples are the same at each run, so that a change is judged by what it changes; elsewhere they are new.
+settings.register_profile("diecut-report", deadline=None, derandomize="CI" in os.environ, print_blob=True)
+settings.load_profile("diecut-report")
