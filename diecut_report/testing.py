@@ -26,7 +26,9 @@ REGISTRY: pint.UnitRegistry[float] = pint.UnitRegistry()
 
 def check_mechanism(mechanism: Mechanism) -> None:
     """Raise AssertionError, listing every flaw of a mechanism's declaration."""
-    problems = list(chain(ids(mechanism), dimensions(mechanism), printing(mechanism), check_units(mechanism)))
+    problems = list(ids(mechanism)) or list(
+        chain(dimensions(mechanism), relations(mechanism), printing(mechanism), check_units(mechanism))
+    )
     assert not problems, f"{mechanism.kind}:\n" + "\n".join(problems)
 
 
@@ -81,22 +83,38 @@ def dimensions(mechanism: Mechanism) -> Iterator[str]:
         try:
             with np.errstate(all="ignore"):
                 result = _dimensioned(link.formula)(*(_quantity(name, units) for name in link.names.values()))
-        except (pint.DimensionalityError, pint.OffsetUnitCalculusError) as error:
+        except (pint.DimensionalityError, pint.OffsetUnitCalculusError, ValueError) as error:
             yield f"{step.id}: {link.formula.__name__}: {error}"
             continue
         wanted = _wanted(step, part, units)
         if wanted is None or (not isinstance(result, pint.Quantity) and result == 0):
             continue
-        if not REGISTRY.Quantity(result).check(REGISTRY.Quantity(1, wanted).dimensionality):
+        if not _like(result, REGISTRY.Quantity(1, wanted)):
             yield f"{step.id}: {link.formula.__name__} gives {REGISTRY.Quantity(result).units}, declared is {wanted}"
+
+
+def _like(one: Any, other: Any) -> bool:
+    return bool(REGISTRY.Quantity(one).dimensionality == REGISTRY.Quantity(other).dimensionality)
+
+
+def relations(mechanism: Mechanism) -> Iterator[str]:
+    """Roots that are proved by a relation between quantities of unlike dimensions."""
+    units = units_of(mechanism)
+    sides: dict[str, list[Any]] = {}
+    for step, part, link in formulas(mechanism):
+        if part in ("left", "right"):
+            with np.errstate(all="ignore"):
+                result = _dimensioned(link.formula)(*(_quantity(name, units) for name in link.names.values()))
+            sides.setdefault(step.id, []).append(result)
+    yield from (f"{name}: the relation equals {a} with {b}" for name, (a, b) in sides.items() if not _like(a, b))
 
 
 def _wanted(step: Step, part: str, units: dict[str, str]) -> str | None:
     """The unit that a part of a step must give; None for conditions, and for the sides of an equation (compared below)."""
     if part == "formula" and isinstance(step, Value | Choice | Abscissa):
         return unit(step.unit).si
-    if part in ("low", "high"):
-        return units[step.unknown] if isinstance(step, Root) else None
+    if part in ("low", "high") and isinstance(step, Root):
+        return unit(step.unit).si
     return None
 
 

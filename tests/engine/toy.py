@@ -14,6 +14,7 @@ from diecut_report.api import (
     Case,
     Check,
     Choice,
+    Constant,
     Crossings,
     CurveInput,
     FromCurve,
@@ -34,6 +35,11 @@ from diecut_report.api import (
 )
 
 
+HEAVY = Constant(5000, "F_h", "N")
+LIGHT = Constant(500, "M_l", "N*m")
+LONG = Constant(0.5, "a_l", "m")
+
+
 class Pair(Block):
     driver_teeth: Annotated[int, Quantity("z_1", "1", "Teeth of the driver", ge=12, integer=True)]
     driven_teeth: Annotated[int, Quantity("z_2", "1", "Teeth of the driven gear", ge=12, integer=True)]
@@ -51,6 +57,7 @@ class Toy(Inputs):
     gears: Annotated[list[Pair], Text("Gear pairs")] = []  # noqa: RUF012
     spring: Annotated[Spring | None, Text("Spring, if there is one")] = None
     torque_curve: Annotated[Any, CurveInput("M", "N*m", "Torque over a turn")] = None
+    target: Annotated[float, Quantity("t", "1", "What the root is of", gt=0)] = 2000
     grade: Annotated[Literal["fine", "coarse"], Text("Grade of the toy")] = "fine"
     n_points: Annotated[int, Quantity("N", "1", "Samples", ge=36, le=100_000, integer=True)] = 90
 
@@ -86,8 +93,8 @@ def ratio(driver_teeth: Any, driven_teeth: Any) -> Any:
 
 
 @formula
-def cube(x: Any, force: Any) -> Any:
-    return x**3 - force
+def cube(x: Any, target: Any) -> Any:
+    return x**3 - target
 
 
 @formula
@@ -101,13 +108,13 @@ def same(quantity: Any) -> Any:
 
 
 @formula
-def plus_one(force: Any) -> Any:
-    return 1 + force
+def plus_one(target: Any) -> Any:
+    return 1 + target
 
 
 @formula
 def heavy(force: Any) -> Any:
-    return force > 5000
+    return force > HEAVY
 
 
 @formula
@@ -122,12 +129,12 @@ def doubled(moment: Any) -> Any:
 
 @formula
 def is_light(moment: Any) -> Any:
-    return moment < 500
+    return moment < LIGHT
 
 
 @formula
-def shorter(arm: Any, limit: Any) -> Any:
-    return arm < limit
+def shorter(arm: Any) -> Any:
+    return arm < LONG
 
 
 FAMILY = (
@@ -146,7 +153,7 @@ MECHANISM = Mechanism(
             "Numbers",
             steps=(
                 Value(id="moment", symbol="M_0", unit="N*m", description="Moment", formula=moment),
-                Require(id="arm_limit", condition=bind(shorter, limit=0.5), key="arm", message="is {arm}, too long for {force}"),
+                Require(id="arm_limit", condition=shorter, key="arm", message="is {arm}, too long for {force}"),
                 Value(id="twice", symbol="2M_0", unit="N*m", description="Doubled, where it is light", formula=doubled, exists=is_light),
                 Choice(id="verdict", symbol="v", description="In words",
                        cases=(Case("heavy", "F > 5 kN", heavy), Case("light", "F ≤ 5 kN"))),
@@ -208,7 +215,7 @@ ROOTED = Mechanism(
             "Root",
             steps=(
                 Root(id="x", symbol="x", description="Cube root", equation=cube, unknown="x", low=bind(zero), high=plus_one,
-                     left=cubed, right=bind(same, quantity="force")),
+                     left=cubed, right=bind(same, quantity="target")),
             ),
         ),
     ),
