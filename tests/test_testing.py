@@ -34,7 +34,15 @@ def value(**changes: Any) -> Value:
 
 def check(**changes: Any) -> Check:
     """A sound check with changes."""
-    sound = {"id": "c", "title": "c", "demand": "m", "limit": 3.0, "unit": "N*m", "demand_label": "", "limit_label": ""}
+    sound: dict[str, Any] = {
+        "id": "c",
+        "title": "c",
+        "demand": "m",
+        "limit": 3.0,
+        "unit": "N*m",
+        "demand_label": "",
+        "limit_label": "",
+    }
     return Check(**{"consequence": ""} | sound | changes)
 
 

@@ -34,7 +34,6 @@ from diecut_report.api import (
     prefixed,
 )
 
-
 HEAVY = Constant(5000, "F_h", "N")
 LIGHT = Constant(500, "M_l", "N*m")
 LONG = Constant(0.5, "a_l", "m")
