@@ -103,7 +103,13 @@ class Mechanism:
 
     def axes(self, given: frozenset[str]) -> dict[str, str]:
         """For each curve its abscissa, for each row over like parts its list; single numbers are left out."""
-        return axes(tuple(step for _, step in self.active(given)), self.inputs)
+        if given not in self._axes:
+            self._axes[given] = axes(tuple(step for _, step in self.active(given)), self.inputs)
+        return self._axes[given]
+
+    @cached_property
+    def _axes(self) -> dict[frozenset[str], dict[str, str]]:
+        return {}
 
     @cached_property
     def curve_inputs(self) -> frozenset[str]:

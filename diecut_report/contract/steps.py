@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
-from functools import cache
+from functools import cache, cached_property
 from typing import Any, Literal
 
 from diecut_report.expressions import Formula
@@ -20,6 +20,11 @@ class Bound:
 
     formula: Formula
     names: Mapping[str, str | float]
+
+    @cached_property
+    def takes(self) -> tuple[str | float, ...]:
+        """What the parameters take, in their order: ids, or plain numbers as floats."""
+        return tuple(name if isinstance(name, str) else float(name) for name in self.names.values())
 
 
 def bind(formula: Formula, **names: str | float) -> Bound:

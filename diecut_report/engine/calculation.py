@@ -148,7 +148,8 @@ class _Sampler:
     """Curves at given places of their abscissa; each is computed once."""
 
     def __init__(self, owner: Calculation, axis: str, x: Array, middle: Array, rows: Array | None) -> None:
-        self.owner, self.axis, self.x, self.mid, self.rows = owner, axis, x, middle, rows
+        self.owner, self.axis, self.x, self.mid = owner, axis, x, middle
+        self.rows = rows if owner.count > 1 else None  # a single machine's numbers broadcast to all rows
         self.known: dict[str, Array] = {axis: x}
 
     def __getitem__(self, name: str) -> Array:
@@ -158,10 +159,10 @@ class _Sampler:
 
     def _compute(self, name: str) -> Array:
         step = self.owner.curves.get(name)
+        if step is None:
+            number = self.owner[name]
+            return number if self.rows is None else number[self.rows]
         match step:
-            case None:
-                number = self.owner[name]
-                return number if self.rows is None else number[self.rows]
             case FromCurve(given=given):
                 found: Array = self.owner.inputs[given].values(self.x / self.owner.domains[self.axis].period, self.rows)
                 return found
@@ -176,7 +177,9 @@ class _Sampler:
 
     def _apply(self, part: Bound | Formula) -> Array:
         link = bound(part)
-        found: Array = link.formula(*(self[n] if isinstance(n, str) else n for n in link.names.values()))
+        known = self.known
+        taken = [n if isinstance(n, float) else known[n] if n in known else self[n] for n in link.takes]
+        found: Array = link.formula.function(*taken)
         return found
 
 

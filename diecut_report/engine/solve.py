@@ -16,6 +16,7 @@ from diecut_report.expressions import Array
 ORDERS = (24, 48, 96, 192, 384)  # of Gauss–Legendre; the next one proves the one before
 INTEGRAL_TOLERANCE = 1e-11
 SAMPLE_TOLERANCE = 1e-9
+PLACE_TOLERANCE = 1e-6  # of an extreme's place; its value errs by the square of it
 NOISE = 1e-10  # share of a curve's greatest value below which its sign is rounding
 
 
@@ -98,6 +99,7 @@ def _refined(
         depth_at,
         (left[inner], centre[inner], right[inner]),
         args=(rows[inner].astype(float), middle[inner]),
+        tolerances={"xrtol": PLACE_TOLERANCE},
     )
     place, height = place.copy(), height.copy()
     better = -searched.f_x >= height[inner]
