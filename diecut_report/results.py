@@ -46,6 +46,9 @@ def mechanism_results(calc: Calculation, provenance: Mapping[str, Provenance]) -
         "sources": [{"id": s.id, "citation": s.citation} for s in mechanism.sources],
         "inputs": inputs(calc, provenance),
         **numbers(calc),
+        "key_results": [
+            name for name in mechanism.key_results if name in calc.values and not np.isnan(calc[name][0, 0])
+        ],
         "curves": curves(calc),
         "checks": checks,
         "warnings": [c["message"] for c in checks if c["status"] == "warn"],

@@ -59,7 +59,10 @@ class Erratum:
 
 @dataclass(frozen=True, kw_only=True)
 class Mechanism:
-    """A kind of mechanism: inputs, calculation, checks, figures, and what is said of it in the report."""
+    """A kind of mechanism: inputs, calculation, checks, figures, and what is said of it in the report.
+
+    ``key_results`` are the ids of the outputs that the report's summary shows.
+    """
 
     kind: str
     version: str
@@ -67,6 +70,7 @@ class Mechanism:
     summary: str
     inputs: type[Inputs]
     sections: tuple[Section, ...]
+    key_results: tuple[str, ...] = ()
     checks: tuple[Check, ...] = ()
     figures: tuple[Figure, ...] = ()
     assumptions: tuple[str, ...] = ()

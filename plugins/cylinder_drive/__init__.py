@@ -17,6 +17,9 @@ MECHANISM = Mechanism(
     inputs=CylinderDrive,
     sections=(linkage.LINKAGE, linkage.STROKE, linkage.CUTTING, linkage.KINEMATICS, forces.MOMENTS, forces.TORQUE, forces.ENERGY,
               forces.CLEARANCE, forces.TEETH, forces.JOINTS),
+    key_results=("swing_angle", "sector_ratio", "stroke", "velocity_max", "acceleration_max", "cutting_moment", "crank_torque_peak",
+                 "crank_torque_mean", "crank_torque_rms", "power_mean", "power_peak", "clearance_outer_time", "clearance_inner_time",
+                 "tooth_force_max", "joint_force_max"),
     checks=(
         Check(id="grashof", title="Crank-rocker (Grashof)", demand="grashof_demand", limit="grashof_limit", unit="1", operator="<",
               demand_label="shortest and longest link", limit_label="the other two", source="Grashof",

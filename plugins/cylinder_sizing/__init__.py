@@ -16,6 +16,8 @@ MECHANISM = Mechanism(
     "mass, the inertia and the unbalance; the wall that is left at the flat is checked.",
     inputs=CylinderSizing,
     sections=SECTIONS,
+    key_results=("radius", "mass", "inertia", "static_unbalance", "center_of_mass_offset", "wall_at_flat", "cutting_arc_fraction",
+                 "deflection"),
     checks=(
         Check(
             id="wall_at_flat",
