@@ -59,7 +59,14 @@ def mechanism_results(calc: Calculation, provenance: Mapping[str, Provenance]) -
             if s.absent and not calc.given.issuperset(s.needs)
         ],
         "figures": figures(calc),
-        "errata": [{"source": e.source, "text": e.text, "touches": list(e.touches)} for e in mechanism.errata],
+        "errata": [
+            {
+                "source": e.source,
+                "text": e.text,
+                "touches": [calc.step_or_input(n).description for n in e.touches if n in calc.steps],
+            }
+            for e in mechanism.errata
+        ],
     }
 
 

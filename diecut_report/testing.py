@@ -54,7 +54,6 @@ def units_of(mechanism: Mechanism) -> dict[str, str]:
     """The SI unit of each id of numbers, inputs and steps."""
     found = {name: unit(meta.unit).si for name, meta in fields(mechanism.inputs) if hasattr(meta, "unit")}
     found |= {f"inputs.{name}": si for name, si in found.items()}
-    yield from (f"the key result {name} is no step" for name in mechanism.key_results if name not in known)
     for _, step in mechanism.steps:
         if not isinstance(step, Require | Breakpoints):
             found[step.id] = unit(step.unit).si
@@ -72,6 +71,7 @@ def ids(mechanism: Mechanism) -> Iterator[str]:
         for name in (check.demand, check.limit, *check.needs):
             if isinstance(name, str) and name not in known:
                 yield f"check {check.id} takes {name}, which nothing gives"
+    yield from (f"the key result {name} is no step" for name in mechanism.key_results if name not in known)
     for _, step in mechanism.steps:
         if not isinstance(step, Require | Breakpoints) and not (step.symbol and step.description):
             yield f"{step.id} has no symbol or no description"

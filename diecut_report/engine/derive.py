@@ -22,7 +22,7 @@ from diecut_report.contract.steps import (
 from diecut_report.engine.calculation import Calculation
 from diecut_report.engine.printing import Substitution, number_text, printed, shown
 from diecut_report.expressions import Array, Formula, Node
-from diecut_report.units import unit
+from diecut_report.units import pretty, unit
 
 Item = dict[str, Any]
 FIRST = np.zeros(1, dtype=int)  # the variant that is printed
@@ -106,7 +106,7 @@ def value_at(calc: Calculation, name: str, axis: str | None, *, flag: bool = Fal
 
 def _at(calc: Calculation, axis: Step) -> str:
     place = shown_place(calc, axis.id)[0][0, 0]
-    return f"{axis.symbol} = {number_text(place / unit(axis.unit).factor, 6)} {axis.unit}"
+    return f"{axis.symbol} = {number_text(place / unit(axis.unit).factor, 6)} {pretty(axis.unit)}"
 
 
 def _value(calc: Calculation, step: Value, part: Bound) -> list[Item]:
