@@ -14,9 +14,9 @@ from diecut_report.contract.inputs import CurveInput, Quantity, fields
 from diecut_report.contract.steps import Breakpoints, Crossings, Require, Step
 from diecut_report.engine import Calculation
 from diecut_report.engine.derive import section_items
-from diecut_report.engine.printing import printed, shortest, shown
+from diecut_report.engine.printing import printed, shortest, shown, with_unit
 from diecut_report.engine.views import figures
-from diecut_report.units import pretty, unit
+from diecut_report.units import unit
 
 Data = dict[str, Any]
 Status = Literal["pass", "warn", "fail"]
@@ -235,7 +235,7 @@ def _check(calc: Calculation, check: Check) -> Data:
     held, ratio = verdict(check, demand, limit)
     status: Status = "pass" if held else check.severity
     told = _told(demand, limit, check.unit)
-    sentence = f"{check.demand_label} {_said(told['demand'])}, {check.limit_label} {_said(told['limit'])}"
+    sentence = f"{check.demand_label} {with_unit(*told['demand'].values())}, {check.limit_label} {with_unit(*told['limit'].values())}"
     message = f"{sentence}." if held else f"{sentence}: {check.consequence.format_map(_Said(calc))}"
     return {
         "id": check.id,
@@ -263,10 +263,6 @@ def _told(demand: float, limit: float, display: str) -> dict[str, dict[str, str]
         if abs(seen - margin) <= 0.05 * abs(margin):
             break
     return {"demand": texts[0], "limit": texts[1], "margin": shown(margin, display)}
-
-
-def _said(text: Mapping[str, str]) -> str:
-    return f"{text['text']} {pretty(text['unit'])}".strip()
 
 
 class _Said(dict[str, str]):

@@ -30,16 +30,19 @@ LAYERS = [
     {"mechanics"},
     {"contract"},
     {"api"},
-    {"yaml_tree"},
+    {"yaml_tree", "writing"},
     {"config", "discovery", "references", "schema", "validation"},
     {"engine"},
     {"results"},
-    {"testing"},
+    {"compute", "testing"},
+    {"assembly"},
     {"report"},
     {"pipeline"},
+    {"progress"},
     {"cli"},
     {"__main__"},
 ]
+REPORT = LAYERS.index({"report"})
 ONLY_IN = {  # library: the modules of the program that may import it
     "matplotlib": r"diecut_report\.report\.(figures|charts|drawing)",
     "weasyprint": r"diecut_report\.report\.pdf",
@@ -67,7 +70,7 @@ PLUGINS = {name: path for name, path in PROGRAM.items() if name.startswith("diec
 
 
 def tree(name: str) -> ast.Module:
-    return ast.parse(MODULES[name].read_text("utf-8"))
+    return ast.parse(MODULES[name].read_text("utf-8"), str(MODULES[name]))
 
 
 def imports(name: str) -> set[str]:
@@ -117,6 +120,12 @@ def test_imports_make_no_loop() -> None:
     # "from package import module" needs the module; the package's __init__ is counted only where it is meant
     graph = {name: {m for m in own_imports(name) if not within(name, m)} for name in PROGRAM}
     TopologicalSorter(graph).prepare()
+
+
+def test_a_report_is_made_of_results_alone() -> None:
+    allowed = {"report", "results", "units", "errors", ""}
+    parts = {(name, [*m.split("."), ""][1]) for name in PROGRAM if layer(name) == REPORT for m in own_imports(name)}
+    assert {(name, part) for name, part in parts if part not in allowed} == set()
 
 
 @pytest.mark.parametrize("library", ONLY_IN)

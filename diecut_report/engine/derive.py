@@ -20,9 +20,9 @@ from diecut_report.contract.steps import (
     bound,
 )
 from diecut_report.engine.calculation import Calculation
-from diecut_report.engine.printing import Substitution, number_text, printed, shown
+from diecut_report.engine.printing import Substitution, number_text, printed, shown, with_unit
 from diecut_report.expressions import Array, Formula, Node
-from diecut_report.units import pretty, unit
+from diecut_report.units import unit
 
 Item = dict[str, Any]
 FIRST = np.zeros(1, dtype=int)  # the variant that is printed
@@ -106,7 +106,7 @@ def value_at(calc: Calculation, name: str, axis: str | None, *, flag: bool = Fal
 
 def _at(calc: Calculation, axis: Step) -> str:
     place = shown_place(calc, axis.id)[0][0, 0]
-    return f"{axis.symbol} = {number_text(place / unit(axis.unit).factor, 6)} {pretty(axis.unit)}"
+    return f"{axis.symbol} = {with_unit(number_text(place / unit(axis.unit).factor, 6), axis.unit)}"
 
 
 def _value(calc: Calculation, step: Value, part: Bound) -> list[Item]:
@@ -226,6 +226,6 @@ def _crossings(calc: Calculation, step: Crossings) -> Item:
 def _pick(calc: Calculation, step: Pick) -> Item:
     series = sorted(step.series)
     index = int(calc.branch[step.id][0, 0])
-    beside = [f"{series[i]:g} {step.unit}" for i in (index - 1, index + 1) if 0 <= i < len(series)]
+    beside = [with_unit(f"{series[i]:g}", step.unit) for i in (index - 1, index + 1) if 0 <= i < len(series)]
     words = f"{SERIES_WORDS[step.rule]}; neighbours not taken: {', '.join(beside)}"
     return _head(step) | _reduced(calc, step, step.of) | {"operation": "pick", "method": words}

@@ -45,6 +45,12 @@ def shown(value: float, unit_text: str, digits: int = DIGITS) -> dict[str, str]:
     return {"text": number_text(value / unit(unit_text).factor, digits), "unit": unit_text}
 
 
+def with_unit(text: str, display: str) -> str:
+    """A number's text with its unit as one writes it: ``40 mm``, ``60°``, ``5``."""
+    sign = pretty(display)
+    return f"{text}{sign}" if sign == "°" else f"{text} {sign}".rstrip()
+
+
 def printed(calc: Calculation, name: str, variant: int = 0) -> str:
     """A quantity as one would say it: ``40 mm``."""
     declared = calc.step_or_input(name)
@@ -54,7 +60,7 @@ def printed(calc: Calculation, name: str, variant: int = 0) -> str:
     number = float(value) / unit(declared.unit).factor
     typed = name not in calc.values
     text = shortest(number) if typed else number_text(number, getattr(declared, "digits", DIGITS))
-    return f"{text} {pretty(declared.unit)}".rstrip()
+    return with_unit(text, declared.unit)
 
 
 def formula_unit(display: str) -> str:
