@@ -28,8 +28,8 @@ MECHANISM = Mechanism(
             demand_label="required wall",
             limit_label="wall at the flat",
             source="000 erratum 4",
-            consequence="the wall at the flat is too thin, and at or below 0 mm the bore breaks through the flat; "
-            "a bore radius of at most {bore_radius_limit} keeps the wall.",
+            consequence="{wall_verdict}; "
+            "a bore radius of at most {bore_radius_limit} keeps the required wall.",
         ),
         Check(
             id="radius",
