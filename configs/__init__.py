@@ -1,0 +1,1 @@
+"""Complete example configurations; each is built in the tests."""

@@ -1,0 +1,270 @@
+"""The command line: commands, exit codes, and all that is printed.
+
+Exit codes: 0 all checks pass, 1 a check fails, 2 bad input or usage (nothing is written), 3 a plugin broke.
+"""
+
+from __future__ import annotations
+
+import gc
+import json
+import os
+import sys
+import traceback
+from collections.abc import Callable, Iterable, Sequence
+from contextlib import redirect_stdout
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, TypeVar
+
+import click
+
+from diecut_report import __version__
+from diecut_report.discovery import Discovery, DuplicateKind, UnknownKind, nearest
+from diecut_report.errors import PluginError, Problem, UserError
+from diecut_report.progress import Progress
+
+if TYPE_CHECKING:
+    from diecut_report.pipeline import Outcome
+
+PASSED, CHECK_FAILED, BAD_INPUT, PLUGIN_BROKE = 0, 1, 2, 3
+INTERRUPTED, FAULT = 130, 70  # as shells and sysexits have it: Ctrl-C, a fault of the program itself
+COLOURS = {"fail": "31", "error": "31", "skipped": "33", "warn": "33", "pass": "32"}
+
+Command = TypeVar("Command", bound=Callable[..., Any])
+
+
+def main(arguments: Sequence[str] | None = None) -> int:
+    """Run a command; its exit code. What a user can mend is told on standard error."""
+    # starting makes many lasting objects; to look for garbage among them costs a tenth of a run
+    gc.set_threshold(100_000)
+    try:
+        return int(program.main(arguments, prog_name="diecut-report", standalone_mode=False) or PASSED)
+    except click.Abort:
+        return INTERRUPTED
+    except click.ClickException as error:
+        error.show()
+        return BAD_INPUT
+    except UserError as error:
+        tell(str(problem) for problem in error.problems)
+        return BAD_INPUT
+    except Exception:
+        traceback.print_exc()
+        tell(["This is a fault of diecut-report itself. Please report it with the lines above and the configuration."])
+        return FAULT
+
+
+def tell(lines: Iterable[str]) -> None:
+    """Messages, on standard error."""
+    for line in lines:
+        click.echo(line, err=True)
+
+
+def emit(text: str) -> None:
+    """What was asked for, on standard output; always UTF-8."""
+    try:
+        sys.stdout.buffer.write(text.encode())
+        sys.stdout.flush()
+    except BrokenPipeError:  # the reader has seen enough
+        _close_output()
+    except OSError as error:
+        from diecut_report.writing import reason
+
+        _close_output()
+        raise UserError(Problem(f"Standard output cannot be written: {reason(error)}")) from error
+
+
+def _close_output() -> None:
+    os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())  # what is still buffered goes nowhere
+
+
+def coloured(text: str, status: str) -> str:
+    """The text in the status's colour where standard error is a terminal that wants colours."""
+    plain = not sys.stderr.isatty() or os.environ.get("NO_COLOR") or os.environ.get("TERM") == "dumb"
+    return text if plain else f"\x1b[{COLOURS[status]}m{text}\x1b[0m"
+
+
+# --- options ---------------------------------------------------------------------------------------------------------
+
+
+def common(command: Command) -> Command:
+    """The options that every command has."""
+    folders = click.option("--plugins", "folders", metavar="DIR", multiple=True, type=click.Path(path_type=Path),
+                           help="A folder with plugins of your own; may be given several times.")  # fmt: skip
+    quiet = click.option(
+        "--quiet", is_flag=True, help="Show neither progress nor a summary; errors are told all the same."
+    )
+    return folders(quiet(command))
+
+
+def _formats(_: click.Context, __: click.Parameter, given: str) -> list[str]:
+    from diecut_report.pipeline import FORMATS
+
+    asked = list(dict.fromkeys(part.strip().lower() for part in given.split(",") if part.strip()))
+    unknown = [part for part in asked if part not in FORMATS]
+    if unknown or not asked:
+        words = f"{unknown[0]!r} is no format{nearest(unknown[0], FORMATS)}" if unknown else "no format is named"
+        raise click.BadParameter(f"{words}; known: {', '.join(FORMATS)}.")
+    return asked
+
+
+def _language(_: click.Context, __: click.Parameter, given: str | None) -> str | None:
+    from diecut_report.config import complete_language
+
+    try:
+        return None if given is None else complete_language(given)
+    except ValueError as error:
+        raise click.BadParameter(f"{error}") from None
+
+
+@click.group(context_settings={"help_option_names": ["-h", "--help"]})
+@click.version_option(__version__, prog_name="diecut-report")
+def program() -> None:
+    """Design reports for die-cutting presses, from a YAML description to a checked calculation document."""
+
+
+config_argument = click.argument("config", type=click.Path(path_type=Path))
+
+
+# --- commands --------------------------------------------------------------------------------------------------------
+
+
+@program.command()
+@config_argument
+@click.option(
+    "-o", "folder", metavar="DIR", default=".", type=click.Path(path_type=Path), help="Where to write (default: here)."
+)
+@click.option(
+    "--format",
+    "formats",
+    metavar="LIST",
+    default="html,pdf,json",
+    callback=_formats,
+    help="html,pdf,json or some of them.",
+)
+@click.option(
+    "--language", metavar="LANGUAGE", callback=_language, help="Language of the report, in place of the project's."
+)
+@common
+def report(
+    config: Path, folder: Path, formats: list[str], language: str | None, folders: tuple[Path, ...], quiet: bool
+) -> int:
+    """Calculate and write NAME.html, NAME.pdf and NAME.json."""
+    from diecut_report import pipeline
+
+    with Progress(quiet) as progress, redirect_stdout(sys.stderr):
+        outcome = pipeline.report(config, Discovery(folders), progress, folder, formats, language)
+    if not quiet:
+        tell(f"written: {path}" for path in outcome.written)
+    return _verdict(outcome, quiet)
+
+
+@program.command()
+@config_argument
+@click.option(
+    "-o", "target", metavar="FILE", type=click.Path(path_type=Path), help="Write to a file, not to standard output."
+)
+@common
+def calc(config: Path, target: Path | None, folders: tuple[Path, ...], quiet: bool) -> int:
+    """Calculate, and give the results file alone."""
+    from diecut_report import pipeline
+
+    to_file = None if target == Path("-") else target
+    with Progress(quiet) as progress, redirect_stdout(sys.stderr):  # a plugin that prints does not spoil the JSON
+        outcome, text = pipeline.calc(config, Discovery(folders), progress, to_file)
+    if to_file is None:
+        emit(text)
+    return _verdict(outcome, quiet=True)
+
+
+@program.command()
+@click.argument("configs", metavar="CONFIG…", nargs=-1, required=True, type=click.Path(path_type=Path))
+@common
+def check(configs: tuple[Path, ...], folders: tuple[Path, ...], quiet: bool) -> int:
+    """Validate without calculating; all problems of all files are told."""
+    from diecut_report import pipeline
+
+    discovery, codes = Discovery(folders), []
+    for config in configs:
+        try:
+            with redirect_stdout(sys.stderr):
+                broken = pipeline.check(config, discovery)
+            tell(str(error) if len(configs) == 1 else f"{config}: {error}" for error in broken)
+            codes.append(PLUGIN_BROKE if broken else PASSED)
+        except UserError as error:
+            tell(str(problem) for problem in error.problems)
+            codes.append(BAD_INPUT)
+        if codes[-1] == PASSED and not quiet:
+            tell([f"{config}: valid"])
+    return BAD_INPUT if BAD_INPUT in codes else max(codes)
+
+
+@program.command()
+@common
+def plugins(folders: tuple[Path, ...], quiet: bool) -> int:
+    """List the kinds, their sources and where each comes from."""
+    discovery, codes, lines = Discovery(folders), [PASSED], []
+    for kind, origins in discovery.origins.items():
+        try:
+            with redirect_stdout(sys.stderr):
+                mechanism = discovery.mechanism(kind)
+            lines += [f"{kind} {mechanism.version}: {mechanism.title}", f"    from {origins[0].told}"]
+            lines += [f"    source {source.id}: {source.citation}" for source in mechanism.sources]
+        except DuplicateKind as fault:
+            tell([str(fault)])
+            codes.append(BAD_INPUT)
+        except PluginError as error:
+            tell([str(error)])
+            codes.append(PLUGIN_BROKE)
+    emit("".join(f"{line}\n" for line in lines))
+    return BAD_INPUT if BAD_INPUT in codes else max(codes)
+
+
+@program.command()
+@click.argument("kind", required=False)
+@common
+def schema(kind: str | None, folders: tuple[Path, ...], quiet: bool) -> int:
+    """JSON Schema of the config, or of one KIND's block, for editors."""
+    from diecut_report.schema import config_schema, kind_schema
+
+    discovery = Discovery(folders)
+    found, broken = {}, {}
+    for name in [kind] if kind else discovery.origins:
+        try:
+            with redirect_stdout(sys.stderr):
+                found[name] = discovery.mechanism(name)
+        except (UnknownKind, DuplicateKind) as fault:
+            raise UserError(Problem(str(fault))) from None
+        except PluginError as error:
+            tell([str(error)])
+            broken[name] = error.message
+    if kind is None or kind in found:
+        whole = kind_schema(found[kind]) if kind else config_schema(found, broken)
+        emit(json.dumps(whole, indent=2, ensure_ascii=False) + "\n")
+    return PLUGIN_BROKE if broken else PASSED
+
+
+# --- verdict ---------------------------------------------------------------------------------------------------------
+
+
+def _verdict(outcome: Outcome, quiet: bool) -> int:
+    tell(str(error) for error in outcome.broken)
+    if not quiet:
+        tell(_summary(outcome.results))
+    return {"error": PLUGIN_BROKE, "fail": CHECK_FAILED}.get(outcome.results["status"], PASSED)
+
+
+def _summary(results: dict[str, Any]) -> list[str]:
+    """The checks that do not pass, in words, the worst first; or that all pass."""
+    lines = []
+    for name, data in results["mechanisms"].items():
+        if data["status"] == "skipped":
+            lines.append((2, f"{coloured('skipped', 'skipped')} {name}: {data['error']}"))
+        for made in data["checks"]:
+            if made["status"] != "pass":
+                rank = ("fail", "warn").index(made["status"])
+                lines.append(
+                    (rank, f"{coloured(made['status'], made['status'])} {name}: {made['title']}. {made['message']}")
+                )
+    count = sum(len(data["checks"]) for data in results["mechanisms"].values())
+    failed = sum(rank == 0 for rank, _ in lines)
+    verdict = f"{failed} of {count} checks fail." if failed else coloured("No check fails.", "pass")
+    return [line for _, line in sorted(lines, key=lambda pair: pair[0])] + [verdict]

@@ -1,0 +1,49 @@
+"""What is being done, shown on a terminal once it has taken longer than a second."""
+
+from __future__ import annotations
+
+import sys
+from threading import Lock, Timer
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from rich.status import Status
+
+PATIENCE = 1.0  # seconds until it is shown
+
+
+class Progress:
+    """Shows on a terminal what is being done, once it has taken longer than a second."""
+
+    def __init__(self, quiet: bool) -> None:
+        self.doing, self.status, self.done = "", None, quiet or not sys.stderr.isatty()
+        self.lock = Lock()
+        self.timer = Timer(PATIENCE, self._show)
+        self.timer.daemon = True
+
+    status: Status | None
+
+    def __call__(self, doing: str) -> None:
+        self.doing = doing
+        if self.status is not None:
+            self.status.update(doing)
+
+    def __enter__(self) -> Progress:
+        if not self.done:
+            self.timer.start()
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        self.timer.cancel()
+        with self.lock:
+            self.done = True
+            if self.status is not None:
+                self.status.stop()
+
+    def _show(self) -> None:
+        from rich.console import Console
+
+        with self.lock:
+            if not self.done:
+                self.status = Console(stderr=True).status(self.doing)
+                self.status.start()

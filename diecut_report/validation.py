@@ -1,0 +1,170 @@
+"""Validates a block of the config against its model, and says in words, with positions, what is wrong with it."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Container, Mapping
+from dataclasses import dataclass
+from functools import cache
+from typing import Any, NamedTuple
+
+from pydantic import ValidationError
+from pydantic.fields import FieldInfo
+
+from diecut_report.contract.inputs import Block, CurveInput, Meta, Pending, Quantity, Text, meta_of, nested
+from diecut_report.discovery import nearest
+from diecut_report.errors import Problem
+from diecut_report.units import pretty
+from diecut_report.yaml_tree import KeyPath, Tree
+
+SHOWN = 60  # characters of a given text that a message repeats
+
+
+@dataclass(frozen=True)
+class Place:
+    """Where a block stands in the file."""
+
+    tree: Tree
+    root: KeyPath = ()
+
+    def problem(self, key: KeyPath, message: str, *, at_key: bool = False) -> Problem:
+        """A problem of the value at ``key`` below this block (or of the key itself)."""
+        path = (*self.root, *key)
+        line, column = self.tree.key_position(path) if at_key else self.tree.position(path)
+        return Problem(message, self.tree.file, line, column, ".".join(map(str, path)))
+
+    def absent(self, key: KeyPath, message: str) -> Problem:
+        """A problem of a key that is not there; its place is the key of the block where it belongs."""
+        path = (*self.root, *key)
+        line, column = self.tree.key_position(path[:-1])
+        return Problem(message, self.tree.file, line, column, ".".join(map(str, path)))
+
+
+def validate(
+    model: type[Block], data: Any, place: Place, open_keys: Container[KeyPath] = ()
+) -> tuple[Any | None, list[Problem]]:
+    """The validated block, or None with the problems; what is wrong at ``open_keys`` cannot be judged yet and is left out."""
+    try:
+        return model.model_validate(data), []
+    except ValidationError as error:
+        faults = [_Fault(model, place, fault) for fault in error.errors(include_url=False)]
+        return None, [fault.problem() for fault in faults if fault.key not in open_keys]
+
+
+class Key(NamedTuple):
+    """A key of a block: its field, what it declares, and the block that it holds (or a list of it)."""
+
+    field: FieldInfo
+    meta: Meta | None
+    block: type[Block] | None
+    is_list: bool
+
+
+@cache
+def keys_of(model: type[Block]) -> dict[str, Key]:
+    """The keys of a block by their names."""
+    found = {}
+    for name, field in model.model_fields.items():
+        block, is_list = nested(field.annotation) or (None, False)
+        found[name] = Key(field, meta_of(model, name), block, is_list)
+    return found
+
+
+def declared(model: type[Block], key: KeyPath) -> Meta | type[Block] | None:
+    """What a key path names: an input's declaration, a block (or a list of blocks), or None where there is no such key."""
+    name, *rest = key
+    found = keys_of(model).get(name) if isinstance(name, str) else None
+    if found is None:
+        return None
+    if found.block is None:
+        return None if rest else found.meta
+    if found.is_list and rest:
+        if not isinstance(rest[0], int):
+            return None
+        rest = rest[1:]
+    return declared(found.block, tuple(rest)) if rest else found.block
+
+
+class _Fault:
+    """One fault that pydantic found, in our words."""
+
+    def __init__(self, model: type[Block], place: Place, found: Mapping[str, Any]) -> None:
+        self.model, self.place = model, place
+        self.type: str = found["type"]
+        self.key: KeyPath = found["loc"]
+        self.given, self.context = found["input"], found.get("ctx", {})
+
+    def problem(self) -> Problem:
+        if self.type == "missing":
+            return self.place.absent(self.key, self._missing())
+        return self.place.problem(self.key, self.message(), at_key=self.type == "extra_forbidden")
+
+    def message(self) -> str:
+        words: dict[str, Callable[[], str]] = {
+            "extra_forbidden": self._unknown_key,
+            "value_error": lambda: str(self.context["error"]),
+            "literal_error": self._choice,
+            "enum": self._choice,
+            "too_short": lambda: (
+                f"has {self.context['actual_length']} entries; at least {self.context['min_length']} needed"
+            ),
+            "too_long": lambda: (
+                f"has {self.context['actual_length']} entries; at most {self.context['max_length']} allowed"
+            ),
+            "string_too_short": lambda: "is empty; give a text",
+        }
+        return words.get(self.type, self._other)()
+
+    def _missing(self) -> str:
+        meta = declared(self.model, self.key)
+        if isinstance(meta, Quantity | CurveInput):
+            allowed = f" ({meta.allowed})" if isinstance(meta, Quantity) and meta.allowed else ""
+            return f"is missing. Give it in {pretty(meta.unit) or 'plain numbers'}{allowed}: {meta.description}."
+        described = f": {meta.description}" if isinstance(meta, Text) else ""
+        return f"is missing; it is required{described}."
+
+    def _unknown_key(self) -> str:
+        home = declared(self.model, self.key[:-1]) if len(self.key) > 1 else self.model
+        known = list(home.model_fields) if isinstance(home, type) else []
+        own = ["kind"] if self.place.root[:1] == ("mechanisms",) and len(self.key) == 1 else []
+        return f"is an unknown key{nearest(str(self.key[-1]), known)}. Known keys: {', '.join(own + known)}."
+
+    def _choice(self) -> str:
+        expected = str(self.context["expected"]).replace(" or ", ", ")
+        choices = [choice.strip("'") for choice in expected.split(", ")]
+        near = nearest(self.given, choices) if isinstance(self.given, str) and self.given not in choices else ""
+        return f"is {told(self.given)}{near}; allowed: {', '.join(choices)}"
+
+    def _other(self) -> str:
+        if isinstance(self.given, Pending):
+            number = f"is a {'curve' if self.given.is_curve else 'number'} in {self.given.unit}"
+            return (
+                f"${{{self.given.path}}} {number if self.given.unit else 'is a text'}; {self._needed()} is needed here"
+            )
+        if self.given is None:
+            return f"has no value; {self._needed()} is needed, or remove the key"
+        return f"is {told(self.given)}; {self._needed()} is needed"
+
+    def _needed(self) -> str:
+        kinds = {"bool": "true or false", "int": "a whole number", "float": "a number", "string": "a text", "list": "a list",
+                 "dict": "a block of keys", "model": "a block of keys"}  # fmt: skip
+        known = kinds.get(self.type.split("_")[0])
+        if known:
+            return known
+        meta = declared(self.model, self.key) if self.key else None
+        return f"another value ({meta.description})" if isinstance(meta, Text) else "another value"
+
+
+def told(given: Any) -> str:
+    """A given value in a message: texts in quotes and cut where they are long, lists and blocks named only."""
+    match given:
+        case None:
+            return "empty"
+        case bool():
+            return str(given).lower()
+        case str():
+            return f"“{given}”" if len(given) <= SHOWN else f"“{given[: SHOWN - 1]}…”"
+        case list():
+            return "a list"
+        case dict():
+            return "a block of keys"
+    return f"{given}"

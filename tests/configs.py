@@ -1,0 +1,45 @@
+"""Small configs for tests, with the kinds of tests/plugins_for_tests."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+from diecut_report import configs
+from diecut_report.config import Config, load_config
+from diecut_report.discovery import Discovery
+from diecut_report.errors import UserError
+
+PLUGINS = Path(__file__).parent / "plugins_for_tests"
+GOOD, BROKEN, LISTED = PLUGINS / "good", PLUGINS / "broken", PLUGINS / "listed"
+EXAMPLES = sorted(path for folder in configs.__path__ for path in Path(folder).glob("*.yaml"))
+EXAMPLE = next(path for path in EXAMPLES if path.name == "flat_cylinder_press.yaml")
+DISCOVERY = Discovery([GOOD])
+
+HEAD = """\
+schema_version: 1
+project: {title: Test}
+press: {name: P, productivity: 6000 1/h, sheet: {length: 700 mm, thickness: 0.6 mm}}
+mechanisms:
+"""
+LEVER = HEAD + "  a: {kind: lever, force: 2 kN}\n"
+
+
+def saved(folder: Path, text: str, name: str = "press.yaml") -> Path:
+    """The text as a file in the folder."""
+    path = folder / name
+    path.write_text(text, "utf-8")
+    return path
+
+
+def loaded(folder: Path, text: str, discovery: Discovery = DISCOVERY) -> Config:
+    """The config that a text gives."""
+    return load_config(saved(folder, text), discovery)
+
+
+def problems(folder: Path, text: str, discovery: Discovery = DISCOVERY) -> list[str]:
+    """What is wrong with a text, each as LINE:COLUMN: PATH: MESSAGE; a text that is right fails the test."""
+    try:
+        loaded(folder, text, discovery)
+    except UserError as error:
+        return [str(problem).removeprefix(f"{folder / 'press.yaml'}:") for problem in error.problems]
+    raise AssertionError("no problem was found")

@@ -1,0 +1,3 @@
+"""A plugin whose MECHANISM is none."""
+
+MECHANISM = {"kind": "no_mechanism"}
