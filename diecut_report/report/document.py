@@ -1,0 +1,135 @@
+"""The report's content in its order, ready for any template: what is said where, with its numbers. No markup but symbols."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass, field
+from typing import Any
+
+from diecut_report.report.chapters import chapter
+from diecut_report.report.equations import Equations
+from diecut_report.report.i18n import Words
+from diecut_report.report.rows import Chapter, CheckRow, QuantityRow, quantity_row
+
+Data = Mapping[str, Any]
+ORDER = {"fail": 0, "warn": 1, "pass": 2}
+TITLE_BLOCK = (
+    "title",
+    "document_number",
+    "revision",
+    "date",
+    "organisation",
+    "prepared_by",
+    "checked_by",
+    "approved_by",
+)
+REVISION = ("revision", "date", "description", "by")
+
+
+@dataclass(frozen=True)
+class Document:
+    """A whole report."""
+
+    project: Data
+    press: Data
+    status: str
+    verdict: str
+    counts: list[str]
+    governing: CheckRow | None
+    checks: list[CheckRow]
+    failures: list[CheckRow]
+    press_rows: list[QuantityRow]
+    chapters: list[Chapter]
+    sources: list[tuple[str, str]]
+    program: Data
+    config: Data
+    words: Words
+    contents: list[tuple[str, str, str, int]] = field(default_factory=list)
+
+    @property
+    def title(self) -> str:
+        """The project's title."""
+        return str(self.project["title"])
+
+
+def document(results: Data, equations: Equations, words: Words) -> Document:
+    """The report of the results."""
+    chapters = [
+        chapter(letter(index), name, mechanism, equations, words)
+        for index, (name, mechanism) in enumerate(results["mechanisms"].items())
+    ]
+    checks = sorted((row for part in chapters for row in part.checks), key=lambda row: ORDER[row.status])
+    decimal = words["decimal"]
+    return Document(
+        project=_title_block(results["project"]),
+        press=results["press"],
+        status=results["status"],
+        verdict=words[f"verdict_{results['status']}"],
+        counts=list(_counts(checks, chapters, words)),
+        governing=_governing(results, checks),
+        checks=checks,
+        failures=[row for row in checks if row.status == "fail"],
+        press_rows=[quantity_row(row, decimal) for row in results["press"]["fields"]],
+        chapters=chapters,
+        sources=_sources(results),
+        program=results["program"],
+        config=results["config"],
+        words=words,
+        contents=list(_contents(chapters, words)),
+    )
+
+
+def _title_block(project: Data) -> Data:
+    """The project's texts; what is not given is empty."""
+    revisions = [{key: str(row.get(key) or "") for key in REVISION} for row in project.get("revisions") or ()]
+    return {key: str(project.get(key) or "") for key in TITLE_BLOCK} | {"revisions": revisions}
+
+
+def letter(index: int) -> str:
+    """A chapter's letter: A … Z, AA …"""
+    return ("" if index < 26 else letter(index // 26 - 1)) + chr(ord("A") + index % 26)
+
+
+def _counts(checks: list[CheckRow], chapters: list[Chapter], words: Words) -> Iterator[str]:
+    """How many checks fail, warn and pass, and how many mechanisms were not calculated."""
+    found = {status: sum(row.status == status for row in checks) for status in ORDER}
+    total = len(checks)
+    lost = sum(part.lost for part in chapters)
+    if lost:
+        yield words.say("count_error", n=lost)
+    if not total:
+        yield words["no_checks"]
+    if found["fail"]:
+        yield words.say("count_fail" if found["fail"] > 1 else "count_fail_one", n=found["fail"], total=total)
+    if found["warn"]:
+        yield words.say("count_warn", n=found["warn"])
+    if found["pass"]:
+        yield words.say("count_pass" if found["pass"] > 1 else "count_pass_one", n=found["pass"])
+
+
+def _governing(results: Data, checks: list[CheckRow]) -> CheckRow | None:
+    named = results.get("governing")
+    if not named:
+        return None
+    return next(row for row in checks if (row.mechanism, row.id) == (named["mechanism"], named["check"]))
+
+
+def _sources(results: Data) -> list[tuple[str, str]]:
+    """All sources of the mechanisms, each once, by their id."""
+    found = {
+        source["id"]: source["citation"] for m in results["mechanisms"].values() for source in m.get("sources", ())
+    }
+    return sorted(found.items())
+
+
+def _contents(chapters: list[Chapter], words: Words) -> Iterator[tuple[str, str, str, int]]:
+    """Anchor, number, title and depth of all that has a heading."""
+    yield "summary", "1", words["summary"], 1
+    yield "press", "2", words["press_data"], 1
+    for part in chapters:
+        yield part.anchor, part.letter, part.title, 1
+        for heading in part.headings:
+            yield heading.anchor, heading.number, heading.title, 2
+    yield "sources", "3", words["sources"], 1
+    yield "program", "4", words["program"], 1
+    yield "configuration", "5", words["configuration"], 1

@@ -1,0 +1,181 @@
+"""One item of a calculation as a typeset equation: symbol = formula = numbers = result, in rows that fit the page."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from functools import reduce
+from typing import Any, NamedTuple
+
+from diecut_report.report.formulas import Latex, Linear, escaped
+from diecut_report.report.printing import Tree, factors, terms
+
+Item = Mapping[str, Any]
+Measure = Callable[[str], float]  # the width of LaTeX in em
+
+WIDTH = 43.0  # of the text column, in em of the formulas' size
+ONE_LINE = 36.0  # an equation no wider stands in one line
+BLANK: Tree = ["sym", ""]  # what a broken-off rest of a sum is added to
+OPERATORS = {"max": r"\max", "min": r"\min", "sum": r"\sum", "product": r"\prod", "integral": r"\int"}
+SIGNS = {"sum": "∑", "product": "∏", "integral": "∫"}
+
+
+class Equation(NamedTuple):
+    """A typeset equation: its LaTeX, and the same as linear text, a line for each row."""
+
+    latex: str
+    text: str
+
+
+class Link(NamedTuple):
+    """One side of an equality in both forms, and the tree by which it may be broken."""
+
+    latex: str = ""
+    text: str = ""
+    tree: Tree | None = None
+
+
+class Row(NamedTuple):
+    """A row of an equation: what stands left of the first sign of equality, the links behind it, and the place."""
+
+    head: Link
+    links: list[Link]
+    place: Link = Link()
+
+    def latex(self, mark: str = "") -> str:
+        """The row as LaTeX; ``mark`` stands where rows are aligned."""
+        start = f"{self.head.latex} {mark}= " if self.head.latex or mark else ""
+        return start + " = ".join(link.latex for link in self.links) + self.place.latex
+
+    def text(self) -> str:
+        """The row as linear text."""
+        return " = ".join(link.text for link in (self.head, *self.links) if link.text) + self.place.text
+
+
+class Equations:
+    """Builds the equations of a report; ``measure`` tells how wide LaTeX comes out."""
+
+    def __init__(self, words: Mapping[str, str], measure: Measure, width: float = WIDTH) -> None:
+        self.words = words
+        self.measure = measure
+        self.width = width
+        self.latex = Latex(words, words["decimal"])
+        self.linear = Linear(words, words["decimal"])
+
+    def of(self, item: Item) -> Equation | None:
+        """The equation of an item; None where there is nothing to typeset."""
+        links = self._links(item)
+        head, place = self._symbol(item["symbol"]), self._place(item)
+        if item["type"] == "found":
+            _, _, left, right = item["relation"]
+            return self._stacked([Row(self._link(left), [self._link(right)]), Row(head, links, place)])
+        if not links:
+            return None
+        whole = Row(head, links, place)
+        if self.measure(whole.latex()) <= ONE_LINE:
+            return Equation(whole.latex(), whole.text())
+        return self._stacked(self._rows(whole))
+
+    def condition(self, item: Item) -> Equation | None:
+        """The condition of the branch taken: in symbols, and with its numbers."""
+        links = [self._link(tree) for tree in (item.get("condition"), item.get("condition_substituted")) if tree]
+        if not links:
+            return None
+        return Equation(r":\quad ".join(link.latex for link in links), ": ".join(link.text for link in links))
+
+    def inline(self, tree: Tree) -> Equation:
+        """A lone expression."""
+        return Equation(*self._link(tree)[:2])
+
+    def _links(self, item: Item) -> list[Link]:
+        """What stands behind the symbol: the formula, the numbers in it, and the result."""
+        result = self._result(item["result"])
+        if item["type"] == "reduction":
+            return [*self._reduced(item), result]
+        trees = [tree for tree in (item.get("equation"), item.get("substituted")) if tree]
+        links = [self._link(tree) for tree in trees]
+        links = [link for link in links if link.text not in (result.text, item["symbol"])]
+        return [*links, result] if trees or item["type"] == "found" else []
+
+    def _link(self, tree: Tree) -> Link:
+        return Link(self.latex(tree), self.linear(tree), tree)
+
+    def _result(self, result: Item) -> Link:
+        return Link(
+            self.latex.quantity(result["text"], result["unit"]), self.linear.quantity(result["text"], result["unit"])
+        )
+
+    def _symbol(self, name: str) -> Link:
+        return Link(self.latex.symbol(name), self.linear.symbol(name)) if name else Link()
+
+    def _reduced(self, item: Item) -> list[Link]:
+        """What is taken of a curve or of like parts: max V, mean M …"""
+        name, operation = item["of"], item["operation"]
+        if not name or operation == "pick":
+            return []
+        curve, plain = self.latex.symbol(name), self.linear.symbol(name)
+        if operation == "abs_max":
+            return [Link(rf"\max \left| {curve} \right|", f"max |{plain}|")]
+        word = SIGNS.get(operation, operation)
+        if operation in OPERATORS:
+            return [Link(f"{OPERATORS[operation]} {curve}", f"{word} {plain}")]
+        word = self.words[operation]
+        return [Link(rf"\operatorname{{{word}}} {curve}", f"{word} {plain}")]
+
+    def _place(self, item: Item) -> Link:
+        """Where a curve's numbers are shown, or where an extreme lies."""
+        at = item.get("at")
+        if not at:
+            return Link()
+        place, word = self._result(at), self.words["at"]
+        latex = rf"\quad\text{{{escaped(word)} }}{self.latex.symbol(at['symbol'])} = {place.latex}"
+        return Link(latex, f" {word} {at['symbol']} = {place.text}")
+
+    def _rows(self, whole: Row) -> list[Row]:
+        """The formula in the first row, the numbers in it and the result in the second, or each in its own."""
+        *formulas, result = whole.links
+        if not formulas:
+            return [whole]
+        rows = [Row(whole.head, formulas[:1])] + [Row(Link(), [link]) for link in formulas[1:]]
+        last = rows[-1]._replace(links=[*rows[-1].links, result], place=whole.place)
+        if len(rows) > 1 and self.measure(last.latex("")) <= self.width:
+            return [*rows[:-1], last]
+        return [*rows, Row(Link(), [result], whole.place)]
+
+    def _stacked(self, rows: list[Row]) -> Equation:
+        """Rows one below the other, aligned at their first sign of equality, each broken where it is too wide."""
+        lines = [line for row in rows for line in self._fitted(row)]
+        stacked = r" \\ ".join(lines)
+        return Equation(rf"\begin{{aligned}} {stacked} \end{{aligned}}", "\n".join(row.text() for row in rows))
+
+    def _fitted(self, row: Row) -> list[str]:
+        """A row's lines; one that cannot be broken stays whole and is made smaller on the page."""
+        tree = row.links[0].tree
+        if self.measure(row.latex()) <= self.width or tree is None or len(row.links) > 1:
+            return [row.latex("&")]
+        chunks = self._chunks(tree, self.width - self.measure(f"{row.head.latex} = "))
+        first = row._replace(links=[Link(chunks[0])])
+        return [first.latex("&")] + [rf"&\quad {chunk}" for chunk in chunks[1:]]
+
+    def _chunks(self, tree: Tree, width: float) -> list[str]:
+        """The terms of a sum, or the factors of a product, gathered into lines no wider than ``width``."""
+        if len(terms(tree)) > 1:
+            groups = [[term] for term in terms(tree)]
+            joined = self._sum
+        else:
+            groups = [[("*", factor)] for factor in factors(tree)]
+            joined = self._product
+        lines = [groups[0]]
+        for group in groups[1:]:
+            if self.measure(joined([*lines[-1], *group], first=len(lines) == 1)) <= width:
+                lines[-1] = [*lines[-1], *group]
+            else:
+                lines.append(group)
+        return [joined(line, first=index == 0) for index, line in enumerate(lines)]
+
+    def _sum(self, parts: list[tuple[str, Tree]], *, first: bool) -> str:
+        start = parts[0][1] if first else [parts[0][0], BLANK, parts[0][1]]
+        return self.latex(reduce(lambda left, term: [term[0], left, term[1]], parts[1:], start))
+
+    def _product(self, parts: list[tuple[str, Tree]], *, first: bool) -> str:
+        whole = self.latex(reduce(lambda left, factor: ["*", left, factor], (factor for _, factor in parts)))
+        return whole if first else rf"{{}} \cdot {whole}"

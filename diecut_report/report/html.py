@@ -1,0 +1,106 @@
+"""The report as HTML: one file with its fonts, formulas as MathML, figures inline; no scripts, no network."""
+
+from __future__ import annotations
+
+import base64
+from collections.abc import Callable
+from functools import cache
+from importlib import import_module
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, Protocol
+
+from jinja2 import Environment, FileSystemLoader, StrictUndefined
+from markupsafe import Markup
+
+from diecut_report.report.equations import Equation
+from diecut_report.report.numbers import tidy
+from diecut_report.report.symbols import prose, symbol
+
+if TYPE_CHECKING:
+    from diecut_report.report.rendering import Rendering
+
+FACES = {  # family, weight, style: file
+    ("Report Sans", 400, "normal"): "report-sans-regular",
+    ("Report Sans", 600, "normal"): "report-sans-bold",
+    ("Report Sans", 400, "italic"): "report-sans-italic",
+    ("Report Mono", 400, "normal"): "report-mono",
+    ("Report Symbols", 400, "italic"): "report-symbols",
+}
+MATH = {("Report Math", 400, "normal"): "report-math"}
+
+
+class Medium(Protocol):
+    """How a medium shows what templates cannot: formulas and figures."""
+
+    def math(self, equation: Equation, *, display: bool = True) -> Markup:
+        """A typeset formula."""
+
+    def figure(self, number: str, title: str) -> Markup:
+        """A figure by its number."""
+
+
+class Screen:
+    """Formulas as MathML, figures as inline SVG."""
+
+    def __init__(self, rendering: Rendering) -> None:
+        self.rendering = rendering
+
+    def math(self, equation: Equation, *, display: bool = True) -> Markup:
+        """A typeset formula as MathML."""
+        # math-core escapes the texts within the formula
+        return Markup(self.rendering.typesetter.mathml(equation.latex, display=display))
+
+    def figure(self, number: str, title: str) -> Markup:
+        """A figure inline, named by its title."""
+        # matplotlib escapes the texts within the drawing
+        return Markup(self.rendering.figures[number].text)
+
+
+def page(rendering: Rendering) -> str:
+    """The whole HTML page."""
+    return filled(rendering, Screen(rendering), "screen")
+
+
+def filled(rendering: Rendering, medium: Medium, kind: str) -> str:
+    """The report's template with the document in it, for ``screen`` or ``print``."""
+    document = rendering.document
+    faces = FACES | (MATH if kind == "screen" else {})
+    style = "\n".join([_font_faces(tuple(faces.items())), _read("report.css"), _read(f"{kind}.css")])
+    return _environment().get_template("report.html.j2").render(
+        doc=document, t=document.words, kind=kind, style=Markup(style), math=medium.math, figure=medium.figure
+    )  # fmt: skip
+
+
+def folder() -> Path:
+    """The folder of the templates."""
+    return Path(import_module("diecut_report.templates").__path__[0])
+
+
+@cache
+def _read(name: str) -> str:
+    return (folder() / name).read_text(encoding="utf-8")
+
+
+@cache
+def _font_faces(faces: tuple[tuple[tuple[str, int, str], str], ...]) -> str:
+    """The fonts as embedded data."""
+    rules = []
+    for (family, weight, style), name in faces:
+        data = base64.b64encode((folder() / "fonts" / f"{name}.woff2").read_bytes()).decode()
+        source = f'url("data:font/woff2;base64,{data}") format("woff2")'
+        rules.append(f'@font-face{{font-family:"{family}";font-weight:{weight};font-style:{style};src:{source}}}')
+    return "\n".join(rules)
+
+
+@cache
+def _environment() -> Environment:
+    environment = Environment(
+        loader=FileSystemLoader(folder()),
+        autoescape=True,
+        undefined=StrictUndefined,
+        trim_blocks=True,
+        lstrip_blocks=True,
+    )
+    filters: dict[str, Callable[..., Any]] = {"prose": prose, "symbol": symbol, "tidy": tidy}
+    environment.filters.update(filters)
+    return environment

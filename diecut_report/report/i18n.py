@@ -1,0 +1,68 @@
+"""All words of a report, in one place: a catalogue for each language."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+
+ENGLISH: dict[str, str] = {
+    # numbers and formulas
+    "decimal": ".", "if": "if", "otherwise": "otherwise", "and": "and", "or": "or", "not": "not", "at": "at",
+    "mean": "mean", "rms": "rms", "range": "range",
+    # title block
+    "calculation": "Calculation", "document": "Document", "revision": "Revision", "date": "Date", "sheet": "Sheet", "of": "of",
+    "organisation": "Organisation", "prepared": "Prepared", "checked": "Checked", "approved": "Approved", "name": "Name",
+    "signature": "Signature", "revisions": "Revisions", "description": "Description", "by": "By", "press": "Press",
+    "release": "Release",
+    # verdicts
+    "pass": "pass", "warn": "warning", "fail": "fail", "error": "error", "skipped": "skipped",
+    "verdict_pass": "All checks pass.", "verdict_warn": "All checks pass, with warnings.", "verdict_fail": "Checks fail.",
+    "verdict_error": "Not all mechanisms could be calculated.",
+    "count_fail": "{n} of {total} checks fail", "count_fail_one": "1 of {total} checks fails",
+    "count_warn": "{n} with a warning", "count_pass": "{n} pass", "count_pass_one": "1 passes",
+    "count_error": "{n} not calculated", "governing": "Governing", "no_checks": "There are no checks.",
+    # chapters
+    "contents": "Contents", "summary": "Summary", "checks": "Checks", "key_results": "Key results", "press_data": "Press data",
+    "purpose": "Purpose and assumptions", "assumptions": "Assumptions and limits", "inputs": "Inputs", "results": "Results",
+    "intermediate": "Intermediate values", "curves": "Curves", "figures": "Figures", "absent": "Not calculated",
+    "errata": "Errata of the sources", "sources": "Sources", "program": "Program and configuration",
+    "configuration": "Configuration as given", "appendix": "Appendix", "warnings": "Warnings",
+    # tables
+    "mechanism": "Mechanism", "check": "Check", "demand": "Demand", "limit": "Limit", "margin": "Margin",
+    "utilisation": "Utilisation", "source": "Source", "number": "No.", "verdict": "Verdict", "quantity": "Quantity", "symbol": "Symbol",
+    "value": "Value", "unit": "Unit", "origin": "Origin", "typed": "As typed", "place": "At", "path": "Key",
+    "given": "given", "default": "default", "reference": "reference", "refers": "from {path}", "from_press": "default, from {path}",
+    "touches": "Touches",
+    # items
+    "met": "{demand} {operator} {limit} is met", "not_met": "{demand} {operator} {limit} is not met",
+    "since": "Branch taken", "method": "Method", "residual": "relation met to {residual}", "checked_to": "verified to {residual}",
+    "of_curve": "of {curve}", "figure": "Figure", "table": "Table", "formula": "Formula",
+    "curves_note": "Some rows of the curves; jumps and extremes lie between them and are given with the results.",
+    "drawing_scale": "scale bar", "positive": "positive", "negative": "negative",
+    # programme
+    "calculated_by": "Calculated by", "version": "version", "plugin": "Mechanism", "plugin_version": "Version", "kind": "Kind",
+    "config_file": "Configuration file", "sha256": "SHA-256",
+    "failed_text": "This mechanism could not be calculated.",
+    "skipped_text": "This mechanism was not calculated, since one that it refers to is in error.",
+}  # fmt: skip
+CATALOGUES: dict[str, dict[str, str]] = {"en": ENGLISH}
+
+
+class Words(Mapping[str, str]):
+    """The words of one language; in templates ``t.summary``. A missing key is an error."""
+
+    def __init__(self, language: str) -> None:
+        self.language = language
+        self._texts = CATALOGUES[language]
+
+    def __getitem__(self, key: str) -> str:
+        return self._texts[key]
+
+    def __iter__(self) -> Iterator[str]:
+        return iter(self._texts)
+
+    def __len__(self) -> int:
+        return len(self._texts)
+
+    def say(self, key: str, **parts: object) -> str:
+        """A sentence with its parts filled in."""
+        return self[key].format(**parts)

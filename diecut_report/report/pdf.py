@@ -1,0 +1,70 @@
+"""The report as PDF by WeasyPrint, which is imported only here. Nothing is fetched: all is embedded."""
+
+from __future__ import annotations
+
+import base64
+import gc
+from collections.abc import Iterator
+from contextlib import contextmanager
+from typing import TYPE_CHECKING, Any
+
+from markupsafe import Markup, escape
+from weasyprint import HTML
+from weasyprint.urls import URLFetcher
+
+from diecut_report.report.equations import Equation
+from diecut_report.report.html import filled
+from diecut_report.report.pdf_math import Picture
+
+if TYPE_CHECKING:
+    from diecut_report.report.rendering import Rendering
+
+FORMULA = "data:formula,"  # addresses of the formulas' pictures, which WeasyPrint finds in its cache
+
+
+class Paper:
+    """Formulas as outlines with searchable text under them, figures as images."""
+
+    def __init__(self, rendering: Rendering) -> None:
+        self.rendering = rendering
+        self.pictures: dict[str, Picture] = {}
+
+    def math(self, equation: Equation, *, display: bool = True) -> Markup:
+        """A typeset formula: its picture, and transparent text of it for search."""
+        outline = self.rendering.typesetter.outline(equation.latex, display=display)
+        address = f"{FORMULA}{len(self.pictures)}"
+        self.pictures[address] = Picture(outline)
+        depth = "" if display else f' style="vertical-align:{outline.depth}em"'
+        text = escape(equation.text)
+        image = Markup('<img src="{}" alt="{}"{}>').format(address, equation.text, Markup(depth))
+        return Markup("<span class=lin>{}</span>").format(text) + image
+
+    def figure(self, number: str, title: str) -> Markup:
+        """A figure as an image."""
+        data = base64.b64encode(self.rendering.figures[number].text.encode()).decode()
+        return Markup('<img src="data:image/svg+xml;base64,{}" alt="{}">').format(data, title)
+
+
+def sheets(rendering: Rendering) -> bytes:
+    """The whole PDF."""
+    paper = Paper(rendering)
+    source = filled(rendering, paper, "print")
+    fetcher = URLFetcher(allowed_protocols={"data"}, allow_redirects=False, fail_on_errors=True)
+    cache: dict[str, Any] = dict(paper.pictures)
+    with _without_collection():
+        content: bytes = HTML(string=source, url_fetcher=fetcher).write_pdf(
+            pdf_variant="pdf/ua-1", cache=cache, presentational_hints=False
+        )
+    return content
+
+
+@contextmanager
+def _without_collection() -> Iterator[None]:
+    """Without the garbage collector's passes, which find nothing in a tree of boxes that is in use."""
+    was_on = gc.isenabled()
+    gc.disable()
+    try:
+        yield
+    finally:
+        if was_on:
+            gc.enable()

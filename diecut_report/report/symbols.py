@@ -1,0 +1,38 @@
+"""Symbols in running text, as HTML: ``R_b`` with an italic letter and an upright subscript."""
+
+from __future__ import annotations
+
+import re
+
+from markupsafe import Markup, escape
+
+from diecut_report.report.numbers import tidy
+
+_SIGNS = "=<>≤≥≈≠−+√"
+_SYMBOL = re.compile(r"(?P<before>[|\[\d]*)(?P<base>[^\W\d_]+[′']*)(?:_(?P<below>.*?))?(?P<after>[|\]]?)")
+# A symbol within a sentence: one or two letters with a short subscript (keys such as crank_speed or n_points are none),
+# a lone letter beside a sign of arithmetic, or a lone Greek one.
+_IN_TEXT = re.compile(
+    r"(?<![\w.])(?:([^\W\d_]{1,2}[′']?)_(\d{1,2}|[^\W\d_]{1,3}(?:,[^\W_]{1,3})?)(?!\w)"
+    rf"|([^\W\d_][′']?)(?=\s?[{_SIGNS}])|([Α-Ωα-ωϑϕ])(?!\w)|(?<=[{_SIGNS}])([^\W\d_][′']?)(?!\w)|(?<=[{_SIGNS}] )([^\W\d_][′']?)(?!\w))"
+)
+
+
+def symbol(name: str) -> Markup:
+    """A symbol as HTML, nothing for the empty one; bars, brackets and digits about the letters stand upright."""
+    found = _SYMBOL.fullmatch(name)
+    if found is None:
+        return escape(name)
+    below = Markup("<sub>{}</sub>").format(found["below"].replace("_", "\u2009")) if found["below"] else Markup("")
+    return Markup("{}<i class=sy>{}</i>{}{}").format(found["before"], found["base"], below, found["after"])
+
+
+def prose(sentence: str) -> Markup:
+    """A sentence as HTML, its symbols set as symbols."""
+    text = tidy(sentence)
+    parts, start = [], 0
+    for found in _IN_TEXT.finditer(text):
+        base = found[1] or found[3] or found[4] or found[5] or found[6]
+        parts += [escape(text[start : found.start()]), symbol(f"{base}_{found[2]}" if found[2] else base)]
+        start = found.end()
+    return Markup("").join([*parts, escape(text[start:])])
