@@ -6,7 +6,7 @@ Values are SI floats once validated. Defaults and bounds are written in the disp
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from functools import cached_property
 from typing import Annotated, Any, get_args, get_origin
@@ -117,12 +117,7 @@ class Quantity:
         return int(shown) if self.integer else value
 
     def __get_pydantic_core_schema__(self, source: Any, handler: GetCoreSchemaHandler) -> CoreSchema:
-        optional = type(None) in get_args(source)
-
-        def validate(given: Any) -> Any:
-            return None if given is None and optional else self.validate(given)
-
-        return core_schema.no_info_plain_validator_function(validate)
+        return core_schema.no_info_plain_validator_function(_optional(source, self.validate))
 
     def __get_pydantic_json_schema__(self, core: CoreSchema, handler: GetJsonSchemaHandler) -> JsonSchemaValue:
         shown = pretty(self.unit)
@@ -135,6 +130,13 @@ class Quantity:
             names = {"gt": "exclusiveMinimum", "ge": "minimum", "lt": "exclusiveMaximum", "le": "maximum"}
             schema |= {n: getattr(self, b) for b, n in names.items() if getattr(self, b) is not None}
         return schema
+
+
+def _optional(source: Any, validate: Callable[[Any], Any]) -> Callable[[Any], Any]:
+    """A validator that lets None pass where the annotation does."""
+    if type(None) not in get_args(source):
+        return validate
+    return lambda given: None if given is None else validate(given)
 
 
 @dataclass(frozen=True)
@@ -171,9 +173,7 @@ class CurveInput:
         raise ValueError(f"is {given!r}; a reference to a curve or a list of values in {self.unit} is needed")
 
     def __get_pydantic_core_schema__(self, source: Any, handler: GetCoreSchemaHandler) -> CoreSchema:
-        return core_schema.no_info_plain_validator_function(
-            lambda given: None if given is None else self.validate(given)
-        )
+        return core_schema.no_info_plain_validator_function(_optional(source, self.validate))
 
     def __get_pydantic_json_schema__(self, core: CoreSchema, handler: GetJsonSchemaHandler) -> JsonSchemaValue:
         values = {"type": "array", "minItems": 4, "items": {"type": ["number", "string"]}}
@@ -239,7 +239,8 @@ def flatten(block: Block, prefix: str = "") -> dict[str, Any]:
                 flat |= {prefix + name: True} | flatten(value, f"{prefix}{name}.")
             case [Block(), *_]:
                 rows = [flatten(part, f"{prefix}{name}.") for part in value]
-                flat |= {prefix + name: True} | {key: tuple(row[key] for row in rows) for key in rows[0]}
+                keys = dict.fromkeys(key for row in rows for key in row)
+                flat |= {prefix + name: True} | {key: tuple(row.get(key) for row in rows) for key in keys}
             case _:
                 flat[prefix + name] = value
     return flat

@@ -13,6 +13,7 @@ from diecut_report.contract.steps import (
     Abscissa,
     Breakpoints,
     Choice,
+    Crossings,
     FromCurve,
     Reduction,
     Require,
@@ -21,6 +22,8 @@ from diecut_report.contract.steps import (
     Value,
 )
 from diecut_report.units import unit
+
+MOST_CROSSINGS = 99  # places of one curve that a reference may name; how many there are shows only in calculating
 
 
 def axes(steps: tuple[Step, ...], inputs: type[Inputs]) -> dict[str, str]:
@@ -93,6 +96,10 @@ class Mechanism:
         found: dict[str, tuple[str | None, bool]] = {}
         for _, step in self.active(given):
             if isinstance(step, Require | Breakpoints):
+                continue
+            if isinstance(step, Crossings):
+                found |= {f"{step.id}_count": ("1", False)}
+                found |= {f"{step.id}_{i}": (unit(step.unit).si, False) for i in range(1, MOST_CROSSINGS + 1)}
                 continue
             text = isinstance(step, Choice) and isinstance(step.cases[0].value, str)
             found[step.id] = (None if text else unit(step.unit).si, self.axis_of(step.id, given) is not None)

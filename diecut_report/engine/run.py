@@ -22,7 +22,7 @@ from diecut_report.contract.steps import (
     Total,
     Value,
 )
-from diecut_report.engine import solve
+from diecut_report.engine import extremes, solve
 from diecut_report.engine.calculation import Calculation, Impossible, SampledCurve, Unproven
 from diecut_report.engine.domain import Domain
 from diecut_report.engine.printing import printed
@@ -117,6 +117,8 @@ def _breakpoints(calc: Calculation, step: Breakpoints) -> None:
 
 def _crossings(calc: Calculation, step: Crossings) -> None:
     calc.values[step.id], residual = solve.crossings(calc, step.of)
+    calc.values[f"{step.id}_count"] = np.isfinite(calc.values[step.id]).sum(axis=1, keepdims=True)
+    calc.values |= {f"{step.id}_{i}": place[:, None] for i, place in enumerate(calc.values[step.id].T, 1)}
     _prove(calc, step, residual, solve.SAMPLE_TOLERANCE)
 
 
@@ -125,9 +127,9 @@ def _reduction(calc: Calculation, step: Reduction) -> None:
         _integrated(calc, step)
         return
     signs = {"max": (1.0,), "min": (-1.0,)}.get(step.operation, (1.0, -1.0))
-    ends = [solve.extreme(calc, step.of, sign) for sign in signs]
+    ends = [extremes.extreme(calc, step.of, sign) for sign in signs]
     residual = np.maximum.reduce(
-        [solve.outruns(calc, step.of, end[0], sign) for end, sign in zip(ends, signs, strict=True)]
+        [extremes.outruns(calc, step.of, end[0], sign) for end, sign in zip(ends, signs, strict=True)]
     )
     _prove(calc, step, residual, solve.SAMPLE_TOLERANCE)
     if step.operation == "range":

@@ -1,4 +1,4 @@
-"""Roots, extremes and integrals, on arrays of variants; each is proved by a second way before it is used."""
+"""Roots, crossings and integrals, on arrays of variants; each is proved by a second way before it is used."""
 
 from __future__ import annotations
 
@@ -10,13 +10,12 @@ from scipy.optimize import elementwise
 
 from diecut_report.contract.steps import Root, bound
 from diecut_report.engine.calculation import Calculation
-from diecut_report.engine.domain import LOBATTO, Domain
+from diecut_report.engine.domain import LOBATTO
 from diecut_report.expressions import Array
 
 ORDERS = (24, 48, 96, 192, 384)  # of Gauss–Legendre; the next one proves the one before
 INTEGRAL_TOLERANCE = 1e-11
 SAMPLE_TOLERANCE = 1e-9
-PLACE_TOLERANCE = 1e-6  # of an extreme's place; its value errs by the square of it
 NOISE = 1e-10  # share of a curve's greatest value below which its sign is rounding
 
 
@@ -43,78 +42,6 @@ def root(calc: Calculation, step: Root) -> tuple[Array, Array]:
 
 def _at(calc: Calculation, curve: str, x: Array, rows: Array, middle: Array) -> Array:
     return calc.sample(curve, x[:, None], middle[:, None], rows.astype(int))[:, 0]
-
-
-def extreme(calc: Calculation, curve: str, sign: float) -> tuple[Array, Array, Array]:
-    """Greatest (sign 1) or least (sign -1) value over the period, one-sided limits included.
-
-    Returns value, place and the middle of the smooth piece that it is in, each of shape (variants, 1).
-    """
-    domain = calc.domains[calc.axis[curve]]
-    known = calc.extremes.get((curve, sign))
-    if known is None or known[0] is not domain.edges:
-        known = domain.edges, _searched(calc, curve, sign, domain)
-        calc.extremes[curve, sign] = known
-    return known[1]
-
-
-def _searched(calc: Calculation, curve: str, sign: float, domain: Domain) -> tuple[Array, Array, Array]:
-    grid = domain.search_grid()
-    heights = np.where((domain.widths > 0)[:, :, None], sign * calc.on_search_grid(curve), -np.inf)
-    best = np.nanargmax(np.nan_to_num(heights.reshape(calc.count, -1), nan=-np.inf), axis=1)
-    piece, k = np.divmod(best, grid.shape[2])
-    rows = np.arange(calc.count)
-    middle, place, height = domain.middles[rows, piece], grid[rows, piece, k], heights[rows, piece, k]
-    place, height = _refined(partial(_signed, calc, curve, sign), grid[rows, piece], k, (rows, middle), (place, height))
-    return (sign * height)[:, None], place[:, None], middle[:, None]
-
-
-def _signed(calc: Calculation, curve: str, sign: float, x: Array, rows: Array, middle: Array) -> Array:
-    return sign * _at(calc, curve, x, rows, middle)
-
-
-def _refined(
-    height_at: Callable[[Array, Array, Array], Array],
-    grid: Array,
-    k: Array,
-    where: tuple[Array, Array],
-    best: tuple[Array, Array],
-) -> tuple[Array, Array]:
-    """Bounded search between the neighbours of the best grid point; at a piece's end within its first interval."""
-    rows, middle = where
-    place, height = best
-    low = np.clip(k - 1, 0, None)
-    high = np.clip(k + 1, None, grid.shape[1] - 1)
-    left, right = grid[rows, low], grid[rows, high]
-    centre = np.where((low == k) | (high == k), (left + right) / 2, place)
-    peaks = [height_at(x, rows, middle) for x in (left, centre, right)]
-    inner = (peaks[1] >= peaks[0]) & (peaks[1] >= peaks[2]) & (left < centre) & (centre < right)
-    if not inner.any():
-        return place, height
-
-    def depth_at(x: Array, row: Array, mid: Array) -> Array:
-        return -height_at(x, row, mid)
-
-    searched = elementwise.find_minimum(
-        depth_at,
-        (left[inner], centre[inner], right[inner]),
-        args=(rows[inner].astype(float), middle[inner]),
-        tolerances={"xrtol": PLACE_TOLERANCE},
-    )
-    place, height = place.copy(), height.copy()
-    better = -searched.f_x >= height[inner]
-    place[inner] = np.where(better, searched.x, place[inner])
-    height[inner] = np.where(better, -searched.f_x, height[inner])
-    return place, height
-
-
-def outruns(calc: Calculation, curve: str, found: Array, sign: float) -> Array:
-    """How far the sampled curve goes beyond the extreme found, relative to the curve's greatest value: the proof of it."""
-    samples = calc.curve_samples(curve)
-    beyond = np.max(sign * (samples - found), axis=1, keepdims=True)
-    top = np.max(np.abs(samples), axis=1, keepdims=True)
-    share: Array = np.maximum(beyond, 0) / np.maximum(top, np.finfo(float).tiny)
-    return share
 
 
 def integral(calc: Calculation, curve: str, power: int) -> tuple[Array, Array]:
@@ -179,6 +106,3 @@ def _rows_of(places: Array, rows: Array, count: int, at_start: Array) -> Array:
     table[rows, np.arange(len(rows)) - np.repeat(np.cumsum(per_row) - per_row, per_row)] = places
     table[at_start, -1] = 0.0
     return np.sort(table, axis=1)
-
-
-__all__ = ["SAMPLE_TOLERANCE", "crossings", "extreme", "integral", "outruns", "root"]

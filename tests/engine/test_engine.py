@@ -8,6 +8,7 @@ from typing import Any
 import numpy as np
 import pytest
 
+from diecut_report.api import Annotated, CurveInput, Inputs
 from diecut_report.contract.steps import Root, Section
 from diecut_report.engine import Calculation, CurveHandle, Impossible, Unproven, calculate
 from diecut_report.results import mechanism_results
@@ -170,3 +171,25 @@ def test_curves_in_results_carry_their_one_sided_values() -> None:
 
 def test_formula_of_a_plugin_is_callable_alone() -> None:
     assert doubled(21) == 42
+
+
+def test_like_parts_may_differ_in_their_optional_keys() -> None:
+    first, second = {"driver_teeth": 20, "driven_teeth": 60}, {"driver_teeth": 20, "driven_teeth": 60, "label": "slow"}
+    for gears in ([first, second], [second, first]):
+        assert inputs(MECHANISM, {"gears": gears})["gears.label"] == tuple(g.get("label") for g in gears)
+
+
+def test_a_required_curve_may_not_be_empty() -> None:
+    class Needy(Inputs):
+        curve: Annotated[Any, CurveInput("M", "N*m", "Torque")]
+
+    with pytest.raises(ValueError, match="curve or a list"):
+        Needy.model_validate({"curve": None})
+
+
+def test_each_crossing_can_be_referred_to() -> None:
+    calc = toy(step_angle="270 deg")
+    known = MECHANISM.results_of(calc.given)
+    assert {"turns_count", "turns_1", "turns_2"} < set(known)
+    assert number(calc, "turns_count") == 2
+    assert np.degrees(number(calc, "turns_2")) == pytest.approx(270)

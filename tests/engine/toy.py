@@ -43,6 +43,7 @@ class Pair(Block):
     driver_teeth: Annotated[int, Quantity("z_1", "1", "Teeth of the driver", ge=12, integer=True)]
     driven_teeth: Annotated[int, Quantity("z_2", "1", "Teeth of the driven gear", ge=12, integer=True)]
     efficiency: Annotated[float, Quantity("η", "1", "Efficiency", gt=0, le=1)] = 0.97
+    label: Annotated[str | None, Text("Name of the pair")] = None
 
 
 class Spring(Block):
@@ -55,7 +56,7 @@ class Toy(Inputs):
     step_angle: Annotated[float, Quantity("φ_s", "deg", "Place of the step", ge=0, lt=360)] = 120
     gears: Annotated[list[Pair], Text("Gear pairs")] = []  # noqa: RUF012
     spring: Annotated[Spring | None, Text("Spring, if there is one")] = None
-    torque_curve: Annotated[Any, CurveInput("M", "N*m", "Torque over a turn")] = None
+    torque_curve: Annotated[Any | None, CurveInput("M", "N*m", "Torque over a turn")] = None
     target: Annotated[float, Quantity("t", "1", "What the root is of", gt=0)] = 2000
     grade: Annotated[Literal["fine", "coarse"], Text("Grade of the toy")] = "fine"
     n_points: Annotated[int, Quantity("N", "1", "Samples", ge=36, le=100_000, integer=True)] = 90

@@ -58,7 +58,7 @@ class Lever(Inputs):
     teeth: Annotated[int, Quantity("z", "1", "Teeth", ge=12, integer=True)] = 20
     parts: Annotated[list[Part], Text("Parts in a row")] = []  # noqa: RUF012
     spring: Annotated[Spring | None, Text("Spring")] = None
-    load: Annotated[Any, CurveInput("M_l", "N*m", "Load over a turn")] = None
+    load: Annotated[Any | None, CurveInput("M_l", "N*m", "Load over a turn")] = None
     allowable_moment: Annotated[float | None, Quantity("[M]", "N*m", "Allowed moment", gt=0)] = None
     n_points: Annotated[int, POINTS] = 36
 

@@ -1,0 +1,255 @@
+"""Expressions in print: brackets by the order of operations, both as LaTeX and as linear text."""
+
+from __future__ import annotations
+
+import math
+import re
+from typing import Any
+
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from diecut_report.report.equations import WIDTH, Equations
+from diecut_report.report.formulas import Latex, Linear, unit_latex
+from diecut_report.report.i18n import Words
+from diecut_report.report.typeset import Typesetter
+
+Tree = list[Any]
+A, B, C = ["sym", "a"], ["sym", "b"], ["sym", "c"]
+ONE, TWO, THREE = ["num", "1"], ["num", "2"], ["num", "3"]
+NEG_A = ["neg", A]
+MM = ["qty", "40", "mm"]
+
+CASES: list[tuple[Tree, str, str]] = [
+    (["-", A, ["-", B, C]], r"a - (b - c)", "a − (b − c)"),
+    (["-", ["-", A, B], C], r"a - b - c", "a − b − c"),
+    (["-", A, ["+", B, C]], r"a - (b + c)", "a − (b + c)"),
+    (["+", A, ["-", B, C]], r"a + b - c", "a + b − c"),
+    (["/", ["/", A, B], C], r"\frac{\frac{a}{b}}{c}", "a/b/c"),
+    (["/", A, ["/", B, C]], r"\frac{a}{\frac{b}{c}}", "a/(b/c)"),
+    (["/", A, ["*", B, C]], r"\frac{a}{b\,c}", "a/(b·c)"),
+    (["/", ["+", A, B], C], r"\frac{a + b}{c}", "(a + b)/c"),
+    (["*", ["/", A, B], C], r"\frac{a}{b}\,c", "a/b·c"),
+    (["*", A, ["/", B, C]], r"a\,\frac{b}{c}", "a·b/c"),
+    (["*", ["+", A, B], C], r"(a + b)\,c", "(a + b)·c"),
+    (["^", NEG_A, TWO], r"{(-a)}^{2}", "(−a)²"),
+    (["neg", ["^", A, TWO]], r"-a^{2}", "−a²"),
+    (["^", ["/", A, B], TWO], r"{\left( \frac{a}{b} \right)}^{2}", "(a/b)²"),
+    (["^", ["*", A, B], TWO], r"{(a\,b)}^{2}", "(a·b)²"),
+    (["^", MM, TWO], r"{(40\,\mathrm{mm})}^{2}", "(40 mm)²"),
+    (["^", ["^", A, B], C], r"{(a^{b})}^{c}", "(a^(b))^(c)"),
+    (["^", A, ["/", ONE, THREE]], r"a^{1/3}", "a^(1/3)"),
+    (["^", ["sym", "R_b"], TWO], r"R_{\mathrm{b}}^{2}", "R_b²"),
+    (["^", ["call", "cos", A], TWO], r"{(\cos a)}^{2}", "(cos a)²"),
+    (["^", ["call", "abs", A], TWO], r"{\left| a \right|}^{2}", "|a|²"),
+    (["^", ["call", "sqrt", A], TWO], r"{\left( \sqrt{a} \right)}^{2}", "(√a)²"),
+    (["+", A, ["neg", B]], r"a + (-b)", "a + (−b)"),
+    (["-", A, ["neg", ["+", B, C]]], r"a - (-(b + c))", "a − (−(b + c))"),
+    (["*", A, ["neg", B]], r"a\,(-b)", "a·(−b)"),
+    (["*", NEG_A, B], r"-a\,b", "−a·b"),
+    (["-", ONE, ["*", NEG_A, B]], r"1 - (-a\,b)", "1 − (−a·b)"),
+    (["-", ONE, ["/", NEG_A, B]], r"1 - \frac{-a}{b}", "1 − (−a)/b"),
+    (["neg", NEG_A], r"-(-a)", "−(−a)"),
+    (["+", MM, ["qty", "-0.5", "mm"]], r"40\,\mathrm{mm} + (-0.5\,\mathrm{mm})", "40 mm + (−0.5 mm)"),
+    (["*", ["qty", "-0.5", "1"], MM], r"-0.5 \cdot 40\,\mathrm{mm}", "−0.5 · 40 mm"),
+    (["*", MM, ["qty", "-0.5", "1"]], r"40\,\mathrm{mm} \cdot (-0.5)", "40 mm · (−0.5)"),
+    (["*", TWO, ["/", THREE, C]], r"2 \cdot \frac{3}{c}", "2 · 3/c"),
+    (["*", TWO, A], r"2\,a", "2·a"),
+    (["*", TWO, MM], r"2 \cdot 40\,\mathrm{mm}", "2 · 40 mm"),
+    (["*", MM, ["call", "cos", ["qty", "60", "deg"]]], r"40\,\mathrm{mm} \cdot \cos(60°)", "40 mm · cos(60°)"),
+    (["*", ["call", "cos", A], B], r"\cos(a)\,b", "cos(a)·b"),
+    (["*", ["call", "sin", A], ["call", "cos", A]], r"\sin a\,\cos a", "sin a·cos a"),
+    (["call", "sqrt", ["+", A, B]], r"\sqrt{a + b}", "√(a + b)"),
+    (["call", "arctan2", A, ["-", B, ONE]], r"\operatorname{arctan2}(a,\, b - 1)", "arctan2(a, b − 1)"),
+    (["call", "minimum", A, B], r"\min(a,\, b)", "min(a, b)"),
+    (["call", "sign", ["neg", A]], r"\operatorname{sgn}(-a)", "sgn(−a)"),
+    (["call", "ceil", ["/", A, B]], r"\left\lceil  \frac{a}{b} \right\rceil ", "⌈a/b⌉"),
+    (["call", "exp", NEG_A], r"\exp(-a)", "exp(−a)"),
+    (["call", "log", A], r"\ln a", "ln a"),
+    (["cmp", "<=", A, ["+", B, C]], r"a \le b + c", "a ≤ b + c"),
+    (["+", ["cmp", "<", A, B], ONE], r"(a < b) + 1", "(a < b) + 1"),
+    (["cases", [NEG_A, ["and", ["cmp", "<", A, B], ["cmp", "!=", B, C]]], [["num", "0"]]],
+     r"\begin{cases} -a & \text{ if }a < b\text{ and }b \ne c \\ 0 & \text{otherwise} \end{cases}",
+     "{−a if a < b and b ≠ c; 0 otherwise}"),
+]  # fmt: skip
+
+
+@pytest.mark.parametrize(("tree", "latex", "linear"), CASES)
+def test_brackets(tree: Tree, latex: str, linear: str) -> None:
+    assert Latex()(tree) == latex
+    assert Linear()(tree) == linear
+
+
+@pytest.mark.parametrize(("name", "latex"), [
+    ("R", "R"), ("R_b", r"R_{\mathrm{b}}"), ("λ_1", "λ_{1}"), ("M_Σ", r"M_{\mathrm{Σ}}"), ("η_sector", r"η_{\mathrm{sector}}"),
+    ("η_four_bar", r"η_{\mathrm{four}\,\mathrm{bar}}"), ("m′", "m'"), ("me", r"\mathit{me}"), ("F_t,max", r"F_{\mathrm{t},\mathrm{max}}"),
+    ("P_різ", r"P_{\mathrm{різ}}"), ("|e_cf|", r"\left| e_{\mathrm{cf}} \right|"), ("", "{}"),
+])  # fmt: skip
+def test_symbols(name: str, latex: str) -> None:
+    assert Latex().symbol(name) == latex
+
+
+@pytest.mark.parametrize(("unit", "latex"), [
+    ("mm", r"\mathrm{mm}"), ("1", ""), ("kg*m**2", r"\mathrm{kg}{\cdot}\mathrm{m}^{2}"), ("m/s**2", r"\mathrm{m}/\mathrm{s}^{2}"),
+    ("%", r"\%"), ("deg", "°"), ("1/h", r"1/\mathrm{h}"),
+])  # fmt: skip
+def test_units_stand_upright(unit: str, latex: str) -> None:
+    assert unit_latex(unit) == latex
+
+
+def test_words_of_another_language_and_its_decimal_sign() -> None:
+    words = {"if": "якщо", "otherwise": "інакше", "and": "та", "or": "або", "not": "не"}
+    tree = ["cases", [["qty", "0.5", "mm"], ["cmp", "<", A, B]], [["num", "0"]]]
+    assert Linear(words, ",")(tree) == "{0,5 mm якщо a < b; 0 інакше}"
+    assert r"0{,}5\,\mathrm{mm}" in Latex(words, ",")(tree)
+
+
+@pytest.mark.parametrize("tree", [case[0] for case in CASES])
+def test_both_typesetters_take_it(tree: Tree) -> None:
+    typesetter, latex = Typesetter(), Latex()(tree)
+    assert typesetter.mathml(latex).startswith("<math")
+    assert typesetter.measure(latex) > 0.3
+
+
+# Random arithmetic, read again from the linear text, gives the same value.
+def _trees() -> st.SearchStrategy[Tree]:
+    leaves = st.integers(-9, 9).filter(bool).map(lambda n: ["qty", str(n), "1"]) | st.integers(1, 9).map(
+        lambda n: ["num", str(n)]
+    )
+    return st.recursive(
+        leaves,
+        lambda inner: (
+            st.builds(lambda o, a, b: [o, a, b], st.sampled_from("+-*/"), inner, inner)
+            | st.builds(lambda a: ["neg", a], inner)
+            | st.builds(lambda a, n: ["^", a, ["num", str(n)]], inner, st.integers(2, 3))
+            | st.builds(lambda a: ["call", "abs", a], inner)
+        ),
+        max_leaves=8,
+    )
+
+
+def _value(tree: Tree) -> float:
+    match tree:
+        case ["num" | "qty", text, *_]:
+            return float(text)
+        case ["neg", inner]:
+            return -_value(inner)
+        case ["call", "abs", inner]:
+            return abs(_value(inner))
+    op, left, right = tree[0], _value(tree[1]), _value(tree[2])
+    return {
+        "+": left + right,
+        "-": left - right,
+        "*": left * right,
+        "/": left / right if right else math.nan,
+        "^": left**right,
+    }[op]
+
+
+def _python(text: str) -> str:
+    raised = re.sub(r"([²³])", lambda m: "**" + {"²": "2", "³": "3"}[m[1]], text)
+    plain = raised.replace("−", "-").replace("·", "*")
+    while "|" in plain:  # the innermost pair of bars
+        plain = re.sub(r"\|([^|]*)\|", r"abs(\1)", plain, count=1)
+    return plain
+
+
+@given(_trees().filter(lambda tree: str(tree).count("abs") <= 1))
+def test_linear_text_says_what_the_tree_says(tree: Tree) -> None:
+    try:
+        expected = _value(tree)
+    except (ZeroDivisionError, OverflowError):
+        return
+    if not math.isfinite(expected):
+        return
+    assert math.isclose(eval(_python(Linear()(tree))), expected, rel_tol=1e-9, abs_tol=1e-9)
+
+
+# Equations: rows, breaking, places
+def _equations() -> tuple[Equations, Typesetter]:
+    typesetter = Typesetter()
+    return Equations(Words("en"), typesetter.measure), typesetter
+
+
+def _item(**more: Any) -> dict[str, Any]:
+    return {
+        "type": "formula",
+        "symbol": "c",
+        "equation": ["+", A, B],
+        "substituted": None,
+        "result": {"text": "5", "unit": "mm"},
+    } | more
+
+
+def test_short_equation_stands_in_one_line() -> None:
+    equation = _equations()[0].of(_item(substituted=["+", MM, MM]))
+    assert equation is not None
+    assert equation.latex == r"c = a + b = 40\,\mathrm{mm} + 40\,\mathrm{mm} = 5\,\mathrm{mm}"
+    assert equation.text == "c = a + b = 40 mm + 40 mm = 5 mm"
+
+
+def test_place_of_a_curve_is_said() -> None:
+    equation = _equations()[0].of(_item(at={"symbol": "φ", "text": "181.2", "unit": "deg"}))
+    assert equation is not None
+    assert equation.text == "c = a + b = 5 mm at φ = 181.2°"
+
+
+def test_formula_that_is_the_result_itself_is_not_repeated() -> None:
+    equation = _equations()[0].of(_item(equation=["sym", "c"], substituted=["qty", "5", "mm"]))
+    assert equation is not None
+    assert equation.text == "c = 5 mm"
+
+
+def test_wide_sum_is_broken_before_its_signs_and_nothing_is_lost() -> None:
+    equations, typesetter = _equations()
+    tree: Tree = ["qty", "1", "mm"]
+    for index in range(20):
+        tree = ["-" if index % 2 else "+", tree, ["*", ["qty", f"{index}.125", "N/mm"], ["qty", "2.5", "mm"]]]
+    equation = equations.of(_item(equation=tree))
+    assert equation is not None
+    assert typesetter.measure(equation.latex) <= WIDTH + 3
+    assert all(f"{index}.125" in equation.latex for index in range(20))
+    rows = equation.latex.split(r"\\")
+    assert len(rows) > 3
+    assert all(re.match(r"\s*&\\quad \{\} [+-] ", row) for row in rows[1:-1])
+
+
+def test_wide_product_is_broken_before_a_dot() -> None:
+    equations, typesetter = _equations()
+    tree: Tree = ["sym", "η_first"]
+    for index in range(24):
+        tree = ["*", tree, ["sym", f"η_part{index}"]]
+    equation = equations.of(_item(equation=tree))
+    assert equation is not None
+    assert typesetter.measure(equation.latex) <= WIDTH + 3
+    assert r"&\quad {} \cdot " in equation.latex
+
+
+def test_found_value_shows_its_relation() -> None:
+    item = _item(type="found", relation=["cmp", "==", ["*", TWO, ["sym", "c"]], A])
+    equation = _equations()[0].of(item)
+    assert equation is not None
+    assert equation.text == "2·c = a\nc = 5 mm"
+
+
+@pytest.mark.parametrize(("operation", "text"), [
+    ("max", "c = max V = 5 mm"), ("abs_max", "c = max |V| = 5 mm"), ("mean", "c = mean V = 5 mm"), ("rms", "c = rms V = 5 mm"),
+    ("integral", "c = ∫ V = 5 mm"), ("sum", "c = ∑ V = 5 mm"), ("product", "c = ∏ V = 5 mm"), ("pick", "c = 5 mm"),
+])  # fmt: skip
+def test_reductions(operation: str, text: str) -> None:
+    equation = _equations()[0].of(_item(type="reduction", operation=operation, of="V"))
+    assert equation is not None
+    assert equation.text == text
+
+
+def test_condition_is_shown_in_symbols_and_with_numbers() -> None:
+    item = {"condition": ["cmp", ">", A, B], "condition_substituted": ["cmp", ">", MM, ["qty", "30", "mm"]]}
+    condition = _equations()[0].condition(item)
+    assert condition is not None
+    assert condition.text == "a > b: 40 mm > 30 mm"
+
+
+def test_unknown_expression_is_refused() -> None:
+    with pytest.raises(ValueError, match="no expression"):
+        Latex()(["@", A, B])

@@ -1,0 +1,85 @@
+"""Numbers and units as they are printed."""
+
+from __future__ import annotations
+
+import pytest
+
+from diecut_report.report.numbers import displayed, number, quantity, significant, tidy
+
+THIN = "\u202f"
+NARROW = "\u2009"
+FIXED = "\u00a0"
+
+
+@pytest.mark.parametrize(
+    ("text", "printed"),
+    [
+        ("2", "2"),
+        ("-0.5", "−0.5"),
+        ("105.0", "105.0"),  # a rounded result keeps its digits
+        ("9999", "9999"),
+        ("21000", f"21{THIN}000"),
+        ("-1234567.25", f"−1{THIN}234{THIN}567.25"),
+        ("1.2e-05", f"1.2{NARROW}×{NARROW}10⁻⁵"),
+        ("-3e+12", f"−3{NARROW}×{NARROW}10¹²"),
+        ("5e0", "5"),
+        ("steel", "steel"),
+        ("", ""),
+        ("1.2.3", "1.2.3"),
+    ],
+)
+def test_number(text: str, printed: str) -> None:
+    assert number(text) == printed
+
+
+def test_decimal_sign_of_the_language() -> None:
+    assert number("12345.5", decimal=",") == f"12{THIN}345,5"
+
+
+@pytest.mark.parametrize(
+    ("text", "unit", "printed"),
+    [
+        ("40", "mm", f"40{FIXED}mm"),
+        ("0.6362", "kg*m**2", f"0.6362{FIXED}kg·m²"),
+        ("21", "N*m", f"21{FIXED}N·m"),
+        ("59.4576", "deg", "59.4576°"),
+        ("6.05", "1", "6.05"),
+        ("6000", "1/h", f"6000{FIXED}1/h"),
+    ],
+)
+def test_quantity(text: str, unit: str, printed: str) -> None:
+    assert quantity(text, unit) == printed
+
+
+@pytest.mark.parametrize(
+    ("value", "text"),
+    [
+        (0.0, "0"),
+        (1.0, "1.000"),
+        (-0.0012345, "-0.001234"),
+        (99995.0, "99995"),
+        (0.99996, "1.000"),
+        (1234567.0, "1.235e+06"),
+    ],
+)
+def test_significant_digits(value: float, text: str) -> None:
+    assert significant(value, 4) == text
+
+
+def test_si_value_in_a_display_unit() -> None:
+    assert displayed(0.105, "mm") == "105.0"
+
+
+@pytest.mark.parametrize(
+    ("sentence", "printed"),
+    [
+        ("the wall is -5 mm", "the wall is −5 mm"),
+        ("at 49.91 °.", "at 49.91°."),
+        ("DCP-700", "DCP-700"),
+        ("2-3 times", "2-3 times"),
+        ("off by 5.1e-14", f"off by 5.1{NARROW}×{NARROW}10⁻¹⁴"),
+        ("key 3e4f", "key 3e4f"),
+    ],
+)
+def test_sentences(sentence: str, printed: str) -> None:
+    assert tidy(sentence) == printed

@@ -1,0 +1,39 @@
+"""Symbols in running text."""
+
+from __future__ import annotations
+
+import pytest
+
+from diecut_report.report.symbols import prose, symbol
+
+
+@pytest.mark.parametrize(
+    ("name", "html"),
+    [
+        ("R", "<i class=sy>R</i>"),
+        ("R_b", "<i class=sy>R</i><sub>b</sub>"),
+        ("|e_cf|", "|<i class=sy>e</i><sub>cf</sub>|"),
+        ("[f]", "[<i class=sy>f</i>]"),
+        ("2α", "2<i class=sy>α</i>"),
+        ("", ""),
+        ("<b>", "&lt;b&gt;"),
+        ("R_<b>", "<i class=sy>R</i><sub>&lt;b&gt;</sub>"),
+    ],
+)
+def test_symbol(name: str, html: str) -> None:
+    assert symbol(name) == html
+
+
+@pytest.mark.parametrize(
+    ("text", "html"),
+    [
+        ("R_b > R − h", "<i class=sy>R</i><sub>b</sub> &gt; <i class=sy>R</i> − <i class=sy>h</i>"),
+        ("give n_points or crank_speed", "give n_points or crank_speed"),
+        ("drive.crank_torque", "drive.crank_torque"),
+        ("a force of 3 kN·m instead", "a force of 3 kN·m instead"),
+        ("divided by η there", "divided by <i class=sy>η</i> there"),
+        ("<script>x</script>", "&lt;script&gt;x&lt;/script&gt;"),
+    ],
+)
+def test_prose(text: str, html: str) -> None:
+    assert prose(text) == html
