@@ -276,12 +276,10 @@ def _group(axes: Axes, group: Data, shown: str, words: Words) -> None:
     rows = np.arange(len(values))[::-1]
     last = len(values) - 1
     for row, value, index in zip(rows, values, range(len(values)), strict=True):
-        fill = (
-            {"facecolor": "white", "hatch": "/////"}
-            if value < 0
-            else {"facecolor": ACCENT if index == last else "#9fb4c4"}
+        colour = "white" if value < 0 else ACCENT if index == last else "#9fb4c4"
+        axes.barh(
+            row, value, 0.62, edgecolor=INK, linewidth=0.6, facecolor=colour, hatch="/////" if value < 0 else None
         )
-        axes.barh(row, value, 0.62, edgecolor=INK, linewidth=0.6, **fill)
         text = number(significant(value, 4), words["decimal"])
         axes.annotate(text, (max(value, 0), row), (3, 0), textcoords="offset points", va="center_baseline", size=8)
     room = max(text_size(number(significant(value)))[0] for value in values) + 6

@@ -62,8 +62,8 @@ class Latex(Printer):
         said = NAMES.get(function, function)
         return rf"\{said}" if said in self.known else rf"\operatorname{{{said}}}"
 
-    def word(self, text: str) -> str:
-        return rf"\text{{ {text} }}"
+    def word(self, text: str, before: str = " ", behind: str = " ") -> str:
+        return rf"\text{{{before}{text}{behind}}}"
 
     def root(self, inner: Piece) -> Piece:
         return Piece(rf"\sqrt{{{inner.text}}}", POWER)
@@ -107,8 +107,8 @@ class Linear(Printer):
     def name(self, function: str) -> str:
         return NAMES.get(function, function)
 
-    def word(self, text: str) -> str:
-        return f" {text} "
+    def word(self, text: str, before: str = " ", behind: str = " ") -> str:
+        return f"{before}{text}{behind}"
 
     def root(self, inner: Piece) -> Piece:
         return Piece(f"√{inner.text if inner.level == ATOM else self.bracket(inner.text)}", POWER)
@@ -123,7 +123,7 @@ class Linear(Printer):
         return base + text.translate(self.raised) if text.isdecimal() else f"{base}^({text})"
 
     def cases(self, rows: list[tuple[str, str]]) -> str:
-        return "{" + "; ".join(f"{value} {condition.strip()}" for value, condition in rows) + "}"
+        return "{" + "; ".join(f"{value} {condition}" for value, condition in rows) + "}"
 
 
 _PLAIN_BASE = re.compile(r"[^\W_](_\{.*\})?")  # a letter, whose exponent stands above its subscript

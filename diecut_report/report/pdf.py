@@ -9,8 +9,8 @@ from contextlib import contextmanager
 from typing import TYPE_CHECKING, Any
 
 from markupsafe import Markup, escape
-from weasyprint import HTML
-from weasyprint.urls import URLFetcher
+from weasyprint import HTML  # type: ignore[import-untyped]
+from weasyprint.urls import URLFetcher  # type: ignore[import-untyped]
 
 from diecut_report.report.equations import Equation
 from diecut_report.report.html import filled

@@ -63,7 +63,7 @@ class Printer:
         """A function's name."""
         raise NotImplementedError
 
-    def word(self, text: str) -> str:
+    def word(self, text: str, before: str = " ", behind: str = " ") -> str:
         """A word between formulas, with its spaces."""
         raise NotImplementedError
 
@@ -123,7 +123,7 @@ class Printer:
                 level = AND if word == "and" else OR
                 return Piece(f"{self._held(left, level)}{self.word(self.words[word])}{self._held(right, level)}", level)
             case ["not", inner]:
-                return Piece(f"{self.word(self.words['not'])}{self.bracket(self(inner))}", POWER)
+                return Piece(f"{self.word(self.words['not'], before='')}{self.bracket(self(inner))}", POWER)
             case ["cases", *branches]:
                 return Piece(self.cases([self._branch(branch) for branch in branches]), OR)
         raise ValueError(f"no expression: {tree!r}")
@@ -131,8 +131,8 @@ class Printer:
     def _branch(self, branch: Tree) -> tuple[str, str]:
         value = self(branch[0])
         if len(branch) == 1:
-            return value, self.word(self.words["otherwise"]).strip()
-        return value, f"{self.word(self.words['if'])}{self(branch[1])}"
+            return value, self.word(self.words["otherwise"], before="", behind="")
+        return value, f"{self.word(self.words['if'], before='')}{self(branch[1])}"
 
     def _numeric(self, text: str, printed: str, unit: str) -> Piece:
         found = parts(text)

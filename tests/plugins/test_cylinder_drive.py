@@ -197,7 +197,8 @@ def test_a_thousand_variants_at_once_are_a_thousand_single_runs() -> None:
     base = inputs(MECHANISM, PUBLISHED_DRIVE | {"n_points": 72})
     varied = random_machines(1000, seed=7)
     together = calculate(MECHANISM, base | varied, variants=1000)
-    names = [n for n, v in together.values.items() if v.shape == (1000, 1)]
+    listed = tuple(f"{name}_" for name in ("torque_reversal", "flank_change"))  # compared as lists below
+    names = [n for n, v in together.values.items() if v.shape == (1000, 1) and not n.startswith(listed)]
     assert 5 < len(together.flaws) < 500
     torque = together.curve_samples("crank_torque")
     for i in range(1000):

@@ -70,7 +70,7 @@ CASES: list[tuple[Tree, str, str]] = [
     (["cmp", "<=", A, ["+", B, C]], r"a \le b + c", "a ≤ b + c"),
     (["+", ["cmp", "<", A, B], ONE], r"(a < b) + 1", "(a < b) + 1"),
     (["cases", [NEG_A, ["and", ["cmp", "<", A, B], ["cmp", "!=", B, C]]], [["num", "0"]]],
-     r"\begin{cases} -a & \text{ if }a < b\text{ and }b \ne c \\ 0 & \text{otherwise} \end{cases}",
+     r"\begin{cases} -a & \text{if }a < b\text{ and }b \ne c \\ 0 & \text{otherwise} \end{cases}",
      "{−a if a < b and b ≠ c; 0 otherwise}"),
 ]  # fmt: skip
 
@@ -227,7 +227,7 @@ def test_wide_product_is_broken_before_a_dot() -> None:
 
 
 def test_found_value_shows_its_relation() -> None:
-    item = _item(type="found", relation=["cmp", "==", ["*", TWO, ["sym", "c"]], A])
+    item = _item(type="found", equation=None, relation=["cmp", "==", ["*", TWO, ["sym", "c"]], A])
     equation = _equations()[0].of(item)
     assert equation is not None
     assert equation.text == "2·c = a\nc = 5 mm"

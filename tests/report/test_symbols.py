@@ -32,7 +32,7 @@ def test_symbol(name: str, html: str) -> None:
         ("drive.crank_torque", "drive.crank_torque"),
         ("a force of 3 kN·m instead", "a force of 3 kN·m instead"),
         ("divided by η there", "divided by <i class=sy>η</i> there"),
-        ("<script>x</script>", "&lt;script&gt;x&lt;/script&gt;"),
+        ("<script>alert</script>", "&lt;script&gt;alert&lt;/script&gt;"),
     ],
 )
 def test_prose(text: str, html: str) -> None:
