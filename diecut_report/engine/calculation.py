@@ -108,8 +108,12 @@ class Calculation:
 
     def sample(self, curve: str, x: Array, middle: Array, rows: Array | None = None) -> Array:
         """A curve at x (rows, points), each x being in the smooth piece whose middle is given; rows are variants (default all)."""
-        found = _Sampler(self, self.axis[curve], x, middle, rows)[curve]
+        found = self.sampler(curve, x, middle, rows)[curve]
         return np.broadcast_to(found, np.broadcast_shapes(np.shape(found), np.shape(x)))
+
+    def sampler(self, curve: str, x: Array, middle: Array, rows: Array | None = None) -> _Sampler:
+        """All curves over the abscissa of this one, at x as in ``sample``: a mapping from id to values."""
+        return _Sampler(self, self.axis[curve], x, middle, rows)
 
     def kept(
         self, use: str, axis: str, places: Callable[[Domain], tuple[Array, Array]], rows: Array | None = None

@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 import math
+import operator
 import re
+from collections.abc import Callable
 from typing import Any
 
 import pytest
@@ -129,6 +131,11 @@ def _trees() -> st.SearchStrategy[Tree]:
     )
 
 
+OPERATIONS: dict[str, Callable[[float, float], float]] = {
+    "+": operator.add, "-": operator.sub, "*": operator.mul, "/": operator.truediv, "^": operator.pow,
+}  # fmt: skip
+
+
 def _value(tree: Tree) -> float:
     match tree:
         case ["num" | "qty", text, *_]:
@@ -137,14 +144,8 @@ def _value(tree: Tree) -> float:
             return -_value(inner)
         case ["call", "abs", inner]:
             return abs(_value(inner))
-    op, left, right = tree[0], _value(tree[1]), _value(tree[2])
-    return {
-        "+": left + right,
-        "-": left - right,
-        "*": left * right,
-        "/": left / right if right else math.nan,
-        "^": left**right,
-    }[op]
+    left, right = _value(tree[1]), _value(tree[2])
+    return float(OPERATIONS[tree[0]](left, right))
 
 
 def _python(text: str) -> str:

@@ -1,0 +1,123 @@
+"""Figures: what is drawn, where, and that texts keep clear of lines."""
+
+from __future__ import annotations
+
+import math
+import re
+from typing import Any
+from xml.etree import ElementTree
+
+import numpy as np
+import pytest
+
+from diecut_report.report.curves import continuous, period_of, through_pole
+from diecut_report.report.drawing import hatching
+from diecut_report.report.figures import Labels, marked
+from diecut_report.report.gallery import render
+from diecut_report.report.i18n import Words
+
+WORDS = Words("en")
+
+
+def _figures(results: dict[str, Any]) -> list[tuple[dict[str, Any], dict[str, Any]]]:
+    return [(f, m["curves"]) for m in results["mechanisms"].values() for f in m.get("figures", ())]
+
+
+def test_each_kind_is_drawn_as_clean_svg(results: dict[str, Any]) -> None:
+    figures = _figures(results)
+    assert {f["type"] for f, _ in figures} == {"plot", "polar", "bars", "drawing"}
+    for figure, curves in figures:
+        svg = render(figure, curves, WORDS, figure["id"])
+        root = ElementTree.fromstring(svg.text)
+        assert root.find("{http://www.w3.org/2000/svg}title").text == figure["title"]  # type: ignore[union-attr]
+        assert "<style" not in svg.text and "<!DOCTYPE" not in svg.text
+        assert 0 < svg.width <= 174 * 72 / 25.4
+        assert not re.search(r'="[^"]*\d\.\d{4,}', svg.text)
+
+
+def test_printed_numbers_keep_their_digits(results: dict[str, Any]) -> None:
+    bars = next((f, curves) for f, curves in _figures(results) if f["type"] == "bars")
+    assert {"189.1", "−84.05", "0.6360"} <= set(re.findall(r">([−\d.]+)<", render(*bars, WORDS, "x").text))
+
+
+def test_same_figure_gives_same_bytes_and_own_ids(results: dict[str, Any]) -> None:
+    figure, curves = _figures(results)[0]
+    one, same, other = (render(figure, curves, WORDS, key).text for key in ("A.1", "A.1", "B.1"))
+    assert one == same
+    ids = [set(re.findall(r'id="([^"]+)"', text)) for text in (one, other)]
+    assert not ids[0] & ids[1]
+
+
+def test_title_is_escaped(results: dict[str, Any]) -> None:
+    figure, curves = _figures(results)[1]
+    svg = render(figure | {"title": "<script>&"}, curves, WORDS, "x").text
+    assert "<title>&lt;script&gt;&amp;</title>" in svg
+
+
+def _curve(**more: Any) -> tuple[dict[str, Any], dict[str, Any]]:
+    angles = [k * math.pi / 2 for k in range(4)]
+    return {"values": [0.0, 1.0, 2.0, 3.0], **more}, {"values": angles, "unit": "rad"}
+
+
+def test_jump_stands_at_its_true_place_with_both_values() -> None:
+    curve, over = _curve(breakpoints=[2.0], left=[1.25], right=[9.0])
+    x, y = continuous(curve, over, 2 * math.pi)
+    where = np.nonzero(x == 2.0)[0]
+    assert list(y[where]) == [1.25, 9.0]
+    assert (np.diff(x) >= 0).all()
+
+
+def test_jump_at_a_sample_replaces_the_sample() -> None:
+    curve, over = _curve(breakpoints=[math.pi], left=[2.0], right=[7.0])
+    x, y = continuous(curve, over, None)
+    assert list(y[x == math.pi]) == [2.0, 7.0]
+
+
+def test_full_turn_is_closed() -> None:
+    curve, over = _curve()
+    assert period_of(over) == 2 * math.pi
+    x, y = continuous(curve, over, period_of(over))
+    assert x[-1] == pytest.approx(2 * math.pi)
+    assert y[-1] == y[0]
+
+
+def test_part_of_a_turn_is_not_closed() -> None:
+    assert period_of({"values": [0.0, 0.1, 0.2, 0.3], "unit": "rad"}) is None
+    assert period_of({"values": [0.0, 0.1, 0.2, 0.3], "unit": "s"}) is None
+
+
+def test_polar_curve_changes_its_sign_at_the_pole() -> None:
+    x, y = through_pole(np.array([0.0, 1.0, 1.0, 2.0]), np.array([1.0, 1.0, -3.0, -3.0]))
+    assert list(x) == [0.0, 1.0, 1.0, 1.0, 2.0]
+    assert list(y) == [1.0, 1.0, 0.0, -3.0, -3.0]
+
+
+def test_hatching_fills_the_section_and_leaves_its_hole() -> None:
+    square = np.array([[0, 0], [100, 0], [100, 100], [0, 100], [0, 0]], dtype=float)
+    hole = np.array([[25, 25], [75, 25], [75, 75], [25, 75], [25, 25]], dtype=float)
+    starts, ends = hatching([square, hole], 2.0)
+    lengths = np.hypot(*(ends - starts).T)
+    assert lengths.sum() * 2.0 == pytest.approx(100 * 100 - 50 * 50, rel=0.02)
+    middles = (starts + ends) / 2
+    assert not ((middles > 26) & (middles < 74)).all(axis=1).any()
+
+
+def test_text_keeps_clear_of_lines_and_other_texts() -> None:
+    line = np.column_stack([np.linspace(0, 100, 60), np.zeros(60)])
+    labels = Labels(line)
+    first = labels.place((20, 8), [(50, 0), (50, 10)])
+    second = labels.place((20, 8), [(52, 11), (52, 40)])
+    assert [first, second] == [(50, 10), (52, 40)]
+
+
+def test_text_stays_inside_its_limits() -> None:
+    labels = Labels(np.empty((0, 2)), limits=(0, 0, 100, 100))
+    assert labels.place((20, 8), [(95, 50), (80, 50)]) == (80, 50)
+
+
+@pytest.mark.parametrize(("text", "set_as"), [
+    ("R_b = 70 mm", r"$R_{\mathrm{b}}$ = 70 mm"), ("crank at φ = 98 °", "crank at $φ$ = 98°"), ("V", "$V$"),
+    ("cost in $", r"cost in \$"), ("die", "die"), ("w = -5 mm", "$w$ = −5 mm"),
+])  # fmt: skip
+def test_symbols_of_a_drawing(text: str, set_as: str) -> None:
+    assert marked(text) == set_as

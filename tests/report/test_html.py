@@ -1,0 +1,129 @@
+"""The HTML report: order, escaping, nothing from outside."""
+
+from __future__ import annotations
+
+import re
+from html.parser import HTMLParser
+from typing import Any
+
+import pytest
+from jinja2 import UndefinedError
+
+from diecut_report.report import Rendering, html, render_html
+
+BAD = "<script>alert(1)</script>"
+VOID = {"meta", "img", "br", "col", "path", "use", "rect", "link", "mspace", "circle", "line"}
+
+
+class Balance(HTMLParser):
+    """Checks that tags close in order, and collects ids and links."""
+
+    def __init__(self) -> None:
+        super().__init__()
+        self.open: list[str] = []
+        self.ids: list[str] = []
+        self.targets: list[str] = []
+
+    def handle_starttag(self, tag: str, attrs: list[tuple[str, str | None]]) -> None:
+        given = dict(attrs)
+        self.ids += [given["id"] or ""] if "id" in given else []
+        self.targets += [(given["href"] or "")[1:]] if tag == "a" else []
+        if tag not in VOID:
+            self.open.append(tag)
+
+    def handle_startendtag(self, tag: str, attrs: list[tuple[str, str | None]]) -> None:
+        self.ids += [value or "" for name, value in attrs if name == "id"]
+
+    def handle_endtag(self, tag: str) -> None:
+        if tag not in VOID:
+            assert self.open.pop() == tag
+
+
+def test_tags_balance_ids_are_unique_and_links_have_a_target(html: str) -> None:
+    page = Balance()
+    page.feed(html)
+    assert page.open == []
+    assert len(page.ids) == len(set(page.ids))
+    assert page.targets and set(page.targets) <= set(page.ids)
+
+
+def test_nothing_comes_from_outside(html: str) -> None:
+    addresses = set(re.findall(r"https?://[^\"'\s<>)]+", html))
+    assert addresses <= {"http://www.w3.org/2000/svg", "http://www.w3.org/1999/xlink"}
+    assert not re.search(r"<(script|link|iframe|object|embed|base|form)\b", html)
+    assert set(re.findall(r"url\(\"?([^\")]{0,10})", html)) <= {"data:font/"} | set(
+        re.findall(r"url\((#[^)\"]{0,9})", html)
+    )
+
+
+def test_failures_stand_before_warnings_and_passes(html: str) -> None:
+    table = html[html.index('<table class="checks"') :]
+    table = table[: table.index("</table>")]
+    assert re.findall(r'<tr class="(\w+)">', table) == ["fail", "warn", "pass", "pass"]
+    assert html.index("The bore breaks through the flat") < html.index('<table class="checks"')
+
+
+def test_broken_and_skipped_mechanisms_are_told(html: str) -> None:
+    assert "the plugin broke: division by zero in eq. 4" in html
+    assert "Not all mechanisms could be calculated." in html
+    assert "This mechanism could not be calculated." in html
+    assert "refers to cam, which is in error" in html
+
+
+def test_inputs_show_where_they_come_from(html: str) -> None:
+    assert "${press.sheet.length}" in html
+    assert "default, from press.productivity" in html
+
+
+def test_size_stays_below_the_agreed_limit(html: str) -> None:
+    assert len(html.encode()) < 1_500_000
+
+
+def _poisoned(value: Any) -> Any:
+    """All texts that people write, with a script in them; names and numbers that the program writes stay."""
+    if isinstance(value, dict):
+        return {k: BAD if k in WRITTEN and isinstance(v, str) else _poisoned(v) for k, v in value.items()}
+    return [_poisoned(part) for part in value] if isinstance(value, list) else value
+
+
+WRITTEN = {
+    "title", "document_number", "revision", "date", "organisation", "prepared_by", "checked_by", "approved_by", "description",
+    "by", "name", "source_text", "file", "error", "summary", "message", "source", "citation", "caption", "label", "note", "words",
+    "method", "demand_label", "limit_label", "text", "path", "kind", "plugin_version", "sha256",
+}  # fmt: skip
+
+
+def test_scripts_in_any_text_are_only_text(results: dict[str, Any]) -> None:
+    poisoned = _poisoned(results)
+    for mechanism in poisoned["mechanisms"].values():
+        mechanism["assumptions"] = [BAD]
+        for row in [*mechanism.get("outputs", {}).values(), *mechanism.get("inputs", {}).values()]:
+            row["symbol"] = BAD
+    page = render_html(poisoned)
+    assert "<script" not in page
+    assert page.count("&lt;script&gt;") > 60
+
+
+def test_missing_data_is_an_error_and_no_gap(results: dict[str, Any]) -> None:
+    del results["program"]["version"]
+    with pytest.raises(UndefinedError, match="version"):
+        render_html(results)
+
+
+def test_optional_title_block_entries_may_be_missing(results: dict[str, Any]) -> None:
+    results["project"] = {"title": "Bare", "revisions": None}
+    assert "<h1>Bare</h1>" in render_html(results)
+
+
+def test_templates_have_no_words_of_their_own() -> None:
+    for path in html.folder().glob("*.j2"):
+        text = re.sub(
+            r"\{#.*?#\}|\{%.*?%\}|\{\{.*?\}\}|<[^>]*>", " ", path.read_text(encoding="utf-8"), flags=re.DOTALL
+        )
+        assert not re.findall(r"[^\W\d_]{2,}", text.replace("&nbsp;", " ")), path.name
+
+
+def test_language_without_a_catalogue_is_refused(results: dict[str, Any]) -> None:
+    results["project"]["language"] = "uk"
+    with pytest.raises(KeyError):
+        Rendering(results)

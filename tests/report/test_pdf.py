@@ -1,0 +1,145 @@
+"""The PDF report: sheets, search, outline, nothing from outside, the same bytes again."""
+
+from __future__ import annotations
+
+import os
+import re
+import shutil
+import subprocess
+import sys
+from pathlib import Path
+from typing import Any
+
+import pytest
+from pypdf import PdfReader
+from weasyprint.urls import FatalURLFetchingError
+
+from diecut_report.report import Rendering
+from diecut_report.report.pdf_math import operators
+from diecut_report.report.typeset import Typesetter
+
+SAMPLE = Path(__file__).with_name("sample_results.json")
+TWICE = """
+import json, sys
+from hashlib import sha256
+from diecut_report.report import Rendering
+report = Rendering(json.load(open(sys.argv[1], encoding="utf-8")))
+print(sha256(report.html().encode()).hexdigest(), sha256(report.pdf()).hexdigest())
+"""
+
+
+def _texts(pdf: Path) -> list[str]:
+    return [page.extract_text() for page in PdfReader(pdf).pages]
+
+
+def test_each_sheet_says_its_number_and_document(pdf: Path) -> None:
+    texts = _texts(pdf)
+    assert len(texts) > 5
+    for number, text in enumerate(texts, 1):
+        assert re.search(rf"\b{number}\s+of\s+{len(texts)}\b", text)
+        assert "DOC-1" in text and "Sample press" in text and "Design office" in text
+
+
+def test_title_block_is_in_the_metadata_without_dates(pdf: Path) -> None:
+    found = PdfReader(pdf).metadata
+    assert found is not None
+    assert found.title == "Sample press – DOC-1"
+    assert found.author == "Designer"
+    assert "/CreationDate" not in found and "/ModDate" not in found
+
+
+def test_outline_names_chapters_and_sections(pdf: Path) -> None:
+    outline: list[Any] = PdfReader(pdf).outline
+    chapters = [entry.title for entry in outline if not isinstance(entry, list)]
+    sections = [entry.title for group in outline if isinstance(group, list) for entry in group]
+    assert chapters[:3] == ["1 Summary", "2 Press data", "A Impression cylinder"]
+    assert "A.3 Geometry of the flat" in sections
+
+
+@pytest.mark.skipif(shutil.which("pdftotext") is None, reason="pdftotext is not installed")
+def test_formulas_are_found_by_search(pdf: Path) -> None:
+    text = subprocess.run(["pdftotext", "-raw", str(pdf), "-"], capture_output=True, text=True, check=True).stdout
+    assert "c = 2·√(2·h·R − h²) = 2·√(2 · 40 mm · 105 mm − (40 mm)²) = 164.9 mm" in text
+    assert "R_b > R − h: 70 mm > 105 mm − 40 mm" in text
+
+
+def test_formulas_and_figures_have_alternative_texts(pdf: Path) -> None:
+
+    alternatives = set(_alternatives(PdfReader(pdf).trailer["/Root"]["/StructTreeRoot"]))  # type: ignore[index]
+    assert "Cross-section" in alternatives
+    assert any(text.startswith("c = 2·√(2·h·R − h²)") for text in alternatives)
+
+
+def _alternatives(node: Any) -> list[str]:
+    node = node.get_object() if hasattr(node, "get_object") else node
+    if isinstance(node, list):
+        return [text for part in node for text in _alternatives(part)]
+    if not isinstance(node, dict) or node.get("/Type") == "/OBJR":
+        return []
+    return ([str(node["/Alt"])] if "/Alt" in node else []) + _alternatives(node.get("/K", []))
+
+
+def test_no_link_leads_outside(pdf: Path) -> None:
+    for page in PdfReader(pdf).pages:
+        for link in page.get("/Annots", []):
+            action = link.get_object().get("/A", {})
+            assert "/URI" not in action and "/F" not in action
+
+
+def test_weasyprint_has_nothing_to_complain_of(results: dict[str, Any], weasyprint_log: list[str]) -> None:
+    assert Rendering(results).pdf().startswith(b"%PDF-1.7")
+    assert weasyprint_log == []
+
+
+def test_a_picture_from_outside_stops_the_rendering(results: dict[str, Any], monkeypatch: pytest.MonkeyPatch) -> None:
+    from diecut_report.report import pdf as module
+
+    monkeypatch.setattr(
+        module, "filled", lambda *_: '<html lang="en"><title>x</title><img alt="" src="http://localhost/x.png">'
+    )
+    with pytest.raises(FatalURLFetchingError, match="localhost"):
+        Rendering(results).pdf()
+
+
+def test_equal_results_give_equal_bytes_in_another_process() -> None:
+    def digests(seed: str) -> str:
+        environment = os.environ | {"PYTHONHASHSEED": seed}
+        return subprocess.run(
+            [sys.executable, "-c", TWICE, str(SAMPLE)], env=environment, capture_output=True, text=True, check=True
+        ).stdout
+
+    assert digests("1") == digests("4711")
+
+
+def test_a_formula_is_the_same_in_both_formats_of_one_report(rendering: Rendering, html: str, pdf: Path) -> None:
+    before = len(rendering.material.typesetter._outlines)
+    rendering.pdf()
+    assert len(rendering.material.typesetter._outlines) == before  # nothing is converted twice
+
+
+def test_wide_formula_is_not_cut_off(pdf: Path) -> None:
+    text = "".join(_texts(pdf))
+    assert all(f"{k}.25 kg·m²" in text.replace("\u00a0", " ") for k in range(1, 9))
+
+
+@pytest.mark.skipif(shutil.which("qpdf") is None, reason="qpdf is not installed")
+def test_qpdf_finds_no_fault(pdf: Path) -> None:
+    assert subprocess.run(["qpdf", "--check", str(pdf)], capture_output=True, check=False).returncode == 0
+
+
+# the outlines of formulas
+def test_outline_of_a_bar_is_a_rectangle_of_its_size() -> None:
+    drawn = operators(Typesetter().outline(r"\frac{a}{b}").svg)
+    assert len(re.findall(r" re f$", drawn, re.MULTILINE)) == 1
+    assert drawn.count(" cm ") == 2
+
+
+def test_same_letter_has_the_same_outline() -> None:
+    first, second = (operators(Typesetter().outline(latex).svg) for latex in ("a", "a + a"))
+    letter = first.split(" cm ")[1]
+    assert second.count(letter) == 2
+
+
+def test_unknown_shapes_are_refused() -> None:
+    with pytest.raises(ValueError, match="cannot be drawn"):
+        operators('<svg><defs></defs><g><circle r="3"/></g></svg>')
