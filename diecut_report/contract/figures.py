@@ -29,7 +29,7 @@ class View(Protocol):
         """A quantity as it is printed: ``h = 40 mm``."""
 
 
-@dataclass(frozen=True, kw_only=True)
+@dataclass(frozen=True, kw_only=True, eq=False)
 class Series:
     """One curve in a plot."""
 
@@ -37,7 +37,7 @@ class Series:
     label: str
 
 
-@dataclass(frozen=True, kw_only=True)
+@dataclass(frozen=True, kw_only=True, eq=False)
 class Level:
     """A horizontal line at a quantity's value."""
 
@@ -45,7 +45,7 @@ class Level:
     label: str
 
 
-@dataclass(frozen=True, kw_only=True)
+@dataclass(frozen=True, kw_only=True, eq=False)
 class Mark:
     """A marked point: ids of its place and its value."""
 
@@ -54,7 +54,7 @@ class Mark:
     label: str
 
 
-@dataclass(frozen=True, kw_only=True)
+@dataclass(frozen=True, kw_only=True, eq=False)
 class Span:
     """A marked range of the abscissa between two quantities."""
 
@@ -63,7 +63,7 @@ class Span:
     label: str
 
 
-@dataclass(frozen=True, kw_only=True)
+@dataclass(frozen=True, kw_only=True, eq=False)
 class Panel:
     """One diagram of a plot: curves of one unit over the abscissa."""
 
@@ -75,7 +75,7 @@ class Panel:
     spans: tuple[Span, ...] = ()
 
 
-@dataclass(frozen=True, kw_only=True)
+@dataclass(frozen=True, kw_only=True, eq=False)
 class Figure:
     """What all figures have; ``needs`` names the optional inputs without which it is left out."""
 
@@ -85,7 +85,7 @@ class Figure:
     needs: tuple[str, ...] = ()
 
 
-@dataclass(frozen=True, kw_only=True)
+@dataclass(frozen=True, kw_only=True, eq=False)
 class Plot(Figure):
     """Diagrams one below the other over a common abscissa."""
 
@@ -93,7 +93,7 @@ class Plot(Figure):
     panels: tuple[Panel, ...]
 
 
-@dataclass(frozen=True, kw_only=True)
+@dataclass(frozen=True, kw_only=True, eq=False)
 class Polar(Figure):
     """Curves over an angle, as distance from the pole; negative values are drawn with another line."""
 
@@ -102,14 +102,14 @@ class Polar(Figure):
     series: tuple[Series, ...]
 
 
-@dataclass(frozen=True, kw_only=True)
+@dataclass(frozen=True, kw_only=True, eq=False)
 class Bars(Figure):
     """Bars in groups: each group has its own unit, each bar the id of a quantity."""
 
     groups: tuple[BarGroup, ...]
 
 
-@dataclass(frozen=True, kw_only=True)
+@dataclass(frozen=True, kw_only=True, eq=False)
 class BarGroup:
     """Bars of one unit; a bar is a label and the id of its quantity, subtracted ones with ``-ID``."""
 
@@ -118,7 +118,7 @@ class BarGroup:
     bars: tuple[tuple[str, str], ...]
 
 
-@dataclass(frozen=True, kw_only=True)
+@dataclass(frozen=True, kw_only=True, eq=False)
 class Drawing(Figure):
     """A drawing to scale: ``build`` gives its shapes from the calculated machine."""
 

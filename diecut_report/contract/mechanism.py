@@ -43,7 +43,7 @@ def axes(steps: tuple[Step, ...], inputs: type[Inputs]) -> dict[str, str]:
     return found
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Source:
     """A publication that formulas come from."""
 
@@ -51,7 +51,7 @@ class Source:
     citation: str
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Erratum:
     """A mistake found in a source, and the quantities (ids) that it touches."""
 
@@ -60,7 +60,7 @@ class Erratum:
     touches: tuple[str, ...] = ()
 
 
-@dataclass(frozen=True, kw_only=True)
+@dataclass(frozen=True, kw_only=True, eq=False)
 class Mechanism:
     """A kind of mechanism: inputs, calculation, checks, figures, and what is said of it in the report.
 

@@ -14,7 +14,7 @@ from typing import Any, Literal
 from diecut_report.expressions import Formula
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Bound:
     """A formula bound to quantities: each parameter's quantity id, or a plain number."""
 
@@ -45,7 +45,7 @@ def _by_names(formula: Formula) -> Bound:
     return bind(formula)
 
 
-@dataclass(frozen=True, kw_only=True)
+@dataclass(frozen=True, kw_only=True, eq=False)
 class Step:
     """What all steps have: the quantity that it gives, and the inputs without which (or with which) it is left out.
 
@@ -66,7 +66,7 @@ class Step:
     exists: Bound | Formula | None = None
 
 
-@dataclass(frozen=True, kw_only=True)
+@dataclass(frozen=True, kw_only=True, eq=False)
 class Value(Step):
     """A closed formula: a number, a curve where it takes a curve or an abscissa, a row of numbers over like parts.
 
@@ -82,7 +82,7 @@ class Value(Step):
         return tuple(bound(self.formula).names.values())
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Case:
     """One branch of a choice: taken where the condition holds (the last one has none), and why, in words."""
 
@@ -91,7 +91,7 @@ class Case:
     condition: Bound | Formula | None = None
 
 
-@dataclass(frozen=True, kw_only=True)
+@dataclass(frozen=True, kw_only=True, eq=False)
 class Choice(Step):
     """A value (number, or text where the cases' values are texts) chosen by conditions; the branch taken is printed."""
 
@@ -104,7 +104,7 @@ class Choice(Step):
         return tuple(name for part in parts for name in bound(part).names.values())
 
 
-@dataclass(frozen=True, kw_only=True)
+@dataclass(frozen=True, kw_only=True, eq=False)
 class Root(Step):
     """A root found in [low, high] of ``equation``, a formula of the unknown (named ``unknown``) that is zero there.
 
@@ -120,7 +120,7 @@ class Root(Step):
     tolerance: float = 1e-9
 
 
-@dataclass(frozen=True, kw_only=True)
+@dataclass(frozen=True, kw_only=True, eq=False)
 class Abscissa(Step):
     """What curves run over, [0, period): sampled at ``points`` (an input's id); shown in print at the place ``shown_at``."""
 
@@ -129,7 +129,7 @@ class Abscissa(Step):
     shown_at: str = ""
 
 
-@dataclass(frozen=True, kw_only=True)
+@dataclass(frozen=True, kw_only=True, eq=False)
 class Breakpoints(Step):
     """Places on an abscissa where a curve that follows jumps or has a corner: ids of numbers, or of found crossings."""
 
@@ -137,7 +137,7 @@ class Breakpoints(Step):
     places: tuple[str, ...]
 
 
-@dataclass(frozen=True, kw_only=True)
+@dataclass(frozen=True, kw_only=True, eq=False)
 class Crossings(Step):
     """All places where a curve changes its sign, between the breakpoints known so far and at them.
 
@@ -150,7 +150,7 @@ class Crossings(Step):
 Operation = Literal["max", "min", "abs_max", "range", "mean", "rms", "integral"]
 
 
-@dataclass(frozen=True, kw_only=True)
+@dataclass(frozen=True, kw_only=True, eq=False)
 class Reduction(Step):
     """One number of a curve over its abscissa; extremes also give their place, the quantity ``ID_at``."""
 
@@ -158,7 +158,7 @@ class Reduction(Step):
     operation: Operation
 
 
-@dataclass(frozen=True, kw_only=True)
+@dataclass(frozen=True, kw_only=True, eq=False)
 class Total(Step):
     """Sum or product over like parts."""
 
@@ -166,7 +166,7 @@ class Total(Step):
     operation: Literal["sum", "product"]
 
 
-@dataclass(frozen=True, kw_only=True)
+@dataclass(frozen=True, kw_only=True, eq=False)
 class Pick(Step):
     """A value of a standard series: the next one at or above, at or below, or the nearest to a quantity.
 
@@ -178,7 +178,7 @@ class Pick(Step):
     rule: Literal["above", "below", "nearest"]
 
 
-@dataclass(frozen=True, kw_only=True)
+@dataclass(frozen=True, kw_only=True, eq=False)
 class FromCurve(Step):
     """A curve input taken over as a curve of this mechanism, over ``abscissa`` (of the same kind and any period).
 
@@ -189,7 +189,7 @@ class FromCurve(Step):
     abscissa: str
 
 
-@dataclass(frozen=True, kw_only=True)
+@dataclass(frozen=True, kw_only=True, eq=False)
 class Require(Step):
     """What must hold for the machine to be possible: where it does not, the message (``{id}`` prints a quantity) and its key."""
 
@@ -198,7 +198,7 @@ class Require(Step):
     message: str
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Section:
     """A chapter of the calculation: steps under a title; ``absent`` says in words what is missing when its needs are."""
 
