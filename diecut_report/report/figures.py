@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import io
 import re
-from collections.abc import Iterable, Mapping
+from collections.abc import Callable, Iterable
 from importlib import import_module
 from itertools import pairwise
 from pathlib import Path
@@ -18,7 +18,6 @@ from matplotlib.font_manager import FontProperties, fontManager
 from matplotlib.textpath import text_to_path
 from numpy.typing import NDArray
 
-from diecut_report.report.i18n import Words
 from diecut_report.report.numbers import tidy
 
 INK, SOFT, PALE, ACCENT = "#1b232c", "#66717d", "#e9edf1", "#0b5c8f"
@@ -35,14 +34,11 @@ class Svg(NamedTuple):
     height: float
 
 
-def render(figure: Mapping[str, Any], curves: Mapping[str, Any], words: Words, key: str) -> Svg:
-    """Draw a figure of the results; ``key`` keeps its ids apart from those of the report's other figures."""
-    from diecut_report.report import charts, drawing
-
-    draw = {"plot": charts.plot, "polar": charts.polar, "bars": charts.bars, "drawing": drawing.drawing}[figure["type"]]
+def drawn(build: Callable[[], Figure], title: str, key: str) -> Svg:
+    """What ``build`` draws, in the report's style; ``key`` keeps its ids apart from those of the report's other figures."""
     _load_fonts()
     with mpl.rc_context(style(key)):  # type: ignore[arg-type]  # a plain dictionary is one too
-        return written(draw(figure, curves, words), figure["title"])
+        return written(build(), title)
 
 
 def style(key: str) -> dict[str, Any]:

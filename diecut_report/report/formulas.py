@@ -10,6 +10,8 @@ from diecut_report.report.numbers import MINUS, grouped, parts, quantity
 from diecut_report.report.printing import ATOM, CALL, NAMES, POWER, PRODUCT, SUM, Piece, Printer, Tree
 from diecut_report.units import pretty
 
+PRIMES = "′'"
+
 
 class Latex(Printer):
     """Expressions as LaTeX, of the small part that math-core and mathra both read."""
@@ -48,10 +50,10 @@ class Latex(Printer):
         base, _, below = name.partition("_")
         if not base:
             return "{}"
-        letters = base.rstrip("′'")
-        prime = "'" * (len(base) - len(letters))
+        letters, plain = base.rstrip(PRIMES), below.rstrip(PRIMES)
+        prime = "'" * (len(base) - len(letters) + len(below) - len(plain))
         text = (rf"\mathit{{{letters}}}" if len(letters) > 1 and letters.isalpha() else letters) + prime
-        return f"{text}_{{{subscript_latex(below)}}}" if below else text
+        return f"{text}_{{{subscript_latex(plain)}}}" if plain else text
 
     def bracket(self, text: str, left: str = "(", right: str = ")") -> str:
         tall = left == "|" or any(part in text for part in (r"\frac", r"\sqrt", r"\begin"))
@@ -148,11 +150,10 @@ def escaped(text: str) -> str:
 
 
 def subscript_latex(text: str) -> str:
-    """A subscript: words and letters upright, digits as they are, indices after a comma kept."""
-    words = re.split(r"([,\s_]+)", text)
-    return "".join(part if index % 2 else _upright(part) for index, part in enumerate(words) if part).replace(
-        "_", r"\,"
-    )
+    """A subscript: words and letters upright, digits as they are, commas and hyphens between them kept."""
+    words = re.split(r"([,\s_-]+)", text)
+    joints = str.maketrans({"_": r"\,", " ": r"\,", "-": r"\text{-}"})
+    return "".join(part.translate(joints) if index % 2 else _upright(part) for index, part in enumerate(words) if part)
 
 
 def _upright(part: str) -> str:

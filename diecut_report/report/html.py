@@ -7,17 +7,15 @@ from collections.abc import Callable
 from functools import cache
 from importlib import import_module
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, Protocol
+from typing import Any, Protocol
 
 from jinja2 import Environment, FileSystemLoader, StrictUndefined
 from markupsafe import Markup
 
 from diecut_report.report.equations import Equation
+from diecut_report.report.material import Material
 from diecut_report.report.numbers import tidy
 from diecut_report.report.symbols import prose, symbol
-
-if TYPE_CHECKING:
-    from diecut_report.report.rendering import Rendering
 
 FACES = {  # family, weight, style: file
     ("Report Sans", 400, "normal"): "report-sans-regular",
@@ -42,28 +40,28 @@ class Medium(Protocol):
 class Screen:
     """Formulas as MathML, figures as inline SVG."""
 
-    def __init__(self, rendering: Rendering) -> None:
-        self.rendering = rendering
+    def __init__(self, material: Material) -> None:
+        self.material = material
 
     def math(self, equation: Equation, *, display: bool = True) -> Markup:
         """A typeset formula as MathML."""
         # math-core escapes the texts within the formula
-        return Markup(self.rendering.typesetter.mathml(equation.latex, display=display))
+        return Markup(self.material.typesetter.mathml(equation.latex, display=display))
 
     def figure(self, number: str, title: str) -> Markup:
         """A figure inline, named by its title."""
         # matplotlib escapes the texts within the drawing
-        return Markup(self.rendering.figures[number].text)
+        return Markup(self.material.figures[number].text)
 
 
-def page(rendering: Rendering) -> str:
+def page(material: Material) -> str:
     """The whole HTML page."""
-    return filled(rendering, Screen(rendering), "screen")
+    return filled(material, Screen(material), "screen")
 
 
-def filled(rendering: Rendering, medium: Medium, kind: str) -> str:
+def filled(material: Material, medium: Medium, kind: str) -> str:
     """The report's template with the document in it, for ``screen`` or ``print``."""
-    document = rendering.document
+    document = material.document
     faces = FACES | (MATH if kind == "screen" else {})
     style = "\n".join([_font_faces(tuple(faces.items())), _read("report.css"), _read(f"{kind}.css")])
     return _environment().get_template("report.html.j2").render(

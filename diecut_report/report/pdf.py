@@ -6,18 +6,16 @@ import base64
 import gc
 from collections.abc import Iterator
 from contextlib import contextmanager
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from markupsafe import Markup, escape
-from weasyprint import HTML  # type: ignore[import-untyped]
-from weasyprint.urls import URLFetcher  # type: ignore[import-untyped]
+from weasyprint import HTML
+from weasyprint.urls import URLFetcher
 
 from diecut_report.report.equations import Equation
 from diecut_report.report.html import filled
+from diecut_report.report.material import Material
 from diecut_report.report.pdf_math import Picture
-
-if TYPE_CHECKING:
-    from diecut_report.report.rendering import Rendering
 
 FORMULA = "data:formula,"  # addresses of the formulas' pictures, which WeasyPrint finds in its cache
 
@@ -25,13 +23,13 @@ FORMULA = "data:formula,"  # addresses of the formulas' pictures, which WeasyPri
 class Paper:
     """Formulas as outlines with searchable text under them, figures as images."""
 
-    def __init__(self, rendering: Rendering) -> None:
-        self.rendering = rendering
+    def __init__(self, material: Material) -> None:
+        self.material = material
         self.pictures: dict[str, Picture] = {}
 
     def math(self, equation: Equation, *, display: bool = True) -> Markup:
         """A typeset formula: its picture, and transparent text of it for search."""
-        outline = self.rendering.typesetter.outline(equation.latex, display=display)
+        outline = self.material.typesetter.outline(equation.latex, display=display)
         address = f"{FORMULA}{len(self.pictures)}"
         self.pictures[address] = Picture(outline)
         depth = "" if display else f' style="vertical-align:{outline.depth}em"'
@@ -41,14 +39,14 @@ class Paper:
 
     def figure(self, number: str, title: str) -> Markup:
         """A figure as an image."""
-        data = base64.b64encode(self.rendering.figures[number].text.encode()).decode()
+        data = base64.b64encode(self.material.figures[number].text.encode()).decode()
         return Markup('<img src="data:image/svg+xml;base64,{}" alt="{}">').format(data, title)
 
 
-def sheets(rendering: Rendering) -> bytes:
+def sheets(material: Material) -> bytes:
     """The whole PDF."""
-    paper = Paper(rendering)
-    source = filled(rendering, paper, "print")
+    paper = Paper(material)
+    source = filled(material, paper, "print")
     fetcher = URLFetcher(allowed_protocols={"data"}, allow_redirects=False, fail_on_errors=True)
     cache: dict[str, Any] = dict(paper.pictures)
     with _without_collection():

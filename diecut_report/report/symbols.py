@@ -9,7 +9,7 @@ from markupsafe import Markup, escape
 from diecut_report.report.numbers import tidy
 
 _SIGNS = "=<>≤≥≈≠−+√"
-_SYMBOL = re.compile(r"(?P<before>[|\[\d]*)(?P<base>[^\W\d_]+[′']*)(?:_(?P<below>.*?))?(?P<after>[|\]]?)")
+_SYMBOL = re.compile(r"(?P<before>[|\[\d]*)(?P<base>[^\W\d_]+[′']*)(?:_(?P<below>.*?))?(?P<after>[′'|\]]*)")
 # A symbol within a sentence: one or two letters with a short subscript (keys such as crank_speed or n_points are none),
 # a lone letter beside a sign of arithmetic, or a lone Greek one.
 _IN_TEXT = re.compile(

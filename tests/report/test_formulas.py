@@ -85,7 +85,9 @@ def test_brackets(tree: Tree, latex: str, linear: str) -> None:
 
 @pytest.mark.parametrize(("name", "latex"), [
     ("R", "R"), ("R_b", r"R_{\mathrm{b}}"), ("λ_1", "λ_{1}"), ("M_Σ", r"M_{\mathrm{Σ}}"), ("η_sector", r"η_{\mathrm{sector}}"),
-    ("η_four_bar", r"η_{\mathrm{four}\,\mathrm{bar}}"), ("m′", "m'"), ("me", r"\mathit{me}"), ("F_t,max", r"F_{\mathrm{t},\mathrm{max}}"),
+    ("η_four_bar", r"η_{\mathrm{four}\,\mathrm{bar}}"), ("m′", "m'"),
+    ("η_four-bar", r"η_{\mathrm{four}\text{-}\mathrm{bar}}"), ("β_c′", r"β'_{\mathrm{c}}"),
+    ("me", r"\mathit{me}"), ("F_t,max", r"F_{\mathrm{t},\mathrm{max}}"),
     ("P_різ", r"P_{\mathrm{різ}}"), ("|e_cf|", r"\left| e_{\mathrm{cf}} \right|"), ("", "{}"),
 ])  # fmt: skip
 def test_symbols(name: str, latex: str) -> None:

@@ -127,6 +127,16 @@ def test_qpdf_finds_no_fault(pdf: Path) -> None:
     assert subprocess.run(["qpdf", "--check", str(pdf)], capture_output=True, check=False).returncode == 0
 
 
+@pytest.mark.skipif(shutil.which("pdftotext") is None, reason="pdftotext is not installed")
+def test_all_words_stand_within_the_margins(pdf: Path) -> None:
+    boxes = subprocess.run(["pdftotext", "-bbox", str(pdf), "-"], capture_output=True, text=True, check=True).stdout
+    found = re.findall(r'xMin="([\d.]+)" yMin="([\d.]+)" xMax="([\d.]+)" yMax="([\d.]+)"', boxes)
+    left, top, right, bottom = (pick(float(box[i]) for box in found) for i, pick in enumerate((min, min, max, max)))
+    millimetre = 72 / 25.4
+    assert left >= 17.9 * millimetre and right <= (210 - 17.9) * millimetre
+    assert top >= 5 * millimetre and bottom <= (297 - 13) * millimetre
+
+
 # the outlines of formulas
 def test_outline_of_a_bar_is_a_rectangle_of_its_size() -> None:
     drawn = operators(Typesetter().outline(r"\frac{a}{b}").svg)

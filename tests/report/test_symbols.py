@@ -13,6 +13,7 @@ from diecut_report.report.symbols import prose, symbol
         ("R", "<i class=sy>R</i>"),
         ("R_b", "<i class=sy>R</i><sub>b</sub>"),
         ("|e_cf|", "|<i class=sy>e</i><sub>cf</sub>|"),
+        ("β_c′", "<i class=sy>β</i><sub>c</sub>′"),
         ("[f]", "[<i class=sy>f</i>]"),
         ("2α", "2<i class=sy>α</i>"),
         ("", ""),
