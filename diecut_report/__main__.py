@@ -1,7 +1,5 @@
 """``python -m diecut_report`` is the command line."""
 
-import sys
+from diecut_report.cli import run
 
-from diecut_report.cli import main
-
-sys.exit(main())
+run()

@@ -42,7 +42,7 @@ def document(run: Run) -> Data:
 
 
 EMPTY: Data = {
-    "summary": "", "assumptions": [], "sources": [], "inputs": {}, "outputs": {}, "values": {}, "key_results": [], "curves": {}, "checks": [],
+    "summary": "", "assumptions": [], "sources": [], "inputs": {}, "outputs": {}, "values": {}, "curves": {}, "checks": [],
     "warnings": [], "sections": [], "absent": [], "figures": [], "errata": [],
 }  # fmt: skip
 

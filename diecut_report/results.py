@@ -46,9 +46,6 @@ def mechanism_results(calc: Calculation, provenance: Mapping[str, Provenance]) -
         "sources": [{"id": s.id, "citation": s.citation} for s in mechanism.sources],
         "inputs": inputs(calc, provenance),
         **numbers(calc),
-        "key_results": [
-            name for name in mechanism.key_results if name in calc.values and not np.isnan(calc[name][0, 0])
-        ],
         "curves": curves(calc),
         "checks": checks,
         "warnings": [c["message"] for c in checks if c["status"] == "warn"],
@@ -121,6 +118,9 @@ def numbers(calc: Calculation) -> Data:
     for step in calc.steps.values():
         if step.id in calc.values and not isinstance(step, Require | Breakpoints):
             groups[step.output] |= _listed(calc, step) if isinstance(step, Crossings) else _rowed(calc, step)
+    for name in calc.mechanism.key_results:
+        if name in groups[True]:
+            groups[True][name]["key"] = True
     return {"outputs": groups[True], "values": groups[False]}
 
 

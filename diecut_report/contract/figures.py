@@ -120,10 +120,14 @@ class BarGroup:
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class Drawing(Figure):
-    """A drawing to scale: ``build`` gives its shapes from the calculated machine."""
+    """A drawing to scale: ``build`` gives its shapes from the calculated machine, in metres.
+
+    ``scaled_by`` names the optional input without which the shapes have relative lengths (``unit`` is then a pure number).
+    """
 
     build: Callable[[View], list[Shape]]
     unit: str = "mm"
+    scaled_by: str = ""
 
 
 def polyline(points: Sequence[Point], role: str = "outline", *, closed: bool = False) -> Shape:

@@ -138,6 +138,11 @@ class Calculation:
         sampler = self.kept("grid", self.axis[curve], Domain.flat_grid)
         return np.broadcast_to(sampler[curve], sampler.x.shape).reshape(self.count, -1, LOBATTO + 1)
 
+    def at_gauss_points(self, curve: str, order: int) -> Array:
+        """A curve at the Gauss–Legendre points of its smooth pieces, shape (variants, pieces · order)."""
+        sampler = self.kept(f"gauss {order}", self.axis[curve], lambda domain: domain.flat_gauss(order))
+        return np.broadcast_to(sampler[curve], sampler.x.shape)
+
     def step_or_input(self, name: str) -> Step | Quantity:
         """What declares a quantity: its symbol, unit and description."""
         own = name.removeprefix("inputs.")

@@ -60,6 +60,11 @@ class Domain:
         middle = np.broadcast_to(self.middles[:, :, None], grid.shape)
         return grid.reshape(len(grid), -1), middle.reshape(len(grid), -1)
 
+    def flat_gauss(self, order: int) -> tuple[Array, Array]:
+        """The Gauss–Legendre points and the middle of each point's piece, each of shape (variants, pieces · order)."""
+        x, _ = self.gauss(order)
+        return x.reshape(len(x), -1), np.broadcast_to(self.middles[:, :, None], x.shape).reshape(len(x), -1)
+
     def gauss(self, order: int) -> tuple[Array, Array]:
         """Gauss–Legendre points and weights in each piece, each of shape (variants, pieces, order)."""
         node, weight = leggauss(order)

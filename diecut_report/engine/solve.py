@@ -58,11 +58,8 @@ def integral(calc: Calculation, curve: str, power: int) -> tuple[Array, Array]:
 
 
 def _gauss(calc: Calculation, curve: str, order: int, of: Callable[[Array], Array]) -> Array:
-    domain = calc.domains[calc.axis[curve]]
-    x, weight = domain.gauss(order)
-    middle = np.broadcast_to(domain.middles[:, :, None], x.shape).reshape(calc.count, -1)
-    values = calc.sample(curve, x.reshape(calc.count, -1), middle)
-    weights = weight.reshape(calc.count, -1)
+    weights = calc.domains[calc.axis[curve]].gauss(order)[1].reshape(calc.count, -1)
+    values = calc.at_gauss_points(curve, order)
     total: Array = np.sum(np.where(weights > 0, of(values) * weights, 0), axis=1, keepdims=True)
     return total
 

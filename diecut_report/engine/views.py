@@ -57,8 +57,9 @@ def _figure(calc: Calculation, figure: Figure) -> dict[str, Any]:
             return head | {"type": "polar", "abscissa": abscissa, "unit": unit, "series": [vars(s) for s in series]}
         case Bars(groups=groups):
             return head | {"type": "bars", "groups": [_group(g, view) for g in groups]}
-        case Drawing(build=build, unit=unit):
-            return head | {"type": "drawing", "unit": unit, "shapes": build(view)}
+        case Drawing(build=build, unit=unit, scaled_by=scale):
+            relative = scale and scale not in calc.given
+            return head | {"type": "drawing", "unit": "1" if relative else unit, "shapes": build(view)}
     raise TypeError(f"{figure.id} is no known figure")
 
 

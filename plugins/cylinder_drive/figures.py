@@ -98,6 +98,7 @@ FIGURES = (
         caption="The linkage to scale at the crank angle of the greatest torque, light: in its dead centres. With a crank length and "
         "a pinion also sector, pinion and cylinder (dashed); the place of the pinion around the sector is free and chosen here.",
         build=linkage,
+        scaled_by="crank_length",
     ),
     Plot(
         id="motion",

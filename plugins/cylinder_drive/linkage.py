@@ -10,7 +10,7 @@ from diecut_report.plugins.cylinder_drive import motion
 
 LINKAGE = Section(
     "Linkage and its dead centres",
-    text="Lengths are relative to the crank. The crank angle is counted from the frame line O₁O₃, counter-clockwise.",
+    text="Lengths are relative to the crank. The crank angle is counted from the frame line O_1O_3, counter-clockwise.",
     steps=(
         Value(id="grashof_demand", symbol="Σ_1", description="Shortest and longest link together, in crank lengths", output=False,
               formula=motion.one_and_longest),

@@ -50,10 +50,10 @@ def cross_section(view: View) -> list[Shape]:
         label((-1.34 * radius, -0.95 * radius), "die"),
         dimension((-chord / 2, -flat), (chord / 2, -flat), -(0.55 * radius), view.text("chord")),
         dimension((radius, -radius), (radius, -flat), -(0.35 * radius), view.text("segment_height")),
-        radius_dimension((0.0, 0.0), radius, np.pi / 4, view.text("radius")),
+        radius_dimension((0.0, 0.0), radius, np.pi / 6, view.text("radius")),
         point((0.0, view["center_of_mass_offset"]), "mark", view.text("center_of_mass_offset")),
     ]
-    return shapes + ([radius_dimension((0.0, 0.0), bore, 3 * np.pi / 4, view.text("bore_radius"))] if bore > 0 else [])
+    return shapes + ([radius_dimension((0.0, 0.0), bore, 5 * np.pi / 6, view.text("bore_radius"))] if bore > 0 else [])
 
 
 FIGURES = (

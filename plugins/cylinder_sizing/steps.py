@@ -9,7 +9,7 @@ from diecut_report.plugins.cylinder_sizing import formulas as f
 
 SIZE = Section(
     "Radius",
-    text="The unrolled circumference is the working length and the arc of the segment: 2πR = l₁ + l₂ (002 eq. 1). "
+    text="The unrolled circumference is the working length and the arc of the segment: 2πR = l_1 + l_2 (002 eq. 1). "
     "The closed form takes Huygens' arc; the adopted radius is judged by the exact one.",
     steps=(
         Value(id="segment_height_limit", symbol="h_lim", unit="mm", description="Segment height from which no radius exists",
