@@ -1,6 +1,6 @@
 """The practical route of setting a report: mathra's SVG and matplotlib's SVG as ``<img>``, WeasyPrint as it is.
 
-    python benchmarks/practical_route.py RESULTS.json OUT.pdf
+python benchmarks/practical_route.py RESULTS.json OUT.pdf
 """
 
 from __future__ import annotations

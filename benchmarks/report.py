@@ -34,7 +34,9 @@ def main(rounds: int) -> None:
         }
         for command in commands.values():
             seconds(command)  # the first run fills the file cache
-        least = {key: min(times) for key, times in zip(commands, zip(*_turns(commands, rounds), strict=True), strict=True)}
+        least = {
+            key: min(times) for key, times in zip(commands, zip(*_turns(commands, rounds), strict=True), strict=True)
+        }
     for key, value in least.items():
         print(f"{key:10} {value:.2f} s")
     print(f"ratio      {least['report'] / least['practical']:.2f}")

@@ -20,6 +20,7 @@ from diecut_report.units import unit
 
 Data = dict[str, Any]
 Status = Literal["pass", "warn", "fail"]
+ROUNDING = 1e-12
 RANK = {"pass": 0, "warn": 1, "fail": 2, "error": 3, "skipped": 3}
 
 
@@ -255,7 +256,11 @@ def _check(calc: Calculation, check: Check) -> Data:
 
 
 def _told(demand: float, limit: float, display: str) -> dict[str, dict[str, str]]:
-    """Demand, limit and margin as texts, with so many digits that the margin can be seen in the two others."""
+    """Demand, limit and margin as texts, with so many digits that the margin can be seen in the two others.
+
+    A demand that is nothing but rounding beside its limit is told as zero.
+    """
+    demand = 0.0 if abs(demand) < ROUNDING * abs(limit) else demand
     margin = limit - demand
     for digits in range(4, 10):
         texts = [shown(value, display, digits) for value in (demand, limit)]

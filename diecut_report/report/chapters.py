@@ -62,7 +62,6 @@ class _Filler:
         part.sections = [self._section(section) for section in mechanism["sections"]]
         self._head("results")
         part.outputs = [quantity_row(row, self.decimal) for row in mechanism["outputs"].values()]
-        part.values = [quantity_row(row, self.decimal) for row in mechanism["values"].values()]
         keyed = [row for row in mechanism["outputs"].values() if row.get("key")] or list(mechanism["outputs"].values())
         part.key_results = [quantity_row(row, self.decimal) for row in keyed]
         self._curves()

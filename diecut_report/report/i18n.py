@@ -23,7 +23,7 @@ ENGLISH: dict[str, str] = {
     # chapters
     "contents": "Contents", "summary": "Summary", "checks": "Checks", "key_results": "Key results", "press_data": "Press data",
     "purpose": "Purpose and assumptions", "assumptions": "Assumptions and limits", "inputs": "Inputs", "results": "Results",
-    "intermediate": "Intermediate values", "curves": "Curves", "figures": "Figures", "absent": "Not calculated",
+    "curves": "Curves", "figures": "Figures", "absent": "Not calculated",
     "errata": "Errata of the sources", "sources": "Sources", "program": "Program and configuration",
     "configuration": "Configuration as given", "appendix": "Appendix", "warnings": "Warnings",
     # tables

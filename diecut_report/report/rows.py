@@ -116,7 +116,6 @@ class Chapter:
     inputs: list[QuantityRow] = field(default_factory=list)
     key_results: list[QuantityRow] = field(default_factory=list)
     outputs: list[QuantityRow] = field(default_factory=list)
-    values: list[QuantityRow] = field(default_factory=list)
     sections: list[Section] = field(default_factory=list)
     checks: list[CheckRow] = field(default_factory=list)
     curves: list[Table] = field(default_factory=list)
