@@ -48,7 +48,7 @@ LIBRARIES = {  # what WeasyPrint loads
     "libpangoft2-1.0-0": ("libpangoft2-1.0.so.0", "libfontconfig.so.1"),
     "libharfbuzz-subset0": ("libharfbuzz-subset.so.0",),
 }
-PROGRAMS = {"report": {}, "tests": {"poppler-utils": "pdftotext"}}
+PROGRAMS = {"report": {}, "tests": {"poppler-utils": "pdftotext", "qpdf": "qpdf"}}
 
 
 def loads(library):
