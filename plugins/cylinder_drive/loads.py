@@ -187,3 +187,9 @@ def sizes_added(first: Any, second: Any) -> Any:
 def flat_arrives(sector_ratio: Any, swing_angle: Any, clear_rotation: Any) -> Any:
     """Whether the flat comes within the clear rotation of its lowest position at the inner dead centre."""
     return abs(sector_ratio * swing_angle - 2 * np.pi) <= clear_rotation
+
+
+@formula
+def flat_leaves(sector_ratio: Any, swing_angle: Any, clear_rotation: Any) -> Any:
+    """Whether the cylinder turns beyond the clear rotation at all."""
+    return clear_rotation <= sector_ratio * swing_angle

@@ -159,6 +159,12 @@ def test_without_a_full_turn_the_flat_does_not_come_down_at_the_inner_end() -> N
     assert np.isfinite(calc["clearance_outer_time"][0, 0])
 
 
+def test_a_cylinder_that_hardly_turns_is_always_clear_and_has_no_window() -> None:
+    calc = drive(segment_height="40 mm", carriage_clearance="5 mm", sector_ratio=0.5)
+    assert np.isnan(calc["clearance_outer_time"][0, 0])
+    assert number(calc, "clear_rotation") > 0.5 * number(calc, "swing_angle")
+
+
 @pytest.mark.parametrize(
     "changes, key, words",
     [
