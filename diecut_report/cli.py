@@ -38,7 +38,7 @@ def run() -> NoReturn:
     Nothing is left to do then: files are closed, output is flushed, no thread has work.
     """
     code = main()
-    for stream in (sys.stdout, sys.stderr):
+    for stream in filter(None, (sys.stdout, sys.stderr)):  # a stream may be closed from outside
         with suppress(OSError):  # whoever read it has gone
             stream.flush()
     os._exit(code)
@@ -72,8 +72,12 @@ def tell(lines: Iterable[str]) -> None:
 
 def emit(text: str) -> None:
     """What was asked for, on standard output; always UTF-8."""
+    if sys.stdout is None:
+        raise UserError(Problem("Standard output is closed; name a file with -o."))
+    left = memoryview(text.encode())
     try:
-        sys.stdout.buffer.write(text.encode())
+        while left:  # an unbuffered output may take less than all
+            left = left[sys.stdout.buffer.write(left) :]
         sys.stdout.flush()
     except BrokenPipeError:  # the reader has seen enough
         _close_output()

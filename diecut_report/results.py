@@ -226,7 +226,7 @@ def verdict(check: Check, demand: Any, limit: Any) -> tuple[Any, Any]:
     with np.errstate(all="ignore"):
         allowed = limit * (1 + check.tolerance)
         held = demand < allowed if check.operator == "<" else demand <= allowed
-        return held, np.where(limit > 0, demand / limit, np.nan)
+        return held, np.where(limit > 0, np.divide(demand, limit), np.nan)
 
 
 def _check(calc: Calculation, check: Check) -> Data:

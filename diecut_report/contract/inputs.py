@@ -96,7 +96,16 @@ class Quantity:
                 self._same_kind(other, told)
                 return self._bounded(value, f"{to_display(value, self.unit):.6g} {pretty(self.unit)} (from {told})")
             case bool() | list() | dict():
-                raise ValueError(f"is {given!r}; a number or a text such as “10 {pretty(self.unit)}” is needed")
+                kind = (
+                    "a list"
+                    if isinstance(given, list)
+                    else "a block of keys"
+                    if isinstance(given, dict)
+                    else str(given).lower()
+                )
+                raise ValueError(
+                    f"is {kind}; a number or a text such as “{f'10 {pretty(self.unit)}'.rstrip()}” is needed"
+                )
         value = parse_quantity(given, self.unit)
         return self._bounded(value, f"{given}" if isinstance(given, str) else f"{given} {pretty(self.unit)}")
 

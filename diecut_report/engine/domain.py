@@ -11,6 +11,8 @@ from diecut_report.expressions import Array
 
 LOBATTO = 64  # intervals of the search grid in each smooth piece; it does not depend on n_points
 
+SAME = 1e-13  # share of the period within which two breakpoints are one
+
 
 @dataclass
 class Domain:
@@ -29,7 +31,11 @@ class Domain:
     def cut(self, places: Array) -> None:
         """Add breakpoints, shape (variants, any number); NaN stands for none."""
         inside = np.where(np.isfinite(places), np.mod(places, self.period), self.period)
-        self.edges = np.sort(np.concatenate([self.edges, inside], axis=1), axis=1)
+        edges = np.sort(np.concatenate([self.edges, inside], axis=1), axis=1)
+        for i in range(1, edges.shape[1] - 1):  # one place that came twice, with other rounding, stays one
+            close = edges[:, i] - edges[:, i - 1] < SAME * self.period
+            edges[:, i] = np.where(close, edges[:, i - 1], edges[:, i])
+        self.edges = edges
 
     def middle_of(self, x: Array, rows: Array | None = None) -> Array:
         """The middle of the piece that each x (rows, points) lies in; at a breakpoint the piece that begins there."""

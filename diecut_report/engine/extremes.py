@@ -12,7 +12,7 @@ from diecut_report.engine.calculation import Calculation
 from diecut_report.engine.domain import Domain
 from diecut_report.expressions import Array
 
-PLACE_TOLERANCE = 1e-6  # of an extreme's place; its value errs by the square of it
+PLACE_TOLERANCE = 1e-7  # of an extreme's place; its value errs by the square of it
 
 
 Wanted = tuple[str, float]  # a curve, and 1 for its greatest or -1 for its least value

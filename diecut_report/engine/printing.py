@@ -36,7 +36,7 @@ def number_text(value: float, digits: int = DIGITS) -> str:
 
 def shortest(value: float, digits: int = 6) -> str:
     """What was typed, without the noise of a unit conversion: as few digits as say it, else ``digits``."""
-    short = f"{value:.10g}"
+    short = f"{value:.15g}"
     return number_text(value, digits) if len(short.replace(".", "").lstrip("0-")) > digits else short
 
 

@@ -117,13 +117,27 @@ def _breakpoints(calc: Calculation, step: Breakpoints) -> None:
         calc.domains[step.abscissa].cut(calc[place])
 
 
+def _all_crossings(calc: Calculation, curve: str) -> tuple[Array, Array]:
+    """Crossings, searched again between those found until no more appear: two may lie between two points of the first grid."""
+    domain = calc.domains[calc.axis[curve]]
+    edges, found = domain.edges, solve.crossings(calc, curve)
+    for _ in range(SEARCHES):
+        domain.cut(found[0])
+        last, found = found, solve.crossings(calc, curve)
+        if np.array_equal(np.isfinite(last[0]).sum(axis=1), np.isfinite(found[0]).sum(axis=1)):
+            break
+    domain.edges = edges
+    return last
+
+
 def _crossings(calc: Calculation, step: Crossings) -> None:
-    calc.values[step.id], residual = solve.crossings(calc, step.of)
+    calc.values[step.id], residual = _all_crossings(calc, step.of)
     calc.values[f"{step.id}_count"] = np.isfinite(calc.values[step.id]).sum(axis=1, keepdims=True)
     calc.values |= {f"{step.id}_{i}": place[:, None] for i, place in enumerate(calc.values[step.id].T, 1)}
     _prove(calc, step, residual, solve.SAMPLE_TOLERANCE)
 
 
+SEARCHES = 5  # for crossings, each on a finer grid
 SIGNS = {"max": (1.0,), "min": (-1.0,), "abs_max": (1.0, -1.0), "range": (1.0, -1.0)}
 
 

@@ -15,7 +15,7 @@ from diecut_report.expressions import Array
 
 ORDERS = (24, 48, 96, 192, 384)  # of Gauss–Legendre; the next one proves the one before
 INTEGRAL_TOLERANCE = 1e-11
-SAMPLE_TOLERANCE = 1e-9
+SAMPLE_TOLERANCE = 1e-8
 NOISE = 1e-10  # share of a curve's greatest value below which its sign is rounding
 
 

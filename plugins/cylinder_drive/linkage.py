@@ -4,9 +4,33 @@ from __future__ import annotations
 
 import numpy as np
 
-from diecut_report.api import Abscissa, Breakpoints, Case, Choice, Reduction, Require, Section, Value, bind
+from diecut_report.api import (
+    Abscissa,
+    Bound,
+    Breakpoints,
+    Case,
+    Choice,
+    Formula,
+    Reduction,
+    Require,
+    Section,
+    Value,
+    bind,
+)
 from diecut_report.mechanics import common, four_bar
 from diecut_report.plugins.cylinder_drive import motion
+
+
+def _cutting_edge(name: str, symbol: str, description: str, dead_center: Bound, inverse: Formula, edge: str) -> Choice:
+    """A crank angle where cutting begins or ends: a dead centre where the whole stroke cuts.
+
+    There the general formula is left out, for its root turns the last digit of a cosine into 1e-8 rad beside the dead centre.
+    """
+    inside = bind(inverse, rocker_direction=f"cut_{edge}_direction", joint_distance=f"cut_{edge}_distance")
+    cases = (Case(dead_center, "the whole stroke cuts, from one dead centre to the other", motion.cuts_always),
+             Case(inside, "only the middle of the stroke cuts"))  # fmt: skip
+    return Choice(id=name, symbol=symbol, unit="deg", description=description, cases=cases)
+
 
 LINKAGE = Section(
     "Linkage and its dead centres",
@@ -79,14 +103,14 @@ CUTTING = Section(
               formula=bind(common.sum_of, first="outer_direction", second="cut_end_swing")),
         Value(id="cut_end_distance", symbol="q_2", description="Distance of the rocker's joint from the crank's pivot there, in crank lengths",
               output=False, formula=bind(four_bar.joint_distance, rocker_direction="cut_end_direction")),
-        Value(id="cut_begin_forward", symbol="φ_1", unit="deg", description="Crank angle where cutting begins, forward stroke",
-              formula=bind(four_bar.crank_angle_forward, rocker_direction="cut_begin_direction", joint_distance="cut_begin_distance")),
-        Value(id="cut_end_forward", symbol="φ_2", unit="deg", description="Crank angle where cutting ends, forward stroke",
-              formula=bind(four_bar.crank_angle_forward, rocker_direction="cut_end_direction", joint_distance="cut_end_distance")),
-        Value(id="cut_begin_return", symbol="φ_3", unit="deg", description="Crank angle where cutting begins, return stroke",
-              formula=bind(four_bar.crank_angle_return, rocker_direction="cut_end_direction", joint_distance="cut_end_distance")),
-        Value(id="cut_end_return", symbol="φ_4", unit="deg", description="Crank angle where cutting ends, return stroke (counted on)",
-              formula=bind(four_bar.crank_angle_return, rocker_direction="cut_begin_direction", joint_distance="cut_begin_distance")),
+        _cutting_edge("cut_begin_forward", "φ_1", "Crank angle where cutting begins, forward stroke",
+                      bind(common.same, quantity="dead_center_outer"), four_bar.crank_angle_forward, "begin"),
+        _cutting_edge("cut_end_forward", "φ_2", "Crank angle where cutting ends, forward stroke",
+                      bind(common.same, quantity="dead_center_inner"), four_bar.crank_angle_forward, "end"),
+        _cutting_edge("cut_begin_return", "φ_3", "Crank angle where cutting begins, return stroke",
+                      bind(common.same, quantity="dead_center_inner"), four_bar.crank_angle_return, "end"),
+        _cutting_edge("cut_end_return", "φ_4", "Crank angle where cutting ends, return stroke (counted on)",
+                      bind(motion.turn_later, angle="dead_center_outer"), four_bar.crank_angle_return, "begin"),
     ),
 )  # fmt: skip
 

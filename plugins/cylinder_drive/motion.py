@@ -106,6 +106,18 @@ def cut_ends(swing_angle: Any, cutting_arc_fraction: Any) -> Any:
 
 
 @formula
+def cuts_always(cutting_arc_fraction: Any) -> Any:
+    """Whether the board is cut over the whole stroke."""
+    return cutting_arc_fraction >= 1
+
+
+@formula
+def turn_later(angle: Any) -> Any:
+    """The same crank angle a turn later."""
+    return angle + 2 * np.pi
+
+
+@formula
 def is_cutting(displacement: Any, stroke: Any, cutting_arc_fraction: Any) -> Any:
     """Whether the cylinder is on the cutting part of its stroke."""
     return abs(displacement - stroke / 2) <= cutting_arc_fraction * stroke / 2

@@ -159,6 +159,27 @@ def test_without_a_full_turn_the_flat_does_not_come_down_at_the_inner_end() -> N
     assert np.isfinite(calc["clearance_outer_time"][0, 0])
 
 
+def test_cutting_over_the_whole_stroke_jumps_at_the_dead_centres_and_nowhere_beside_them() -> None:
+    ratios = {"frame_ratio": 4.514403115358973, "coupler_ratio": 5.982909638480922, "rocker_ratio": 4.156393565264966}
+    calc = drive(**ratios, **LOSSLESS)
+    inside = np.unique(calc.domains["crank_angle"].edges)[1:-1]
+    dead = [number(calc, "dead_center_outer"), number(calc, "dead_center_inner")]
+    places = [x for x in inside if min(abs(x - d) for d in dead) < 1e-4]
+    assert places == pytest.approx(dead, abs=0)
+
+
+@pytest.mark.parametrize(
+    "changes",
+    [{"sector_ratio": 30, "static_unbalance": 3}, {"frame_ratio": 5, "coupler_ratio": 3, "rocker_ratio": 3.0001}],
+)
+def test_many_turns_and_nearly_folding_linkages_are_calculated(changes: dict[str, Any]) -> None:
+    calc = drive(**changes)
+    torque = dense(calc, "crank_torque")
+    assert number(calc, "crank_torque_mean") == pytest.approx(
+        torque[:-1].mean(), rel=1e-3, abs=1e-3 * abs(torque).max()
+    )
+
+
 def test_a_cylinder_that_hardly_turns_is_always_clear_and_has_no_window() -> None:
     calc = drive(segment_height="40 mm", carriage_clearance="5 mm", sector_ratio=0.5)
     assert np.isnan(calc["clearance_outer_time"][0, 0])

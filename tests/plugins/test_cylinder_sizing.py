@@ -13,6 +13,7 @@ from scipy.integrate import quad
 
 from diecut_report.engine import Impossible, calculate
 from diecut_report.plugins.cylinder_sizing import MECHANISM
+from diecut_report.results import mechanism_results
 from diecut_report.testing import check_mechanism
 from tests.machines import cylinder, inputs, number
 
@@ -140,3 +141,8 @@ def test_variants_together_are_the_variants_alone(working: list[float], height: 
 
 def test_the_declaration_keeps_the_plugin_contract() -> None:
     check_mechanism(MECHANISM)
+
+
+def test_a_wall_of_exactly_nothing_fails_without_a_utilisation() -> None:
+    checks = {c["id"]: c for c in mechanism_results(cylinder(bore_radius="65 mm"), {})["checks"]}
+    assert (checks["wall_at_flat"]["status"], checks["wall_at_flat"]["utilisation"]) == ("fail", None)
