@@ -282,5 +282,11 @@ def _summary(results: dict[str, Any]) -> list[str]:
                 )
     count = sum(len(data["checks"]) for data in results["mechanisms"].values())
     failed = sum(rank == 0 for rank, _ in lines)
-    verdict = f"{failed} of {count} checks fail." if failed else coloured("No check fails.", "pass")
+    lost = sum("error" in data for data in results["mechanisms"].values())
+    passed = (
+        f"{lost} of {len(results['mechanisms'])} mechanisms were not calculated."
+        if lost
+        else coloured("No check fails.", "pass")
+    )
+    verdict = f"{failed} of {count} checks fail." if failed else passed
     return [line for _, line in sorted(lines, key=lambda pair: pair[0])] + [verdict]

@@ -8,7 +8,7 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any, Literal, get_args
 
-from pydantic import AfterValidator, Field
+from pydantic import AfterValidator, Field, field_validator
 
 from diecut_report import yaml_tree
 from diecut_report.contract.inputs import Annotated, Block, CurveInput, Pending, Quantity, Text
@@ -54,6 +54,16 @@ class Project(Block):
     approved_by: Annotated[str | None, Text("Who approved it")] = None
     revisions: Annotated[list[Revision], Text("Revisions so far"), Field(default_factory=list)]
     language: Annotated[Literal["en", "uk"], Text("Language of the report"), AfterValidator(complete_language)] = "en"
+
+    @field_validator("*")
+    @classmethod
+    def without_reference(cls, given: Any) -> Any:
+        """A text of the title block stands as it is."""
+        if isinstance(given, str) and "${" in given:
+            raise ValueError(
+                f"is “{given}”; references stand in press and mechanisms, the title block takes plain text"
+            )
+        return given
 
 
 class Sheet(Block):

@@ -248,7 +248,7 @@ def _check_index(path: str, data: Any, key: KeyPath) -> None:
     for part in key:
         if isinstance(part, int) and isinstance(data, list) and part >= len(data):
             raise Unresolved(f"${{{path}}}: the list has {len(data)} entries, counted from 0.")
-        known = part in data if isinstance(data, dict) else isinstance(data, list)
+        known = part in data if isinstance(data, dict) else isinstance(data, list) and isinstance(part, int)
         data = data[part] if known else None
 
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import Any, get_args
 
-from diecut_report.config import NAME, RESERVED, Press, Project
+from diecut_report.config import NAME, RESERVED, Press, Project, Revision
 from diecut_report.contract.inputs import Block, CurveInput, Quantity, Text
 from diecut_report.contract.mechanism import Mechanism
 from diecut_report.units import pretty
@@ -100,7 +100,10 @@ def _key(model: type[Block], name: str) -> Schema:
             }
             return described | {"anyOf": [_reference(), {"type": "array", "minItems": 4, "items": value}]}
     described = {"description": f"{meta.description}."} if meta else {}
-    return described | {"anyOf": [_text(field.annotation), _reference()]} | shown
+    plain = issubclass(model, Project | Revision)  # the title block takes no references
+    return (
+        described | (_text(field.annotation) if plain else {"anyOf": [_text(field.annotation), _reference()]}) | shown
+    )
 
 
 def _reference() -> Schema:

@@ -201,7 +201,7 @@ def measure_with_pint(text: str) -> tuple[float, Kind] | None:
 
 # --- reading quantities ----------------------------------------------------------------------------------------------
 
-_QUANTITY = re.compile(r"([+-]?(?:[0-9]+\.?[0-9]*|\.[0-9]+)(?:[eE][+-]?[0-9]+)?)(.*)", re.DOTALL)
+_QUANTITY = re.compile(r"([+-]?(?:[0-9]+\.?[0-9]*|\.[0-9]+)(?:[eE][+-]?[0-9]+)?)(?!_)(.*)", re.DOTALL)
 
 
 def parse_quantity(value: int | float | str, unit_text: str) -> float:

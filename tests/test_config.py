@@ -48,7 +48,7 @@ INPUTS = [
     ("force: 1, arm: 2 m", "5:35: mechanisms.a.arm: 2 m is out of range; allowed: > 0 mm, ≤ 1000 mm"),
     ("force: '1,5 kN'", "5:27: mechanisms.a.force: '1,5 kN' holds a comma; write a decimal point"),
     ("force: .nan", "5:27: mechanisms.a.force: '.nan' does not begin with a finite number; a force is needed"),
-    ("force: [1]", "5:27: mechanisms.a.force: is [1]; a number or a text such as “10 kN” is needed"),
+    ("force: [1]", "5:27: mechanisms.a.force: is a list; a number or a text such as “10 kN” is needed"),
     ("force: ", "5:27: mechanisms.a.force: has no value; give a number in kN or remove the key"),
     ("arm: 10", "5:3: mechanisms.a.force: is missing. Give it in kN (> 0 kN): Force."),
     ("force: 1, teeth: 20.5", "5:37: mechanisms.a.teeth: 20.5 is not a whole number"),
@@ -185,3 +185,14 @@ def test_a_broken_plugin_is_told_beside_the_problems_of_the_file(tmp_path: Path)
 def test_unknown_kind_names_those_that_there_are(tmp_path: Path) -> None:
     (found,) = problems(tmp_path, LEVER.replace("lever", "zzz"))
     assert found.endswith(f"Known: {', '.join(DISCOVERY.origins)}.")
+
+
+@pytest.mark.parametrize("project", ["title: '${press.name}'", "title: T, prepared_by: 'by ${a.moment}'"])
+def test_the_title_block_takes_no_references(tmp_path: Path, project: str) -> None:
+    text = LEVER.replace("title: Test", project)
+    assert "the title block takes plain text" in "".join(problems(tmp_path, text))
+
+
+def test_a_list_in_place_of_the_sheet_is_told(tmp_path: Path) -> None:
+    text = LEVER.replace("{length: 700 mm, thickness: 0.6 mm}", "[1, 2]")
+    assert "press.sheet: is a list; a block of keys is needed" in "".join(problems(tmp_path, text))

@@ -165,7 +165,7 @@ def test_cutting_over_the_whole_stroke_jumps_at_the_dead_centres_and_nowhere_bes
     inside = np.unique(calc.domains["crank_angle"].edges)[1:-1]
     dead = [number(calc, "dead_center_outer"), number(calc, "dead_center_inner")]
     places = [x for x in inside if min(abs(x - d) for d in dead) < 1e-4]
-    assert places == pytest.approx(dead, abs=0)
+    assert places == pytest.approx(dead, abs=1e-14)
 
 
 @pytest.mark.parametrize(
