@@ -154,8 +154,9 @@ class Run:
             self.calculations[name] = calculate(instance.mechanism, flatten(block))
             self.results[name] = mechanism_results(self.calculations[name], self._provenance(instance))
         except Impossible as fault:
-            key = tuple(int(part) if part.isdigit() else part for part in fault.key.split("."))
-            self.problems.append(instance.place.problem(key, fault.message))
+            for path, message in fault.reasons:
+                key = tuple(int(part) if part.isdigit() else part for part in path.split("."))
+                self.problems.append(instance.place.problem(key, message))
         except Exception as cause:
             self._broke(instance, cause)
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
@@ -18,11 +18,12 @@ CurveStep = Value | Choice | FromCurve
 
 
 class Impossible(Exception):
-    """The machine cannot exist: the key to change, and why in words."""
+    """The machine cannot exist: the keys to change, each with the reason in words."""
 
-    def __init__(self, key: str, message: str) -> None:
-        super().__init__(message)
-        self.key, self.message = key, message
+    def __init__(self, reasons: Sequence[tuple[str, str]]) -> None:
+        super().__init__("; ".join(message for _, message in reasons))
+        self.reasons = tuple(reasons)
+        self.key, self.message = self.reasons[0]
 
 
 class Unproven(Exception):

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from typing import Any
 
 import numpy as np
@@ -21,6 +21,7 @@ from diecut_report.contract.steps import (
     Step,
     Total,
     Value,
+    bound,
 )
 from diecut_report.engine import extremes, solve
 from diecut_report.engine.calculation import Calculation, Impossible, SampledCurve, Unproven
@@ -46,7 +47,10 @@ def calculate(mechanism: Mechanism, values: Mapping[str, Any], variants: int = 1
         steps = [step for _, step in mechanism.active(calc.given)]
         for i, step in enumerate(steps):
             _search_ahead(calc, steps[i:])
-            RUN[type(step)](calc, step)
+            try:
+                RUN[type(step)](calc, step)
+            except Impossible as first:
+                raise Impossible([*first.reasons, *_reasons(calc, steps[i + 1 :])]) from None
             _finite(calc, step)
     return calc
 
@@ -209,7 +213,18 @@ def _require(calc: Calculation, step: Require) -> None:
         message = step.message.format_map(_Printed(calc, int(variant)))
         calc.flaws.setdefault(int(variant), (step.key, message))
         if calc.count == 1:
-            raise Impossible(step.key, message)
+            raise Impossible([(step.key, message)])
+
+
+def _reasons(calc: Calculation, steps: Sequence[Step]) -> Iterator[tuple[str, str]]:
+    """Why else a machine cannot exist, as far as it can be told from what is known already."""
+    known = {*calc.inputs, *calc.values, *(f"inputs.{name}" for name in calc.inputs)}
+    for step in steps:
+        if isinstance(step, Require) and known.issuperset(n for n in bound(step.condition).takes if isinstance(n, str)):
+            try:
+                _require(calc, step)
+            except Impossible as other:
+                yield from other.reasons
 
 
 class _Printed(dict[str, str]):

@@ -203,6 +203,12 @@ def test_an_impossible_drive_is_refused_in_words(changes: dict[str, Any], key: s
     assert words in refused.value.message
 
 
+def test_all_reasons_why_a_drive_cannot_be_are_told_at_once() -> None:
+    with pytest.raises(Impossible) as refused:
+        drive(rocker_ratio=12, material_thickness="150 mm", segment_height="20 mm", carriage_clearance="30 mm")
+    assert [key for key, _ in refused.value.reasons] == ["rocker_ratio", "material_thickness", "carriage_clearance"]
+
+
 def random_machines(count: int, seed: int) -> dict[str, Array]:
     """Machines as a designer might vary them, a few of them impossible."""
     draw = np.random.default_rng(seed)
