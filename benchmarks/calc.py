@@ -24,8 +24,11 @@ COMMANDS = {
 def seconds(command: list[str]) -> float:
     """Wall time of one run."""
     start = time.perf_counter()
-    subprocess.run(command, check=False, stdout=subprocess.DEVNULL)
-    return time.perf_counter() - start
+    done = subprocess.run(command, check=False, stdout=subprocess.DEVNULL)
+    elapsed = time.perf_counter() - start
+    if done.returncode not in (0, 1):  # 1: a check of the press fails, as it should
+        raise SystemExit(f"{command} ended with {done.returncode}")
+    return elapsed
 
 
 def main(rounds: int) -> None:

@@ -15,7 +15,7 @@ from weasyprint import HTML
 
 from diecut_report.report.equations import Equation
 from diecut_report.report.html import filled
-from diecut_report.report.rendering import Rendering
+from diecut_report.report.material import Material
 
 
 def image(svg: str, title: str, depth: float | None = None) -> Markup:
@@ -28,23 +28,23 @@ def image(svg: str, title: str, depth: float | None = None) -> Markup:
 class Practical:
     """Formulas and figures as images."""
 
-    def __init__(self, rendering: Rendering) -> None:
-        self.rendering = rendering
+    def __init__(self, material: Material) -> None:
+        self.material = material
 
     def math(self, equation: Equation, *, display: bool = True) -> Markup:
         """A formula."""
-        outline = self.rendering.typesetter.outline(equation.latex, display=display)
+        outline = self.material.typesetter.outline(equation.latex, display=display)
         return image(outline.svg, equation.text, None if display else outline.depth)
 
     def figure(self, number: str, title: str) -> Markup:
         """A figure."""
-        return image(self.rendering.figures[number].text, title)
+        return image(self.material.figures[number].text, title)
 
 
 def main(results: Path, target: Path) -> None:
     """Set the results as PDF."""
-    rendering = Rendering(json.loads(results.read_text(encoding="utf-8")))
-    source = filled(rendering, Practical(rendering), "print")
+    material = Material(json.loads(results.read_text(encoding="utf-8")))
+    source = filled(material, Practical(material), "print")
     HTML(string=source).write_pdf(target)
 
 

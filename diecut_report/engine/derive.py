@@ -150,6 +150,17 @@ def _rows(calc: Calculation, step: Value, part: Bound) -> Item:
     return {"type": "table", "title": step.description, "columns": columns, "rows": rows}
 
 
+OPPOSITE = {"<": ">=", "<=": ">", ">": "<=", ">=": "<", "==": "!=", "!=": "=="}
+
+
+def negated(condition: Node) -> Node:
+    """The condition that holds where this one does not."""
+    if condition.op != "cmp":
+        return Node("not", (condition,))
+    sign, *sides = condition.args
+    return Node("cmp", (OPPOSITE[sign], *sides))
+
+
 def _choice(calc: Calculation, step: Choice) -> Item:
     axis = calc.axis.get(step.id)
     index = _case_taken(calc, step, axis)
@@ -160,7 +171,7 @@ def _choice(calc: Calculation, step: Choice) -> Item:
         substitution = Substitution(calc, bound(held), lambda name: value_at(calc, name, axis, flag=step.per_piece))
         condition = substitution.symbolic(), substitution.comparison(case.condition is not None)
         if case.condition is None:
-            condition = Node("not", (condition[0],)), condition[1]
+            condition = negated(condition[0]), negated(condition[1])
         item |= {"condition": condition[0].to_json(), "condition_substituted": condition[1].to_json()}
     if axis is not None:
         item["at"] = _symbolled(calc, axis, step.per_piece)

@@ -13,7 +13,7 @@ MOMENTS = Section(
     steps=(
         Value(id="reduced_inertia", symbol="I_r", unit="kg*m**2", description="Inertia of the rolling cylinder, translation included",
               source="000 eq. 12", formula=loads.reduced_inertia),
-        Value(id="greatest_unbalance", symbol="mR", unit="kg*m", output=False,
+        Value(id="greatest_unbalance", symbol="me_max", unit="kg*m", output=False,
               description="Unbalance with the centre of mass at the cylinder's surface",
               formula=bind(common.moment, force="cylinder_mass", arm="cylinder_radius")),
         Value(id="inertia_moment", symbol="M_in", unit="N*m", description="Moment of inertia forces and unbalance",

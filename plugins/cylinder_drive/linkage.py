@@ -34,7 +34,7 @@ def _cutting_edge(name: str, symbol: str, description: str, dead_center: Bound, 
 
 LINKAGE = Section(
     "Linkage and its dead centres",
-    text="Lengths are relative to the crank. The crank angle is counted from the frame line O_1O_3, counter-clockwise.",
+    text="Lengths are relative to the crank. The crank angle is counted from the frame line O₁O₃, counter-clockwise.",
     steps=(
         Value(id="grashof_demand", symbol="Σ_1", description="Shortest and longest link together, in crank lengths", output=False,
               formula=motion.one_and_longest),
