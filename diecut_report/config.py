@@ -90,6 +90,15 @@ class Document(Block):
     press: dict[str, Any]
     mechanisms: Annotated[dict[str, Any], Field(min_length=1)]
 
+    @field_validator("schema_version", mode="before")
+    @classmethod
+    def a_number(cls, given: Any) -> Any:
+        """True equals 1 in Python, but is no version."""
+        if isinstance(given, bool | str):
+            shown = f"“{given}”" if isinstance(given, str) else str(given).lower()
+            raise ValueError(f"is {shown}; the number 1 is needed, without quotes")
+        return given
+
 
 @dataclass(frozen=True)
 class Config:

@@ -83,7 +83,7 @@ def test_a_wrong_input_is_told_with_its_place(tmp_path: Path, inner: str, messag
 FIXED = [
     ("schema_version: 1\n", "", "1:1: schema_version: is missing; it is required."),
     ("schema_version: 1", "schema_version: 2", "1:17: schema_version: is 2; allowed: 1"),
-    ("schema_version: 1", "schema_version: '1'", "1:17: schema_version: is “1”; allowed: 1"),
+    ("schema_version: 1", "schema_version: '1'", "1:17: schema_version: is 1; the number 1 is needed, without quotes"),
     ("title: Test", "revision: A", "2:1: project.title: is missing; it is required: Title of the document."),
     ("title: Test", "title: ''", "2:18: project.title: is empty; give a text"),
     (
@@ -196,3 +196,9 @@ def test_the_title_block_takes_no_references(tmp_path: Path, project: str) -> No
 def test_a_list_in_place_of_the_sheet_is_told(tmp_path: Path) -> None:
     text = LEVER.replace("{length: 700 mm, thickness: 0.6 mm}", "[1, 2]")
     assert "press.sheet: is a list; a block of keys is needed" in "".join(problems(tmp_path, text))
+
+
+@pytest.mark.parametrize("version", ["true", "'1'"])
+def test_the_schema_version_is_a_number(tmp_path: Path, version: str) -> None:
+    text = LEVER.replace("schema_version: 1", f"schema_version: {version}")
+    assert "the number 1 is needed, without quotes" in "".join(problems(tmp_path, text))
