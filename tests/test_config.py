@@ -83,7 +83,11 @@ def test_a_wrong_input_is_told_with_its_place(tmp_path: Path, inner: str, messag
 FIXED = [
     ("schema_version: 1\n", "", "1:1: schema_version: is missing; it is required."),
     ("schema_version: 1", "schema_version: 2", "1:17: schema_version: is 2; allowed: 1"),
-    ("schema_version: 1", "schema_version: '1'", "1:17: schema_version: is “1”; the number 1 is needed, without quotes"),
+    (
+        "schema_version: 1",
+        "schema_version: '1'",
+        "1:17: schema_version: is “1”; the number 1 is needed, without quotes",
+    ),
     ("title: Test", "revision: A", "2:1: project.title: is missing; it is required: Title of the document."),
     ("title: Test", "title: ''", "2:18: project.title: is empty; give a text"),
     (
