@@ -17,6 +17,12 @@ from diecut_report.expressions import Array, arccos, formula
 
 
 @formula
+def enclosed_angle(one_side: Any, other_side: Any, opposite_side: Any) -> Any:
+    """Angle between two sides of a triangle (law of cosines)."""
+    return arccos((one_side**2 + other_side**2 - opposite_side**2) / (2 * one_side * other_side))
+
+
+@formula
 def diagonal(crank_angle: Any, frame_ratio: Any) -> Any:
     """Distance of the crank pin from the rocker's pivot."""
     return np.sqrt(1 + frame_ratio**2 - 2 * frame_ratio * np.cos(crank_angle))
@@ -31,13 +37,13 @@ def diagonal_direction(crank_angle: Any, frame_ratio: Any) -> Any:
 @formula
 def pin_angle(diagonal: Any, coupler_ratio: Any, rocker_ratio: Any) -> Any:
     """γ₂, angle at the crank pin between the diagonal and the coupler."""
-    return arccos((coupler_ratio**2 - rocker_ratio**2 + diagonal**2) / (2 * coupler_ratio * diagonal))
+    return enclosed_angle(coupler_ratio, diagonal, rocker_ratio)
 
 
 @formula
 def transmission_angle(diagonal: Any, coupler_ratio: Any, rocker_ratio: Any) -> Any:
     """μ, angle between coupler and rocker."""
-    return arccos((coupler_ratio**2 + rocker_ratio**2 - diagonal**2) / (2 * coupler_ratio * rocker_ratio))
+    return enclosed_angle(coupler_ratio, rocker_ratio, diagonal)
 
 
 @formula
@@ -55,45 +61,39 @@ def rocker_direction(coupler_direction: Any, transmission_angle: Any) -> Any:
 @formula
 def outer_rocker_direction(frame_ratio: Any, coupler_ratio: Any, rocker_ratio: Any) -> Any:
     """γ₃, direction of the rocker at its outer dead centre, crank and coupler in line and extended."""
-    return np.pi - arccos(
-        (frame_ratio**2 + rocker_ratio**2 - (1 + coupler_ratio) ** 2) / (2 * frame_ratio * rocker_ratio)
-    )
+    return np.pi - enclosed_angle(frame_ratio, rocker_ratio, 1 + coupler_ratio)
 
 
 @formula
 def swing_angle(frame_ratio: Any, coupler_ratio: Any, rocker_ratio: Any) -> Any:
     """Swing of the rocker between its dead centres."""
-    outer = arccos((frame_ratio**2 + rocker_ratio**2 - (1 + coupler_ratio) ** 2) / (2 * frame_ratio * rocker_ratio))
-    inner = arccos((frame_ratio**2 + rocker_ratio**2 - (coupler_ratio - 1) ** 2) / (2 * frame_ratio * rocker_ratio))
-    return outer - inner
+    return enclosed_angle(frame_ratio, rocker_ratio, 1 + coupler_ratio) - enclosed_angle(
+        frame_ratio, rocker_ratio, coupler_ratio - 1
+    )
 
 
 @formula
 def outer_dead_center(frame_ratio: Any, coupler_ratio: Any, rocker_ratio: Any) -> Any:
     """Crank angle of the outer dead centre."""
-    return arccos(
-        (frame_ratio**2 + (1 + coupler_ratio) ** 2 - rocker_ratio**2) / (2 * frame_ratio * (1 + coupler_ratio))
-    )
+    return enclosed_angle(frame_ratio, 1 + coupler_ratio, rocker_ratio)
 
 
 @formula
 def inner_dead_center(frame_ratio: Any, coupler_ratio: Any, rocker_ratio: Any) -> Any:
     """Crank angle of the inner dead centre."""
-    return np.pi + arccos(
-        (frame_ratio**2 + (coupler_ratio - 1) ** 2 - rocker_ratio**2) / (2 * frame_ratio * (coupler_ratio - 1))
-    )
+    return np.pi + enclosed_angle(frame_ratio, coupler_ratio - 1, rocker_ratio)
 
 
 @formula
 def least_transmission_angle(frame_ratio: Any, coupler_ratio: Any, rocker_ratio: Any) -> Any:
     """Transmission angle with the crank along the frame, towards the rocker's pivot."""
-    return arccos((coupler_ratio**2 + rocker_ratio**2 - (frame_ratio - 1) ** 2) / (2 * coupler_ratio * rocker_ratio))
+    return enclosed_angle(coupler_ratio, rocker_ratio, frame_ratio - 1)
 
 
 @formula
 def greatest_transmission_angle(frame_ratio: Any, coupler_ratio: Any, rocker_ratio: Any) -> Any:
     """Transmission angle with the crank along the frame, away from the rocker's pivot."""
-    return arccos((coupler_ratio**2 + rocker_ratio**2 - (frame_ratio + 1) ** 2) / (2 * coupler_ratio * rocker_ratio))
+    return enclosed_angle(coupler_ratio, rocker_ratio, frame_ratio + 1)
 
 
 @formula

@@ -44,6 +44,14 @@ def lossless_torque(sector_ratio: Any, rocker_speed_ratio: Any, total_moment: An
 
 
 @formula
+def efficiency_behind_rocker(
+    efficiency_sector: Any, efficiency_gear: Any, efficiency_chain: Any, efficiency_bearings: Any
+) -> Any:
+    """Efficiency from the rocker to the cylinder."""
+    return efficiency_sector * efficiency_gear * efficiency_chain * efficiency_bearings
+
+
+@formula
 def efficiency_total(
     efficiency_four_bar: Any,
     efficiency_sector: Any,
@@ -52,7 +60,9 @@ def efficiency_total(
     efficiency_bearings: Any,
 ) -> Any:
     """Efficiency from the crank to the cylinder."""
-    return efficiency_four_bar * efficiency_sector * efficiency_gear * efficiency_chain * efficiency_bearings
+    return efficiency_four_bar * efficiency_behind_rocker(
+        efficiency_sector, efficiency_gear, efficiency_chain, efficiency_bearings
+    )
 
 
 @formula
@@ -131,14 +141,6 @@ def length_of(ratio: Any, crank_length: Any) -> Any:
 def rocker_torque(sector_ratio: Any, total_moment: Any) -> Any:
     """Torque at the rocker without losses."""
     return sector_ratio * total_moment
-
-
-@formula
-def efficiency_behind_rocker(
-    efficiency_sector: Any, efficiency_gear: Any, efficiency_chain: Any, efficiency_bearings: Any
-) -> Any:
-    """Efficiency from the rocker to the cylinder."""
-    return efficiency_sector * efficiency_gear * efficiency_chain * efficiency_bearings
 
 
 @formula

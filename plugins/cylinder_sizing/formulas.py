@@ -7,6 +7,7 @@ from typing import Any
 import numpy as np
 
 from diecut_report.api import arccos, formula
+from diecut_report.mechanics.circular_segment import first_moment
 
 
 @formula
@@ -123,7 +124,7 @@ def inertia_source(
 @formula
 def static_unbalance(density: Any, length: Any, chord: Any, overlap_chord: Any) -> Any:
     """Mass times the offset of the centre of mass: the first moments of segment and overlap."""
-    return density * length * (chord**3 - overlap_chord**3) / 12
+    return density * length * (first_moment(chord) - first_moment(overlap_chord))
 
 
 @formula
@@ -145,11 +146,17 @@ def bore_radius_limit(radius: Any, segment_height: Any, min_wall: Any) -> Any:
 
 
 @formula
+def second_moment_about_axis(radius: Any, bore_radius: Any, segment: Any, overlap: Any) -> Any:
+    """Second moment of the section about the cylinder's diameter that is parallel to the flat."""
+    return np.pi * radius**4 / 4 - segment - (np.pi * bore_radius**4 / 4 - overlap)
+
+
+@formula
 def second_moment_bending_flat(
     radius: Any, bore_radius: Any, segment: Any, overlap: Any, mass: Any, density: Any, length: Any, offset: Any
 ) -> Any:
     """Second moment of the section about the axis through its centroid that is parallel to the flat."""
-    about_axis = np.pi * radius**4 / 4 - segment - (np.pi * bore_radius**4 / 4 - overlap)
+    about_axis = second_moment_about_axis(radius, bore_radius, segment, overlap)
     return about_axis - mass / (density * length) * offset**2
 
 
@@ -158,7 +165,7 @@ def second_moment_across_flat(
     inertia: Any, density: Any, length: Any, radius: Any, bore_radius: Any, segment: Any, overlap: Any
 ) -> Any:
     """Second moment of the section about its axis of symmetry: the polar one less that about the other diameter."""
-    about_axis = np.pi * radius**4 / 4 - segment - (np.pi * bore_radius**4 / 4 - overlap)
+    about_axis = second_moment_about_axis(radius, bore_radius, segment, overlap)
     return inertia / (density * length) - about_axis
 
 
