@@ -2,10 +2,14 @@
 
 from typing import Annotated
 
+from diecut_report.contract.binding import Binding, Bound, ByText, bind
+from diecut_report.contract.charts import chart_panel, fill, level, line, mark, vertical
 from diecut_report.contract.checks import Check
+from diecut_report.contract.families import Section, prefixed
 from diecut_report.contract.figures import (
     BarGroup,
     Bars,
+    Chart,
     Drawing,
     Level,
     Mark,
@@ -18,6 +22,8 @@ from diecut_report.contract.figures import (
     Span,
     View,
     arc,
+    arrow,
+    box,
     circle,
     dimension,
     label,
@@ -26,33 +32,41 @@ from diecut_report.contract.figures import (
     radius_dimension,
     region,
 )
-from diecut_report.contract.inputs import POINTS, Block, CurveInput, FromPress, Inputs, Quantity, Text
-from diecut_report.contract.mechanism import Erratum, Mechanism, Source
+from diecut_report.contract.inputs import POINTS, Block, CurveInput, FromPress, Inputs, OneOf, Quantity, Text
+from diecut_report.contract.mechanism import Comparison, Erratum, Mechanism, Profile, Source
+from diecut_report.contract.parts import Lookup, Neighbour, Part, Pick, Running, Total
 from diecut_report.contract.steps import (
     Abscissa,
-    Bound,
+    Accumulated,
     Breakpoints,
     Case,
     Choice,
+    Clash,
     Crossings,
     FromCurve,
-    Pick,
     Reduction,
     Require,
     Root,
-    Section,
     Step,
-    Total,
     Value,
-    bind,
-    prefixed,
+    Words,
 )
 from diecut_report.expressions import GRAVITY, Constant, Formula, arccos, formula
+from diecut_report.standards import (
+    StandardSeries,
+    StandardTable,
+    standard_series,
+    standard_series_by,
+    standard_table,
+)
 
 __all__ = [
-    "GRAVITY", "POINTS", "Abscissa", "Annotated", "BarGroup", "Bars", "Block", "Bound", "Breakpoints", "Case", "Check",
-    "Choice", "Constant", "Crossings", "CurveInput", "Drawing", "Erratum", "Formula", "FromCurve", "FromPress", "Inputs",
-    "Level", "Mark", "Mechanism", "Panel", "Pick", "Plot", "Point", "Polar", "Quantity", "Reduction", "Require", "Root",
-    "Section", "Series", "Shape", "Source", "Span", "Step", "Text", "Total", "Value", "View", "arc", "arccos", "bind", "circle",
-    "dimension", "formula", "label", "point", "polyline", "prefixed", "radius_dimension", "region",
+    "GRAVITY", "POINTS", "Abscissa", "Accumulated", "Annotated", "BarGroup", "Bars", "Binding", "Block", "Bound", "Breakpoints",
+    "ByText", "Case", "Chart", "Check", "Choice", "Clash", "Comparison", "Constant", "Crossings", "CurveInput", "Drawing",
+    "Erratum", "Formula", "FromCurve", "FromPress", "Inputs", "Level", "Lookup", "Mark", "Mechanism", "Neighbour", "OneOf",
+    "Panel", "Part", "Pick", "Plot", "Point", "Polar", "Profile", "Quantity", "Reduction", "Require", "Root", "Running", "Section",
+    "Series", "Shape", "Source", "Span", "StandardSeries", "StandardTable", "Step", "Text", "Total", "Value", "View", "Words",
+    "arc", "arccos", "arrow", "bind", "box", "chart_panel", "circle", "dimension", "fill", "formula", "label", "level", "line",
+    "mark", "point", "polyline", "prefixed", "radius_dimension", "region", "standard_series", "standard_series_by",
+    "standard_table", "vertical",
 ]  # fmt: skip

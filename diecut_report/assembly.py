@@ -38,12 +38,13 @@ def document(run: Run) -> Data:
         "status": "error" if run.errors else status,
         "governing": governing(mechanisms),
         "mechanisms": mechanisms,
-    }
+    } | ({"comparisons": run.comparisons} if run.comparisons else {})
 
 
 EMPTY: Data = {
     "summary": "", "assumptions": [], "sources": [], "inputs": {}, "outputs": {}, "values": {}, "curves": {}, "checks": [],
-    "warnings": [], "sections": [], "absent": [], "figures": [], "errata": [],
+    "warnings": [], "sections": [], "absent": [], "figures": [], "exports": [],
+    "errata": [],
 }  # fmt: skip
 
 

@@ -6,6 +6,7 @@ import math
 from collections.abc import Callable
 from typing import Any
 
+from diecut_report.comparing import Found, compared, found
 from diecut_report.config import Config, substituted
 from diecut_report.contract.inputs import SI, Block, Quantity, flatten
 from diecut_report.discovery import said
@@ -50,11 +51,14 @@ class Run:
         self.errors: dict[str, PluginError] = dict(config.broken)
         self.skipped: dict[str, str] = {}
         self.problems: list[Problem] = []
+        self.comparisons: dict[str, Data] = {}
         for node in config.order:
             if len(node) == 1:
                 self._mechanism(str(node[0]))
             elif node in config.links:
                 self._value(node, config.links[node])
+        for case in found(self.calculations) if not self.problems else ():
+            self._compare(case)
 
     # --- values that are referred to ---------------------------------------------------------------------------------
 
@@ -159,6 +163,15 @@ class Run:
                 self.problems.append(instance.place.problem(key, message))
         except Exception as cause:
             self._broke(instance, cause)
+
+    def _compare(self, case: Found) -> None:
+        self.tell(case.name)
+        try:
+            self.comparisons[case.name] = compared(case, self.calculations)
+        except Exception as cause:
+            error = PluginError(said(cause), case.comparison.mechanism.kind, case.name)
+            error.__cause__ = cause
+            self.errors[case.name] = error
 
     def _broke(self, instance: Instance, cause: Exception) -> None:
         self.calculations.pop(instance.name, None)

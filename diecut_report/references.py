@@ -7,15 +7,25 @@ to another input waits for that input only; one that refers to an output waits f
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass
 from functools import cached_property
-from graphlib import CycleError, TopologicalSorter
 from typing import Any
 
-from diecut_report.contract.inputs import Block, CurveInput, FromPress, Meta, Quantity, fields, flatten
+from diecut_report.contract.families import Section
+from diecut_report.contract.inputs import (
+    Block,
+    CurveInput,
+    FromPress,
+    Meta,
+    Quantity,
+    Text,
+    fields,
+    flatten,
+    texts_given,
+)
 from diecut_report.contract.mechanism import Mechanism
-from diecut_report.contract.steps import Section, Step
+from diecut_report.contract.steps import Step
 from diecut_report.discovery import nearest
 from diecut_report.errors import Problem
 from diecut_report.expressions import Formula
@@ -59,6 +69,13 @@ class Instance:
         self, name: str, model: type[Block], data: dict[str, Any], place: Place, mechanism: Mechanism | None
     ) -> None:
         self.name, self.model, self.data, self.place, self.mechanism = name, model, data, place, mechanism
+        self.without: frozenset[KeyPath] = frozenset()
+
+    def leave_out(self, keys: Iterable[KeyPath]) -> None:
+        """Inputs that keep no value, as the press does not give their optional default."""
+        self.without = frozenset(keys)
+        for known in ("given", "results"):
+            self.__dict__.pop(known, None)
 
     @cached_property
     def given(self) -> frozenset[str]:
@@ -68,8 +85,11 @@ class Instance:
             name = ".".join(part for part in slot.key if isinstance(part, str))
             if isinstance(slot.value, Block):
                 found |= set(flatten(slot.value, f"{name}."))
-            if slot.value not in (None, []) or slot.is_required or default_of(slot):
+            from_press = default_of(slot) is not None and slot.key not in self.without
+            if slot.value not in (None, []) or slot.is_required or from_press:
                 found.add(name)
+            if isinstance(slot.meta, Text):
+                found |= texts_given({name: slot.value})
         return frozenset(found)
 
     @cached_property
@@ -129,10 +149,20 @@ class Linker:
         self.links: dict[Node, Target] = {}
         self.unresolved: set[Node] = set()
         self.problems: list[Problem] = []
-        for instance in instances.values():
-            if instance is not None:
-                self._written(instance)
-                self._from_press(instance)
+        known = [instance for instance in instances.values() if instance is not None]
+        for instance in known:
+            instance.leave_out(self._not_in_press(instance))
+        for instance in known:
+            self._written(instance)
+            self._from_press(instance)
+
+    def _not_in_press(self, instance: Instance) -> Iterator[KeyPath]:
+        press = self.instances[PRESS]
+        assert press is not None, "the press is no plugin"
+        for slot in slots(instance.model, instance.data):
+            default = default_of(slot)
+            if default and default.optional and default.path.removeprefix(f"{PRESS}.") not in press.given:
+                yield slot.key
 
     def _written(self, instance: Instance) -> None:
         for key, text in texts(instance.data):
@@ -159,7 +189,7 @@ class Linker:
     def _from_press(self, instance: Instance) -> None:
         for slot in slots(instance.model, instance.data):
             default = default_of(slot)
-            if default is None:
+            if default is None or slot.key in instance.without:
                 continue
             try:
                 target = self.target(f"${{{default.path}}}")
@@ -259,34 +289,3 @@ def texts(data: Any, key: KeyPath = ()) -> Iterator[tuple[KeyPath, str]]:
     elif isinstance(data, dict | list):
         for name, part in data.items() if isinstance(data, dict) else enumerate(data):
             yield from texts(part, (*key, name))
-
-
-# --- order and loops -------------------------------------------------------------------------------------------------
-
-
-def ordered(instances: Mapping[str, Instance | None], links: Mapping[Node, Target]) -> tuple[list[Node], list[Problem]]:
-    """The nodes in the order in which they can be known; or, for each loop, a problem that shows the whole of it."""
-    kept, problems = dict(links), list[Problem]()
-    while True:
-        sorter: TopologicalSorter[Node] = TopologicalSorter({(name,): () for name in instances})
-        for node, target in kept.items():
-            sorter.add(node, target.node)
-            sorter.add(node[:1], node)
-        try:
-            return list(sorter.static_order()), problems
-        except CycleError as error:
-            loop: list[Node] = error.args[1][:0:-1]  # each refers to the next
-            first = next(index for index, node in enumerate(loop) if node in kept)
-            loop = loop[first:] + loop[:first]
-            problems.append(_loop_problem(instances, kept, loop))
-            del kept[loop[0]]
-
-
-def _loop_problem(instances: Mapping[str, Instance | None], links: Mapping[Node, Target], loop: list[Node]) -> Problem:
-    shown = [".".join(map(str, node)) if len(node) > 1 else links[before].path
-             for before, node in zip([loop[-1], *loop], loop, strict=False)]  # fmt: skip
-    instance = instances[str(loop[0][0])]
-    assert instance is not None, "a mechanism without a model has no links"
-    told = [text for before, text in zip(["", *shown], [*shown, shown[0]], strict=True) if text != before]
-    message = f"refers to itself: {' → '.join(told if len(told) > 1 else 2 * told)}. Give one of these inputs a value of its own."
-    return instance.place.problem(loop[0][1:], message)

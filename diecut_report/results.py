@@ -11,10 +11,10 @@ import numpy as np
 
 from diecut_report.contract.checks import Check
 from diecut_report.contract.inputs import CurveInput, Quantity, fields
-from diecut_report.contract.steps import Breakpoints, Crossings, Require, Step
+from diecut_report.contract.steps import SILENT, Crossings, Step, Words
 from diecut_report.engine import Calculation
 from diecut_report.engine.derive import section_items
-from diecut_report.engine.printing import printed, shortest, shown, with_unit
+from diecut_report.engine.printing import filled, shortest, shown, with_unit
 from diecut_report.engine.views import figures
 from diecut_report.units import unit
 
@@ -57,6 +57,7 @@ def mechanism_results(calc: Calculation, provenance: Mapping[str, Provenance]) -
             if s.absent and not calc.given.issuperset(s.needs)
         ],
         "figures": figures(calc),
+        "exports": exports(calc),
         "errata": [
             {
                 "source": e.source,
@@ -83,7 +84,8 @@ def inputs(calc: Calculation, provenance: Mapping[str, Provenance]) -> Data:
         parted = name in calc.axis
         parts = row[0] if parted and isinstance(row, np.ndarray) else row if parted else [row]
         for index, part in enumerate(parts):
-            path = name.replace(".", f".{index}.", 1) if parted else name
+            home = calc.axis[name] if parted else ""
+            path = f"{home}.{index}{name.removeprefix(home)}" if parted else name
             found[path] = _input(meta, part) | _origin(provenance.get(path))
     return found
 
@@ -117,7 +119,7 @@ def numbers(calc: Calculation) -> Data:
     """Outputs and intermediate values: each step's number, with the place where an extreme occurs."""
     groups: dict[bool, Data] = {True: {}, False: {}}
     for step in calc.steps.values():
-        if step.id in calc.values and not isinstance(step, Require | Breakpoints):
+        if step.id in calc.values and not isinstance(step, SILENT | Words):
             groups[step.output] |= _listed(calc, step) if isinstance(step, Crossings) else _rowed(calc, step)
     for name in calc.mechanism.key_results:
         if name in groups[True]:
@@ -127,8 +129,10 @@ def numbers(calc: Calculation) -> Data:
 
 def _rowed(calc: Calculation, step: Step) -> Data:
     row = calc[step.id][0]
-    if len(row) > 1:
-        return {f"{step.id}.{i}": _number(step, value) for i, value in enumerate(row)}
+    if step.id in calc.axis:
+        names = step.numbered.format if step.numbered else f"{step.id}.{{}}".format
+        start = step.first if step.numbered else 0
+        return {names(start + i): _number(step, value) for i, value in enumerate(row)}
     if not isinstance(row[0], str) and math.isnan(row[0]):
         return {}
     found = _number(step, row[0])
@@ -198,6 +202,21 @@ def _limits(calc: Calculation, name: str) -> Data:
     }
 
 
+def exports(calc: Calculation) -> list[Data]:
+    """The profiles that are written beside the report."""
+    return [
+        {
+            "id": p.id,
+            "title": p.title,
+            "type": "profile",
+            "abscissa": calc.axis[p.columns[0]],
+            "columns": list(p.columns),
+        }
+        for p in calc.mechanism.exports
+        if calc.given.issuperset(p.needs)
+    ]
+
+
 def check_results(calc: Calculation) -> list[Data]:
     """Each check with demand, limit, margin, utilisation and verdict."""
     return [_check(calc, check) for check in calc.mechanism.checks if _applies(calc, check)]
@@ -237,7 +256,7 @@ def _check(calc: Calculation, check: Check) -> Data:
     status: Status = "pass" if held else check.severity
     told = _told(demand, limit, check.unit)
     sentence = f"{check.demand_label} {with_unit(*told['demand'].values())}, {check.limit_label} {with_unit(*told['limit'].values())}"
-    message = f"{sentence}." if held else f"{sentence}: {check.consequence.format_map(_Said(calc))}"
+    message = f"{sentence}." if held else f"{sentence}: {filled(calc, check.consequence)}"
     return {
         "id": check.id,
         "title": check.title,
@@ -268,12 +287,3 @@ def _told(demand: float, limit: float, display: str) -> dict[str, dict[str, str]
         if abs(seen - margin) <= 0.05 * abs(margin):
             break
     return {"demand": texts[0], "limit": texts[1], "margin": shown(margin, display)}
-
-
-class _Said(dict[str, str]):
-    def __init__(self, calc: Calculation) -> None:
-        super().__init__()
-        self.calc = calc
-
-    def __missing__(self, name: str) -> str:
-        return printed(self.calc, name)

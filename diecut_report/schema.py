@@ -74,12 +74,13 @@ def _of_kind(mechanism: Mechanism) -> Schema:
 
 def block_schema(model: type[Block]) -> Schema:
     """Schema of a block of keys."""
+    groups = [{"anyOf": [{"required": list(group)} for group in rule.groups]} for rule in model.one_of]
     return {
         "type": "object",
         "required": [name for name, field in model.model_fields.items() if field.is_required()],
         "additionalProperties": False,
         "properties": {name: _key(model, name) for name in model.model_fields},
-    }
+    } | ({"allOf": groups} if groups else {})
 
 
 def _key(model: type[Block], name: str) -> Schema:

@@ -14,10 +14,12 @@ from typing import Any
 import numpy as np
 import pint
 
+from diecut_report.contract.binding import Binding, Bound, ByText, bound
 from diecut_report.contract.checks import Check
+from diecut_report.contract.families import taken
 from diecut_report.contract.inputs import fields
 from diecut_report.contract.mechanism import Mechanism
-from diecut_report.contract.steps import Abscissa, Bound, Breakpoints, Case, Choice, Require, Root, Step, Value, bound
+from diecut_report.contract.steps import SILENT, Abscissa, Case, Choice, Root, Step, Value, Words
 from diecut_report.expressions import Constant, Formula, evaluate
 from diecut_report.units import unit
 
@@ -37,17 +39,22 @@ def formulas(mechanism: Mechanism) -> Iterator[tuple[Step, str, Bound]]:
     for _, step in mechanism.steps:
         for part in ("formula", "condition", "exists", "equation", "low", "high", "left", "right"):
             declared = getattr(step, part, None)
-            if isinstance(declared, Bound | Formula):
-                yield step, part, bound(declared)
+            yield from _bindings(step, part, declared)
         for case in getattr(step, "cases", ()):
             yield from _of_case(step, case)
 
 
 def _of_case(step: Step, case: Case) -> Iterator[tuple[Step, str, Bound]]:
-    if not isinstance(case.value, str):
-        yield step, "formula", bound(case.value)
-    if case.condition is not None:
-        yield step, "condition", bound(case.condition)
+    yield from _bindings(step, "formula", case.value)
+    yield from _bindings(step, "condition", case.condition)
+
+
+def _bindings(step: Step, part: str, declared: Any) -> Iterator[tuple[Step, str, Bound]]:
+    """The formulas of a part of a step; of a choice by text all of them."""
+    if isinstance(declared, ByText):
+        yield from ((step, part, option) for option in declared.options())
+    elif isinstance(declared, Binding):
+        yield step, part, bound(declared)
 
 
 def units_of(mechanism: Mechanism) -> dict[str, str]:
@@ -55,25 +62,26 @@ def units_of(mechanism: Mechanism) -> dict[str, str]:
     found = {name: unit(meta.unit).si for name, meta in fields(mechanism.inputs) if hasattr(meta, "unit")}
     found |= {f"inputs.{name}": si for name, si in found.items()}
     for _, step in mechanism.steps:
-        if not isinstance(step, Require | Breakpoints):
+        if not isinstance(step, SILENT | Words):
             found[step.id] = unit(step.unit).si
+            if step.numbered:
+                found |= {step.numbered.format(i): found[step.id] for i in range(step.first, step.first + 3)}
     return found
 
 
 def ids(mechanism: Mechanism) -> Iterator[str]:
     """Ids that a formula, check or step takes and nothing gives; quantities without symbol or description."""
-    known = set(units_of(mechanism)) | {f"{step.id}_at" for _, step in mechanism.steps}
-    for step, part, link in formulas(mechanism):
-        for name in link.names.values():
-            if isinstance(name, str) and name not in known:
-                yield f"{step.id}: the {part} {link.formula.__name__} takes {name}, which nothing gives"
+    known = {*units_of(mechanism), *(name for name, _ in fields(mechanism.inputs))}
+    known |= {f"{step.id}_at" for _, step in mechanism.steps} | {f"{step.id}_count" for _, step in mechanism.steps}
+    for _, step in mechanism.steps:
+        yield from (f"{step.id} takes {name}, which nothing gives" for name in sorted(taken(step) - known))
     for check in mechanism.checks:
         for name in (check.demand, check.limit, *check.needs):
             if isinstance(name, str) and name not in known:
                 yield f"check {check.id} takes {name}, which nothing gives"
     yield from (f"the key result {name} is no step" for name in mechanism.key_results if name not in known)
     for _, step in mechanism.steps:
-        if not isinstance(step, Require | Breakpoints) and not (step.symbol and step.description):
+        if not isinstance(step, SILENT | Words) and not (step.symbol and step.description):
             yield f"{step.id} has no symbol or no description"
 
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Container, Mapping
+from collections.abc import Callable, Container, Iterator, Mapping
 from dataclasses import dataclass
 from functools import cache
 from typing import Any, NamedTuple
@@ -43,11 +43,27 @@ def validate(
     model: type[Block], data: Any, place: Place, open_keys: Container[KeyPath] = ()
 ) -> tuple[Any | None, list[Problem]]:
     """The validated block, or None with the problems; what is wrong at ``open_keys`` cannot be judged yet and is left out."""
+    chosen = list(_choices(model, data, place))
     try:
-        return model.model_validate(data), []
+        block = model.model_validate(data)
+        return (None, chosen) if chosen else (block, [])
     except ValidationError as error:
         faults = [_Fault(model, place, fault) for fault in error.errors(include_url=False)]
-        return None, [fault.problem() for fault in faults if fault.key not in open_keys]
+        return None, chosen + [fault.problem() for fault in faults if fault.key not in open_keys]
+
+
+def _choices(model: type[Block], data: Any, place: Place, key: KeyPath = ()) -> Iterator[Problem]:
+    """What is wrong with inputs of which one group is needed, in a block and the blocks in it."""
+    if not isinstance(data, dict):
+        return
+    given = [name for name, value in data.items() if value is not None]
+    for fault in filter(None, (rule.fault(given) for rule in model.one_of)):
+        yield place.problem(key, fault, at_key=True)
+    for name, (_, _, block, is_list) in keys_of(model).items():
+        if block and name in data:
+            parts = enumerate(data[name]) if is_list and isinstance(data[name], list) else [(None, data[name])]
+            for index, part in parts:
+                yield from _choices(block, part, place, (*key, name) if index is None else (*key, name, index))
 
 
 class Key(NamedTuple):

@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any, Protocol
+
+from diecut_report.expressions import Array
 
 Point = tuple[float, float]
 Shape = dict[str, Any]
@@ -27,6 +29,27 @@ class View(Protocol):
 
     def text(self, name: str) -> str:
         """A quantity as it is printed: ``h = 40 mm``."""
+
+    def word(self, name: str) -> str:
+        """A text by its id: an input, or what a choice gave."""
+
+    def row(self, name: str) -> list[float]:
+        """The values of all like parts, SI."""
+
+    def words(self, name: str) -> list[str]:
+        """A text input of all like parts."""
+
+    def curve(self, name: str) -> list[float]:
+        """A curve (or an abscissa) at the samples of the results, SI."""
+
+    def varied(self, inputs: Mapping[str, Any], *names: str) -> dict[str, Array]:
+        """Numbers of the machine calculated again with other inputs (SI; arrays of one length give arrays of it).
+
+        Only what they need is calculated. NaN where the machine is then impossible.
+        """
+
+    def varied_curve(self, inputs: Mapping[str, Any], name: str, points: int = 361) -> tuple[Array, Array]:
+        """Abscissa and values, over the whole abscissa, of a curve of the machine calculated again with other inputs."""
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -123,11 +146,20 @@ class Drawing(Figure):
     """A drawing to scale: ``build`` gives its shapes from the calculated machine, in metres.
 
     ``scaled_by`` names the optional input without which the shapes have relative lengths (``unit`` is then a pure number).
+    A ``schematic`` one is not to scale: its coordinates only say what stands beside what.
     """
 
     build: Callable[[View], list[Shape]]
     unit: str = "mm"
     scaled_by: str = ""
+    schematic: bool = False
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class Chart(Figure):
+    """Diagrams of lines that are no curves of the results: ``build`` gives its panels (``chart_panel``) from the machine."""
+
+    build: Callable[[View], list[Shape]]
 
 
 def polyline(points: Sequence[Point], role: str = "outline", *, closed: bool = False) -> Shape:
@@ -168,6 +200,23 @@ def radius_dimension(center: Point, radius: float, angle: float, text: str) -> S
 def label(at: Point, text: str, anchor: str = "left") -> Shape:
     """A text in the drawing."""
     return {"shape": "label", "at": list(at), "text": text, "anchor": anchor}
+
+
+def arrow(start: Point, end: Point, role: str = "mark", text: str = "") -> Shape:
+    """A force or a direction."""
+    return {"shape": "arrow", "from": list(start), "to": list(end), "role": role} | ({"label": text} if text else {})
+
+
+def box(center: Point, width: float, height: float, lines: Sequence[str], role: str = "outline") -> Shape:
+    """A box of a schematic with its lines of text."""
+    return {
+        "shape": "box",
+        "center": list(center),
+        "width": width,
+        "height": height,
+        "role": role,
+        "lines": list(lines),
+    }
 
 
 def point(at: Point, role: str = "mark", text: str = "") -> Shape:

@@ -6,44 +6,17 @@ Values are SI floats once validated. Defaults and bounds are written in the disp
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass
 from functools import cached_property
-from typing import Annotated, Any, get_args, get_origin
+from typing import Annotated, Any, ClassVar, get_args, get_origin
 
 from pydantic import BaseModel, ConfigDict, GetCoreSchemaHandler, GetJsonSchemaHandler
 from pydantic.json_schema import JsonSchemaValue
 from pydantic_core import CoreSchema, core_schema
 
-from diecut_report.expressions import Formula
+from diecut_report.contract.given import SI, FromPress, OneOf, Pending
 from diecut_report.units import Unit, parse_quantity, pretty, to_display, unit
-
-
-@dataclass(frozen=True)
-class SI:
-    """A number that is already in SI, from a reference or a default of the press; ``told`` says from where."""
-
-    value: float | int
-    unit: str
-    told: str
-
-
-@dataclass(frozen=True)
-class Pending:
-    """A reference whose value is not known yet; ``unit`` is that of what it refers to, None where it is not a number."""
-
-    path: str
-    unit: str | None
-    is_curve: bool = False
-
-
-@dataclass(frozen=True)
-class FromPress:
-    """A default that the press gives: a press field's path and, where it is not that number itself, a formula of it."""
-
-    path: str
-    formula: Formula | None = None
-
 
 BOUNDS = (("gt", ">"), ("ge", "≥"), ("lt", "<"), ("le", "≤"))
 
@@ -193,6 +166,7 @@ class Block(BaseModel):
     """A block of inputs inside a mechanism, or one of a list of like parts."""
 
     model_config = ConfigDict(extra="forbid", validate_default=True, frozen=True)
+    one_of: ClassVar[tuple[OneOf, ...]] = ()
 
 
 class Inputs(Block):
@@ -230,10 +204,23 @@ def fields(model: type[Block], prefix: str = "") -> Iterator[tuple[str, Meta]]:
             yield prefix + name, meta
 
 
-def list_inputs(model: type[Block]) -> list[str]:
-    """The paths of the quantities that come in rows, one for each part of a list."""
-    blocks = {name: nested(field.annotation) for name, field in model.model_fields.items()}
-    return [f"{name}.{path}" for name, b in blocks.items() if b and b[1] for path, _ in fields(b[0])]
+def list_inputs(model: type[Block], prefix: str = "") -> dict[str, str]:
+    """The paths of the inputs that come in rows, one for each part of a list, each with the path of its list."""
+    found: dict[str, str] = {}
+    for name, field in model.model_fields.items():
+        block = nested(field.annotation)
+        own = f"{prefix}{name}"
+        if block and block[1]:
+            found |= {path: own for path, _ in fields(block[0], f"{own}.")}
+        elif block:
+            found |= list_inputs(block[0], f"{own}.")
+    return found
+
+
+def texts_given(values: Mapping[str, Any]) -> set[str]:
+    """For each text (or yes/no) input the token ``key=value``, by which steps may be chosen."""
+    return {f"{name}={str(value).lower() if isinstance(value, bool) else value}" for name, value in values.items()
+            if isinstance(value, str | bool)}  # fmt: skip
 
 
 def flatten(block: Block, prefix: str = "") -> dict[str, Any]:
@@ -255,5 +242,5 @@ def flatten(block: Block, prefix: str = "") -> dict[str, Any]:
     return flat
 
 
-__all__ = ["POINTS", "SI", "Annotated", "Block", "CurveInput", "FromPress", "Inputs", "Meta", "Pending", "Quantity", "Text",
-           "fields", "flatten", "list_inputs", "meta_of", "nested"]  # fmt: skip
+__all__ = ["POINTS", "SI", "Annotated", "Block", "CurveInput", "FromPress", "Inputs", "Meta", "OneOf", "Pending", "Quantity", "Text",
+           "fields", "flatten", "list_inputs", "meta_of", "nested", "texts_given"]  # fmt: skip

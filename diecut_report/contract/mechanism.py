@@ -2,39 +2,47 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from functools import cached_property
 
 from diecut_report.contract.checks import Check
+from diecut_report.contract.families import Section, settled
 from diecut_report.contract.figures import Figure
 from diecut_report.contract.inputs import CurveInput, Inputs, fields, list_inputs
+from diecut_report.contract.parts import Lookup, Neighbour, Running
 from diecut_report.contract.steps import (
+    SILENT,
     Abscissa,
-    Breakpoints,
+    Accumulated,
     Choice,
     Crossings,
     FromCurve,
     Reduction,
-    Require,
-    Section,
     Step,
     Value,
+    Words,
 )
 from diecut_report.units import unit
 
-MOST_CROSSINGS = 99  # places of one curve that a reference may name; how many there are shows only in calculating
+MOST_NAMED = (
+    99  # crossings of a curve or parts of a list that a reference may name; how many there are shows in calculating
+)
 
 
 def axes(steps: tuple[Step, ...], inputs: type[Inputs]) -> dict[str, str]:
     """For each curve its abscissa, for each row over like parts its list; single numbers are left out."""
-    found = {name: name.rsplit(".", 1)[0] for name in list_inputs(inputs)}
+    found = list_inputs(inputs)
     for step in steps:
         match step:
             case Abscissa():
                 found[step.id] = step.id
             case FromCurve():
                 found[step.id] = step.abscissa
+            case Accumulated(of=of) | Neighbour(of=of) | Running(of=of):
+                found[step.id] = found[of]
+            case Lookup(by=by) if by in found:
+                found[step.id] = found[by]
             case Value() | Choice():
                 own = {found[n] for n in step.takes() if isinstance(n, str) and n in found}
                 if len(own) > 1:
@@ -61,6 +69,37 @@ class Erratum:
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
+class Profile:
+    """Curves over one abscissa that are written beside the report as tables and drawings: ``columns`` are x, y, and more.
+
+    ``needs`` as for steps.
+    """
+
+    id: str
+    title: str
+    columns: tuple[str, ...]
+    needs: tuple[str, ...] = ()
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class Comparison:
+    """What is calculated last, from the results of mechanisms of the named kinds, where a press has one of each.
+
+    ``takes`` fills the inputs of ``mechanism`` by the kind and the id of an output, input or curve there; what is absent there
+    leaves its input without a value.
+    """
+
+    kinds: tuple[str, ...]
+    mechanism: Mechanism
+    takes: Mapping[str, tuple[str, str]]
+
+    def __post_init__(self) -> None:
+        foreign = [key for key, (kind, _) in self.takes.items() if kind not in self.kinds]
+        if foreign or self.mechanism.checks:
+            raise ValueError(f"{self.mechanism.kind}: a comparison has no checks, and takes from its own kinds only")
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
 class Mechanism:
     """A kind of mechanism: inputs, calculation, checks, figures, and what is said of it in the report.
 
@@ -79,29 +118,43 @@ class Mechanism:
     assumptions: tuple[str, ...] = ()
     sources: tuple[Source, ...] = ()
     errata: tuple[Erratum, ...] = ()
+    exports: tuple[Profile, ...] = ()
+    comparisons: tuple[Comparison, ...] = ()
 
     @cached_property
     def steps(self) -> tuple[tuple[Section, Step], ...]:
         """All steps in the order in which they are calculated, each with its section."""
         return tuple((section, step) for section in self.sections for step in section.steps)
 
-    def active(self, given: frozenset[str]) -> Iterator[tuple[Section, Step]]:
-        """The steps that take part when these optional inputs are given."""
+    def active(self, given: frozenset[str]) -> tuple[tuple[Section, Step], ...]:
+        """The steps that take part when these optional inputs (and texts, as ``key=value``) are given."""
+        if given not in self._active:
+            self._active[given] = tuple(self._settled(given))
+        return self._active[given]
+
+    def _settled(self, given: frozenset[str]) -> Iterator[tuple[Section, Step]]:
         for section, step in self.steps:
             if given.issuperset(section.needs + step.needs) and given.isdisjoint(step.lacks):
-                yield section, step
+                yield section, settled(step, given)
+
+    @cached_property
+    def _active(self) -> dict[frozenset[str], tuple[tuple[Section, Step], ...]]:
+        return {}
 
     def results_of(self, given: frozenset[str]) -> dict[str, tuple[str | None, bool]]:
         """What a reference may name, without calculating: the SI unit (None for a text), and whether it is a curve."""
         found: dict[str, tuple[str | None, bool]] = {}
         for _, step in self.active(given):
-            if isinstance(step, Require | Breakpoints):
+            if isinstance(step, SILENT):
                 continue
             if isinstance(step, Crossings):
                 found |= {f"{step.id}_count": ("1", False)}
-                found |= {f"{step.id}_{i}": (unit(step.unit).si, False) for i in range(1, MOST_CROSSINGS + 1)}
+                found |= {f"{step.id}_{i}": (unit(step.unit).si, False) for i in range(1, MOST_NAMED + 1)}
                 continue
-            text = isinstance(step, Choice) and isinstance(step.cases[0].value, str)
+            if step.numbered:
+                names = (step.numbered.format(i) for i in range(step.first, step.first + MOST_NAMED))
+                found |= dict.fromkeys(names, (unit(step.unit).si, False))
+            text = isinstance(step, Words) or (isinstance(step, Choice) and isinstance(step.cases[0].value, str))
             found[step.id] = (None if text else unit(step.unit).si, self.axis_of(step.id, given) is not None)
             if isinstance(step, Reduction) and step.operation in ("max", "min", "abs_max"):
                 abscissa = found[self.axis_of(step.of, given) or ""]

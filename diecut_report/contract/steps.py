@@ -6,43 +6,12 @@ input and a step share an id, the id means the step's value and ``inputs.ID`` th
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-from dataclasses import dataclass, replace
-from functools import cache, cached_property
-from typing import Any, Literal
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import Literal
 
-from diecut_report.expressions import Formula
-
-
-@dataclass(frozen=True, eq=False)
-class Bound:
-    """A formula bound to quantities: each parameter's quantity id, or a plain number."""
-
-    formula: Formula
-    names: Mapping[str, str | float]
-
-    @cached_property
-    def takes(self) -> tuple[str | float, ...]:
-        """What the parameters take, in their order: ids, or plain numbers as floats."""
-        return tuple(name if isinstance(name, str) else float(name) for name in self.names.values())
-
-
-def bind(formula: Formula, **names: str | float) -> Bound:
-    """Bind a formula to quantities; a parameter that is not named takes the quantity of its own name."""
-    unknown = set(names) - set(formula.parameters)
-    if unknown:
-        raise TypeError(f"formula {formula.__name__} has no parameter {', '.join(sorted(unknown))}")
-    return Bound(formula, {p: names.get(p, p) for p in formula.parameters})
-
-
-def bound(part: Bound | Formula) -> Bound:
-    """A formula that is not bound yet takes the quantities of its parameters' own names."""
-    return part if isinstance(part, Bound) else _by_names(part)
-
-
-@cache
-def _by_names(formula: Formula) -> Bound:
-    return bind(formula)
+from diecut_report.contract.binding import Binding, bound
+from diecut_report.expressions import Array
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -51,7 +20,9 @@ class Step:
 
     ``needs`` and ``lacks`` name optional inputs: the step is part of the calculation when all of ``needs`` are given
     and none of ``lacks``. ``output`` puts the quantity among the outputs of the results file, else among its values.
+    A text input takes part in them by its value: ``needs=("engagement=away",)``.
     ``exists`` is a condition on numbers: where it does not hold the quantity is absent for that machine.
+    A row over like parts is named ``ID.0``, ``ID.1`` … in the results, or by ``numbered`` (``shaft_{}_speed``) from ``first`` on.
     """
 
     id: str
@@ -63,7 +34,9 @@ class Step:
     output: bool = True
     needs: tuple[str, ...] = ()
     lacks: tuple[str, ...] = ()
-    exists: Bound | Formula | None = None
+    exists: Binding | None = None
+    numbered: str = ""
+    first: int = 1
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -74,7 +47,7 @@ class Value(Step):
     of the piece, so that one-sided limits at the piece's ends are well defined.
     """
 
-    formula: Bound | Formula
+    formula: Binding
     per_piece: bool = False
 
     def takes(self) -> tuple[str | float, ...]:
@@ -86,9 +59,9 @@ class Value(Step):
 class Case:
     """One branch of a choice: taken where the condition holds (the last one has none), and why, in words."""
 
-    value: Bound | Formula | str
+    value: Binding | str
     words: str
-    condition: Bound | Formula | None = None
+    condition: Binding | None = None
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -100,7 +73,7 @@ class Choice(Step):
 
     def takes(self) -> tuple[str | float, ...]:
         """The ids (or plain numbers) that the conditions and values take."""
-        parts = [p for c in self.cases for p in (c.value, c.condition) if isinstance(p, Bound | Formula)]
+        parts = [p for c in self.cases for p in (c.value, c.condition) if isinstance(p, Binding)]
         return tuple(name for part in parts for name in bound(part).names.values())
 
 
@@ -111,12 +84,12 @@ class Root(Step):
     ``left`` = ``right`` is the relation that is printed and proves the root: another form than the one solved.
     """
 
-    equation: Bound | Formula
+    equation: Binding
     unknown: str
-    low: Bound | Formula
-    high: Bound | Formula
-    left: Bound | Formula
-    right: Bound | Formula
+    low: Binding
+    high: Binding
+    left: Binding
+    right: Binding
     tolerance: float = 1e-9
 
 
@@ -159,23 +132,18 @@ class Reduction(Step):
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
-class Total(Step):
-    """Sum or product over like parts."""
+class Accumulated(Step):
+    """A curve: the running integral of another curve over its abscissa, from the abscissa's start."""
 
     of: str
-    operation: Literal["sum", "product"]
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
-class Pick(Step):
-    """A value of a standard series: the next one at or above, at or below, or the nearest to a quantity.
+class Words(Step):
+    """A text made of numbers by plain code, for messages: ``function`` takes the numbers ``takes`` of one machine (SI)."""
 
-    ``series`` are the standard values in the display unit; the neighbours that were not taken are printed too.
-    """
-
-    of: str
-    series: tuple[float, ...]
-    rule: Literal["above", "below", "nearest"]
+    function: Callable[..., str]
+    takes: tuple[str, ...]
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -191,51 +159,29 @@ class FromCurve(Step):
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class Require(Step):
-    """What must hold for the machine to be possible: where it does not, the message (``{id}`` prints a quantity) and its key."""
+    """What must hold for the machine to be possible: where it does not, the message (``{id}`` prints a quantity) and its key.
 
-    condition: Bound | Formula
+    A condition on rows must hold for each part; message and key may name the first part that fails: ``{part}`` counted
+    from 1, ``{next}`` the one after it in the loop, ``{index}`` counted from 0 as in the file.
+    """
+
+    condition: Binding
     key: str
     message: str
 
 
-@dataclass(frozen=True, eq=False)
-class Section:
-    """A chapter of the calculation: steps under a title; ``absent`` says in words what is missing when its needs are."""
+@dataclass(frozen=True, kw_only=True, eq=False)
+class Clash(Step):
+    """Geometry that no printed formula tells: which of like parts stand in each other's way.
 
-    title: str
-    steps: tuple[Step, ...]
-    text: str = ""
-    needs: tuple[str, ...] = ()
-    absent: str = ""
+    ``function`` takes the rows ``takes``, each of shape (variants, parts), and gives for each part the index of the one that
+    it clashes with, -1 for none, of the same shape. The message may name ``{part}`` and ``{other}``, counted from 1.
+    """
 
-
-def prefixed(
-    prefix: str, steps: tuple[Step, ...], shared: tuple[str, ...], symbol_suffix: str = ""
-) -> tuple[Step, ...]:
-    """One family of steps for another variant: each id gets the prefix, except what is ``shared`` by all variants."""
-    own = {step.id for step in steps} - set(shared)
-
-    def rename(part: Any) -> Any:
-        match part:
-            case str():
-                return prefix + part if part in own or part.removesuffix("_at") in own else part
-            case Bound(formula=formula, names=names):
-                return Bound(formula, {p: rename(n) for p, n in names.items()})
-            case Formula():
-                return rename(bind(part))
-            case Case(value=value, words=words, condition=condition):
-                return Case(value if isinstance(value, str) else rename(value), words, rename(condition))
-            case tuple():
-                return tuple(map(rename, part))
-        return part
-
-    names = ("id", "formula", "cases", "of", "abscissa", "places", "shown_at", "equation", "low", "high", "left", "right",
-             "condition", "exists")  # fmt: skip
-    return tuple(
-        replace(s, **{n: rename(getattr(s, n)) for n in names if hasattr(s, n)}, symbol=s.symbol + symbol_suffix)
-        for s in steps
-    )
+    function: Callable[..., Array]
+    takes: tuple[str, ...]
+    key: str
+    message: str
 
 
-__all__ = ["Abscissa", "Bound", "Breakpoints", "Case", "Choice", "Crossings", "FromCurve", "Operation", "Pick", "Reduction",
-           "Require", "Root", "Section", "Step", "Total", "Value", "bind", "bound", "prefixed"]  # fmt: skip
+SILENT = Breakpoints | Require | Clash  # steps that give no quantity

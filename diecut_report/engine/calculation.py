@@ -8,13 +8,15 @@ from typing import Any
 
 import numpy as np
 
-from diecut_report.contract.inputs import CurveInput, Meta, Quantity, fields
+from diecut_report.contract.binding import Binding, bound
+from diecut_report.contract.inputs import CurveInput, Meta, Quantity, fields, texts_given
 from diecut_report.contract.mechanism import Mechanism
-from diecut_report.contract.steps import Bound, Choice, FromCurve, Step, Value, bound
+from diecut_report.contract.steps import Accumulated, Choice, FromCurve, Step, Value
 from diecut_report.engine.domain import LOBATTO, Domain
-from diecut_report.expressions import Array, Formula
+from diecut_report.engine.running import RunningIntegral
+from diecut_report.expressions import Array
 
-CurveStep = Value | Choice | FromCurve
+CurveStep = Value | Choice | FromCurve | Accumulated
 
 
 class Impossible(Exception):
@@ -77,7 +79,7 @@ class Calculation:
     def __init__(self, mechanism: Mechanism, inputs: Mapping[str, Any], variants: int) -> None:
         self.mechanism = mechanism
         self.count = variants
-        self.given = frozenset(inputs)
+        self.given = frozenset(inputs) | texts_given(inputs)
         self.meta: dict[str, Meta] = dict(fields(mechanism.inputs))
         self.inputs: dict[str, Any] = {name: _column(value, variants) for name, value in inputs.items()}
         self.steps: dict[str, Step] = {step.id: step for _, step in mechanism.active(self.given)}
@@ -85,6 +87,8 @@ class Calculation:
         self.values: dict[str, Array] = {}
         self.curves: dict[str, CurveStep] = {}
         self.domains: dict[str, Domain] = {}
+        self.integrals: dict[str, RunningIntegral] = {}
+        self.named: dict[str, Step] = {}  # the steps of crossings and parts that have names of their own
         self.branch: dict[str, Array] = {}  # for each choice, the case taken by each variant
         self.middle: dict[str, Array] = {}  # for each place of an extreme, the middle of its smooth piece
         self.proof: dict[str, float] = {}  # for each result that is no closed formula, its greatest residual
@@ -101,7 +105,7 @@ class Calculation:
         found: Array = self.inputs[name.removeprefix("inputs.")]
         return found
 
-    def apply(self, part: Bound | Formula) -> Array:
+    def apply(self, part: Binding) -> Array:
         """A formula of numbers (or rows over like parts), for all variants."""
         link = bound(part)
         result = link.formula(*(self[n] if isinstance(n, str) else n for n in link.names.values()))
@@ -146,6 +150,8 @@ class Calculation:
 
     def step_or_input(self, name: str) -> Step | Quantity:
         """What declares a quantity: its symbol, unit and description."""
+        if name in self.named:
+            return self.named[name]
         own = name.removeprefix("inputs.")
         if own == name and name.removesuffix("_at") in self.steps and name not in self.steps:
             return self.steps[self.axis[self.steps[name.removesuffix("_at")].of]]  # type: ignore[attr-defined]
@@ -176,6 +182,8 @@ class _Sampler:
             case FromCurve(given=given):
                 found: Array = self.owner.inputs[given].values(self.x / self.owner.domains[self.axis].period, self.rows)
                 return found
+            case Accumulated():
+                return self.owner.integrals[name].values(self.x, self.mid, self.rows)
             case Value(per_piece=True) | Choice(per_piece=True) if self.mid is not self.x:
                 return _Sampler(self.owner, self.axis, self.mid, self.mid, self.rows)[name]
             case Value(formula=part):
@@ -185,7 +193,7 @@ class _Sampler:
                 taken = [self._apply(c.value) for c in cases if not isinstance(c.value, str)]
                 return np.select(np.broadcast_arrays(*held), np.broadcast_arrays(*taken[:-1]), taken[-1])
 
-    def _apply(self, part: Bound | Formula) -> Array:
+    def _apply(self, part: Binding) -> Array:
         link = bound(part)
         known = self.known
         taken = [n if isinstance(n, float) else known[n] if n in known else self[n] for n in link.takes]
@@ -201,7 +209,7 @@ def _column(value: Any, variants: int) -> Any:
         case tuple():
             return _row(value, variants)
         case np.ndarray():
-            return value.reshape(variants, -1)
+            return np.ascontiguousarray(value, dtype=float).reshape(variants, -1)
     return np.full((variants, 1), value, dtype=float)
 
 

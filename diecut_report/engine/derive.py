@@ -6,22 +6,13 @@ from typing import Any
 
 import numpy as np
 
-from diecut_report.contract.steps import (
-    Abscissa,
-    Bound,
-    Choice,
-    Crossings,
-    Pick,
-    Reduction,
-    Root,
-    Step,
-    Total,
-    Value,
-    bound,
-)
+from diecut_report.contract.binding import Binding, Bound, bound
+from diecut_report.contract.parts import Lookup, Neighbour, Part, Pick, Running, Total
+from diecut_report.contract.steps import Abscissa, Accumulated, Choice, Crossings, Reduction, Root, Step, Value, Words
+from diecut_report.engine import rows
 from diecut_report.engine.calculation import Calculation
 from diecut_report.engine.printing import Substitution, number_text, printed, shown, with_unit
-from diecut_report.expressions import Array, Formula, Node
+from diecut_report.expressions import Array, Node
 from diecut_report.units import unit
 
 Item = dict[str, Any]
@@ -30,11 +21,7 @@ FIRST = np.zeros(1, dtype=int)  # the variant that is printed
 METHODS = {
     "max": "bounded search on the curve within each smooth piece, one-sided limits at the breakpoints included",
     "mean": "Gauss–Legendre between the breakpoints, repeated with the doubled order",
-}
-SERIES_WORDS = {
-    "above": "the next standard value at or above",
-    "below": "the next standard value at or below",
-    "nearest": "the nearest standard value to",
+    "accumulated": "Chebyshev series between the breakpoints, integrated; its end compared with Gauss–Legendre",
 }
 
 
@@ -55,17 +42,22 @@ def items(calc: Calculation, step: Step) -> list[Item]:
         case Value(formula=part):
             return _value(calc, step, bound(part))
         case Choice():
-            return [_choice(calc, step)]
+            listed = step.id in calc.axis and calc.axis[step.id] not in calc.domains
+            return [_choice(calc, step), *([rows.table(calc, step, [step.id])] if listed else [])]
         case Root():
             return [_root(calc, step)]
         case Reduction():
             return [_reduction(calc, step)]
         case Crossings():
             return [_crossings(calc, step)]
-        case Total(of=of, operation=operation):
-            return [_head(step) | _reduced(calc, step, of) | {"operation": operation, "method": ""}]
-        case Pick():
-            return [_pick(calc, step)]
+        case Accumulated():
+            return [_accumulated(calc, step)]
+        case Total() | Pick() | Lookup() | Part():
+            return [_head(step) | rows.number(calc, step)]
+        case Neighbour() | Running():
+            return [rows.table(calc, step, [step.of, step.id])]
+        case Words():
+            return []
         case Abscissa(points=points):
             text = f"{step.description}; curves are sampled at {printed(calc, points)} places of it."
             return [
@@ -115,7 +107,10 @@ def _value(calc: Calculation, step: Value, part: Bound) -> list[Item]:
     if axis in calc.domains:
         item["at"] = _symbolled(calc, str(axis), step.per_piece)
     elif axis is not None:
-        return [item, _rows(calc, step, part)]
+        return [
+            item,
+            rows.table(calc, step, [name for name in part.names.values() if isinstance(name, str)] + [step.id]),
+        ]
     return [item]
 
 
@@ -138,16 +133,6 @@ def _formula(calc: Calculation, part: Bound, step: Step, axis: str | None) -> It
     if takes and numeric is None:
         item["note"] = "the terms are equal up to the rounding of the computer"
     return item | {"result": shown(target, step.unit, step.digits)}
-
-
-def _rows(calc: Calculation, step: Value, part: Bound) -> Item:
-    names = [name for name in part.names.values() if isinstance(name, str)] + [step.id]
-    declared = [calc.step_or_input(name) for name in names]
-    columns = [{"title": d.description, "symbol": d.symbol, "unit": d.unit} for d in declared]
-    count = calc[step.id].shape[1]
-    rows = [[number_text(float(calc[n][0, min(i, calc[n].shape[1] - 1)]) / unit(d.unit).factor) for n, d in zip(names, declared, strict=True)]
-            for i in range(count)]  # fmt: skip
-    return {"type": "table", "title": step.description, "columns": columns, "rows": rows}
 
 
 OPPOSITE = {"<": ">=", "<=": ">", ">": "<=", ">=": "<", "==": "!=", "!=": "=="}
@@ -173,9 +158,9 @@ def _choice(calc: Calculation, step: Choice) -> Item:
         if case.condition is None:
             condition = negated(condition[0]), negated(condition[1])
         item |= {"condition": condition[0].to_json(), "condition_substituted": condition[1].to_json()}
-    if axis is not None:
-        item["at"] = _symbolled(calc, axis, step.per_piece)
-    if isinstance(case.value, Bound | Formula):
+    if axis in calc.domains:
+        item["at"] = _symbolled(calc, str(axis), step.per_piece)
+    if isinstance(case.value, Binding):
         return item | _formula(calc, bound(case.value), step, axis)
     return item | {"equation": None, "substituted": None, "result": {"text": str(case.value), "unit": "1"}}
 
@@ -224,6 +209,16 @@ def _reduction(calc: Calculation, step: Reduction) -> Item:
     return item
 
 
+def _accumulated(calc: Calculation, step: Accumulated) -> Item:
+    axis = calc.axis[step.id]
+    result = shown(value_at(calc, step.id, axis), step.unit, step.digits)
+    return _head(step) | {
+        "type": "reduction", "operation": "accumulated", "of": calc.step_or_input(step.of).symbol, "result": result,
+        "at": _symbolled(calc, axis, False), "method": METHODS["accumulated"],
+        "residual": {"text": number_text(calc.proof[step.id], 2), "unit": "1"},
+    }  # fmt: skip
+
+
 def _crossings(calc: Calculation, step: Crossings) -> Item:
     places = [float(x) for x in calc[step.id][0] if x == x]
     rows = [[str(i), number_text(x / unit(step.unit).factor, 6)] for i, x in enumerate(places, 1)]
@@ -232,11 +227,3 @@ def _crossings(calc: Calculation, step: Crossings) -> Item:
         {"title": step.description, "symbol": step.symbol, "unit": step.unit},
     ]
     return {"type": "table", "id": step.id, "title": step.description, "columns": columns, "rows": rows}
-
-
-def _pick(calc: Calculation, step: Pick) -> Item:
-    series = sorted(step.series)
-    index = int(calc.branch[step.id][0, 0])
-    beside = [with_unit(f"{series[i]:g}", step.unit) for i in (index - 1, index + 1) if 0 <= i < len(series)]
-    words = f"{SERIES_WORDS[step.rule]}; neighbours not taken: {', '.join(beside)}"
-    return _head(step) | _reduced(calc, step, step.of) | {"operation": "pick", "method": words}

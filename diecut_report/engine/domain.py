@@ -14,6 +14,17 @@ LOBATTO = 64  # intervals of the search grid in each smooth piece; it does not d
 SAME = 1e-13  # share of the period within which two breakpoints are one
 
 
+FEW_EDGES = 40  # up to which edges are compared with all places at once
+
+
+def piece_of(edges: Array, x: Array) -> Array:
+    """The piece that each x (rows, points) lies in, of pieces with these edges (rows, pieces + 1)."""
+    inner = edges[:, 1:-1]
+    if inner.shape[1] <= FEW_EDGES:
+        return np.asarray((x[:, :, None] >= inner[:, None, :]).sum(axis=2))
+    return np.stack([np.searchsorted(row, places, side="right") for row, places in zip(inner, x, strict=True)])
+
+
 @dataclass
 class Domain:
     """The range [0, period) of an abscissa, cut at breakpoints; ``edges`` has shape (variants, pieces + 1), ascending.
@@ -40,8 +51,7 @@ class Domain:
     def middle_of(self, x: Array, rows: Array | None = None) -> Array:
         """The middle of the piece that each x (rows, points) lies in; at a breakpoint the piece that begins there."""
         edges, middles = (self.edges, self.middles) if rows is None else (self.edges[rows], self.middles[rows])
-        piece = (x[:, :, None] >= edges[:, None, 1:-1]).sum(axis=2)
-        return np.take_along_axis(middles, piece, axis=1)
+        return np.take_along_axis(middles, piece_of(edges, x), axis=1)
 
     @property
     def middles(self) -> Array:

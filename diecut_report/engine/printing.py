@@ -6,12 +6,14 @@ Texts are neutral here (decimal point, ``1.2e-05``): the report gives them their
 from __future__ import annotations
 
 import math
+import re
 from collections.abc import Callable, Mapping
+from types import MappingProxyType
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from diecut_report.contract.steps import Bound
+from diecut_report.contract.binding import Bound
 from diecut_report.expressions import Node, evaluate, transform
 from diecut_report.units import pretty, unit
 
@@ -20,6 +22,7 @@ if TYPE_CHECKING:
 
 DIGITS = 4
 MOST_DIGITS = 17
+NAMED = re.compile(r"\{([\w.]+)\}")
 TRIGONOMETRIC = ("sin", "cos", "tan")
 
 
@@ -51,16 +54,29 @@ def with_unit(text: str, display: str) -> str:
     return f"{text}{sign}" if sign == "°" else f"{text} {sign}".rstrip()
 
 
-def printed(calc: Calculation, name: str, variant: int = 0) -> str:
-    """A quantity as one would say it: ``40 mm``."""
-    declared = calc.step_or_input(name)
-    value = calc[name][variant, 0]
+def printed(calc: Calculation, name: str, variant: int = 0, part: int = 0) -> str:
+    """A quantity as one would say it: ``40 mm``; of a row the value of one part."""
+    row: Any = calc[name]
+    if isinstance(row, str | tuple):
+        return row if isinstance(row, str) else str(row[part])
+    value = row[variant, min(part, row.shape[1] - 1)]
     if isinstance(value, str):
         return value
+    declared = calc.step_or_input(name)
     number = float(value) / unit(declared.unit).factor
     typed = name not in calc.values
     text = shortest(number) if typed else number_text(number, getattr(declared, "digits", DIGITS))
     return with_unit(text, declared.unit)
+
+
+def filled(calc: Calculation, text: str, variant: int = 0, places: Mapping[str, int] = MappingProxyType({})) -> str:
+    """A message with its ``{ids}`` printed; of rows the part at ``places["index"]``; ``places`` stand for themselves."""
+
+    def said(found: re.Match[str]) -> str:
+        name = found[1]
+        return str(places[name]) if name in places else printed(calc, name, variant, places.get("index", 0))
+
+    return NAMED.sub(said, text)
 
 
 def formula_unit(display: str) -> str:

@@ -2,37 +2,38 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Container, Mapping, Sequence
 from typing import Any
 
 import numpy as np
 
 from diecut_report.contract.mechanism import Mechanism
+from diecut_report.contract.parts import Lookup, Neighbour, Part, Pick, Running, Total
 from diecut_report.contract.steps import (
     Abscissa,
+    Accumulated,
     Breakpoints,
     Choice,
+    Clash,
     Crossings,
     FromCurve,
-    Pick,
     Reduction,
     Require,
     Root,
     Step,
-    Total,
     Value,
-    bound,
+    Words,
 )
-from diecut_report.engine import extremes, solve
+from diecut_report.engine import extremes, parts, possible, solve
 from diecut_report.engine.calculation import Calculation, Impossible, SampledCurve, Unproven
 from diecut_report.engine.domain import Domain
-from diecut_report.engine.printing import printed
 from diecut_report.expressions import Array
-from diecut_report.units import unit
 
 
-def calculate(mechanism: Mechanism, values: Mapping[str, Any], variants: int = 1) -> Calculation:
-    """Calculate a mechanism.
+def calculate(
+    mechanism: Mechanism, values: Mapping[str, Any], variants: int = 1, only: Container[str] | None = None
+) -> Calculation:
+    """Calculate a mechanism, or only those of its steps that are named.
 
     ``values`` holds the inputs by id in SI: numbers, or arrays of shape (variants,); tuples for the parts of a list;
     texts, flags, ``CurveHandle``. Optional inputs that are not given are left out.
@@ -44,15 +45,24 @@ def calculate(mechanism: Mechanism, values: Mapping[str, Any], variants: int = 1
     }
     calc = Calculation(mechanism, curves, variants)
     with np.errstate(all="ignore"):
-        steps = [step for _, step in mechanism.active(calc.given)]
+        steps = [step for _, step in mechanism.active(calc.given) if only is None or step.id in only]
         for i, step in enumerate(steps):
             _search_ahead(calc, steps[i:])
             try:
                 RUN[type(step)](calc, step)
             except Impossible as first:
-                raise Impossible([*first.reasons, *_reasons(calc, steps[i + 1 :])]) from None
+                raise Impossible([*first.reasons, *possible.reasons(calc, steps[i + 1 :])]) from None
             _finite(calc, step)
+            _name_parts(calc, step)
     return calc
+
+
+def _name_parts(calc: Calculation, step: Step) -> None:
+    """The parts of a row under names of their own."""
+    if step.numbered:
+        names = [step.numbered.format(step.first + i) for i in range(calc[step.id].shape[1])]
+        calc.values |= {name: calc[step.id][:, [i]] for i, name in enumerate(names)}
+        calc.named |= dict.fromkeys(names, step)
 
 
 def _possible(calc: Calculation) -> Array:
@@ -124,7 +134,9 @@ def _breakpoints(calc: Calculation, step: Breakpoints) -> None:
 def _all_crossings(calc: Calculation, curve: str) -> tuple[Array, Array]:
     """Crossings, searched again between those found until no more appear: two may lie between two points of the first grid."""
     domain = calc.domains[calc.axis[curve]]
-    edges, found = domain.edges, solve.crossings(calc, curve)
+    edges = domain.edges
+    domain.cut(solve.dips(calc, curve))
+    found = solve.crossings(calc, curve)
     for _ in range(SEARCHES):
         domain.cut(found[0])
         last, found = found, solve.crossings(calc, curve)
@@ -137,7 +149,9 @@ def _all_crossings(calc: Calculation, curve: str) -> tuple[Array, Array]:
 def _crossings(calc: Calculation, step: Crossings) -> None:
     calc.values[step.id], residual = _all_crossings(calc, step.of)
     calc.values[f"{step.id}_count"] = np.isfinite(calc.values[step.id]).sum(axis=1, keepdims=True)
-    calc.values |= {f"{step.id}_{i}": place[:, None] for i, place in enumerate(calc.values[step.id].T, 1)}
+    places = {f"{step.id}_{i}": place[:, None] for i, place in enumerate(calc.values[step.id].T, 1)}
+    calc.values |= places
+    calc.named |= dict.fromkeys(places, step)
     _prove(calc, step, residual, solve.SAMPLE_TOLERANCE)
 
 
@@ -186,19 +200,14 @@ def _integrated(calc: Calculation, step: Reduction) -> None:
     calc.values[step.id] = {"integral": whole, "mean": mean, "rms": np.sqrt(np.abs(mean))}[step.operation]
 
 
-def _total(calc: Calculation, step: Total) -> None:
-    parts = calc[step.of]
-    calc.values[step.id] = (parts.sum if step.operation == "sum" else parts.prod)(axis=1, keepdims=True)
+def _accumulated(calc: Calculation, step: Accumulated) -> None:
+    _prove(calc, step, solve.accumulate(calc, step), solve.SAMPLE_TOLERANCE)
 
 
-def _pick(calc: Calculation, step: Pick) -> None:
-    series = np.sort(np.asarray(step.series) * unit(step.unit).factor)
-    sought = calc[step.of]
-    above = np.clip(np.searchsorted(series, sought * (1 - 1e-12)), 0, len(series) - 1)
-    below = np.clip(np.searchsorted(series, sought * (1 + 1e-12), side="right") - 1, 0, len(series) - 1)
-    nearer = np.where(sought - series[below] <= series[above] - sought, below, above)
-    calc.branch[step.id] = {"above": above, "below": below, "nearest": nearer}[step.rule]
-    calc.values[step.id] = series[calc.branch[step.id]]
+def _words(calc: Calculation, step: Words) -> None:
+    numbers = [calc[name][:, 0] for name in step.takes]
+    told = [step.function(*(float(n) for n in row)) for row in zip(*numbers, strict=True)]
+    calc.values[step.id] = np.array(told, dtype=object)[:, None]
 
 
 def _from_curve(calc: Calculation, step: FromCurve) -> None:
@@ -206,36 +215,6 @@ def _from_curve(calc: Calculation, step: FromCurve) -> None:
     domain = calc.domains[step.abscissa]
     places = calc.inputs[step.given].breakpoints * domain.period
     domain.cut(np.broadcast_to(places, (calc.count, places.shape[1])))
-
-
-def _require(calc: Calculation, step: Require) -> None:
-    for variant in np.flatnonzero(~calc.apply(step.condition).astype(bool)[:, 0]):
-        message = step.message.format_map(_Printed(calc, int(variant)))
-        calc.flaws.setdefault(int(variant), (step.key, message))
-        if calc.count == 1:
-            raise Impossible([(step.key, message)])
-
-
-def _reasons(calc: Calculation, steps: Sequence[Step]) -> Iterator[tuple[str, str]]:
-    """Why else a machine cannot exist, as far as it can be told from what is known already."""
-    known = {*calc.inputs, *calc.values, *(f"inputs.{name}" for name in calc.inputs)}
-    for step in steps:
-        if isinstance(step, Require) and known.issuperset(n for n in bound(step.condition).takes if isinstance(n, str)):
-            try:
-                _require(calc, step)
-            except Impossible as other:
-                yield from other.reasons
-
-
-class _Printed(dict[str, str]):
-    """Quantities as they are printed, for the texts of messages."""
-
-    def __init__(self, calc: Calculation, variant: int) -> None:
-        super().__init__()
-        self.calc, self.variant = calc, variant
-
-    def __missing__(self, name: str) -> str:
-        return printed(self.calc, name, self.variant)
 
 
 def _finite(calc: Calculation, step: Step) -> None:
@@ -250,5 +229,8 @@ def _finite(calc: Calculation, step: Step) -> None:
 
 RUN: dict[type[Step], Callable[[Calculation, Any], None]] = {
     Value: _value, Choice: _choice, Root: _root, Abscissa: _abscissa, Breakpoints: _breakpoints, Crossings: _crossings,
-    Reduction: _reduction, Total: _total, Pick: _pick, FromCurve: _from_curve, Require: _require,
+    Reduction: _reduction, Accumulated: _accumulated, FromCurve: _from_curve, Words: _words,
+    Require: possible.require, Clash: possible.clash,
+    Total: parts.total, Neighbour: parts.neighbour, Running: parts.running, Part: parts.part, Lookup: parts.lookup,
+    Pick: parts.pick,
 }  # fmt: skip

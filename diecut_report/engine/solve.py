@@ -6,16 +6,21 @@ from collections.abc import Callable
 from functools import partial
 
 import numpy as np
+from numpy.polynomial import chebyshev
+from scipy.fft import dct
 from scipy.optimize import elementwise
 
-from diecut_report.contract.steps import Root, bound
+from diecut_report.contract.binding import bound
+from diecut_report.contract.steps import Accumulated, Root
 from diecut_report.engine.calculation import Calculation
 from diecut_report.engine.domain import LOBATTO
+from diecut_report.engine.running import RunningIntegral
 from diecut_report.expressions import Array
 
 ORDERS = (24, 48, 96, 192, 384)  # of Gauss–Legendre; the next one proves the one before
 INTEGRAL_TOLERANCE = 1e-11
 SAMPLE_TOLERANCE = 1e-8
+NEGLIGIBLE = 1e-17  # share of the greatest Chebyshev coefficient below which the last ones are left out
 NOISE = 1e-10  # share of a curve's greatest value below which its sign is rounding
 
 
@@ -88,6 +93,26 @@ def crossings(calc: Calculation, curve: str) -> tuple[Array, Array]:
     return _rows_of(places, rows, calc.count, (sign[:, :1] * sign[:, -1:] < 0)[:, 0]), worst
 
 
+def dips(calc: Calculation, curve: str) -> Array:
+    """Places where a curve dips beyond zero and back between two points of the search grid, shape (variants, most), NaN-padded."""
+    domain = calc.domains[calc.axis[curve]]
+    grid, heights = domain.search_grid(), calc.on_search_grid(curve)
+    side = np.sign(heights)
+    before, here, after = (np.abs(heights[:, :, part]) for part in (slice(None, -2), slice(1, -1), slice(2, None)))
+    same = (side[:, :, :-2] == side[:, :, 1:-1]) & (side[:, :, 1:-1] == side[:, :, 2:])
+    near = (here <= before) & (here <= after) & (2 * here <= np.maximum(before, after))  # a dip no deeper than its rise
+    rows, piece, k = np.nonzero(same & near & (domain.widths > 0)[:, :, None])
+    if not len(rows):
+        return np.full((calc.count, 0), np.nan)
+    found = elementwise.find_minimum(
+        lambda x, row, middle, sign: sign * _at(calc, curve, x, row, middle),
+        tuple(grid[rows, piece, k + i] for i in range(3)),
+        args=(rows.astype(float), domain.middles[rows, piece], side[rows, piece, k]),
+    )
+    places = np.where(found.f_x < 0, found.x, np.nan)
+    return _rows_of(places, rows, calc.count, np.zeros(calc.count, dtype=bool))
+
+
 def _settled(sign: Array) -> Array:
     """Signs with each zero taking over the sign before it; leading zeros take the first one after them."""
     index = np.maximum.accumulate(np.where(sign != 0, np.arange(sign.shape[1]), 0), axis=1)
@@ -103,3 +128,22 @@ def _rows_of(places: Array, rows: Array, count: int, at_start: Array) -> Array:
     table[rows, np.arange(len(rows)) - np.repeat(np.cumsum(per_row) - per_row, per_row)] = places
     table[at_start, -1] = 0.0
     return np.sort(table, axis=1)
+
+
+def accumulate(calc: Calculation, step: Accumulated) -> Array:
+    """Make the running integral of a curve known; gives its relative difference to the integral by another rule, (variants, 1)."""
+    domain = calc.domains[calc.axis[step.of]]
+    values = calc.on_search_grid(step.of)[:, :, ::-1]
+    series = np.moveaxis(dct(values, type=1, axis=2), 2, 0) / LOBATTO
+    series[[0, -1]] /= 2
+    integrated = chebyshev.chebint(series, lbnd=-1) * domain.widths / 2
+    ends = np.cumsum(integrated.sum(axis=0), axis=1)
+    integrated[0] += np.concatenate([np.zeros((calc.count, 1)), ends[:, :-1]], axis=1)
+    sizes = np.nanmax(np.abs(integrated), axis=(1, 2), initial=0)
+    order = int(np.max(np.nonzero(sizes > NEGLIGIBLE * sizes.max(initial=0))[0], initial=0)) + 1
+    calc.curves[step.id] = step
+    calc.integrals[step.id] = RunningIntegral(domain.edges, integrated[:order])
+    whole, _ = integral(calc, step.of, 1)
+    scale = np.max(np.abs(values), axis=(1, 2))[:, None] * domain.period
+    residual: Array = np.abs(ends[:, -1:] - whole) / np.maximum(scale, np.finfo(float).tiny)
+    return residual

@@ -2,13 +2,16 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from typing import Any
 
 import numpy as np
 
-from diecut_report.contract.figures import Bars, Drawing, Figure, Plot, Polar, plain
+from diecut_report.contract.figures import Bars, Chart, Drawing, Figure, Plot, Polar, plain
+from diecut_report.engine.again import varied, varied_curve
 from diecut_report.engine.calculation import Calculation
 from diecut_report.engine.printing import printed
+from diecut_report.expressions import Array
 
 
 class MachineView:
@@ -41,6 +44,31 @@ class MachineView:
         """A quantity as it is printed: ``h = 40 mm``."""
         return f"{self.calc.step_or_input(name).symbol} = {printed(self.calc, name)}"
 
+    def word(self, name: str) -> str:
+        """A text by its id: an input, or what a choice gave."""
+        return printed(self.calc, name)
+
+    def row(self, name: str) -> list[float]:
+        """The values of all like parts, SI."""
+        return [float(value) for value in self.calc[name][0]]
+
+    def words(self, name: str) -> list[str]:
+        """A text input of all like parts."""
+        return [str(text) for text in self.calc.inputs[name]]
+
+    def curve(self, name: str) -> list[float]:
+        """A curve (or an abscissa) at the samples of the results, SI."""
+        samples = self.calc.domains[name].samples if name in self.calc.domains else self.calc.curve_samples(name)
+        return [float(value) for value in samples[0]]
+
+    def varied(self, inputs: Mapping[str, Any], *names: str) -> dict[str, Array]:
+        """Numbers of the machine calculated again with other inputs; NaN where it is then impossible."""
+        return varied(self.calc, inputs, names)
+
+    def varied_curve(self, inputs: Mapping[str, Any], name: str, points: int = 361) -> tuple[Array, Array]:
+        """Abscissa and values of a curve of the machine calculated again with other inputs."""
+        return varied_curve(self.calc, inputs, name, points)
+
 
 def figures(calc: Calculation) -> list[dict[str, Any]]:
     """The figures whose needs are given."""
@@ -57,9 +85,12 @@ def _figure(calc: Calculation, figure: Figure) -> dict[str, Any]:
             return head | {"type": "polar", "abscissa": abscissa, "unit": unit, "series": [vars(s) for s in series]}
         case Bars(groups=groups):
             return head | {"type": "bars", "groups": [_group(g, view) for g in groups]}
-        case Drawing(build=build, unit=unit, scaled_by=scale):
-            relative = scale and scale not in calc.given
-            return head | {"type": "drawing", "unit": "1" if relative else unit, "shapes": build(view)}
+        case Drawing(build=build, unit=unit, scaled_by=scale, schematic=schematic):
+            relative = schematic or (scale and scale not in calc.given)
+            drawn = {"type": "drawing", "unit": "1" if relative else unit, "shapes": build(view)}
+            return head | drawn | ({"schematic": True} if schematic else {})
+        case Chart(build=build):
+            return head | {"type": "chart", "panels": build(view)}
     raise TypeError(f"{figure.id} is no known figure")
 
 

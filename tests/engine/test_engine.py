@@ -9,7 +9,8 @@ import numpy as np
 import pytest
 
 from diecut_report.api import Annotated, CurveInput, Inputs
-from diecut_report.contract.steps import Root, Section
+from diecut_report.contract.families import Section
+from diecut_report.contract.steps import Root
 from diecut_report.engine import Calculation, CurveHandle, Impossible, Unproven, calculate
 from diecut_report.results import mechanism_results
 from tests.engine.toy import MECHANISM, ROOTED, cube, doubled, plus_one, zero

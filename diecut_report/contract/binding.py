@@ -1,0 +1,71 @@
+"""Formulas bound to the quantities of a mechanism: one formula serves many, each with its own letters."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+from functools import cache, cached_property
+
+from diecut_report.expressions import Formula
+
+
+@dataclass(frozen=True, eq=False)
+class Bound:
+    """A formula bound to quantities: each parameter's quantity id, or a plain number."""
+
+    formula: Formula
+    names: Mapping[str, str | float]
+
+    @cached_property
+    def takes(self) -> tuple[str | float, ...]:
+        """What the parameters take, in their order: ids, or plain numbers as floats."""
+        return tuple(name if isinstance(name, str) else float(name) for name in self.names.values())
+
+
+def bind(formula: Formula, **names: str | float) -> Bound:
+    """Bind a formula to quantities; a parameter that is not named takes the quantity of its own name."""
+    unknown = set(names) - set(formula.parameters)
+    if unknown:
+        raise TypeError(f"formula {formula.__name__} has no parameter {', '.join(sorted(unknown))}")
+    return Bound(formula, {p: names.get(p, p) for p in formula.parameters})
+
+
+class ByText:
+    """A formula chosen by a text input: ``formulas[text]``, bound to quantities as by ``bind(formula, **names)``.
+
+    ``formulas`` may be a live view of a registry; all its formulas have the same parameters.
+    """
+
+    def __init__(self, key: str, formulas: Mapping[str, Formula], /, **names: str | float) -> None:
+        self.key, self.formulas, self.names = key, formulas, names
+
+    def of(self, text: str) -> Bound:
+        """The bound formula for a value of the text input."""
+        return bind(self.formulas[text], **self.names)
+
+    def options(self) -> tuple[Bound, ...]:
+        """The bound formulas of all values."""
+        return tuple(map(self.of, self.formulas))
+
+    def renamed(self, rename: Callable[[str | float], str | float]) -> ByText:
+        """The same choice with other ids for its quantities."""
+        own = self.options()[0].names
+        return ByText(self.key, self.formulas, **{parameter: rename(name) for parameter, name in own.items()})
+
+
+Binding = Bound | Formula | ByText
+
+
+def bound(part: Binding) -> Bound:
+    """A formula that is not bound yet takes the quantities of its parameters' own names.
+
+    A choice by a text stands here for its first formula: what it takes does not depend on the text.
+    """
+    if isinstance(part, ByText):
+        return part.options()[0]
+    return part if isinstance(part, Bound) else _by_names(part)
+
+
+@cache
+def _by_names(formula: Formula) -> Bound:
+    return bind(formula)

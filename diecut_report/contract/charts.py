@@ -1,0 +1,62 @@
+"""The data of charts: lines, areas and marks over an abscissa of any kind, all in SI."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Any
+
+import numpy as np
+
+from diecut_report.expressions import Array
+
+Data = dict[str, Any]
+Values = Sequence[float] | Array
+
+
+def chart_panel(
+    title: str,
+    unit: str,
+    x_title: str,
+    x_symbol: str,
+    x_unit: str,
+    *,
+    lines: Sequence[Data],
+    fills: Sequence[Data] = (),
+    marks: Sequence[Data] = (),
+    levels: Sequence[Data] = (),
+    verticals: Sequence[Data] = (),
+) -> Data:
+    """One diagram of a chart; ``unit`` and ``x_unit`` are display units, ``title`` says what stands upwards."""
+    return {"title": title, "unit": unit, "x": {"title": x_title, "symbol": x_symbol, "unit": x_unit},
+            "lines": list(lines), "fills": list(fills), "marks": list(marks), "levels": list(levels),
+            "verticals": list(verticals)}  # fmt: skip
+
+
+def line(x: Values, y: Values, label: str) -> Data:
+    """A line; it is broken where a value is NaN."""
+    return {"x": _plain(x), "y": _plain(y), "label": label}
+
+
+def fill(x: Values, y: Values, label: str) -> Data:
+    """The area between a line and zero."""
+    return line(x, y, label)
+
+
+def mark(x: float, y: float, label: str) -> Data:
+    """A marked point."""
+    return {"x": float(x), "y": float(y), "label": label}
+
+
+def level(y: float, label: str) -> Data:
+    """A horizontal line."""
+    return {"value": float(y), "label": label}
+
+
+def vertical(x: float, label: str) -> Data:
+    """A vertical line."""
+    return {"x": float(x), "label": label}
+
+
+def _plain(values: Values) -> list[float | None]:
+    """Numbers as results hold them, null where there is none."""
+    return [float(value) if np.isfinite(value) else None for value in values]

@@ -1,0 +1,63 @@
+"""What may stand in for a typed value: a number that is known already, a reference, a default of the press, one of several."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from dataclasses import dataclass
+
+from diecut_report.expressions import Formula
+
+
+@dataclass(frozen=True)
+class SI:
+    """A number that is already in SI, from a reference or a default of the press; ``told`` says from where."""
+
+    value: float | int
+    unit: str
+    told: str
+
+
+@dataclass(frozen=True)
+class Pending:
+    """A reference whose value is not known yet; ``unit`` is that of what it refers to, None where it is not a number."""
+
+    path: str
+    unit: str | None
+    is_curve: bool = False
+
+
+@dataclass(frozen=True)
+class FromPress:
+    """A default that the press gives: a press field's path and, where it is not that number itself, a formula of it.
+
+    An ``optional`` one leaves the input without a value where the press does not give the field; else that is an error.
+    """
+
+    path: str
+    formula: Formula | None = None
+    optional: bool = False
+
+
+class OneOf:
+    """Inputs of which one group is needed: ``OneOf(("torque",), ("power", "speed"))``.
+
+    At least one group must be given completely, and the first keys of two groups must not both be given.
+    """
+
+    def __init__(self, *groups: tuple[str, ...]) -> None:
+        self.groups = groups
+
+    def fault(self, given: Iterable[str]) -> str:
+        """What is wrong with the keys that are given, in words; empty where nothing is."""
+        known = set(given)
+        told = ", or ".join(" and ".join(group) for group in self.groups)
+        heads = [group[0] for group in self.groups if group[0] in known]
+        if len(heads) > 1:
+            return f"{' and '.join(heads)} are both given, but only one can hold; give {told}."
+        if any(known.issuperset(group) for group in self.groups):
+            return ""
+        begun = [(group, [key for key in group if key not in known]) for group in self.groups if known & set(group[:1])]
+        if begun:
+            group, missing = begun[0]
+            return f"{' and '.join(missing)} is missing beside {group[0]}; give {told}."
+        return f"{told} is needed."

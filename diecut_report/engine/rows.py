@@ -1,0 +1,75 @@
+"""Rows over like parts, and what was taken from tables and standard series, as they are printed."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from diecut_report.contract.parts import Lookup, Part, Pick, Total
+from diecut_report.contract.steps import Step
+from diecut_report.engine.calculation import Calculation
+from diecut_report.engine.parts import series_of
+from diecut_report.engine.printing import number_text, printed, shown, with_unit
+from diecut_report.standards import StandardTable
+from diecut_report.units import unit
+
+Item = dict[str, Any]
+SERIES_WORDS = {
+    "above": "the next standard value at or above",
+    "below": "the next standard value at or below",
+    "nearest": "the nearest standard value to",
+}
+
+
+def table(calc: Calculation, step: Step, names: list[str]) -> Item:
+    """A row over like parts with what it is made of: a line for each part, numbered."""
+    declared = [calc.step_or_input(name) for name in names]
+    columns = [{"title": "No.", "symbol": "", "unit": "1"}]
+    columns += [{"title": d.description, "symbol": d.symbol, "unit": d.unit} for d in declared]
+    count = calc[step.id].shape[1]
+    lines = [[str(i + 1), *(_cell(calc, name, i) for name in names)] for i in range(count)]
+    return {"type": "table", "title": step.description, "columns": columns, "rows": lines}
+
+
+def _cell(calc: Calculation, name: str, part: int) -> str:
+    row = calc[name]
+    value = row[0, min(part, row.shape[1] - 1)]
+    return (
+        str(value) if isinstance(value, str) else number_text(float(value) / unit(calc.step_or_input(name).unit).factor)
+    )
+
+
+def number(calc: Calculation, step: Total | Pick | Lookup | Part) -> Item:
+    """A number taken from rows, from a table, from a series."""
+    result = shown(float(calc[step.id][0, 0]), step.unit, step.digits)
+    match step:
+        case Lookup():
+            return _lookup(calc, step) | {"result": result}
+        case Pick():
+            values = _pick(calc, step)
+        case Total(operation=operation):
+            values = {"operation": operation, "method": ""}
+        case Part(index=index):
+            values = {"operation": "last" if index < 0 else "first", "method": ""}
+    return {"type": "reduction", "of": calc.step_or_input(step.of).symbol, "result": result} | values
+
+
+def _lookup(calc: Calculation, step: Lookup) -> Item:
+    """Where a row was taken from, the first part stands for all."""
+    text = calc.inputs[step.by]
+    told = step.table.title if isinstance(step.table, StandardTable) else ""
+    return {
+        "type": "lookup",
+        "by": calc.meta[step.by].description,
+        "key": text if isinstance(text, str) else str(text[0]),
+        "table": told,
+        "source": "; ".join(step.table.sources) if isinstance(step.table, StandardTable) else step.source,
+    }
+
+
+def _pick(calc: Calculation, step: Pick) -> Item:
+    values, display, standard = series_of(calc, step)
+    index = int(calc.branch[step.id][0, 0])
+    beside = [with_unit(f"{values[i]:g}", display) for i in (index - 1, index + 1) if 0 <= i < len(values)]
+    words = f"{SERIES_WORDS[step.rule]} {printed(calc, step.of)}; neighbours not taken: {', '.join(beside)}"
+    taken = {"series": standard.title, "source": "; ".join(standard.sources)} if standard else {}
+    return {"operation": "pick", "method": words} | taken

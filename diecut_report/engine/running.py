@@ -1,0 +1,37 @@
+"""The running integral of a curve, as Chebyshev series of its smooth pieces."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import numpy as np
+
+from diecut_report.engine.domain import piece_of
+from diecut_report.expressions import Array
+
+
+@dataclass(frozen=True)
+class RunningIntegral:
+    """∫ curve from the abscissa's start: for each variant and smooth piece a Chebyshev series over [-1, 1]."""
+
+    edges: Array  # (variants, pieces + 1)
+    series: Array  # (order, variants, pieces)
+
+    def values(self, x: Array, middle: Array, rows: Array | None) -> Array:
+        """Values at x (rows, points), each in the piece that its middle lies in; rows are variants (default all)."""
+        known = np.arange(len(self.edges)) if rows is None else rows
+        variant = np.broadcast_to(known[:, None] if len(self.edges) > 1 else 0, x.shape)
+        edges = self.edges if len(self.edges) == 1 else self.edges[known]
+        piece = piece_of(np.broadcast_to(edges, (len(x), edges.shape[1])), np.broadcast_to(middle, x.shape))
+        start, end = self.edges[variant, piece], self.edges[variant, piece + 1]
+        place = (2 * x - start - end) / np.where(end > start, end - start, 1)
+        return _clenshaw(place, lambda k: self.series[k, variant, piece], len(self.series))
+
+
+def _clenshaw(x: Array, coefficient: Callable[[int], Array], order: int) -> Array:
+    later = last = np.zeros_like(x)
+    for k in range(order - 1, 0, -1):
+        last, later = coefficient(k) + 2 * x * last - later, last
+    total: Array = coefficient(0) + x * last - later
+    return total
