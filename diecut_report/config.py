@@ -121,6 +121,7 @@ class Config:
 def load_config(path: Path, discovery: Discovery) -> Config:
     """Read and validate a configuration; UserError with all its problems. A broken plugin is kept in ``broken``."""
     tree = yaml_tree.load(path)
+    discovery.extend()
     reader = _Reader(tree, discovery)
     linker = Linker(reader.instances)
     order, loops = ordered(reader.instances, linker.links)

@@ -4,6 +4,9 @@ Kinds come from three places: the program's own folder of plugins, the entry poi
 the name is the kind) of installed packages, and local folders. A folder of plugins may hold a list ``kinds.yaml``
 (``KIND: FILE.py`` or ``KIND: FILE.py:ATTRIBUTE``); without it each ``NAME.py`` and each folder ``NAME`` with an
 ``__init__.py`` is the kind NAME. The attribute that holds the mechanism is MECHANISM unless it is named.
+
+A file ``extend_NAME.py`` of a local folder, or an entry point of the group "diecut_report.extensions", is no kind: it is run
+before a configuration is read, to add to a registry (such as the motion laws).
 """
 
 from __future__ import annotations
@@ -27,6 +30,8 @@ from diecut_report.contract.mechanism import Mechanism
 from diecut_report.errors import PluginError, Problem, UserError
 
 GROUP = "diecut_report.plugins"
+EXTENSIONS = "diecut_report.extensions"
+EXTENSION = "extend_"
 ATTRIBUTE = "MECHANISM"
 LIST = "kinds.yaml"
 
@@ -62,6 +67,19 @@ class Discovery:
         for origin in [*_built_in(), *_installed(), *(o for folder in self._folders for o in _local(folder))]:
             found.setdefault(origin.kind, []).append(origin)
         return dict(sorted(found.items()))
+
+    @cached_property
+    def _extensions(self) -> list[Origin]:
+        return [*_installed_extensions(), *(origin for folder in self._folders for origin in _extensions(folder))]
+
+    def extend(self) -> None:
+        """Run what adds to the registries, once; UserError where it cannot be run."""
+        while self._extensions:
+            origin = self._extensions.pop()
+            try:
+                origin.load()
+            except (Exception, SystemExit) as cause:
+                raise UserError(Problem(f"This extension cannot be loaded: {said(cause)}.", origin.told)) from cause
 
     def mechanism(self, kind: str) -> Mechanism:
         """The mechanism of a kind.
@@ -131,6 +149,16 @@ def _installed() -> Iterator[Origin]:
         yield Origin(entry.name, package, entry.load if entry.attr else partial(_of_module, entry.module))
 
 
+def _installed_extensions() -> Iterator[Origin]:
+    for entry in entry_points(group=EXTENSIONS):
+        yield Origin(entry.name, f"{entry.name} of an installed package", entry.load)
+
+
+def _extensions(folder: Path) -> Iterator[Origin]:
+    for file in sorted(folder.glob(f"{EXTENSION}*.py")):
+        yield Origin(file.stem, str(file), partial(_module_of, file))
+
+
 def _local(folder: Path) -> Iterator[Origin]:
     if not folder.is_dir():
         raise UserError(
@@ -144,7 +172,7 @@ def _local(folder: Path) -> Iterator[Origin]:
 
 def _names_in(folder: Path) -> list[str]:
     files = [path for path in folder.iterdir() if path.suffix == ".py" or (path / "__init__.py").is_file()]
-    return sorted(path.stem for path in files if not path.name.startswith(("_", ".")))
+    return sorted(path.stem for path in files if not path.name.startswith(("_", ".", EXTENSION)))
 
 
 def _listed(folder: Path) -> dict[str, tuple[str, str]]:

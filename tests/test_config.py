@@ -116,9 +116,9 @@ FIXED = [
     (
         "kind: lever",
         "kind: levr",
-        "5:13: mechanisms.a.kind: 'levr' is no known kind (did you mean 'lever'?). Known: cylinder_drive,",
+        "5:13: mechanisms.a.kind: 'levr' is no known kind (did you mean 'lever'?). Known: cam_gear_transport,",
     ),
-    ("kind: lever, ", "", "5:3: mechanisms.a.kind: is missing. Give one of: cylinder_drive, cylinder_sizing, lever."),
+    ("kind: lever, ", "", f"5:3: mechanisms.a.kind: is missing. Give one of: {', '.join(DISCOVERY.origins)}."),
     ("kind: lever", "kind: [lever]", "5:13: mechanisms.a.kind: is a list; the name of a kind is needed"),
     (
         "  a: {kind: lever, force: 2 kN}",

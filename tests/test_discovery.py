@@ -31,7 +31,7 @@ def test_the_built_in_kinds_are_known_without_importing_them() -> None:
     assert shown[1] == "[]"
 
 
-@pytest.mark.parametrize("kind", ["cylinder_sizing", "cylinder_drive"])
+@pytest.mark.parametrize("kind", Discovery().origins)
 def test_a_built_in_kind_gives_its_mechanism(kind: str) -> None:
     assert Discovery().mechanism(kind).kind == kind
 
@@ -154,3 +154,31 @@ def test_a_folder_that_is_not_there_and_a_list_that_is_none_are_told(tmp_path: P
     (tmp_path / "kinds.yaml").write_text("- lever\n")
     with pytest.raises(UserError, match="A list of kinds is needed"):
         _ = Discovery([tmp_path]).origins
+
+
+def test_an_extension_is_run_once_and_is_no_kind(tmp_path: Path) -> None:
+    (tmp_path / "extend_laws.py").write_text("import sys\nsys.laws_seen = getattr(sys, 'laws_seen', 0) + 1\n", "utf-8")
+    known = Discovery([tmp_path])
+    try:
+        known.extend()
+        known.extend()
+        assert vars(sys)["laws_seen"] == 1 and not any("laws" in kind for kind in known.origins)
+    finally:
+        vars(sys).pop("laws_seen", None)
+
+
+def test_an_extension_of_an_installed_package_is_run(monkeypatch: pytest.MonkeyPatch) -> None:
+    entries = [EntryPoint("laws", "no_such_module_of_laws", discovery.EXTENSIONS)]
+    monkeypatch.setattr(discovery, "entry_points", lambda group: [e for e in entries if e.group == group])
+    with pytest.raises(
+        UserError, match="laws of an installed package: This extension cannot be loaded: .*no_such_module"
+    ):
+        Discovery().extend()
+
+
+def test_a_broken_extension_names_its_file_and_the_cause(tmp_path: Path) -> None:
+    (tmp_path / "extend_bad.py").write_text("1 / 0\n", "utf-8")
+    with pytest.raises(
+        UserError, match=r"extend_bad.py: This extension cannot be loaded: ZeroDivisionError.*extend_bad.py:1"
+    ):
+        Discovery([tmp_path]).extend()

@@ -4,12 +4,14 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from pathlib import Path
+from typing import get_args
 
 from pydantic_core import PydanticUndefined
 
-from diecut_report.contract.inputs import CurveInput, Meta, Quantity, meta_of
+from diecut_report.contract.inputs import Block, CurveInput, Meta, OneOf, Quantity, meta_of, nested
 from diecut_report.contract.mechanism import Mechanism
 from diecut_report.contract.steps import SILENT, Crossings, Reduction, Step, Words
+from diecut_report.discovery import Discovery
 from diecut_report.units import pretty, unit
 
 PAGES = Path(__file__).parents[1] / "docs" / "mechanisms"
@@ -17,10 +19,10 @@ PAGES = Path(__file__).parents[1] / "docs" / "mechanisms"
 
 def pages() -> dict[Path, str]:
     """The text of each page by its file."""
-    from diecut_report.plugins.cylinder_drive import MECHANISM as DRIVE
-    from diecut_report.plugins.cylinder_sizing import MECHANISM as SIZING
-
-    return {PAGES / f"{m.kind}.md": "\n".join(page(m)) for m in (SIZING, DRIVE)}
+    discovery = Discovery()
+    mechanisms = [discovery.mechanism(kind) for kind in discovery.origins]
+    compared = {c.mechanism.kind: c.mechanism for m in mechanisms for c in m.comparisons}
+    return {PAGES / f"{m.kind}.md": "\n".join(page(m)) for m in [*mechanisms, *compared.values()]}
 
 
 def page(mechanism: Mechanism) -> Iterator[str]:
@@ -30,7 +32,8 @@ def page(mechanism: Mechanism) -> Iterator[str]:
     yield "Made from the plugin's declaration by `python tools/make_mechanism_pages.py`.\n"
     yield "## Inputs\n"
     yield from _table("key", "symbol", "unit", "default", "allowed", "meaning")
-    yield from _inputs(mechanism)
+    yield from _inputs(mechanism.inputs)
+    yield from _choices(mechanism.inputs)
     yield "\n## Outputs\n"
     yield "Units are those of the results file. Optional chapters need the inputs named.\n"
     yield from _table("id", "symbol", "unit", "meaning", "source", "needs")
@@ -52,27 +55,43 @@ def _table(*columns: str) -> Iterator[str]:
     yield f"| {' | '.join('---' for _ in columns)} |"
 
 
-def _inputs(mechanism: Mechanism) -> Iterator[str]:
-    for name, field in mechanism.inputs.model_fields.items():
-        meta = meta_of(mechanism.inputs, name)
+def _inputs(model: type[Block], prefix: str = "") -> Iterator[str]:
+    """A line for each key, those of a block below it (``gears[].driver_teeth`` for a list of blocks)."""
+    for name, field in model.model_fields.items():
+        meta, inner = meta_of(model, name), nested(field.annotation)
         if meta is not None:
-            yield f"| `{name}` | {meta.symbol} | {_unit(meta)} | {_default(meta, field.default)} | {_allowed(meta)} | {meta.description} |"
+            told = f"{_unit(meta)} | {_default(meta, field.default)} | {_allowed(meta, field.annotation)} | {meta.description}"
+            yield f"| `{prefix}{name}` | {meta.symbol} | {told} |"
+        if inner:
+            yield from _inputs(inner[0], f"{prefix}{name}{'[]' if inner[1] else ''}.")
+
+
+def _choices(model: type[Block]) -> Iterator[str]:
+    """What must be given of several, in words."""
+    for rule in model.one_of:
+        yield f"\nGive {_groups(rule)}."
+
+
+def _groups(rule: OneOf) -> str:
+    return ", or ".join(" and ".join(f"`{key}`" for key in group) for group in rule.groups)
 
 
 def _unit(meta: Meta) -> str:
     return (pretty(meta.unit) or "–") if isinstance(meta, Quantity | CurveInput) else "–"
 
 
-def _allowed(meta: Meta) -> str:
-    return meta.allowed if isinstance(meta, Quantity) else ""
+def _allowed(meta: Meta, annotation: object) -> str:
+    if isinstance(meta, Quantity):
+        return meta.allowed
+    return ", ".join(f"`{option}`" for option in get_args(annotation) if isinstance(option, str))
 
 
 def _default(meta: Meta, default: object) -> str:
     if isinstance(meta, Quantity) and meta.press:
-        return f"from `{meta.press.path}`"
+        return f"from `{meta.press.path}`" + (", if given there" if meta.press.optional else "")
     if default is PydanticUndefined:
         return "required"
-    return "optional" if default is None else str(default)
+    return "optional" if default is None or default == [] else str(default)
 
 
 def _outputs(mechanism: Mechanism) -> Iterator[str]:
@@ -85,6 +104,8 @@ def _outputs(mechanism: Mechanism) -> Iterator[str]:
 
 
 def _id(step: Step) -> str:
+    if step.numbered:
+        return f"`{step.numbered.format(step.first)}` …"
     if isinstance(step, Crossings):
         return f"`{step.id}_count`, `{step.id}_1` …"
     place = isinstance(step, Reduction) and step.operation in ("max", "min", "abs_max")

@@ -104,9 +104,15 @@ def dips(calc: Calculation, curve: str) -> Array:
     rows, piece, k = np.nonzero(same & near & (domain.widths > 0)[:, :, None])
     if not len(rows):
         return np.full((calc.count, 0), np.nan)
+
+    def depth(x: Array, row: Array, middle: Array, sign: Array) -> Array:
+        height: Array = sign * _at(calc, curve, x, row, middle)
+        return height
+
+    left, centre, right = (grid[rows, piece, k + i] for i in range(3))
     found = elementwise.find_minimum(
-        lambda x, row, middle, sign: sign * _at(calc, curve, x, row, middle),
-        tuple(grid[rows, piece, k + i] for i in range(3)),
+        depth,
+        (left, centre, right),
         args=(rows.astype(float), domain.middles[rows, piece], side[rows, piece, k]),
     )
     places = np.where(found.f_x < 0, found.x, np.nan)

@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+from importlib import import_module
 from pathlib import Path
+from types import ModuleType
 
 from diecut_report.engine.printing import number_text
-from tests.validation import source_000
 from tests.validation.rows import Row
 
 PAGE = Path(__file__).parents[2] / "docs" / "validation.md"
@@ -30,16 +32,29 @@ def line(row: Row) -> str:
     return f"| {row.place} | {row.quantity} | {row.printed} | {shown(row, row.ours())} | {row.unit} | {row.verdict} | {row.why} |"
 
 
-def page() -> str:
-    """The whole page."""
-    title, _, source = (source_000.__doc__ or "").partition("\n\n")
+def chapters() -> Iterator[tuple[str, ModuleType]]:
+    """The modules with rows, each with the title of its chapter: those of sources first."""
+    for file in sorted(Path(__file__).parent.glob("source_*.py")):
+        yield file.stem.removeprefix("source_"), import_module(f"{__package__}.{file.stem}")
+    for file in sorted(Path(__file__).parent.glob("rows_*.py")):
+        yield f"`{file.stem.removeprefix('rows_')}`", import_module(f"{__package__}.{file.stem}")
+
+
+def chapter(title: str, module: ModuleType) -> str:
+    """The table of one module's rows under what it says of itself."""
+    head, _, source = (module.__doc__ or "").partition("\n\n")
     table = [
         "| place | quantity | printed | computed | unit | verdict | why |",
         "| --- | --- | --- | --- | --- | --- | --- |",
-        *map(line, source_000.ROWS),
+        *map(line, module.ROWS),
     ]
-    paragraph = " ".join(source.split())
-    return HEAD + f"## 000\n\n{title.strip()} {paragraph}\n\n" + "\n".join(table) + "\n"
+    paragraph = f"{head.strip()} {' '.join(source.split())}".strip()
+    return f"## {title}\n\n{paragraph}\n\n" + "\n".join(table) + "\n"
+
+
+def page() -> str:
+    """The whole page."""
+    return HEAD + "\n".join(chapter(title, module) for title, module in chapters())
 
 
 if __name__ == "__main__":

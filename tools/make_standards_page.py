@@ -1,0 +1,119 @@
+"""Makes docs/standards.md from the data files of the standard series: ``python tools/make_standards_page.py``."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from pathlib import Path
+
+from diecut_report.standards import (
+    StandardSeries,
+    StandardTable,
+    standard_ids,
+    standard_series,
+    standard_series_by,
+    standard_table,
+)
+from diecut_report.units import pretty
+
+PAGE = Path(__file__).parents[1] / "docs" / "standards.md"
+INTRODUCTION = """\
+# Standard series
+
+Made from the files in `diecut_report/standards/data` by `python tools/make_standards_page.py`.
+
+Where a method picks a standard size — the rating of a motor, the length of a belt, the pitch of a chain — it takes
+the size from one of the series below. A value stands here only if at least two published tables, independent of each
+other, agree on it; the tables are named under *Sources*. What is missing, and why, stands under *Left out*.
+"""
+USE = """\
+## Use in a plugin
+
+```python
+from diecut_report.api import standard_series, standard_series_by, standard_table
+
+standard_series("iec_60072_ratings").values           # (0.06, 0.09, 0.12, …), in kW
+standard_series_by("iso_4184_lengths")["SPA"].values  # (800.0, 900.0, …), in mm
+standard_table("vbelt_least_diameter").values["SPA"]  # 90.0, in mm
+```
+
+A table may also be read as a series: its different values in ascending order.
+
+## Adding a series
+
+Write `diecut_report/standards/data/ID.json` with `title`, `unit`, `sources` (two tables at least), `left_out` and one of
+
+- `values`: the values in ascending order, with `range`: the first and the last of them, stated again;
+- `table`: a value for each name;
+- `by`: for each name (such as a belt section) `values` and `range`, and `sources` or `left_out` if they differ from
+  those of the file;
+- `from`: the id of a series of one decade from 1 to 10, with `decades`: the powers of ten it is laid over, and `range`.
+
+A value out of order or given twice, a range that is not met, an unknown unit or fewer than two sources raise a `StandardFault`
+that names the series. Type a second source's table into `tests/test_standards.py` and make this page again.
+"""
+
+
+def pages() -> dict[Path, str]:
+    """The text of the page by its file."""
+    return {PAGE: "\n".join([INTRODUCTION, *_overview(), "", *_chapters(), USE])}
+
+
+def _overview() -> Iterator[str]:
+    yield "| id | title | unit | different values | range |"
+    yield "| --- | --- | --- | --- | --- |"
+    for series in _all_series():
+        first, last = series.values[0], series.values[-1]
+        size = f"{len(series.values)} | {first:g} … {last:g}"
+        yield f"| `{series.id}` | {series.title} | {_unit(series) or '–'} | {size} |"
+
+
+def _all_series() -> Iterator[StandardSeries]:
+    for form in ("values", "from", "table"):
+        yield from map(standard_series, standard_ids(form))
+    for id in standard_ids("by"):
+        yield from standard_series_by(id).values()
+
+
+def _chapters() -> Iterator[str]:
+    for id in (*standard_ids("values"), *standard_ids("from")):
+        yield from _chapter(id, standard_series(id))
+    for id in standard_ids("table"):
+        yield from _chapter(id, standard_table(id))
+    for id in standard_ids("by"):
+        yield from _chapter(id, *standard_series_by(id).values())
+
+
+def _chapter(id: str, *parts: StandardSeries | StandardTable) -> Iterator[str]:
+    yield f"## {parts[0].title} — `{id}`\n"
+    for part in parts:
+        if name := part.id.removeprefix(id).removeprefix("."):
+            yield f"### {name}\n"
+        yield _numbers(part) if isinstance(part, StandardSeries) else "\n".join(_rows(part))
+        yield "\nSources:\n"
+        yield from (f"- {source}" for source in part.sources)
+        yield ""
+    if len(parts) > 1:
+        yield "### Not in the series\n"
+    yield from (f"Left out: {text}\n" for text in dict.fromkeys(part.left_out for part in parts) if text)
+
+
+def _numbers(series: StandardSeries) -> str:
+    """The values on one line; of a very long series the first and last few."""
+    shown = [f"{value:g}" for value in series.values]
+    text = " · ".join(shown) if len(shown) <= 60 else f"{' · '.join(shown[:6])} … {' · '.join(shown[-4:])}"
+    return f"{text} {_unit(series)}".rstrip()
+
+
+def _rows(table: StandardTable) -> Iterator[str]:
+    yield f"| name | value, {_unit(table)} |"
+    yield "| --- | --- |"
+    yield from (f"| {name} | {value:g} |" for name, value in table.values.items())
+
+
+def _unit(of: StandardSeries | StandardTable) -> str:
+    return "" if of.unit == "1" else pretty(of.unit)
+
+
+if __name__ == "__main__":
+    for file, text in pages().items():
+        file.write_text(text, encoding="utf-8")
