@@ -44,10 +44,15 @@ class CurveHandle:
         """The abscissa that the curve runs over."""
         return self.calculation.domains[self.calculation.axis[self.curve_id]]
 
-    def values(self, share: Array, rows: Array | None) -> Array:
-        """Values at shares of the period, shape (rows, points); rows are variants (default all)."""
-        x = share * self.domain.period
-        return self.calculation.sample(self.curve_id, x, self.domain.middle_of(x, rows), rows)
+    def values(self, share: Array, middle: Array, rows: Array | None) -> Array:
+        """Values at shares of the period, shape (rows, points), each in the smooth piece of its middle (a share too).
+
+        ``rows`` are variants (default all).
+        """
+        period = self.domain.period
+        return self.calculation.sample(
+            self.curve_id, share * period, self.domain.middle_of(middle * period, rows), rows
+        )
 
     @property
     def breakpoints(self) -> Array:
@@ -61,8 +66,8 @@ class SampledCurve:
 
     numbers: tuple[float, ...]
 
-    def values(self, share: Array, rows: Array | None) -> Array:
-        """Values at shares of the period, of any shape (all variants have the same curve)."""
+    def values(self, share: Array, middle: Array, rows: Array | None) -> Array:
+        """Values at shares of the period, of any shape (all variants have the same curve, which has no jumps)."""
         places = np.arange(len(self.numbers) + 1) / len(self.numbers)
         found: Array = np.interp(share % 1, places, [*self.numbers, self.numbers[0]])
         return found
@@ -180,7 +185,8 @@ class _Sampler:
             return number if self.rows is None else number[self.rows]
         match step:
             case FromCurve(given=given):
-                found: Array = self.owner.inputs[given].values(self.x / self.owner.domains[self.axis].period, self.rows)
+                period = self.owner.domains[self.axis].period
+                found: Array = self.owner.inputs[given].values(self.x / period, self.mid / period, self.rows)
                 return found
             case Accumulated():
                 return self.owner.integrals[name].values(self.x, self.mid, self.rows)

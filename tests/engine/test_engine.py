@@ -108,6 +108,14 @@ def test_a_curve_is_an_input_of_another_mechanism_with_its_breakpoints() -> None
     assert number(taken, "taken_mean") == pytest.approx(number(source, "torque_mean"), rel=1e-12)
 
 
+def test_a_curve_taken_over_keeps_its_one_sided_limits_at_a_jump() -> None:
+    taken = toy(torque_curve=CurveHandle(toy(), "torque"))
+    (curve,) = (mechanism_results(taken, {})["curves"][name] for name in ("taken",))
+    jump = curve["breakpoints"].index(pytest.approx(2 * np.pi / 3))
+    moment = 200 * np.sin(2 * np.pi / 3)
+    assert (curve["left"][jump], curve["right"][jump]) == (pytest.approx(moment), pytest.approx(moment + 200))
+
+
 def test_a_list_of_values_is_a_curve_that_runs_straight_between_them() -> None:
     calc = toy(torque_curve=[0, 10, 0, -10])
     assert number(calc, "taken_max") == pytest.approx(10)
