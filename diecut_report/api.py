@@ -59,6 +59,7 @@ from diecut_report.standards import (
     standard_series_by,
     standard_table,
 )
+from diecut_report.texts import si, told
 
 __all__ = [
     "GRAVITY", "POINTS", "Abscissa", "Accumulated", "Annotated", "BarGroup", "Bars", "Binding", "Block", "Bound", "Breakpoints",
@@ -67,6 +68,6 @@ __all__ = [
     "Panel", "Part", "Pick", "Plot", "Point", "Polar", "Profile", "Quantity", "Reduction", "Require", "Root", "Running", "Section",
     "Series", "Shape", "Source", "Span", "StandardSeries", "StandardTable", "Step", "Text", "Total", "Value", "View", "Words",
     "arc", "arccos", "arrow", "bind", "box", "chart_panel", "circle", "dimension", "fill", "formula", "label", "level", "line",
-    "mark", "point", "polyline", "prefixed", "radius_dimension", "region", "standard_series", "standard_series_by",
-    "standard_table", "vertical",
+    "mark", "point", "polyline", "prefixed", "radius_dimension", "region", "si", "standard_series", "standard_series_by",
+    "standard_table", "told", "vertical",
 ]  # fmt: skip

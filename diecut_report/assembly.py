@@ -10,9 +10,9 @@ from diecut_report.compute import Run
 from diecut_report.config import Press
 from diecut_report.contract.inputs import Block, CurveInput, Quantity, flatten
 from diecut_report.engine import CurveHandle
-from diecut_report.engine.printing import shortest
 from diecut_report.references import PRESS, Instance
 from diecut_report.results import RANK, worst
+from diecut_report.texts import shortest
 from diecut_report.units import unit
 from diecut_report.validation import declared, keys_of
 

@@ -14,8 +14,9 @@ from diecut_report.contract.inputs import CurveInput, Quantity, fields
 from diecut_report.contract.steps import SILENT, Crossings, Step, Words
 from diecut_report.engine import Calculation
 from diecut_report.engine.derive import section_items
-from diecut_report.engine.printing import filled, shortest, shown, with_unit
+from diecut_report.engine.printing import filled
 from diecut_report.engine.views import figures
+from diecut_report.texts import shortest, shown, with_unit
 from diecut_report.units import unit
 
 Data = dict[str, Any]

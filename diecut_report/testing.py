@@ -17,7 +17,7 @@ import pint
 from diecut_report.contract.binding import Binding, Bound, ByText, bound
 from diecut_report.contract.checks import Check
 from diecut_report.contract.families import taken
-from diecut_report.contract.inputs import fields
+from diecut_report.contract.inputs import Block, fields, nested
 from diecut_report.contract.mechanism import Mechanism
 from diecut_report.contract.steps import SILENT, Abscissa, Case, Choice, Root, Step, Value, Words
 from diecut_report.expressions import Constant, Formula, evaluate
@@ -71,7 +71,7 @@ def units_of(mechanism: Mechanism) -> dict[str, str]:
 
 def ids(mechanism: Mechanism) -> Iterator[str]:
     """Ids that a formula, check or step takes and nothing gives; quantities without symbol or description."""
-    known = {*units_of(mechanism), *(name for name, _ in fields(mechanism.inputs))}
+    known = {*units_of(mechanism), *inputs_of(mechanism.inputs)}
     known |= {f"{step.id}_at" for _, step in mechanism.steps} | {f"{step.id}_count" for _, step in mechanism.steps}
     for _, step in mechanism.steps:
         yield from (f"{step.id} takes {name}, which nothing gives" for name in sorted(taken(step) - known))
@@ -85,13 +85,22 @@ def ids(mechanism: Mechanism) -> Iterator[str]:
             yield f"{step.id} has no symbol or no description"
 
 
+def inputs_of(model: type[Block], prefix: str = "") -> Iterator[str]:
+    """The paths of all inputs and of the blocks that hold them."""
+    for name, field in model.model_fields.items():
+        yield f"{prefix}{name}"
+        block = nested(field.annotation)
+        if block:
+            yield from inputs_of(block[0], f"{prefix}{name}.")
+
+
 def dimensions(mechanism: Mechanism) -> Iterator[str]:
     """Formulas whose dimensions do not balance, or do not give what their step declares."""
     units = units_of(mechanism)
     for step, part, link in formulas(mechanism):
         try:
             with np.errstate(all="ignore"):
-                result = _dimensioned(link.formula)(*(_quantity(name, units) for name in link.names.values()))
+                result = _dimensioned(link.formula)(*_quantities(link, units))
         except (pint.DimensionalityError, pint.OffsetUnitCalculusError, ValueError) as error:
             yield f"{step.id}: {link.formula.__name__}: {error}"
             continue
@@ -113,7 +122,7 @@ def relations(mechanism: Mechanism) -> Iterator[str]:
     for step, part, link in formulas(mechanism):
         if part in ("left", "right"):
             with np.errstate(all="ignore"):
-                result = _dimensioned(link.formula)(*(_quantity(name, units) for name in link.names.values()))
+                result = _dimensioned(link.formula)(*_quantities(link, units))
             sides.setdefault(step.id, []).append(result)
     yield from (f"{name}: the relation equals {a} with {b}" for name, (a, b) in sides.items() if not _like(a, b))
 
@@ -127,8 +136,10 @@ def _wanted(step: Step, part: str, units: dict[str, str]) -> str | None:
     return None
 
 
-def _quantity(name: str | float, units: dict[str, str]) -> Any:
-    return REGISTRY.Quantity(0.6, units[name]) if isinstance(name, str) else name
+def _quantities(link: Bound, units: dict[str, str]) -> list[Any]:
+    """What a formula takes, as quantities of unlike sizes: equal ones would make a difference in a denominator zero."""
+    return [REGISTRY.Quantity(0.6 + 0.01 * i, units[name]) if isinstance(name, str) else name
+            for i, name in enumerate(link.names.values())]  # fmt: skip
 
 
 def _dimensioned(formula: Formula) -> Any:

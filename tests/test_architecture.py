@@ -26,7 +26,7 @@ FOLDERS = {  # folder of the repository: package or name under which its modules
 # A module of diecut_report may import modules of its own line and of the lines above it ("" is the package itself).
 LAYERS = [
     {"", "errors", "units"},
-    {"standards"},
+    {"standards", "texts"},
     {"expressions"},
     {"mechanics"},
     {"contract"},
@@ -38,16 +38,17 @@ LAYERS = [
     {"comparing", "testing"},
     {"compute"},
     {"assembly"},
-    {"report"},
+    {"report", "exports"},
     {"pipeline"},
     {"progress"},
     {"cli"},
     {"__main__"},
 ]
-REPORT = LAYERS.index({"report"})
+REPORT = LAYERS.index({"report", "exports"})
 ONLY_IN = {  # library: the modules of the program that may import it
     "matplotlib": r"diecut_report\.report\.(figures|charts|drawing)",
     "weasyprint": r"diecut_report\.report\.pdf",
+    "ezdxf": r"diecut_report\.exports",
     "jinja2": r"diecut_report\.report\.(html|document)",
     "scipy.stats": r"(?!)",  # slow to import, and nothing here needs it
     "matplotlib.pyplot": r"(?!)",  # keeps global state

@@ -41,11 +41,12 @@ class FromPress:
 class OneOf:
     """Inputs of which one group is needed: ``OneOf(("torque",), ("power", "speed"))``.
 
-    At least one group must be given completely, and the first keys of two groups must not both be given.
+    One group must be given completely, and nothing of another one, but for the keys that are ``shared``: these have a use
+    beside each group.
     """
 
-    def __init__(self, *groups: tuple[str, ...]) -> None:
-        self.groups = groups
+    def __init__(self, *groups: tuple[str, ...], shared: tuple[str, ...] = ()) -> None:
+        self.groups, self.shared = groups, shared
 
     def fault(self, given: Iterable[str]) -> str:
         """What is wrong with the keys that are given, in words; empty where nothing is."""
@@ -54,10 +55,14 @@ class OneOf:
         heads = [group[0] for group in self.groups if group[0] in known]
         if len(heads) > 1:
             return f"{' and '.join(heads)} are both given, but only one can hold; give {told}."
-        if any(known.issuperset(group) for group in self.groups):
-            return ""
-        begun = [(group, [key for key in group if key not in known]) for group in self.groups if known & set(group[:1])]
+        complete = [group for group in self.groups if known.issuperset(group)]
+        if complete:
+            idle = [key for group in self.groups for key in group if key in known - {*complete[0], *self.shared}]
+            without = f"has no use beside {' and '.join(complete[0])}; remove it"
+            return f"{' and '.join(idle)} {without}, or give {told}." if idle else ""
+        begun = [group for group in self.groups if known & set(group) - set(self.shared)]
         if begun:
-            group, missing = begun[0]
-            return f"{' and '.join(missing)} is missing beside {group[0]}; give {told}."
+            missing = [key for key in begun[0] if key not in known]
+            beside = [key for key in begun[0] if key in known]
+            return f"{' and '.join(missing)} is missing beside {' and '.join(beside)}; give {told}."
         return f"{told} is needed."

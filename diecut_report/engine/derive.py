@@ -11,8 +11,9 @@ from diecut_report.contract.parts import Lookup, Neighbour, Part, Pick, Running,
 from diecut_report.contract.steps import Abscissa, Accumulated, Choice, Crossings, Reduction, Root, Step, Value, Words
 from diecut_report.engine import rows
 from diecut_report.engine.calculation import Calculation
-from diecut_report.engine.printing import Substitution, number_text, printed, shown, with_unit
+from diecut_report.engine.printing import Substitution, printed
 from diecut_report.expressions import Array, Node
+from diecut_report.texts import number_text, shown, with_unit
 from diecut_report.units import unit
 
 Item = dict[str, Any]

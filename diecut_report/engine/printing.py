@@ -15,43 +15,15 @@ import numpy as np
 
 from diecut_report.contract.binding import Bound
 from diecut_report.expressions import Node, evaluate, transform
-from diecut_report.units import pretty, unit
+from diecut_report.texts import DIGITS, number_text, rounded, shortest, with_unit
+from diecut_report.units import unit
 
 if TYPE_CHECKING:
     from diecut_report.engine.calculation import Calculation
 
-DIGITS = 4
 MOST_DIGITS = 17
 NAMED = re.compile(r"\{([\w.]+)\}")
 TRIGONOMETRIC = ("sin", "cos", "tan")
-
-
-def number_text(value: float, digits: int = DIGITS) -> str:
-    """A number with so many significant digits; whole numbers below a million stand as they are."""
-    if abs(value - round(value)) <= 1e-12 * abs(value) and abs(value) < 1e6:
-        return f"{round(value)}"
-    exponent = math.floor(math.log10(abs(float(f"{value:.{digits - 1}e}"))))
-    if -4 <= exponent < 6:
-        return f"{value:.{max(digits - 1 - exponent, 0)}f}"
-    mantissa, power = f"{value:.{digits - 1}e}".split("e")
-    return f"{mantissa}e{int(power)}"
-
-
-def shortest(value: float, digits: int = 6) -> str:
-    """What was typed, without the noise of a unit conversion: as few digits as say it, else ``digits``."""
-    short = f"{value:.15g}"
-    return number_text(value, digits) if len(short.replace(".", "").lstrip("0-")) > digits else short
-
-
-def shown(value: float, unit_text: str, digits: int = DIGITS) -> dict[str, str]:
-    """An SI value as text in a display unit."""
-    return {"text": number_text(value / unit(unit_text).factor, digits), "unit": unit_text}
-
-
-def with_unit(text: str, display: str) -> str:
-    """A number's text with its unit as one writes it: ``40 mm``, ``60°``, ``5``."""
-    sign = pretty(display)
-    return f"{text}{sign}" if sign == "°" else f"{text} {sign}".rstrip()
 
 
 def printed(calc: Calculation, name: str, variant: int = 0, part: int = 0) -> str:
@@ -131,7 +103,7 @@ class Substitution:
         raise ArithmeticError(f"condition {self.part.formula.__name__} does not come out as printed")
 
     def _agrees(self, tree: Node, again: float, target: float, form: tuple[str, int]) -> bool:
-        return shown(again, *form) == shown(target, *form) or abs(again - target) <= 1e-11 * self._size(tree)
+        return rounded(again, *form) == rounded(target, *form) or abs(again - target) <= 1e-11 * self._size(tree)
 
     def _size(self, tree: Node) -> float:
         """The size of the terms that a result is the sum of: what its rounding is to be judged by."""

@@ -8,8 +8,9 @@ from diecut_report.contract.parts import Lookup, Part, Pick, Total
 from diecut_report.contract.steps import Step
 from diecut_report.engine.calculation import Calculation
 from diecut_report.engine.parts import series_of
-from diecut_report.engine.printing import number_text, printed, shown, with_unit
+from diecut_report.engine.printing import printed
 from diecut_report.standards import StandardTable
+from diecut_report.texts import number_text, shown, with_unit
 from diecut_report.units import unit
 
 Item = dict[str, Any]

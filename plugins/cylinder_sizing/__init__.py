@@ -83,8 +83,8 @@ MECHANISM = Mechanism(
         Source("000", "Topolnytskyi P. V., Shustykevych A. I., Kolomiiets A. B., Vatuliak Yu. V. Research of the drive parameters "
                "of the pressure cylinder of a flat-bed type die-cutting machine. 2024. "
                "doi: 10.32403/1998-6912-2024-2-69-140-150."),
-        Source("002", "Loizyk et al. Flat-cylinder die-cutting press: parameters of the working parts. "
-               "Lviv Polytechnic National University (in Ukrainian)."),
+        Source("002", "Loizyk V. V., Bryndas A. M., Shelonh N. M., Ternytskyi S. V. Analytical studies of drive mechanism parameters of "
+               "flat cylinder die-cutting press. Lviv Polytechnic National University (in Ukrainian)."),
     ),
     errata=(
         Erratum("000", "The bore radius is stated as 80 mm, but all numbers of the paper use 70 mm.", ("bore_mass", "mass")),

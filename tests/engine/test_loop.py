@@ -160,7 +160,8 @@ def test_an_export_names_its_curves() -> None:
     [
         ("", "pull, or mass and gravity is needed"),
         (", mass: 2 kg", "gravity is missing beside mass; give pull, or mass and gravity"),
-        (", gravity: 9.8", "pull, or mass and gravity is needed"),
+        (", gravity: 9.8", "mass is missing beside gravity; give pull, or mass and gravity"),
+        (", pull: 1, gravity: 9.8", "gravity has no use beside pull; remove it, or give pull, or mass and gravity"),
         (", pull: 1, mass: 2, gravity: 9.8", "pull and mass are both given"),
     ],
 )

@@ -8,9 +8,9 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from diecut_report.engine.printing import number_text, shortest
 from diecut_report.expressions import Node, evaluate
 from diecut_report.results import mechanism_results
+from diecut_report.texts import number_text, shortest
 from diecut_report.units import unit
 from tests.machines import UNBALANCED, cylinder, drive
 

@@ -1,0 +1,56 @@
+"""Rubber end-of-stroke damper: length, load, stop, buckling (002 eq. 18–23)."""
+
+from __future__ import annotations
+
+from diecut_report.api import Check, Mechanism, Source
+from diecut_report.plugins.damper.figures import FIGURES
+from diecut_report.plugins.damper.formulas import SLENDEREST
+from diecut_report.plugins.damper.inputs import Damper
+from diecut_report.plugins.damper.steps import SECTIONS
+
+ROUNDING = 1e-9  # relative: a length that was sized for a limit reaches it
+
+MECHANISM = Mechanism(
+    kind="damper",
+    version="1.0",
+    title="Rubber end-of-stroke damper",
+    summary="Rubber blocks on the guides, at both ends of the travel and on both sides of the cylinder, take what is left of its kinetic "
+    "energy. From energy, rubber and pad follow the length of the blocks, their stress, strain and force, the time and deceleration of "
+    "the stop, the rebound and the heat; the blocks are checked against buckling, and against a drive that still pushes.",
+    inputs=Damper,
+    sections=SECTIONS,
+    key_results=("kinetic_energy", "free_length", "adopted_length", "stress", "strain", "deflection", "peak_force", "peak_deceleration",
+                 "stop_time", "rebound_velocity", "heat_power", "slenderness", "driven_deflection", "driven_stress"),
+    checks=(
+        Check(id="strain", title="Strain within the linear law", demand="strain", limit="max_strain", unit="1", tolerance=ROUNDING,
+              demand_label="strain", limit_label="linear up to", source="002 eq. 19",
+              consequence="the rubber is stiffer then than calculated, and the force greater; {strain_advice}."),
+        Check(id="stress", title="Compression stress", demand="stress", limit="allowable_stress", unit="MPa", tolerance=ROUNDING,
+              demand_label="stress", limit_label="allowed", source="002 eq. 22",
+              consequence="the block is too short to take up the energy; {stress_advice}."),
+        Check(id="slenderness", title="Buckling of the block", demand="slenderness", limit=SLENDEREST, unit="1", tolerance=ROUNDING,
+              demand_label="length over the smaller side", limit_label="straight up to", source="block with clamped ends",
+              consequence="the block buckles before it has taken up the energy; {buckling_advice}."),
+        Check(id="driven_stress", title="Stress with the drive still pushing", demand="driven_stress", limit="allowable_stress", unit="MPa",
+              tolerance=ROUNDING, demand_label="stress", limit_label="allowed", source="energy",
+              consequence="the work of the drive adds to the energy; {drive_advice}."),
+        Check(id="driven_strain", title="Strain with the drive still pushing", demand="driven_strain", limit="max_strain", unit="1",
+              tolerance=ROUNDING, demand_label="strain", limit_label="linear up to", source="energy",
+              consequence="the work of the drive presses the rubber beyond its linear law; {drive_advice}."),
+    ),
+    figures=FIGURES,
+    assumptions=(
+        "The rubber is linear in compression, and its ends are free enough to bulge: the modulus is that of the material, whatever "
+        "the shape of the block.",
+        "The dampers that act at once share the energy equally; the whole of it is taken up within one stroke of the damper, and what the "
+        "rubber loses meanwhile does not make the force smaller.",
+        "All that moves stops together: guides, carriage and frame are rigid.",
+        "A drive that still pushes does so with a constant force in the direction of travel.",
+    ),
+    sources=(
+        Source("002", "Loizyk V. V., Bryndas A. M., Shelonh N. M., Ternytskyi S. V. Analytical studies of drive mechanism parameters of "
+               "flat cylinder die-cutting press. Lviv Polytechnic National University (in Ukrainian)."),
+        Source("Gent 1958", "Gent A. N. On the relation between indentation hardness and Young's modulus. "
+               "Rubber Chemistry and Technology 31 (1958), 896–906."),
+    ),
+)  # fmt: skip

@@ -1,0 +1,82 @@
+"""Inputs of the rubber end-of-stroke damper."""
+
+from __future__ import annotations
+
+from typing import ClassVar
+
+from diecut_report.api import Annotated, Block, FromPress, Inputs, OneOf, Quantity
+from diecut_report.plugins.damper.formulas import USUAL_LOSS, half_the_sheets
+
+
+class Drive(Block):
+    """A drive that still pushes while the dampers stop the mass: its force, or its torque and the rolling radius."""
+
+    one_of: ClassVar[tuple[OneOf, ...]] = (OneOf(("force",), ("torque", "rolling_radius")),)
+
+    force: Annotated[
+        float | None,
+        Quantity("F", "N", "Force of the drive in the direction of travel, constant over the stop", gt=0),
+    ] = None
+    torque: Annotated[
+        float | None,
+        Quantity("M_F", "N*m", "Torque of the drive about the cylinder's axis, constant over the stop", gt=0),
+    ] = None
+    rolling_radius: Annotated[
+        float | None, Quantity("R_F", "mm", "Radius on which the torque rolls the cylinder", gt=0)
+    ] = None
+
+
+class Damper(Inputs):
+    """Keys of ``damper``."""
+
+    one_of: ClassVar[tuple[OneOf, ...]] = (
+        OneOf(("kinetic_energy",), ("mass", "inertia", "rolling_radius")),
+        OneOf(("elastic_modulus",), ("shore_hardness",)),
+    )
+
+    kinetic_energy: Annotated[
+        float | None, Quantity("W_k", "J", "Kinetic energy at contact; or mass, inertia and rolling_radius", gt=0)
+    ] = None
+    mass: Annotated[float | None, Quantity("m", "kg", "Mass that is stopped", gt=0)] = None
+    inertia: Annotated[
+        float | None, Quantity("I", "kg*m**2", "Moment of inertia of what rolls, about its axis", gt=0)
+    ] = None
+    rolling_radius: Annotated[float | None, Quantity("R", "mm", "Radius on which it rolls", gt=0)] = None
+    velocity: Annotated[float, Quantity("v", "m/s", "Speed at contact with the damper, not the drive's greatest", gt=0)]
+    elastic_modulus: Annotated[
+        float | None, Quantity("E", "MPa", "Elastic modulus of the rubber; or shore_hardness", gt=0)
+    ] = None
+    shore_hardness: Annotated[
+        float | None, Quantity("S_A", "1", "Shore A hardness of the rubber, for Gent's relation", ge=20, le=80)
+    ] = None
+    allowable_stress: Annotated[float, Quantity("[σ]", "MPa", "Allowed compression stress", gt=0)] = 1.0
+    ring_width: Annotated[float, Quantity("l", "mm", "Width of the ring: one side of the pad", gt=0)]
+    pad_height: Annotated[float, Quantity("y", "mm", "Height of the pad: its other side", gt=0)]
+    damper_count: Annotated[int, Quantity("n", "1", "Dampers that act at once", ge=1, integer=True)] = 2
+    adopted_length: Annotated[
+        float | None,
+        Quantity("H_a", "mm", "Length of the damper as it is made; if given, it is checked instead of sized", gt=0),
+    ] = None
+    length_step: Annotated[
+        float, Quantity("s_H", "mm", "The sized length is rounded up to a multiple of this", gt=0)
+    ] = 5
+    max_strain: Annotated[
+        float, Quantity("ε_max", "1", "Strain up to which the rubber obeys the linear law", gt=0, lt=1)
+    ] = 0.20
+    loss_fraction: Annotated[
+        float, Quantity("ψ", "1", "Share of the energy that one impact loses; or loss_tangent", ge=0, le=1)
+    ] = USUAL_LOSS
+    loss_tangent: Annotated[
+        float | None, Quantity("η", "1", "Loss tangent of the rubber, tan δ; with it the share that is lost", ge=0)
+    ] = None
+    impacts_per_hour: Annotated[
+        float | None,
+        Quantity(
+            "z",
+            "1/h",
+            "Impacts at one end of the travel, for the heat",
+            gt=0,
+            press=FromPress("press.productivity", half_the_sheets, optional=True),
+        ),
+    ] = None
+    drive: Drive | None = None

@@ -1,0 +1,408 @@
+"""The rubber damper against the motion of mass and spring, its energy, and its own advice put in."""
+
+from __future__ import annotations
+
+import re
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+from scipy.integrate import quad, solve_ivp
+from scipy.optimize import brentq
+
+from diecut_report import pipeline
+from diecut_report.discovery import Discovery
+from diecut_report.engine import Calculation, Impossible, calculate
+from diecut_report.engine.views import figures
+from diecut_report.plugins.damper import MECHANISM
+from diecut_report.plugins.damper.advice import rounded
+from diecut_report.results import mechanism_results
+from diecut_report.testing import check_mechanism
+from tests.configs import problems, saved
+from tests.machines import inputs, number
+from tests.validation.rows_damper import WORKED, damper
+
+ROLLING: dict[str, Any] = {"mass": "80 kg", "inertia": "0.9 kg*m**2", "rolling_radius": "105 mm"}
+
+
+def without(*keys: str) -> dict[str, Any]:
+    """The worked example without some of its keys."""
+    return {key: value for key, value in WORKED.items() if key not in keys}
+
+
+def calculated(keys: dict[str, Any]) -> Calculation:
+    """A damper with just these keys."""
+    return calculate(MECHANISM, inputs(MECHANISM, keys))
+
+
+def checks(calc: Calculation) -> dict[str, dict[str, Any]]:
+    """The checks by their ids."""
+    return {check["id"]: check for check in mechanism_results(calc, {})["checks"]}
+
+
+def passing(calc: Calculation) -> set[str]:
+    """The ids of the checks that pass."""
+    return {name for name, check in checks(calc).items() if check["status"] == "pass"}
+
+
+def springs(calc: Calculation) -> float:
+    """Stiffness of all dampers from the inputs alone, N/m."""
+    sides = float(calc["ring_width"][0, 0] * calc["pad_height"][0, 0])
+    return float(calc["damper_count"][0, 0]) * sides * number(calc, "elastic_modulus") / number(calc, "adopted_length")
+
+
+# --- energy and motion -----------------------------------------------------------------------------------------------
+
+
+def test_the_force_over_the_deflection_takes_up_the_energy() -> None:
+    calc = damper(damper_count=3)
+    taken = quad(lambda x: springs(calc) * x, 0, number(calc, "deflection"))[0]
+    assert taken == pytest.approx(150, rel=1e-12)
+    assert 3 * number(calc, "peak_force") == pytest.approx(springs(calc) * number(calc, "deflection"), rel=1e-12)
+
+
+def test_the_energy_is_that_of_translation_and_rotation() -> None:
+    calc = calculated(without("kinetic_energy") | ROLLING)
+    assert number(calc, "kinetic_energy") == pytest.approx(80 * 0.5**2 / 2 + 0.9 * (0.5 / 0.105) ** 2 / 2, rel=1e-12)
+    assert number(calc, "reduced_mass") == pytest.approx(80 + 0.9 / 0.105**2, rel=1e-12)
+
+
+def stopped(mass: float, stiffness: float, velocity: float, push: float) -> tuple[float, float]:
+    """Time and deflection at which a mass on a spring comes to rest, by integration of its motion."""
+
+    def rest(_: float, state: Any) -> float:
+        return float(state[1])
+
+    rest.terminal = True  # type: ignore[attr-defined]
+    rest.direction = -1  # type: ignore[attr-defined]
+
+    def motion(_: float, state: Any) -> list[float]:
+        return [state[1], (push - stiffness * state[0]) / mass]
+
+    found = solve_ivp(motion, (0, 100), (0, velocity), events=rest, rtol=1e-11, atol=1e-12, method="DOP853")
+    return float(found.t_events[0][0]), float(found.y_events[0][0][0])
+
+
+@pytest.mark.parametrize("push", [0.0, 40.0, 200.0, 3000.0])
+def test_the_stop_is_that_of_the_integrated_motion(push: float) -> None:
+    calc = calculated(without("kinetic_energy") | ROLLING | ({"drive": {"force": push}} if push else {}))
+    mass, stiffness = 80 + 0.9 / 0.105**2, springs(calc)
+    time, deflection = stopped(mass, stiffness, 0.5, push)
+    names = ("driven_stop_time", "driven_deflection", "driven_peak_deceleration")
+    names = names if push else ("stop_time", "deflection", "peak_deceleration")
+    expected = (time, deflection, (stiffness * deflection - push) / mass)
+    for name, value in zip(names, expected, strict=True):
+        assert number(calc, name) == pytest.approx(value, rel=1e-8)
+
+
+def test_the_loss_tangent_loses_what_a_damped_half_cycle_loses() -> None:
+    loss = 0.03
+    calc = damper(loss_tangent=loss)
+    mass, stiffness = number(calc, "reduced_mass"), springs(calc)
+    damping = loss * np.sqrt(stiffness * mass)
+
+    def back(_: float, state: Any) -> float:
+        return float(state[0])
+
+    back.direction = -1  # type: ignore[attr-defined]
+
+    def motion(_: float, state: Any) -> list[float]:
+        return [state[1], -(stiffness * state[0] + damping * state[1]) / mass]
+
+    end = 1.2 * np.pi * np.sqrt(mass / stiffness)
+    found = solve_ivp(motion, (0, end), (0, 0.5), events=back, rtol=1e-11, atol=1e-13, method="DOP853")
+    velocity = abs(found.y_events[0][-1][1])
+    assert number(calc, "loss_fraction") == pytest.approx(1 - (velocity / 0.5) ** 2, abs=2e-5)
+    assert number(calc, "rebound_velocity") == pytest.approx(velocity, rel=2e-5)
+
+
+def test_rebound_and_heat_share_the_energy() -> None:
+    calc = damper(loss_fraction=0.35, impacts_per_hour=1800)
+    left = number(calc, "reduced_mass") * number(calc, "rebound_velocity") ** 2 / 2
+    assert left + number(calc, "heat_power") * 3600 / 1800 == pytest.approx(150, rel=1e-12)
+
+
+def test_an_impact_that_loses_all_does_not_rebound() -> None:
+    assert number(damper(loss_fraction=1), "rebound_velocity") == 0
+
+
+@given(hardness=st.floats(20, 80))
+def test_the_modulus_is_that_of_a_half_space_under_the_durometers_punch(hardness: float) -> None:
+    """Gent's derivation: 56 gf + 7.62336 gf a degree, 0.1 in deep at zero, flat punch of radius 0.0203 in, incompressible."""
+    calc = calculated(without("elastic_modulus") | {"shore_hardness": hardness})
+    force = (56 + 7.62336 * hardness) * 9.81e-3
+    depth, radius = 0.1 * 25.4e-3 * (1 - hardness / 100), 0.0203 * 25.4e-3
+    assert number(calc, "elastic_modulus") == pytest.approx(force * (1 - 0.5**2) / (2 * radius * depth), rel=1e-4)
+
+
+# --- length ----------------------------------------------------------------------------------------------------------
+
+
+@given(steps=st.integers(1, 2000), stress=st.floats(0.1, 5), modulus=st.floats(1, 30), count=st.integers(1, 8))
+def test_a_length_that_is_a_multiple_of_the_step_stays(steps: int, stress: float, modulus: float, count: int) -> None:
+    energy = count * 1.5e-3 * stress**2 * steps * 0.005 / (2 * modulus) * 1e6
+    calc = damper(kinetic_energy=energy, allowable_stress=stress, elastic_modulus=modulus, damper_count=count)
+    assert number(calc, "adopted_length") == pytest.approx(steps * 0.005, rel=1e-12)
+    assert "stress" in passing(calc)
+
+
+@given(energy=st.floats(0.01, 1e5))
+def test_the_adopted_length_is_the_next_multiple_of_five_millimetres(energy: float) -> None:
+    calc = damper(kinetic_energy=energy)
+    free, adopted = number(calc, "free_length"), number(calc, "adopted_length")
+    assert free * (1 - 1e-8) <= adopted < free + 0.005
+    assert adopted / 0.005 == pytest.approx(round(adopted / 0.005), abs=1e-9)
+    assert number(calc, "stress") <= 1.2e6 * (1 + 1e-8)
+
+
+def test_a_length_of_almost_nothing_is_one_step() -> None:
+    assert number(damper(kinetic_energy=1e-12), "adopted_length") == pytest.approx(0.005, rel=1e-12)
+
+
+def test_a_given_length_is_checked_instead_of_sized() -> None:
+    calc = damper(adopted_length="400 mm")
+    assert number(calc, "free_length") == pytest.approx(5 / 9, rel=1e-12)
+    assert number(calc, "stress") == pytest.approx(1.2e6 * np.sqrt(5 / 9 / 0.4), rel=1e-12)
+    assert "stress" not in passing(calc)
+
+
+# --- advice: what a failing check tells to change passes when it is put in ---------------------------------------------
+
+
+def told(calc: Calculation, check: str) -> str:
+    """The message of a check that fails."""
+    found = checks(calc)[check]
+    assert found["status"] == "fail"
+    return str(found["message"])
+
+
+def after(text: str, words: str) -> str:
+    """The quantity that follows some words in a text."""
+    found = re.search(re.escape(words) + r" ([\d.]+)( mm| MPa)?", text)
+    assert found, f"{words!r} is not in {text!r}"
+    return found[1] + (found[2] or "")
+
+
+def test_a_longer_block_passes_the_stress() -> None:
+    length = after(told(damper(adopted_length="400 mm"), "stress"), "set adopted_length to at least")
+    assert "stress" in passing(damper(adopted_length=length))
+
+
+@pytest.mark.parametrize("changes", [{}, {"adopted_length": "120 mm"}])
+def test_a_stiffer_rubber_or_a_longer_block_passes_the_strain(changes: dict[str, Any]) -> None:
+    soft = {"elastic_modulus": "4 MPa"} | changes
+    message = told(damper(**soft), "strain")
+    assert "strain" in passing(damper(**soft | {"elastic_modulus": after(message, "a modulus of at least")}))
+    assert "strain" in passing(damper(**soft | {"adopted_length": after(message, "set adopted_length to at least")}))
+
+
+@pytest.mark.parametrize("length", [{}, {"adopted_length": "300 mm"}])
+def test_a_wider_pad_or_more_dampers_pass_the_slenderness(length: dict[str, Any]) -> None:
+    message = told(damper(**length), "slenderness")
+    side, count = after(message, "take a pad of at least"), after(message, "mm, or")
+    assert "slenderness" in passing(damper(**length, ring_width=side, pad_height=side))
+    limit = after(message, "each at a length of at most")
+    assert {"slenderness", "stress"} <= passing(damper(damper_count=int(count), adopted_length=limit))
+
+
+def test_a_softer_rubber_is_told_where_its_strain_allows_it() -> None:
+    firm = {"elastic_modulus": "20 MPa", "allowable_stress": "1 MPa", "ring_width": "100 mm", "pad_height": "90 mm"}
+    modulus = after(told(damper(**firm), "slenderness"), "a rubber with a modulus of at most")
+    softer = damper(**firm | {"elastic_modulus": modulus})
+    assert {"slenderness", "stress", "strain"} <= passing(softer)
+    assert "a softer rubber alone does not help" in told(damper(), "slenderness")
+
+
+@given(energy=st.floats(1, 1e4), width=st.floats(2, 300), height=st.floats(2, 300), modulus=st.floats(1, 20))
+def test_pad_and_number_against_buckling_are_the_least(
+    energy: float, width: float, height: float, modulus: float
+) -> None:
+    keys = {"kinetic_energy": energy, "ring_width": width, "pad_height": height, "elastic_modulus": modulus}
+    calc = damper(**keys)
+    side = round(number(calc, "steady_pad_side") * 1e3)
+    assert side % 5 == 0
+    assert "slenderness" in passing(damper(**keys | {"ring_width": side, "pad_height": side}))
+    if side > 5:
+        assert "slenderness" not in passing(damper(**keys | {"ring_width": side - 5, "pad_height": side - 5}))
+    count = round(number(calc, "steady_damper_count"))
+    assert "slenderness" in passing(damper(**keys | {"damper_count": count}))
+    if count > 1:
+        assert "slenderness" not in passing(damper(**keys | {"damper_count": count - 1}))
+
+
+def test_a_pad_that_is_narrower_than_any_length_still_gets_advice() -> None:
+    calc = damper(pad_height="1 mm")
+    assert number(calc, "length_limit") == pytest.approx(3e-3)
+    count = int(number(calc, "steady_damper_count"))
+    assert {"slenderness", "stress"} <= passing(damper(pad_height="1 mm", damper_count=count, adopted_length="3 mm"))
+
+
+# --- the drive still pushing -----------------------------------------------------------------------------------------
+
+
+@given(push=st.floats(1, 1e5), energy=st.floats(0.1, 1e4), length=st.floats(20, 2000))
+def test_the_driven_deflection_holds_energy_and_work_of_the_drive(push: float, energy: float, length: float) -> None:
+    calc = damper(kinetic_energy=energy, adopted_length=length, drive={"force": push})
+    stiffness = springs(calc)
+    top = 2 * push / stiffness + np.sqrt(2 * energy / stiffness) + 1e-9
+    found = brentq(lambda x: stiffness * x**2 / 2 - energy - push * x, push / stiffness, top, xtol=1e-15, rtol=1e-14)
+    assert number(calc, "driven_deflection") == pytest.approx(found, rel=1e-9)
+    assert number(calc, "driving_work") == pytest.approx(push * found, rel=1e-9)
+    assert number(calc, "driven_stress") == pytest.approx(8e6 * found / (length / 1e3), rel=1e-9)
+    assert number(calc, "driven_peak_force") == pytest.approx(number(calc, "driven_stress") * 1.5e-3, rel=1e-12)
+    assert number(calc, "resting_deflection") == pytest.approx(push / stiffness, rel=1e-12)
+
+
+def test_a_torque_pushes_as_the_force_that_does_its_work() -> None:
+    """Rolling a turn takes the torque 2π rad and the axis 2π·R."""
+    by_torque = damper(drive={"torque": "21 N*m", "rolling_radius": "105 mm"})
+    assert number(by_torque, "driving_force") * 2 * np.pi * 0.105 == pytest.approx(21 * 2 * np.pi, rel=1e-12)
+
+
+@pytest.mark.parametrize("max_strain", [0.2, 0.1])
+def test_the_length_or_the_number_against_the_drive_keeps_the_limits_and_is_the_least(max_strain: float) -> None:
+    pushed: dict[str, Any] = {"drive": {"force": 300}, "max_strain": max_strain}
+    message = told(damper(**pushed), "driven_stress" if max_strain == 0.2 else "driven_strain")
+    length, count = after(message, "set adopted_length to"), int(after(message, "or take"))
+    at = after(message, "dampers with adopted_length:")
+    limits = {"driven_stress", "driven_strain"}
+    assert limits <= passing(damper(**pushed, adopted_length=length))
+    assert limits <= passing(damper(**pushed, damper_count=count, adopted_length=at))
+    assert not limits <= passing(damper(**pushed, damper_count=count - 1, adopted_length=at))
+    least = number(damper(**pushed), "driven_free_length")
+    assert limits <= passing(damper(**pushed, adopted_length=least * 1e3 * (1 + 1e-7)))
+    assert not limits <= passing(damper(**pushed, adopted_length=least * 1e3 * (1 - 1e-7)))
+
+
+def test_beyond_the_greatest_force_no_length_helps() -> None:
+    for length in (1e3, 1e5, 1e7, 1e9):
+        assert number(damper(drive={"force": 1800}, adopted_length=length), "driven_stress") > 1.2e6
+    hopeless = damper(drive={"force": 2000})
+    assert "driven_free_length" not in mechanism_results(hopeless, {})["outputs"]
+    message = told(hopeless, "driven_stress")
+    assert "no length helps" in message
+    count, at = int(after(message, "take")), after(message, "adopted_length:")
+    assert "driven_stress" in passing(damper(drive={"force": 2000}, damper_count=count, adopted_length=at))
+
+
+# --- arrays, figures, configs ----------------------------------------------------------------------------------------
+
+
+@given(
+    energy=st.lists(st.floats(1, 500), min_size=4, max_size=4),
+    push=st.lists(st.floats(1, 5000), min_size=4, max_size=4),
+    width=st.lists(st.floats(1, 200), min_size=4, max_size=4),
+)
+def test_variants_together_are_the_variants_alone(energy: list[float], push: list[float], width: list[float]) -> None:
+    varied = {"kinetic_energy": energy, "drive.force": push, "ring_width": [w / 1e3 for w in width]}
+    keys = WORKED | {"drive": {"force": 1}, "impacts_per_hour": 3000}
+    arrays = {name: np.array(values) for name, values in varied.items()}
+    together = calculate(MECHANISM, inputs(MECHANISM, keys) | arrays, variants=4)
+    for i in range(4):
+        alone = calculate(MECHANISM, inputs(MECHANISM, keys) | {name: values[i] for name, values in varied.items()})
+        for name, found in together.values.items():
+            if found.dtype == object:
+                assert found[i, 0] == alone[name][0, 0]
+            else:
+                assert found[i, 0] == pytest.approx(number(alone, name), rel=1e-12, nan_ok=True)
+
+
+def figure(calc: Calculation, name: str) -> dict[str, Any]:
+    """A figure's data by its id."""
+    return next(f for f in figures(calc) if f["id"] == name)
+
+
+def test_the_shaded_areas_are_the_energies() -> None:
+    calc = damper(drive={"force": 200})
+    fills = figure(calc, "force")["panels"][0]["fills"]
+    areas = [np.trapezoid(part["y"], part["x"]) for part in fills]
+    assert areas == pytest.approx([150, number(calc, "driving_work")], rel=1e-12)
+
+
+def test_the_pressed_block_is_drawn_with_its_length_and_its_volume() -> None:
+    calc = damper()
+    shapes = figure(calc, "block")["shapes"]
+    free, _, pressed = (np.array(shape["outer"]) for shape in shapes if shape.get("role") == "section")
+    assert np.ptp(pressed[:, 0]) == pytest.approx(0.56 - number(calc, "deflection"), rel=1e-12)
+    half = len(pressed) // 2
+    volumes = []
+    for outline in (free, pressed):
+        x, thick = outline[:half, 0], 2 * (outline[:half, 1] - outline[:, 1].mean())
+        volumes.append(np.trapezoid(thick**2 * 50 / 30, x))
+    assert volumes[0] == pytest.approx(0.05 * 0.03 * 0.56, rel=1e-12)
+    assert volumes[1] == pytest.approx(volumes[0], rel=1e-4)
+
+
+def test_a_block_that_cannot_be_pressed_so_far_is_drawn_free_alone() -> None:
+    shapes = figure(damper(elastic_modulus="1 MPa"), "block")["shapes"]
+    assert any("no block can be pressed" in shape.get("text", "") for shape in shapes)
+
+
+def test_the_length_falls_with_the_square_of_the_allowed_stress() -> None:
+    calc = damper()
+    line = figure(calc, "length")["panels"][0]["lines"][0]
+    assert np.array(line["y"]) * np.array(line["x"]) ** 2 == pytest.approx(5 / 9 * 1.2e6**2, rel=1e-12)
+
+
+CONFIG = """\
+schema_version: 1
+project: {title: Test}
+press: {name: P%s}
+mechanisms:
+  a: {kind: damper, ring_width: 50, pad_height: 30, %s}
+"""
+SURE = "kinetic_energy: 150, velocity: 0.5, elastic_modulus: 8"
+
+
+@pytest.mark.parametrize("press, impacts", [(", productivity: 6000 1/h", 3000), ("", None)])
+def test_half_the_sheets_heat_each_end(tmp_path: Path, press: str, impacts: float | None) -> None:
+    path = saved(tmp_path, CONFIG % (press, SURE))
+    found = pipeline.calc(path, Discovery(), lambda _: None)[0].results["mechanisms"]["a"]
+    if impacts is None:
+        assert "heat_power" not in found["outputs"]
+        assert any("impacts_per_hour" in absent["text"] for absent in found["absent"])
+    else:
+        assert found["outputs"]["heat_power"]["value"] == pytest.approx(0.2 * 150 * impacts / 3600, rel=1e-12)
+
+
+@pytest.mark.parametrize(
+    "keys, words",
+    [
+        ("velocity: 0.5, elastic_modulus: 8", ("kinetic_energy", "mass", "inertia", "rolling_radius")),
+        ("velocity: 0.5, elastic_modulus: 8, mass: 80", ("inertia and rolling_radius is missing beside mass",)),
+        (SURE + ", mass: 80, inertia: 1, rolling_radius: 100", ("kinetic_energy and mass are both given",)),
+        ("kinetic_energy: 150, velocity: 0.5", ("elastic_modulus", "shore_hardness")),
+        (SURE + ", shore_hardness: 60", ("elastic_modulus and shore_hardness are both given",)),
+        ("kinetic_energy: 150, elastic_modulus: 8", ("velocity", "is missing")),
+        ("kinetic_energy: 150, velocity: 0.5, shore_hardness: 19.9", ("out of range", "≥ 20", "≤ 80")),
+        (SURE + ", damper_count: 0", ("out of range", "≥ 1")),
+        (SURE + ", damper_count: 1.5", ("not a whole number",)),
+        (SURE + ", max_strain: 1", ("out of range", "< 1")),
+        (SURE + ", loss_fraction: 1.01", ("out of range", "≤ 1")),
+        (SURE + ", drive: {}", ("force", "torque")),
+        (SURE + ", drive: {torque: 20}", ("rolling_radius is missing beside torque",)),
+        (SURE + ", drive: {force: -1}", ("out of range",)),
+    ],
+)
+def test_bad_input_is_told_in_words(tmp_path: Path, keys: str, words: tuple[str, ...]) -> None:
+    [message] = problems(tmp_path, CONFIG % ("", keys), Discovery())
+    assert all(word in message for word in words), message
+
+
+def test_a_loss_beside_a_loss_tangent_is_refused() -> None:
+    with pytest.raises(Impossible, match=r"loss_fraction of 0\.3.*leave one of them out") as refused:
+        damper(loss_fraction=0.3, loss_tangent=0.1)
+    assert refused.value.key == "loss_tangent"
+
+
+@given(value=st.floats(1e-9, 1e9))
+def test_advice_is_rounded_to_the_safe_side(value: float) -> None:
+    assert value * 0.989 <= rounded(value, up=False) <= value * (1 + 1e-8)
+    assert value * (1 - 1e-8) <= rounded(value, up=True) <= value * 1.011
+
+
+def test_the_declaration_keeps_the_plugin_contract() -> None:
+    check_mechanism(MECHANISM)
