@@ -138,7 +138,7 @@ def _wanted(step: Step, part: str, units: dict[str, str]) -> str | None:
 
 def _quantities(link: Bound, units: dict[str, str]) -> list[Any]:
     """What a formula takes, as quantities of unlike sizes: equal ones would make a difference in a denominator zero."""
-    return [REGISTRY.Quantity(0.6 + 0.01 * i, units[name]) if isinstance(name, str) else name
+    return [REGISTRY.Quantity(np.float64(0.6 + 0.01 * i), units[name]) if isinstance(name, str) else name
             for i, name in enumerate(link.names.values())]  # fmt: skip
 
 

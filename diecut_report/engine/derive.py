@@ -104,6 +104,8 @@ def _at(calc: Calculation, axis: Step) -> str:
 
 def _value(calc: Calculation, step: Value, part: Bound) -> list[Item]:
     axis = calc.axis.get(step.id)
+    if step.id in calc.values and calc.values[step.id].dtype == bool:
+        return [_yes_or_no(calc, step, part)]
     item = _head(step) | {"type": "formula"} | _formula(calc, part, step, axis)
     if axis in calc.domains:
         item["at"] = _symbolled(calc, str(axis), step.per_piece)
@@ -113,6 +115,17 @@ def _value(calc: Calculation, step: Value, part: Bound) -> list[Item]:
             rows.table(calc, step, [name for name in part.names.values() if isinstance(name, str)] + [step.id]),
         ]
     return [item]
+
+
+def _yes_or_no(calc: Calculation, step: Value, part: Bound) -> Item:
+    """Whether a condition holds, with the one that does: itself or its opposite."""
+    held = bool(calc[step.id][0, 0])
+    substitution = Substitution(calc, part, lambda name: value_at(calc, name, None))
+    sides = [substitution.symbolic(), substitution.comparison(held)]
+    symbolic, numeric = (side.to_json() for side in (sides if held else map(negated, sides)))
+    answer = "yes" if held else "no"
+    return _head(step) | {"type": "choice", "words": "", "condition": symbolic, "condition_substituted": numeric,
+                          "equation": None, "substituted": None, "result": {"text": answer, "unit": "1"}}  # fmt: skip
 
 
 def _symbolled(calc: Calculation, axis: str, flag: bool) -> Item:
