@@ -53,11 +53,13 @@ def items(calc: Calculation, step: Step) -> list[Item]:
             return [_crossings(calc, step)]
         case Accumulated():
             return [_accumulated(calc, step)]
+        case Lookup() if step.id in calc.axis:
+            return [rows.looked_up(calc, step)]
         case Total() | Pick() | Lookup() | Part():
             return [_head(step) | rows.number(calc, step)]
-        case Neighbour() | Running():
+        case Running():
             return [rows.table(calc, step, [step.of, step.id])]
-        case Words():
+        case Neighbour() | Words():  # a neighbour stands beside its part in the table of what takes it
             return []
         case Abscissa(points=points):
             text = f"{step.description}; curves are sampled at {printed(calc, points)} places of it."

@@ -47,22 +47,29 @@ def number(calc: Calculation, step: Total | Pick | Lookup | Part) -> Item:
             return _lookup(calc, step) | {"result": result}
         case Pick():
             values = _pick(calc, step)
-        case Total(operation=operation):
-            values = {"operation": operation, "method": ""}
+        case Total(operation=operation, among=among):
+            counted = f"over the parts with {calc.step_or_input(among).symbol} > 0" if among else ""
+            values = {"operation": operation, "method": counted}
         case Part(index=index):
             values = {"operation": "last" if index < 0 else "first", "method": ""}
     return {"type": "reduction", "of": calc.step_or_input(step.of).symbol, "result": result} | values
 
 
+def looked_up(calc: Calculation, step: Lookup) -> Item:
+    """A row taken from a table, beside the texts by which it was taken."""
+    found = table(calc, step, [step.id])
+    found["columns"].insert(1, {"title": calc.meta[step.by].description, "symbol": "", "unit": "1"})
+    for line, text in zip(found["rows"], calc.inputs[step.by], strict=True):
+        line.insert(1, str(text))
+    return found
+
+
 def _lookup(calc: Calculation, step: Lookup) -> Item:
-    """Where a row was taken from, the first part stands for all."""
-    text = calc.inputs[step.by]
-    told = step.table.title if isinstance(step.table, StandardTable) else ""
     return {
         "type": "lookup",
         "by": calc.meta[step.by].description,
-        "key": text if isinstance(text, str) else str(text[0]),
-        "table": told,
+        "key": calc.inputs[step.by],
+        "table": step.table.title if isinstance(step.table, StandardTable) else "",
         "source": "; ".join(step.table.sources) if isinstance(step.table, StandardTable) else step.source,
     }
 
