@@ -11,7 +11,7 @@ import numpy as np
 
 from diecut_report.contract.checks import Check
 from diecut_report.contract.inputs import CurveInput, Quantity, fields
-from diecut_report.contract.steps import SILENT, Crossings, Step, Words
+from diecut_report.contract.steps import SILENT, Crossings, Step
 from diecut_report.engine import Calculation
 from diecut_report.engine.derive import section_items
 from diecut_report.engine.printing import filled
@@ -120,7 +120,7 @@ def numbers(calc: Calculation) -> Data:
     """Outputs and intermediate values: each step's number, with the place where an extreme occurs."""
     groups: dict[bool, Data] = {True: {}, False: {}}
     for step in calc.steps.values():
-        if step.id in calc.values and not isinstance(step, SILENT | Words):
+        if step.id in calc.values and not isinstance(step, SILENT):
             groups[step.output] |= _listed(calc, step) if isinstance(step, Crossings) else _rowed(calc, step)
     for name in calc.mechanism.key_results:
         if name in groups[True]:

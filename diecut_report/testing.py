@@ -19,7 +19,7 @@ from diecut_report.contract.checks import Check
 from diecut_report.contract.families import taken
 from diecut_report.contract.inputs import Block, fields, nested
 from diecut_report.contract.mechanism import Mechanism
-from diecut_report.contract.steps import SILENT, Abscissa, Case, Choice, Root, Step, Value, Words
+from diecut_report.contract.steps import SILENT, Abscissa, Case, Choice, Root, Step, Value
 from diecut_report.expressions import Constant, Formula, evaluate
 from diecut_report.units import unit
 
@@ -62,7 +62,7 @@ def units_of(mechanism: Mechanism) -> dict[str, str]:
     found = {name: unit(meta.unit).si for name, meta in fields(mechanism.inputs) if hasattr(meta, "unit")}
     found |= {f"inputs.{name}": si for name, si in found.items()}
     for _, step in mechanism.steps:
-        if not isinstance(step, SILENT | Words):
+        if not isinstance(step, SILENT):
             found[step.id] = unit(step.unit).si
             if step.numbered:
                 found |= {step.numbered.format(i): found[step.id] for i in range(step.first, step.first + 3)}
@@ -81,7 +81,7 @@ def ids(mechanism: Mechanism) -> Iterator[str]:
                 yield f"check {check.id} takes {name}, which nothing gives"
     yield from (f"the key result {name} is no step" for name in mechanism.key_results if name not in known)
     for _, step in mechanism.steps:
-        if not isinstance(step, SILENT | Words) and not (step.symbol and step.description):
+        if not isinstance(step, SILENT) and not (step.symbol and step.description):
             yield f"{step.id} has no symbol or no description"
 
 

@@ -10,7 +10,7 @@ from pydantic_core import PydanticUndefined
 
 from diecut_report.contract.inputs import Block, CurveInput, Meta, OneOf, Quantity, meta_of, nested
 from diecut_report.contract.mechanism import Mechanism
-from diecut_report.contract.steps import SILENT, Crossings, Reduction, Step, Words
+from diecut_report.contract.steps import SILENT, Crossings, Reduction, Step
 from diecut_report.discovery import Discovery
 from diecut_report.units import pretty, unit
 
@@ -97,7 +97,7 @@ def _default(meta: Meta, default: object) -> str:
 def _outputs(mechanism: Mechanism) -> Iterator[str]:
     seen: set[str] = set()
     for section, step in mechanism.steps:
-        if step.output and not isinstance(step, SILENT | Words) and step.id not in seen:
+        if step.output and not isinstance(step, SILENT) and step.id not in seen:
             seen.add(step.id)
             needs = ", ".join(f"`{n}`" for n in dict.fromkeys((*section.needs, *step.needs)))
             yield f"| {_id(step)} | {step.symbol} | {unit(step.unit).si} | {step.description} | {step.source} | {needs} |"

@@ -21,7 +21,6 @@ from diecut_report.contract.steps import (
     Reduction,
     Step,
     Value,
-    Words,
 )
 from diecut_report.units import unit
 
@@ -154,7 +153,7 @@ class Mechanism:
             if step.numbered:
                 names = (step.numbered.format(i) for i in range(step.first, step.first + MOST_NAMED))
                 found |= dict.fromkeys(names, (unit(step.unit).si, False))
-            text = isinstance(step, Words) or (isinstance(step, Choice) and isinstance(step.cases[0].value, str))
+            text = isinstance(step, Choice) and isinstance(step.cases[0].value, str)
             found[step.id] = (None if text else unit(step.unit).si, self.axis_of(step.id, given) is not None)
             if isinstance(step, Reduction) and step.operation in ("max", "min", "abs_max"):
                 abscissa = found[self.axis_of(step.of, given) or ""]

@@ -140,7 +140,10 @@ class Accumulated(Step):
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class Words(Step):
-    """A text made of numbers by plain code, for messages: ``function`` takes the numbers ``takes`` of one machine (SI)."""
+    """A text made of numbers by plain code, for messages (``{id}``): ``function`` takes the numbers ``takes`` of one machine, SI.
+
+    It is made only where a message or a drawing asks for it.
+    """
 
     function: Callable[..., str]
     takes: tuple[str, ...]
@@ -184,4 +187,4 @@ class Clash(Step):
     message: str
 
 
-SILENT = Breakpoints | Require | Clash  # steps that give no quantity
+SILENT = Breakpoints | Require | Clash | Words  # steps that give no quantity

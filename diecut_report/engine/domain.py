@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field
+from functools import cache
 
 import numpy as np
 from numpy.polynomial.legendre import leggauss
@@ -13,6 +14,8 @@ LOBATTO = 64  # intervals of the search grid in each smooth piece; it does not d
 
 SAME = 1e-13  # share of the period within which two breakpoints are one
 
+
+_legendre = cache(leggauss)
 
 FEW_EDGES = 40  # up to which edges are compared with all places at once
 
@@ -83,7 +86,7 @@ class Domain:
 
     def gauss(self, order: int) -> tuple[Array, Array]:
         """Gauss–Legendre points and weights in each piece, each of shape (variants, pieces, order)."""
-        node, weight = leggauss(order)
+        node, weight = _legendre(order)
         return (
             self.middles[:, :, None] + self.widths[:, :, None] * node / 2,
             self.widths[:, :, None] * weight / 2,

@@ -14,6 +14,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from diecut_report.contract.binding import Bound
+from diecut_report.contract.steps import Words
 from diecut_report.expressions import Node, evaluate, transform
 from diecut_report.texts import DIGITS, number_text, rounded, shortest, with_unit
 from diecut_report.units import unit
@@ -28,6 +29,9 @@ TRIGONOMETRIC = ("sin", "cos", "tan")
 
 def printed(calc: Calculation, name: str, variant: int = 0, part: int = 0) -> str:
     """A quantity as one would say it: ``40 mm``; of a row the value of one part."""
+    step = calc.steps.get(name)
+    if isinstance(step, Words):
+        return step.function(*(float(calc[taken][variant, 0]) for taken in step.takes))
     row: Any = calc[name]
     if isinstance(row, str | tuple):
         return row if isinstance(row, str) else str(row[part])
@@ -110,6 +114,8 @@ class Substitution:
         inner = tree.args[1] if tree.op == "call" and tree.args[0] == "abs" else tree
         if inner.op == "/":
             return self._size(inner.args[0]) / abs(float(evaluate(inner.args[1], self._printed_value)))
+        if inner.op == "*":
+            return self._size(inner.args[0]) * self._size(inner.args[1])
         terms = inner.args if inner.op in ("+", "-") else (inner,)
         with np.errstate(all="ignore"):
             return max(abs(float(evaluate(term, self._printed_value))) for term in terms)

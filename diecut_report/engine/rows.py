@@ -9,7 +9,7 @@ from diecut_report.contract.steps import Step
 from diecut_report.engine.calculation import Calculation
 from diecut_report.engine.parts import series_of
 from diecut_report.engine.printing import printed
-from diecut_report.standards import StandardTable
+from diecut_report.standards import StandardSeries, StandardTable
 from diecut_report.texts import number_text, shown, with_unit
 from diecut_report.units import unit
 
@@ -70,7 +70,7 @@ def _lookup(calc: Calculation, step: Lookup) -> Item:
         "by": calc.meta[step.by].description,
         "key": calc.inputs[step.by],
         "table": step.table.title if isinstance(step.table, StandardTable) else "",
-        "source": "; ".join(step.table.sources) if isinstance(step.table, StandardTable) else step.source,
+        **_tables(step.table),
     }
 
 
@@ -79,5 +79,11 @@ def _pick(calc: Calculation, step: Pick) -> Item:
     index = int(calc.branch[step.id][0, 0])
     beside = [with_unit(f"{values[i]:g}", display) for i in (index - 1, index + 1) if 0 <= i < len(values)]
     words = f"{SERIES_WORDS[step.rule]} {printed(calc, step.of)}; neighbours not taken: {', '.join(beside)}"
-    taken = {"series": standard.title, "source": "; ".join(standard.sources)} if standard else {}
-    return {"operation": "pick", "method": words} | taken
+    return {"operation": "pick", "method": words} | ({"series": standard.title} if standard else {}) | _tables(standard)
+
+
+def _tables(taken_from: object) -> Item:
+    """The published tables that agree on a standard value."""
+    if isinstance(taken_from, StandardTable | StandardSeries):
+        return {"note": f"{taken_from.title}: {'; '.join(taken_from.sources)}"}
+    return {}

@@ -48,6 +48,8 @@ def calculate(
         steps = [step for _, step in mechanism.active(calc.given) if only is None or step.id in only]
         for i, step in enumerate(steps):
             _search_ahead(calc, steps[i:])
+            if isinstance(step, Words):
+                continue
             try:
                 RUN[type(step)](calc, step)
             except Impossible as first:
@@ -204,12 +206,6 @@ def _accumulated(calc: Calculation, step: Accumulated) -> None:
     _prove(calc, step, solve.accumulate(calc, step), solve.SAMPLE_TOLERANCE)
 
 
-def _words(calc: Calculation, step: Words) -> None:
-    numbers = [calc[name][:, 0] for name in step.takes]
-    told = [step.function(*(float(n) for n in row)) for row in zip(*numbers, strict=True)]
-    calc.values[step.id] = np.array(told, dtype=object)[:, None]
-
-
 def _from_curve(calc: Calculation, step: FromCurve) -> None:
     calc.curves[step.id] = step
     domain = calc.domains[step.abscissa]
@@ -229,7 +225,7 @@ def _finite(calc: Calculation, step: Step) -> None:
 
 RUN: dict[type[Step], Callable[[Calculation, Any], None]] = {
     Value: _value, Choice: _choice, Root: _root, Abscissa: _abscissa, Breakpoints: _breakpoints, Crossings: _crossings,
-    Reduction: _reduction, Accumulated: _accumulated, FromCurve: _from_curve, Words: _words,
+    Reduction: _reduction, Accumulated: _accumulated, FromCurve: _from_curve,
     Require: possible.require, Clash: possible.clash,
     Total: parts.total, Neighbour: parts.neighbour, Running: parts.running, Part: parts.part, Lookup: parts.lookup,
     Pick: parts.pick,

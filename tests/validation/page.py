@@ -7,7 +7,7 @@ from importlib import import_module
 from pathlib import Path
 from types import ModuleType
 
-from diecut_report.engine.printing import number_text
+from diecut_report.texts import number_text
 from tests.validation.rows import Row
 
 PAGE = Path(__file__).parents[2] / "docs" / "validation.md"

@@ -1,0 +1,47 @@
+"""Drive train: motor, V-belt, flywheel, gears, toothed belt (002 eq. 7–11, 000 Fig. 1)."""
+
+from __future__ import annotations
+
+from diecut_report.api import Mechanism, Source
+from diecut_report.plugins.drive_train import chain, motor, vbelt
+from diecut_report.plugins.drive_train.checks import CHECKS
+from diecut_report.plugins.drive_train.figures import FIGURES
+from diecut_report.plugins.drive_train.inputs import DriveTrain
+from diecut_report.plugins.drive_train.toothed_belt import (
+    TOOTHED_BELT,
+    TOOTHED_BELT_ASSUMPTIONS,
+    TOOTHED_BELT_CHECKS,
+    TOOTHED_BELT_ERRATA,
+)
+
+MECHANISM = Mechanism(
+    kind="drive_train",
+    version="1.0",
+    title="Drive train: motor, V-belt, flywheel, gears, toothed belt",
+    summary="The motor drives the flywheel's shaft through a V-belt; pairs of gears drive the output shaft, normally the crank's. "
+    "Calculated are ratios, speeds, torques and powers of all shafts, the belt with a standard length, the motor and its run-up, the "
+    "flywheel from the torque over a turn, and, where there is one, the toothed belt that rolls the cylinder.",
+    inputs=DriveTrain,
+    sections=(chain.SPEEDS, vbelt.VBELT, chain.EFFICIENCY, chain.TURN, chain.POWERS, chain.BALANCE, motor.MOTOR, vbelt.COUNT,
+              vbelt.TENSIONS, motor.FLYWHEEL, motor.RUN_UP, *TOOTHED_BELT),
+    key_results=("output_speed", "driven_diameter", "vbelt_standard_length", "center_distance", "vbelt_count", "power_required",
+                 "motor_power", "energy_fluctuation", "flywheel_inertia", "flywheel_diameter", "flywheel_mass", "run_up_time",
+                 "driving_pulley_radius", "toothed_belt_length", "toothed_belt_teeth"),
+    checks=(*CHECKS, *TOOTHED_BELT_CHECKS),
+    figures=FIGURES,
+    assumptions=(
+        "Belts do not slip and shafts do not twist; the output's torque over a turn repeats itself.",
+        "One efficiency for each transmission, the same in both directions of power; bearings and fan of the motor are not counted.",
+        "The motor gives the mean torque throughout the turn; the flywheel alone gives and takes the rest.",
+        "While it runs up, the motor's torque is its mean and the load's constant.",
+        *TOOTHED_BELT_ASSUMPTIONS,
+    ),
+    sources=(
+        Source("002", "Loizyk V. V., Bryndas A. M., Shelonh N. M., Ternytskyi S. V. Analytical studies of drive mechanism parameters of "
+               "flat cylinder die-cutting press. Lviv Polytechnic National University."),
+        Source("000", "Topolnytskyi P. V., Shustykevych A. I., Kolomiiets A. B., Vatuliak Yu. V. Research of the drive parameters "
+               "of the pressure cylinder of a flat-bed type die-cutting machine. 2024. "
+               "doi: 10.32403/1998-6912-2024-2-69-140-150."),
+    ),
+    errata=TOOTHED_BELT_ERRATA,
+)  # fmt: skip

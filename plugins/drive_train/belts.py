@@ -1,0 +1,82 @@
+"""Formulas of the V-belt: speed, fit, tensions and the load that they put on the shafts."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+
+from diecut_report.api import formula
+from diecut_report.mechanics import belt_path
+
+
+@formula
+def smaller_radius(driver_diameter: Any, driven_diameter: Any) -> Any:
+    """Radius of the smaller pulley."""
+    return np.minimum(driver_diameter, driven_diameter) / 2
+
+
+@formula
+def larger_radius(driver_diameter: Any, driven_diameter: Any) -> Any:
+    """Radius of the larger pulley."""
+    return np.maximum(driver_diameter, driven_diameter) / 2
+
+
+@formula
+def rim_speed(speed: Any, diameter: Any) -> Any:
+    """Speed at the circumference."""
+    return speed * diameter / 2
+
+
+@formula
+def half_of(length: Any) -> Any:
+    """Half the belt's length: no two pulleys stand farther apart."""
+    return length / 2
+
+
+@formula
+def run_left_by_arcs(center_distance: Any, small: Any, large: Any, belt: Any) -> Any:
+    """What the arcs leave of half the belt: the straight run."""
+    return (belt - np.pi * (large + small)) / 2 - (large - small) * np.arcsin((large - small) / center_distance)
+
+
+@formula
+def length_left_over(center_distance: Any, small: Any, large: Any, belt: Any) -> Any:
+    """What an open belt around the pulleys is longer than the belt that there is."""
+    return belt_path.open_belt_length(center_distance, small, large) - belt
+
+
+@formula
+def stands_between(least: Any, quantity: Any, greatest: Any) -> Any:
+    """Whether a quantity lies in a range."""
+    return (quantity >= least) & (quantity <= greatest)
+
+
+@formula
+def count(power: Any, power_per_belt: Any) -> Any:
+    """Number of belts, one at least."""
+    return np.maximum(1, np.ceil(power / power_per_belt))
+
+
+@formula
+def tension_ratio(groove_friction: Any, wrap: Any) -> Any:
+    """Ratio of the tensions of the tight and the slack side (Euler, with the friction of the groove)."""
+    return np.exp(groove_friction * wrap)
+
+
+@formula
+def tight(pull: Any, tension_ratio: Any) -> Any:
+    """Tension of the tight side, apart from the centrifugal force."""
+    return pull * tension_ratio / (tension_ratio - 1)
+
+
+@formula
+def slack(pull: Any, tension_ratio: Any) -> Any:
+    """Tension of the slack side, apart from the centrifugal force."""
+    return pull / (tension_ratio - 1)
+
+
+@formula
+def shaft_load(tight: Any, slack: Any, wrap: Any) -> Any:
+    """Resultant of both tensions, whose directions the wrap on the smaller pulley tells."""
+    return np.sqrt(tight**2 + slack**2 - 2 * tight * slack * np.cos(wrap))

@@ -1,0 +1,53 @@
+"""Checks of the drive train."""
+
+from __future__ import annotations
+
+from diecut_report.api import Check
+from diecut_report.plugins.drive_train.advice import FASTEST_BELT, LARGEST_DEVIATION, LARGEST_RATIO, LEAST_WRAP
+
+CHECKS = (
+    Check(id="vbelt_speed", title="Speed of the V-belt", demand="vbelt_speed", limit=FASTEST_BELT, unit="m/s", demand_label="belt speed",
+          limit_label="allowed", source="practice",
+          consequence="the centrifugal force lifts the belt out of the grooves; take a smaller vbelt.driver_diameter."),
+    Check(id="vbelt_wrap", title="Wrap on the smaller pulley", demand=LEAST_WRAP, limit="vbelt_wrap", unit="deg", demand_label="required",
+          limit_label="wrap", source="practice",
+          consequence="the belt slips; take a greater vbelt.center_distance, or gears that leave the belt less than {vbelt_ratio}."),
+    Check(id="vbelt_ratio", title="Ratio of the V-belt", demand="vbelt_ratio", limit=LARGEST_RATIO, unit="1", demand_label="ratio",
+          limit_label="allowed", source="practice",
+          consequence="too much for one V-belt; give the gears a greater ratio than {gear_ratio_total}, or take a slower motor."),
+    Check(id="output_speed_error", title="Speed of the output", demand="output_speed_error", limit=LARGEST_DEVIATION, unit="%",
+          demand_label="deviation from the demanded speed", limit_label="allowed", source="this method",
+          consequence="with driven pulleys of R40 the output turns at {output_speed}, not at {inputs.output_speed}; {driver_advice}."),
+    Check(id="motor_power", title="Motor", demand="power_required", limit="motor_power", unit="kW", demand_label="required power",
+          limit_label="rated power", source="IEC 60072-1",
+          consequence="no standard motor is so large; lower the torque, the speed or reserve_factor."),
+    Check(id="motor_overload", title="Overload of the motor", demand="motor_peak_torque", limit="motor_breakdown_torque", unit="N*m",
+          demand_label="peak torque at the motor, which no flywheel smooths", limit_label="breakdown torque", source="this method",
+          consequence="the motor stalls; give torque_curve, so that a flywheel is sized, or raise reserve_factor."),
+    Check(id="flywheel_rim_speed", title="Rim of the flywheel", demand="flywheel_rim_speed", limit="flywheel_rim_limit", unit="m/s",
+          demand_label="rim speed", limit_label="allowed for the material", source="material",
+          consequence="the wheel may burst; take another flywheel_material, accept a greater speed_fluctuation, or leave the V-belt a greater "
+          "ratio, so that the flywheel turns slower."),
+    Check(id="run_up_torque", title="Torque while the motor runs up", demand="run_up_load_torque", limit="run_up_torque", unit="N*m",
+          operator="<", demand_label="load at the motor", limit_label="torque of the motor", source="this method",
+          consequence="the motor does not run up; disengage the load (run_up_load) or raise reserve_factor."),
+    Check(id="run_up_time", title="Run-up time", demand="run_up_time", limit="allowable_run_up_time", unit="s", severity="warn",
+          demand_label="run-up", limit_label="allowed", source="this method",
+          consequence="the motor's protection trips; disengage the load while it runs up (run_up_load), accept a greater "
+          "speed_fluctuation, so that the flywheel is lighter, or take a protection for heavy starting (allowable_run_up_time)."),
+    Check(id="gear_teeth", title="Teeth of the gears", demand=17.0, limit="least_teeth", unit="1", severity="warn",
+          demand_label="teeth without undercut", limit_label="fewest teeth", source="practice",
+          consequence="gears below 17 teeth are undercut; shift their profile or take more teeth."),
+    Check(id="torque_order", title="Mean and peak torque", demand="torque_mean", limit="torque_peak", unit="N*m", severity="warn", tolerance=1e-6,
+          demand_label="mean torque", limit_label="peak torque", source="this method",
+          consequence="no mean is above the peak; look at torque_mean and torque_peak."),
+    Check(id="torque_mean", title="Mean torque and curve", demand="mean_difference", limit="accepted_difference", unit="N*m", severity="warn",
+          demand_label="difference between torque_mean and the mean of the curve", limit_label="accepted", source="this method",
+          consequence="they do not belong together; the curve is used."),
+    Check(id="torque_peak", title="Peak torque and curve", demand="peak_difference", limit="accepted_difference", unit="N*m", severity="warn",
+          demand_label="difference between torque_peak and the curve's greatest size", limit_label="accepted", source="this method",
+          consequence="they do not belong together; the curve is used."),
+    Check(id="power_balance", title="Power balance", demand="power_missing", limit="power_rounding", unit="W",
+          demand_label="power in, less losses, less power out", limit_label="rounding", source="conservation of energy",
+          consequence="the calculation contradicts itself; do not use it."),
+)  # fmt: skip

@@ -1,0 +1,97 @@
+"""Inputs of the drive train."""
+
+from __future__ import annotations
+
+from typing import Any, Literal
+
+from diecut_report.api import POINTS, Annotated, Block, CurveInput, Inputs, Quantity, Text
+from diecut_report.plugins.drive_train.toothed_belt import ToothedBelt
+
+Section = Literal["SPZ", "SPA", "SPB", "SPC"]  # those with confirmed standard lengths
+
+
+class GearPair(Block):
+    """A pair of gears, in the order from the flywheel's shaft to the output."""
+
+    driver_teeth: Annotated[int, Quantity("z_1", "1", "Teeth of the driving gear", ge=12, integer=True)]
+    driven_teeth: Annotated[int, Quantity("z_2", "1", "Teeth of the driven gear", ge=12, integer=True)]
+    efficiency: Annotated[float, Quantity("η", "1", "Efficiency of the pair", gt=0, le=1)] = 0.97
+
+
+class VBelt(Block):
+    """The V-belt drive from the motor's shaft to the flywheel's."""
+
+    section: Annotated[Section, Text("Section of the V-belt (ISO 4184)")] = "SPA"
+    driver_diameter: Annotated[
+        float, Quantity("d_1", "mm", "Datum diameter of the motor's pulley, at or above the section's least", gt=0)
+    ]
+    center_distance: Annotated[
+        float, Quantity("a_0", "mm", "Wanted distance of the shafts; it is corrected for a standard belt", gt=0)
+    ]
+    efficiency: Annotated[float, Quantity("η_b", "1", "Efficiency of the V-belt", gt=0, le=1)] = 0.95
+    groove_friction: Annotated[
+        float,
+        Quantity(
+            "μ_g",
+            "1",
+            "Friction in the grooves, μ/sin(half the groove's angle), with which the belts are tensioned; 0.51 makes "
+            "the tensions 5 : 1 at half a turn of wrap, the usual reserve against slip",
+            gt=0,
+            le=2,
+        ),
+    ] = 0.51
+
+
+class DriveTrain(Inputs):
+    """Keys of ``drive_train``."""
+
+    motor_speed: Annotated[float, Quantity("n_m", "rpm", "Speed of the motor under load", gt=0)]
+    output_speed: Annotated[
+        float, Quantity("n_0", "rpm", "Demanded speed of the output shaft, normally the crank shaft", gt=0)
+    ]
+    torque_mean: Annotated[
+        float, Quantity("M_mean", "N*m", "Mean torque at the output shaft; with a torque curve its mean is used", ge=0)
+    ]
+    torque_peak: Annotated[float, Quantity("M_peak", "N*m", "Greatest size of the torque at the output shaft", ge=0)]
+    torque_curve: Annotated[
+        Any | None,
+        CurveInput(
+            "M",
+            "N*m",
+            "Torque over one turn of the output shaft, negative where the load drives; with it a flywheel is sized",
+        ),
+    ] = None
+    gears: Annotated[list[GearPair], Text("Gear pairs between the flywheel's shaft and the output shaft")] = []  # noqa: RUF012
+    vbelt: Annotated[VBelt, Text("V-belt from the motor to the flywheel's shaft")]
+    speed_fluctuation: Annotated[
+        float,
+        Quantity(
+            "δ", "1", "Accepted fluctuation of the flywheel's speed: greatest less least, to the mean", gt=0, lt=1
+        ),
+    ] = 0.1
+    power_per_belt: Annotated[
+        float | None,
+        Quantity("P_0", "kW", "Power that one belt carries (the maker's table); with it the number of belts", gt=0),
+    ] = None
+    flywheel_material: Annotated[Literal["steel", "cast_iron"], Text("Material of the flywheel")] = "steel"
+    reserve_factor: Annotated[float, Quantity("k_r", "1", "Reserve of the motor's power", ge=1)] = 1.2
+    breakdown_ratio: Annotated[
+        float, Quantity("k_b", "1", "Breakdown torque of the motor to its rated torque", ge=1)
+    ] = 2.2
+    run_up_torque_ratio: Annotated[
+        float, Quantity("k_a", "1", "Mean torque of the motor while it runs up, to its rated torque", gt=0)
+    ] = 1.6
+    run_up_load: Annotated[
+        float,
+        Quantity("k_l", "1", "Share of the mean torque that loads the motor while it runs up (0: disengaged)", ge=0),
+    ] = 1.0
+    motor_inertia: Annotated[float, Quantity("J_m", "kg*m**2", "Inertia of the motor's rotor and pulley", ge=0)] = 0
+    load_inertia: Annotated[
+        float,
+        Quantity("J_l", "kg*m**2", "Inertia that runs up with the output shaft, referred to that shaft", ge=0),
+    ] = 0
+    allowable_run_up_time: Annotated[
+        float, Quantity("[t_a]", "s", "Longest run-up that the motor's protection accepts (trip class 10)", gt=0)
+    ] = 10
+    toothed_belt: Annotated[ToothedBelt | None, Text("Toothed belt that rolls the cylinder")] = None
+    n_points: Annotated[int, POINTS] = 720

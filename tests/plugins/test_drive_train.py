@@ -1,0 +1,216 @@
+"""The drive train: ratios, torque and power at its shafts, the motor, against brute force and balances of power."""
+
+from __future__ import annotations
+
+import re
+from itertools import pairwise
+from math import pi, prod
+
+import numpy as np
+import pytest
+from hypothesis import assume, given, settings
+from hypothesis import strategies as st
+from scipy.integrate import cumulative_trapezoid
+
+from diecut_report.api import standard_series
+from diecut_report.engine import CurveHandle, Impossible, calculate
+from diecut_report.plugins.drive_train import MECHANISM
+from diecut_report.results import mechanism_results
+from diecut_report.testing import check_mechanism
+from diecut_report.units import unit as parsed
+from tests.machines import UNBALANCED, drive, inputs, number
+from tests.plugins.drive_trains import (
+    EXAMPLE,
+    PAIRS,
+    RPM,
+    UNEVEN,
+    WORKING,
+    at_flywheel,
+    check,
+    checked,
+    over_a_turn,
+    train,
+)
+
+
+def test_the_declaration_is_sound() -> None:
+    check_mechanism(MECHANISM)
+
+
+def test_speeds_follow_the_driven_pulley_of_the_standard_series() -> None:
+    calc = train(gears=PAIRS, output_speed="62 rpm")
+    ratio = 1450 / 62 / (50 / 20) / (60 / 25)
+    series = standard_series("renard_r40_lengths").values
+    driven = min(series, key=lambda diameter: abs(diameter - 125 * ratio))
+    assert number(calc, "vbelt_ratio") == pytest.approx(ratio, rel=1e-12)
+    assert number(calc, "driven_diameter") == pytest.approx(driven / 1000, rel=1e-12)
+    second = 1450 * 125 / driven
+    speeds = [number(calc, "shaft_1_speed"), number(calc, "shaft_2_speed"), *calc["gear_shaft_speed"][0]]
+    assert speeds == pytest.approx([1450 * RPM, second * RPM, second / 2.5 * RPM, second / 6 * RPM], rel=1e-12)
+    assert number(calc, "output_speed") == speeds[-1]
+    assert number(calc, "output_speed_error") == pytest.approx(abs(second / 6 / 62 - 1), rel=1e-9)
+
+
+def test_the_shafts_are_numbered_in_the_results() -> None:
+    outputs = mechanism_results(train(gears=PAIRS), {})["outputs"]
+    for quantity, unit in (("speed", "rpm"), ("torque", "N*m"), ("power", "kW")):
+        known = [name for name in outputs if re.fullmatch(rf"shaft_\d_{quantity}", name)]
+        assert sorted(known) == [f"shaft_{i}_{quantity}" for i in (1, 2, 3, 4)]
+        assert {outputs[name]["unit"] for name in known} == {parsed(unit).si}
+
+
+def test_without_gears_the_flywheel_shaft_is_the_output() -> None:
+    calc = train(gears=[], output_speed="300 rpm")
+    assert number(calc, "output_speed") == number(calc, "shaft_2_speed")
+    assert number(calc, "efficiency_total") == 0.95
+    assert "gear_shaft_speed" not in calc.values
+    assert number(calc, "shaft_2_torque") == pytest.approx(200, rel=1e-12)
+
+
+def test_a_belt_that_would_have_to_speed_up_is_refused_in_words() -> None:
+    with pytest.raises(Impossible) as refused:
+        train(output_speed="300 rpm")
+    assert refused.value.key == "output_speed"
+    assert "300 rpm" in refused.value.message and "0.9667" in refused.value.message
+
+
+def test_a_ratio_of_one_is_possible() -> None:
+    calc = train(output_speed="290 rpm")
+    assert number(calc, "vbelt_ratio") == pytest.approx(1, rel=1e-12)
+    assert number(calc, "vbelt_wrap") == pytest.approx(pi, rel=1e-9)
+    assert number(calc, "tight_tension") - number(calc, "slack_tension") == pytest.approx(number(calc, "vbelt_pull"))
+
+
+def test_a_belt_ratio_above_seven_fails_its_check() -> None:
+    assert (
+        check(train(output_speed="40 rpm", vbelt=EXAMPLE["vbelt"] | {"center_distance": "900 mm"}), "vbelt_ratio")[
+            "status"
+        ]
+        == "fail"
+    )
+    assert check(train(), "vbelt_ratio")["status"] == "pass"
+
+
+def test_torque_at_every_shaft_is_that_of_brute_force_over_the_turn() -> None:
+    calc = train(**WORKING)
+    _, torque = over_a_turn(UNEVEN, 2_000_001)
+    wanted = []
+    for k in range(3):
+        ratio = prod(p["driven_teeth"] / p["driver_teeth"] for p in PAIRS[k:])
+        wanted.append(at_flywheel(torque, ratio, prod(p["efficiency"] for p in PAIRS[k:]))[:-1].mean())
+    found = [number(calc, "shaft_2_torque"), *calc["gear_shaft_torque"][0]]
+    np.testing.assert_allclose(found, wanted, rtol=1e-8)
+    belt = number(calc, "driven_diameter") / 0.125
+    assert number(calc, "shaft_1_torque") == pytest.approx(wanted[0] / belt / 0.95, rel=1e-8)
+    assert number(calc, "flywheel_torque_mean") == pytest.approx(number(calc, "shaft_2_torque"), rel=1e-10)
+
+
+@settings(max_examples=40, deadline=None)
+@given(
+    teeth=st.lists(st.tuples(st.integers(17, 40), st.integers(40, 90), st.floats(0.8, 1.0)), max_size=4),
+    values=st.lists(st.integers(-500, 1500), min_size=4, max_size=16),
+    belt=st.floats(0.8, 1.0),
+)
+def test_power_in_less_all_losses_is_power_out(
+    teeth: list[tuple[int, int, float]], values: list[int], belt: float
+) -> None:
+    gears = [dict(zip(("driver_teeth", "driven_teeth", "efficiency"), pair, strict=True)) for pair in teeth]
+    speed = 1450 / 3 / np.prod([pair[1] / pair[0] for pair in teeth])
+    efficiency = float(np.prod([pair[2] for pair in teeth]))
+    torque = over_a_turn(values, 20_001)[1]
+    assume(at_flywheel(torque, 1, efficiency).mean() > 1)
+    vbelt = {"driver_diameter": 140, "center_distance": 800, "efficiency": belt}
+    calc = train(gears=gears, output_speed=speed, torque_curve=values, vbelt=vbelt, torque_peak=1500)
+    assert check(calc, "power_balance")["status"] == "pass"
+    powers = [number(calc, "shaft_1_power"), number(calc, "shaft_2_power")]
+    powers += list(calc["gear_shaft_power"][0]) if gears else []
+    assert all(before >= after - 1e-9 * abs(before) for before, after in pairwise(powers))
+    assert powers[-1] == pytest.approx(torque[:-1].mean() * number(calc, "output_speed"), rel=2e-3, abs=0.5)
+    assert powers[0] - number(calc, "losses_total") == pytest.approx(powers[-1], rel=1e-12, abs=1e-9)
+
+
+def test_without_backflow_each_shaft_passes_on_what_its_efficiency_leaves() -> None:
+    calc = train(gears=PAIRS)
+    powers = [number(calc, "shaft_1_power"), number(calc, "shaft_2_power"), *calc["gear_shaft_power"][0]]
+    shares = [after / before for before, after in pairwise(powers)]
+    assert shares == pytest.approx([0.95, 0.96, 0.98], rel=1e-12)
+    assert number(calc, "efficiency_total") == pytest.approx(0.95 * 0.96 * 0.98, rel=1e-12)
+
+
+def test_the_curve_of_another_mechanism_travels_with_its_jumps() -> None:
+    source = drive(**UNBALANCED)
+    calc = train(torque_curve=CurveHandle(source, "crank_torque"), torque_peak=3000, gears=PAIRS)
+    phi = np.linspace(0, 2 * pi, 200_001)[None, :]
+    domain = source.domains["crank_angle"]
+    middle = np.concatenate([domain.middle_of(part) for part in np.array_split(phi, 50, axis=1)], axis=1)
+    torque = at_flywheel(source.sample("crank_torque", phi, middle)[0], 6, 0.96 * 0.98)
+    assert number(calc, "flywheel_torque_mean") == pytest.approx(torque[:-1].mean(), rel=1e-3)
+    energy = cumulative_trapezoid((torque - torque[:-1].mean()) * 6, phi[0])
+    assert number(calc, "energy_fluctuation") == pytest.approx(np.ptp(energy), rel=1e-3)
+    assert number(calc, "output_speed_error") < 1
+
+
+def test_a_curve_that_drives_the_motor_is_refused() -> None:
+    with pytest.raises(Impossible) as refused:
+        train(torque_curve=[-value for value in UNEVEN])
+    assert refused.value.key == "torque_curve" and "sign" in refused.value.message
+
+
+def test_mean_and_peak_that_do_not_belong_to_the_curve_are_told() -> None:
+    fitting, off = train(**WORKING), train(torque_curve=UNEVEN)
+    assert [check(fitting, f"torque_{n}")["status"] for n in ("mean", "peak")] == ["pass", "pass"]
+    assert [check(off, f"torque_{n}")["status"] for n in ("mean", "peak")] == ["pass", "warn"]
+    assert check(train(torque_curve=UNEVEN, torque_mean=100), "torque_mean")["status"] == "warn"
+    assert check(train(torque_peak=199), "torque_order")["status"] == "warn"
+    assert check(train(torque_peak=200), "torque_order")["status"] == "pass"
+
+
+@settings(max_examples=50, deadline=None)
+@given(torque=st.floats(0, 30_000))
+def test_the_motor_is_the_next_standard_one_and_fails_only_above_them_all(torque: float) -> None:
+    calc = train(torque_mean=torque, torque_peak=torque)
+    power = torque * number(calc, "output_speed") / 0.97 / 0.95 * 1.2 / 1e3
+    assert number(calc, "power_required") == pytest.approx(power * 1e3, rel=1e-12, abs=1e-12)
+    ratings = standard_series("iec_60072_ratings").values
+    above = [rating for rating in ratings if rating >= power]
+    assert number(calc, "motor_power") == pytest.approx((above or ratings[-1:])[0] * 1e3)
+    assert check(calc, "motor_power")["status"] == ("pass" if above else "fail")
+
+
+def test_without_a_flywheel_the_peak_must_stay_below_the_breakdown_torque() -> None:
+    calc = train()
+    peak = 900 / (number(calc, "shaft_1_speed") / number(calc, "output_speed")) / (0.97 * 0.95)
+    assert number(calc, "motor_peak_torque") == pytest.approx(peak, rel=1e-12)
+    rated = number(calc, "motor_power") / (1450 * RPM)
+    for ratio, status in ((peak / rated * 1.001, "pass"), (peak / rated * 0.999, "fail")):
+        assert check(train(breakdown_ratio=ratio), "motor_overload")["status"] == status
+    assert "motor_overload" not in checked(train(**WORKING))
+
+
+def test_without_a_curve_there_is_no_flywheel() -> None:
+    results = mechanism_results(train(), {})
+    assert not [
+        name for name in results["outputs"] if name.startswith("flywheel") or "energy" in name or "run_up" in name
+    ]
+    assert "torque_curve" in str(results["absent"])
+    assert not {"flywheel_rim_speed", "run_up_time", "run_up_torque"} & checked(train())
+
+
+def test_an_array_of_machines_gives_what_single_machines_give() -> None:
+    speeds, distances = np.array([45.0, 52.0, 60.0, 400.0]) * RPM, np.array([0.6, 0.7, 0.9, 0.6])
+    base = inputs(MECHANISM, EXAMPLE | WORKING | {"gears": PAIRS[:1], "power_per_belt": 2})
+    together = calculate(MECHANISM, base | {"output_speed": speeds * 2, "vbelt.center_distance": distances}, 4)
+    assert set(together.flaws) == {3}
+    for i in range(3):
+        single = calculate(MECHANISM, base | {"output_speed": speeds[i] * 2, "vbelt.center_distance": distances[i]})
+        for name, value in single.values.items():
+            if value.dtype != object:
+                np.testing.assert_allclose(
+                    together[name][i][: value.shape[1]], value[0], rtol=1e-9, atol=1e-9, err_msg=name
+                )
+
+
+def test_results_do_not_depend_on_the_number_of_samples() -> None:
+    few, many = train(**WORKING, n_points=36), train(**WORKING, n_points=3000)
+    for name in ("energy_fluctuation", "flywheel_torque_mean", "run_up_time"):
+        assert number(few, name) == pytest.approx(number(many, name), rel=1e-8)

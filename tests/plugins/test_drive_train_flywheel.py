@@ -1,0 +1,146 @@
+"""The flywheel and the run-up of the motor against brute-force integration and equations of motion."""
+
+from __future__ import annotations
+
+from math import pi, sin
+
+import numpy as np
+import pytest
+from hypothesis import assume, given, settings
+from hypothesis import strategies as st
+from scipy.integrate import cumulative_trapezoid, solve_ivp
+
+from diecut_report.expressions import Array
+from diecut_report.results import mechanism_results
+from tests.machines import number
+from tests.plugins.drive_trains import (
+    RPM,
+    UNEVEN,
+    WORKING,
+    at_flywheel,
+    check,
+    checked,
+    over_a_turn,
+    sine_load,
+    train,
+)
+
+
+def test_energy_fluctuation_is_that_of_brute_force() -> None:
+    calc = train(**WORKING)
+    phi, torque = over_a_turn(UNEVEN, 1_200_001)
+    torque = at_flywheel(torque, 6, 0.96 * 0.98)
+    energy = cumulative_trapezoid((torque - torque[:-1].mean()) * 6, phi, initial=0)
+    assert number(calc, "energy_fluctuation") == pytest.approx(np.ptp(energy), rel=1e-7)
+    assert number(calc, "excess_energy_max") == pytest.approx(energy.max(), rel=1e-7)
+    assert number(calc, "excess_energy_max_at") == pytest.approx(phi[np.argmax(energy)], abs=1e-4)
+
+
+@settings(max_examples=40, deadline=None)
+@given(values=st.lists(st.integers(-500, 1500), min_size=4, max_size=24))
+def test_energy_fluctuation_of_any_list_is_that_of_brute_force(values: list[int]) -> None:
+    phi, torque = over_a_turn(values, 40_001)
+    torque = at_flywheel(torque, 5, 0.97)
+    mean = float((torque[1:] + torque[:-1]).mean() / 2)
+    assume(mean > 0)
+    found = number(train(torque_curve=values), "energy_fluctuation")
+    energy = cumulative_trapezoid((torque - mean) * 5, phi, initial=0)
+    assert found == pytest.approx(np.ptp(energy), rel=1e-4, abs=1e-3)
+
+
+def test_a_steady_torque_needs_no_flywheel() -> None:
+    calc = train(torque_curve=[200.0] * 12, torque_peak=200)
+    assert number(calc, "energy_fluctuation") == pytest.approx(0, abs=1e-9)
+    assert number(calc, "flywheel_mass") == pytest.approx(0, abs=1e-6)
+    assert check(calc, "flywheel_rim_speed")["status"] == "pass"
+
+
+@pytest.mark.parametrize("fluctuation", [0.02, 0.1, 0.3])
+def test_the_flywheels_speed_swings_as_the_equation_of_motion_says(fluctuation: float) -> None:
+    """J·dω/dt = M_mean − M(φ): the mean of the extreme speeds squared times the swing is what the wheel is sized for."""
+    calc = train(
+        gears=[], output_speed="290 rpm", torque_curve=sine_load(mean=100, swing=400), speed_fluctuation=fluctuation
+    )
+    wheel, speed = number(calc, "flywheel_inertia"), number(calc, "shaft_2_speed")
+
+    def motion(_: float, state: Array) -> list[float]:
+        return [state[1], -400 * sin(state[0]) / wheel]  # without gears nothing is lost behind the flywheel
+
+    times = np.linspace(0, 6 * pi / speed, 30_001)
+    run = solve_ivp(motion, (0, times[-1]), [0.0, speed], t_eval=times, method="DOP853", rtol=1e-11, atol=1e-11)
+    fast, slow = run.y[1].max(), run.y[1].min()
+    mean = (fast + slow) / 2
+    assert (fast - slow) / mean * (mean / speed) ** 2 == pytest.approx(fluctuation, rel=1e-6)
+
+
+def test_the_speed_is_the_flywheels_not_the_outputs() -> None:
+    """The wheel on the slow output shaft would have to be i² times as heavy."""
+    calc = train(
+        torque_curve=sine_load(mean=200, swing=200), gears=[{"driver_teeth": 20, "driven_teeth": 100, "efficiency": 1}]
+    )
+    assert number(calc, "energy_fluctuation") == pytest.approx(2 * 200, rel=1e-9)
+    on_output = 2 * 200 / (0.1 * number(calc, "output_speed") ** 2)
+    assert number(calc, "flywheel_inertia") == pytest.approx(on_output / 25, rel=1e-9)
+
+
+@pytest.mark.parametrize(("material", "density", "limit"), [("steel", 7850, 60), ("cast_iron", 7200, 35)])
+def test_the_disc_has_the_inertia_and_the_materials_limit(material: str, density: float, limit: float) -> None:
+    calc = train(**WORKING, flywheel_material=material)
+    diameter, mass = number(calc, "flywheel_diameter"), number(calc, "flywheel_mass")
+    assert mass * diameter**2 / 8 == pytest.approx(number(calc, "flywheel_inertia"), rel=1e-12)
+    assert mass == pytest.approx(density * pi / 4 * diameter**2 * 0.2 * diameter, rel=1e-12)
+    assert number(calc, "flywheel_rim_speed") == pytest.approx(number(calc, "shaft_2_speed") * diameter / 2, rel=1e-12)
+    assert check(calc, "flywheel_rim_speed")["limit"] == limit
+
+
+def test_a_rim_too_fast_for_cast_iron_fails() -> None:
+    fast = WORKING | {
+        "gears": [{"driver_teeth": 17, "driven_teeth": 200}],
+        "output_speed": "90 rpm",
+        "speed_fluctuation": 0.005,
+    }
+    vbelt = {"driver_diameter": 160, "center_distance": 700}
+    limits = {
+        m: check(train(**fast, vbelt=vbelt, flywheel_material=m), "flywheel_rim_speed")["status"]
+        for m in ("steel", "cast_iron")
+    }
+    assert limits == {"steel": "pass", "cast_iron": "fail"}
+
+
+def test_the_run_up_takes_as_long_as_the_coupled_equations_of_motion_say() -> None:
+    """Motor, flywheel and load as three bodies; the belt and the gears pass on torque less their losses."""
+    calc = train(**WORKING, motor_inertia=0.05, load_inertia=3, run_up_load=0.6)
+    belt, gears, wheel = number(calc, "vbelt_ratio_actual"), 6.0, number(calc, "flywheel_inertia")
+    rated = number(calc, "motor_power") / (1450 * RPM)
+    driving = 1.6 * rated - 0.6 * number(calc, "shaft_1_torque")
+    # unknown: accelerations of motor, flywheel, load; torque into the belt, torque into the gears
+    balance = np.array([
+        [0.05, 0, 0, 1, 0],
+        [0, wheel, 0, -belt * 0.95, 1],
+        [0, 0, 3, 0, -gears * 0.96 * 0.98],
+        [1, -belt, 0, 0, 0],
+        [0, 1, -gears, 0, 0],
+    ])  # fmt: skip
+
+    def motion(_: float, state: Array) -> list[float]:
+        return [float(np.linalg.solve(balance, [driving, 0, 0, 0, 0])[0])]
+
+    def there(_: float, state: Array) -> float:
+        return float(state[0] - 1450 * RPM)
+
+    run = solve_ivp(motion, (0, 1000), [0.0], events=there, rtol=1e-10)
+    assert run.t_events is not None
+    assert number(calc, "run_up_time") == pytest.approx(run.t_events[0][0], rel=1e-8)
+
+
+def test_a_run_up_longer_than_the_protection_accepts_is_a_warning() -> None:
+    time = number(train(**WORKING), "run_up_time")
+    for allowed, status in ((time * 1.01, "pass"), (time * 0.99, "warn")):
+        assert check(train(**WORKING, allowable_run_up_time=allowed), "run_up_time")["status"] == status
+
+
+def test_a_motor_that_does_not_overcome_the_load_never_runs_up() -> None:
+    calc = train(**WORKING, run_up_load=2.5)
+    assert check(calc, "run_up_torque")["status"] == "fail"
+    assert "run_up_time" not in mechanism_results(calc, {})["outputs"]
+    assert "run_up_time" not in checked(calc)
