@@ -187,13 +187,14 @@ def _curve(step: Step, values: Any) -> Data:
 
 
 def _limits(calc: Calculation, name: str) -> Data:
-    domain = calc.domains[calc.axis[name]]
+    axis = calc.axis[name]
+    domain = calc.domains[axis]
     wide = domain.widths[0] > 1e-12 * domain.period
-    starts, ends = domain.edges[:1, :-1][:, wide], domain.edges[:1, 1:][:, wide]
-    middles = domain.middles[:1, wide]
+    starts, ends, middles = domain.edges[:1, :-1][:, wide], domain.edges[:1, 1:][:, wide], domain.middles[:1, wide]
     first = np.zeros(1, dtype=int)
-    after = calc.sample(name, starts, middles, first)[0]
-    before = calc.sample(name, ends, middles, first)[0]
+    after = calc.kept("starts", axis, lambda _: (starts, middles), first)[name]
+    before = calc.kept("ends", axis, lambda _: (ends, middles), first)[name]
+    after, before = (np.broadcast_to(limits, starts.shape)[0] for limits in (after, before))
     places = starts[0, 1:]
     return {
         "abscissa": calc.axis[name],

@@ -18,7 +18,7 @@ from diecut_report import pipeline, report
 from diecut_report.assembly import governing
 from diecut_report.discovery import Discovery
 from diecut_report.errors import UserError
-from tests.configs import BROKEN, DISCOVERY, EXAMPLE, GOOD, HEAD, LEVER, saved
+from tests.configs import BROKEN, DISCOVERY, EXAMPLE, EXAMPLES, GOOD, HEAD, LEVER, saved
 
 ALL = Discovery([GOOD, BROKEN])
 FAILS = LEVER.replace("force: 2 kN", "force: 2 kN, allowable_moment: 150")
@@ -323,3 +323,14 @@ def test_equal_inputs_give_equal_reports(tmp_path: Path) -> None:
     config = saved(tmp_path, LEVER)
     first, second = (made(config, tmp_path / folder) for folder in ("one", "two"))
     assert [path.read_bytes() for path in first] == [path.read_bytes() for path in second]
+
+
+@pytest.mark.parametrize("config", EXAMPLES, ids=lambda path: path.stem)
+def test_an_example_is_calculated_without_slow_imports(config: Path) -> None:
+    code = (
+        "import sys; from pathlib import Path; from diecut_report import pipeline; from diecut_report.discovery import Discovery; "
+        f"pipeline.calc(Path({str(config)!r}), Discovery([]), lambda name: None); "
+        "print(sorted({'pint', 'matplotlib', 'weasyprint', 'jinja2', 'ezdxf', 'scipy.stats'} & set(sys.modules)))"
+    )
+    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
+    assert done.stdout == "[]\n"

@@ -47,6 +47,7 @@ FAMILIES: list[tuple[str, str, float, str]] = [
     ("a frequency", "1/s", 1.667, "1/s Hz kHz 1/min 1/h"),
     ("a power", "W", 2000.0, "W kW mW MW hp"),
     ("a power density", "W/m**2", 5000.0, "W/m**2 W/cm**2 kW/m**2 W/mm**2"),
+    ("a power per moment of inertia", "W/(kg*m**2)", 50.0, "W/(kg*m**2)"),
     ("a flow", "m**3/s", 1e-3, "m**3/s m**3/h L/min L/s"),
     ("a temperature difference", "K", 20.0, "K mK"),
     ("a thermal expansion", "1/K", 1e-5, "1/K"),

@@ -74,7 +74,7 @@ def needed(mechanism: Mechanism, given: frozenset[str], names: Sequence[str]) ->
         if step is None or step.id in found:
             continue
         found.add(step.id)
-        pending += taken(step)
+        pending += taken(step) - {getattr(step, "shown_at", "")}  # where formulas are shown matters in print only
         pending += _of_abscissa(steps, step)
     return found | {
         s.id for s in steps if isinstance(s, SILENT) and not isinstance(s, Breakpoints) and _known(s, own, found)

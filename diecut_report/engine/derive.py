@@ -95,7 +95,7 @@ def value_at(calc: Calculation, name: str, axis: str | None, *, flag: bool = Fal
     if axis in calc.domains and calc.axis.get(name) == axis:
         place, middle = shown_place(calc, str(axis))
         sampler = calc.kept(f"shown {flag}", str(axis), lambda _: (middle if flag else place, middle), FIRST)
-        return float(sampler[name][0, 0])
+        return float(np.ravel(sampler[name])[0])  # a constant is a curve too
     return float(calc[name][0, 0])
 
 

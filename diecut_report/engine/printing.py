@@ -23,6 +23,7 @@ if TYPE_CHECKING:
     from diecut_report.engine.calculation import Calculation
 
 MOST_DIGITS = 17
+ROUNDING = 1e-11  # share of a sum's terms below which a result is rounding alone
 NAMED = re.compile(r"\{([\w.]+)\}")
 TRIGONOMETRIC = ("sin", "cos", "tan")
 
@@ -88,15 +89,23 @@ class Substitution:
 
         None where the target is a difference of equal terms, rounding alone: no number of digits would show it.
         """
-        if abs(target) <= 1e-11 * self._size(self._with_numbers(self.part.formula.tree, MOST_DIGITS, angle=False)):
-            return None
         for digits in range(DIGITS, MOST_DIGITS + 1):
             tree = self._with_numbers(self.part.formula.tree, digits, angle=False)
             with np.errstate(all="ignore"):
                 again = float(evaluate(tree, self._printed_value))
-            if math.isfinite(again) and self._agrees(tree, again, target, (display, result_digits)):
+            if math.isfinite(again) and rounded(again, display, result_digits) == rounded(
+                target, display, result_digits
+            ):
+                return tree
+            if digits == DIGITS and self._is_rounding(target):
+                return None
+            if math.isfinite(again) and abs(again - target) <= ROUNDING * self._size(tree):
                 return tree
         raise ArithmeticError(f"formula {self.part.formula.__name__} does not give {target!r} when computed as printed")
+
+    def _is_rounding(self, target: float) -> bool:
+        tree = self._with_numbers(self.part.formula.tree, MOST_DIGITS, angle=False)
+        return abs(target) <= ROUNDING * self._size(tree)
 
     def comparison(self, holds: bool) -> Node:
         """A condition with numbers, precise enough that it holds (or not) as printed."""
@@ -105,9 +114,6 @@ class Substitution:
             if bool(evaluate(tree, self._printed_value)) is holds:
                 return tree
         raise ArithmeticError(f"condition {self.part.formula.__name__} does not come out as printed")
-
-    def _agrees(self, tree: Node, again: float, target: float, form: tuple[str, int]) -> bool:
-        return rounded(again, *form) == rounded(target, *form) or abs(again - target) <= 1e-11 * self._size(tree)
 
     def _size(self, tree: Node) -> float:
         """The size of the terms that a result is the sum of: what its rounding is to be judged by."""

@@ -1,0 +1,227 @@
+"""Formulas of the Geneva drive's geometry and motion."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+
+from diecut_report.api import formula
+
+
+@formula
+def step_angle(slots: Any) -> Any:
+    """Angle by which the wheel turns for each turn of the crank."""
+    return 2 * np.pi / slots
+
+
+@formula
+def crank_ratio(slots: Any) -> Any:
+    """Crank radius to centre distance: the roller enters along the slot."""
+    return np.sin(np.pi / slots)
+
+
+@formula
+def crank_radius(crank_ratio: Any, center_distance: Any) -> Any:
+    """Radius of the roller's path."""
+    return crank_ratio * center_distance
+
+
+@formula
+def wheel_radius(slots: Any, center_distance: Any) -> Any:
+    """Distance of the roller from the wheel's axis at entry and exit."""
+    return center_distance * np.cos(np.pi / slots)
+
+
+@formula
+def rim_radius(wheel_radius: Any, roller_radius: Any) -> Any:
+    """Radius of the wheel's rim with which both flanks of a slot reach to the roller's middle at entry."""
+    return np.sqrt(wheel_radius**2 + roller_radius**2)
+
+
+@formula
+def slot_length(slots: Any, center_distance: Any, crank_ratio: Any, roller_radius: Any) -> Any:
+    """Length of a slot from the wheel's radius to its bottom."""
+    return center_distance * (crank_ratio + np.cos(np.pi / slots) - 1) + roller_radius
+
+
+@formula
+def nearest_roller(center_distance: Any, crank_ratio: Any) -> Any:
+    """Distance of the roller from the wheel's axis in the middle of the motion."""
+    return center_distance * (1 - crank_ratio)
+
+
+@formula
+def slot_spacing(slots: Any, nearest_distance: Any) -> Any:
+    """Distance of the middles of two neighbouring slots' inner ends."""
+    return 2 * nearest_distance * np.sin(np.pi / slots)
+
+
+@formula
+def engagement_half_angle(slots: Any) -> Any:
+    """Crank angle from the middle of the motion to its end."""
+    return np.pi / 2 - np.pi / slots
+
+
+@formula
+def entry_angle(slots: Any) -> Any:
+    """Crank angle from the middle of the motion to the roller's entry into the next slot."""
+    return 2 * np.pi - engagement_half_angle(slots)
+
+
+@formula
+def cutout_angle(slots: Any) -> Any:
+    """Crank angle of the whole engagement, which the locking disc's cut-out takes."""
+    return 2 * engagement_half_angle(slots)
+
+
+@formula
+def arc_angle(slots: Any) -> Any:
+    """What the cut-out leaves of a turn."""
+    return 2 * np.pi - cutout_angle(slots)
+
+
+@formula
+def motion_fraction(slots: Any) -> Any:
+    """Share of a turn in which the wheel turns."""
+    return (slots - 2) / (2 * slots)
+
+
+@formula
+def dwell_fraction(slots: Any) -> Any:
+    """Share of a turn in which it dwells."""
+    return (slots + 2) / (2 * slots)
+
+
+@formula
+def cycle_time(crank_speed: Any) -> Any:
+    """Time of a turn."""
+    return 2 * np.pi / crank_speed
+
+
+@formula
+def time_motion(slots: Any, cycle_time: Any) -> Any:
+    """Time in which the wheel turns."""
+    return motion_fraction(slots) * cycle_time
+
+
+@formula
+def time_dwell(slots: Any, cycle_time: Any) -> Any:
+    """Time in which it dwells."""
+    return dwell_fraction(slots) * cycle_time
+
+
+@formula
+def speed_ratio_peak(crank_ratio: Any) -> Any:
+    """Speed of the wheel to the crank's in the middle of the motion."""
+    return crank_ratio / (1 - crank_ratio)
+
+
+@formula
+def acceleration_entry(slots: Any) -> Any:
+    """Acceleration of the wheel at entry to the square of the crank's speed."""
+    return np.tan(np.pi / slots)
+
+
+@formula
+def acceleration_peak_angle(crank_ratio: Any) -> Any:
+    """Crank angle from the middle of the motion at which the wheel's acceleration is greatest."""
+    term = (1 + crank_ratio**2) / (4 * crank_ratio)
+    return np.arccos(np.sqrt(term**2 + 2) - term)
+
+
+@formula
+def is_inside(angle: Any, start: Any, end: Any) -> Any:
+    """Whether the roller is in a slot: before its exit, or after its next entry."""
+    return (angle <= end) | (angle >= start)
+
+
+@formula
+def is_late(angle: Any, start: Any) -> Any:
+    """Whether the roller has entered the next slot."""
+    return angle >= start
+
+
+@formula
+def holds(flag: Any) -> Any:
+    """Whether a flag is set."""
+    return flag == 1
+
+
+@formula
+def one() -> Any:
+    """One."""
+    return 1
+
+
+@formula
+def from_middle(crank_angle: Any, turns: Any) -> Any:
+    """Crank angle from the middle of this motion or of the next one."""
+    return crank_angle - 2 * np.pi * turns
+
+
+@formula
+def wheel_angle(angle: Any, turns: Any, step_angle: Any, crank_ratio: Any) -> Any:
+    """Angle of the wheel from the middle of its motion."""
+    return turns * step_angle + np.arctan2(crank_ratio * np.sin(angle), 1 - crank_ratio * np.cos(angle))
+
+
+@formula
+def half(quantity: Any) -> Any:
+    """Half the quantity."""
+    return quantity / 2
+
+
+@formula
+def speed_ratio(angle: Any, crank_ratio: Any) -> Any:
+    """Angular speed of the wheel to the crank's."""
+    return crank_ratio * (np.cos(angle) - crank_ratio) / (1 - 2 * crank_ratio * np.cos(angle) + crank_ratio**2)
+
+
+@formula
+def acceleration_ratio(angle: Any, crank_ratio: Any) -> Any:
+    """Angular acceleration of the wheel to the square of the crank's speed, which is constant."""
+    distance_squared = 1 - 2 * crank_ratio * np.cos(angle) + crank_ratio**2
+    return -crank_ratio * (1 - crank_ratio**2) * np.sin(angle) / distance_squared**2
+
+
+@formula
+def rate(ratio: Any, crank_speed: Any) -> Any:
+    """Angular speed of the wheel."""
+    return ratio * crank_speed
+
+
+@formula
+def rate_of_rate(ratio: Any, crank_speed: Any) -> Any:
+    """Angular acceleration of the wheel."""
+    return ratio * crank_speed**2
+
+
+@formula
+def travel_radius(sprocket_teeth: Any, chain_pitch: Any, gear_ratio: Any) -> Any:
+    """Way of the conveyor for each radian of the wheel."""
+    return sprocket_teeth * chain_pitch * gear_ratio / (2 * np.pi)
+
+
+@formula
+def sheet_step(sprocket_teeth: Any, chain_pitch: Any, gear_ratio: Any, slots: Any) -> Any:
+    """Way of the conveyor for each turn of the crank."""
+    return sprocket_teeth * chain_pitch * gear_ratio / slots
+
+
+@formula
+def travel(angle: Any, travel_radius: Any) -> Any:
+    """Way, speed or acceleration of the conveyor from the wheel's."""
+    return angle * travel_radius
+
+
+@formula
+def travel_rate(ratio: Any, crank_speed: Any, travel_radius: Any) -> Any:
+    """Speed of the conveyor."""
+    return ratio * crank_speed * travel_radius
+
+
+@formula
+def travel_acceleration(ratio: Any, crank_speed: Any, travel_radius: Any) -> Any:
+    """Acceleration of the conveyor."""
+    return ratio * crank_speed**2 * travel_radius

@@ -1,0 +1,76 @@
+"""Inputs of the Geneva drive."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+
+from diecut_report.api import POINTS, Annotated, FromPress, Inputs, Quantity, formula
+
+
+@formula
+def one_sheet_a_turn(productivity: Any) -> Any:
+    """Angular speed of the crank at one sheet for each of its turns."""
+    return 2 * np.pi * productivity
+
+
+class GenevaTransport(Inputs):
+    """Keys of ``geneva_transport``."""
+
+    slots: Annotated[int, Quantity("z", "1", "Slots of the wheel", ge=3, le=18, integer=True)] = 6
+    center_distance: Annotated[float, Quantity("C", "mm", "Distance of the axes of crank and wheel", gt=0)]
+    roller_radius: Annotated[float, Quantity("ρ", "mm", "Radius of the crank's roller", gt=0)]
+    crank_speed: Annotated[
+        float | None,
+        Quantity(
+            "ω_1",
+            "rpm",
+            "Speed of the crank; one sheet a turn",
+            gt=0,
+            press=FromPress("press.productivity", one_sheet_a_turn),
+        ),
+    ] = None
+    gear_ratio: Annotated[float, Quantity("u", "1", "Turns of the sprocket for each turn of the wheel", gt=0)] = 1
+    sprocket_teeth: Annotated[
+        int | None,
+        Quantity(
+            "z_s", "1", "Teeth of the conveyor's sprocket; with chain_pitch the sheet's motion", gt=0, integer=True
+        ),
+    ] = None
+    chain_pitch: Annotated[float | None, Quantity("p", "mm", "Pitch of the conveyor's chain", gt=0)] = None
+    allowable_sheet_acceleration: Annotated[
+        float | None, Quantity("[a]", "m/s**2", "Allowed acceleration of the sheet", gt=0)
+    ] = None
+    driven_inertia: Annotated[
+        float | None,
+        Quantity(
+            "J",
+            "kg*m**2",
+            "Moment of inertia of all that the wheel moves, reduced to its shaft (a conveyor of mass m adds "
+            "m·(z_s·p·u/2π)²); with it torque and roller force",
+            gt=0,
+        ),
+    ] = None
+    roller_width: Annotated[
+        float | None,
+        Quantity("b", "mm", "Width of the roller that bears on the slot; with it the contact pressure", gt=0),
+    ] = None
+    elastic_modulus: Annotated[float, Quantity("E", "GPa", "Elastic modulus of roller and wheel", gt=0)] = 210
+    poisson_ratio: Annotated[float, Quantity("ν", "1", "Poisson's ratio of roller and wheel", ge=0, lt=0.5)] = 0.3
+    allowable_contact_pressure: Annotated[
+        float | None, Quantity("[p_H]", "MPa", "Allowed contact pressure between roller and slot", gt=0)
+    ] = None
+    locking_radius: Annotated[
+        float | None,
+        Quantity(
+            "r_l",
+            "mm",
+            "Radius of the wheel's locking arcs; default: the arm between arc and slot is as thick as the roller",
+            gt=0,
+        ),
+    ] = None
+    locking_clearance: Annotated[
+        float, Quantity("j", "mm", "Radial clearance of the locking disc in the wheel's arcs", ge=0)
+    ] = 0.1
+    n_points: Annotated[int, POINTS] = 720

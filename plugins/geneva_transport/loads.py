@@ -1,0 +1,155 @@
+"""Formulas of the Geneva drive's torque, roller force and locking."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+
+from diecut_report.api import arccos, formula
+
+
+@formula
+def driving_torque(driven_inertia: Any, crank_speed: Any, acceleration_ratio: Any, speed_ratio: Any) -> Any:
+    """Torque at the crank that moves the wheel's inertia."""
+    return driven_inertia * crank_speed**2 * acceleration_ratio * speed_ratio
+
+
+@formula
+def roller_distance(crank_angle: Any, center_distance: Any, crank_ratio: Any) -> Any:
+    """Distance of the roller from the wheel's axis."""
+    return center_distance * np.sqrt(1 - 2 * crank_ratio * np.cos(crank_angle) + crank_ratio**2)
+
+
+@formula
+def roller_force(driven_inertia: Any, wheel_acceleration: Any, roller_distance: Any) -> Any:
+    """Force of the roller on the slot's flank, square to the slot."""
+    return driven_inertia * wheel_acceleration / roller_distance
+
+
+@formula
+def kinetic_energy(driven_inertia: Any, speed_ratio: Any, crank_speed: Any) -> Any:
+    """Energy of the wheel's inertia at a speed."""
+    return driven_inertia * (speed_ratio * crank_speed) ** 2 / 2
+
+
+@formula
+def energy_residual(energy: Any, kinetic_energy: Any) -> Any:
+    """What is left of the work over a turn, relative to the greatest energy."""
+    return abs(energy) / kinetic_energy
+
+
+@formula
+def flank_distance(crank_radius: Any, roller_radius: Any) -> Any:
+    """Distance of the nearest flanks of the two neighbouring slots from the crank's axis in the dwell."""
+    return crank_radius - roller_radius
+
+
+@formula
+def rim_distance(center_distance: Any, rim_radius: Any) -> Any:
+    """Distance of the wheel's rim, before its arcs are cut, from the crank's axis."""
+    return center_distance - rim_radius
+
+
+@formula
+def thick_tip(crank_radius: Any, roller_radius: Any) -> Any:
+    """Radius of the locking arcs with an arm's tip as thick as the roller."""
+    return crank_radius - 3 * roller_radius
+
+
+@formula
+def half_crank(crank_radius: Any) -> Any:
+    """Radius of the locking arcs, half the crank's."""
+    return crank_radius / 2
+
+
+@formula
+def halfway(flank_distance: Any, rim_distance: Any) -> Any:
+    """Radius of the locking arcs halfway between rim and flank."""
+    return (flank_distance + rim_distance) / 2
+
+
+@formula
+def leaves_thick_tip(crank_radius: Any, roller_radius: Any, flank_distance: Any, rim_distance: Any) -> Any:
+    """Whether a tip as thick as the roller leaves the locking arc both its least radii."""
+    least = np.maximum(half_crank(crank_radius), halfway(flank_distance, rim_distance))
+    return thick_tip(crank_radius, roller_radius) >= least
+
+
+@formula
+def is_deep_enough(crank_radius: Any, flank_distance: Any, rim_distance: Any) -> Any:
+    """Whether half the crank's radius reaches halfway from rim to flank."""
+    return half_crank(crank_radius) >= halfway(flank_distance, rim_distance)
+
+
+@formula
+def scaled(length: Any, disc_radius: Any, crank_radius: Any) -> Any:
+    """A length of the position at entry, scaled from the crank's radius to the disc's."""
+    return length * disc_radius / crank_radius
+
+
+@formula
+def reaches(rim_distance: Any, disc_radius: Any) -> Any:
+    """Whether the locking disc reaches into the wheel."""
+    return rim_distance < disc_radius
+
+
+@formula
+def hold_half_angle(center_distance: Any, locking_radius: Any, rim_radius: Any) -> Any:
+    """Half the angle over which an arc of the wheel encloses the disc, seen from the crank's axis."""
+    return arccos((center_distance**2 + locking_radius**2 - rim_radius**2) / (2 * center_distance * locking_radius))
+
+
+@formula
+def play(clearance: Any, center_distance: Any, hold_half_angle: Any) -> Any:
+    """Angle by which the wheel can turn either way in the dwell."""
+    return clearance / (center_distance * np.sin(hold_half_angle))
+
+
+@formula
+def neck(slots: Any, center_distance: Any, locking_radius: Any, roller_radius: Any) -> Any:
+    """Width of an arm between its slots where the locking arc is deepest."""
+    return 2 * ((center_distance - locking_radius) * np.sin(np.pi / slots) - roller_radius)
+
+
+@formula
+def tip_half_angle(center_distance: Any, rim_radius: Any, locking_radius: Any) -> Any:
+    """Half the angle of a locking arc at the wheel's axis; zero where it does not reach the rim."""
+    cosine = (center_distance**2 + rim_radius**2 - locking_radius**2) / (2 * center_distance * rim_radius)
+    return arccos(np.minimum(cosine, 1))
+
+
+@formula
+def corner_place(wheel_angle: Any, turns: Any, step_angle: Any, tip_half_angle: Any, slots: Any) -> Any:
+    """Angle of the corner between locking arc and rim at the wheel's axis, from the line of centres."""
+    return wheel_angle - turns * step_angle + tip_half_angle - np.pi / slots
+
+
+@formula
+def corner_distance(center_distance: Any, rim_radius: Any, corner_place: Any) -> Any:
+    """Distance of that corner from the crank's axis."""
+    return np.sqrt(center_distance**2 + rim_radius**2 - 2 * center_distance * rim_radius * np.cos(corner_place))
+
+
+@formula
+def corner_along(center_distance: Any, rim_radius: Any, corner_place: Any, crank_angle: Any) -> Any:
+    """Distance of the corner from the crank's axis, along the crank."""
+    return center_distance * np.cos(crank_angle) - rim_radius * np.cos(crank_angle + corner_place)
+
+
+@formula
+def corner_to_hollow(corner_distance: Any, relief_distance: Any, corner_along: Any) -> Any:
+    """Distance of the corner from the hollow's centre."""
+    return np.sqrt(corner_distance**2 + relief_distance**2 - 2 * relief_distance * corner_along)
+
+
+@formula
+def corner_gap(corner_distance: Any, disc_radius: Any, relief_radius: Any, corner_to_hollow: Any) -> Any:
+    """Gap between the corner and the disc: to its arc, or to the hollow of its cut-out."""
+    return np.maximum(corner_distance - disc_radius, relief_radius - corner_to_hollow)
+
+
+@formula
+def overlap(gap: Any) -> Any:
+    """What a gap below zero overlaps, else zero."""
+    return (abs(gap) - gap) / 2

@@ -1,0 +1,336 @@
+"""The Geneva drive against vector loops, finite differences, energy, virtual work and the bare geometry of its parts."""
+
+from __future__ import annotations
+
+from functools import cache
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from diecut_report import pipeline
+from diecut_report.discovery import Discovery
+from diecut_report.engine import Calculation, Impossible, calculate
+from diecut_report.expressions import Array
+from diecut_report.plugins.geneva_transport import MECHANISM
+from diecut_report.results import mechanism_results
+from diecut_report.testing import check_mechanism
+from tests.configs import HEAD, problems, saved
+from tests.machines import inputs, number
+
+CROSS: dict[str, Any] = {"slots": 6, "center_distance": "200 mm", "crank_speed": "100 rpm", "roller_radius": "10 mm"}
+SHEET: dict[str, Any] = {"sprocket_teeth": 24, "chain_pitch": "31.75 mm", "gear_ratio": 4}
+OMEGA = 100 * 2 * np.pi / 60
+SLOTS = (3, 4, 5, 6, 8, 12, 18)
+
+
+def geneva(**changes: Any) -> Calculation:
+    """The Geneva drive of the conformance case with changes."""
+    return calculate(MECHANISM, inputs(MECHANISM, CROSS | changes))
+
+
+@cache
+def with_slots(slots: int) -> Calculation:
+    """A drive with so many slots, inertia and conveyor, and a roller that fits."""
+    return geneva(slots=slots, roller_radius="3 mm", driven_inertia=0.8, locking_clearance=0, **SHEET)
+
+
+def at(calc: Calculation, name: str, alpha: Array) -> Array:
+    """A curve at crank angles from −π to 2π."""
+    places = np.atleast_1d(np.mod(alpha, 2 * np.pi))[None, :]
+    return calc.sample(name, places, calc.domains["crank_angle"].middle_of(places))[0]
+
+
+def engaged(calc: Calculation, points: int = 2001, inside: float = 1 - 1e-9) -> Array:
+    """Crank angles of the engagement."""
+    half = number(calc, "engagement_half_angle") * inside
+    return np.linspace(-half, half, points)
+
+
+def wheel_from_middle(calc: Calculation, alpha: Array) -> Array:
+    """Angle of the wheel, counted from the middle of the same motion for angles before it too."""
+    return at(calc, "wheel_angle", alpha) - np.where(alpha < 0, number(calc, "step_angle"), 0)
+
+
+# --- motion ----------------------------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("slots", SLOTS)
+def test_the_roller_lies_in_the_slot_the_vector_loop_closes(slots: int) -> None:
+    calc = with_slots(slots)
+    alpha = engaged(calc)
+    psi, distance = wheel_from_middle(calc, alpha), at(calc, "roller_distance", alpha)
+    roller = 0.2 * np.sin(np.pi / slots) * np.exp(1j * alpha)
+    np.testing.assert_allclose(0.2 + distance * np.exp(1j * (np.pi - psi)), roller, atol=1e-15)
+
+
+@pytest.mark.parametrize("slots", SLOTS)
+def test_speed_and_acceleration_are_the_derivatives_of_the_angle(slots: int) -> None:
+    calc = with_slots(slots)
+    alpha = engaged(calc, 20_001)
+    step = alpha[1] - alpha[0]
+    psi, speed, acceleration = (
+        wheel_from_middle(calc, alpha),
+        at(calc, "wheel_speed", alpha),
+        at(calc, "wheel_acceleration", alpha),
+    )
+    np.testing.assert_allclose((psi[2:] - psi[:-2]) / (2 * step) * OMEGA, speed[1:-1], atol=1e-5 * speed.max())
+    np.testing.assert_allclose(
+        (speed[2:] - speed[:-2]) / (2 * step) * OMEGA, acceleration[1:-1], atol=1e-5 * acceleration.max()
+    )
+
+
+@pytest.mark.parametrize("slots", SLOTS)
+def test_the_wheel_makes_one_step_a_turn_and_rests_between(slots: int) -> None:
+    calc = with_slots(slots)
+    half = np.pi / 2 - np.pi / slots
+    dwell = np.linspace(half, 2 * np.pi - half, 301)[1:-1]
+    assert at(calc, "wheel_angle", dwell) == pytest.approx(np.full(299, np.pi / slots), rel=1e-14)
+    assert not at(calc, "wheel_speed", dwell).any() and not at(calc, "wheel_acceleration", dwell).any()
+    before, after = at(calc, "wheel_angle", np.array([0.0, 2 * np.pi - 1e-9]))
+    assert after - before == pytest.approx(2 * np.pi / slots, abs=1e-7)
+    edges = np.array([half - 1e-9, half + 1e-9, 2 * np.pi - half - 1e-9, 2 * np.pi - half + 1e-9])
+    assert at(calc, "wheel_angle", edges) == pytest.approx(np.full(4, np.pi / slots), abs=1e-8)
+
+
+@pytest.mark.parametrize("slots", SLOTS)
+def test_the_roller_enters_along_the_slot(slots: int) -> None:
+    """In the resting wheel's frame the roller has no velocity across the slot at entry; its path touches the slot there."""
+    half = np.pi / 2 - np.pi / slots
+    radius = 0.2 * np.sin(np.pi / slots)
+    slot = np.exp(1j * (np.pi + np.pi / slots))  # direction of the slot that waits for the roller
+    alpha = -half + np.array([-1e-4, 0.0, 1e-4])
+    across = np.imag((radius * np.exp(1j * alpha) - 0.2) / slot)
+    assert across[1] == pytest.approx(0, abs=1e-15)
+    assert (across[2] - across[0]) / 2e-4 == pytest.approx(0, abs=1e-8)
+    calc = with_slots(slots)
+    assert at(calc, "wheel_speed", engaged(calc)[:1])[0] == pytest.approx(0, abs=1e-7)
+    assert at(calc, "wheel_acceleration", engaged(calc)[:1])[0] == pytest.approx(
+        np.tan(np.pi / slots) * OMEGA**2, rel=1e-7
+    )
+
+
+@given(slots=st.integers(3, 18), distance=st.floats(50, 900), share=st.floats(0.02, 0.1))
+def test_peaks_shares_and_sizes_for_any_number_of_slots(slots: int, distance: float, share: float) -> None:
+    calc = geneva(slots=slots, center_distance=distance, roller_radius=distance * share)
+    ratio = np.sin(np.pi / slots)
+    alpha = np.linspace(-1, 1, 40_001) * (np.pi / 2 - np.pi / slots)
+    psi = np.angle(1 - ratio * np.exp(-1j * alpha))
+    slope = np.gradient(psi, alpha)
+    found = {name: number(calc, name) for name in ("speed_ratio_peak", "acceleration_peak", "acceleration_peak_angle")}
+    assert found["speed_ratio_peak"] == pytest.approx(slope.max(), rel=1e-5)
+    bend = (ratio * (ratio**2 - 1) * np.sin(alpha)) / abs(1 - ratio * np.exp(1j * alpha)) ** 4
+    assert found["acceleration_peak"] == pytest.approx(bend.max(), rel=1e-6)
+    assert np.gradient(slope, alpha)[2:-2].max() == pytest.approx(bend.max(), rel=1e-3)
+    assert found["acceleration_peak_angle"] == pytest.approx(-alpha[np.argmax(bend)], abs=1e-4)
+    assert number(calc, "acceleration_peak_at") == pytest.approx(2 * np.pi - found["acceleration_peak_angle"], abs=1e-6)
+    assert number(calc, "motion_fraction") + number(calc, "dwell_fraction") == pytest.approx(1, rel=1e-15)
+    assert number(calc, "time_motion") + number(calc, "time_dwell") == pytest.approx(0.6, rel=1e-14)
+    assert number(calc, "motion_fraction") == pytest.approx(2 * alpha[-1] / (2 * np.pi), rel=1e-12)
+    assert number(calc, "slot_length") + number(calc, "nearest_distance") == pytest.approx(
+        number(calc, "wheel_radius") + number(calc, "roller_radius"), rel=1e-12
+    )
+
+
+def test_the_sheet_follows_the_wheel_through_gear_and_sprocket() -> None:
+    calc = geneva(**SHEET)
+    alpha = engaged(calc, 501)
+    radius = 24 * 0.03175 / (2 * np.pi) * 4  # of the sprocket's pitch line, for each radian of the wheel
+    assert number(calc, "sheet_step") == pytest.approx(radius * np.pi / 3, rel=1e-14)
+    for of_sheet, of_wheel in (
+        ("sheet_position", "wheel_angle"),
+        ("sheet_velocity", "wheel_speed"),
+        ("sheet_acceleration", "wheel_acceleration"),
+    ):
+        np.testing.assert_allclose(
+            at(calc, of_sheet, alpha), radius * at(calc, of_wheel, alpha), rtol=1e-13, atol=1e-12
+        )
+    assert number(calc, "sheet_velocity_max") == pytest.approx(at(calc, "sheet_velocity", alpha).max(), rel=1e-12)
+    assert number(calc, "sheet_acceleration_max") == pytest.approx(
+        at(calc, "sheet_acceleration", alpha).max(), rel=1e-4
+    )
+    assert number(calc, "sheet_acceleration_entry") == pytest.approx(
+        at(calc, "sheet_acceleration", alpha[:1])[0], rel=1e-7
+    )
+
+
+# --- torque and forces -----------------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("slots", SLOTS)
+def test_the_torque_is_the_rate_of_the_wheels_energy_and_none_is_left_after_a_turn(slots: int) -> None:
+    calc = with_slots(slots)
+    alpha = engaged(calc, 20_001)
+    energy, torque = 0.8 * at(calc, "wheel_speed", alpha) ** 2 / 2, at(calc, "torque", alpha)
+    np.testing.assert_allclose(np.gradient(energy, alpha)[1:-1], torque[1:-1], atol=1e-5 * torque.max())
+    work = np.sum((torque[1:] + torque[:-1]) / 2) * (alpha[1] - alpha[0])
+    assert work == pytest.approx(0, abs=1e-9 * energy.max())
+    assert number(calc, "kinetic_energy_max") == pytest.approx(energy.max(), rel=1e-9)
+    assert number(calc, "energy_residual") < 1e-12
+    assert number(calc, "torque_peak") == pytest.approx(torque.max(), rel=1e-6)
+
+
+@pytest.mark.parametrize("slots", SLOTS)
+def test_the_roller_force_turns_the_wheel_and_loads_the_crank(slots: int) -> None:
+    """Equilibrium of the wheel about its axis and of the crank about its own, from the force as a vector square to the slot."""
+    calc = with_slots(slots)
+    alpha = engaged(calc, 501)
+    psi, force = wheel_from_middle(calc, alpha), at(calc, "roller_force", alpha)
+    roller = 0.2 * np.sin(np.pi / slots) * np.exp(1j * alpha)
+    on_wheel = force * np.exp(
+        1j * (np.pi / 2 - psi)
+    )  # square to the slot, the way the wheel turns: clockwise about (C, 0)
+    about_wheel = np.imag(np.conj(roller - 0.2) * on_wheel)
+    np.testing.assert_allclose(
+        -about_wheel, 0.8 * at(calc, "wheel_acceleration", alpha), atol=1e-9 * abs(about_wheel).max()
+    )
+    needed = np.imag(np.conj(roller) * on_wheel)  # what the crank's motor gives against the reaction −on_wheel
+    torque = at(calc, "torque", alpha)
+    np.testing.assert_allclose(needed, torque, atol=1e-9 * torque.max())
+    assert number(calc, "roller_force_peak") == pytest.approx(force.max(), rel=1e-4)
+    assert number(calc, "roller_force_peak") >= force.max() * (1 - 1e-12)
+
+
+def test_the_contact_pressure_is_that_of_a_cylinder_on_a_plane() -> None:
+    calc = geneva(driven_inertia=4, roller_width="24 mm", allowable_contact_pressure="1200 MPa")
+    load = number(calc, "roller_force_peak") / 0.024
+    assert number(calc, "contact_pressure") == pytest.approx(
+        0.591 * np.sqrt(load * 210e9 / 0.02), rel=1e-3
+    )  # Roark, ν = 0.3
+    share = (number(calc, "contact_pressure") / 1.2e9) ** 2
+    assert number(calc, "roller_width_min") == pytest.approx(0.024 * share, rel=1e-12)
+
+
+# --- what cannot be, and checks --------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize(
+    "changes, key, words",
+    [
+        ({"roller_radius": "101 mm"}, "roller_radius", "crank radius C·sin(π/z) = 100"),
+        ({"slots": 3, "roller_radius": "30 mm"}, "roller_radius", "26.79 mm"),
+        ({"locking_radius": "120 mm"}, "locking_radius", "crank radius"),
+        ({"locking_clearance": "70 mm"}, "locking_clearance", "arc's radius 70 mm"),
+    ],
+)
+def test_an_impossible_drive_is_refused_in_words(changes: dict[str, Any], key: str, words: str) -> None:
+    with pytest.raises(Impossible) as refused:
+        geneva(**changes)
+    assert refused.value.key == key
+    assert words in refused.value.message
+
+
+def checks(**changes: Any) -> dict[str, dict[str, Any]]:
+    """The checks of a drive by their ids."""
+    return {check["id"]: check for check in mechanism_results(geneva(**changes), {})["checks"]}
+
+
+@pytest.mark.parametrize(
+    "changes, name, words",
+    [
+        ({"roller_radius": "51 mm"}, "roller_clearance", "the wall between them is -2 mm"),
+        ({"locking_radius": "95 mm"}, "arm_thickness", "90 mm"),
+        ({"locking_radius": "20 mm"}, "locking_reach", "26.51 mm"),
+        (SHEET | {"allowable_sheet_acceleration": 50}, "sheet_acceleration", "more slots"),
+        (
+            {"driven_inertia": 4, "roller_width": "5 mm", "allowable_contact_pressure": 1200},
+            "contact_pressure",
+            "a roller of at least",
+        ),
+        ({"slots": 12, "roller_radius": "13 mm"}, "cutout", "flanks at 38.76 mm"),
+    ],
+)
+def test_a_check_fails_in_words_that_tell_what_to_change(changes: dict[str, Any], name: str, words: str) -> None:
+    found = checks(**changes)
+    assert found[name]["status"] == ("warn" if name == "cutout" else "fail")
+    assert words in found[name]["message"].replace("−", "-")
+
+
+def test_all_checks_pass_where_the_drive_is_sound() -> None:
+    everything = {
+        "driven_inertia": 4,
+        "roller_width": "24 mm",
+        "allowable_contact_pressure": 1200,
+        "allowable_sheet_acceleration": 80,
+    }
+    found = checks(**SHEET, **everything)
+    assert set(found) == {
+        "roller_clearance",
+        "arm_thickness",
+        "locking_reach",
+        "cutout",
+        "sheet_acceleration",
+        "contact_pressure",
+        "energy_balance",
+    }
+    assert {check["status"] for check in found.values()} == {"pass"}
+
+
+def test_the_figures_are_drawn_even_where_nothing_holds_the_wheel() -> None:
+    for changes in (
+        {"locking_radius": "20 mm"},
+        {"locking_radius": "95 mm"},
+        {"roller_radius": "60 mm"},
+        {"slots": 18, "roller_radius": "30 mm"},
+    ):
+        shapes = mechanism_results(geneva(**changes), {})["figures"]
+        assert [figure["id"] for figure in shapes] == ["entry", "positions", "motion"]
+
+
+def test_the_crank_makes_a_turn_for_each_sheet_of_the_press(tmp_path: Path) -> None:
+    config = saved(tmp_path, HEAD + "  g: {kind: geneva_transport, center_distance: 200 mm, roller_radius: 10 mm}\n")
+    found = pipeline.calc(config, Discovery([]), lambda _: None)[0].results["mechanisms"]["g"]
+    assert found["inputs"]["crank_speed"]["value"] == pytest.approx(2 * np.pi * 6000 / 3600, rel=1e-14)
+    assert found["outputs"]["time_dwell"]["value"] == pytest.approx(0.4, rel=1e-14)
+
+
+@pytest.mark.parametrize(
+    "keys, words",
+    [
+        ("slots: 2, center_distance: 200, roller_radius: 10", "≥ 3"),
+        ("slots: 19, center_distance: 200, roller_radius: 10", "≤ 18"),
+        ("slots: 4.5, center_distance: 200, roller_radius: 10", "whole number"),
+        ("center_distance: 0, roller_radius: 10", "> 0 mm"),
+        ("roller_radius: 10", "center_distance"),
+    ],
+)
+def test_inputs_out_of_range_are_refused(tmp_path: Path, keys: str, words: str) -> None:
+    found = problems(tmp_path, HEAD + f"  g: {{kind: geneva_transport, {keys}}}\n", Discovery([]))
+    assert len(found) == 1 and words in found[0]
+
+
+# --- arrays, contract ------------------------------------------------------------------------------------------------
+
+
+def test_many_variants_at_once_are_single_runs() -> None:
+    draw, count = np.random.default_rng(3), 300
+    varied = {
+        "slots": draw.integers(3, 19, count).astype(float),
+        "center_distance": draw.uniform(0.05, 0.3, count),
+        "roller_radius": draw.uniform(0.004, 0.03, count),
+        "crank_speed": draw.uniform(3, 20, count),
+        "driven_inertia": draw.uniform(0.1, 9, count),
+        "locking_clearance": draw.uniform(0, 2e-4, count),
+    }
+    base = inputs(MECHANISM, CROSS | SHEET | {"driven_inertia": 1, "roller_width": "20 mm", "n_points": 72})
+    together = calculate(MECHANISM, base | varied, variants=count)
+    names = [name for name, value in together.values.items() if value.shape == (count, 1) and value.dtype != object]
+    assert 10 < len(together.flaws) < 200
+    for i in range(count):
+        single = base | {name: float(values[i]) for name, values in varied.items()}
+        if i in together.flaws:
+            with pytest.raises(Impossible):
+                calculate(MECHANISM, single)
+            continue
+        alone = calculate(MECHANISM, single)
+        for name in names:
+            tolerance = 1e-6 if name.endswith("_at") else 1e-12
+            scale = 1e-9 if name in ("energy_turn", "energy_residual") else 1e-15
+            assert together[name][i, 0] == pytest.approx(number(alone, name), rel=tolerance, abs=scale, nan_ok=True)
+
+
+def test_the_declaration_keeps_the_plugin_contract() -> None:
+    check_mechanism(MECHANISM)
