@@ -18,8 +18,8 @@ from typing import TYPE_CHECKING, Any, NoReturn, TypeVar
 import click
 
 from diecut_report import __version__
-from diecut_report.discovery import Discovery, DuplicateKind, UnknownKind, nearest
-from diecut_report.errors import PluginError, Problem, UserError
+from diecut_report.discovery import Discovery, DuplicateKind, UnknownKind
+from diecut_report.errors import PluginError, Problem, UserError, nearest
 from diecut_report.progress import Progress
 
 if TYPE_CHECKING:

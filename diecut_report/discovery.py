@@ -11,7 +11,6 @@ before a configuration is read, to add to a registry (such as the motion laws).
 
 from __future__ import annotations
 
-import difflib
 import hashlib
 import re
 import sys
@@ -27,7 +26,7 @@ from typing import Any
 
 from diecut_report import yaml_tree
 from diecut_report.contract.mechanism import Mechanism
-from diecut_report.errors import PluginError, Problem, UserError
+from diecut_report.errors import PluginError, Problem, UserError, nearest
 
 GROUP = "diecut_report.plugins"
 EXTENSIONS = "diecut_report.extensions"
@@ -104,12 +103,6 @@ class Discovery:
             places = " and from ".join(origin.told for origin in origins)
             raise DuplicateKind(f"The kind {kind!r} comes from {places}. Remove or rename one of them.")
         return origins[0]
-
-
-def nearest(given: str, known: Iterable[str]) -> str:
-    """A suggestion to append, " (did you mean 'crank_speed'?)", or nothing where none is near."""
-    found = difflib.get_close_matches(given[:100], list(known), n=1, cutoff=0.6)
-    return f" (did you mean {found[0]!r}?)" if found else ""
 
 
 def _loaded(origin: Origin) -> Mechanism | PluginError:

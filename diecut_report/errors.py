@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import difflib
 from collections.abc import Iterable
 from dataclasses import dataclass
 
@@ -52,3 +53,9 @@ class PluginError(Exception):
         where = f"mechanism {self.instance!r}" if self.instance else ""
         plugin = f"plugin {self.kind!r}" if self.kind else ""
         return ": ".join(part for part in (" of ".join(p for p in (where, plugin) if p), self.message) if part)
+
+
+def nearest(given: str, known: Iterable[str]) -> str:
+    """A suggestion to append, " (did you mean 'crank_speed'?)", or nothing where none is near."""
+    found = difflib.get_close_matches(given[:100], list(known), n=1, cutoff=0.6)
+    return f" (did you mean {found[0]!r}?)" if found else ""

@@ -52,13 +52,13 @@ def table(curves: Mapping[str, Data]) -> bytes:
 
 def profile_drawing(curves: Mapping[str, Data], export: Data) -> bytes:
     """A profile, its pitch curve where it has one, and its axis, as DXF in millimetres; the same bytes for the same curves."""
-    import ezdxf  # half a second
-    from ezdxf import units
+    from ezdxf import units  # with the whole library, which takes half a second
+    from ezdxf.filemanagement import new
 
     columns = export["columns"]
     closed = period_of(curves[export["abscissa"]]) is not None
     with _without_dates():
-        drawing = ezdxf.new(VERSION, setup=["linetypes"], units=units.MM)
+        drawing = new(VERSION, setup=["linetypes"], units=units.MM)
         drawing.header["$MEASUREMENT"] = 1
         for layer, (colour, line) in LAYERS.items():
             drawing.layers.add(layer, color=colour, linetype=line)
@@ -98,7 +98,7 @@ def _written(drawing: Drawing) -> bytes:
 @contextmanager
 def _without_dates() -> Iterator[None]:
     """Without the time of writing and random identifiers, which ezdxf writes into every file."""
-    from ezdxf import options
+    from ezdxf import options  # type: ignore[attr-defined]  # public by its manual, not by its types
 
     before = options.write_fixed_meta_data_for_testing
     options.write_fixed_meta_data_for_testing = True

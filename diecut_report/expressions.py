@@ -178,7 +178,8 @@ class _Reader:
 
     def _call(self, callee: Any, args: tuple[Node, ...], at: ast.expr) -> Node:
         if callee is np.where and len(args) == 3:
-            return Node("cases", ((args[1], args[0]), (args[2],)))
+            otherwise = args[2].args if args[2].op == "cases" else ((args[2],),)
+            return Node("cases", ((args[1], args[0]), *otherwise))
         if isinstance(callee, Formula):
             return substitute(callee.tree, dict(zip(callee.parameters, args, strict=True)))
         if callee in FUNCTIONS:

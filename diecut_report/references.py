@@ -26,8 +26,7 @@ from diecut_report.contract.inputs import (
 )
 from diecut_report.contract.mechanism import Mechanism
 from diecut_report.contract.steps import Step
-from diecut_report.discovery import nearest
-from diecut_report.errors import Problem
+from diecut_report.errors import Problem, nearest
 from diecut_report.expressions import Formula
 from diecut_report.units import pretty, unit
 from diecut_report.validation import Place, declared, keys_of

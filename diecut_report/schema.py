@@ -102,9 +102,8 @@ def _key(model: type[Block], name: str) -> Schema:
             return described | {"anyOf": [_reference(), {"type": "array", "minItems": 4, "items": value}]}
     described = {"description": f"{meta.description}."} if meta else {}
     plain = issubclass(model, Project | Revision)  # the title block takes no references
-    return (
-        described | (_text(field.annotation) if plain else {"anyOf": [_text(field.annotation), _reference()]}) | shown
-    )
+    allowed = {"enum": list(meta.options)} if isinstance(meta, Text) and meta.options else _text(field.annotation)
+    return described | (allowed if plain else {"anyOf": [allowed, _reference()]}) | shown
 
 
 def _reference() -> Schema:

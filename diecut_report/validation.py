@@ -11,8 +11,7 @@ from pydantic import ValidationError
 from pydantic.fields import FieldInfo
 
 from diecut_report.contract.inputs import Block, CurveInput, Meta, Pending, Quantity, Text, meta_of, nested
-from diecut_report.discovery import nearest
-from diecut_report.errors import Problem
+from diecut_report.errors import Problem, nearest
 from diecut_report.units import pretty
 from diecut_report.yaml_tree import KeyPath, Tree
 

@@ -8,7 +8,7 @@ from typing import get_args
 
 from pydantic_core import PydanticUndefined
 
-from diecut_report.contract.inputs import Block, CurveInput, Meta, OneOf, Quantity, meta_of, nested
+from diecut_report.contract.inputs import Block, CurveInput, Meta, OneOf, Quantity, Text, meta_of, nested
 from diecut_report.contract.mechanism import Mechanism
 from diecut_report.contract.steps import SILENT, Crossings, Reduction, Step
 from diecut_report.discovery import Discovery
@@ -83,7 +83,8 @@ def _unit(meta: Meta) -> str:
 def _allowed(meta: Meta, annotation: object) -> str:
     if isinstance(meta, Quantity):
         return meta.allowed
-    return ", ".join(f"`{option}`" for option in get_args(annotation) if isinstance(option, str))
+    known = meta.options if isinstance(meta, Text) and meta.options else get_args(annotation)
+    return ", ".join(f"`{option}`" for option in known if isinstance(option, str))
 
 
 def _default(meta: Meta, default: object) -> str:

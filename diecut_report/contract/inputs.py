@@ -6,7 +6,7 @@ Values are SI floats once validated. Defaults and bounds are written in the disp
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Collection, Iterator, Mapping
 from dataclasses import dataclass
 from functools import cached_property
 from typing import Annotated, Any, ClassVar, get_args, get_origin
@@ -16,6 +16,7 @@ from pydantic.json_schema import JsonSchemaValue
 from pydantic_core import CoreSchema, core_schema
 
 from diecut_report.contract.given import SI, FromPress, OneOf, Pending
+from diecut_report.errors import nearest
 from diecut_report.units import Unit, parse_quantity, pretty, to_display, unit
 
 BOUNDS = (("gt", ">"), ("ge", "≥"), ("lt", "<"), ("le", "≤"))
@@ -123,10 +124,24 @@ def _optional(source: Any, validate: Callable[[Any], Any]) -> Callable[[Any], An
 
 @dataclass(frozen=True)
 class Text:
-    """An input that is a text, a choice or yes/no: its description (the annotation says what is allowed)."""
+    """An input that is a text, a choice or yes/no: its description (the annotation says what is allowed).
+
+    ``options`` are the allowed texts where these are kept in a registry.
+    """
 
     description: str
     symbol: str = ""
+    options: Collection[str] = ()
+
+    def validate(self, given: str | None) -> str | None:
+        """The text, if it is one of the options; ValueError with the known ones in words where it is not."""
+        if given is None or given in self.options:
+            return given
+        raise ValueError(f"is “{given}”{nearest(given, self.options)}; allowed: {', '.join(self.options)}")
+
+    def __get_pydantic_core_schema__(self, source: Any, handler: GetCoreSchemaHandler) -> CoreSchema:
+        schema = handler(source)
+        return core_schema.no_info_after_validator_function(self.validate, schema) if self.options else schema
 
 
 @dataclass(frozen=True)

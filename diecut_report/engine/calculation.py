@@ -84,6 +84,7 @@ class Calculation:
     def __init__(self, mechanism: Mechanism, inputs: Mapping[str, Any], variants: int) -> None:
         self.mechanism = mechanism
         self.count = variants
+        self.is_partial = False  # whether only some steps are run, so that messages may lack their numbers
         self.given = frozenset(inputs) | texts_given(inputs)
         self.meta: dict[str, Meta] = dict(fields(mechanism.inputs))
         self.inputs: dict[str, Any] = {name: _column(value, variants) for name, value in inputs.items()}

@@ -237,6 +237,8 @@ def _accumulated(calc: Calculation, step: Accumulated) -> Item:
 
 def _crossings(calc: Calculation, step: Crossings) -> Item:
     places = [float(x) for x in calc[step.id][0] if x == x]
+    if not places:
+        return _head(step) | {"type": "note", "text": f"{step.description}: there is none."}
     rows = [[str(i), number_text(x / unit(step.unit).factor, 6)] for i, x in enumerate(places, 1)]
     columns = [
         {"title": "No.", "symbol": "", "unit": "1"},

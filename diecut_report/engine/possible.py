@@ -29,7 +29,8 @@ def clash(calc: Calculation, step: Clash) -> None:
 
 
 def _refuse(calc: Calculation, step: Require | Clash, variant: int, places: dict[str, int]) -> None:
-    message, key = filled(calc, step.message, variant, places), filled(calc, step.key, variant, places)
+    message = "" if calc.is_partial else filled(calc, step.message, variant, places)
+    key = filled(calc, step.key, variant, places)
     calc.flaws.setdefault(variant, (key, message))
     if calc.count == 1:
         raise Impossible([(key, message)])

@@ -120,6 +120,8 @@ class Substitution:
         inner = tree.args[1] if tree.op == "call" and tree.args[0] == "abs" else tree
         if inner.op == "/":
             return self._size(inner.args[0]) / abs(float(evaluate(inner.args[1], self._printed_value)))
+        if inner.op == "call" and inner.args[0] in ("sin", "cos"):
+            return 1.0
         if inner.op == "*":
             return self._size(inner.args[0]) * self._size(inner.args[1])
         terms = inner.args if inner.op in ("+", "-") else (inner,)

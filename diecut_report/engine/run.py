@@ -44,6 +44,7 @@ def calculate(
         n: SampledCurve(v) if n in mechanism.curve_inputs and isinstance(v, tuple) else v for n, v in values.items()
     }
     calc = Calculation(mechanism, curves, variants)
+    calc.is_partial = only is not None
     with np.errstate(all="ignore"):
         steps = [step for _, step in mechanism.active(calc.given) if only is None or step.id in only]
         for i, step in enumerate(steps):

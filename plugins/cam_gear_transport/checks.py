@@ -1,0 +1,42 @@
+"""Checks of the cam-gear stepper."""
+
+from __future__ import annotations
+
+from diecut_report.api import Check
+from diecut_report.plugins.cam_gear_transport.cams import LOADED
+from diecut_report.plugins.cam_gear_transport.inputs import CAMS, SHEET, TORQUE
+
+CHECKS = (
+    Check(id="return_time", title="Time of the sector's return", demand="min_return_time", limit="time_return", unit="1", operator="<",
+          demand_label="needed share", limit_label="share left, T₄", source="practice",
+          consequence="the sector and the conveyor are thrown in too short a time; take {return_recommended}."),
+    Check(id="gear_turn", title="One turn of the gear in a cycle", demand="gear_rotation_error", limit=1e-6, unit="deg",
+          demand_label="rotation off a full turn", limit_label="accepted", source="kinematics",
+          consequence="the law of motion contradicts itself: its velocity is not the rate of its position; correct the law."),
+    Check(id="tooth_undercut", title="Least teeth of the gear", demand=17.0, limit="gear_teeth", unit="1", severity="warn", needs=("module",),
+          demand_label="teeth without undercut", limit_label="teeth of the gear", source="involute teeth of 20°",
+          consequence="the gear's teeth are undercut at their roots; take a smaller module, or shift the profile."),
+    Check(id="pressure_angle", title="Pressure angle of the cams", demand="pressure_angle_max", limit="max_pressure_angle", unit="deg",
+          demand_label="greatest pressure angle", limit_label="accepted", source="practice", needs=CAMS,
+          consequence="the roller presses on its pivot more than it turns the arm; change arm_angle_1 (its cam has {cam_1_pressure_angle_max}) or "
+          "arm_angle_2 ({cam_2_pressure_angle_max}), or shorten arm_length."),
+    Check(id="curvature", title="No undercut of the cams", demand="roller_radius", limit="curvature_min", unit="mm", operator="<",
+          demand_label="roller radius", limit_label="least radius of the pitch curves", source="geometry", needs=CAMS,
+          consequence="a profile ends in a point and its roller leaves the wanted path there; take a roller smaller than {curvature_min}, or a "
+          "greater center_distance."),
+    Check(id="profile_turns", title="The cams go round the shaft", demand="roller_radius", limit="tangent_distance_min", unit="mm", operator="<",
+          demand_label="roller radius", limit_label="least distance of tangents from O₁", source="geometry", needs=CAMS,
+          consequence="a roller runs back around O₁ or its profile crosses itself; shorten arm_length, or leave the return more time."),
+    Check(id="contact_pressure", title="Contact pressure of the rollers", demand="contact_pressure", limit="allowable_contact_pressure",
+          unit="MPa", demand_label="greatest contact pressure", limit_label="allowed", source="Hertz",
+          needs=(*CAMS, *LOADED, "allowable_contact_pressure"),
+          consequence="rollers and cams wear and pit; take wider or greater rollers, longer arms, a greater center_distance, or a lighter conveyor."),
+    Check(id="sheet_acceleration", title="Acceleration of the sheet", demand="sheet_acceleration_max", limit="allowable_sheet_acceleration",
+          unit="m/s**2", demand_label="greatest acceleration", limit_label="allowed", source="input",
+          needs=(*SHEET, "allowable_sheet_acceleration"),
+          consequence="the sheet slips from the grippers or tears; shorten dwell_angle, sector_stop_sweep or the step, lower cycles_per_hour, or "
+          "take a law of motion with a lower peak acceleration."),
+    Check(id="energy_balance", title="Energy balance over a turn", demand="energy_residual", limit=1e-6, unit="1", needs=TORQUE,
+          demand_label="relative difference", limit_label="accepted", source="conservation of energy",
+          consequence="the calculation contradicts itself; do not use it."),
+)  # fmt: skip

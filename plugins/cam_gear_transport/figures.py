@@ -1,0 +1,140 @@
+"""Figures of the cam-gear stepper."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from diecut_report.api import (
+    Chart,
+    Drawing,
+    Level,
+    Mark,
+    Panel,
+    Plot,
+    Series,
+    Shape,
+    Span,
+    View,
+    chart_panel,
+    line,
+    mark,
+    vertical,
+)
+from diecut_report.mechanics.motion_laws import LAWS, MotionLaw
+from diecut_report.plugins.cam_gear_transport import formulas
+from diecut_report.plugins.cam_gear_transport.cams import LOADED
+from diecut_report.plugins.cam_gear_transport.drawing import cam_1, cam_2, rolling
+from diecut_report.plugins.cam_gear_transport.inputs import CAMS, SHEET, TORQUE
+
+PHASES = (
+    Span(start="angle_dwell", end="dwell_angle", label="phase II: dwell"),
+    Span(start="angle_stop", end="angle_start", label="phase IV: return"),
+)
+BETWEEN = "Between the shaded phases II and IV the sector stops in phase III; after IV it starts again in phase I."
+LONGEST = 0.9  # share of a turn up to which dwells are drawn
+POINTS = 241  # of the lines of a comparison
+
+
+def ratio_over_dwell(view: View) -> list[Shape]:
+    """Radius of the gear to that of the pin over the share of the dwell, with the same sweep of the sector."""
+    shares = np.linspace(0.02, LONGEST, 177)
+    ratios = formulas.radius_ratio(view["sector_dwell_sweep"], 2 * np.pi * shares)
+    limits = (("dwell_angle_recommended", "return too short"), ("dwell_angle_limit", "no return"))
+    return [
+        chart_panel(
+            "Radius of the gear to that of the pin",
+            "1",
+            "share of the dwell",
+            "T_2",
+            "1",
+            lines=[line(shares, ratios, "R₁/R₂")],
+            marks=[mark(view["time_dwell"], view["radius_ratio"], "this machine")],
+            verticals=[vertical(view[name] / (2 * np.pi), words) for name, words in limits if view[name] > 0],
+        )
+    ]
+
+
+def peaks(view: View, law: MotionLaw) -> tuple[float, float]:
+    """Greatest speed of the gear to the disc's and its greatest acceleration by a law; NaN where it does not suit the phases."""
+    stop = formulas.time_stop(law.B, view["sector_stop_sweep"], view["sector_speed_dwell"])
+    left = formulas.time_return(view["time_dwell"], stop)
+    if left <= 0 or not formulas.is_symmetric(law.position(0.5), law.velocity(0.5), law.B):
+        return np.nan, np.nan
+    radii = view["sector_radius"], view["gear_radius"]
+    speed = formulas.gear_speed(-formulas.return_peak(law.B, view["sector_sweep"], left), *radii)
+    rises = ((view["sector_stop_sweep"], stop), (view["sector_sweep"], left))
+    top = max(formulas.rise_acceleration(sweep, time, law.A, view["cycles_per_hour"]) for sweep, time in rises)
+    return formulas.share_of_turn(speed), formulas.gear_acceleration(-top, *radii)
+
+
+def laws_compared(view: View) -> list[Shape]:
+    """Speed and acceleration of the gear by each law of motion that leaves a return, for the same dwell and sweeps."""
+    speeds, accelerations = [], []
+    for name, law in LAWS.items():
+        ratio, top = peaks(view, law)
+        if np.isnan(ratio):
+            continue
+        x, speed = view.varied_curve({"motion_law": name}, "gear_speed", POINTS)
+        acceleration = view.varied_curve({"motion_law": name}, "gear_acceleration", POINTS)[1]
+        moving, words = x >= view["dwell_angle"], name.replace("_", " ")
+        speeds.append(line(x[moving], speed[moving] / (2 * np.pi), f"{words}, {ratio:.2f}"))
+        accelerations.append(line(x[moving], acceleration[moving], f"{words}, {top:.0f}"))
+    across = ("disc angle from the start of the dwell", "φ", "deg")
+    return [
+        chart_panel("Speed of the gear to that of the disc", "1", *across, lines=speeds),
+        chart_panel("Acceleration of the gear", "rad/s**2", *across, lines=accelerations),
+    ]
+
+
+def _panel(
+    title: str, unit: str, *series: tuple[str, str], marks: tuple[Mark, ...] = (), levels: tuple[Level, ...] = ()
+) -> Panel:
+    drawn = tuple(Series(curve=curve, label=words) for curve, words in series)
+    return Panel(title=title, unit=unit, series=drawn, marks=marks, levels=levels, spans=PHASES)
+
+
+FIGURES = (
+    Drawing(id="rolling", title="Gear and sector", build=rolling,
+            caption="Pitch circles to scale: the sector at the start of the dwell (dark) and at its end (light). The arc A₁A₂ of the gear is "
+            "that of the sector which rolls off on it, so the gear stands (figure 3 of 003)."),
+    Plot(id="phase_diagram", title="Phase diagram of the sector", abscissa="disc_angle",
+         caption="Angle of the sector relative to the disc over a turn of the disc (figure 4 of 003). " + BETWEEN,
+         panels=(_panel("Angle of the sector", "deg", ("sector_angle", "γ")),)),
+    Chart(id="radius_ratio", title="Radius of the gear over the dwell", build=ratio_over_dwell,
+          caption="The longer the dwell, the smaller the gear (figure 5 of 003), for this sweep of the sector. Beyond the first line the return is "
+          "shorter than accepted, beyond the second one dwell, stop and start would take the whole turn."),
+    Plot(id="sector_speed", title="Speed of the sector by phase", abscissa="disc_angle",
+         caption="Speed and acceleration of the sector relative to the disc, speed per turn of the disc (figure 6 of 003).",
+         panels=(_panel("Speed", "rad", ("sector_speed", "ω₃")), _panel("Acceleration", "rad/s**2", ("sector_acceleration", "ε₃")))),
+    Plot(id="gear_motion", title="Motion of the gear over a turn", abscissa="disc_angle",
+         caption="Angle, speed (per turn of the disc, figure 7 of 003) and acceleration of the gear, which drives the conveyor.",
+         panels=(_panel("Angle", "deg", ("gear_angle", "φ₁")),
+                 _panel("Speed", "rad", ("gear_speed", "ω₁"), marks=(Mark(x="gear_speed_peak_at", y="gear_speed_peak", label="greatest"),)),
+                 _panel("Acceleration", "rad/s**2", ("gear_acceleration", "ε₁")))),
+    Plot(id="sheet", title="Motion of the sheet", abscissa="disc_angle", needs=SHEET,
+         caption="Position, velocity and acceleration of the sheet over a cycle.",
+         panels=(_panel("Position", "mm", ("sheet_position", "x")), _panel("Velocity", "m/s", ("sheet_velocity", "V")),
+                 _panel("Acceleration", "m/s**2", ("sheet_acceleration", "W")))),
+    Chart(id="laws", title="Motion laws for the same dwell", build=laws_compared,
+          caption="Speed and acceleration of the gear by each law of motion, each with its greatest value, for the same dwell and the same "
+          "sweeps of the sector. A law with a lower peak velocity stops the sector sooner and leaves its return more time."),
+    Plot(id="torque", title="Torque", abscissa="disc_angle", needs=TORQUE,
+         caption="Torque at the shafts of disc and gear, without losses; negative where the conveyor drives back.",
+         panels=(_panel("Torque", "N*m", ("drive_torque", "disc"), ("gear_torque", "gear")),)),
+    *(Drawing(id=f"cam_{number}", title=f"Cam {number}", build=build, needs=CAMS,
+              caption=f"Cam {number} to scale, with the path of its roller's centre (dashed) and that of the pin O₃ (dash-dotted); arm and roller in "
+              "the middle of the dwell, light: where the sector stops. The cam stands still, the disc turns counter-clockwise; its angle counts "
+              "from the right.")
+      for number, build in (("1", cam_1), ("2", cam_2))),
+    Plot(id="cam_angles", title="Pressure angle and curvature of the cams", abscissa="disc_angle", needs=CAMS,
+         caption="Pressure angle, and curvature of the pitch curves: convex above zero, hollow below.",
+         panels=(_panel("Pressure angle", "deg", ("cam_1_pressure_angle", "cam 1"), ("cam_2_pressure_angle", "cam 2"),
+                        levels=(Level(value="max_pressure_angle", label="accepted"),)),
+                 _panel("Curvature", "1/m", ("cam_1_curvature", "cam 1"), ("cam_2_curvature", "cam 2")))),
+    Plot(id="roller_forces", title="Forces on the rollers", abscissa="disc_angle", needs=(*CAMS, *TORQUE),
+         caption="Force of each cam on its roller: one pushes the sector one way, the other one back.",
+         panels=(_panel("Force", "N", ("roller_force_1", "roller 1"), ("roller_force_2", "roller 2")),)),
+    Plot(id="contact", title="Contact pressure of the rollers", abscissa="disc_angle", needs=(*CAMS, *LOADED),
+         caption="Greatest pressure in the line contact of roller and cam.",
+         panels=(_panel("Pressure", "MPa", ("contact_pressure_1", "cam 1"), ("contact_pressure_2", "cam 2")),)),
+)  # fmt: skip

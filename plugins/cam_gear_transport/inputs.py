@@ -1,0 +1,99 @@
+"""Inputs of the cam-gear stepper."""
+
+from __future__ import annotations
+
+from diecut_report.api import POINTS, Annotated, FromPress, Inputs, Quantity, Text
+from diecut_report.mechanics.motion_laws import LAWS
+
+
+def _arm_angle(number: str) -> Quantity:
+    return Quantity(
+        f"χ_{number}",
+        "deg",
+        f"Angle of arm {number} from the outward line O₁O₃ at the start of the dwell, counter-clockwise",
+        ge=-360,
+        le=360,
+    )
+
+
+class CamGearTransport(Inputs):
+    """Keys of ``cam_gear_transport``."""
+
+    dwell_angle: Annotated[
+        float, Quantity("φ_22", "deg", "Dwell of the gear, in angle of the disc (phase II)", gt=0, lt=360)
+    ]
+    sector_dwell_sweep: Annotated[
+        float, Quantity("γ_32", "deg", "Sweep of the sector during the dwell (phase II)", gt=0)
+    ] = 60
+    sector_stop_sweep: Annotated[
+        float,
+        Quantity("γ_3(3+1)", "deg", "Sweep of the sector while it stops and starts, phases III and I together", gt=0),
+    ] = 20
+    motion_law: Annotated[str, Text("Law of motion by which the sector stops, returns and starts", options=LAWS)] = (
+        "cycloidal"
+    )
+    center_distance: Annotated[
+        float, Quantity("R_2", "mm", "Radius of the pin O₃ on the disc, distance of gear and sector", gt=0)
+    ]
+    cycles_per_hour: Annotated[
+        float | None,
+        Quantity("n", "1/h", "Cycles: turns of the disc, one sheet each", gt=0, press=FromPress("press.productivity")),
+    ] = None
+    min_return_time: Annotated[
+        float, Quantity("T_min", "1", "Least share of a turn for the sector's return that is accepted", gt=0, lt=1)
+    ] = 0.1
+    module: Annotated[
+        float | None,
+        Quantity("m", "mm", "Module of the teeth; with it gear and sector have whole teeth", gt=0),
+    ] = None
+    sprocket_teeth: Annotated[
+        int | None,
+        Quantity(
+            "z_s", "1", "Teeth of the conveyor's sprocket; with chain_pitch the sheet's motion", gt=0, integer=True
+        ),
+    ] = None
+    chain_pitch: Annotated[float | None, Quantity("p", "mm", "Pitch of the conveyor's chain", gt=0)] = None
+    sprocket_ratio: Annotated[float, Quantity("u", "1", "Turns of the sprocket for each turn of the gear", gt=0)] = 1
+    allowable_sheet_acceleration: Annotated[
+        float | None, Quantity("[a]", "m/s**2", "Allowed acceleration of the sheet", gt=0)
+    ] = None
+    conveyor_mass: Annotated[
+        float | None,
+        Quantity("m_c", "kg", "Mass that moves with the conveyor's chain, sheets included; with it the torque", gt=0),
+    ] = None
+    sector_inertia: Annotated[
+        float,
+        Quantity(
+            "J_3", "kg*m**2", "Moment of inertia of sector and rocker about O₃, balanced there; 0 leaves it out", ge=0
+        ),
+    ] = 0
+    arm_length: Annotated[
+        float | None,
+        Quantity("a", "mm", "Length of the rocker's arms; with the roller's radius and both angles the cams", gt=0),
+    ] = None
+    roller_radius: Annotated[float | None, Quantity("r", "mm", "Radius of the rocker's rollers", gt=0)] = None
+    arm_angle_1: Annotated[float | None, _arm_angle("1")] = None
+    arm_angle_2: Annotated[float | None, _arm_angle("2")] = None
+    max_pressure_angle: Annotated[
+        float, Quantity("[δ]", "deg", "Greatest pressure angle of the cams that is accepted", gt=0, lt=90)
+    ] = 45
+    roller_width: Annotated[
+        float | None,
+        Quantity("b", "mm", "Width of roller that bears on the cam; with conveyor_mass the contact pressure", gt=0),
+    ] = None
+    elastic_modulus: Annotated[float, Quantity("E", "GPa", "Elastic modulus of rollers and cams", gt=0)] = 210
+    poisson_ratio: Annotated[float, Quantity("ν", "1", "Poisson's ratio of rollers and cams", ge=0, lt=0.5)] = 0.3
+    allowable_contact_pressure: Annotated[
+        float | None, Quantity("[p_H]", "MPa", "Allowed contact pressure between roller and cam", gt=0)
+    ] = None
+    n_points: Annotated[int, POINTS] = 720
+
+
+CAMS = ("arm_length", "roller_radius", "arm_angle_1", "arm_angle_2")
+"""The keys with which the cams are synthesised."""
+
+SHEET = ("sprocket_teeth", "chain_pitch")
+"""The keys with which the motion of the sheet is known."""
+
+TORQUE = (*SHEET, "conveyor_mass")
+"""The keys with which torque and forces are known."""

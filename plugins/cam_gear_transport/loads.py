@@ -1,0 +1,120 @@
+"""Formulas of torque, forces and the rollers' places."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+
+from diecut_report.api import formula
+
+
+@formula
+def gear_torque(conveyor_mass: Any, sheet_acceleration: Any, sheet_step: Any) -> Any:
+    """Torque at the gear's shaft that moves the conveyor."""
+    return conveyor_mass * sheet_acceleration * sheet_step / (2 * np.pi)
+
+
+@formula
+def sector_rate_change(sector_acceleration: Any, cycles_per_hour: Any) -> Any:
+    """Angular acceleration of the sector to the square of the disc's speed."""
+    return sector_acceleration / (2 * np.pi * cycles_per_hour) ** 2
+
+
+@formula
+def drive_torque(
+    gear_torque: Any, gear_speed: Any, sector_inertia: Any, sector_acceleration: Any, rocker_turn: Any
+) -> Any:
+    """Torque at the disc: its power is that of gear and sector, for the fixed cams do no work."""
+    return gear_torque * gear_speed / (2 * np.pi) + sector_inertia * sector_acceleration * rocker_turn
+
+
+@formula
+def tooth_force(gear_torque: Any, gear_radius: Any) -> Any:
+    """Tangential force between the teeth of sector and gear."""
+    return gear_torque / gear_radius
+
+
+@formula
+def kinetic_energy(conveyor_mass: Any, velocity: Any) -> Any:
+    """Kinetic energy of the conveyor."""
+    return conveyor_mass * velocity**2 / 2
+
+
+@formula
+def energy_residual(energy: Any, kinetic_energy: Any) -> Any:
+    """Work over a turn, which gives all back, to the greatest kinetic energy."""
+    return abs(energy) / kinetic_energy
+
+
+@formula
+def rocker_moment(sector_inertia: Any, sector_acceleration: Any, tooth_force: Any, sector_radius: Any) -> Any:
+    """Moment about O₃ that the cams give the rocker: it accelerates the sector and bears the teeth's reaction."""
+    return sector_inertia * sector_acceleration - tooth_force * sector_radius
+
+
+@formula
+def carried_moment(rocker_moment: Any, arm_direction: Any) -> Any:
+    """Part of the moment that this roller's cam gives: it can only push the roller outwards."""
+    asked = -np.sign(np.sin(arm_direction)) * rocker_moment
+    return (asked + abs(asked)) / 2
+
+
+@formula
+def roller_force(carried_moment: Any, arm_length: Any, pressure_angle: Any) -> Any:
+    """Force of the cam on the roller, square to the profile."""
+    return carried_moment / (arm_length * np.cos(pressure_angle))
+
+
+@formula
+def bearing_radius(effective_radius: Any, roller_radius: Any) -> Any:
+    """Effective radius, not below a thousandth of the roller's: a profile that ends in a point has none."""
+    return np.maximum(effective_radius, roller_radius / 1000)
+
+
+@formula
+def greater_of(first: Any, second: Any) -> Any:
+    """The greater of two quantities."""
+    return np.maximum(first, second)
+
+
+@formula
+def lowest_direction(arm_angle: Any, sector_stop_sweep: Any) -> Any:
+    """Direction of an arm at the start of phase I."""
+    return arm_angle - sector_stop_sweep / 2
+
+
+@formula
+def highest_direction(lowest: Any, sector_sweep: Any) -> Any:
+    """Direction of an arm at the end of phase III."""
+    return lowest + sector_sweep
+
+
+@formula
+def least_arm_angle(sector_stop_sweep: Any) -> Any:
+    """Least angle of an arm that stays on the left of the line O₁O₃."""
+    return sector_stop_sweep / 2
+
+
+@formula
+def greatest_arm_angle(sector_sweep: Any, sector_stop_sweep: Any) -> Any:
+    """Greatest angle of an arm that stays on the left of the line O₁O₃."""
+    return np.pi - sector_sweep + sector_stop_sweep / 2
+
+
+@formula
+def leaves_arms(sector_sweep: Any) -> Any:
+    """Whether an arm can stay on one side of the line O₁O₃ over the whole sweep."""
+    return sector_sweep < np.pi
+
+
+@formula
+def stays_on_one_side(lowest: Any, highest: Any) -> Any:
+    """Whether an arm stays on one side of the line O₁O₃ (its sweep is below half a turn)."""
+    return np.sin(lowest) * np.sin(highest) > 0
+
+
+@formula
+def lie_on_both_sides(lowest: Any, highest: Any, other_lowest: Any, other_highest: Any) -> Any:
+    """Whether two arms lie, at one end of the swing at least, on both sides of the line O₁O₃."""
+    return (np.sin(lowest) * np.sin(other_lowest) < 0) | (np.sin(highest) * np.sin(other_highest) < 0)
