@@ -9,11 +9,13 @@ from __future__ import annotations
 
 import ast
 import inspect
+import linecache
 import math
 import operator
 from collections.abc import Callable, Mapping
-from functools import cache, cached_property, reduce
-from pathlib import Path
+from functools import cached_property, reduce
+from textwrap import dedent
+from types import CodeType
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -124,10 +126,19 @@ def formula(function: Callable[..., Any]) -> Formula:
     return Formula(function)
 
 
-@cache
-def _functions_of(file: str) -> dict[int, ast.FunctionDef]:
-    module = ast.parse(Path(file).read_text(encoding="utf-8"))
-    return {n.lineno: n for n in ast.walk(module) if isinstance(n, ast.FunctionDef)}
+def _definition(code: CodeType) -> ast.FunctionDef:
+    """The definition of a function, read from its own lines alone: to parse whole files costs more than a short run may."""
+    lines = linecache.getlines(code.co_filename)
+    first, last = code.co_firstlineno, max(line for *_, line in code.co_lines() if line)
+    for end in range(last, len(lines) + 1):  # brackets may close below the last line that does something
+        try:
+            found = ast.parse(dedent("".join(lines[first - 1 : end])))
+        except SyntaxError:
+            continue
+        definition = ast.increment_lineno(found, first - 1).body[0]
+        if isinstance(definition, ast.FunctionDef):
+            return definition
+    raise FormulaError(f"{code.co_filename}:{first}: the source of formula {code.co_name} cannot be read")
 
 
 class _Reader:
@@ -139,7 +150,7 @@ class _Reader:
         self.locals: dict[str, Node] = {name: Node("sym", (name,)) for name in owner.parameters}
 
     def read(self) -> Node:
-        for statement in self._definition().body:
+        for statement in _definition(self.owner.function.__code__).body:
             match statement:
                 case ast.Return(value=ast.expr() as value):
                     return self._node(value)
@@ -150,11 +161,6 @@ class _Reader:
                 case _:
                     raise self._refuse(statement)
         raise FormulaError(f"formula {self.owner.__name__} returns nothing")
-
-    def _definition(self) -> ast.FunctionDef:
-        code = self.owner.function.__code__
-        lines = _functions_of(inspect.getfile(self.owner.function))
-        return next(lines[n] for n in range(code.co_firstlineno, code.co_firstlineno + 20) if n in lines)
 
     def _node(self, expression: ast.expr) -> Node:
         match expression:

@@ -51,11 +51,12 @@ def calc(config: Path, discovery: Discovery, tell: Tell, target: Path | None = N
 def report(
     config: Path, discovery: Discovery, tell: Tell, folder: Path, formats: Sequence[str], language: str | None = None
 ) -> Outcome:
-    """The report in the asked formats, as ``NAME.html``, ``NAME.pdf``, ``NAME.json`` in the folder."""
+    """The report in the asked formats, as ``NAME.html``, ``NAME.pdf``, ``NAME.json`` in the folder, and the exports beside it."""
     results, broken = _calculated(config, discovery, tell)
     if language is not None:
         results["project"]["language"] = language
     contents = _rendered(results, formats, tell)
+    contents |= _exported(results, tell)
     files = {folder / f"{config.stem}.{ending}": content for ending, content in contents.items()}
     _write(files, config)
     return Outcome(results, tuple(files), broken)
@@ -85,6 +86,17 @@ def _rendered(results: Data, formats: Sequence[str], tell: Tell) -> dict[str, by
             tell("setting the pages")
             contents["pdf"] = _pdf(rendering)
     return {ending: contents[ending] for ending in formats}
+
+
+def _exported(results: Data, tell: Tell) -> dict[str, bytes]:
+    """The profiles of the mechanisms as tables and drawings, by the ending of their file: ``INSTANCE.cam_1.dxf``."""
+    calculated = {**results["mechanisms"], **results.get("comparisons", {})}
+    if not any(mechanism["exports"] for mechanism in calculated.values()):
+        return {}
+    tell("drawing the profiles")
+    from diecut_report.exports import exports
+
+    return exports(results)
 
 
 def _pdf(rendering: Any) -> bytes:

@@ -182,7 +182,7 @@ def curves(calc: Calculation) -> Data:
 
 
 def _curve(step: Step, values: Any) -> Data:
-    return {"unit": unit(step.unit).si, "values": [float(v) for v in values], "symbol": step.symbol,
+    return {"unit": unit(step.unit).si, "values": np.asarray(values, dtype=float).tolist(), "symbol": step.symbol,
             "description": step.description, "display_unit": step.unit, "source": step.source}  # fmt: skip
 
 

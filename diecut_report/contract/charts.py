@@ -59,4 +59,6 @@ def vertical(x: float, label: str) -> Data:
 
 def _plain(values: Values) -> list[float | None]:
     """Numbers as results hold them, null where there is none."""
-    return [float(value) if np.isfinite(value) else None for value in values]
+    numbers = np.asarray(values, dtype=float)
+    plain: list[float | None] = np.where(np.isfinite(numbers), numbers.astype(object), None).tolist()
+    return plain

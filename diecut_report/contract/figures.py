@@ -48,8 +48,10 @@ class View(Protocol):
         Only what they need is calculated. NaN where the machine is then impossible.
         """
 
-    def varied_curve(self, inputs: Mapping[str, Any], name: str, points: int = 361) -> tuple[Array, Array]:
-        """Abscissa and values, over the whole abscissa, of a curve of the machine calculated again with other inputs."""
+    def varied_curves(
+        self, inputs: Mapping[str, Any], *names: str, points: int = 361
+    ) -> tuple[Array, dict[str, Array]]:
+        """Abscissa and values, over the whole abscissa, of curves of the machine calculated again with other inputs."""
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)

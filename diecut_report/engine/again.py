@@ -30,16 +30,22 @@ def varied(calc: Calculation, inputs: Mapping[str, Any], names: Sequence[str]) -
     return {name: np.where(possible, again[name][:, 0], np.nan) for name in names}
 
 
-def varied_curve(calc: Calculation, inputs: Mapping[str, Any], name: str, points: int) -> tuple[Array, Array]:
-    """A curve for other inputs at so many places of its whole abscissa, ends included; NaN where the machine is impossible."""
-    again = _calculated(calc, inputs, 1, [name])
-    period = calc.domains[calc.axis[name]].period
+def varied_curves(
+    calc: Calculation, inputs: Mapping[str, Any], names: Sequence[str], points: int
+) -> tuple[Array, dict[str, Array]]:
+    """Curves over one abscissa for other inputs, at so many places of the whole of it, ends included.
+
+    NaN where the machine is then impossible.
+    """
+    again = _calculated(calc, inputs, 1, names)
+    axis = calc.axis[names[0]]
+    period = calc.domains[axis].period
     x = np.linspace(0, period, points)
     if again is None:
-        return x, np.full(points, np.nan)
-    domain = again.domains[again.axis[name]]
+        return x, dict.fromkeys(names, np.full(points, np.nan))
     places = np.minimum(x, np.nextafter(period, 0))[None, :]
-    return x, again.sample(name, places, domain.middle_of(places))[0]
+    curves = again.sampler(names[0], places, again.domains[axis].middle_of(places))
+    return x, {name: np.broadcast_to(curves[name], places.shape)[0] for name in names}
 
 
 def _calculated(calc: Calculation, changed: Mapping[str, Any], count: int, names: Sequence[str]) -> Calculation | None:

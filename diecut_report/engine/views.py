@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 
 from diecut_report.contract.figures import Bars, Chart, Drawing, Figure, Plot, Polar, plain
-from diecut_report.engine.again import varied, varied_curve
+from diecut_report.engine.again import varied, varied_curves
 from diecut_report.engine.calculation import Calculation
 from diecut_report.engine.printing import printed
 from diecut_report.expressions import Array
@@ -65,9 +65,11 @@ class MachineView:
         """Numbers of the machine calculated again with other inputs; NaN where it is then impossible."""
         return varied(self.calc, inputs, names)
 
-    def varied_curve(self, inputs: Mapping[str, Any], name: str, points: int = 361) -> tuple[Array, Array]:
-        """Abscissa and values of a curve of the machine calculated again with other inputs."""
-        return varied_curve(self.calc, inputs, name, points)
+    def varied_curves(
+        self, inputs: Mapping[str, Any], *names: str, points: int = 361
+    ) -> tuple[Array, dict[str, Array]]:
+        """Abscissa and values of curves of the machine calculated again with other inputs."""
+        return varied_curves(self.calc, inputs, names, points)
 
 
 def figures(calc: Calculation) -> list[dict[str, Any]]:

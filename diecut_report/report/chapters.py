@@ -6,30 +6,30 @@ from collections.abc import Iterator, Mapping
 from typing import Any
 
 from diecut_report.report.equations import Equations
+from diecut_report.report.files import suffixes
 from diecut_report.report.i18n import Words
-from diecut_report.report.numbers import displayed, number, quantity
+from diecut_report.report.like_parts import counted, gathered
+from diecut_report.report.numbers import quantity
 from diecut_report.report.rows import (
     Chapter,
     CheckRow,
+    File,
     Heading,
     Item,
     QuantityRow,
     Section,
-    Table,
     quantity_row,
     utilisation,
 )
-from diecut_report.report.symbols import symbol
-from diecut_report.units import pretty, to_display
+from diecut_report.report.tables import Tables
 
 Data = Mapping[str, Any]
-CURVE_ROWS = 12
-CURVE_COLUMNS = 7
 UNPRINTED_RESIDUAL = "0"
+LONGEST_SOURCE = 80  # letters; a longer one stands below the result
 
 
-def chapter(letter: str, name: str, mechanism: Data, equations: Equations, words: Words) -> Chapter:
-    """The chapter of one mechanism's results."""
+def chapter(letter: str, name: str, mechanism: Data, equations: Equations, words: Words, stem: str = "") -> Chapter:
+    """The chapter of one mechanism's results; ``stem`` is what the names of the report's files begin with."""
     part = Chapter(
         letter=letter,
         name=name,
@@ -41,36 +41,44 @@ def chapter(letter: str, name: str, mechanism: Data, equations: Equations, words
         error=mechanism.get("error", ""),
     )
     if not part.lost:
-        _Filler(part, mechanism, equations, words).fill()
+        _Filler(part, mechanism, equations, words, stem).fill()
     return part
 
 
 class _Filler:
     """Fills a chapter in the order of the printed page, so that all numbers count up."""
 
-    def __init__(self, part: Chapter, mechanism: Data, equations: Equations, words: Words) -> None:
+    def __init__(self, part: Chapter, mechanism: Data, equations: Equations, words: Words, stem: str) -> None:
+        self.stem = stem
         self.part, self.mechanism, self.equations, self.words = part, mechanism, equations, words
         self.decimal = words["decimal"]
-        self.formulas = self.tables = 0
+        self.tables = Tables(part.letter, words)
+        self.formulas = 0
 
     def fill(self) -> None:
         part, mechanism = self.part, self.mechanism
         part.summary, part.assumptions = mechanism["summary"], mechanism["assumptions"]
         self._head("purpose")
         self._head("inputs")
-        part.inputs = [self._input(key, row) for key, row in mechanism["inputs"].items()]
+        single, lists = gathered(mechanism["inputs"])
+        part.inputs = [self._input(key, row) for key, row in single.items()]
+        part.input_parts = [table for parts in lists for table in self.tables.of_parts(parts, given=True)]
         part.sections = [self._section(section) for section in mechanism["sections"]]
         self._head("results")
-        part.outputs = [quantity_row(row, self.decimal) for row in mechanism["outputs"].values()]
-        keyed = [row for row in mechanism["outputs"].values() if row.get("key")] or list(mechanism["outputs"].values())
-        part.key_results = [quantity_row(row, self.decimal) for row in keyed]
-        self._curves()
-        self._head("checks")
+        self._results(mechanism["outputs"])
+        part.curves = self.tables.of_curves(mechanism["curves"])
+        if part.curves:
+            self._head("curves")
+        if mechanism["checks"] or "between" not in mechanism:
+            self._head("checks")
         part.warnings = mechanism["warnings"]
         part.checks = [self._check(check) for check in mechanism["checks"]]
         if mechanism["figures"]:
             self._head("figures")
             part.figures = [(f"{part.letter}.{n}", figure) for n, figure in enumerate(mechanism["figures"], 1)]
+        part.files = list(self._files())
+        if part.files:
+            self._head("files")
         part.absent = mechanism["absent"]
         if part.absent:
             self._head("absent")
@@ -87,20 +95,20 @@ class _Filler:
         return heading
 
     def _input(self, key: str, row: Data) -> QuantityRow:
-        told = self._origin(row)
-        shown = quantity_row(row, self.decimal)
+        shown, path = quantity_row(row, self.decimal), row.get("path", "")
+        typed = str(row.get("text") or (path if row["origin"] == "reference" else ""))
         return QuantityRow(
             shown.description, shown.symbol, shown.value, shown.unit,
-            typed=str(row.get("text") or ""), origin=told, key=key, wordy=shown.wordy,
+            typed=typed, origin=self._origin(row["origin"], path, typed), key=key, wordy=shown.wordy,
         )  # fmt: skip
 
-    def _origin(self, row: Data) -> str:
+    def _origin(self, origin: str, path: str, typed: str) -> str:
         """Where an input comes from; the path of a reference stands in what was typed."""
-        if not row.get("path"):
-            return self.words[row["origin"]]
-        if row["path"] in str(row.get("text", "")):
+        if not path:
+            return self.words[origin]
+        if path in typed:
             return self.words["reference"]
-        return self.words.say("refers" if row["origin"] == "reference" else "from_press", path=row["path"])
+        return self.words.say("refers" if origin == "reference" else "from_press", path=path)
 
     def _section(self, section: Data) -> Section:
         heading = self._head("", section["title"])
@@ -111,23 +119,29 @@ class _Filler:
         if item["type"] == "note":
             return Item("note", text=item["text"])
         if item["type"] == "table":
-            return Item("table", table=self._table(item))
+            return Item("table", table=self.tables.of_item(item))
         self.formulas += 1
         return Item(
             item["type"],
             number=f"{self.part.letter}.{self.formulas}",
             description=item["description"],
-            source=item["source"],
+            source=item["source"] if len(item["source"]) <= LONGEST_SOURCE else "",
             equation=self.equations.of(item),
             condition=self.equations.condition(item),
             words=item.get("words", ""),
-            text="" if item.get("equation") or item["type"] in ("found", "reduction") else item["result"]["text"],
+            text=""
+            if item.get("equation") or item["type"] in ("found", "reduction", "lookup")
+            else item["result"]["text"],
             notes=tuple(self._notes(item, told)),
         )
 
     def _notes(self, item: Data, told: set[str]) -> Iterator[str]:
         """The method, where it was not told already in this section, what proves the value, and a note."""
         method, residual = item.get("method", ""), item.get("residual")
+        if item["type"] == "lookup":
+            yield self._looked_up(item)
+        if item.get("series") and not item.get("note", "").startswith(item["series"]):
+            yield f"{self.words['series']}: {item['series']}"
         if method and method not in told:
             told.add(method)
             yield f"{self.words['method']}: {method}"
@@ -136,45 +150,38 @@ class _Filler:
             yield self.words.say(key, residual=quantity(residual["text"], residual["unit"], self.decimal))
         if item.get("note"):
             yield item["note"]
+        if len(item["source"]) > LONGEST_SOURCE:
+            yield f"{self.words['source']}: {item['source']}"
 
-    def _table(self, item: Data) -> Table:
-        self.tables += 1
-        columns = [(c["title"], symbol(c["symbol"]), pretty(c["unit"])) for c in item["columns"]]
-        rows = [[number(text, self.decimal) for text in row] for row in item["rows"]]
-        return Table(item["title"], columns, rows, f"{self.part.letter}.{self.tables}")
+    def _looked_up(self, item: Data) -> str:
+        """Where a number was taken from: the table's title, and the text that chose it."""
+        if item["table"]:
+            return self.words.say("looked_up", table=item["table"], choice=item["key"])
+        return f"{item['by']}: {item['key']}"
 
-    def _curves(self) -> None:
-        """Some rows of all curves, by their abscissa, so many columns a table as the page holds."""
-        curves: Data = self.mechanism["curves"]
-        groups: dict[str, list[Data]] = {}
-        for curve in curves.values():
-            if "abscissa" in curve:
-                groups.setdefault(curve["abscissa"], []).append(curve)
-        if groups:
-            self._head("curves")
-        for axis, members in groups.items():
-            tables = -(-len(members) // CURVE_COLUMNS)
-            size = -(-len(members) // tables)
-            for start in range(0, len(members), size):
-                self.part.curves.append(self._curve_table(curves[axis], members[start : start + size]))
+    def _results(self, outputs: Data) -> None:
+        """Outputs line by line, those of like parts as tables; the key ones for the summary."""
+        part, nth = self.part, counted(outputs)
+        rows = {name: quantity_row(row, self.decimal, self._nth(row, nth.get(name))) for name, row in outputs.items()}
+        single, lists = gathered(outputs)
+        part.outputs = [rows[name] for name in single]
+        part.output_parts = [table for parts in lists for table in self.tables.of_parts(parts, given=False)]
+        part.key_results = [rows[name] for name, row in outputs.items() if row.get("key")] or list(rows.values())
 
-    def _curve_table(self, axis: Data, members: list[Data]) -> Table:
-        self.tables += 1
-        shown = [axis, *members]
-        count = len(axis["values"])
-        places = (
-            [round(k * count / CURVE_ROWS) for k in range(CURVE_ROWS)] if count > CURVE_ROWS else list(range(count))
-        )
-        columns = [(c["description"], symbol(c["symbol"]), pretty(c["display_unit"])) for c in shown]
-        rows = [[self._sample(c, place) for c in shown] for place in places]
-        return Table(self.words["curves"], columns, rows, f"{self.part.letter}.{self.tables}")
+    def _nth(self, row: Data, number: int | None) -> str:
+        description: str = row["description"]
+        return description if number is None else self.words.say("nth", text=description, n=number)
 
-    def _sample(self, curve: Data, place: int) -> str:
-        value, shown = curve["values"][place], curve["display_unit"]
-        if "abscissa" not in curve:
-            return number(f"{to_display(value, shown):.6g}", self.decimal)
-        scale = max(abs(v) for v in curve["values"])
-        return displayed(value if abs(value) > 1e-12 * scale else 0.0, shown, 4, self.decimal)
+    def _files(self) -> Iterator[File]:
+        """The files beside the report."""
+        mechanism = self.mechanism
+        for export in mechanism.get("exports", ()):
+            count = len(mechanism["curves"][export["abscissa"]]["values"])
+            columns = ", ".join([export["abscissa"], *export["columns"]])
+            words = {"dxf": "dxf" if len(export["columns"]) > 2 else "dxf_profile", "csv": "csv"}
+            for ending, suffix in suffixes(self.part.name, export).items():
+                content = self.words.say(words[ending], title=export["title"], n=count, columns=columns)
+                yield File(f"{self.stem}.{suffix}", content)
 
     def _check(self, check: Data) -> CheckRow:
         texts = {

@@ -13,11 +13,11 @@ Array = NDArray[Any]
 
 
 def continuous(curve: Data, over: Data, period: float | None) -> tuple[Array, Array]:
-    """Samples of a curve over its abscissa, a jump as two points at its true place, closed over a full period (SI)."""
+    """Samples of a curve over its abscissa, a jump as two points at its true place, led to the end of a full period (SI)."""
     x, y = np.asarray(over["values"], dtype=float), np.asarray(curve["values"], dtype=float)
     places = np.asarray(curve.get("breakpoints", []), dtype=float)
     if period:
-        x, y = np.append(x, x[0] + period), np.append(y, y[0])
+        x, y = np.append(x, x[0] + period), np.append(y, _end(y))
     if not len(places):
         return x, y
     clear = (np.abs(x[:, None] - places) > 1e-12 * max(1.0, float(np.abs(x).max()))).all(axis=1)
@@ -27,6 +27,14 @@ def continuous(curve: Data, over: Data, period: float | None) -> tuple[Array, Ar
     order = np.concatenate([order, np.full(len(places), 0), np.full(len(places), 1)])
     sorting = np.lexsort((order, x))
     return x[sorting], y[sorting]
+
+
+def _end(y: Array) -> float:
+    """A curve's value at the end of a period: its first one, or where it leads to if it does not close (a growing angle)."""
+    ahead = 2 * y[-1] - y[-2]
+    bends = np.abs(np.diff(np.concatenate([y[:4], y[-4:]]), 2))[[0, 1, -2, -1]]
+    closes = abs(y[0] - ahead) <= max(10 * float(bends.max()), 0.02 * float(np.ptp(y)))
+    return float(y[0] if closes else ahead)
 
 
 def period_of(over: Data) -> float | None:

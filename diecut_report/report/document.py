@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field
+from pathlib import PurePath
 from typing import Any
 
 from diecut_report.report.chapters import chapter
@@ -54,10 +55,7 @@ class Document:
 
 def document(results: Data, equations: Equations, words: Words) -> Document:
     """The report of the results."""
-    chapters = [
-        chapter(letter(index), name, mechanism, equations, words)
-        for index, (name, mechanism) in enumerate(results["mechanisms"].items())
-    ]
+    chapters = _chapters(results, equations, words)
     checks = sorted((row for part in chapters for row in part.checks), key=lambda row: ORDER[row.status])
     decimal = words["decimal"]
     return Document(
@@ -77,6 +75,23 @@ def document(results: Data, equations: Equations, words: Words) -> Document:
         words=words,
         contents=list(_contents(chapters, words)),
     )
+
+
+def parts(results: Data) -> Iterator[tuple[str, Data]]:
+    """What the chapters are of, with their names: all mechanisms, then all comparisons between them."""
+    yield from results["mechanisms"].items()
+    yield from results.get("comparisons", {}).items()
+
+
+def _chapters(results: Data, equations: Equations, words: Words) -> list[Chapter]:
+    stem = PurePath(results["config"]["file"]).stem
+    chapters = [
+        chapter(letter(index), name, data, equations, words, stem) for index, (name, data) in enumerate(parts(results))
+    ]
+    mechanisms = {part.name: part for part in chapters[: len(results["mechanisms"])]}
+    for part, (_, data) in zip(chapters, parts(results), strict=True):
+        part.between = [mechanisms[name] for name in data.get("between", ())]
+    return chapters
 
 
 def _title_block(project: Data) -> Data:
@@ -116,9 +131,7 @@ def _governing(results: Data, checks: list[CheckRow]) -> CheckRow | None:
 
 def _sources(results: Data) -> list[tuple[str, str]]:
     """All sources of the mechanisms, each once, by their id."""
-    found = {
-        source["id"]: source["citation"] for m in results["mechanisms"].values() for source in m.get("sources", ())
-    }
+    found = {source["id"]: source["citation"] for _, data in parts(results) for source in data.get("sources", ())}
     return sorted(found.items())
 
 

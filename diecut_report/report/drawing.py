@@ -1,25 +1,25 @@
-"""Drawings to scale from shapes in metres: outlines, hatched sections, dimensions, texts clear of the lines."""
+"""Drawings from shapes in metres: outlines, hatched sections, dimensions, arrows, boxes, texts clear of the lines."""
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Mapping
 from typing import Any
 
 import numpy as np
-from matplotlib.axes import Axes
 from matplotlib.figure import Figure
-from matplotlib.patches import PathPatch
+from matplotlib.patches import PathPatch, Rectangle
 from matplotlib.path import Path
 from numpy.typing import NDArray
 
-from diecut_report.report.figures import ACCENT, INK, MM, SOFT, Box, Labels, canvas, marked, sampled, text_size
+from diecut_report.report import places
+from diecut_report.report.drawing_scale import LARGEST, filled
+from diecut_report.report.drawing_sheet import ARROW, THICK, THIN, THIN_LINE, Sheet
+from diecut_report.report.figures import ACCENT, INK, LINE, SOFT, marked, sampled
 from diecut_report.report.i18n import Words
-from diecut_report.report.numbers import joined, number, significant
-from diecut_report.units import pretty, unit
+from diecut_report.report.shapes import beyond, circular, hatching
 
 Array = NDArray[Any]
 Shape = Mapping[str, Any]
-LARGEST = (150 * MM, 104 * MM)  # of the shapes, in points
 DASHED, DASH_DOT = (0, (5, 2.5)), (0, (12, 2, 2, 2))
 ROLES: dict[str, dict[str, Any]] = {
     "outline": {"color": INK, "linewidth": 1.1},
@@ -32,66 +32,40 @@ ROLES: dict[str, dict[str, Any]] = {
     "mark": {"color": ACCENT, "linewidth": 1.2, "zorder": 4},
     "body": {"color": INK, "linewidth": 0.9},
 }
-THIN_LINE: dict[str, Any] = {"color": INK, "linewidth": 0.45, "zorder": 2.5}
-HATCH_STEP, ARROW, SLENDER = 5.0, 7.0, 0.17
-THICK, THIN = 8.0, 2.0
-FAR = 12.0  # a point's name no nearer than this gets a leader
+BODY = "#f1f4f6"
+HEAD, STOUT = 5.5, 0.28  # of arrows, and what its strokes add to the head
+SMALLER = (1.0, 0.87, 0.75, 0.64, 0.5)  # how much smaller a drawing is tried, so that its texts find places
+WORTH = 25.0  # what stands in the way of texts, for which the drawing is rather made a step smaller
 
 
 def drawing(figure: Mapping[str, Any], _curves: Mapping[str, Any], words: Words) -> Figure:
-    """The shapes of a drawing, as large as the page lets them be, with a scale bar."""
-    return Sheet(figure, words).drawn()
+    """The shapes of a drawing, as large as the page lets them be, with a scale bar unless it is a schematic."""
+    best, least = None, np.inf
+    for step, share in enumerate(SMALLER):
+        sheet = Shapes(figure, words, LARGEST * share)
+        sheet.finish()
+        cost = sheet.crowded + step * WORTH
+        if cost < least:
+            best, least = sheet.sheet, cost
+        if sheet.crowded <= WORTH:
+            break
+    assert best is not None
+    return best
 
 
-class Sheet:
-    """A drawing in work: shapes in points, what texts must keep clear of, and the box that all of it needs."""
+class Shapes(Sheet):
+    """A sheet with a way to draw each kind of shape."""
 
-    def __init__(self, figure: Mapping[str, Any], words: Words) -> None:
-        self.shapes: list[Shape] = figure["shapes"]
-        self.unit: str = figure["unit"]
-        self.words = words
-        corners = np.concatenate([_extent(shape) for shape in self.shapes])
-        low, high = corners.min(axis=0), corners.max(axis=0)
-        self.scale = float(np.min(np.array(LARGEST) / np.maximum(high - low, 1e-12)))  # points a metre
-        self.lines: list[tuple[Array, float]] = []  # with how much texts are to keep clear of them
-        self.boxes: list[Box] = [(*(low * self.scale), *(high * self.scale))]
-        self.texts: list[Callable[[Labels], None]] = []
-        self.sheet = canvas(10, 10)
-        self.axes: Axes = self.sheet.add_axes((0, 0, 1, 1))
-        self.axes.set_axis_off()
+    def draw(self, shape: Shape) -> None:
+        """Draw a shape."""
+        getattr(self, f"_{shape['shape']}")(shape)
 
-    def drawn(self) -> Figure:
-        """All shapes first, then the texts between them; at last the sheet is cut to what is on it."""
-        for shape in self.shapes:
-            getattr(self, f"_{shape['shape']}")(shape)
-        lines = [(sampled(line), weight) for line, weight in self.lines]
-        weights = np.concatenate([np.full(len(line), weight) for line, weight in lines])
-        labels = Labels(np.concatenate([line for line, _ in lines]), weights=weights)
-        for write in self.texts:
-            write(labels)
-        self.boxes += labels.taken
-        self._scale_bar()
-        left, bottom, right, top = (pick(box[i] for box in self.boxes) for i, pick in enumerate((min, min, max, max)))
-        left, bottom, right, top = left - 4, bottom - 4, right + 4, top + 4
-        self.axes.set_xlim(left, right)
-        self.axes.set_ylim(bottom, top)
-        self.sheet.set_size_inches((right - left) / 72, (top - bottom) / 72)
-        return self.sheet
-
-    def _points(self, coordinates: Any) -> Array:
-        return np.asarray(coordinates, dtype=float).reshape(-1, 2) * self.scale
-
-    def _line(self, points: Array, **look: Any) -> None:
-        self.axes.plot(points[:, 0], points[:, 1], **look)
-        self.lines.append((points, THIN if look["linewidth"] < 0.6 else THICK))
-
-    # shapes
     def _polyline(self, shape: Shape) -> None:
         points = self._points(shape["points"])
         if shape["closed"]:
             points = np.vstack([points, points[:1]])
         if shape["role"] == "body":
-            self.axes.fill(points[:, 0], points[:, 1], color="#f1f4f6", linewidth=0, zorder=1)
+            self.axes.fill(points[:, 0], points[:, 1], color=BODY, linewidth=0, zorder=1)
         self._line(points, **ROLES[shape["role"]])
         if shape["role"] == "ground":
             self._ground(points)
@@ -107,10 +81,17 @@ class Sheet:
         self.axes.plot(points[:, 0], points[:, 1], **look)
 
     def _circle(self, shape: Shape) -> None:
+        if shape["role"] == "body":
+            self.axes.fill(*self._bow(shape, 0.0, 2 * np.pi).T, color=BODY, linewidth=0, zorder=1)
         self._arc({**shape, "start": 0.0, "end": 2 * np.pi})
 
+    def _bow(self, shape: Shape, start: float, end: float) -> Array:
+        radius = shape["radius"] * self.scale.round
+        points: Array = self._points(shape["center"])[0] + radius * circular(start, end)
+        return points
+
     def _arc(self, shape: Shape) -> None:
-        self._line(self._points(_round(shape, shape["start"], shape["end"])), **ROLES[shape["role"]])
+        self._line(self._bow(shape, shape["start"], shape["end"]), **ROLES[shape["role"]])
 
     def _region(self, shape: Shape) -> None:
         loops = [self._points(loop) for loop in (shape["outer"], *shape["holes"])]
@@ -133,31 +114,64 @@ class Sheet:
         self.lines.append((np.array([[x - 4, y], [x + 4, y], [x, y - 4], [x, y + 4]]), THICK))
         self.boxes.append((x - 5, y - 5, x + 5, y + 5))
         if shape.get("label"):
-            size = text_size(marked(shape["label"]))
-            self._later(shape["label"], lambda: _near(x, y, size), leader=(x, y))
+            self._later(shape["label"], lambda size: places.near(x, y, size), leader=(x, y))
 
     def _label(self, shape: Shape) -> None:
         x, y = self._points(shape["at"])[0]
-        width, height = text_size(marked(shape["text"]))
-        aside = {"left": width / 2, "center": 0.0, "right": -width / 2}[shape["anchor"]]
-        self._later(shape["text"], lambda: ((x + aside, y + k * 0.5 * height) for k in (0, 1, -1, 2, -2, 3, -3, 5, -5)))
+        self._later(shape["text"], lambda size: places.at(x, y, size, shape["anchor"]))
+
+    def _arrow(self, shape: Shape) -> None:
+        """A straight arrow from box to box; its head has its size on paper, and is smaller only on a shorter arrow."""
+        tail, tip = self._outside(self._points(shape["from"])[0], self._points(shape["to"])[0])
+        look, length = ROLES[shape["role"]], float(np.hypot(*(tip - tail)))
+        if length == 0:
+            self._point({"at": shape["from"], "role": "joint", "label": shape.get("label")})
+            return
+        along, head = (tip - tail) / length, min(HEAD + 2.2 * look["linewidth"], length)
+        self._line(np.array([tail, tip - 0.8 * head * along]), **look | {"solid_capstyle": "butt"})
+        self._head(tip, along, head, STOUT, look["color"], look.get("zorder", 2.6))
+        self.lines.append((np.array([tip - head * along, tip]), THICK))
+        self.boxes.append((*(tip - 3), *(tip + 3)))
+        if shape.get("label"):
+            self._later(shape["label"], lambda size: places.by_arrow(tail, tip, size), leader=tuple((tail + tip) / 2))
+
+    def _outside(self, tail: Array, tip: Array) -> tuple[Array, Array]:
+        """An arrow without what lies in the boxes of its ends."""
+        for shape in self.shapes:
+            if shape["shape"] == "box":
+                center, half = self._points(shape["center"])[0], filled(shape, self.scale)[1] / 2
+                tail, tip = beyond(tail, tip, center, half), beyond(tip, tail, center, half)
+        return tail, tip
+
+    def _box(self, shape: Shape) -> None:
+        """A box with lines of text."""
+        center, (lines, size) = self._points(shape["center"])[0], filled(shape, self.scale)
+        look = {"edgecolor" if key == "color" else key: value for key, value in ROLES[shape["role"]].items()}
+        face = BODY if shape["role"] == "body" else "white"
+        self.axes.add_patch(Rectangle(center - size / 2, *size, facecolor=face, **look | {"zorder": 4.2}))
+        for index, line in enumerate(lines):
+            y = center[1] + self.scale.text * LINE * ((len(lines) - 1) / 2 - index)
+            self.axes.text(
+                center[0], y, marked(line), size=self.scale.text, ha="center", va="center_baseline", zorder=7
+            )
+        self.solid.append((*(center - size / 2 - 1.5), *(center + size / 2 + 1.5)))
+        self.boxes.append(self.solid[-1])
 
     def _radius_dimension(self, shape: Shape) -> None:
         center, angle = self._points(shape["center"])[0], shape["angle"]
         along = np.array([np.cos(angle), np.sin(angle)])
-        radius = shape["radius"] * self.scale
+        radius = shape["radius"] * self.scale.round
         tip = center + radius * along
-        width, height = text_size(marked(shape["text"]))
         self._line(np.array([center, tip]), **THIN_LINE)
-        self._arrow(tip, along)
-        self._later(shape["text"], lambda: _along(center, along, radius, width, height))
+        self._head(tip, along)
+        self._later(shape["text"], lambda size: places.along_radius(center, along, radius, size))
 
     def _dimension(self, shape: Shape) -> None:
         start, end = self._points(shape["from"])[0], self._points(shape["to"])[0]
         reach = float(np.hypot(*(end - start)))
         along = (end - start) / reach
         aside = np.array([-along[1], along[0]]) * np.sign(shape["offset"])
-        away = abs(shape["offset"]) * self.scale
+        away = abs(shape["offset"]) * self.scale.round
         one, two = start + away * aside, end + away * aside
         for foot, top in ((start, one), (end, two)):
             self.axes.plot(*zip(foot + 2.0 * aside, top + 3.0 * aside, strict=True), **THIN_LINE)
@@ -165,125 +179,6 @@ class Sheet:
         inside = reach > 3 * ARROW
         over = np.zeros(2) if inside else 2 * ARROW * along
         self._line(np.array([one - over, two + over]), **THIN_LINE)
-        self._arrow(one, -along if inside else along)
-        self._arrow(two, along if inside else -along)
-        size = text_size(marked(shape["text"]))
-        self._later(shape["text"], lambda: _by_line(one - over, two + over, along, aside, size))
-
-    def _arrow(self, tip: Array, along: Array) -> None:
-        across = np.array([-along[1], along[0]]) * ARROW * SLENDER
-        self.axes.fill(
-            *np.array([tip, tip - ARROW * along + across, tip - ARROW * along - across]).T,
-            color=INK,
-            linewidth=0,
-            zorder=2.6,
-        )
-
-    # texts
-    def _later(
-        self, text: str, places: Callable[[], Iterator[tuple[float, float]]], leader: tuple[float, float] | None = None
-    ) -> None:
-        said = marked(text)
-
-        def write(labels: Labels) -> None:
-            size = text_size(said)
-            x, y = labels.place(size, places())
-            if leader and np.hypot(x - leader[0], y - leader[1]) > FAR + size[0] / 2:
-                self.axes.plot([leader[0], x], [leader[1], y], **THIN_LINE)
-            halo = {"facecolor": "white", "edgecolor": "none", "alpha": 0.85, "pad": 0.8}
-            self.axes.text(x, y, said, ha="center", va="center", zorder=7, bbox=halo)
-
-        self.texts.append(write)
-
-    def _scale_bar(self) -> None:
-        """A bar of a round length below the drawing, at the left."""
-        factor = unit(self.unit).factor
-        target = 30 * MM / self.scale / factor
-        power = 10.0 ** np.floor(np.log10(target))
-        length = max(step * power for step in (1, 2, 5) if step * power <= target)
-        left, bottom = min(box[0] for box in self.boxes), min(box[1] for box in self.boxes) - 16
-        right, middle = left + length * factor * self.scale, left + 0.5 * length * factor * self.scale
-        self.axes.fill([left, middle, middle, left], [bottom, bottom, bottom + 3, bottom + 3], color=INK, linewidth=0)
-        self.axes.plot(
-            [left, right, right, left, left], [bottom, bottom, bottom + 3, bottom + 3, bottom], color=INK, linewidth=0.5
-        )
-        text = joined(
-            number(significant(length, 1) if length < 1 else f"{length:.0f}", self.words["decimal"]), pretty(self.unit)
-        )
-        self.axes.text(right + 5, bottom + 1.5, text, va="center", ha="left", size=8)
-        self.axes.text(left, bottom + 6, "0", va="bottom", ha="center", size=0.1, alpha=0)
-        self.boxes.append((left, bottom - 3, right + 5 + text_size(text, 8)[0], bottom + 8))
-
-
-def _round(shape: Shape, start: float, end: float) -> Array:
-    angles = np.linspace(start, end, max(16, int(abs(end - start) * 40)))
-    points: Array = np.asarray(shape["center"]) + shape["radius"] * np.column_stack([np.cos(angles), np.sin(angles)])
-    return points
-
-
-def _extent(shape: Shape) -> Array:
-    """Points that bound a shape, in metres (texts are measured later)."""
-    match shape:
-        case {"shape": "polyline", "points": points} | {"shape": "region", "outer": points}:
-            return np.asarray(points, dtype=float).reshape(-1, 2)
-        case {"shape": "circle"}:
-            return _round(shape, 0, 2 * np.pi)
-        case {"shape": "arc", "start": start, "end": end}:
-            return _round(shape, start, end)
-        case {"shape": "radius_dimension", "angle": angle}:
-            return _round(shape, angle, angle)
-        case {"shape": "dimension", "from": start, "to": end, "offset": offset}:
-            one, two = np.asarray(start, dtype=float), np.asarray(end, dtype=float)
-            along = (two - one) / np.hypot(*(two - one))
-            line: Array = np.array([one, two]) + offset * np.array([-along[1], along[0]])
-            return line
-    return np.asarray(shape["at"], dtype=float).reshape(-1, 2)
-
-
-def hatching(loops: list[Array], step: float = HATCH_STEP) -> tuple[Array, Array]:
-    """Starts and ends of strokes at 45° inside closed loops (even-odd), ``step`` apart."""
-    along, across = np.array([1.0, 1.0]) / np.sqrt(2), np.array([-1.0, 1.0]) / np.sqrt(2)
-    starts = np.concatenate([loop[:-1] for loop in loops])
-    ends = np.concatenate([loop[1:] for loop in loops])
-    height_a, height_b = starts @ across, ends @ across
-    places: list[Array] = []
-    for level in np.arange(np.floor(height_a.min() / step) + 0.5, height_a.max() / step) * step:
-        cut = (height_a <= level) != (height_b <= level)
-        share = (level - height_a[cut]) / (height_b[cut] - height_a[cut])
-        reach = np.sort((starts[cut] + share[:, None] * (ends[cut] - starts[cut])) @ along)
-        places.append(level * across + reach[:, None] * along)
-    points = np.concatenate(places)
-    return points[::2], points[1::2]
-
-
-def _near(x: float, y: float, size: tuple[float, float]) -> Iterator[tuple[float, float]]:
-    """Places around a point, the right-hand upper one first."""
-    for away in (5.0, 10.0, 17.0, 26.0, 36.0, 48.0):
-        for h, v in ((1, 1), (-1, 1), (1, -1), (-1, -1), (1, 0), (-1, 0), (0, 1), (0, -1)):
-            yield x + h * (min(away, 5.0) + size[0] / 2), y + v * (away + size[1] / 2)
-
-
-def _along(center: Array, along: Array, radius: float, width: float, height: float) -> Iterator[tuple[float, float]]:
-    """Places beside a radius, then beyond its end."""
-    across = np.array([-along[1], along[0]])
-    clear = 0.5 * (abs(across[0]) * width + abs(across[1]) * height) + 4.0
-    for share in (0.6, 0.5, 0.7, 0.4, 0.8):
-        for side in (1, -1):
-            yield tuple(center + share * radius * along + side * clear * across)
-    beyond = radius + 0.5 * (abs(along[0]) * width + abs(along[1]) * height) + 5
-    yield tuple(center + beyond * along)
-
-
-def _by_line(
-    one: Array, two: Array, along: Array, aside: Array, size: tuple[float, float]
-) -> Iterator[tuple[float, float]]:
-    """Places for a dimension's text: above its line, below it, beyond its ends."""
-    width, height = size
-    clear = 0.5 * (abs(aside[0]) * width + abs(aside[1]) * height) + 4.0
-    beyond = 0.5 * (abs(along[0]) * width + abs(along[1]) * height) + 3
-    for share in (0.5, 0.35, 0.65, 0.22, 0.78):
-        at = one + share * (two - one)
-        yield from (tuple(at + clear * aside), tuple(at - clear * aside))
-    yield from (tuple(two + beyond * along), tuple(one - beyond * along))
-    for away in (6.0, 14.0):
-        yield tuple((one + two) / 2 + (clear + away) * aside)
+        self._head(one, -along if inside else along)
+        self._head(two, along if inside else -along)
+        self._later(shape["text"], lambda size: places.by_line(one - over, two + over, aside, size))

@@ -94,7 +94,7 @@ class Equations:
         trees = [tree for tree in (item.get("equation"), item.get("substituted")) if tree]
         links = [self._link(tree) for tree in trees]
         links = [link for link in links if link.text not in (result.text, item["symbol"])]
-        return [*links, result] if trees or item["type"] == "found" else []
+        return [*links, result] if trees or item["type"] in ("found", "lookup") else []
 
     def _link(self, tree: Tree) -> Link:
         return Link(self.latex(tree), self.linear(tree), tree)
@@ -115,6 +115,10 @@ class Equations:
         curve, plain = self.latex.symbol(name), self.linear.symbol(name)
         if operation == "abs_max":
             return [Link(rf"\max \left| {curve} \right|", f"max |{plain}|")]
+        if operation == "accumulated":
+            end = item["at"]["symbol"]
+            upper = self.latex.symbol(end)
+            return [Link(rf"\int_{{0}}^{{{upper}}} {curve}\,\mathrm{{d}}{upper}", f"∫ {plain} d{end} from 0 to {end}")]
         word = SIGNS.get(operation, operation)
         if operation in OPERATORS:
             return [Link(f"{OPERATORS[operation]} {curve}", f"{word} {plain}")]

@@ -6,7 +6,6 @@ import io
 import re
 from collections.abc import Callable, Iterable
 from importlib import import_module
-from itertools import pairwise
 from pathlib import Path
 from typing import Any, NamedTuple
 
@@ -19,10 +18,12 @@ from matplotlib.textpath import text_to_path
 from numpy.typing import NDArray
 
 from diecut_report.report.numbers import tidy
+from diecut_report.report.symbols import SYMBOL
 
 INK, SOFT, PALE, ACCENT = "#1b232c", "#66717d", "#e9edf1", "#0b5c8f"
 MM = 72 / 25.4  # points
 FONT_SIZE = 8.5  # points
+LINE = 1.25  # from line to line of a text, in font sizes
 Box = tuple[float, float, float, float]  # left, bottom, right, top
 
 
@@ -36,7 +37,7 @@ class Svg(NamedTuple):
 
 def drawn(build: Callable[[], Figure], title: str, key: str) -> Svg:
     """What ``build`` draws, in the report's style; ``key`` keeps its ids apart from those of the report's other figures."""
-    _load_fonts()
+    load_fonts()
     with mpl.rc_context(style(key)):  # type: ignore[arg-type]  # a plain dictionary is one too
         return written(build(), title)
 
@@ -57,7 +58,8 @@ def style(key: str) -> dict[str, Any]:
     }  # fmt: skip
 
 
-def _load_fonts() -> None:
+def load_fonts() -> None:
+    """Make the report's fonts known to matplotlib, which measures texts by them."""
     if not any(entry.name == "Report Sans" for entry in fontManager.ttflist):
         folder = Path(import_module("diecut_report.templates").__path__[0]) / "fonts"
         for name in ("report-sans-regular", "report-symbols"):
@@ -100,7 +102,9 @@ def _escaped(text: str) -> str:
     return text.replace("&", "&amp;").replace("<", "&lt;").replace(">", "&gt;")
 
 
-_SYMBOL = re.compile(r"(?<!\w)([^\W\d_]{1,2}[′']?)(?:_(\w+))?(?= =)|^([^\W\d_]{1,2}[′']?)(?:_(\w+))?$")
+_SYMBOL = re.compile(
+    r"(?<!\w)([^\W\d_]{1,2}[′']?)(?:_(\w+))?(?= =)|^(?!(?:II|IV|VI|IX|XI)$)([^\W\d_]{1,2}[′']?)(?:_(\w+))?$"
+)
 
 
 def marked(text: str) -> str:
@@ -115,13 +119,29 @@ def marked(text: str) -> str:
     return "".join([*parts, plain(said[start:])])
 
 
+def symbol(name: str) -> str:
+    """A symbol for matplotlib: ``φ_22``, ``[σ]``; bars and brackets stand upright."""
+    found = SYMBOL.fullmatch(name)
+    if found is None:
+        return plain(name)
+    below = rf"_{{\mathrm{{{found['below'].replace('_', ' ')}}}}}" if found["below"] else ""
+    letters = found["base"].replace("′", "'")
+    return f"{plain(found['before'])}${letters}{below}${plain(found['after'])}"
+
+
 def plain(text: str) -> str:
     """A text that matplotlib takes letter by letter."""
     return text.replace("$", r"\$")
 
 
 def text_size(text: str, size: float = FONT_SIZE) -> tuple[float, float]:
-    """Width and height of a text in points, a little air included."""
+    """Width and height of a text in points, a little air included; it may have several lines."""
+    lines = text.split("\n")
+    sizes = [_line_size(line, size) for line in lines]
+    return max(wide for wide, _ in sizes), max(high for _, high in sizes) + (len(lines) - 1) * LINE * size
+
+
+def _line_size(text: str, size: float) -> tuple[float, float]:
     math = text.count("$") - text.count(r"\$") >= 2
     width, height, _ = text_to_path.get_text_width_height_descent(
         text, FontProperties(family="Report Sans", size=size), ismath=math
@@ -147,14 +167,20 @@ class Labels:
 
     def place(self, size: tuple[float, float], centers: Iterable[tuple[float, float]]) -> tuple[float, float]:
         """The best of the proposed centres for a text of a size; earlier ones are liked better."""
-        best, lowest = (0.0, 0.0), float("inf")
-        for order, (x, y) in enumerate(centers):
-            box = (x - size[0] / 2, y - size[1] / 2, x + size[0] / 2, y + size[1] / 2)
-            cost = self._cost(box) + 0.4 * order
-            if cost < lowest:
-                best, lowest = (x, y), cost
+        best, _ = self.best(size, centers)
         self.take(best, size)
         return best
+
+    def best(
+        self, size: tuple[float, float], centers: Iterable[tuple[float, float]]
+    ) -> tuple[tuple[float, float], float]:
+        """The best of the proposed centres, and how much stands in the way there."""
+        found, lowest, least = (0.0, 0.0), 0.0, float("inf")
+        for order, (x, y) in enumerate(centers):
+            cost = self._cost((x - size[0] / 2, y - size[1] / 2, x + size[0] / 2, y + size[1] / 2))
+            if cost + 0.4 * order < least:
+                found, lowest, least = (x, y), cost, cost + 0.4 * order
+        return found, lowest
 
     def take(self, center: tuple[float, float], size: tuple[float, float]) -> None:
         """Keep a box free of further texts."""
@@ -175,10 +201,12 @@ class Labels:
 
 
 def sampled(points: NDArray[Any], step: float = 2.0) -> NDArray[Any]:
-    """Points along a line of straight pieces, about ``step`` apart."""
-    pieces = [
-        a + (b - a) * np.linspace(0, 1, max(2, int(np.hypot(*(b - a)) / step) + 1))[:, None]
-        for a, b in pairwise(points)
-        if np.isfinite(a).all() and np.isfinite(b).all()
-    ]
-    return np.concatenate(pieces) if pieces else np.empty((0, 2))
+    """Points along a line of straight pieces, about ``step`` apart; pieces without end points are left out."""
+    whole = np.isfinite(points).all(axis=1)
+    clear = whole[:-1] & whole[1:]
+    starts, reach = points[:-1][clear], (points[1:] - points[:-1])[clear]
+    counts = np.maximum(2, (np.hypot(*reach.T) / step).astype(int) + 1)
+    piece = np.repeat(np.arange(len(counts)), counts)
+    order = np.arange(len(piece)) - (np.cumsum(counts) - counts)[piece]
+    found: NDArray[Any] = starts[piece] + (order / (counts - 1)[piece])[:, None] * reach[piece]
+    return found

@@ -6,12 +6,14 @@ from collections.abc import Callable, Mapping
 from functools import partial
 from typing import Any
 
-from diecut_report.report.charts import bars, plot, polar
+from diecut_report.report.charts import chart, plot
+from diecut_report.report.charts_bars import bars
+from diecut_report.report.charts_polar import polar
 from diecut_report.report.drawing import drawing
 from diecut_report.report.figures import Svg, drawn
 from diecut_report.report.i18n import Words
 
-DRAW: dict[str, Callable[..., Any]] = {"plot": plot, "polar": polar, "bars": bars, "drawing": drawing}
+DRAW: dict[str, Callable[..., Any]] = {"plot": plot, "chart": chart, "polar": polar, "bars": bars, "drawing": drawing}
 
 
 def render(figure: Mapping[str, Any], curves: Mapping[str, Any], words: Words, key: str) -> Svg:

@@ -7,7 +7,7 @@ from collections.abc import Iterator, Mapping
 ENGLISH: dict[str, str] = {
     # numbers and formulas
     "decimal": ".", "if": "if", "otherwise": "otherwise", "and": "and", "or": "or", "not": "not", "at": "at",
-    "mean": "mean", "rms": "rms", "range": "range",
+    "mean": "mean", "rms": "rms", "range": "range", "first": "first", "last": "last",
     # title block
     "calculation": "Calculation", "document": "Document", "revision": "Revision", "date": "Date", "sheet": "Sheet", "of": "of",
     "organisation": "Organisation", "prepared": "Prepared", "checked": "Checked", "approved": "Approved", "name": "Name",
@@ -24,6 +24,7 @@ ENGLISH: dict[str, str] = {
     "contents": "Contents", "summary": "Summary", "checks": "Checks", "key_results": "Key results", "press_data": "Press data",
     "purpose": "Purpose and assumptions", "assumptions": "Assumptions and limits", "inputs": "Inputs", "results": "Results",
     "curves": "Curves", "figures": "Figures", "absent": "Not calculated",
+    "comparison": "Comparison of", "files": "Files beside this report",
     "errata": "Errata of the sources", "sources": "Sources", "program": "Program and configuration",
     "configuration": "Configuration as given", "appendix": "Appendix", "warnings": "Warnings",
     # tables
@@ -31,12 +32,17 @@ ENGLISH: dict[str, str] = {
     "utilisation": "Utilisation", "source": "Source", "number": "No.", "verdict": "Verdict", "quantity": "Quantity", "symbol": "Symbol",
     "value": "Value", "unit": "Unit", "origin": "Origin", "typed": "As typed", "place": "At", "path": "Key",
     "given": "given", "default": "default", "reference": "reference", "refers": "from {path}", "from_press": "default, from {path}",
-    "touches": "Touches",
+    "touches": "Touches", "part": "No.", "nth": "{text}, no. {n}", "like_parts": "{n} like parts",
+    "file": "File", "content": "Content",
     # items
     "met": "{demand} {operator} {limit} is met", "not_met": "{demand} {operator} {limit} is not met",
     "since": "Branch taken", "method": "Method", "residual": "relation met to {residual}", "checked_to": "verified to {residual}",
-    "of_curve": "of {curve}", "figure": "Figure", "table": "Table", "formula": "Formula",
+    "of_curve": "of {curve}", "series": "Series", "looked_up": "From “{table}” for {choice}",
+    "figure": "Figure", "table": "Table", "formula": "Formula",
     "curves_note": "Some rows of the curves; jumps and extremes lie between them and are given with the results.",
+    "dxf": "{title} in mm: polylines through {n} points each on the layers PROFILE and PITCH_CURVE, the axis on CENTER",
+    "dxf_profile": "{title} in mm: a polyline through {n} points on the layer PROFILE, the axis on CENTER",
+    "csv": "{title} as a table of {n} rows: {columns}",
     "drawing_scale": "scale bar", "positive": "positive", "negative": "negative",
     # programme
     "calculated_by": "Calculated by", "version": "version", "plugin": "Mechanism", "plugin_version": "Version", "kind": "Kind",

@@ -6,7 +6,7 @@ from collections.abc import Mapping
 from functools import cached_property
 from typing import TYPE_CHECKING, Any
 
-from diecut_report.report.document import Document, document
+from diecut_report.report.document import Document, document, parts
 from diecut_report.report.equations import Equations
 from diecut_report.report.i18n import Words
 from diecut_report.report.typeset import Typesetter
@@ -33,9 +33,8 @@ class Material:
         """All figures by their number."""
         from diecut_report.report.gallery import render  # with matplotlib, which takes half a second
 
-        mechanisms = self.results["mechanisms"]
         return {
-            number: render(figure, mechanisms[chapter.name]["curves"], self.words, number)
-            for chapter in self.document.chapters
+            number: render(figure, data["curves"], self.words, number)
+            for chapter, (_, data) in zip(self.document.chapters, parts(self.results), strict=True)
             for number, figure in chapter.figures
         }

@@ -9,7 +9,7 @@ from typing import Any
 from markupsafe import Markup
 
 from diecut_report.report.equations import Equation
-from diecut_report.report.numbers import joined, number, quantity
+from diecut_report.report.numbers import joined, number, parts, quantity
 from diecut_report.report.symbols import symbol
 from diecut_report.units import pretty
 
@@ -90,6 +90,44 @@ class Table:
 
 
 @dataclass(frozen=True)
+class Cell:
+    """A value in a table of like parts, and what is to be said of it: where it comes from, how it was typed."""
+
+    text: str
+    note: str = ""
+    wordy: bool = False
+
+
+@dataclass(frozen=True)
+class Column:
+    """The head of a column in a table of like parts."""
+
+    title: str
+    symbol: Markup
+    unit: str
+    key: str
+    source: str
+
+
+@dataclass(frozen=True)
+class PartsTable:
+    """Quantities of like parts: a line for each part, by its number."""
+
+    number: str
+    family: str
+    columns: list[Column]
+    lines: list[tuple[str, list[Cell]]]
+
+
+@dataclass(frozen=True)
+class File:
+    """A file beside the report."""
+
+    name: str
+    content: str
+
+
+@dataclass(frozen=True)
 class Section:
     """A part of the calculation."""
 
@@ -113,13 +151,17 @@ class Chapter:
     summary: str = ""
     assumptions: list[str] = field(default_factory=list)
     warnings: list[str] = field(default_factory=list)
+    between: list[Chapter] = field(default_factory=list)
     inputs: list[QuantityRow] = field(default_factory=list)
+    input_parts: list[PartsTable] = field(default_factory=list)
     key_results: list[QuantityRow] = field(default_factory=list)
     outputs: list[QuantityRow] = field(default_factory=list)
+    output_parts: list[PartsTable] = field(default_factory=list)
     sections: list[Section] = field(default_factory=list)
     checks: list[CheckRow] = field(default_factory=list)
     curves: list[Table] = field(default_factory=list)
     figures: list[tuple[str, Data]] = field(default_factory=list)
+    files: list[File] = field(default_factory=list)
     absent: list[Data] = field(default_factory=list)
     errata: list[tuple[str, str, str]] = field(default_factory=list)
     parts: dict[str, Heading] = field(default_factory=dict)
@@ -131,23 +173,28 @@ class Chapter:
         return self.status in ("error", "skipped")
 
 
-def quantity_row(row: Data, decimal: str) -> QuantityRow:
-    """A quantity of the results as a row of a table."""
+def quantity_row(row: Data, decimal: str, description: str = "") -> QuantityRow:
+    """A quantity of the results as a row of a table; another description may stand for its own."""
     shown, at = row["display"], row.get("at")
     place = Markup("")
     if at:
         place = symbol(at["symbol"]) + f" = {quantity(at['text'], at['unit'], decimal)}"
     text = number(shown["text"], decimal)
     return QuantityRow(
-        description=row["description"],
+        description=description or row["description"],
         symbol=symbol(row["symbol"]),
         value=text,
         unit=pretty(shown["unit"]),
         source=row.get("source", ""),
         at=place,
         key=row.get("path", ""),
-        wordy=text == shown["text"] and not any(c.isdigit() for c in text),
+        wordy=is_words(shown["text"]) and not pretty(shown["unit"]),
     )
+
+
+def is_words(text: str) -> bool:
+    """Whether the text of a value is no number."""
+    return parts(text) is None
 
 
 def utilisation(ratio: float | None, status: str, decimal: str) -> str:

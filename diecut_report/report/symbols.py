@@ -9,7 +9,7 @@ from markupsafe import Markup, escape
 from diecut_report.report.numbers import tidy
 
 _SIGNS = "=<>≤≥≈≠−+√"
-_SYMBOL = re.compile(r"(?P<before>[|\[\d]*)(?P<base>[^\W\d_]+[′']*)(?:_(?P<below>.*?))?(?P<after>[′'|\]]*)")
+SYMBOL = re.compile(r"(?P<before>[|\[\d]*)(?P<base>[^\W\d_]+[′']*)(?:_(?P<below>.*?))?(?P<after>[′'|\]]*)")
 # A symbol within a sentence: one or two letters with a short subscript (keys such as crank_speed or n_points are none),
 # a lone letter beside a sign of arithmetic, or a lone Greek one.
 _IN_TEXT = re.compile(
@@ -20,7 +20,7 @@ _IN_TEXT = re.compile(
 
 def symbol(name: str) -> Markup:
     """A symbol as HTML, nothing for the empty one; bars, brackets and digits about the letters stand upright."""
-    found = _SYMBOL.fullmatch(name)
+    found = SYMBOL.fullmatch(name)
     if found is None:
         return escape(name)
     below = Markup("<sub>{}</sub>").format(found["below"].replace("_", "\u2009")) if found["below"] else Markup("")

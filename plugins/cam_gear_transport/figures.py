@@ -74,8 +74,8 @@ def laws_compared(view: View) -> list[Shape]:
         ratio, top = peaks(view, law)
         if np.isnan(ratio):
             continue
-        x, speed = view.varied_curve({"motion_law": name}, "gear_speed", POINTS)
-        acceleration = view.varied_curve({"motion_law": name}, "gear_acceleration", POINTS)[1]
+        x, curves = view.varied_curves({"motion_law": name}, "gear_speed", "gear_acceleration", points=POINTS)
+        speed, acceleration = curves["gear_speed"], curves["gear_acceleration"]
         moving, words = x >= view["dwell_angle"], name.replace("_", " ")
         speeds.append(line(x[moving], speed[moving] / (2 * np.pi), f"{words}, {ratio:.2f}"))
         accelerations.append(line(x[moving], acceleration[moving], f"{words}, {top:.0f}"))

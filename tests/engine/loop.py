@@ -118,9 +118,9 @@ def in_words(length: float) -> str:
 def sweep(view: View) -> list[dict[str, Any]]:
     swing = np.linspace(0.5, 2, 4)
     lines = [line(swing, view.varied({"swing": swing, "material": m}, "height_max")["height_max"], m) for m in FORMS]
-    turn, height = view.varied_curve({"material": "chain"}, "height", points=5)
+    turn, curves = view.varied_curves({"material": "chain"}, "height", points=5)
     return [chart_panel("Height", "m", "Swing", "a", "m", lines=lines),
-            chart_panel("Height", "m", "Turn", "φ", "deg", lines=[line(turn, height, "chain")])]  # fmt: skip
+            chart_panel("Height", "m", "Turn", "φ", "deg", lines=[line(turn, curves["height"], "chain")])]  # fmt: skip
 
 
 POSTS = Section(

@@ -1,37 +1,43 @@
-"""A results document made by hand that holds every kind of item and figure."""
+"""A results document made by hand that holds every kind of item and figure, and its reports."""
 
 from __future__ import annotations
 
-import json
 import logging
 from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
 
+import matplotlib as mpl
 import pytest
 
-from diecut_report.report import Rendering
-
-SAMPLE = Path(__file__).with_name("sample_results.json")
+from diecut_report.report import Rendering, figures
+from tests.report.made_results import sample
 
 
 @pytest.fixture
 def results() -> dict[str, Any]:
     """A fresh copy of the sample."""
-    found: dict[str, Any] = json.loads(SAMPLE.read_text(encoding="utf-8"))
-    return found
+    return sample()
 
 
 @pytest.fixture(scope="session")
 def rendering() -> Rendering:
     """The sample's report; its formats are made once for all tests."""
-    return Rendering(json.loads(SAMPLE.read_text(encoding="utf-8")))
+    return Rendering(sample())
 
 
 @pytest.fixture(scope="session")
 def html(rendering: Rendering) -> str:
     """The sample as HTML."""
     return rendering.html()
+
+
+@pytest.fixture
+def style() -> Iterator[None]:
+    """The report's fonts and settings, for what is drawn or measured apart from a whole figure."""
+    figures.load_fonts()
+    with mpl.rc_context(figures.style("x")):  # type: ignore[arg-type]
+        yield
 
 
 class Records(logging.Handler):

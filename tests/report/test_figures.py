@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 import re
+from collections.abc import Callable
 from typing import Any
 from xml.etree import ElementTree
 
@@ -11,10 +12,10 @@ import numpy as np
 import pytest
 
 from diecut_report.report.curves import continuous, period_of, through_pole
-from diecut_report.report.drawing import hatching
 from diecut_report.report.figures import Labels, marked
 from diecut_report.report.gallery import render
 from diecut_report.report.i18n import Words
+from diecut_report.report.shapes import hatching
 
 WORDS = Words("en")
 
@@ -25,7 +26,7 @@ def _figures(results: dict[str, Any]) -> list[tuple[dict[str, Any], dict[str, An
 
 def test_each_kind_is_drawn_as_clean_svg(results: dict[str, Any]) -> None:
     figures = _figures(results)
-    assert {f["type"] for f, _ in figures} == {"plot", "polar", "bars", "drawing"}
+    assert {f["type"] for f, _ in figures} == {"plot", "chart", "polar", "bars", "drawing"}
     for figure, curves in figures:
         svg = render(figure, curves, WORDS, figure["id"])
         root = ElementTree.fromstring(svg.text)
@@ -73,12 +74,27 @@ def test_jump_at_a_sample_replaces_the_sample() -> None:
     assert list(y[x == math.pi]) == [2.0, 7.0]
 
 
-def test_full_turn_is_closed() -> None:
-    curve, over = _curve()
+def _over_a_turn(shape: Callable[[float], float]) -> tuple[np.ndarray[Any, Any], np.ndarray[Any, Any]]:
+    angles = [2 * math.pi * k / 72 for k in range(72)]
+    over = {"values": angles, "unit": "rad"}
     assert period_of(over) == 2 * math.pi
-    x, y = continuous(curve, over, period_of(over))
+    return continuous({"values": [shape(angle) for angle in angles]}, over, period_of(over))
+
+
+@pytest.mark.parametrize(
+    "shape", [math.cos, math.sin, lambda x: abs(math.sin(x)), lambda _: 3.0, lambda x: math.cos(36 * x)]
+)
+def test_full_turn_is_closed(shape: Callable[[float], float]) -> None:
+    x, y = _over_a_turn(shape)
     assert x[-1] == pytest.approx(2 * math.pi)
     assert y[-1] == y[0]
+
+
+@pytest.mark.parametrize("shape", [lambda x: x, lambda x: x - math.sin(x), lambda x: math.cos(x / 2)])
+def test_curve_that_grows_over_the_turn_is_led_to_its_end_without_a_jump_back(shape: Callable[[float], float]) -> None:
+    x, y = _over_a_turn(shape)
+    assert x[-1] == pytest.approx(2 * math.pi)
+    assert y[-1] == pytest.approx(shape(2 * math.pi), abs=0.01)
 
 
 def test_part_of_a_turn_is_not_closed() -> None:

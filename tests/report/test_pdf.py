@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 import os
 import re
 import shutil
@@ -18,7 +19,6 @@ from diecut_report.report import Rendering
 from diecut_report.report.pdf_math import operators
 from diecut_report.report.typeset import Typesetter
 
-SAMPLE = Path(__file__).with_name("sample_results.json")
 TWICE = """
 import json, sys
 from hashlib import sha256
@@ -101,11 +101,14 @@ def test_a_picture_from_outside_stops_the_rendering(results: dict[str, Any], mon
         Rendering(results).pdf()
 
 
-def test_equal_results_give_equal_bytes_in_another_process() -> None:
+def test_equal_results_give_equal_bytes_in_another_process(results: dict[str, Any], tmp_path: Path) -> None:
+    file = tmp_path / "results.json"
+    file.write_text(json.dumps(results), encoding="utf-8")
+
     def digests(seed: str) -> str:
         environment = os.environ | {"PYTHONHASHSEED": seed}
         return subprocess.run(
-            [sys.executable, "-c", TWICE, str(SAMPLE)], env=environment, capture_output=True, text=True, check=True
+            [sys.executable, "-c", TWICE, str(file)], env=environment, capture_output=True, text=True, check=True
         ).stdout
 
     assert digests("1") == digests("4711")

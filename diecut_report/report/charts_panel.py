@@ -1,0 +1,119 @@
+"""What one diagram of a chart holds, in the units that it shows, and where its numbers lie on the paper."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, field
+from typing import Any, NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+Array = NDArray[Any]
+ROOM = 0.08  # of the diagram's height, above and below what is drawn
+MORE_ROOM = 0.16  # where names stand there
+BASE = 0.02  # beyond zero, where all is on one side of it
+
+
+class Across(NamedTuple):
+    """What a diagram's lines run over, and its range."""
+
+    title: str
+    symbol: str
+    unit: str
+    low: float
+    high: float
+
+
+class Line(NamedTuple):
+    """A line, or the edge of an area; NaN breaks it."""
+
+    x: Array
+    y: Array
+    label: str
+
+
+class Note(NamedTuple):
+    """A place with what is written there; a level has no x, a vertical line no y."""
+
+    x: float
+    y: float
+    text: str
+
+
+class Span(NamedTuple):
+    """A named range of the abscissa."""
+
+    start: float
+    end: float
+    text: str
+
+
+@dataclass(frozen=True, kw_only=True)
+class Panel:
+    """One diagram; ``zero`` says that its zero line is always shown."""
+
+    title: str
+    unit: str
+    across: Across
+    lines: list[Line]
+    fills: list[Line] = field(default_factory=list)
+    marks: list[Note] = field(default_factory=list)
+    levels: list[Note] = field(default_factory=list)
+    verticals: list[Note] = field(default_factory=list)
+    spans: list[Span] = field(default_factory=list)
+    zero: bool = False
+
+    @property
+    def heights(self) -> tuple[float, float]:
+        """The range upwards: all that is drawn, zero where it is near, and some room."""
+        heights = [line.y for line in (*self.lines, *self.fills)] + [[note.y] for note in (*self.marks, *self.levels)]
+        low, high = range_of([*heights, [0.0] if self.fills or self.zero else []])
+        if high - low > 0.5 * max(abs(low), abs(high)):
+            low, high = min(low, 0.0), max(high, 0.0)
+        span = (high - low) or abs(high) or 1.0
+        room = span * (MORE_ROOM if self.marks or self.verticals else ROOM)
+        below, above = (span * BASE if edge == 0 and not self.zero else room for edge in (low, high))
+        return low - below, high + above
+
+
+class Frame(NamedTuple):
+    """A diagram on paper: its size in points, and the ranges of its axes."""
+
+    width: float
+    height: float
+    across: tuple[float, float]
+    upwards: tuple[float, float]
+
+    def points(self, x: Any, y: Any) -> Array:
+        """Numbers as points from the diagram's lower left corner."""
+        (x0, x1), (y0, y1) = self.across, self.upwards
+        across = (np.asarray(x, dtype=float) - x0) / (x1 - x0) * self.width
+        upwards = (np.asarray(y, dtype=float) - y0) / (y1 - y0) * self.height
+        found: Array = np.stack(np.broadcast_arrays(across, upwards), axis=-1)
+        return found
+
+    def numbers(self, points: Array) -> tuple[Array, Array]:
+        """Points from the corner as numbers of the axes."""
+        (x0, x1), (y0, y1) = self.across, self.upwards
+        return x0 + points[:, 0] / self.width * (x1 - x0), y0 + points[:, 1] / self.height * (y1 - y0)
+
+
+def range_of(numbers: Sequence[Any]) -> tuple[float, float]:
+    """The least and the greatest of several rows of numbers; zero where there are none."""
+    found = np.concatenate([np.zeros(0), *numbers])
+    found = found[np.isfinite(found)]
+    return (float(found.min()), float(found.max())) if len(found) else (0.0, 0.0)
+
+
+def pieces(points: Array) -> list[Array]:
+    """The unbroken pieces of a line that have a length, each from left to right."""
+    whole = np.isfinite(points).all(axis=1)
+    edges = np.flatnonzero(np.diff(whole)) + 1
+    found = [piece for piece in np.split(points, edges) if len(piece) > 1 and np.isfinite(piece[0]).all()]
+    return [piece if piece[-1, 0] >= piece[0, 0] else piece[::-1] for piece in found]
+
+
+def framed(panel: Panel, width: float, height: float) -> Frame:
+    """The panel's frame on paper."""
+    return Frame(width, height, (panel.across.low, panel.across.high), panel.heights)

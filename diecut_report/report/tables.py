@@ -1,0 +1,104 @@
+"""The numbered tables of a chapter: those of its calculation, of its curves, of quantities of like parts."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from typing import Any, TypeVar
+
+from diecut_report.report.i18n import Words
+from diecut_report.report.like_parts import Parts
+from diecut_report.report.numbers import displayed, number
+from diecut_report.report.rows import Cell, Column, PartsTable, Table, is_words
+from diecut_report.report.symbols import symbol
+from diecut_report.units import pretty, to_display
+
+Data = Mapping[str, Any]
+Columns = TypeVar("Columns")
+CURVE_ROWS = 12
+MOST_COLUMNS = 7  # beside the first one
+
+
+class Tables:
+    """Makes a chapter's tables; they count up as they are made."""
+
+    def __init__(self, letter: str, words: Words) -> None:
+        self.letter, self.words = letter, words
+        self.decimal = words["decimal"]
+        self.count = 0
+
+    def of_item(self, item: Data) -> Table:
+        """A table of the calculation."""
+        columns = [(c["title"], symbol(c["symbol"]), pretty(c["unit"])) for c in item["columns"]]
+        rows = [[number(text, self.decimal) for text in row] for row in item["rows"]]
+        return Table(item["title"], columns, rows, self._number())
+
+    def of_curves(self, curves: Data) -> list[Table]:
+        """Some rows of all curves, by their abscissa, so many columns a table as the page holds."""
+        groups: dict[str, list[Data]] = {}
+        for curve in curves.values():
+            if "abscissa" in curve:
+                groups.setdefault(curve["abscissa"], []).append(curve)
+        return [
+            self._curves(curves[axis], columns) for axis, members in groups.items() for columns in shared_out(members)
+        ]
+
+    def _curves(self, axis: Data, members: list[Data]) -> Table:
+        shown = [axis, *members]
+        count = len(axis["values"])
+        places = (
+            [round(k * count / CURVE_ROWS) for k in range(CURVE_ROWS)] if count > CURVE_ROWS else list(range(count))
+        )
+        columns = [(c["description"], symbol(c["symbol"]), pretty(c["display_unit"])) for c in shown]
+        rows = [[self._sample(c, place) for c in shown] for place in places]
+        return Table(self.words["curves"], columns, rows, self._number())
+
+    def _sample(self, curve: Data, place: int) -> str:
+        value, shown = curve["values"][place], curve["display_unit"]
+        if "abscissa" not in curve:
+            return number(f"{to_display(value, shown):.6g}", self.decimal)
+        scale = max(abs(v) for v in curve["values"])
+        return displayed(value if abs(value) > 1e-12 * scale else 0.0, shown, 4, self.decimal)
+
+    def of_parts(self, parts: Parts, *, given: bool) -> list[PartsTable]:
+        """Quantities of like parts: inputs (``given``) tell their keys and where they come from, results their sources."""
+        told = self._origin if given else lambda _: ""
+        return [self._parts(parts, columns, told, given) for columns in shared_out(list(parts.heads))]
+
+    def _parts(
+        self, parts: Parts, heads: list[tuple[str, Data]], told: Callable[[Data], str], given: bool
+    ) -> PartsTable:
+        columns = [
+            Column(row["description"], symbol(row["symbol"]), pretty(row["display"]["unit"]),
+                   key=quantity if given else "", source=row.get("source", ""))
+            for quantity, row in heads
+        ]  # fmt: skip
+        lines = []
+        for part in parts.numbers:
+            rows = [parts.columns[quantity].get(part) for quantity, _ in heads]
+            lines.append((str(part), [self._cell(row[1], told) if row else Cell("–") for row in rows]))
+        family = parts.family if parts.listed else f"{parts.family}_{parts.numbers[0]} … {parts.numbers[-1]}"
+        return PartsTable(self._number(), family, columns, lines)
+
+    def _cell(self, row: Data, told: Callable[[Data], str]) -> Cell:
+        text = row["display"]["text"]
+        return Cell(number(text, self.decimal), told(row), is_words(text))
+
+    def _origin(self, row: Data) -> str:
+        """What is to be said of an input: that it is a default, what it refers to, how it was typed in another unit."""
+        if row["origin"] == "default":
+            return self.words.say("from_press", path=row["path"]) if row.get("path") else self.words["default"]
+        typed, shown = str(row.get("text") or row.get("path") or ""), row["display"]
+        plain = {shown["text"], shown["text"] + shown["unit"]}
+        return "" if typed.replace(" ", "") in plain else typed
+
+    def _number(self) -> str:
+        self.count += 1
+        return f"{self.letter}.{self.count}"
+
+
+def shared_out(columns: Sequence[Columns]) -> Iterator[list[Columns]]:
+    """Columns for as many tables as they need, of about equal width."""
+    tables = -(-len(columns) // MOST_COLUMNS)
+    size = -(-len(columns) // max(tables, 1))
+    for start in range(0, len(columns), max(size, 1)):
+        yield list(columns[start : start + size])
