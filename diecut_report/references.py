@@ -103,7 +103,7 @@ class Instance:
         for part in key[len(slot.key) :]:  # within a block that is there by default
             value = getattr(value, part) if isinstance(part, str) else value[part]
         is_own = slot.key == key and isinstance(slot.meta, Quantity | CurveInput)
-        return slot.meta.validate(value) if is_own and value is not None and slot.meta else value  # type: ignore[union-attr]
+        return slot.meta.validate(value) if is_own and value is not None and slot.meta else value
 
     @cached_property
     def declared_steps(self) -> dict[str, tuple[Section, Step]]:

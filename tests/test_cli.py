@@ -154,7 +154,8 @@ def test_schema_of_all_and_of_one_kind(capfd: Capture) -> None:
     assert run("schema", "levre") == 2
     assert capfd.readouterr() == (
         "",
-        "'levre' is no known kind (did you mean 'lever'?). Known: cylinder_drive, cylinder_sizing, lever.\n",
+        "'levre' is no known kind (did you mean 'lever'?). Known: cam_gear_transport, clutch, "
+        "cylinder_drive, cylinder_sizing, damper, drive_train, geneva_transport, lever.\n",
     )
     assert run("schema", "--plugins", BROKEN) == 3
     assert "breaks_at_import" in capfd.readouterr().out

@@ -171,7 +171,7 @@ def test_an_extension_of_an_installed_package_is_run(monkeypatch: pytest.MonkeyP
     entries = [EntryPoint("laws", "no_such_module_of_laws", discovery.EXTENSIONS)]
     monkeypatch.setattr(discovery, "entry_points", lambda group: [e for e in entries if e.group == group])
     with pytest.raises(
-        UserError, match="laws of an installed package: This extension cannot be loaded: .*no_such_module"
+        UserError, match=r"laws of an installed package: This extension cannot be loaded: .*no_such_module"
     ):
         Discovery().extend()
 

@@ -60,5 +60,6 @@ def vertical(x: float, label: str) -> Data:
 def _plain(values: Values) -> list[float | None]:
     """Numbers as results hold them, null where there is none."""
     numbers = np.asarray(values, dtype=float)
-    plain: list[float | None] = np.where(np.isfinite(numbers), numbers.astype(object), None).tolist()
-    return plain
+    plain = numbers.astype(object)
+    plain[~np.isfinite(numbers)] = None
+    return list(plain)
