@@ -133,7 +133,8 @@ def _rowed(calc: Calculation, step: Step) -> Data:
     if step.id in calc.axis:
         names = step.numbered.format if step.numbered else f"{step.id}.{{}}".format
         start = step.first if step.numbered else 0
-        return {names(start + i): _number(step, value) for i, value in enumerate(row)}
+        home = {} if step.numbered else {"list": calc.axis[step.id]}
+        return {names(start + i): _number(step, value) | home for i, value in enumerate(row)}
     if not isinstance(row[0], str) and math.isnan(row[0]):
         return {}
     found = _number(step, row[0])

@@ -70,8 +70,8 @@ def _tables(columns: dict[tuple[str, str, int], dict[int, str]], rows: Data) -> 
     tables: dict[tuple[Any, ...], Parts] = {}
     for (family, quantity, first), names in columns.items():
         lone = first == 0 and not quantity
-        key = (tuple(names),) if lone else (family, first)
-        table = tables.setdefault(key, Parts("" if lone else family, [], listed=first == 0))
+        home = rows[next(iter(names.values()))].get("list", "") if lone else family
+        table = tables.setdefault((home, tuple(names) if lone else first), Parts(home, [], listed=first == 0))
         table.numbers = sorted({*table.numbers, *(number + 1 - first for number in names)})
         column = family if lone else quantity
         table.columns[column] = {number + 1 - first: (name, rows[name]) for number, name in names.items()}
