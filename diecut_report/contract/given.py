@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 
 from diecut_report.expressions import Formula
@@ -51,18 +51,23 @@ class OneOf:
     def fault(self, given: Iterable[str]) -> str:
         """What is wrong with the keys that are given, in words; empty where nothing is."""
         known = set(given)
-        told = ", or ".join(" and ".join(group) for group in self.groups)
+        told = ", or ".join(listed(group) for group in self.groups)
         heads = [group[0] for group in self.groups if group[0] in known]
         if len(heads) > 1:
-            return f"{' and '.join(heads)} are both given, but only one can hold; give {told}."
+            return f"{listed(heads)} are both given, but only one can hold; give {told}."
         complete = [group for group in self.groups if known.issuperset(group)]
         if complete:
             idle = [key for group in self.groups for key in group if key in known - {*complete[0], *self.shared}]
-            without = f"has no use beside {' and '.join(complete[0])}; remove it"
-            return f"{' and '.join(idle)} {without}, or give {told}." if idle else ""
+            without = f"has no use beside {listed(complete[0])}; remove it"
+            return f"{listed(idle)} {without}, or give {told}." if idle else ""
         begun = [group for group in self.groups if known & set(group) - set(self.shared)]
         if begun:
             missing = [key for key in begun[0] if key not in known]
             beside = [key for key in begun[0] if key in known]
-            return f"{' and '.join(missing)} is missing beside {' and '.join(beside)}; give {told}."
+            return f"{listed(missing)} is missing beside {listed(beside)}; give {told}."
         return f"{told} is needed."
+
+
+def listed(keys: Sequence[str]) -> str:
+    """Keys in words: ``mass, inertia and velocity``."""
+    return " and ".join([", ".join(keys[:-1]), keys[-1]] if len(keys) > 1 else keys)

@@ -123,11 +123,17 @@ def _yes_or_no(calc: Calculation, step: Value, part: Bound) -> Item:
     """Whether a condition holds, with the one that does: itself or its opposite."""
     held = bool(calc[step.id][0, 0])
     substitution = Substitution(calc, part, lambda name: value_at(calc, name, None))
-    sides = [substitution.symbolic(), substitution.comparison(held)]
-    symbolic, numeric = (side.to_json() for side in (sides if held else map(negated, sides)))
+    symbolic, numeric = _sides(substitution, held)
     answer = "yes" if held else "no"
     return _head(step) | {"type": "choice", "words": "", "condition": symbolic, "condition_substituted": numeric,
                           "equation": None, "substituted": None, "result": {"text": answer, "unit": "1"}}  # fmt: skip
+
+
+def _sides(substitution: Substitution, held: bool) -> tuple[Any, Any]:
+    """The condition that holds (this one or its opposite) in symbols, and with numbers where these show it."""
+    sides = substitution.symbolic(), substitution.comparison(held)
+    symbolic, numeric = (side and (side if held else negated(side)).to_json() for side in sides)
+    return symbolic, numeric
 
 
 def _symbolled(calc: Calculation, axis: str, flag: bool) -> Item:
@@ -147,7 +153,9 @@ def _formula(calc: Calculation, part: Bound, step: Step, axis: str | None) -> It
     numeric = substitution.numeric(target, step.unit, step.digits) if takes else None
     item: Item = {"equation": substitution.symbolic().to_json(), "substituted": numeric and numeric.to_json()}
     if takes and numeric is None:
-        item["note"] = "the terms are equal up to the rounding of the computer"
+        item["note"] = (
+            "the terms are equal up to the rounding of the computer, or so nearly that printed numbers do not show it"
+        )
     return item | {"result": shown(target, step.unit, step.digits)}
 
 
@@ -170,10 +178,8 @@ def _choice(calc: Calculation, step: Choice) -> Item:
     held = case.condition if case.condition is not None else step.cases[index - 1].condition
     if held is not None:
         substitution = Substitution(calc, bound(held), lambda name: value_at(calc, name, axis, flag=step.per_piece))
-        condition = substitution.symbolic(), substitution.comparison(case.condition is not None)
-        if case.condition is None:
-            condition = negated(condition[0]), negated(condition[1])
-        item |= {"condition": condition[0].to_json(), "condition_substituted": condition[1].to_json()}
+        symbolic, numeric = _sides(substitution, case.condition is not None)
+        item |= {"condition": symbolic, "condition_substituted": numeric}
     if axis in calc.domains:
         item["at"] = _symbolled(calc, str(axis), step.per_piece)
     if isinstance(case.value, Binding):

@@ -87,7 +87,7 @@ class Substitution:
     def numeric(self, target: float, display: str, result_digits: int) -> Node | None:
         """The expression with numbers and units; computed as printed it gives ``target`` (SI) as printed in ``display``.
 
-        None where the target is a difference of equal terms, rounding alone: no number of digits would show it.
+        None where no number of digits shows it: the terms that it is the difference of are equal, or nearly so.
         """
         for digits in range(DIGITS, MOST_DIGITS + 1):
             tree = self._with_numbers(self.part.formula.tree, digits, angle=False)
@@ -101,19 +101,19 @@ class Substitution:
                 return None
             if math.isfinite(again) and abs(again - target) <= ROUNDING * self._size(tree):
                 return tree
-        raise ArithmeticError(f"formula {self.part.formula.__name__} does not give {target!r} when computed as printed")
+        return None
 
     def _is_rounding(self, target: float) -> bool:
         tree = self._with_numbers(self.part.formula.tree, MOST_DIGITS, angle=False)
         return abs(target) <= ROUNDING * self._size(tree)
 
-    def comparison(self, holds: bool) -> Node:
-        """A condition with numbers, precise enough that it holds (or not) as printed."""
+    def comparison(self, holds: bool) -> Node | None:
+        """A condition with numbers, precise enough that it holds (or not) as printed; None where no number of digits shows it."""
         for digits in range(DIGITS, MOST_DIGITS + 1):
             tree = self._with_numbers(self.part.formula.tree, digits, angle=False)
             if bool(evaluate(tree, self._printed_value)) is holds:
                 return tree
-        raise ArithmeticError(f"condition {self.part.formula.__name__} does not come out as printed")
+        return None
 
     def _size(self, tree: Node) -> float:
         """The size of the terms that a result is the sum of: what its rounding is to be judged by."""

@@ -11,16 +11,19 @@ from scipy.fft import dct
 from scipy.optimize import elementwise
 
 from diecut_report.contract.binding import bound
+from diecut_report.contract.families import taken
 from diecut_report.contract.steps import Accumulated, Root
 from diecut_report.engine.calculation import Calculation
 from diecut_report.engine.domain import LOBATTO
 from diecut_report.engine.running import RunningIntegral
 from diecut_report.expressions import Array
+from diecut_report.units import unit
 
 ORDERS = (24, 48, 96, 192, 384)  # of Gauss–Legendre; the next one proves the one before
 INTEGRAL_TOLERANCE = 1e-11
 SAMPLE_TOLERANCE = 1e-8
 NEGLIGIBLE = 1e-17  # share of the greatest Chebyshev coefficient below which the last ones are left out
+ROUNDING = 1e-14  # share of a difference's terms that may be rounding
 NOISE = 1e-10  # share of a curve's greatest value below which its sign is rounding
 
 
@@ -151,5 +154,21 @@ def accumulate(calc: Calculation, step: Accumulated) -> Array:
     calc.integrals[step.id] = RunningIntegral(domain.edges, integrated[:order])
     whole, _ = integral(calc, step.of, 1)
     scale = np.max(np.abs(values), axis=(1, 2))[:, None] * domain.period
-    residual: Array = np.abs(ends[:, -1:] - whole) / np.maximum(scale, np.finfo(float).tiny)
+    noise = ROUNDING * _terms(calc, step.of) * domain.period
+    residual: Array = np.maximum(np.abs(ends[:, -1:] - whole) - noise, 0) / np.maximum(scale, np.finfo(float).tiny)
     return residual
+
+
+def _terms(calc: Calculation, curve: str) -> Array:
+    """The size of what a curve may be the difference of, shape (variants, 1): its own rounding cannot be less than that share."""
+    declared = calc.steps[curve]
+    kind = unit(declared.unit).kind
+    sizes = [np.zeros((calc.count, 1))]
+    for name in taken(declared):
+        if unit(getattr(calc.step_or_input(name), "unit", "1")).kind != kind:
+            continue
+        values = calc.on_search_grid(name).reshape(calc.count, -1) if name in calc.curves else calc[name]
+        if isinstance(values, np.ndarray):  # a curve input is counted where it is taken over
+            sizes.append(np.max(np.abs(values), axis=1, keepdims=True))
+    greatest: Array = np.maximum.reduce(sizes)
+    return greatest

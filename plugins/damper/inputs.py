@@ -30,19 +30,25 @@ class Damper(Inputs):
     """Keys of ``damper``."""
 
     one_of: ClassVar[tuple[OneOf, ...]] = (
-        OneOf(("kinetic_energy",), ("mass", "inertia", "rolling_radius")),
+        OneOf(("kinetic_energy",), ("mass", "inertia", "rolling_radius", "velocity"), shared=("velocity",)),
         OneOf(("elastic_modulus",), ("shore_hardness",)),
     )
 
     kinetic_energy: Annotated[
-        float | None, Quantity("W_k", "J", "Kinetic energy at contact; or mass, inertia and rolling_radius", gt=0)
+        float | None,
+        Quantity("W_k", "J", "Kinetic energy at contact; or mass, inertia, rolling_radius and velocity", gt=0),
     ] = None
     mass: Annotated[float | None, Quantity("m", "kg", "Mass that is stopped", gt=0)] = None
     inertia: Annotated[
         float | None, Quantity("I", "kg*m**2", "Moment of inertia of what rolls, about its axis", gt=0)
     ] = None
     rolling_radius: Annotated[float | None, Quantity("R", "mm", "Radius on which it rolls", gt=0)] = None
-    velocity: Annotated[float, Quantity("v", "m/s", "Speed at contact with the damper, not the drive's greatest", gt=0)]
+    velocity: Annotated[
+        float | None,
+        Quantity(
+            "v", "m/s", "Speed at contact, not the drive's greatest; with it stop, deceleration and rebound", gt=0
+        ),
+    ] = None
     elastic_modulus: Annotated[
         float | None, Quantity("E", "MPa", "Elastic modulus of the rubber; or shore_hardness", gt=0)
     ] = None
@@ -67,7 +73,8 @@ class Damper(Inputs):
         float, Quantity("ψ", "1", "Share of the energy that one impact loses; or loss_tangent", ge=0, le=1)
     ] = USUAL_LOSS
     loss_tangent: Annotated[
-        float | None, Quantity("η", "1", "Loss tangent of the rubber, tan δ; with it the share that is lost", ge=0)
+        float | None,
+        Quantity("η", "1", "Loss tangent of the rubber, tan δ; with it the share that is lost", ge=0, le=1),
     ] = None
     impacts_per_hour: Annotated[
         float | None,

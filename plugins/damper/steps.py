@@ -52,8 +52,23 @@ LOAD = Section(
     ),
 )  # fmt: skip
 
+LOSS = Section(
+    "Loss of an impact",
+    steps=(
+        Require(id="one_loss", needs=("loss_tangent",), key="loss_tangent",
+                condition=bind(f.is_the_usual, loss_fraction="inputs.loss_fraction", usual=f.USUAL_LOSS),
+                message="is given, and so is a loss_fraction of {loss_fraction}, but one follows from the other; leave one of them out"),
+        Value(id="loss_fraction", symbol="ψ", description="Share of the energy that one impact loses", source="input",
+              lacks=("loss_tangent",), formula=bind(common.same, quantity="inputs.loss_fraction")),
+        Value(id="loss_fraction", symbol="ψ", description="Share of the energy that one impact loses: half a cycle",
+              source="this method", needs=("loss_tangent",), formula=f.loss_of_half_cycle),
+    ),
+)  # fmt: skip
+
 STOP = Section(
     "Stop and rebound",
+    needs=("velocity",),
+    absent="not calculated: velocity is not given",
     text="Mass and dampers swing as mass and spring: the stop is a quarter of the period.",
     steps=(
         Value(id="reduced_mass", symbol="m_red", unit="kg", description="Mass that has the energy at the speed of contact",
@@ -62,13 +77,6 @@ STOP = Section(
               formula=f.stop_time),
         Value(id="peak_deceleration", symbol="a_max", unit="m/s**2", description="Greatest deceleration", source="this method",
               formula=f.peak_deceleration),
-        Require(id="one_loss", needs=("loss_tangent",), key="loss_tangent",
-                condition=bind(f.is_the_usual, loss_fraction="inputs.loss_fraction", usual=f.USUAL_LOSS),
-                message="is given, and so is a loss_fraction of {loss_fraction}, but one follows from the other; leave one of them out"),
-        Value(id="loss_fraction", symbol="ψ", description="Share of the energy that one impact loses", source="input",
-              lacks=("loss_tangent",), formula=bind(common.same, quantity="inputs.loss_fraction")),
-        Value(id="loss_fraction", symbol="ψ", description="Share of the energy that one impact loses: half a cycle",
-              source="this method", needs=("loss_tangent",), formula=f.loss_of_half_cycle),
         Value(id="rebound_velocity", symbol="v_r", unit="m/s", description="Speed of the rebound", source="energy",
               formula=f.rebound_velocity),
     ),
@@ -136,9 +144,9 @@ DRIVE = Section(
         Value(id="driven_peak_force", symbol="P_d", unit="N", description="Greatest force on one damper with the drive",
               source="002 eq. 20", formula=bind(f.force, stress="driven_stress")),
         Value(id="driven_peak_deceleration", symbol="a_d", unit="m/s**2", description="Greatest deceleration with the drive",
-              source="dynamics", formula=f.driven_deceleration),
+              source="dynamics", needs=("velocity",), formula=f.driven_deceleration),
         Value(id="driven_stop_time", symbol="t_d", unit="ms", description="Time from contact to rest with the drive",
-              source="dynamics", formula=f.driven_stop_time),
+              source="dynamics", needs=("velocity",), formula=f.driven_stop_time),
         Value(id="resting_deflection", symbol="h_0", unit="mm", description="Deflection in which the drive holds the dampers at rest",
               source="statics", formula=bind(f.ratio, greater="driving_force", smaller="stiffness")),
         Value(id="stress_limit", symbol="σ_lim", unit="MPa", description="Stress within the allowed one and the linear law", output=False,
@@ -158,4 +166,4 @@ DRIVE = Section(
     ),
 )  # fmt: skip
 
-SECTIONS = (ENERGY, LENGTH, LOAD, STOP, HEAT, BUCKLING, DRIVE)
+SECTIONS = (ENERGY, LENGTH, LOAD, LOSS, STOP, HEAT, BUCKLING, DRIVE)

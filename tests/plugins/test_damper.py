@@ -371,12 +371,19 @@ def test_half_the_sheets_heat_each_end(tmp_path: Path, press: str, impacts: floa
 @pytest.mark.parametrize(
     "keys, words",
     [
-        ("velocity: 0.5, elastic_modulus: 8", ("kinetic_energy", "mass", "inertia", "rolling_radius")),
-        ("velocity: 0.5, elastic_modulus: 8, mass: 80", ("inertia and rolling_radius is missing beside mass",)),
+        ("velocity: 0.5, elastic_modulus: 8", ("kinetic_energy", "mass", "inertia", "rolling_radius", "velocity")),
+        (
+            "velocity: 0.5, elastic_modulus: 8, mass: 80",
+            ("inertia and rolling_radius is missing beside mass and velocity",),
+        ),
         (SURE + ", mass: 80, inertia: 1, rolling_radius: 100", ("kinetic_energy and mass are both given",)),
         ("kinetic_energy: 150, velocity: 0.5", ("elastic_modulus", "shore_hardness")),
         (SURE + ", shore_hardness: 60", ("elastic_modulus and shore_hardness are both given",)),
-        ("kinetic_energy: 150, elastic_modulus: 8", ("velocity", "is missing")),
+        (
+            "elastic_modulus: 8, mass: 80, inertia: 1, rolling_radius: 100",
+            ("velocity is missing beside mass, inertia",),
+        ),
+        (SURE + ", loss_tangent: 1.5", ("out of range", "≤ 1")),
         ("kinetic_energy: 150, velocity: 0.5, shore_hardness: 19.9", ("out of range", "≥ 20", "≤ 80")),
         (SURE + ", damper_count: 0", ("out of range", "≥ 1")),
         (SURE + ", damper_count: 1.5", ("not a whole number",)),
@@ -390,6 +397,16 @@ def test_half_the_sheets_heat_each_end(tmp_path: Path, press: str, impacts: floa
 def test_bad_input_is_told_in_words(tmp_path: Path, keys: str, words: tuple[str, ...]) -> None:
     [message] = problems(tmp_path, CONFIG % ("", keys), Discovery())
     assert all(word in message for word in words), message
+
+
+def test_without_the_speed_at_contact_the_stop_is_left_out_and_said() -> None:
+    calc = calculate(
+        MECHANISM, inputs(MECHANISM, {"kinetic_energy": 150, "elastic_modulus": 8, "ring_width": 50, "pad_height": 30})
+    )
+    results = mechanism_results(calc, {})
+    assert {"stop_time", "peak_deceleration", "rebound_velocity"}.isdisjoint(results["outputs"])
+    assert results["outputs"]["loss_fraction"]["value"] == 0.2 and results["outputs"]["stress"]["value"] > 0
+    assert any("velocity is not given" in part["text"] for part in results["absent"])
 
 
 def test_a_loss_beside_a_loss_tangent_is_refused() -> None:

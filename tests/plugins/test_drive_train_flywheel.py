@@ -144,3 +144,12 @@ def test_a_motor_that_does_not_overcome_the_load_never_runs_up() -> None:
     assert check(calc, "run_up_torque")["status"] == "fail"
     assert "run_up_time" not in mechanism_results(calc, {})["outputs"]
     assert "run_up_time" not in checked(calc)
+
+
+@pytest.mark.parametrize(
+    "values", [[100.0, 100, 100, 100 + 1e-8], [100.00000000000001, 100, 99.99999999999999, 100, 100, 99.99999999999999]]
+)
+def test_a_torque_that_varies_by_rounding_alone_needs_hardly_a_flywheel(values: list[float]) -> None:
+    calc = train(torque_curve=values, torque_mean=100, torque_peak=100)
+    assert 0 <= number(calc, "energy_fluctuation") < 1e-6
+    assert mechanism_results(calc, {})["status"] != "error"
