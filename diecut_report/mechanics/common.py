@@ -73,3 +73,57 @@ def smaller_of(first: Any, second: Any) -> Any:
 def moment(force: Any, arm: Any) -> Any:
     """Moment of a force on an arm."""
     return force * arm
+
+
+@formula
+def one() -> Any:
+    """One."""
+    return 1
+
+
+@formula
+def product(first: Any, second: Any) -> Any:
+    """Product of two quantities."""
+    return first * second
+
+
+@formula
+def quotient(quantity: Any, by: Any) -> Any:
+    """Quotient of two quantities."""
+    return quantity / by
+
+
+@formula
+def over_product(quantity: Any, first: Any, second: Any) -> Any:
+    """A quantity over the product of two others."""
+    return quantity / (first * second)
+
+
+@formula
+def half(quantity: Any) -> Any:
+    """Half the quantity."""
+    return quantity / 2
+
+
+@formula
+def greater_of(first: Any, second: Any) -> Any:
+    """The greater of two quantities."""
+    return np.maximum(first, second)
+
+
+@formula
+def is_at_least(greater: Any, smaller: Any) -> Any:
+    """Whether one quantity is not below another."""
+    return greater >= smaller
+
+
+@formula
+def relative_size(quantity: Any, scale: Any) -> Any:
+    """Size of a quantity to another one."""
+    return abs(quantity) / scale
+
+
+@formula
+def rounded_up(quantity: Any, step: Any) -> Any:
+    """The next multiple of a step; 1e-9 of a step below, so that what is a multiple stays as it is."""
+    return step * np.ceil(quantity / step - 1e-9)

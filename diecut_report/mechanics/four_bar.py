@@ -14,12 +14,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from diecut_report.expressions import Array, arccos, formula
-
-
-@formula
-def enclosed_angle(one_side: Any, other_side: Any, opposite_side: Any) -> Any:
-    """Angle between two sides of a triangle (law of cosines)."""
-    return arccos((one_side**2 + other_side**2 - opposite_side**2) / (2 * one_side * other_side))
+from diecut_report.mechanics.triangle import enclosed_angle
 
 
 @formula

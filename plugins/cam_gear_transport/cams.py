@@ -149,7 +149,7 @@ BOTH = Section(
     "and pitch curve go round O₁ without turning back.",
     steps=(
         Value(id="pressure_angle_max", symbol="δ_max", unit="deg", description="Greatest pressure angle of both cams", source="this method",
-              formula=bind(loads.greater_of, first="cam_1_pressure_angle_max", second="cam_2_pressure_angle_max")),
+              formula=bind(common.greater_of, first="cam_1_pressure_angle_max", second="cam_2_pressure_angle_max")),
         Value(id="curvature_min", symbol="ρ_min", unit="mm", description="Least radius of curvature of both pitch curves where convex",
               source="geometry", formula=bind(common.smaller_of, first="cam_1_curvature_min", second="cam_2_curvature_min")),
         Value(id="tangent_distance_min", symbol="q_min", unit="mm", description="Least distance of O₁ from the tangents of both pitch curves",
@@ -198,10 +198,10 @@ LOADS = Section(
         *_loaded("1"),
         *_loaded("2"),
         Value(id="roller_force_peak", symbol="F_max", unit="N", description="Greatest force on a roller", source="statics",
-              formula=bind(loads.greater_of, first="cam_1_roller_force_peak", second="cam_2_roller_force_peak")),
+              formula=bind(common.greater_of, first="cam_1_roller_force_peak", second="cam_2_roller_force_peak")),
         Value(id="contact_pressure", symbol="p_max", unit="MPa", description="Greatest contact pressure of a roller", source="Hertz",
               needs=("roller_width",),
-              formula=bind(loads.greater_of, first="cam_1_contact_pressure_max", second="cam_2_contact_pressure_max")),
+              formula=bind(common.greater_of, first="cam_1_contact_pressure_max", second="cam_2_contact_pressure_max")),
     ),
 )  # fmt: skip
 

@@ -42,12 +42,6 @@ def kinetic_energy(conveyor_mass: Any, velocity: Any) -> Any:
 
 
 @formula
-def energy_residual(energy: Any, kinetic_energy: Any) -> Any:
-    """Work over a turn, which gives all back, to the greatest kinetic energy."""
-    return abs(energy) / kinetic_energy
-
-
-@formula
 def rocker_moment(sector_inertia: Any, sector_acceleration: Any, tooth_force: Any, sector_radius: Any) -> Any:
     """Moment about O₃ that the cams give the rocker: it accelerates the sector and bears the teeth's reaction."""
     return sector_inertia * sector_acceleration - tooth_force * sector_radius
@@ -70,12 +64,6 @@ def roller_force(carried_moment: Any, arm_length: Any, pressure_angle: Any) -> A
 def bearing_radius(effective_radius: Any, roller_radius: Any) -> Any:
     """Effective radius, not below a thousandth of the roller's: a profile that ends in a point has none."""
     return np.maximum(effective_radius, roller_radius / 1000)
-
-
-@formula
-def greater_of(first: Any, second: Any) -> Any:
-    """The greater of two quantities."""
-    return np.maximum(first, second)
 
 
 @formula

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from diecut_report.api import Reduction, Section, Value, bind
+from diecut_report.mechanics import common
 from diecut_report.plugins.cam_gear_transport import formulas, loads
 from diecut_report.plugins.cam_gear_transport.inputs import SHEET, TORQUE
 
@@ -53,6 +54,6 @@ TORQUES = Section(
         Value(id="kinetic_energy_max", symbol="E_k", unit="J", description="Greatest kinetic energy of the conveyor", source="energy",
               formula=bind(loads.kinetic_energy, velocity="sheet_velocity_max")),
         Value(id="energy_residual", symbol="r_E", description="Work over a turn to the greatest kinetic energy", source="energy", output=False,
-              formula=bind(loads.energy_residual, energy="energy_turn", kinetic_energy="kinetic_energy_max")),
+              formula=bind(common.relative_size, quantity="energy_turn", scale="kinetic_energy_max")),
     ),
 )  # fmt: skip

@@ -10,30 +10,6 @@ from diecut_report.api import formula
 
 
 @formula
-def product(first: Any, second: Any) -> Any:
-    """Product of two quantities: power of a torque and a speed, heat of many engagements, q·v."""
-    return first * second
-
-
-@formula
-def quotient(first: Any, second: Any) -> Any:
-    """Quotient of two quantities: torque of a power, pressure of a force, ratio of two forces."""
-    return first / second
-
-
-@formula
-def over_product(quantity: Any, first: Any, second: Any) -> Any:
-    """A quantity over the product of two others: force of a torque by friction and radius, rise of a mass by its heat."""
-    return quantity / (first * second)
-
-
-@formula
-def greater_of(first: Any, second: Any) -> Any:
-    """The greater of two quantities."""
-    return np.maximum(first, second)
-
-
-@formula
 def cosine(angle: Any) -> Any:
     """Cosine of an angle."""
     return np.cos(angle)

@@ -48,12 +48,6 @@ def arc_of_segment(radius: Any, segment_height: Any) -> Any:
 
 
 @formula
-def rounded_up(radius_exact: Any, radius_step: Any) -> Any:
-    """The next multiple of the step; 1e-9 of a step below, so that what is a multiple stays as it is."""
-    return radius_step * np.ceil(radius_exact / radius_step - 1e-9)
-
-
-@formula
 def relative_error(approximate: Any, exact: Any) -> Any:
     """Relative error of an approximation."""
     return approximate / exact - 1

@@ -31,7 +31,7 @@ SIZE = Section(
         Value(id="radius", symbol="R", unit="mm", description="Adopted radius: as given", needs=("radius",), source="input",
               formula=bind(common.same, quantity="inputs.radius")),
         Value(id="radius", symbol="R", unit="mm", description="Adopted radius: the exact one rounded up to the step",
-              lacks=("radius",), formula=f.rounded_up),
+              lacks=("radius",), formula=bind(common.rounded_up, quantity="radius_exact", step="radius_step")),
         Require(id="segment_below_radius", condition=bind(common.is_below, smaller="segment_height", greater="radius"),
                 key="segment_height",
                 message="is {segment_height}, but the segment must be lower than the radius: h < R = {radius}"),

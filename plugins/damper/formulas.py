@@ -7,6 +7,7 @@ from typing import Any
 import numpy as np
 
 from diecut_report.api import Constant, formula
+from diecut_report.mechanics.common import rounded_up
 
 GENT = Constant(98_100.0, "p_G", "Pa")
 USUAL_LOSS = 0.2
@@ -38,9 +39,9 @@ def free_length(kinetic_energy: Any, elastic_modulus: Any, damper_count: Any, ar
 
 
 @formula
-def rounded_up(length: Any, length_step: Any) -> Any:
-    """The next multiple of the step, at least one; 1e-9 of a step below, so that what is a multiple stays as it is."""
-    return length_step * np.maximum(np.ceil(length / length_step - 1e-9), 1)
+def whole_steps_above(length: Any, length_step: Any) -> Any:
+    """The next multiple of the step, at least one."""
+    return np.maximum(rounded_up(length, length_step), length_step)
 
 
 @formula
@@ -113,12 +114,6 @@ def half_the_sheets(productivity: Any) -> Any:
 def heat_power(loss_fraction: Any, kinetic_energy: Any, impacts_per_hour: Any) -> Any:
     """Heat that the dampers of one end have to give off."""
     return loss_fraction * kinetic_energy * impacts_per_hour
-
-
-@formula
-def ratio(greater: Any, smaller: Any) -> Any:
-    """Ratio of two quantities."""
-    return greater / smaller
 
 
 @formula

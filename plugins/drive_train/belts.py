@@ -29,12 +29,6 @@ def rim_speed(speed: Any, diameter: Any) -> Any:
 
 
 @formula
-def half_of(length: Any) -> Any:
-    """Half the belt's length: no two pulleys stand farther apart."""
-    return length / 2
-
-
-@formula
 def run_left_by_arcs(center_distance: Any, small: Any, large: Any, belt: Any) -> Any:
     """What the arcs leave of half the belt: the straight run."""
     return (belt - np.pi * (large + small)) / 2 - (large - small) * np.arcsin((large - small) / center_distance)
@@ -74,9 +68,3 @@ def tight(pull: Any, tension_ratio: Any) -> Any:
 def slack(pull: Any, tension_ratio: Any) -> Any:
     """Tension of the slack side, apart from the centrifugal force."""
     return pull / (tension_ratio - 1)
-
-
-@formula
-def shaft_load(tight: Any, slack: Any, wrap: Any) -> Any:
-    """Resultant of both tensions, whose directions the wrap on the smaller pulley tells."""
-    return np.sqrt(tight**2 + slack**2 - 2 * tight * slack * np.cos(wrap))

@@ -4,23 +4,23 @@ from __future__ import annotations
 
 from diecut_report.api import Accumulated, Lookup, Pick, Reduction, Section, Value, bind, standard_series
 from diecut_report.mechanics import common
-from diecut_report.plugins.drive_train import belts, inertia, shafts
+from diecut_report.plugins.drive_train import belts, inertia
 
 MOTOR = Section(
     "Motor",
     steps=(
         Value(id="power_required", symbol="P_req", unit="kW", description="Required power of the motor, with the reserve",
-              source="this method", formula=bind(shafts.product_of, first="shaft_1_power", second="reserve_factor")),
+              source="this method", formula=bind(common.product, first="shaft_1_power", second="reserve_factor")),
         Pick(id="motor_power", symbol="P_r", unit="kW", description="Rated power of the motor", source="IEC 60072-1",
              of="power_required", series=standard_series("iec_60072_ratings"), rule="above"),
         Value(id="motor_rated_torque", symbol="M_r", unit="N*m", description="Rated torque of the motor", source="mechanics",
-              formula=bind(shafts.quotient, of="motor_power", by="shaft_1_speed")),
+              formula=bind(common.quotient, quantity="motor_power", by="shaft_1_speed")),
         Value(id="motor_peak_torque", symbol="M_1,peak", unit="N*m", description="Peak torque of the output, referred to the motor",
               source="this method", lacks=("torque_curve",),
               formula=bind(inertia.peak_at_motor, gear_ratio="gear_ratio_total", belt_ratio="vbelt_ratio_actual",
                            efficiency="efficiency_total")),
         Value(id="motor_breakdown_torque", symbol="M_br", unit="N*m", description="Breakdown torque of the motor", source="this method",
-              lacks=("torque_curve",), formula=bind(shafts.product_of, first="breakdown_ratio", second="motor_rated_torque")),
+              lacks=("torque_curve",), formula=bind(common.product, first="breakdown_ratio", second="motor_rated_torque")),
     ),
 )  # fmt: skip
 
@@ -37,7 +37,7 @@ FLYWHEEL = Section(
         Accumulated(id="excess_integral", symbol="A", unit="J", description="Integral of it over the angle of the output shaft",
                     source="this method", output=False, of="excess_torque"),
         Value(id="excess_energy", symbol="E", unit="J", description="Energy taken from the flywheel since the turn began",
-              source="this method", formula=bind(shafts.product_of, first="gear_ratio_total", second="excess_integral")),
+              source="this method", formula=bind(common.product, first="gear_ratio_total", second="excess_integral")),
         Reduction(id="excess_energy_max", symbol="E_max", unit="J", description="Greatest energy taken: the flywheel is slowest",
                   of="excess_energy", operation="max"),
         Reduction(id="excess_energy_min", symbol="E_min", unit="J", description="Least energy taken: the flywheel is fastest",
@@ -74,9 +74,9 @@ RUN_UP = Section(
               source="energy", formula=bind(inertia.inertia_before, own="motor_inertia", behind="flywheel_shaft_inertia",
                                             ratio="vbelt_ratio_actual", efficiency="vbelt.efficiency")),
         Value(id="run_up_torque", symbol="M_a", unit="N*m", description="Mean torque of the motor while it runs up", source="this method",
-              formula=bind(shafts.product_of, first="run_up_torque_ratio", second="motor_rated_torque")),
+              formula=bind(common.product, first="run_up_torque_ratio", second="motor_rated_torque")),
         Value(id="run_up_load_torque", symbol="M_l", unit="N*m", description="Load at the motor while it runs up", source="this method",
-              formula=bind(shafts.product_of, first="run_up_load", second="shaft_1_torque")),
+              formula=bind(common.product, first="run_up_load", second="shaft_1_torque")),
         Value(id="accelerating_torque", symbol="M_acc", unit="N*m", description="Torque left to accelerate", source="mechanics",
               formula=bind(common.difference, greater="run_up_torque", smaller="run_up_load_torque")),
         Value(id="run_up_time", symbol="t_a", unit="s", description="Run-up time of the motor", source="mechanics",

@@ -10,27 +10,9 @@ from diecut_report.api import formula
 
 
 @formula
-def one() -> Any:
-    """Nothing between: the factor one."""
-    return 1
-
-
-@formula
 def steps_down(vbelt_ratio: Any) -> Any:
     """Whether the V-belt has nothing to speed up."""
     return vbelt_ratio > 1 - 1e-12
-
-
-@formula
-def product_of(first: Any, second: Any) -> Any:
-    """Product of two quantities."""
-    return first * second
-
-
-@formula
-def quotient(of: Any, by: Any) -> Any:
-    """Quotient of two quantities."""
-    return of / by
 
 
 @formula
@@ -49,12 +31,6 @@ def driving_part(torque: Any) -> Any:
 def braking_part(torque: Any) -> Any:
     """The size of the torque where the load drives, else zero."""
     return np.maximum(-torque, 0)
-
-
-@formula
-def referred(torque: Any, ratio: Any, efficiency: Any) -> Any:
-    """Torque before a ratio that drives what is behind it: the losses add to it."""
-    return torque / (ratio * efficiency)
 
 
 @formula

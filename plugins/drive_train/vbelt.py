@@ -14,8 +14,8 @@ from diecut_report.api import (
     standard_series_by,
     standard_table,
 )
-from diecut_report.mechanics import belt_path, common
-from diecut_report.plugins.drive_train import advice, belts, shafts
+from diecut_report.mechanics import belt_path, common, triangle
+from diecut_report.plugins.drive_train import advice, belts
 
 LENGTHS = standard_series_by("iso_4184_lengths")
 PULLEYS = {"small": "small_radius", "large": "large_radius"}
@@ -66,7 +66,7 @@ VBELT = Section(
         Root(id="center_distance", symbol="a", unit="mm", description="Distance of the shafts, corrected for the standard belt",
              source="geometry", equation=bind(belts.length_left_over, belt="vbelt_standard_length", **PULLEYS),
              unknown="center_distance", low=bind(common.same, quantity="least_center_distance"),
-             high=bind(belts.half_of, length="vbelt_standard_length"),
+             high=bind(common.half, quantity="vbelt_standard_length"),
              left=bind(belt_path.run_length, radius="small_radius", next_radius="large_radius"),
              right=bind(belts.run_left_by_arcs, belt="vbelt_standard_length", **PULLEYS)),
         Value(id="vbelt_wrap", symbol="β_1", unit="deg", description="Wrap on the smaller pulley", source="geometry",
@@ -96,7 +96,7 @@ TENSIONS = Section(
     "sides are in the ratio of Euler's formula; the centrifugal force stretches the belts but does not load the shafts.",
     steps=(
         Value(id="vbelt_pull", symbol="F_u", unit="N", description="Effective pull, all belts together", source="mechanics",
-              formula=bind(shafts.quotient, of="power_required", by="vbelt_speed")),
+              formula=bind(common.quotient, quantity="power_required", by="vbelt_speed")),
         Value(id="tension_ratio", symbol="m", description="Tension of the tight side to that of the slack side", source="Euler",
               formula=bind(belts.tension_ratio, groove_friction="vbelt.groove_friction", wrap="vbelt_wrap")),
         Value(id="tight_tension", symbol="F_1", unit="N", description="Tension of the tight side", source="Euler",
@@ -104,6 +104,6 @@ TENSIONS = Section(
         Value(id="slack_tension", symbol="F_2", unit="N", description="Tension of the slack side", source="Euler",
               formula=bind(belts.slack, pull="vbelt_pull")),
         Value(id="shaft_load", symbol="F_s", unit="N", description="Load of the belts on the shafts of motor and flywheel",
-              source="statics", formula=bind(belts.shaft_load, tight="tight_tension", slack="slack_tension", wrap="vbelt_wrap")),
+              source="statics", formula=bind(triangle.third_side, one_side="tight_tension", other_side="slack_tension", enclosed="vbelt_wrap")),
     ),
 )  # fmt: skip

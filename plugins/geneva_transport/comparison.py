@@ -80,18 +80,18 @@ DWELL = Section(
     steps=(
         Value(id="geneva_dwell", symbol="κ_d", description="Geneva: share of the dwell", source="geometry", formula=formulas.dwell_fraction),
         Value(id="cam_time_dwell", symbol="t_c", unit="ms", description="Cam-gear: time of the dwell", source="kinematics",
-              formula=bind(related.part_of, share="dwell_share", time="cycle_time")),
+              formula=bind(common.product, first="dwell_share", second="cycle_time")),
         Value(id="geneva_time_dwell", symbol="t_g", unit="ms", description="Geneva: time of the dwell", source="kinematics",
-              formula=bind(related.part_of, share="geneva_dwell", time="cycle_time")),
+              formula=bind(common.product, first="geneva_dwell", second="cycle_time")),
         Value(id="dwell_ratio", symbol="q_d", description="Dwell, Geneva to cam-gear", source="kinematics",
-              formula=bind(related.quotient, one="geneva_dwell", other="dwell_share")),
+              formula=bind(common.quotient, quantity="geneva_dwell", by="dwell_share")),
     ),
 )  # fmt: skip
 
 
 def _ratio(what: str, symbol: str, title: str) -> Value:
     return Value(id=f"{what}_ratio", symbol=symbol, description=f"{title}, Geneva to cam-gear", source="kinematics",
-                 formula=bind(related.quotient, one=f"geneva_{what}_peak", other=f"cam_{what}_peak"))  # fmt: skip
+                 formula=bind(common.quotient, quantity=f"geneva_{what}_peak", by=f"cam_{what}_peak"))  # fmt: skip
 
 
 IN_SLOT = bind(formulas.holds, flag="engaged")
@@ -109,17 +109,17 @@ MOTION = Section(
         Value(id="geneva_entry", symbol="φ_g1", unit="deg", description="Angle of the cycle at the Geneva drive's entry", source="kinematics",
               output=False, formula=bind(common.difference, greater="middle", smaller="engagement_half_angle")),
         Value(id="geneva_exit", symbol="φ_g2", unit="deg", description="Angle of the cycle at the Geneva drive's exit", source="kinematics",
-              output=False, formula=bind(related.sum_of_angles, half="engagement_half_angle")),
+              output=False, formula=bind(common.sum_of, first="middle", second="engagement_half_angle")),
         Abscissa(id="cycle_angle", symbol="φ", unit="deg", description="Angle of the cycle, one turn, from the beginning of the cam-gear's dwell",
                  period=2 * np.pi, shown_at="geneva_acceleration_peak_at"),
         Breakpoints(id="engagement", abscissa="cycle_angle", places=("geneva_entry", "geneva_exit")),
         Choice(id="turns", symbol="n", description="Motion of the Geneva drive that is nearest", output=False, per_piece=True,
-               cases=(Case(formulas.one, "the end of the motion before", bind(related.comes_before, angle="cycle_angle")),
+               cases=(Case(common.one, "the end of the motion before", bind(related.comes_before, angle="cycle_angle")),
                       Case(common.zero, "the motion of this cycle"))),
         Value(id="geneva_angle", symbol="α", unit="deg", description="Geneva: crank angle from the middle of the motion", source="kinematics",
               output=False, formula=bind(related.from_middle, angle="cycle_angle")),
         Choice(id="engaged", symbol="s", description="Whether the Geneva drive's roller is in a slot (1) or not (0)", output=False, per_piece=True,
-               cases=(Case(formulas.one, "the roller is in a slot",
+               cases=(Case(common.one, "the roller is in a slot",
                            bind(related.is_within, angle="geneva_angle", half="engagement_half_angle")),
                       Case(common.zero, "the locking disc holds the wheel"))),
         FromCurve(id="cam_gear_speed", symbol="ω_1", unit="rad", description="Cam-gear: speed of the gear, for each turn of the disc",
@@ -137,9 +137,9 @@ MOTION = Section(
                cases=(Case(bind(related.geneva_acceleration, angle="geneva_angle"), "the roller is in a slot", IN_SLOT),
                       Case(common.zero, "the locking disc holds the wheel"))),
         Value(id="cam_power", symbol="P_c", description="Cam-gear: power to m·S²/T³", source="energy", output=False,
-              formula=bind(related.product, velocity="cam_velocity", acceleration="cam_acceleration")),
+              formula=bind(common.product, first="cam_velocity", second="cam_acceleration")),
         Value(id="geneva_power", symbol="P_g", description="Geneva: power to m·S²/T³", source="energy", output=False,
-              formula=bind(related.product, velocity="geneva_velocity", acceleration="geneva_acceleration")),
+              formula=bind(common.product, first="geneva_velocity", second="geneva_acceleration")),
         *(Reduction(id=f"{drive}_{what}_peak", symbol=f"{letter}_{drive[0]},max", of=f"{drive}_{what}", operation="abs_max", source="kinematics",
                     description=f"{name}: greatest {told}")
           for what, letter, told in (("velocity", "v", "velocity to S/T"), ("acceleration", "a", "acceleration to S/T²"),
@@ -150,7 +150,7 @@ MOTION = Section(
         _ratio("velocity", "q_v", "Greatest velocity"),
         _ratio("acceleration", "q_a", "Greatest acceleration"),
         Value(id="torque_ratio", symbol="q_M", description="Greatest torque for the same mass, Geneva to cam-gear", source="energy",
-              formula=bind(related.quotient, one="geneva_power_peak", other="cam_power_peak")),
+              formula=bind(common.quotient, quantity="geneva_power_peak", by="cam_power_peak")),
     ),
 )  # fmt: skip
 
@@ -205,7 +205,7 @@ SAME_DWELL = Section(
               formula=bind(related.acceleration_of_return, stop_sweep="stop_sweep_best", dwell_sweep="sector_dwell_sweep",
                            peak_acceleration="law_peak_acceleration", return_time="best_return_time")),
         Value(id="best_acceleration_ratio", symbol="q_b", description="Acceleration of the Geneva drive to that", source="kinematics",
-              formula=bind(related.quotient, one="geneva_acceleration_peak", other="best_acceleration")),
+              formula=bind(common.quotient, quantity="geneva_acceleration_peak", by="best_acceleration")),
     ),
 )  # fmt: skip
 
@@ -218,7 +218,7 @@ VERDICT = Section(
                cases=(Case("the Geneva drive: gentler, and dwells as long", "it accelerates the sheet less, and does not dwell less",
                            bind(related.is_gentle_and_long, geneva="geneva_acceleration_peak", cam="cam_acceleration_peak")),
                       Case("the Geneva drive dwells as long or longer, the cam-gear is gentler", "the Geneva drive accelerates the sheet more",
-                           related.is_long),
+                           bind(common.is_at_least, greater="geneva_dwell", smaller="dwell_share")),
                       Case("the cam-gear dwells longer, the Geneva drive is gentler", "the Geneva drive accelerates the sheet less",
                            bind(common.is_at_most, smaller="geneva_acceleration_peak", greater="cam_acceleration_peak")),
                       Case("the cam-gear: gentler, and dwells longer", "it accelerates the sheet less, and dwells longer"))),

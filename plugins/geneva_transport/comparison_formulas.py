@@ -26,27 +26,9 @@ def are_alike(one: Any, other: Any) -> Any:
 
 
 @formula
-def part_of(share: Any, time: Any) -> Any:
-    """A share of a time."""
-    return share * time
-
-
-@formula
-def quotient(one: Any, other: Any) -> Any:
-    """One quantity to another."""
-    return one / other
-
-
-@formula
 def middle_of_motion(dwell_share: Any) -> Any:
     """Disc angle in the middle of the cam-gear's motion."""
     return np.pi * (1 + dwell_share)
-
-
-@formula
-def sum_of_angles(middle: Any, half: Any) -> Any:
-    """End of a motion about its middle."""
-    return middle + half
 
 
 @formula
@@ -95,12 +77,6 @@ def geneva_acceleration(slots: Any, angle: Any, crank_ratio: Any) -> Any:
 def geneva_jump(slots: Any) -> Any:
     """Jump of the acceleration at entry and exit."""
     return 2 * np.pi * slots * np.tan(np.pi / slots)
-
-
-@formula
-def product(velocity: Any, acceleration: Any) -> Any:
-    """Power of a mass, related to m·S²/T³."""
-    return velocity * acceleration
 
 
 @formula
@@ -175,9 +151,3 @@ def acceleration_of_return(
 def is_gentle_and_long(geneva: Any, cam: Any, geneva_dwell: Any, dwell_share: Any) -> Any:
     """Whether the Geneva drive has the lower acceleration, and dwells at least as long."""
     return (geneva <= cam) & (geneva_dwell >= dwell_share)
-
-
-@formula
-def is_long(geneva_dwell: Any, dwell_share: Any) -> Any:
-    """Whether the Geneva drive dwells at least as long."""
-    return geneva_dwell >= dwell_share

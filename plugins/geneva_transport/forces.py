@@ -3,9 +3,11 @@
 from __future__ import annotations
 
 from diecut_report.api import Case, Choice, Reduction, Require, Section, Value, bind
-from diecut_report.mechanics import common, contact
+from diecut_report.mechanics import common, contact, triangle
 from diecut_report.plugins.geneva_transport import formulas, loads
 from diecut_report.plugins.geneva_transport.motion import CONVEYOR_NEEDS
+
+REACHES = bind(common.is_below, smaller="rim_distance", greater="disc_radius")
 
 TORQUE = Section(
     "Torque at the crank and roller force",
@@ -29,7 +31,7 @@ TORQUE = Section(
         Reduction(id="energy_turn", symbol="E", unit="J", description="Work of the torque over a turn", of="torque", operation="integral",
                   output=False, source="energy"),
         Value(id="energy_residual", symbol="r_E", description="Work over a turn to the energy of a step", source="energy", output=False,
-              formula=bind(loads.energy_residual, energy="energy_turn", kinetic_energy="kinetic_energy_max")),
+              formula=bind(common.relative_size, quantity="energy_turn", scale="kinetic_energy_max")),
     ),
 )  # fmt: skip
 
@@ -93,7 +95,8 @@ LOCKING = Section(
         Value(id="corner_place", symbol="δ", unit="deg", source="geometry", output=False,
               description="Angle of an arm's inner corner, beside its locking arc, from the line of centres", formula=loads.corner_place),
         Value(id="corner_distance", symbol="d_δ", unit="mm", source="geometry", output=False,
-              description="Distance of this corner from the crank's axis", formula=loads.corner_distance),
+              description="Distance of this corner from the crank's axis",
+              formula=bind(triangle.third_side, one_side="center_distance", other_side="rim_radius", enclosed="corner_place")),
         Value(id="corner_along", symbol="x_δ", unit="mm", source="geometry", output=False,
               description="Part of it along the crank", formula=loads.corner_along),
         Value(id="corner_to_hollow", symbol="h_δ", unit="mm", source="geometry", output=False,
@@ -104,11 +107,12 @@ LOCKING = Section(
                   description="Least gap between the arms' tips and the disc over a turn"),
         Value(id="cutout_overlap", symbol="g_o", unit="mm", source="geometry", output=False,
               description="Overlap of the arms' tips and the disc", formula=bind(loads.overlap, gap="cutout_gap")),
-        Value(id="hold_half_angle", symbol="θ_l", unit="deg", source="geometry", exists=loads.reaches,
-              description="Half the angle over which an arc of the wheel encloses the disc", formula=loads.hold_half_angle),
-        Value(id="locking_play", symbol="Δψ", unit="deg", source="geometry", exists=loads.reaches,
+        Value(id="hold_half_angle", symbol="θ_l", unit="deg", source="geometry", exists=REACHES,
+              description="Half the angle over which an arc of the wheel encloses the disc",
+              formula=bind(triangle.enclosed_angle, one_side="center_distance", other_side="locking_radius", opposite_side="rim_radius")),
+        Value(id="locking_play", symbol="Δψ", unit="deg", source="geometry", exists=REACHES,
               description="Angle by which the wheel can turn either way in the dwell", formula=bind(loads.play, clearance="locking_clearance")),
-        Value(id="sheet_play", symbol="Δx", unit="mm", source="geometry", exists=loads.reaches,
+        Value(id="sheet_play", symbol="Δx", unit="mm", source="geometry", exists=REACHES,
               needs=CONVEYOR_NEEDS, description="Way by which the sheet can move either way in the dwell",
               formula=bind(formulas.travel, angle="locking_play")),
     ),

@@ -137,21 +137,9 @@ def is_inside(angle: Any, start: Any, end: Any) -> Any:
 
 
 @formula
-def is_late(angle: Any, start: Any) -> Any:
-    """Whether the roller has entered the next slot."""
-    return angle >= start
-
-
-@formula
 def holds(flag: Any) -> Any:
     """Whether a flag is set."""
     return flag == 1
-
-
-@formula
-def one() -> Any:
-    """One."""
-    return 1
 
 
 @formula
@@ -164,12 +152,6 @@ def from_middle(crank_angle: Any, turns: Any) -> Any:
 def wheel_angle(angle: Any, turns: Any, step_angle: Any, crank_ratio: Any) -> Any:
     """Angle of the wheel from the middle of its motion."""
     return turns * step_angle + np.arctan2(crank_ratio * np.sin(angle), 1 - crank_ratio * np.cos(angle))
-
-
-@formula
-def half(quantity: Any) -> Any:
-    """Half the quantity."""
-    return quantity / 2
 
 
 @formula

@@ -34,12 +34,6 @@ def kinetic_energy(driven_inertia: Any, speed_ratio: Any, crank_speed: Any) -> A
 
 
 @formula
-def energy_residual(energy: Any, kinetic_energy: Any) -> Any:
-    """What is left of the work over a turn, relative to the greatest energy."""
-    return abs(energy) / kinetic_energy
-
-
-@formula
 def flank_distance(crank_radius: Any, roller_radius: Any) -> Any:
     """Distance of the nearest flanks of the two neighbouring slots from the crank's axis in the dwell."""
     return crank_radius - roller_radius
@@ -89,18 +83,6 @@ def scaled(length: Any, disc_radius: Any, crank_radius: Any) -> Any:
 
 
 @formula
-def reaches(rim_distance: Any, disc_radius: Any) -> Any:
-    """Whether the locking disc reaches into the wheel."""
-    return rim_distance < disc_radius
-
-
-@formula
-def hold_half_angle(center_distance: Any, locking_radius: Any, rim_radius: Any) -> Any:
-    """Half the angle over which an arc of the wheel encloses the disc, seen from the crank's axis."""
-    return arccos((center_distance**2 + locking_radius**2 - rim_radius**2) / (2 * center_distance * locking_radius))
-
-
-@formula
 def play(clearance: Any, center_distance: Any, hold_half_angle: Any) -> Any:
     """Angle by which the wheel can turn either way in the dwell."""
     return clearance / (center_distance * np.sin(hold_half_angle))
@@ -123,12 +105,6 @@ def tip_half_angle(center_distance: Any, rim_radius: Any, locking_radius: Any) -
 def corner_place(wheel_angle: Any, turns: Any, step_angle: Any, tip_half_angle: Any, slots: Any) -> Any:
     """Angle of the corner between locking arc and rim at the wheel's axis, from the line of centres."""
     return wheel_angle - turns * step_angle + tip_half_angle - np.pi / slots
-
-
-@formula
-def corner_distance(center_distance: Any, rim_radius: Any, corner_place: Any) -> Any:
-    """Distance of that corner from the crank's axis."""
-    return np.sqrt(center_distance**2 + rim_radius**2 - 2 * center_distance * rim_radius * np.cos(corner_place))
 
 
 @formula
