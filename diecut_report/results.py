@@ -9,19 +9,16 @@ from typing import Any, Literal
 
 import numpy as np
 
-from diecut_report.contract.checks import Check
 from diecut_report.contract.inputs import CurveInput, Quantity, fields
 from diecut_report.contract.steps import SILENT, Crossings, Step
 from diecut_report.engine import Calculation
 from diecut_report.engine.derive import section_items
-from diecut_report.engine.printing import filled
 from diecut_report.engine.views import figures
-from diecut_report.texts import shortest, shown, with_unit
+from diecut_report.texts import shortest, shown
 from diecut_report.units import unit
+from diecut_report.verdicts import applies, check_results
 
 Data = dict[str, Any]
-Status = Literal["pass", "warn", "fail"]
-ROUNDING = 1e-12
 RANK = {"pass": 0, "warn": 1, "fail": 2, "error": 3, "skipped": 3}
 
 
@@ -52,11 +49,7 @@ def mechanism_results(calc: Calculation, provenance: Mapping[str, Provenance]) -
         "checks": checks,
         "warnings": [c["message"] for c in checks if c["status"] == "warn"],
         "sections": section_items(calc),
-        "absent": [
-            {"title": s.title, "text": s.absent}
-            for s in mechanism.sections
-            if s.absent and not calc.given.issuperset(s.needs)
-        ],
+        "absent": absent(calc),
         "figures": figures(calc),
         "exports": exports(calc),
         "errata": [
@@ -68,6 +61,21 @@ def mechanism_results(calc: Calculation, provenance: Mapping[str, Provenance]) -
             for e in mechanism.errata
         ],
     }
+
+
+def absent(calc: Calculation) -> list[Data]:
+    """What is not calculated, and checks for which a limit is given that nothing can be held against, in words."""
+    left_out = [
+        {"title": s.title, "text": s.absent}
+        for s in calc.mechanism.sections
+        if s.absent and not calc.given.issuperset(s.needs)
+    ]
+    unmade = [
+        {"title": c.title, "text": f"not checked, though {c.limit} is given: what it limits is not calculated"}
+        for c in calc.mechanism.checks
+        if isinstance(c.limit, str) and c.limit in calc.inputs and c.limit not in calc.values and not applies(calc, c)
+    ]
+    return left_out + unmade
 
 
 def worst(statuses: Any) -> str:
@@ -159,7 +167,7 @@ def _number(step: Step, value: Any) -> Data:
     if isinstance(value, bool | np.bool_):
         return {"value": bool(value), "unit": "1"} | said | {"display": {"text": "yes" if value else "no", "unit": "1"}}
     return (
-        {"value": float(value), "unit": unit(step.unit).si}
+        {"value": round(value) if step.whole else float(value), "unit": unit(step.unit).si}
         | said
         | {"display": shown(float(value), step.unit, step.digits)}
     )
@@ -218,75 +226,3 @@ def exports(calc: Calculation) -> list[Data]:
         for p in calc.mechanism.exports
         if calc.given.issuperset(p.needs)
     ]
-
-
-def check_results(calc: Calculation) -> list[Data]:
-    """Each check with demand, limit, margin, utilisation and verdict."""
-    return [_check(calc, check) for check in calc.mechanism.checks if _applies(calc, check)]
-
-
-def _applies(calc: Calculation, check: Check) -> bool:
-    """A check is left out where an optional input of it is not given, or what it judges is absent."""
-    sides = [side for side in (check.demand, check.limit) if isinstance(side, str)]
-    there = all(side in calc.values or side in calc.inputs for side in sides) and calc.given.issuperset(check.needs)
-    return there and not any(
-        calc.steps[s].exists is not None and np.isnan(calc[s][0, 0]) for s in sides if s in calc.steps
-    )
-
-
-def sides(calc: Calculation, check: Check) -> tuple[Any, Any]:
-    """Demand and limit of all variants, SI, each of shape (variants, 1)."""
-    factor = unit(check.unit).factor
-    demand, limit = (
-        calc[s] if isinstance(s, str) else np.full((calc.count, 1), s * factor) for s in (check.demand, check.limit)
-    )
-    return demand, limit
-
-
-def verdict(check: Check, demand: Any, limit: Any) -> tuple[Any, Any]:
-    """Whether the check holds, and its utilisation (NaN where the limit is not above zero), for arrays of variants."""
-    with np.errstate(all="ignore"):
-        allowed = limit * (1 + check.tolerance)
-        held = demand < allowed if check.operator == "<" else demand <= allowed
-        return held, np.where(limit > 0, np.divide(demand, limit), np.nan)
-
-
-def _check(calc: Calculation, check: Check) -> Data:
-    demand, limit = (float(side[0, 0]) for side in sides(calc, check))
-    if not (math.isfinite(demand) and math.isfinite(limit)):
-        raise ValueError(f"check {check.id} compares {demand} with {limit}")
-    held, ratio = verdict(check, demand, limit)
-    status: Status = "pass" if held else check.severity
-    told = _told(demand, limit, check.unit)
-    sentence = f"{check.demand_label} {with_unit(*told['demand'].values())}, {check.limit_label} {with_unit(*told['limit'].values())}"
-    message = f"{sentence}." if held else f"{sentence}: {filled(calc, check.consequence)}"
-    return {
-        "id": check.id,
-        "title": check.title,
-        "status": status,
-        "demand": demand,
-        "limit": limit,
-        "operator": check.operator,
-        "unit": unit(check.unit).si,
-        "utilisation": None if math.isnan(ratio) else float(ratio),
-        "source": check.source,
-        "message": message[0].upper() + message[1:],
-        "demand_label": check.demand_label,
-        "limit_label": check.limit_label,
-        **{f"{name}_display": text for name, text in told.items()},
-    }
-
-
-def _told(demand: float, limit: float, display: str) -> dict[str, dict[str, str]]:
-    """Demand, limit and margin as texts, with so many digits that the margin can be seen in the two others.
-
-    A demand that is nothing but rounding beside its limit is told as zero.
-    """
-    demand = 0.0 if abs(demand) < ROUNDING * abs(limit) else demand
-    margin = limit - demand
-    for digits in range(4, 10):
-        texts = [shown(value, display, digits) for value in (demand, limit)]
-        seen = (float(texts[1]["text"]) - float(texts[0]["text"])) * unit(display).factor
-        if abs(seen - margin) <= 0.05 * abs(margin):
-            break
-    return {"demand": texts[0], "limit": texts[1], "margin": shown(margin, display)}

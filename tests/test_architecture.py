@@ -34,6 +34,7 @@ LAYERS = [
     {"yaml_tree", "writing"},
     {"config", "discovery", "ordering", "references", "schema", "validation"},
     {"engine"},
+    {"verdicts"},
     {"results"},
     {"comparing", "testing"},
     {"compute"},

@@ -22,6 +22,7 @@ class Step:
     and none of ``lacks``. ``output`` puts the quantity among the outputs of the results file, else among its values.
     A text input takes part in them by its value: ``needs=("engagement=away",)``.
     ``exists`` is a condition on numbers: where it does not hold the quantity is absent for that machine.
+    ``whole`` marks a count, which the results hold as an integer.
     A row over like parts is named ``ID.0``, ``ID.1`` … in the results, or by ``numbered`` (``shaft_{}_speed``) from ``first`` on.
     """
 
@@ -37,6 +38,7 @@ class Step:
     exists: Binding | None = None
     numbered: str = ""
     first: int = 1
+    whole: bool = False
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from typing import NamedTuple
 
 import numpy as np
@@ -12,7 +12,8 @@ from diecut_report.engine.calculation import Calculation
 from diecut_report.engine.domain import Domain
 from diecut_report.expressions import Array
 
-PLACE_TOLERANCE = 1e-7  # of an extreme's place; its value errs by the square of it
+PLACE_TOLERANCE = 1e-8  # of an extreme's place, as a share of its bracket; its value errs by the square of it
+APPROACH = 12  # steps by which an end of a piece is approached, each a quarter of the one before
 
 
 Wanted = tuple[str, float]  # a curve, and 1 for its greatest or -1 for its least value
@@ -108,23 +109,48 @@ def _refined(calc: Calculation, wanted: Sequence[Wanted], seen: Candidates) -> C
         return chosen
 
     def depth_of(x: Array, rows: Array) -> Array:
-        return depth(x[rows], seen.which[rows], seen.variant[rows], seen.middle[rows])
+        return depth(x, seen.which[rows], seen.variant[rows], seen.middle[rows])
 
-    every = np.ones(len(seen.place), dtype=bool)
-    at_end = (seen.place == seen.left) | (seen.place == seen.right)
-    centre = np.where(at_end, (seen.left + seen.right) / 2, seen.place)
-    left, middle, right = (depth_of(x, every) for x in (seen.left, centre, seen.right))
-    inner = (middle <= left) & (middle <= right) & (seen.left < centre) & (centre < seen.right)
+    low, centre, high = _brackets(seen, depth_of)
+    every = np.arange(len(centre))
+    left, middle, right = (depth_of(x, every) for x in (low, centre, high))
+    inner = (middle <= left) & (middle <= right) & (low < centre) & (centre < high)
     if not inner.any():
         return seen
+    start, width = low[inner], (high - low)[inner]
+
+    def depth_at(share: Array, row: Array) -> Array:
+        rows = row.astype(int)
+        return depth_of(start[rows] + share * width[rows], np.flatnonzero(inner)[rows])
+
     searched = elementwise.find_minimum(
-        depth,
-        (seen.left[inner], centre[inner], seen.right[inner]),
-        args=(seen.which[inner].astype(float), seen.variant[inner].astype(float), seen.middle[inner]),
-        tolerances={"xrtol": PLACE_TOLERANCE},
+        depth_at,
+        (np.zeros(len(start)), (centre[inner] - start) / width, np.ones(len(start))),
+        args=(np.arange(len(start), dtype=float),),
+        tolerances={"xatol": PLACE_TOLERANCE, "xrtol": 0.0},
     )
     better = -searched.f_x >= seen.height[inner]
     place, height = seen.place.copy(), seen.height.copy()
-    place[inner] = np.where(better, searched.x, place[inner])
+    place[inner] = np.where(better, start + searched.x * width, place[inner])
     height[inner] = np.where(better, -searched.f_x, height[inner])
     return seen._replace(place=place, height=height)
+
+
+def _brackets(seen: Candidates, depth_of: Callable[[Array, Array], Array]) -> tuple[Array, Array, Array]:
+    """Three places about each candidate: its neighbours on the grid and itself.
+
+    At a piece's end a peak may hide between the end and the next point: there the deepest of places that come nearer and
+    nearer to the end, between its neighbours among these.
+    """
+    at_end = np.flatnonzero((seen.place == seen.left) | (seen.place == seen.right))
+    left, centre, right = seen.left.copy(), seen.place.copy(), seen.right.copy()
+    if len(at_end):
+        end = seen.place[at_end, None]
+        inward = (seen.left + seen.right)[at_end, None] - 2 * end
+        places = end + inward * np.concatenate([[1.0], 4.0 ** -np.arange(1, APPROACH), [0.0]])
+        rows = np.repeat(at_end, places.shape[1])
+        best = np.argmin(depth_of(places.ravel(), rows).reshape(places.shape)[:, 1:-1], axis=1) + 1
+        row = np.arange(len(at_end))
+        around = np.stack([places[row, best + 1], places[row, best - 1]])
+        left[at_end], right[at_end], centre[at_end] = around.min(axis=0), around.max(axis=0), places[row, best]
+    return left, centre, right

@@ -99,7 +99,7 @@ def leaves_arms(sector_sweep: Any) -> Any:
 @formula
 def stays_on_one_side(lowest: Any, highest: Any) -> Any:
     """Whether an arm stays on one side of the line O₁O₃ (its sweep is below half a turn)."""
-    return np.sin(lowest) * np.sin(highest) > 0
+    return np.sin(lowest) * np.sin(highest) > 1e-12  # on the line itself the cams could not move the arm
 
 
 @formula

@@ -9,6 +9,8 @@ from diecut_report.mechanics import common
 from diecut_report.mechanics.motion_laws import MIDDLE_POSITION, MIDDLE_VELOCITY, PEAK_ACCELERATION, PEAK_VELOCITY
 from diecut_report.plugins.cam_gear_transport import formulas
 
+LEAST_RETURN = 1e-9  # share of a turn: below it what is left for the return is rounding
+
 
 def angle_below(angle: float) -> str:
     """An angle in print, rounded down to four digits, and less than itself."""
@@ -36,9 +38,9 @@ ROLLING = Section(
         Require(id="whole_teeth", needs=("module",), key="center_distance", condition=bind(formulas.is_whole, number="teeth_together"),
                 message="is {center_distance}, but with a module of {module} gear and sector would have 2·R₂/m = {teeth_together} teeth "
                 "together, which must be a whole number; the nearest center_distance is {center_distance_nearest}"),
-        Value(id="gear_teeth", symbol="z_1", description="Teeth of the gear", source="this method", needs=("module",),
+        Value(id="gear_teeth", whole=True, symbol="z_1", description="Teeth of the gear", source="this method", needs=("module",),
               formula=bind(formulas.gear_teeth, sweep="inputs.sector_dwell_sweep")),
-        Value(id="sector_wheel_teeth", symbol="z_3", description="Teeth of the sector, counted as a full wheel", source="this method",
+        Value(id="sector_wheel_teeth", whole=True, symbol="z_3", description="Teeth of the sector, counted as a full wheel", source="this method",
               needs=("module",), formula=formulas.other_teeth),
         Require(id="some_teeth", needs=("module",), key="module", condition=formulas.both_have_teeth,
                 message="is {module}, with which the gear would have {gear_teeth} and the sector {sector_wheel_teeth} teeth; take a smaller "
@@ -55,7 +57,7 @@ ROLLING = Section(
               formula=formulas.sector_radius),
         Value(id="sector_sweep", symbol="γ_Σ", unit="deg", description="Whole sweep of the sector", source="003, Fig. 4",
               formula=bind(common.sum_of, first="sector_dwell_sweep", second="sector_stop_sweep")),
-        Value(id="sector_teeth", symbol="z_3′", description="Teeth of the sector: of the swept arc, and one on each side",
+        Value(id="sector_teeth", whole=True, symbol="z_3′", description="Teeth of the sector: of the swept arc, and one on each side",
               source="this method", needs=("module",), formula=formulas.sector_teeth),
     ),
 )  # fmt: skip
@@ -104,7 +106,7 @@ PHASES = Section(
               formula=bind(formulas.stop_sweep_recommended, peak_velocity="law_peak_velocity")),
         Words(id="return_limit", function=advice, takes=("dwell_angle_limit", "stop_sweep_limit")),
         Words(id="return_recommended", function=advice, takes=("dwell_angle_recommended", "stop_sweep_recommended")),
-        Require(id="return_exists", key="dwell_angle", condition=bind(common.is_below, smaller=0.0, greater="time_return"),
+        Require(id="return_exists", key="dwell_angle", condition=bind(common.is_below, smaller=LEAST_RETURN, greater="time_return"),
                 message="is {dwell_angle}; with a sector_stop_sweep of {sector_stop_sweep} dwell, stop and start take the whole turn and leave "
                 "T₄ = 1 − T₂ − T₍₃₊₁₎ = {time_return} for the sector's return; {return_limit} leaves one, "
                 "and {return_recommended} leaves it {min_return_time} of the turn"),

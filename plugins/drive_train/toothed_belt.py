@@ -153,7 +153,7 @@ SPEED = Section(
                 "cylinder (or take engagement: away)"),
         Value(id="driving_pulley_radius", symbol="r_p", unit="mm", description="Pitch radius of the belt's driving pulley, before rounding",
               source="002 eq. 10", digits=6, formula=bind(pulley_radius, shaft_speed="toothed_belt.shaft_speed")),
-        Value(id="driving_pulley_teeth", symbol="z_p", description="Teeth of the belt's driving pulley, the nearest whole number",
+        Value(id="driving_pulley_teeth", whole=True, symbol="z_p", description="Teeth of the belt's driving pulley, the nearest whole number",
               source="this method", formula=bind(pulley_teeth, radius="driving_pulley_radius", pitch="toothed_belt.pitch")),
         Require(id="pulley_has_teeth", condition=bind(has_teeth, teeth="driving_pulley_teeth"), key="toothed_belt.pitch",
                 message="is more than twice the circumference of the driving pulley, whose radius is {driving_pulley_radius}; "
@@ -231,7 +231,7 @@ LENGTH = Section(
         Total(id="arc_length", symbol="Σs", unit="mm", description="All arcs", digits=6, of="belt_arcs", operation="sum"),
         Value(id="toothed_belt_length", symbol="L_b", unit="mm", description="Length of the toothed belt's path", digits=7,
               source="002 eq. 11, in general", formula=bind(common.sum_of, first="straight_length", second="arc_length")),
-        Value(id="toothed_belt_teeth", symbol="z_b", description="Teeth of the belt, the nearest whole number", source="this method",
+        Value(id="toothed_belt_teeth", whole=True, symbol="z_b", description="Teeth of the belt, the nearest whole number", source="this method",
               formula=bind(belt_teeth, length="toothed_belt_length", pitch="toothed_belt.pitch")),
         Value(id="toothed_belt_take_up", symbol="ΔL", unit="mm", description="Belt longer (+) or shorter (−) than the path: to be tensioned",
               source="this method",

@@ -85,7 +85,7 @@ COUNT = Section(
     needs=("power_per_belt",),
     absent="not calculated: power_per_belt is not given",
     steps=(
-        Value(id="vbelt_count", symbol="z", description="Number of belts, for the required power", source="this method",
+        Value(id="vbelt_count", whole=True, symbol="z", description="Number of belts, for the required power", source="this method",
               formula=bind(belts.count, power="power_required")),
     ),
 )  # fmt: skip

@@ -36,6 +36,13 @@ def test_extremes_take_one_sided_limits_at_a_jump_and_search_inside_a_piece() ->
     assert number(calc, "torque_range") == pytest.approx(200 * (np.sin(STEP) + 1), rel=1e-12)
 
 
+@pytest.mark.parametrize("before", [1e-1, 1e-2, 1e-4, 1e-6])
+def test_an_extreme_that_hides_beside_a_breakpoint_is_found(before: float) -> None:
+    calc = toy(step_angle=90 - before)
+    assert number(calc, "torque_max") == pytest.approx(400, rel=1e-14)
+    assert number(calc, "torque_max_at") == pytest.approx(np.pi / 2, abs=1e-7)
+
+
 def test_integrals_go_piece_by_piece() -> None:
     calc, on = toy(), 2 * np.pi - STEP
     assert number(calc, "work") == pytest.approx(200 * on, rel=1e-13)

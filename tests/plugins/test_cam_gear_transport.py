@@ -514,3 +514,38 @@ def test_without_further_keys_nothing_of_sheet_and_cams_is_said() -> None:
 
 def test_the_declaration_keeps_the_plugin_contract() -> None:
     check_mechanism(MECHANISM)
+
+
+@pytest.mark.parametrize("dwell, sweep", [(216, 20), (120, 60), (240, 15)])
+def test_a_return_of_no_time_is_refused_also_where_rounding_leaves_some(dwell: float, sweep: float) -> None:
+    with pytest.raises(Impossible, match="take the whole turn"):
+        stepper(dwell_angle=f"{dwell} deg", sector_stop_sweep=f"{sweep} deg")
+
+
+@pytest.mark.parametrize("sweep", [20, 1, 0.1, 0.01, 0.001])
+def test_peaks_of_short_phases_are_those_of_the_law(sweep: float) -> None:
+    calc = stepper(sector_stop_sweep=f"{sweep} deg", motion_law="polynomial_345")
+    rate = number(calc, "inputs.cycles_per_hour")
+    law = LAWS["polynomial_345"]
+    rises = (
+        (np.radians(sweep), number(calc, "time_stop")),
+        (number(calc, "sector_sweep"), number(calc, "time_return")),
+    )
+    top = max(law.A * angle * (rate / time) ** 2 for angle, time in rises)
+    ratio = number(calc, "sector_radius") / number(calc, "gear_radius")
+    assert number(calc, "gear_acceleration_peak") == pytest.approx(ratio * top, rel=1e-9)
+
+
+def test_jumping_laws_print_at_all_dwells() -> None:
+    for dwell in range(40, 200, 7):
+        mechanism_results(stepper(dwell_angle=f"{dwell} deg", sector_stop_sweep="5 deg", motion_law="parabolic"), {})
+
+
+def test_teeth_are_counted_in_whole_numbers() -> None:
+    outputs = mechanism_results(stepper(module="2 mm"), {})["outputs"]
+    assert isinstance(outputs["gear_teeth"]["value"], int)
+
+
+def test_a_limit_that_nothing_is_held_against_is_told() -> None:
+    absent = mechanism_results(stepper(allowable_sheet_acceleration="50 m/s**2"), {})["absent"]
+    assert any("not checked, though allowable_sheet_acceleration is given" in part["text"] for part in absent)
