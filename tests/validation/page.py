@@ -16,7 +16,8 @@ HEAD = """# Validation: what the papers print, and what the program computes
 
 Made from the rows in `tests/validation/` by `python -m tests.validation.page`; the tests check each of them.
 A number *agrees* when ours rounds to the printed one. For a *mistake* the test follows the source's own arithmetic to the
-printed number, so that its reason is known and not guessed.
+printed number, so that its reason is known and not guessed. A *worked example* is printed in no paper: it was calculated apart from
+the program, by hand or with another method, and the program must meet it.
 
 """
 
