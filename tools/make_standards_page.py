@@ -31,7 +31,7 @@ USE = """\
 ```python
 from diecut_report.api import standard_series, standard_series_by, standard_table
 
-standard_series("iec_60072_ratings").values           # (0.06, 0.09, 0.12, …), in kW
+standard_series("iec_60072_ratings").values  # (0.06, 0.09, 0.12, …), in kW
 standard_series_by("iso_4184_lengths")["SPA"].values  # (800.0, 900.0, …), in mm
 standard_table("vbelt_least_diameter").values["SPA"]  # 90.0, in mm
 ```
