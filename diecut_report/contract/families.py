@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass, replace
+from functools import cache
 from typing import Any
 
 from diecut_report.contract.binding import Bound, ByText, bind
@@ -77,7 +78,8 @@ def _declared(step: Step) -> list[str]:
     return [name for name in NAMING if name in step.__dataclass_fields__]
 
 
-def taken(step: Step) -> set[str]:
+@cache
+def taken(step: Step) -> frozenset[str]:
     """The ids that a step names: inputs, and what earlier steps gave."""
     names: set[str] = set()
 
@@ -87,7 +89,7 @@ def taken(step: Step) -> set[str]:
         return name
 
     _renamed(step, note)
-    return names
+    return frozenset(names)
 
 
 def _renamed(step: Step, rename: Rename) -> dict[str, Any]:

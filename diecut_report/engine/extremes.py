@@ -12,7 +12,7 @@ from diecut_report.engine.calculation import Calculation
 from diecut_report.engine.domain import Domain
 from diecut_report.expressions import Array
 
-PLACE_TOLERANCE = 1e-8  # of an extreme's place, as a share of its bracket; its value errs by the square of it
+PLACE_TOLERANCE = 1e-6  # of an extreme's place, as a share of its bracket; its value errs by the square of it
 APPROACH = 12  # steps by which an end of a piece is approached, each a quarter of the one before
 
 

@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Container, Mapping, Sequence
+from collections.abc import Callable, Container, Iterator, Mapping, Sequence
 from typing import Any
 
 import numpy as np
 
+from diecut_report.contract.families import taken
 from diecut_report.contract.mechanism import Mechanism
 from diecut_report.contract.parts import Lookup, Neighbour, Part, Pick, Running, Total
 from diecut_report.contract.steps import (
@@ -163,18 +164,30 @@ SIGNS = {"max": (1.0,), "min": (-1.0,), "abs_max": (1.0, -1.0), "range": (1.0, -
 
 
 def _search_ahead(calc: Calculation, steps: Sequence[Step]) -> None:
-    """Search all extremes of neighbouring reductions over one abscissa together: one search costs hardly less than many."""
-    wanted: list[extremes.Wanted] = []
+    """Search the extremes of all coming reductions over one abscissa together: one search costs hardly less than many."""
+    first = steps[0]
+    if not isinstance(first, Reduction) or first.operation not in SIGNS:
+        return
+    domain = calc.domains[calc.axis[first.of]]
+    if all(calc.extremes.get((first.of, sign), (None,))[0] is domain.edges for sign in SIGNS[first.operation]):
+        return
+    wanted = [
+        (step.of, sign) for step in _computable(calc, steps, calc.axis[first.of]) for sign in SIGNS[step.operation]
+    ]
+    extremes.search(calc, wanted)
+
+
+def _computable(calc: Calculation, steps: Sequence[Step], axis: str) -> Iterator[Reduction]:
+    """The coming reductions over an abscissa, up to where it is cut further, whose curves need nothing that is not known yet."""
+    known = {axis, *calc.inputs, *calc.values, *calc.curves, *(f"inputs.{name}" for name in calc.inputs)}
     for step in steps:
-        if not isinstance(step, Reduction) or step.operation not in SIGNS:
-            break
-        wanted += [
-            (step.of, sign)
-            for sign in SIGNS[step.operation]
-            if not wanted or calc.axis[step.of] == calc.axis[wanted[0][0]]
-        ]
-    if wanted:
-        extremes.search(calc, wanted)
+        if getattr(step, "abscissa", "") == axis:
+            return
+        if isinstance(step, Value | Choice) and calc.axis.get(step.id) == axis and taken(step) <= known:
+            known.add(step.id)
+            calc.curves[step.id] = step
+        if isinstance(step, Reduction) and step.operation in SIGNS and step.of in known and calc.axis[step.of] == axis:
+            yield step
 
 
 def _reduction(calc: Calculation, step: Reduction) -> None:
