@@ -20,6 +20,18 @@ def number_text(value: float, digits: int = DIGITS) -> str:
     return f"{mantissa}e{int(power)}"
 
 
+def outward(value: float, up: bool, digits: int = DIGITS) -> float:
+    """A number with so many significant digits, not below itself (or not above): what advice names must be enough.
+
+    Rounding of the last places of a double apart.
+    """
+    if value == 0 or not math.isfinite(value):
+        return value
+    step = 10.0 ** (math.floor(math.log10(abs(value))) - digits + 1)
+    steps = math.ceil(value / step - 1e-9) if up else math.floor(value / step + 1e-9)
+    return float(f"{steps * step:.15g}")
+
+
 def shortest(value: float, digits: int = 6) -> str:
     """What was typed, without the noise of a unit conversion: as few digits as say it, else ``digits``."""
     short = f"{value:.15g}"
@@ -42,9 +54,10 @@ def rounded(value: float, unit_text: str, digits: int = DIGITS) -> str:
     return f"{value / unit(unit_text).factor:.{digits - 1}e}"
 
 
-def told(value: float, unit_text: str, digits: int = DIGITS) -> str:
-    """An SI value as one would say it: ``40 mm``."""
-    return with_unit(*shown(value, unit_text, digits).values())
+def told(value: float, unit_text: str, digits: int = DIGITS, *, up: bool | None = None) -> str:
+    """An SI value as one would say it, ``40 mm``; rounded up or down where ``up`` says so."""
+    number = value / unit(unit_text).factor
+    return with_unit(number_text(number if up is None else outward(number, up, digits), digits), unit_text)
 
 
 def si(value: float, unit_text: str) -> float:

@@ -24,12 +24,12 @@ if TYPE_CHECKING:
 
 MOST_DIGITS = 17
 ROUNDING = 1e-11  # share of a sum's terms below which a result is rounding alone
-NAMED = re.compile(r"\{([\w.]+)\}")
+NAMED = re.compile(r"\{([\w.]+)(?::(up|down))?\}")
 TRIGONOMETRIC = ("sin", "cos", "tan")
 
 
-def printed(calc: Calculation, name: str, variant: int = 0, part: int = 0) -> str:
-    """A quantity as one would say it: ``40 mm``; of a row the value of one part."""
+def printed(calc: Calculation, name: str, variant: int = 0, part: int = 0, up: bool | None = None) -> str:
+    """A quantity as one would say it: ``40 mm``; of a row the value of one part; rounded up or down where ``up`` says so."""
     step = calc.steps.get(name)
     if isinstance(step, Words):
         return step.function(*(float(calc[taken][variant, 0]) for taken in step.takes))
@@ -40,18 +40,22 @@ def printed(calc: Calculation, name: str, variant: int = 0, part: int = 0) -> st
     if isinstance(value, str):
         return value
     declared = calc.step_or_input(name)
-    number = float(value) / unit(declared.unit).factor
-    typed = name not in calc.values
-    text = shortest(number) if typed else number_text(number, getattr(declared, "digits", DIGITS))
-    return with_unit(text, declared.unit)
+    digits = getattr(declared, "digits", DIGITS)
+    if name not in calc.values:
+        return with_unit(shortest(float(value) / unit(declared.unit).factor), declared.unit)
+    return told(float(value), declared.unit, digits, up=up)
 
 
 def filled(calc: Calculation, text: str, variant: int = 0, places: Mapping[str, int] = MappingProxyType({})) -> str:
-    """A message with its ``{ids}`` printed; of rows the part at ``places["index"]``; ``places`` stand for themselves."""
+    """A message with its ``{ids}`` printed; of rows the part at ``places["index"]``; ``places`` stand for themselves.
+
+    ``{id:up}`` and ``{id:down}`` are rounded that way: what "at least" and "at most" name must be enough.
+    """
 
     def said(found: re.Match[str]) -> str:
         name = found[1]
-        return str(places[name]) if name in places else printed(calc, name, variant, places.get("index", 0))
+        up = {"up": True, "down": False}.get(found[2])
+        return str(places[name]) if name in places else printed(calc, name, variant, places.get("index", 0), up)
 
     return NAMED.sub(said, text)
 
