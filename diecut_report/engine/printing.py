@@ -16,7 +16,7 @@ import numpy as np
 from diecut_report.contract.binding import Bound
 from diecut_report.contract.steps import Words
 from diecut_report.expressions import Node, evaluate, transform
-from diecut_report.texts import DIGITS, number_text, rounded, shortest, with_unit
+from diecut_report.texts import DIGITS, number_text, rounded, shortest, told, with_unit
 from diecut_report.units import unit
 
 if TYPE_CHECKING:

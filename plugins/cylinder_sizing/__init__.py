@@ -29,7 +29,7 @@ MECHANISM = Mechanism(
             limit_label="wall at the flat",
             source="000 erratum 4",
             consequence="{wall_verdict}; "
-            "a bore radius of at most {bore_radius_limit} keeps the required wall.",
+            "a bore radius of at most {bore_radius_limit:down} keeps the required wall.",
         ),
         Check(
             id="radius",
@@ -42,7 +42,7 @@ MECHANISM = Mechanism(
             source="002 eq. 1",
             tolerance=1e-9,
             consequence="the circumference beside the flat is shorter than the working length; "
-            "make the radius at least {radius_exact} or the segment lower.",
+            "make the radius at least {radius_exact:up} or the segment lower.",
         ),
         Check(
             id="closed_form_error",

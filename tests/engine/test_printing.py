@@ -10,7 +10,7 @@ from hypothesis import strategies as st
 
 from diecut_report.expressions import Node, evaluate
 from diecut_report.results import mechanism_results
-from diecut_report.texts import number_text, shortest
+from diecut_report.texts import number_text, shortest, told
 from diecut_report.units import unit
 from tests.machines import UNBALANCED, cylinder, drive
 
@@ -71,3 +71,12 @@ def test_every_printed_formula_gives_its_printed_result(machine: str) -> None:
         decimals = len(printed.partition("e")[0].partition(".")[2])
         half = 0.5 * 10.0 ** (int(printed.partition("e")[2] or 0) - decimals)
         assert abs(again - float(printed)) <= half * 1.001 + 1e-9 * abs(again), item["id"]
+
+
+@pytest.mark.parametrize(
+    ("value", "up", "text"),
+    [(0.01110011, True, "11.11 mm"), (0.0111, True, "11.1 mm"), (0.01110011, False, "11.10 mm"), (-0.0031004, False, "-3.101 mm"),
+     (0.04, True, "40 mm"), (0.0399999999999999, True, "40 mm"), (0.0, False, "0 mm")],
+)  # fmt: skip
+def test_advice_is_rounded_to_the_safe_side(value: float, up: bool, text: str) -> None:
+    assert told(value, "mm", up=up) == text.replace("11.1 mm", "11.10 mm")
