@@ -10,7 +10,8 @@ from diecut_report.compute import Run
 from diecut_report.config import Press
 from diecut_report.contract.inputs import Block, CurveInput, Quantity, flatten
 from diecut_report.engine import CurveHandle
-from diecut_report.references import PRESS, Instance
+from diecut_report.instances import Instance
+from diecut_report.references import PRESS
 from diecut_report.results import RANK, worst
 from diecut_report.texts import shortest
 from diecut_report.units import unit
@@ -42,7 +43,7 @@ def document(run: Run) -> Data:
 
 
 EMPTY: Data = {
-    "summary": "", "assumptions": [], "sources": [], "inputs": {}, "outputs": {}, "values": {}, "curves": {}, "checks": [],
+    "summary": "", "assumptions": [], "sources": [], "inputs": {}, "lists": {}, "outputs": {}, "values": {}, "curves": {}, "checks": [],
     "warnings": [], "sections": [], "absent": [], "figures": [], "exports": [],
     "errata": [],
 }  # fmt: skip

@@ -188,7 +188,7 @@ def calc(config: Path, target: Path | None, folders: tuple[Path, ...], quiet: bo
         outcome, text = pipeline.calc(config, Discovery(folders), progress, to_file)
     if to_file is None:
         emit(text)
-    return _verdict(outcome, quiet=True)
+    return _verdict(outcome, quiet or to_file is None)
 
 
 @program.command()

@@ -12,7 +12,8 @@ from diecut_report.contract.inputs import SI, Block, Quantity, flatten
 from diecut_report.discovery import said
 from diecut_report.engine import Calculation, CurveHandle, Impossible, calculate
 from diecut_report.errors import PluginError, Problem, UserError
-from diecut_report.references import PRESS, Instance, Node, Target, slots
+from diecut_report.instances import Instance, slots
+from diecut_report.references import PRESS, Node, Target
 from diecut_report.results import Provenance, mechanism_results
 from diecut_report.validation import declared, validate
 

@@ -14,8 +14,9 @@ from diecut_report import yaml_tree
 from diecut_report.contract.inputs import Annotated, Block, CurveInput, Pending, Quantity, Text
 from diecut_report.discovery import Discovery, DuplicateKind, UnknownKind, said
 from diecut_report.errors import PluginError, Problem, UserError
+from diecut_report.instances import Instance
 from diecut_report.ordering import ordered
-from diecut_report.references import PRESS, Instance, Linker, Node, Target, texts
+from diecut_report.references import PRESS, Linker, Node, Target, texts
 from diecut_report.validation import Place, declared, keys_of, told, validate
 from diecut_report.yaml_tree import KeyPath, Tree
 

@@ -40,13 +40,13 @@ def exports(results: Data) -> dict[str, bytes]:
 
 
 def table(curves: Mapping[str, Data]) -> bytes:
-    """Curves as columns in their display units; one row of heads, a row for each sample, full precision."""
+    """Curves as columns in their display units; one row of heads, a row for each sample, to 15 digits."""
     units = [unit(curve["display_unit"]) for curve in curves.values()]
     text = io.StringIO()
     writer = csv.writer(text, lineterminator="\n", quoting=csv.QUOTE_NONNUMERIC)
     writer.writerow(f"{name} [{curve['display_unit']}]" for name, curve in curves.items())
     for row in zip(*(curve["values"] for curve in curves.values()), strict=True):
-        writer.writerow(shown.from_si(value) for shown, value in zip(units, row, strict=True))
+        writer.writerow(float(f"{shown.from_si(value):.15g}") for shown, value in zip(units, row, strict=True))
     return text.getvalue().encode()
 
 

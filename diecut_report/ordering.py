@@ -6,7 +6,8 @@ from collections.abc import Mapping
 from graphlib import CycleError, TopologicalSorter
 
 from diecut_report.errors import Problem
-from diecut_report.references import Instance, Node, Target
+from diecut_report.instances import Instance
+from diecut_report.references import Node, Target
 
 
 def ordered(instances: Mapping[str, Instance | None], links: Mapping[Node, Target]) -> tuple[list[Node], list[Problem]]:

@@ -7,113 +7,29 @@ to another input waits for that input only; one that refers to an output waits f
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
-from functools import cached_property
 from typing import Any
 
-from diecut_report.contract.families import Section
 from diecut_report.contract.inputs import (
-    Block,
     CurveInput,
     FromPress,
-    Meta,
     Quantity,
-    Text,
     fields,
-    flatten,
-    texts_given,
 )
-from diecut_report.contract.mechanism import Mechanism
-from diecut_report.contract.steps import Step
+from diecut_report.contract.mechanism import MOST_NAMED
+from diecut_report.contract.steps import Crossings
 from diecut_report.errors import Problem, nearest
 from diecut_report.expressions import Formula
+from diecut_report.instances import Instance, Slot, default_of, slots
 from diecut_report.units import pretty, unit
-from diecut_report.validation import Place, declared, keys_of
+from diecut_report.validation import declared
 from diecut_report.yaml_tree import KeyPath
 
 PRESS = "press"
 WHOLE = re.compile(r"\$\{([^${}]*)\}")
 
 Node = KeyPath  # (instance,) is its calculation, (instance, key, …) one of its inputs
-
-
-@dataclass(frozen=True)
-class Slot:
-    """A declared input in a block that is there: its key, its declaration, and its value in the file or its default."""
-
-    key: KeyPath
-    meta: Meta | None
-    value: Any
-    is_given: bool
-    is_required: bool
-
-
-def slots(model: type[Block], data: Mapping[str, Any], key: KeyPath = ()) -> Iterator[Slot]:
-    """All inputs of a block and of the blocks and lists given in it."""
-    for name, (field, meta, block, _) in keys_of(model).items():
-        given, own = data.get(name), (*key, name)
-        default = None if given is not None or field.is_required() else field.get_default(call_default_factory=True)
-        yield Slot(own, meta, default if given is None else given, given is not None, field.is_required())
-        parts = list(enumerate(given)) if isinstance(given, list) else [(None, given)]
-        for index, part in parts if block else []:
-            if block and isinstance(part, dict):
-                yield from slots(block, part, own if index is None else (*own, index))
-
-
-class Instance:
-    """A mechanism of the config, or the press (which has no calculation)."""
-
-    def __init__(
-        self, name: str, model: type[Block], data: dict[str, Any], place: Place, mechanism: Mechanism | None
-    ) -> None:
-        self.name, self.model, self.data, self.place, self.mechanism = name, model, data, place, mechanism
-        self.without: frozenset[KeyPath] = frozenset()
-
-    def leave_out(self, keys: Iterable[KeyPath]) -> None:
-        """Inputs that keep no value, as the press does not give their optional default."""
-        self.without = frozenset(keys)
-        for known in ("given", "results"):
-            self.__dict__.pop(known, None)
-
-    @cached_property
-    def given(self) -> frozenset[str]:
-        """The ids of the inputs that have a value: given, by default, or from the press."""
-        found: set[str] = set()
-        for slot in slots(self.model, self.data):
-            name = ".".join(part for part in slot.key if isinstance(part, str))
-            if isinstance(slot.value, Block):
-                found |= set(flatten(slot.value, f"{name}."))
-            from_press = default_of(slot) is not None and slot.key not in self.without
-            if slot.value not in (None, []) or slot.is_required or from_press:
-                found.add(name)
-            if isinstance(slot.meta, Text):
-                found |= texts_given({name: slot.value})
-        return frozenset(found)
-
-    @cached_property
-    def results(self) -> dict[str, tuple[str | None, bool]]:
-        """What the calculation gives with these inputs: the SI unit (None for a text), and whether it is a curve or row."""
-        return self.mechanism.results_of(self.given) if self.mechanism else {}
-
-    def value(self, key: KeyPath) -> Any:
-        """The value of an input that is no reference: an SI number, a text, true or false, values of a curve, or None."""
-        slot = max((s for s in slots(self.model, self.data) if s.key == key[: len(s.key)]), key=lambda s: len(s.key))
-        value = slot.value
-        for part in key[len(slot.key) :]:  # within a block that is there by default
-            value = getattr(value, part) if isinstance(part, str) else value[part]
-        is_own = slot.key == key and isinstance(slot.meta, Quantity | CurveInput)
-        return slot.meta.validate(value) if is_own and value is not None and slot.meta else value
-
-    @cached_property
-    def declared_steps(self) -> dict[str, tuple[Section, Step]]:
-        """Every step of the mechanism by its id, whether it takes part or not."""
-        return {step.id: (section, step) for section, step in self.mechanism.steps} if self.mechanism else {}
-
-
-def default_of(slot: Slot) -> FromPress | None:
-    """The press's default that stands in for an input without a value."""
-    return slot.meta.press if isinstance(slot.meta, Quantity) and slot.value is None else None
 
 
 @dataclass(frozen=True)
@@ -230,6 +146,9 @@ class Linker:
     def _result(self, path: str, instance: Instance, result: str) -> Target | None:
         if result in instance.results:
             si, many = instance.results[result]
+            home = instance.rows.get(result)
+            if home:
+                raise Unresolved(f"${{{path}}} has a value for each of {home}; refer to one, as in ${{{path}.0}}.")
             return Target(path, instance.name, result=result, unit=si, is_curve=many)
         row, _, index = result.rpartition(".")
         if index.isdigit() and row in instance.results and instance.results[row][1]:
@@ -252,6 +171,8 @@ class Linker:
         return Target(path, instance.name, key, unit=si, is_curve=isinstance(meta, CurveInput))
 
     def _unknown(self, path: str, instance: Instance, name: str) -> str:
+        if f"{name}_count" in instance.results:
+            return f"${{{path}}} has several values; refer to one of them, as in ${{{path}_1}}."
         section, step = (
             instance.declared_steps.get(name) or instance.declared_steps.get(name.removesuffix("_at")) or (None, None)
         )
@@ -270,7 +191,15 @@ class Linker:
 
 
 def _known(instance: Instance) -> list[str]:
-    return list(dict.fromkeys([*instance.results, *(name for name, _ in fields(instance.model))]))
+    """What may be referred to; of numbered results the first alone, for how many there are shows in calculating."""
+    later: set[str] = set()
+    for _, step in instance.declared_steps.values():
+        if step.numbered:
+            later |= {step.numbered.format(i) for i in range(step.first + 1, step.first + MOST_NAMED)}
+        if isinstance(step, Crossings):
+            later |= {f"{step.id}_{i}" for i in range(2, MOST_NAMED + 1)}
+    single = [name for name in instance.results if name not in later]
+    return list(dict.fromkeys([*single, *(name for name, _ in fields(instance.model))]))
 
 
 def _check_index(path: str, data: Any, key: KeyPath) -> None:

@@ -9,7 +9,7 @@ from typing import Any, Literal
 
 import numpy as np
 
-from diecut_report.contract.inputs import CurveInput, Quantity, fields
+from diecut_report.contract.inputs import CurveInput, Quantity, fields, list_titles
 from diecut_report.contract.steps import SILENT, Crossings, Step
 from diecut_report.engine import Calculation
 from diecut_report.engine.derive import section_items
@@ -44,6 +44,7 @@ def mechanism_results(calc: Calculation, provenance: Mapping[str, Provenance]) -
         "assumptions": list(mechanism.assumptions),
         "sources": [{"id": s.id, "citation": s.citation} for s in mechanism.sources],
         "inputs": inputs(calc, provenance),
+        "lists": list_titles(mechanism.inputs),
         **numbers(calc),
         "curves": curves(calc),
         "checks": checks,

@@ -32,7 +32,7 @@ LAYERS = [
     {"contract"},
     {"api"},
     {"yaml_tree", "writing"},
-    {"config", "discovery", "ordering", "references", "schema", "validation"},
+    {"config", "discovery", "instances", "ordering", "references", "schema", "validation"},
     {"engine"},
     {"verdicts"},
     {"results"},

@@ -52,6 +52,13 @@ def test_calc_prints_the_results_alone_on_standard_output(tmp_path: Path, capfd:
     assert json.loads(out)["status"] == "fail" and err == ""
 
 
+def test_calc_to_a_file_tells_the_failing_checks(tmp_path: Path, capfd: Capture) -> None:
+    assert run("calc", str(EXAMPLE), "-o", str(tmp_path / "a.json")) == 1
+    assert "2 of" in capfd.readouterr().err
+    assert run("calc", str(EXAMPLE), "-o", str(tmp_path / "a.json"), "--quiet") == 1
+    assert capfd.readouterr().err == ""
+
+
 def test_calc_to_a_file_is_what_it_prints(tmp_path: Path, capfd: Capture) -> None:
     config = saved(tmp_path, LEVER)
     assert run("calc", config) == run("calc", config, "-o", tmp_path / "r.json") == run("calc", config, "-o", "-") == 0

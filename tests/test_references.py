@@ -194,3 +194,10 @@ def test_a_text_that_a_reference_brings_is_held_to_the_choices(tmp_path: Path) -
     assert [(p.path, p.message) for p in caught.value.problems] == [
         ("mechanisms.b.grade", "is “large”; allowed: fine, coarse")
     ]
+
+
+def test_places_that_a_curve_crosses_are_referred_to_one_by_one(tmp_path: Path) -> None:
+    cylinder = "cylinder_radius: 105 mm, cylinder_length: 700 mm, cylinder_mass: 80 kg, cylinder_inertia: 0.9 kg*m**2"
+    text = HEAD + f"  d: {{kind: cylinder_drive, {cylinder}}}\n  b: {{kind: lever, force: '${{d.torque_reversal}}'}}\n"
+    (problem,) = problems(tmp_path, text)
+    assert "${d.torque_reversal} has several values; refer to one of them, as in ${d.torque_reversal_1}." in problem

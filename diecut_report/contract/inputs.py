@@ -232,6 +232,18 @@ def list_inputs(model: type[Block], prefix: str = "") -> dict[str, str]:
     return found
 
 
+def list_titles(model: type[Block], prefix: str = "") -> dict[str, str]:
+    """What each list of like parts is, by its path."""
+    found: dict[str, str] = {}
+    for name, field in model.model_fields.items():
+        block, meta = nested(field.annotation), meta_of(model, name)
+        if block and block[1] and meta is not None:
+            found[f"{prefix}{name}"] = meta.description
+        elif block:
+            found |= list_titles(block[0], f"{prefix}{name}.")
+    return found
+
+
 def texts_given(values: Mapping[str, Any]) -> set[str]:
     """For each text (or yes/no) input the token ``key=value``, by which steps may be chosen."""
     return {f"{name}={str(value).lower() if isinstance(value, bool) else value}" for name, value in values.items()
@@ -258,4 +270,4 @@ def flatten(block: Block, prefix: str = "") -> dict[str, Any]:
 
 
 __all__ = ["POINTS", "SI", "Annotated", "Block", "CurveInput", "FromPress", "Inputs", "Meta", "OneOf", "Pending", "Quantity", "Text",
-           "fields", "flatten", "list_inputs", "meta_of", "nested", "texts_given"]  # fmt: skip
+           "fields", "flatten", "list_inputs", "list_titles", "meta_of", "nested", "texts_given"]  # fmt: skip

@@ -114,6 +114,7 @@ class PartsTable:
     """Quantities of like parts: a line for each part, by its number."""
 
     number: str
+    title: str
     family: str
     columns: list[Column]
     lines: list[tuple[str, list[Cell]]]

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping, Sequence
+from types import MappingProxyType
 from typing import Any, TypeVar
 
 from diecut_report.report.i18n import Words
@@ -21,8 +22,8 @@ MOST_COLUMNS = 7  # beside the first one
 class Tables:
     """Makes a chapter's tables; they count up as they are made."""
 
-    def __init__(self, letter: str, words: Words) -> None:
-        self.letter, self.words = letter, words
+    def __init__(self, letter: str, words: Words, lists: Mapping[str, str] = MappingProxyType({})) -> None:
+        self.letter, self.words, self.lists = letter, words, lists
         self.decimal = words["decimal"]
         self.count = 0
 
@@ -50,7 +51,7 @@ class Tables:
         )
         columns = [(c["description"], symbol(c["symbol"]), pretty(c["display_unit"])) for c in shown]
         rows = [[self._sample(c, place) for c in shown] for place in places]
-        return Table(self.words["curves"], columns, rows, self._number())
+        return Table(self.words.say("curves_over", axis=axis["description"]), columns, rows, self._number())
 
     def _sample(self, curve: Data, place: int) -> str:
         value, shown = curve["values"][place], curve["display_unit"]
@@ -77,7 +78,8 @@ class Tables:
             rows = [parts.columns[quantity].get(part) for quantity, _ in heads]
             lines.append((str(part), [self._cell(row[1], told) if row else Cell("–") for row in rows]))
         family = parts.family if parts.listed else f"{parts.family}_{parts.numbers[0]} … {parts.numbers[-1]}"
-        return PartsTable(self._number(), family, columns, lines)
+        title = self.lists.get(parts.family, columns[0].title if len(columns) == 1 else "")
+        return PartsTable(self._number(), title, family, columns, lines)
 
     def _cell(self, row: Data, told: Callable[[Data], str]) -> Cell:
         text = row["display"]["text"]
