@@ -4,9 +4,16 @@ from __future__ import annotations
 
 import os
 
-from hypothesis import settings
+from hypothesis import HealthCheck, settings
 
 # No deadline: a first call may compile, import or wait for a busy machine, which says nothing about the code.
 # In CI the examples are the same at each run, so that a change is judged by what it changes; elsewhere they are new.
-settings.register_profile("diecut-report", deadline=None, derandomize="CI" in os.environ, print_blob=True)
+# Many random machines cannot exist and are passed over, and a calculation takes some milliseconds: both are no fault.
+settings.register_profile(
+    "diecut-report",
+    deadline=None,
+    derandomize="CI" in os.environ,
+    print_blob=True,
+    suppress_health_check=[HealthCheck.filter_too_much, HealthCheck.too_slow],
+)
 settings.load_profile("diecut-report")
