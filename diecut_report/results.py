@@ -50,7 +50,7 @@ def mechanism_results(calc: Calculation, provenance: Mapping[str, Provenance]) -
         "checks": checks,
         "warnings": [c["message"] for c in checks if c["status"] == "warn"],
         "sections": section_items(calc),
-        "absent": absent(calc),
+        "absent": absent(calc, provenance),
         "figures": figures(calc),
         "exports": exports(calc),
         "errata": [
@@ -64,7 +64,10 @@ def mechanism_results(calc: Calculation, provenance: Mapping[str, Provenance]) -
     }
 
 
-def absent(calc: Calculation) -> list[Data]:
+GIVEN = Provenance("given")
+
+
+def absent(calc: Calculation, provenance: Mapping[str, Provenance]) -> list[Data]:
     """What is not calculated, and checks for which a limit is given that nothing can be held against, in words."""
     left_out = [
         {"title": s.title, "text": s.absent}
@@ -74,7 +77,11 @@ def absent(calc: Calculation) -> list[Data]:
     unmade = [
         {"title": c.title, "text": f"not checked, though {c.limit} is given: what it limits is not calculated"}
         for c in calc.mechanism.checks
-        if isinstance(c.limit, str) and c.limit in calc.inputs and c.limit not in calc.values and not applies(calc, c)
+        if isinstance(c.limit, str)
+        and provenance.get(c.limit, GIVEN).origin != "default"
+        and c.limit in calc.inputs
+        and c.limit not in calc.values
+        and not applies(calc, c)
     ]
     return left_out + unmade
 

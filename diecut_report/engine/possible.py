@@ -29,9 +29,11 @@ def clash(calc: Calculation, step: Clash) -> None:
 
 
 def _refuse(calc: Calculation, step: Require | Clash, variant: int, places: dict[str, int]) -> None:
+    if variant in calc.flaws:  # what follows from numbers that are impossible already says nothing
+        return
     message = "" if calc.is_partial else filled(calc, step.message, variant, places)
     key = filled(calc, step.key, variant, places)
-    calc.flaws.setdefault(variant, (key, message))
+    calc.flaws[variant] = key, message
     if calc.count == 1:
         raise Impossible([(key, message)])
 

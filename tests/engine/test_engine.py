@@ -8,10 +8,10 @@ from typing import Any
 import numpy as np
 import pytest
 
-from diecut_report.api import Annotated, CurveInput, Inputs
-from diecut_report.contract.families import Section
+from diecut_report.api import Annotated, CurveInput, Inputs, Mechanism, Require, Section, Value, bind, formula
 from diecut_report.contract.steps import Root
 from diecut_report.engine import Calculation, CurveHandle, Impossible, Unproven, calculate
+from diecut_report.mechanics import common
 from diecut_report.results import mechanism_results
 from tests.engine.toy import MECHANISM, ROOTED, cube, doubled, plus_one, zero
 from tests.machines import inputs, number
@@ -164,6 +164,29 @@ def test_an_impossible_variant_is_marked_and_leaves_its_neighbours_alone() -> No
     assert calc.flaws == {1: ("arm", "is 600 mm, too long for 2 kN")}
     np.testing.assert_allclose(calc["moment"][[0, 2], 0], [200, 400])
     np.testing.assert_allclose(calc["torque_max"][[0, 2], 0], np.array([200, 400]) * (np.sin(STEP) + 1))
+
+
+@formula
+def root_of(arm: Any) -> Any:
+    return np.sqrt(arm)
+
+
+@formula
+def is_between(root: Any) -> Any:
+    return root > 0.5
+
+
+def test_what_follows_from_an_impossible_number_makes_no_message() -> None:
+    steps = (
+        Require(id="positive", condition=bind(common.is_positive, quantity="arm"), key="arm", message="is {arm}"),
+        Value(id="root", symbol="r", unit="m", description="Root", formula=bind(root_of)),
+        Require(id="long", condition=is_between, key="arm", message="has a root of {root}"),
+    )
+    mechanism = Mechanism(
+        kind="m", version="1", title="M", summary="M.", inputs=MECHANISM.inputs, sections=(Section("S", steps),)
+    )
+    calc = calculate(mechanism, inputs(MECHANISM, {}) | {"arm": np.array([0.04, -1.0])}, 2)
+    assert calc.flaws[0][1] == "has a root of 200 mm" and calc.flaws[1][1] == "is -1000 mm"
 
 
 def test_variants_may_jump_at_places_of_their_own() -> None:

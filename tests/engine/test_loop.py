@@ -196,13 +196,19 @@ def test_a_part_of_a_row_can_be_referred_to_by_its_name(tmp_path: Path, plugins:
 
 
 def test_a_whole_row_cannot_be_referred_to(tmp_path: Path, plugins: Discovery) -> None:
-    text = HEAD + "  a: {kind: loop, pull: 1, fence: {posts: [{x: 0}, {x: 2}]}}\n  b: {kind: loop, pull: 1, swing: '${a.gap}'}\n"
+    text = (
+        HEAD
+        + "  a: {kind: loop, pull: 1, fence: {posts: [{x: 0}, {x: 2}]}}\n  b: {kind: loop, pull: 1, swing: '${a.gap}'}\n"
+    )
     (problem,) = problems(tmp_path, text, plugins)
     assert "${a.gap} has a value for each of fence.posts; refer to one, as in ${a.gap.0}." in problem
 
 
 def test_of_numbered_parts_the_first_is_suggested(tmp_path: Path, plugins: Discovery) -> None:
-    text = HEAD + "  a: {kind: loop, pull: 1, fence: {posts: [{x: 0}, {x: 2}]}}\n  b: {kind: loop, pull: 1, swing: '${a.way_}'}\n"
+    text = (
+        HEAD
+        + "  a: {kind: loop, pull: 1, fence: {posts: [{x: 0}, {x: 2}]}}\n  b: {kind: loop, pull: 1, swing: '${a.way_}'}\n"
+    )
     assert "(did you mean 'way_2'?)" in problems(tmp_path, text, plugins)[0]
 
 
