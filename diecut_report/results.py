@@ -77,13 +77,14 @@ def absent(calc: Calculation, provenance: Mapping[str, Provenance]) -> list[Data
     unmade = [
         {"title": c.title, "text": f"not checked, though {c.limit} is given: what it limits is not calculated"}
         for c in calc.mechanism.checks
-        if isinstance(c.limit, str)
-        and provenance.get(c.limit, GIVEN).origin != "default"
-        and c.limit in calc.inputs
-        and c.limit not in calc.values
-        and not applies(calc, c)
+        if _is_limit_given(calc, str(c.limit), provenance) and not applies(calc, c)
     ]
     return left_out + unmade
+
+
+def _is_limit_given(calc: Calculation, name: str, provenance: Mapping[str, Provenance]) -> bool:
+    """Whether a limit is an input that is there, and not by its default alone."""
+    return name in calc.inputs and name not in calc.values and provenance.get(name, GIVEN).origin != "default"
 
 
 def worst(statuses: Any) -> str:

@@ -186,7 +186,7 @@ def test_what_follows_from_an_impossible_number_makes_no_message() -> None:
         kind="m", version="1", title="M", summary="M.", inputs=MECHANISM.inputs, sections=(Section("S", steps),)
     )
     calc = calculate(mechanism, inputs(MECHANISM, {}) | {"arm": np.array([0.04, -1.0])}, 2)
-    assert calc.flaws[0][1] == "has a root of 200 mm" and calc.flaws[1][1] == "is -1000 mm"
+    assert calc.flaws[0][1] == "has a root of 0.2000 m" and calc.flaws[1][1] == "is -1000 mm"
 
 
 def test_variants_may_jump_at_places_of_their_own() -> None:
