@@ -18,8 +18,8 @@ from diecut_report.contract.binding import Binding, Bound, ByText, bound
 from diecut_report.contract.checks import Check
 from diecut_report.contract.families import taken
 from diecut_report.contract.inputs import Block, fields, nested
-from diecut_report.contract.mechanism import Mechanism
-from diecut_report.contract.steps import SILENT, Abscissa, Case, Choice, Root, Step, Value
+from diecut_report.contract.mechanism import Mechanism, axes
+from diecut_report.contract.steps import SILENT, Abscissa, Case, Choice, Reduction, Root, Step, Value
 from diecut_report.expressions import Constant, Formula, evaluate
 from diecut_report.units import unit
 
@@ -66,7 +66,9 @@ def units_of(mechanism: Mechanism) -> dict[str, str]:
             found[step.id] = unit(step.unit).si
             if step.numbered:
                 found |= {step.numbered.format(i): found[step.id] for i in range(step.first, step.first + 3)}
-    return found
+    axis_of = axes(tuple(step for _, step in mechanism.steps), mechanism.inputs)
+    extremes = [s for _, s in mechanism.steps if isinstance(s, Reduction) and s.operation in ("max", "min", "abs_max")]
+    return found | {f"{step.id}_at": found[axis_of[step.of]] for step in extremes}
 
 
 def ids(mechanism: Mechanism) -> Iterator[str]:
