@@ -2,17 +2,18 @@
 
 from __future__ import annotations
 
-from diecut_report.api import Formula, Reduction, Require, Section, Step, Value, bind
+from diecut_report.api import Formula, Reduction, Require, Section, Step, Value, Words, bind
 from diecut_report.mechanics import cam, common, contact
-from diecut_report.plugins.cam_gear_transport import loads
+from diecut_report.plugins.cam_gear_transport import advice, arms, loads
 from diecut_report.plugins.cam_gear_transport.inputs import CAMS, TORQUE
 
 NO_CAMS = "not calculated: arm_length, roller_radius, arm_angle_1 and arm_angle_2 are not all given"
 LOADED = (*TORQUE, "roller_width")
 
 OTHER_ARM = (
-    "the line O₁O₃; one arm must stay on its left ({least_arm_angle} to {greatest_arm_angle}) and the other on its right (180° more), so that "
-    "one cam pushes the sector one way and the other cam back"
+    "the line O₁O₃; one arm must stay on its left (more than {least_arm_angle:up}, less than {greatest_arm_angle:down}) and the other on its "
+    "right (180° more), so that one cam pushes the sector one way and the other cam back; take "
+    "{arm_angles_best}"
 )
 
 
@@ -53,6 +54,7 @@ ROCKER = Section(
               output=False, formula=loads.least_arm_angle),
         Value(id="greatest_arm_angle", symbol="χ_max", unit="deg", description="Greatest angle of an arm on the left of O₁O₃",
               source="geometry", output=False, formula=loads.greatest_arm_angle),
+        Words(id="arm_angles_best", function=arms.angles_at_the_ends, takes=("center_distance", "arm_length", "sector_dwell_sweep", "sector_sweep")),
         *_swing("1"),
         *_swing("2"),
         _one_side("1"),
@@ -93,7 +95,7 @@ def _profile(number: str) -> tuple[Step, ...]:
               source="geometry", formula=bind(common.sum_of, first=f"arm_angle_{number}", second="sector_angle")),
         curve("pitch_x", f"x_p{number}", "mm", "Pitch curve x", cam.pitch_x),
         curve("pitch_y", f"y_p{number}", "mm", "Pitch curve y", cam.pitch_y),
-        curve("path", f"p_{number}", "mm", "Path of the roller's centre for each radian of the disc", cam.roller_path, output=False),
+        curve("path", f"l_{number}", "mm", "Path of the roller's centre for each radian of the disc", cam.roller_path, output=False),
         curve("x", f"x_{number}", "mm", "Profile x", cam.profile_x),
         curve("y", f"y_{number}", "mm", "Profile y", cam.profile_y),
         curve("pressure_angle", f"δ_{number}", "deg", "Pressure angle", cam.pressure_angle),
@@ -154,6 +156,9 @@ BOTH = Section(
               source="geometry", formula=bind(common.smaller_of, first="cam_1_curvature_min", second="cam_2_curvature_min")),
         Value(id="tangent_distance_min", symbol="q_min", unit="mm", description="Least distance of O₁ from the tangents of both pitch curves",
               source="geometry", formula=bind(common.smaller_of, first="cam_1_tangent_min", second="cam_2_tangent_min")),
+        Words(id="arms_that_fit", function=arms.arms_that_fit, takes=arms.TAKES, lacks=("module",)),
+        Words(id="arms_that_fit", function=arms.arms_that_fit, takes=(*arms.TAKES, "module"), needs=("module",)),
+        Words(id="roller_smaller", function=advice.smaller_roller, takes=("curvature_min", "tangent_distance_min")),
     ),
 )  # fmt: skip
 
@@ -177,7 +182,7 @@ def _loaded(number: str) -> tuple[Step, ...]:
                            length="roller_width")),
         Reduction(id=f"cam_{number}_roller_force_peak", symbol=f"F_max,{number}", unit="N", description=f"Greatest force on roller {number}",
                   source="statics", of=f"roller_force_{number}", operation="max"),
-        Reduction(id=f"cam_{number}_contact_pressure_max", symbol=f"p_max,{number}", unit="MPa", needs=("roller_width",),
+        Reduction(id=f"cam_{number}_contact_pressure_max", symbol=f"p_H{number},max", unit="MPa", needs=("roller_width",),
                   description=f"Greatest contact pressure of roller and cam {number}", source="Hertz", of=f"contact_pressure_{number}",
                   operation="max"),
     )  # fmt: skip
@@ -199,9 +204,11 @@ LOADS = Section(
         *_loaded("2"),
         Value(id="roller_force_peak", symbol="F_max", unit="N", description="Greatest force on a roller", source="statics",
               formula=bind(common.greater_of, first="cam_1_roller_force_peak", second="cam_2_roller_force_peak")),
-        Value(id="contact_pressure", symbol="p_max", unit="MPa", description="Greatest contact pressure of a roller", source="Hertz",
+        Value(id="contact_pressure", symbol="p_H,max", unit="MPa", description="Greatest contact pressure of a roller", source="Hertz",
               needs=("roller_width",),
               formula=bind(common.greater_of, first="cam_1_contact_pressure_max", second="cam_2_contact_pressure_max")),
+        Words(id="contact_softer", function=advice.softer_contact, needs=("roller_width", "allowable_contact_pressure"),
+              takes=("contact_pressure", "allowable_contact_pressure", "roller_width", "cycles_per_hour")),
     ),
 )  # fmt: skip
 

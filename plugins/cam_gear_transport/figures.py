@@ -26,11 +26,8 @@ from diecut_report.plugins.cam_gear_transport.cams import LOADED
 from diecut_report.plugins.cam_gear_transport.drawing import cam_1, cam_2, rolling
 from diecut_report.plugins.cam_gear_transport.inputs import CAMS, SHEET, TORQUE
 
-PHASES = (
-    Span(start="angle_dwell", end="dwell_angle", label="phase II: dwell"),
-    Span(start="angle_stop", end="angle_start", label="phase IV: return"),
-)
-BETWEEN = "Between the shaded phases II and IV the sector stops in phase III; after IV it starts again in phase I."
+BETWEEN = "Between the shaded phases II (dwell) and IV (return) the sector stops in phase III; after IV it starts again in phase I."
+SHADED = "Shaded: dwell (phase II) and return (phase IV)."
 LONGEST = 0.9  # share of a turn up to which dwells are drawn
 POINTS = 241  # of the lines of a comparison
 
@@ -44,7 +41,7 @@ def ratio_over_dwell(view: View) -> list[Shape]:
         chart_panel(
             "Radius of the gear to that of the pin",
             "1",
-            "share of the dwell",
+            "Share of the dwell",
             "T_2",
             "1",
             lines=[line(shares, ratios, "R₁/R₂")],
@@ -79,7 +76,7 @@ def laws_compared(view: View) -> list[Shape]:
         moving, words = x >= view["dwell_angle"], name.replace("_", " ")
         speeds.append(line(x[moving], speed[moving] / (2 * np.pi), f"{words}, {ratio:.2f}"))
         accelerations.append(line(x[moving], acceleration[moving], f"{words}, {top:.0f}"))
-    across = ("disc angle from the start of the dwell", "φ", "deg")
+    across = ("Disc angle from the start of the dwell", "φ", "deg")
     return [
         chart_panel("Speed of the gear to that of the disc", "1", *across, lines=speeds),
         chart_panel("Acceleration of the gear", "rad/s**2", *across, lines=accelerations),
@@ -87,10 +84,18 @@ def laws_compared(view: View) -> list[Shape]:
 
 
 def _panel(
-    title: str, unit: str, *series: tuple[str, str], marks: tuple[Mark, ...] = (), levels: tuple[Level, ...] = ()
+    title: str,
+    unit: str,
+    *series: tuple[str, str],
+    marks: tuple[Mark, ...] = (),
+    levels: tuple[Level, ...] = (),
+    named: bool = False,
 ) -> Panel:
+    """A panel with the phases II and IV shaded; ``named`` where no curve lies on the bottom edge, where their names stand."""
     drawn = tuple(Series(curve=curve, label=words) for curve, words in series)
-    return Panel(title=title, unit=unit, series=drawn, marks=marks, levels=levels, spans=PHASES)
+    phases = (("angle_dwell", "dwell_angle", "II"), ("angle_stop", "angle_start", "IV"))
+    spans = tuple(Span(start=start, end=end, label=name if named else "") for start, end, name in phases)
+    return Panel(title=title, unit=unit, series=drawn, marks=marks, levels=levels, spans=spans)
 
 
 FIGURES = (
@@ -99,42 +104,42 @@ FIGURES = (
             "that of the sector which rolls off on it, so the gear stands (figure 3 of 003)."),
     Plot(id="phase_diagram", title="Phase diagram of the sector", abscissa="disc_angle",
          caption="Angle of the sector relative to the disc over a turn of the disc (figure 4 of 003). " + BETWEEN,
-         panels=(_panel("Angle of the sector", "deg", ("sector_angle", "γ")),)),
+         panels=(_panel("Angle of the sector", "deg", ("sector_angle", "γ"), named=True),)),
     Chart(id="radius_ratio", title="Radius of the gear over the dwell", build=ratio_over_dwell,
           caption="The longer the dwell, the smaller the gear (figure 5 of 003), for this sweep of the sector. Beyond the first line the return is "
           "shorter than accepted, beyond the second one dwell, stop and start would take the whole turn."),
     Plot(id="sector_speed", title="Speed of the sector by phase", abscissa="disc_angle",
-         caption="Speed and acceleration of the sector relative to the disc, speed per turn of the disc (figure 6 of 003).",
-         panels=(_panel("Speed", "rad", ("sector_speed", "ω₃")), _panel("Acceleration", "rad/s**2", ("sector_acceleration", "ε₃")))),
+         caption="Speed and acceleration of the sector relative to the disc, speed per turn of the disc (figure 6 of 003). " + SHADED,
+         panels=(_panel("Speed", "rad", ("sector_speed", "ω₃")), _panel("Acceleration", "rad/s**2", ("sector_acceleration", "ε₃"), named=True))),
     Plot(id="gear_motion", title="Motion of the gear over a turn", abscissa="disc_angle",
-         caption="Angle, speed (per turn of the disc, figure 7 of 003) and acceleration of the gear, which drives the conveyor.",
+         caption="Angle, speed (per turn of the disc, figure 7 of 003) and acceleration of the gear, which drives the conveyor. " + SHADED,
          panels=(_panel("Angle", "deg", ("gear_angle", "φ₁")),
                  _panel("Speed", "rad", ("gear_speed", "ω₁"), marks=(Mark(x="gear_speed_peak_at", y="gear_speed_peak", label="greatest"),)),
-                 _panel("Acceleration", "rad/s**2", ("gear_acceleration", "ε₁")))),
+                 _panel("Acceleration", "rad/s**2", ("gear_acceleration", "ε₁"), named=True))),
     Plot(id="sheet", title="Motion of the sheet", abscissa="disc_angle", needs=SHEET,
-         caption="Position, velocity and acceleration of the sheet over a cycle.",
+         caption="Position, velocity and acceleration of the sheet over a cycle. " + SHADED,
          panels=(_panel("Position", "mm", ("sheet_position", "x")), _panel("Velocity", "m/s", ("sheet_velocity", "V")),
-                 _panel("Acceleration", "m/s**2", ("sheet_acceleration", "W")))),
+                 _panel("Acceleration", "m/s**2", ("sheet_acceleration", "W"), named=True))),
     Chart(id="laws", title="Motion laws for the same dwell", build=laws_compared,
           caption="Speed and acceleration of the gear by each law of motion, each with its greatest value, for the same dwell and the same "
           "sweeps of the sector. A law with a lower peak velocity stops the sector sooner and leaves its return more time."),
     Plot(id="torque", title="Torque", abscissa="disc_angle", needs=TORQUE,
-         caption="Torque at the shafts of disc and gear, without losses; negative where the conveyor drives back.",
-         panels=(_panel("Torque", "N*m", ("drive_torque", "disc"), ("gear_torque", "gear")),)),
+         caption="Torque at the shafts of disc and gear, without losses; negative where the conveyor drives back. " + SHADED,
+         panels=(_panel("Torque", "N*m", ("drive_torque", "disc"), ("gear_torque", "gear"), named=True),)),
     *(Drawing(id=f"cam_{number}", title=f"Cam {number}", build=build, needs=CAMS,
               caption=f"Cam {number} to scale, with the path of its roller's centre (dashed) and that of the pin O₃ (dash-dotted); arm and roller in "
               "the middle of the dwell, light: where the sector stops. The cam stands still, the disc turns counter-clockwise; its angle counts "
               "from the right.")
       for number, build in (("1", cam_1), ("2", cam_2))),
     Plot(id="cam_angles", title="Pressure angle and curvature of the cams", abscissa="disc_angle", needs=CAMS,
-         caption="Pressure angle, and curvature of the pitch curves: convex above zero, hollow below.",
+         caption="Pressure angle, and curvature of the pitch curves: convex above zero, hollow below. " + SHADED,
          panels=(_panel("Pressure angle", "deg", ("cam_1_pressure_angle", "cam 1"), ("cam_2_pressure_angle", "cam 2"),
                         levels=(Level(value="max_pressure_angle", label="accepted"),)),
-                 _panel("Curvature", "1/m", ("cam_1_curvature", "cam 1"), ("cam_2_curvature", "cam 2")))),
+                 _panel("Curvature", "1/m", ("cam_1_curvature", "cam 1"), ("cam_2_curvature", "cam 2"), named=True))),
     Plot(id="roller_forces", title="Forces on the rollers", abscissa="disc_angle", needs=(*CAMS, *TORQUE),
-         caption="Force of each cam on its roller: one pushes the sector one way, the other one back.",
+         caption="Force of each cam on its roller: one pushes the sector one way, the other one back. " + SHADED,
          panels=(_panel("Force", "N", ("roller_force_1", "roller 1"), ("roller_force_2", "roller 2")),)),
     Plot(id="contact", title="Contact pressure of the rollers", abscissa="disc_angle", needs=(*CAMS, *LOADED),
-         caption="Greatest pressure in the line contact of roller and cam.",
+         caption="Greatest pressure in the line contact of roller and cam. " + SHADED,
          panels=(_panel("Pressure", "MPa", ("contact_pressure_1", "cam 1"), ("contact_pressure_2", "cam 2")),)),
 )  # fmt: skip

@@ -43,7 +43,8 @@ FALL = {"sweep": "sector_sweep", "time": "time_return"}
 SECTOR = Section(
     "Motion of the sector",
     text="The disc angle counts from the start of the dwell. γ is the sector's angle relative to the disc, counter-clockwise, 0 at the "
-    "start of the dwell; k is the share of the rise or return that has passed, in the dwell that of the rise's middle, where it is as fast.",
+    "start of the dwell; k is the share of the rise or return that has passed, in the dwell that of the rise's middle, where it is as fast. "
+    "φ_m and k_m hold for a whole phase and are shown in its middle, all other quantities at the one φ that is named.",
     steps=(
         Abscissa(id="disc_angle", symbol="φ", unit="deg", description="Disc angle from the start of the dwell", period=2 * np.pi,
                  shown_at="gear_power_peak_at"),

@@ -2,29 +2,12 @@
 
 from __future__ import annotations
 
-from math import floor, log10, pi
-
 from diecut_report.api import ByText, Lookup, Require, Section, Value, Words, bind
 from diecut_report.mechanics import common
 from diecut_report.mechanics.motion_laws import MIDDLE_POSITION, MIDDLE_VELOCITY, PEAK_ACCELERATION, PEAK_VELOCITY
-from diecut_report.plugins.cam_gear_transport import formulas
+from diecut_report.plugins.cam_gear_transport import advice, formulas
 
 LEAST_RETURN = 1e-9  # share of a turn: below it what is left for the return is rounding
-
-
-def angle_below(angle: float) -> str:
-    """An angle in print, rounded down to four digits, and less than itself."""
-    shown = angle * 180 / pi
-    step = 10.0 ** (floor(log10(shown)) - 3)
-    return f"{floor(shown / step - 1e-6) * step:.10g}°"
-
-
-def advice(dwell: float, sweep: float) -> str:
-    """Words on what leaves the return more time."""
-    either = f"a dwell_angle of at most {angle_below(dwell)}" if dwell > 0 else ""
-    other = f"a sector_stop_sweep of at most {angle_below(sweep)} with this dwell" if sweep > 0 else ""
-    return " or ".join(filter(None, (either, other))) or "a shorter dwell_angle with a smaller sector_stop_sweep"
-
 
 ROLLING = Section(
     "Rolling of the sector on the gear",
@@ -42,9 +25,11 @@ ROLLING = Section(
               formula=bind(formulas.gear_teeth, sweep="inputs.sector_dwell_sweep")),
         Value(id="sector_wheel_teeth", whole=True, symbol="z_3", description="Teeth of the sector, counted as a full wheel", source="this method",
               needs=("module",), formula=formulas.other_teeth),
+        Words(id="module_finer", function=advice.finer_teeth, takes=("center_distance", "inputs.sector_dwell_sweep", "dwell_angle"),
+              needs=("module",)),
         Require(id="some_teeth", needs=("module",), key="module", condition=formulas.both_have_teeth,
-                message="is {module}, with which the gear would have {gear_teeth} and the sector {sector_wheel_teeth} teeth; take a smaller "
-                "module, or change sector_dwell_sweep or dwell_angle"),
+                message="is {module}, with which the gear would have {gear_teeth} and the sector {sector_wheel_teeth} teeth; take "
+                "{module_finer}, or change sector_dwell_sweep or dwell_angle"),
         Value(id="sector_dwell_sweep", symbol="γ_32", unit="deg", source="003 eq. 1, for whole teeth", needs=("module",), digits=6,
               description="Sweep of the sector during the dwell: as the whole teeth ask for", formula=formulas.sweep_of_teeth),
         Value(id="sector_dwell_sweep", symbol="γ_32", unit="deg", description="Sweep of the sector during the dwell: as given",
@@ -104,12 +89,18 @@ PHASES = Section(
         Value(id="stop_sweep_recommended", symbol="γ_rec", unit="deg", source="003 eq. 4, solved",
               description="Sweep of stop and start that leaves the return its time, with this dwell",
               formula=bind(formulas.stop_sweep_recommended, peak_velocity="law_peak_velocity")),
-        Words(id="return_limit", function=advice, takes=("dwell_angle_limit", "stop_sweep_limit")),
-        Words(id="return_recommended", function=advice, takes=("dwell_angle_recommended", "stop_sweep_recommended")),
+        Words(id="return_recommended", function=advice.leaves_return, takes=("dwell_angle_recommended", "stop_sweep_recommended"),
+              lacks=("module",)),
+        Words(id="return_recommended", function=advice.leaves_return_with_teeth, takes=("dwell_angle_recommended", "stop_sweep_recommended"),
+              needs=("module",)),
+        Words(id="return_limit", function=advice.leaves_return, takes=("dwell_angle_limit", "stop_sweep_limit"),
+              lacks=("module",)),
+        Words(id="return_limit", function=advice.leaves_return_with_teeth, takes=("dwell_angle_limit", "stop_sweep_limit"),
+              needs=("module",)),
         Require(id="return_exists", key="dwell_angle", condition=bind(common.is_below, smaller=LEAST_RETURN, greater="time_return"),
                 message="is {dwell_angle}; with a sector_stop_sweep of {sector_stop_sweep} dwell, stop and start take the whole turn and leave "
-                "T₄ = 1 − T₂ − T₍₃₊₁₎ = {time_return} for the sector's return; {return_limit} leaves one, "
-                "and {return_recommended} leaves it {min_return_time} of the turn"),
+                "T₄ = 1 − T₂ − T₍₃₊₁₎ = {time_return} for the sector's return; take {return_recommended}, which leaves it {min_return_time} of "
+                "the turn. The bare limit, which leaves next to nothing, is {return_limit}"),
         Value(id="angle_dwell", symbol="φ_II", unit="deg", description="Disc angle where the dwell begins, phase II", source="this method",
               output=False, formula=common.zero),
         Value(id="angle_stop", symbol="φ_IV", unit="deg", description="Disc angle where the sector stops: end of phase III",

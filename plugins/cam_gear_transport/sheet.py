@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from diecut_report.api import Reduction, Section, Value, bind
+from diecut_report.api import Reduction, Section, Value, Words, bind
 from diecut_report.mechanics import common
-from diecut_report.plugins.cam_gear_transport import formulas, loads
+from diecut_report.plugins.cam_gear_transport import advice, formulas, loads
 from diecut_report.plugins.cam_gear_transport.inputs import SHEET, TORQUE
 
 CONVEYOR = Section(
@@ -25,6 +25,9 @@ CONVEYOR = Section(
                   of="sheet_velocity", operation="abs_max"),
         Reduction(id="sheet_acceleration_max", symbol="W_max", unit="m/s**2", description="Greatest acceleration of the sheet",
                   source="kinematics", of="sheet_acceleration", operation="abs_max"),
+        Words(id="sheet_gentler", function=advice.gentler_sheet, needs=("allowable_sheet_acceleration",),
+              takes=("sheet_acceleration_max", "allowable_sheet_acceleration", "time_dwell", "sector_dwell_sweep", "sector_stop_sweep",
+                     "law_peak_velocity", "min_return_time", "cycles_per_hour")),
     ),
 )  # fmt: skip
 
@@ -49,7 +52,7 @@ TORQUES = Section(
                   source="energy", of="drive_torque", operation="abs_max"),
         Reduction(id="torque_rms", symbol="M_rms", unit="N*m", description="Root mean square torque at the disc's shaft", source="energy",
                   of="drive_torque", operation="rms"),
-        Reduction(id="energy_turn", symbol="E", unit="J", description="Work of the disc's torque over a turn", source="energy", output=False,
+        Reduction(id="energy_turn", symbol="E_Σ", unit="J", description="Work of the disc's torque over a turn", source="energy", output=False,
                   of="drive_torque", operation="integral"),
         Value(id="kinetic_energy_max", symbol="E_k", unit="J", description="Greatest kinetic energy of the conveyor", source="energy",
               formula=bind(loads.kinetic_energy, velocity="sheet_velocity_max")),

@@ -65,11 +65,11 @@ BASIS = Section(
               formula=bind(related.time_of_cycle, cycles="cycles_per_hour")),
         Value(id="geneva_cycle_time", symbol="T_g", unit="ms", description="Time of a turn of the Geneva drive's crank, as given there",
               source="kinematics", formula=formulas.cycle_time),
-        Choice(id="cycle_basis", symbol="T", description="Cycle time that is compared",
+        Choice(id="cycle_basis", symbol="→", description="Cycle time that is compared",
                cases=(Case("both drives have it", "the cycle times are the same",
                            bind(related.are_alike, one="cycle_time", other="geneva_cycle_time")),
                       Case("the cam-gear's, for both drives", "the Geneva drive has another one"))),
-        Choice(id="step_basis", symbol="S", description="Step that is compared", needs=("cam_step", "geneva_step"),
+        Choice(id="step_basis", symbol="→", description="Step that is compared", needs=("cam_step", "geneva_step"),
                cases=(Case("both drives have it", "the steps are the same", bind(related.are_alike, one="cam_step", other="geneva_step")),
                       Case("the cam-gear's, for both drives", "the Geneva drive has another one"))),
     ),
@@ -98,7 +98,8 @@ IN_SLOT = bind(formulas.holds, flag="engaged")
 
 MOTION = Section(
     "Motion of the sheet over a cycle",
-    text="The cycle begins with the cam-gear's dwell; the motions of both drives have the same middle.",
+    text="The cycle begins with the cam-gear's dwell; the motions of both drives have the same middle. "
+    "k and s hold for a whole piece of the cycle and are shown in its middle, all other curves at the one φ that is named.",
     steps=(
         Value(id="crank_ratio", symbol="λ", description="Geneva: crank radius to centre distance", source="geometry", output=False,
               formula=formulas.crank_ratio),
@@ -113,7 +114,7 @@ MOTION = Section(
         Abscissa(id="cycle_angle", symbol="φ", unit="deg", description="Angle of the cycle, one turn, from the beginning of the cam-gear's dwell",
                  period=2 * np.pi, shown_at="geneva_acceleration_peak_at"),
         Breakpoints(id="engagement", abscissa="cycle_angle", places=("geneva_entry", "geneva_exit")),
-        Choice(id="turns", symbol="n", description="Motion of the Geneva drive that is nearest", output=False, per_piece=True,
+        Choice(id="turns", symbol="k", description="Motion of the Geneva drive that is nearest", output=False, per_piece=True,
                cases=(Case(common.one, "the end of the motion before", bind(related.comes_before, angle="cycle_angle")),
                       Case(common.zero, "the motion of this cycle"))),
         Value(id="geneva_angle", symbol="α", unit="deg", description="Geneva: crank angle from the middle of the motion", source="kinematics",
@@ -209,19 +210,35 @@ SAME_DWELL = Section(
     ),
 )  # fmt: skip
 
+GENEVA_HAS = "the Geneva drive has"
+JUMPS = "its acceleration jumps at entry and exit"
+ACCELERATIONS = {"geneva": "geneva_acceleration_peak", "cam": "cam_acceleration_peak"}
+
 VERDICT = Section(
     "Verdict",
     text="Beside the peaks counts that the Geneva drive's acceleration jumps at entry and exit, which shakes chain and sheet; the cam-gear "
     "does without a jump where its law of motion has no acceleration in the middle of its time.",
     steps=(
-        Choice(id="verdict", symbol="→", description="Which drive suits better",
-               cases=(Case("the Geneva drive: gentler, and dwells as long", "it accelerates the sheet less, and does not dwell less",
-                           bind(related.is_gentle_and_long, geneva="geneva_acceleration_peak", cam="cam_acceleration_peak")),
-                      Case("the Geneva drive dwells as long or longer, the cam-gear is gentler", "the Geneva drive accelerates the sheet more",
+        Choice(id="verdict", symbol="→", description="Peak acceleration and dwell",
+               cases=(Case(f"{GENEVA_HAS} lower peak acceleration and the same dwell, but {JUMPS}", "it accelerates the sheet less",
+                           bind(related.is_gentle_and_alike, **ACCELERATIONS)),
+                      Case(f"{GENEVA_HAS} lower peak acceleration and a longer dwell, but {JUMPS}", "it accelerates the sheet less",
+                           bind(related.is_gentle_and_long, **ACCELERATIONS)),
+                      Case(f"{GENEVA_HAS} lower peak acceleration, but a shorter dwell, and {JUMPS}", "it accelerates the sheet less",
+                           bind(common.is_below, smaller="geneva_acceleration_peak", greater="cam_acceleration_peak")),
+                      Case(f"{GENEVA_HAS} no lower peak acceleration and the same dwell, and {JUMPS}", "it does not accelerate the sheet less",
+                           bind(related.are_alike, one="geneva_dwell", other="dwell_share")),
+                      Case(f"{GENEVA_HAS} a longer dwell, but no lower peak acceleration, and {JUMPS}", "it does not accelerate the sheet less",
                            bind(common.is_at_least, greater="geneva_dwell", smaller="dwell_share")),
-                      Case("the cam-gear dwells longer, the Geneva drive is gentler", "the Geneva drive accelerates the sheet less",
-                           bind(common.is_at_most, smaller="geneva_acceleration_peak", greater="cam_acceleration_peak")),
-                      Case("the cam-gear: gentler, and dwells longer", "it accelerates the sheet less, and dwells longer"))),
+                      Case(f"{GENEVA_HAS} no lower peak acceleration and a shorter dwell, and {JUMPS}", "the cam-gear is ahead in both"))),
+        Choice(id="peaks_verdict", symbol="→", description="Peak velocity and torque",
+               cases=(Case(f"{GENEVA_HAS} lower peak velocity and torque", "both are below the cam-gear's",
+                           bind(related.are_both_below_one, first="velocity_ratio", second="torque_ratio")),
+                      Case(f"{GENEVA_HAS} lower peak velocity, but no lower torque", "its velocity is below the cam-gear's",
+                           bind(common.is_below, smaller="velocity_ratio", greater=1)),
+                      Case(f"{GENEVA_HAS} lower peak torque, but no lower velocity", "its torque is below the cam-gear's",
+                           bind(common.is_below, smaller="torque_ratio", greater=1)),
+                      Case(f"{GENEVA_HAS} no lower peak velocity and torque", "neither is below the cam-gear's"))),
         Choice(id="dwell_verdict", symbol="→", description="Can the cam-gear dwell as long as the Geneva drive",
                cases=(Case("it does already", "its dwell is not shorter",
                            bind(common.is_at_most, smaller="geneva_dwell", greater="dwell_share")),
@@ -240,8 +257,8 @@ COMPARISON = Mechanism(
     "torque for the same mass, dwell, and what the cam-gear would need for the Geneva drive's dwell.",
     inputs=TransportComparison,
     sections=(BASIS, DWELL, MOTION, SHEET, SAME_DWELL, VERDICT),
-    key_results=("verdict", "dwell_verdict", "dwell_ratio", "velocity_ratio", "acceleration_ratio", "torque_ratio", "stop_sweep_limit",
-                 "stop_sweep_best"),
+    key_results=("verdict", "peaks_verdict", "dwell_verdict", "dwell_ratio", "velocity_ratio", "acceleration_ratio", "torque_ratio",
+                 "stop_sweep_limit", "stop_sweep_best"),
     figures=FIGURES,
     assumptions=(
         "Both drives move the same conveyor without losses; torque is that of the conveyor's mass alone, at the shaft that makes a turn a cycle.",

@@ -150,4 +150,16 @@ def acceleration_of_return(
 @formula
 def is_gentle_and_long(geneva: Any, cam: Any, geneva_dwell: Any, dwell_share: Any) -> Any:
     """Whether the Geneva drive has the lower acceleration, and dwells at least as long."""
-    return (geneva <= cam) & (geneva_dwell >= dwell_share)
+    return (geneva < cam) & (geneva_dwell >= dwell_share)
+
+
+@formula
+def is_gentle_and_alike(geneva: Any, cam: Any, geneva_dwell: Any, dwell_share: Any) -> Any:
+    """Whether the Geneva drive has the lower acceleration in the same dwell."""
+    return (geneva < cam) & are_alike(geneva_dwell, dwell_share)
+
+
+@formula
+def are_both_below_one(first: Any, second: Any) -> Any:
+    """Whether two ratios are below one."""
+    return (first < 1) & (second < 1)

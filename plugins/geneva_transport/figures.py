@@ -10,6 +10,7 @@ from diecut_report.api import Chart, Drawing, Shape, View, chart_panel, level, l
 from diecut_report.plugins.geneva_transport import formulas, loads
 from diecut_report.plugins.geneva_transport.drawing import at_entry, positions
 
+COUNTED = "Angles are counted from the middle of the motion: what the results name as α of more than 180° stands here 360° lower, at the same place."
 FROM_MIDDLE = ("Crank angle from the middle of the motion", "α", "deg")
 Curves = dict[str, Any]
 
@@ -104,20 +105,22 @@ FIGURES = (
         id="motion",
         title="Motion of the wheel over a turn",
         caption="Angle, speed and acceleration of the wheel over a turn of the crank, with the motion in the middle. The speed begins and ends "
-        "without a jump, the acceleration jumps at entry and exit.",
+        "without a jump, the acceleration jumps at entry and exit. " + COUNTED,
         build=motion,
     ),
     Chart(
         id="sheet",
         title="Motion of the sheet over a turn",
-        caption="Position, velocity and acceleration of the sheet over a turn of the crank, with the motion in the middle.",
+        caption="Position, velocity and acceleration of the sheet over a turn of the crank, with the motion in the middle. "
+        + COUNTED,
         needs=("sprocket_teeth", "chain_pitch"),
         build=sheet,
     ),
     Chart(
         id="engagement",
         title="Torque and roller force over the engagement",
-        caption="Before the middle the roller drives the wheel; after it the wheel drives the crank, and the roller bears on the slot's other flank.",
+        caption="Before the middle the roller drives the wheel; after it the wheel drives the crank, and the roller bears on the slot's other flank. "
+        + COUNTED,
         needs=("driven_inertia",),
         build=engagement,
     ),

@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
-from diecut_report.api import Case, Choice, Reduction, Require, Section, Value, bind
+from diecut_report.api import Case, Choice, Reduction, Require, Section, Value, Words, bind
 from diecut_report.mechanics import common, contact, triangle
-from diecut_report.plugins.geneva_transport import formulas, loads
+from diecut_report.plugins.geneva_transport import advice, formulas, loads
 from diecut_report.plugins.geneva_transport.motion import CONVEYOR_NEEDS
+
+GEOMETRY = ("slots", "center_distance", "locking_clearance", "roller_radius")
 
 REACHES = bind(common.is_below, smaller="rim_distance", greater="disc_radius")
 
@@ -28,7 +30,7 @@ TORQUE = Section(
                   source="statics"),
         Value(id="kinetic_energy_max", symbol="E_k", unit="J", description="Energy that goes into the wheel and back at each step",
               source="energy", formula=bind(loads.kinetic_energy, speed_ratio="speed_ratio_peak")),
-        Reduction(id="energy_turn", symbol="E", unit="J", description="Work of the torque over a turn", of="torque", operation="integral",
+        Reduction(id="energy_turn", symbol="E_Σ", unit="J", description="Work of the torque over a turn", of="torque", operation="integral",
                   output=False, source="energy"),
         Value(id="energy_residual", symbol="r_E", description="Work over a turn to the energy of a step", source="energy", output=False,
               formula=bind(common.relative_size, quantity="energy_turn", scale="kinetic_energy_max")),
@@ -70,16 +72,20 @@ LOCKING = Section(
                cases=(Case(loads.thick_tip, "the arm's tip between locking arc and slot is as thick as the roller", loads.leaves_thick_tip),
                       Case(loads.half_crank, "such a tip would not pass the cut-out: half the crank's radius", loads.is_deep_enough),
                       Case(loads.halfway, "the disc must reach into the wheel: halfway between rim and flank"))),
+        Words(id="roller_fits", function=advice.roller_that_fits, takes=GEOMETRY, lacks=("locking_radius",)),
+        Words(id="roller_fits", function=advice.roller_that_fits, takes=(*GEOMETRY, "locking_radius"), needs=("locking_radius",)),
+        Words(id="arc_fits", function=advice.arc_that_fits, takes=(*GEOMETRY, "locking_radius")),
+        Words(id="clearance_fits", function=advice.clearance_that_fits, takes=("slots", "center_distance", "roller_radius", "locking_radius")),
         Require(id="locking_below_crank", condition=bind(common.is_below, smaller="locking_radius", greater="crank_radius"),
                 key="locking_radius", message="is {locking_radius}, but the locking disc must stay inside the roller's path: below the crank "
-                "radius C·sin(π/z) = {crank_radius}, and by a roller radius and the arm's thickness below it, so that the wheel's arms last"),
+                "radius C·sin(π/z) = {crank_radius}, and by a roller radius and the arm's thickness below it; take {arc_fits}{roller_fits}"),
         Value(id="arm_tip", symbol="w_t", unit="mm", description="Thickness of an arm at its tip, between locking arc and slot",
               source="geometry", formula=bind(common.difference, greater="flank_distance", smaller="locking_radius")),
         Value(id="arm_neck", symbol="w_n", unit="mm", description="Width of an arm where the locking arc is deepest, from slot to slot",
               source="geometry", formula=loads.neck),
         Require(id="clearance_below_arc", condition=bind(common.is_below, smaller="locking_clearance", greater="locking_radius"),
                 key="locking_clearance", message="is {locking_clearance}, but the locking disc is smaller than its arc by that much: it must be "
-                "below the arc's radius {locking_radius}"),
+                "below the arc's radius {locking_radius:down}, and leave the disc its reach: {clearance_fits}"),
         Value(id="disc_radius", symbol="r_d", unit="mm", description="Radius of the locking disc", source="geometry",
               formula=bind(common.difference, greater="locking_radius", smaller="locking_clearance")),
         Value(id="locking_cutout_angle", symbol="γ_c", unit="deg", description="Angle of the disc's cut-out, in its middle the roller",

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import numpy as np
 
-from diecut_report.api import Abscissa, Breakpoints, Case, Choice, Reduction, Require, Section, Value, bind
+from diecut_report.api import Abscissa, Breakpoints, Case, Choice, Reduction, Require, Section, Value, Words, bind
 from diecut_report.mechanics import common
-from diecut_report.plugins.geneva_transport import formulas
+from diecut_report.plugins.geneva_transport import advice, formulas
 
 CONVEYOR_NEEDS = ("sprocket_teeth", "chain_pitch")
 
@@ -23,7 +23,7 @@ GEOMETRY = Section(
               source="geometry", formula=formulas.wheel_radius),
         Require(id="roller_below_crank", condition=bind(common.is_below, smaller="roller_radius", greater="crank_radius"),
                 key="roller_radius", message="is {roller_radius}, but the roller would cover the crank's axis: it must be smaller than "
-                "the crank radius C·sin(π/z) = {crank_radius}"),
+                "the crank radius C·sin(π/z) = {crank_radius:down}"),
         Value(id="rim_radius", symbol="R_o", unit="mm", description="Radius of the wheel's rim, where both flanks guide the roller from its entry on",
               source="geometry", formula=formulas.rim_radius),
         Value(id="slot_length", symbol="l", unit="mm", description="Length of the slots from the radius R", source="geometry",
@@ -32,7 +32,7 @@ GEOMETRY = Section(
               formula=formulas.nearest_roller),
         Require(id="slot_before_axis", condition=bind(common.is_below, smaller="roller_radius", greater="nearest_distance"),
                 key="roller_radius", message="is {roller_radius}, but the slots would reach beyond the wheel's axis: the roller comes within "
-                "C(1 − λ) = {nearest_distance} of it and must be smaller than that"),
+                "C(1 − λ) = {nearest_distance:down} of it and must be smaller than that"),
         Value(id="hub_radius_max", symbol="r_h", unit="mm", description="Radius of hub and shaft that the slots leave", source="geometry",
               formula=bind(common.difference, greater="nearest_distance", smaller="roller_radius")),
         Value(id="slot_spacing", symbol="e", unit="mm", description="Distance of neighbouring slots' middles at their inner ends", source="geometry",
@@ -85,7 +85,8 @@ MOVING, RESTING = "the roller is in a slot", "the locking disc holds the wheel"
 MOTION = Section(
     "Motion over a turn of the crank",
     text="The crank angle is counted from the middle of the motion, so that the turn begins and ends within an engagement; α′ counts from "
-    "the middle of the present engagement. The wheel turns against the crank; its angle is counted in its own direction.",
+    "the middle of the present engagement. The wheel turns against the crank; its angle is counted in its own direction. "
+    "s and n hold for a whole piece of the turn and are shown in its middle, all other curves at the one α that is named.",
     steps=(
         Abscissa(id="crank_angle", symbol="α", unit="deg", description="Crank angle from the middle of the motion", period=2 * np.pi,
                  shown_at="acceleration_peak_at"),
@@ -139,6 +140,8 @@ CONVEYOR = Section(
               formula=bind(formulas.travel_rate, ratio="speed_ratio_peak")),
         Value(id="sheet_acceleration_max", symbol="a_max", unit="m/s**2", description="Greatest acceleration of the sheet", source="kinematics",
               formula=bind(formulas.travel_acceleration, ratio="acceleration_peak")),
+        Words(id="crank_slower", function=advice.slower_crank, takes=("crank_speed", "sheet_acceleration_max", "allowable_sheet_acceleration"),
+              needs=("allowable_sheet_acceleration",)),
         Value(id="sheet_acceleration_entry", symbol="a_e", unit="m/s**2", description="Jump of the sheet's acceleration at entry and exit",
               source="kinematics", formula=bind(formulas.travel_acceleration, ratio="acceleration_entry")),
     ),

@@ -18,7 +18,7 @@ from diecut_report.engine import Calculation, Impossible, calculate
 from diecut_report.engine.views import MachineView
 from diecut_report.mechanics.motion_laws import LAWS, MotionLaw, register
 from diecut_report.plugins.cam_gear_transport import MECHANISM, drawing, figures
-from diecut_report.plugins.cam_gear_transport.rolling import advice
+from diecut_report.plugins.cam_gear_transport.advice import leaves_return
 from diecut_report.results import mechanism_results
 from diecut_report.testing import check_mechanism
 from tests.machines import inputs, number
@@ -161,13 +161,24 @@ def test_a_centre_distance_without_whole_teeth_is_refused_with_the_nearest_one()
 
 
 def test_a_module_that_leaves_the_gear_no_tooth_is_refused() -> None:
-    with pytest.raises(Impossible, match="smaller module") as refused:
+    with pytest.raises(Impossible, match="have 0 and") as refused:
         stepper(module="300 mm", sector_dwell_sweep="10 deg")
     assert refused.value.key == "module"
+    finer = re.search(r"a module of ([\d.]+) mm", refused.value.message)
+    assert finer is not None
+    assert (
+        checks(stepper(module=float(finer[1]), sector_dwell_sweep="10 deg", sector_stop_sweep="3 deg"))[
+            "tooth_undercut"
+        ]["status"]
+        == "pass"
+    )
 
 
 def test_few_teeth_are_a_warning() -> None:
-    assert checks(stepper(module="12 mm"))["tooth_undercut"]["status"] == "warn"
+    few = checks(stepper(module="12 mm"))["tooth_undercut"]
+    assert few["status"] == "warn"
+    assert "take a module of 8 mm" in few["message"]
+    assert checks(stepper(module="8 mm"))["tooth_undercut"]["status"] == "pass"
     assert checks(stepper(module="5 mm"))["tooth_undercut"]["status"] == "pass"
     assert "tooth_undercut" not in checks(stepper())
 
@@ -274,11 +285,11 @@ def test_without_time_for_a_return_the_message_tells_what_leaves_one(machine: di
         stepper(**machine)
     assert refused.value.key == "dwell_angle"
     told = re.findall(r"(dwell_angle|sector_stop_sweep) of at most ([\d.]+)°", refused.value.message)
-    assert {key for key, _ in told[:2]} == {"dwell_angle", "sector_stop_sweep"}
-    for key, angle in told[:2]:
-        assert number(stepper(**machine | {key: float(angle)}), "time_return") > 0
-    for key, angle in told[2:]:
+    assert {key for key, _ in told[-2:]} == {"dwell_angle", "sector_stop_sweep"}
+    for key, angle in told[:-2]:
         assert checks(stepper(**machine | {key: float(angle)}))["return_time"]["status"] == "pass"
+    for key, angle in told[-2:]:
+        assert number(stepper(**machine | {key: float(angle)}), "time_return") > 0
 
 
 @pytest.mark.parametrize("module", [{}, {"module": "5 mm"}])
@@ -287,6 +298,7 @@ def test_a_short_return_fails_and_the_message_tells_what_lengthens_it(module: di
     assert short["status"] == "fail"
     told = re.findall(r"(dwell_angle|sector_stop_sweep) of at most ([\d.]+)°", short["message"])
     assert len(told) == 2
+    assert ("with these teeth" in short["message"]) == bool(module)
     for key, angle in told:
         assert (
             checks(stepper(**{"dwell_angle": 205.0} | module | {key: float(angle)}))["return_time"]["status"] == "pass"
@@ -294,8 +306,8 @@ def test_a_short_return_fails_and_the_message_tells_what_lengthens_it(module: di
 
 
 def test_where_nothing_alone_helps_both_are_advised() -> None:
-    assert advice(-0.1, -0.2) == "a shorter dwell_angle with a smaller sector_stop_sweep"
-    assert advice(-0.1, 0.2) == "a sector_stop_sweep of at most 11.45° with this dwell"
+    assert leaves_return(-0.1, -0.2) == "a shorter dwell_angle with a smaller sector_stop_sweep"
+    assert leaves_return(-0.1, 0.2) == "a sector_stop_sweep of at most 11.45° with this dwell"
 
 
 @pytest.mark.parametrize(

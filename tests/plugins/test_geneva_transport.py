@@ -238,9 +238,9 @@ def checks(**changes: Any) -> dict[str, dict[str, Any]]:
         (
             {"driven_inertia": 4, "roller_width": "5 mm", "allowable_contact_pressure": 1200},
             "contact_pressure",
-            "a roller of at least",
+            "a roller_width of at least",
         ),
-        ({"slots": 12, "roller_radius": "13 mm"}, "cutout", "flanks at 38.76 mm"),
+        ({"slots": 12, "roller_radius": "13 mm"}, "cutout", "take a locking_radius of"),
     ],
 )
 def test_a_check_fails_in_words_that_tell_what_to_change(changes: dict[str, Any], name: str, words: str) -> None:

@@ -13,6 +13,8 @@ from hypothesis import strategies as st
 
 from diecut_report import pipeline
 from diecut_report.comparing import compared, found
+from diecut_report.contract.inputs import fields
+from diecut_report.contract.mechanism import Mechanism
 from diecut_report.discovery import Discovery
 from diecut_report.engine import Calculation, calculate
 from diecut_report.expressions import Array
@@ -26,6 +28,7 @@ from tests.machines import inputs, number
 
 STEPPER: dict[str, Any] = {"dwell_angle": "160 deg", "center_distance": "300 mm", "cycles_per_hour": 6000}
 CROSS: dict[str, Any] = {"slots": 6, "center_distance": "200 mm", "crank_speed": "100 rpm", "roller_radius": "10 mm"}
+HAS, JUMPS = "the Geneva drive has", "its acceleration jumps at entry and exit"
 CONVEYOR: dict[str, Any] = {"sprocket_teeth": 24, "chain_pitch": "31.75 mm"}  # of the cam-gear: a step of 762 mm
 
 
@@ -155,29 +158,34 @@ def test_the_best_sweep_is_below_the_limit_for_any_number_of_slots(slots: int, h
 @pytest.mark.parametrize(
     "changes, slots, verdict, dwell",
     [
-        ({}, 6, "the Geneva drive: gentler, and dwells as long", "only with a smaller sweep of stop and start"),
+        (
+            {},
+            6,
+            f"{HAS} lower peak acceleration and a longer dwell, but {JUMPS}",
+            "only with a smaller sweep of stop and start",
+        ),
         (
             {},
             3,
-            "the Geneva drive dwells as long or longer, the cam-gear is gentler",
+            f"{HAS} a longer dwell, but no lower peak acceleration, and {JUMPS}",
             "only with a smaller sweep of stop and start",
         ),
         (
             {"sector_stop_sweep": 2},
             3,
-            "the Geneva drive dwells as long or longer, the cam-gear is gentler",
+            f"{HAS} a longer dwell, but no lower peak acceleration, and {JUMPS}",
             "yes, with its sweep of stop and start",
         ),
         (
             {"dwell_angle": 250, "sector_stop_sweep": 2},
             8,
-            "the cam-gear dwells longer, the Geneva drive is gentler",
+            f"{HAS} lower peak acceleration, but a shorter dwell, and {JUMPS}",
             "it does already",
         ),
         (
             {"dwell_angle": 241, "sector_stop_sweep": 2.5, "motion_law": "parabolic"},
             6,
-            "the cam-gear: gentler, and dwells longer",
+            f"{HAS} no lower peak acceleration and a shorter dwell, and {JUMPS}",
             "it does already",
         ),
     ],
@@ -189,13 +197,35 @@ def test_the_verdict_follows_from_peaks_and_dwells(
     gentle = together["geneva_acceleration_peak"] <= together["cam_acceleration_peak"]
     longer = together["dwell_ratio"] >= 1
     told = {
-        (True, True): "the Geneva drive: gentler, and dwells as long",
-        (False, True): "the Geneva drive dwells as long or longer, the cam-gear is gentler",
-        (True, False): "the cam-gear dwells longer, the Geneva drive is gentler",
-        (False, False): "the cam-gear: gentler, and dwells longer",
+        (True, True): f"{HAS} lower peak acceleration and a longer dwell, but {JUMPS}",
+        (False, True): f"{HAS} a longer dwell, but no lower peak acceleration, and {JUMPS}",
+        (True, False): f"{HAS} lower peak acceleration, but a shorter dwell, and {JUMPS}",
+        (False, False): f"{HAS} no lower peak acceleration and a shorter dwell, and {JUMPS}",
     }
     assert together["verdict"] == verdict == told[gentle, longer]
     assert together["dwell_verdict"] == dwell
+    lower = {name for name in ("velocity", "torque") if together[f"{name}_ratio"] < 1}
+    words = {("torque", "velocity"): "lower peak velocity and torque", ("velocity",): "lower peak velocity, but no lower torque",
+             ("torque",): "lower peak torque, but no lower velocity", (): "no lower peak velocity and torque"}  # fmt: skip
+    assert together["peaks_verdict"] == f"{HAS} {words[tuple(sorted(lower))]}"
+
+
+def test_the_same_dwell_is_told_as_the_same() -> None:
+    for changes, words in (({"sector_stop_sweep": 3}, "lower peak acceleration and the same dwell, but"),
+                           ({"sector_stop_sweep": 3, "motion_law": "parabolic"}, "peak acceleration and the same dwell, ")):  # fmt: skip
+        assert words in outputs(dwelling(**changes), geneva())["verdict"]
+
+
+@pytest.mark.parametrize("mechanism", [CAM, GENEVA, COMPARISON], ids=lambda m: m.kind)
+def test_each_quantity_has_a_symbol_of_its_own(mechanism: Mechanism) -> None:
+    """An input and the step that takes it over are one quantity; an arrow leads to words."""
+    carried = {"cam_gear_speed": "gear_speed", "cam_gear_acceleration": "gear_acceleration"}
+    owners: dict[str, set[str]] = {}
+    for name, meta in fields(mechanism.inputs):
+        owners.setdefault(meta.symbol, set()).add(name)
+    for _, step in mechanism.steps:
+        owners.setdefault(step.symbol, set()).add(carried.get(step.id, step.id))
+    assert {symbol: ids for symbol, ids in owners.items() if len(ids) > 1 and symbol not in ("", "→")} == {}
 
 
 def test_a_press_with_both_drives_is_compared_and_one_with_a_single_drive_is_not(tmp_path: Path) -> None:
