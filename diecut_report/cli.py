@@ -47,7 +47,7 @@ def run() -> NoReturn:
 def main(arguments: Sequence[str] | None = None) -> int:
     """Run a command; its exit code. What a user can mend is told on standard error."""
     # starting makes many lasting objects; to look for garbage among them costs a tenth of a run
-    gc.set_threshold(100_000)
+    gc.set_threshold(1_000_000)
     try:
         return int(program.main(arguments, prog_name="diecut-report", standalone_mode=False) or PASSED)
     except click.Abort:

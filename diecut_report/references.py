@@ -73,10 +73,10 @@ class Linker:
 
     def _not_in_press(self, instance: Instance) -> Iterator[KeyPath]:
         press = self.instances[PRESS]
-        assert press is not None, "the press is no plugin"
+        known = press.given if press else frozenset()  # a config without a press has told so already
         for slot in slots(instance.model, instance.data):
             default = default_of(slot)
-            if default and default.optional and default.path.removeprefix(f"{PRESS}.") not in press.given:
+            if default and default.optional and default.path.removeprefix(f"{PRESS}.") not in known:
                 yield slot.key
 
     def _written(self, instance: Instance) -> None:

@@ -206,3 +206,9 @@ def test_a_list_in_place_of_the_sheet_is_told(tmp_path: Path) -> None:
 def test_the_schema_version_is_a_number(tmp_path: Path, version: str) -> None:
     text = LEVER.replace("schema_version: 1", f"schema_version: {version}")
     assert "the number 1 is needed, without quotes" in "".join(problems(tmp_path, text))
+
+
+def test_a_config_without_a_press_is_told_so_also_where_its_mechanisms_have_defaults_from_it(tmp_path: Path) -> None:
+    damper = "{kind: damper, kinetic_energy: 150, elastic_modulus: 8, ring_width: 50, pad_height: 30}"
+    found = problems(tmp_path, f"schema_version: 1\nproject: {{title: T}}\nmechanisms:\n  a: {damper}\n")
+    assert any(": press: is missing" in problem for problem in found)

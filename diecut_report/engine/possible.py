@@ -29,7 +29,7 @@ def clash(calc: Calculation, step: Clash) -> None:
 
 
 def _refuse(calc: Calculation, step: Require | Clash, variant: int, places: dict[str, int]) -> None:
-    if variant in calc.flaws:  # what follows from numbers that are impossible already says nothing
+    if variant in calc.flaws and calc.count > 1:  # what follows from impossible numbers says nothing more
         return
     message = "" if calc.is_partial else filled(calc, step.message, variant, places)
     key = filled(calc, step.key, variant, places)

@@ -41,9 +41,27 @@ def length_left_over(center_distance: Any, small: Any, large: Any, belt: Any) ->
 
 
 @formula
-def stands_between(least: Any, quantity: Any, greatest: Any) -> Any:
-    """Whether a quantity lies in a range."""
-    return (quantity >= least) & (quantity <= greatest)
+def ratio_leaves_room(ratio: Any, largest: Any, least: Any, distance: Any) -> Any:
+    """Whether it is not a ratio too great for a V-belt that makes the pulleys overlap."""
+    return (ratio <= largest) | (least < distance)
+
+
+@formula
+def has_room(ratio: Any, largest: Any, least: Any, distance: Any) -> Any:
+    """Whether the pulleys stand apart, or it is the ratio that is to blame."""
+    return (ratio > largest) | (least < distance)
+
+
+@formula
+def ratio_leaves_belt(ratio: Any, largest: Any, shortest: Any, length: Any, longest: Any) -> Any:
+    """Whether it is not a ratio too great for a V-belt for which there is no belt."""
+    return (ratio <= largest) | ((length >= shortest) & (length <= longest))
+
+
+@formula
+def has_belt(ratio: Any, largest: Any, shortest: Any, length: Any, longest: Any) -> Any:
+    """Whether there is a belt of such a length, or it is the ratio that is to blame."""
+    return (ratio > largest) | ((length >= shortest) & (length <= longest))
 
 
 @formula

@@ -19,10 +19,11 @@ from diecut_report.api import (
     Section,
     Total,
     Value,
+    Words,
     bind,
 )
 from diecut_report.mechanics import common
-from diecut_report.plugins.drive_train import advice, shafts
+from diecut_report.plugins.drive_train import advice, motor_advice, shafts
 
 SPEEDS = Section(
     "Ratios and speeds",
@@ -48,7 +49,8 @@ SPEEDS = Section(
               formula=bind(common.quotient, quantity="total_ratio", by="gear_ratio_total")),
         Require(id="belt_steps_down", condition=shafts.steps_down, key="output_speed",
                 message="is {inputs.output_speed}; with motor_speed = {motor_speed} and the gears' ratio {gear_ratio_total} that leaves the "
-                "V-belt a ratio of {vbelt_ratio}, but it must be 1 … 7: take fewer driven teeth, a faster motor or a slower output"),
+                "V-belt a ratio of {vbelt_ratio}, but it cannot speed up: give the gears a ratio "
+                "of at most {total_ratio:down}, with fewer driven teeth or fewer pairs, or take a faster motor"),
         Value(id="driven_diameter_exact", symbol="d_2′", unit="mm", description="Diameter of the driven pulley for this ratio",
               source="kinematics", output=False, formula=bind(common.product, first="vbelt_ratio", second="vbelt.driver_diameter")),
         Pick(id="driven_diameter", symbol="d_2", unit="mm", description="Datum diameter of the driven pulley", source="R40 series",
@@ -110,6 +112,8 @@ TURN = Section(
               formula=bind(shafts.mean_off, driving_mean="driving_mean", braking_mean="braking_mean", torque_mean="torque_mean")),
         Value(id="peak_difference", symbol="ΔM_peak", unit="N*m", description="Peak of the curve off the peak torque given", output=False,
               formula=bind(shafts.off, one="curve_peak", other="torque_peak")),
+        Words(id="mean_advice", description="Which mean torque belongs to the curve", function=motor_advice.mean_advice, output=False,
+              takes=("driving_mean", "braking_mean")),
         Value(id="accepted_difference", symbol="[ΔM]", unit="N*m", description="What the curve may differ from them", output=False,
               formula=bind(shafts.hundredth_of, torque="curve_peak")),
     ),
@@ -141,7 +145,7 @@ POWERS = Section(
               formula=bind(common.over_product, quantity="shaft_2_torque", first="vbelt_ratio_actual", second="vbelt.efficiency")),
         Running(id="efficiency_before", symbol="Πη", description="Efficiency from the flywheel's shaft to the shaft behind the pair",
                 source="mechanics", output=False, needs=("gears",), of="gears.efficiency", operation="product"),
-        Value(id="efficiency_behind", symbol="η_k", description="Efficiency from there to the output", source="mechanics", output=False,
+        Value(id="efficiency_behind", symbol="η_k′", description="Efficiency from there to the output", source="mechanics", output=False,
               needs=("gears",), formula=bind(common.quotient, quantity="gears_efficiency", by="efficiency_before")),
         Value(id="ratio_behind", symbol="i_k′", description="Ratio from there to the output", source="kinematics", output=False,
               needs=("gears",), formula=bind(common.quotient, quantity="gear_ratio_total", by="ratio_before")),
@@ -165,15 +169,15 @@ BALANCE = Section(
     steps=(
         Value(id="power_output", symbol="P", unit="kW", description="Mean power that the output takes", source="mechanics",
               formula=bind(shafts.net_power, speed="output_speed")),
-        Value(id="vbelt_loss", symbol="V_b", unit="kW", description="Mean power lost in the V-belt", source="mechanics",
+        Value(id="vbelt_loss", symbol="P_V,b", unit="kW", description="Mean power lost in the V-belt", source="mechanics",
               formula=bind(shafts.lost, power="shaft_1_power", efficiency="vbelt.efficiency")),
-        Value(id="gear_loss", symbol="V_k", unit="kW", description="Mean power lost in the pair", source="mechanics", needs=("gears",),
+        Value(id="gear_loss", symbol="P_V,k", unit="kW", description="Mean power lost in the pair", source="mechanics", needs=("gears",),
               formula=bind(shafts.lost_both_ways, speed="output_speed", behind="efficiency_behind", efficiency="gears.efficiency")),
-        Total(id="gears_loss", symbol="V_g", unit="kW", description="Mean power lost in all gears", source="mechanics", needs=("gears",),
+        Total(id="gears_loss", symbol="P_V,g", unit="kW", description="Mean power lost in all gears", source="mechanics", needs=("gears",),
               of="gear_loss", operation="sum"),
-        Value(id="gears_loss", symbol="V_g", unit="kW", description="Mean power lost in gears: there are none", source="mechanics",
+        Value(id="gears_loss", symbol="P_V,g", unit="kW", description="Mean power lost in gears: there are none", source="mechanics",
               lacks=("gears",), formula=common.zero),
-        Value(id="losses_total", symbol="V", unit="kW", description="Mean power lost", source="mechanics",
+        Value(id="losses_total", symbol="P_V", unit="kW", description="Mean power lost", source="mechanics",
               formula=bind(common.sum_of, first="vbelt_loss", second="gears_loss")),
         Value(id="power_missing", symbol="ΔP", unit="W", description="Power missing in the balance", output=False,
               formula=bind(shafts.unbalanced, power_in="shaft_1_power", losses="losses_total", power_out="power_output")),

@@ -46,12 +46,18 @@ def inertia_before(own: Any, behind: Any, ratio: Any, efficiency: Any) -> Any:
 
 
 @formula
+def referred(behind: Any, ratio: Any, efficiency: Any) -> Any:
+    """Inertia that a shaft feels of what turns slower behind a ratio, with the losses between."""
+    return behind / (ratio**2 * efficiency)
+
+
+@formula
 def run_up_time(inertia: Any, speed: Any, accelerating_torque: Any) -> Any:
     """Time in which a constant torque brings the inertia to its speed."""
     return inertia * speed / accelerating_torque
 
 
 @formula
-def accelerates(accelerating_torque: Any) -> Any:
-    """Whether the motor's torque is above the load."""
-    return accelerating_torque > 0
+def accelerates(accelerating_torque: Any, inertia: Any) -> Any:
+    """Whether there is an inertia, and the motor's torque is above the load."""
+    return (accelerating_torque > 0) & (inertia > 0)

@@ -15,7 +15,7 @@ class GearPair(Block):
 
     driver_teeth: Annotated[int, Quantity("z_1", "1", "Teeth of the driving gear", ge=12, integer=True)]
     driven_teeth: Annotated[int, Quantity("z_2", "1", "Teeth of the driven gear", ge=12, integer=True)]
-    efficiency: Annotated[float, Quantity("η", "1", "Efficiency of the pair", gt=0, le=1)] = 0.97
+    efficiency: Annotated[float, Quantity("η_k", "1", "Efficiency of the pair", gt=0, le=1)] = 0.97
 
 
 class VBelt(Block):

@@ -10,7 +10,6 @@ from diecut_report.api import (
     Annotated,
     Block,
     ByText,
-    Check,
     Clash,
     Erratum,
     Lookup,
@@ -25,6 +24,7 @@ from diecut_report.api import (
     formula,
 )
 from diecut_report.mechanics import belt_path, common
+from diecut_report.plugins.drive_train.belt_pulleys import LISTED, LISTED_CHECKS, MARKS, PULLEYS
 from diecut_report.plugins.drive_train.toothed_belt_figure import TOOTHED_BELT_FIGURES
 
 
@@ -32,12 +32,23 @@ class Pulley(Block):
     """A pulley of the toothed belt."""
 
     x: Annotated[float, Quantity("x", "mm", "Place of the pulley's axis along x")]
-    y: Annotated[float, Quantity("y", "mm", "Place of the pulley's axis along y")]
+    y: Annotated[
+        float, Quantity("y", "mm", "Place of the pulley's axis along y, upwards; the die lies below the cylinder")
+    ]
     radius: Annotated[float, Quantity("r", "mm", "Radius to the belt's pitch line", gt=0)]
     side: Annotated[
         Literal["inside", "outside"],
-        Text("Whether the pulley lies inside the belt's loop or outside it"),
+        Text(
+            "Whether the pulley lies inside the belt's loop or outside it, on the belt's back; the driving or the cylinder's pulley "
+            "outside carries load there and needs a belt toothed on both sides"
+        ),
     ]
+    role: Annotated[
+        Literal["cylinder", "other"],
+        Text(
+            "Whether this is the pulley fixed to the cylinder; marked, it is compared with driven_radius and engagement"
+        ),
+    ] = "other"
 
 
 class ToothedBelt(Block):
@@ -51,15 +62,28 @@ class ToothedBelt(Block):
         float,
         Quantity("V", "m/s", "Velocity of the carriage, normally cylinder_drive's velocity_max", gt=0),
     ]
-    shaft_speed: Annotated[float, Quantity("ω_p", "rpm", "Speed of the driving pulley's shaft", gt=0)]
+    shaft_speed: Annotated[
+        float,
+        Quantity(
+            "ω_p",
+            "rpm",
+            "Speed of the driving pulley's shaft, taken as given, not as the train's rounding makes it",
+            gt=0,
+        ),
+    ]
     pitch: Annotated[float, Quantity("p", "mm", "Pitch of the belt's teeth", gt=0)]
     engagement: Annotated[
         Literal["away", "die"],
-        Text("Side of the cylinder's axis on which its pulley rolls on the belt: away from the die, or the die's"),
+        Text(
+            "Side of the cylinder's axis on which its pulley rolls on the belt: away from the die (the belt passes over the pulley, the die "
+            "lying below), or the die's (it passes below)"
+        ),
     ] = "away"
     pulleys: Annotated[
         list[Pulley],
-        Text("Pulleys in the order in which the belt meets them, counter-clockwise; with them the belt's length"),
+        Text(
+            "Pulleys in the order in which the belt meets them, counter-clockwise, the driving pulley first; with them the belt's length"
+        ),
     ] = []  # noqa: RUF012
 
 
@@ -85,6 +109,12 @@ def pulley_radius(belt_speed: Any, shaft_speed: Any) -> Any:
 def pulley_teeth(radius: Any, pitch: Any) -> Any:
     """Whole number of teeth nearest to a pitch radius."""
     return np.round(2 * np.pi * radius / pitch)
+
+
+@formula
+def radius_of_teeth(teeth: Any, pitch: Any) -> Any:
+    """Pitch radius of a whole number of teeth."""
+    return teeth * pitch / (2 * np.pi)
 
 
 @formula
@@ -128,7 +158,6 @@ def alone(x: Any) -> Any:
     return np.zeros_like(x, dtype=int) if x.shape[1] == 1 else np.full(x.shape, -1)
 
 
-PULLEYS = "toothed_belt.pulleys"
 PULLEY = PULLEYS + ".{index}"
 ROLLING = {
     "velocity": "toothed_belt.cylinder_velocity",
@@ -155,12 +184,14 @@ SPEED = Section(
               source="002 eq. 10", digits=6, formula=bind(pulley_radius, shaft_speed="toothed_belt.shaft_speed")),
         Value(id="driving_pulley_teeth", whole=True, symbol="z_p", description="Teeth of the belt's driving pulley, the nearest whole number",
               source="this method", formula=bind(pulley_teeth, radius="driving_pulley_radius", pitch="toothed_belt.pitch")),
+        Value(id="driving_pulley_pitch_radius", symbol="r_pz", unit="mm", description="Pitch radius of the driving pulley with whole teeth",
+              source="geometry", digits=6, formula=bind(radius_of_teeth, teeth="driving_pulley_teeth", pitch="toothed_belt.pitch")),
         Require(id="pulley_has_teeth", condition=bind(has_teeth, teeth="driving_pulley_teeth"), key="toothed_belt.pitch",
                 message="is more than twice the circumference of the driving pulley, whose radius is {driving_pulley_radius}; "
                 "take a smaller pitch or a slower shaft"),
-        Value(id="driving_pulley_speed_error", symbol="ε_b", unit="%", description="Error of the belt's speed from whole teeth",
-              source="this method", formula=bind(speed_error, teeth="driving_pulley_teeth", pitch="toothed_belt.pitch",
-                                                 shaft_speed="toothed_belt.shaft_speed")),
+        Value(id="driving_pulley_speed_error", symbol="ε_b", unit="%", source="this method",
+              description="Error of the belt's speed from whole teeth, at the given shaft_speed",
+              formula=bind(speed_error, teeth="driving_pulley_teeth", pitch="toothed_belt.pitch", shaft_speed="toothed_belt.shaft_speed")),
     ),
 )  # fmt: skip
 
@@ -176,11 +207,12 @@ PATH = Section(
               message="has one pulley; a belt needs at least two"),
         Lookup(id="pulley_side", symbol="σ", description="Side of the pulley: inside 1, outside −1", source="this method", output=False,
                by=f"{PULLEYS}.side", table={"inside": 1.0, "outside": -1.0}),
-        Value(id="signed_radius", symbol="ρ", unit="mm", description="Radius, negative outside", output=False, source="geometry",
+        *MARKS,
+        Value(id="signed_radius", symbol="r_σ", unit="mm", description="Radius, negative outside", output=False, source="geometry",
               formula=bind(belt_path.signed, side="pulley_side", size=f"{PULLEYS}.radius")),
         Neighbour(id="next_pulley_x", symbol="x′", unit="mm", description="The next pulley's place along x", output=False, of=f"{PULLEYS}.x"),
         Neighbour(id="next_pulley_y", symbol="y′", unit="mm", description="The next pulley's place along y", output=False, of=f"{PULLEYS}.y"),
-        Neighbour(id="next_signed_radius", symbol="ρ′", unit="mm", description="The next pulley's radius, negative outside", output=False,
+        Neighbour(id="next_signed_radius", symbol="r_σ′", unit="mm", description="The next pulley's radius, negative outside", output=False,
                   of="signed_radius"),
         Value(id="pulley_distance", symbol="d", unit="mm", description="Distance to the next pulley", output=False, source="geometry",
               formula=bind(belt_path.center_distance, **PLACES)),
@@ -192,7 +224,7 @@ PATH = Section(
         Clash(id="pulleys_counter_clockwise", function=belt_path.clockwise, takes=LAYOUT, key=PULLEYS,
               message="pulleys {part} to {other} are listed clockwise, so the signed wraps do not sum to 360°; reverse their order, so "
               "that the belt meets them counter-clockwise"),
-        Value(id="straight_runs", symbol="L", unit="mm", description="Straight run to the next pulley", source="geometry",
+        Value(id="straight_runs", symbol="l", unit="mm", description="Straight run to the next pulley", source="geometry",
               formula=bind(belt_path.run_length, center_distance="pulley_distance", **RADII)),
         Value(id="run_direction", symbol="θ", unit="deg", description="Direction of the run", source="geometry", output=False,
               formula=bind(belt_path.run_direction, center_distance="pulley_distance", **PLACES, **RADII)),
@@ -227,7 +259,7 @@ LENGTH = Section(
     steps=(
         Value(id="belt_arcs", symbol="s", unit="mm", description="Belt on the pulley", source="geometry", output=False,
               formula=bind(belt_path.arc, radius=f"{PULLEYS}.radius", wrap="wraps")),
-        Total(id="straight_length", symbol="ΣL", unit="mm", description="All straight runs", digits=6, of="straight_runs", operation="sum"),
+        Total(id="straight_length", symbol="Σl", unit="mm", description="All straight runs", digits=6, of="straight_runs", operation="sum"),
         Total(id="arc_length", symbol="Σs", unit="mm", description="All arcs", digits=6, of="belt_arcs", operation="sum"),
         Value(id="toothed_belt_length", symbol="L_b", unit="mm", description="Length of the toothed belt's path", digits=7,
               source="002 eq. 11, in general", formula=bind(common.sum_of, first="straight_length", second="arc_length")),
@@ -238,30 +270,19 @@ LENGTH = Section(
               formula=bind(take_up, teeth="toothed_belt_teeth", pitch="toothed_belt.pitch", length="toothed_belt_length")),
         Value(id="teeth_in_mesh", symbol="z_m", description="Teeth along the wrap", source="this method",
               formula=bind(teeth_in_mesh, radius=f"{PULLEYS}.radius", wrap="wraps", pitch="toothed_belt.pitch")),
-        Total(id="teeth_in_mesh_min", symbol="z_m,min", description="Least teeth in mesh of the inside pulleys", of="teeth_in_mesh",
-              operation="min", among="pulley_side"),
+        Total(id="teeth_in_mesh_min", symbol="z_m,min", description="Least teeth in mesh of the toothed pulleys", of="teeth_in_mesh",
+              operation="min", among="has_teeth"),
     ),
 )  # fmt: skip
 
-TOOTHED_BELT = (SPEED, PATH, LENGTH)
+TOOTHED_BELT = (SPEED, PATH, LENGTH, LISTED)
 
-TOOTHED_BELT_CHECKS = (
-    Check(
-        id="teeth_in_mesh",
-        title="Teeth in mesh",
-        demand=6.0,
-        limit="teeth_in_mesh_min",
-        unit="1",
-        demand_label="required on each inside pulley",
-        limit_label="fewest",
-        source="practice",
-        consequence="the belt's teeth shear or jump; a larger pulley, a smaller pitch or an idler outside that adds wrap helps.",
-    ),
-)
+TOOTHED_BELT_CHECKS = LISTED_CHECKS
 
 TOOTHED_BELT_ASSUMPTIONS = (
     "The toothed belt neither stretches nor sags, all pulleys lie in one plane, and radii are to its pitch line, also at pulleys that the "
-    "belt's back runs over.",
+    "belt's back runs over. Outside pulleys are smooth, but for the cylinder's.",
+    "A loaded pulley outside the loop, the driving or the cylinder's, needs a belt that is toothed on both sides.",
 )
 
 TOOTHED_BELT_ERRATA = (

@@ -7,9 +7,24 @@ from diecut_report.plugins.drive_train.layout import layout
 
 
 def belt_layout(view: View) -> list[Shape]:
-    """The belt over its pulleys."""
+    """The belt over its pulleys, and where it can be known the cylinder on the die."""
     x, y, radius = (view.row(f"toothed_belt.pulleys.{key}") for key in ("x", "y", "radius"))
-    return layout(x, y, radius, view.row("pulley_side"), [view.word(f"wraps.{i}") for i in range(len(x))])
+    wraps = [view.word(f"wraps.{i}") for i in range(len(x))]
+    drawn = layout(x, y, radius, view.row("pulley_side"), [f"{wraps[0]}, driving", *wraps[1:]])
+    roles = view.words("toothed_belt.pulleys.role")
+    return drawn + (_cylinder(view, roles.index("cylinder")) if "cylinder" in roles else [])
+
+
+def _cylinder(view: View, pulley: int) -> list[Shape]:
+    """The cylinder behind its pulley, rolling on the die."""
+    x, y = (view.row(f"toothed_belt.pulleys.{key}")[pulley] for key in ("x", "y"))
+    radius = view["toothed_belt.cylinder_radius"]
+    return [
+        circle((x, y), radius, "ghost"),
+        polyline([(x - 2 * radius, y - radius), (x + 2 * radius, y - radius)], "ground"),
+        label((x + 0.75 * radius, y + 0.8 * radius), f"cylinder, on pulley {pulley + 1}"),
+        label((x - 1.95 * radius, y - 0.9 * radius), "die"),
+    ]
 
 
 def cylinder_on_belt(view: View) -> list[Shape]:
@@ -38,7 +53,7 @@ TOOTHED_BELT_FIGURES = (
         id="toothed_belt_rolling",
         title="Cylinder on the toothed belt",
         caption="The cylinder on the die to scale with its pulley (dash-dotted: pitch circle) and the belt; the arrows show how fast the "
-        "carriage and the belt move.",
+        "carriage and the belt move. The die lies below, the belt runs over the pulley with engagement: away, below it with engagement: die.",
         build=cylinder_on_belt,
         needs=("toothed_belt",),
     ),
@@ -46,7 +61,8 @@ TOOTHED_BELT_FIGURES = (
         id="toothed_belt_layout",
         title="Toothed belt",
         caption="The belt's pitch line over its pulleys to scale; at each axis the number of the pulley, in the order in which the belt meets "
-        "it, and its wrap. The arrow beside the longest run points along the order.",
+        "it, and its wrap; the first one drives. The arrow beside the longest run points along the order. The die lies below: the cylinder "
+        "(thin circle) is drawn on it where a pulley has role: cylinder.",
         build=belt_layout,
         needs=("toothed_belt", "toothed_belt.pulleys"),
     ),

@@ -11,14 +11,25 @@ from diecut_report.api import (
     Value,
     Words,
     bind,
-    standard_series_by,
     standard_table,
 )
 from diecut_report.mechanics import belt_path, common, triangle
 from diecut_report.plugins.drive_train import advice, belts
 
-LENGTHS = standard_series_by("iso_4184_lengths")
 PULLEYS = {"small": "small_radius", "large": "large_radius"}
+LARGEST: dict[str, str | float] = {"ratio": "vbelt_ratio", "largest": advice.LARGEST_RATIO}
+RATIO: dict[str, str | float] = LARGEST | {"distance": "vbelt.center_distance"}
+RANGE: dict[str, str | float] = LARGEST | {
+    "shortest": "shortest_belt",
+    "length": "vbelt_length",
+    "longest": "longest_belt",
+}
+RATIO_TOO_GREAT = (
+    f"leave the V-belt a ratio of {{vbelt_ratio}}, above the {advice.LARGEST_RATIO:g} that one V-belt covers: from motor_speed = "
+    "{motor_speed} to output_speed = {inputs.output_speed} it is {total_ratio}, of which the gears have {gear_ratio_total}; {gears_advice}"
+)
+FOR_PULLEYS = ("vbelt_ratio", "vbelt.driver_diameter", "least_driver_diameter", "vbelt.center_distance", "shortest_belt", "longest_belt",
+               "shaft_1_speed")  # fmt: skip
 
 VBELT = Section(
     "V-belt",
@@ -36,33 +47,37 @@ VBELT = Section(
         Value(id="least_center_distance", symbol="a_min", unit="mm", description="Distance at which the pulleys touch", output=False,
               formula=bind(common.sum_of, first="small_radius", second="large_radius")),
         Lookup(id="shortest_belt", symbol="L_min", unit="mm", description="Shortest standard belt of the section", source="ISO 4184",
-               output=False, by="vbelt.section", table={name: series.values[0] for name, series in LENGTHS.items()}),
+               output=False, by="vbelt.section", table={name: series.values[0] for name, series in advice.LENGTHS.items()}),
         Lookup(id="longest_belt", symbol="L_max", unit="mm", description="Longest standard belt of the section", source="ISO 4184",
-               output=False, by="vbelt.section", table={name: series.values[-1] for name, series in LENGTHS.items()}),
+               output=False, by="vbelt.section", table={name: series.values[-1] for name, series in advice.LENGTHS.items()}),
+        Words(id="gears_advice", description="Which ratio the gears need", function=advice.gears_advice, output=False,
+              takes=("total_ratio", "vbelt.driver_diameter", "vbelt.center_distance", "shortest_belt", "longest_belt")),
+        Words(id="distance_advice", description="Which distances of the shafts suit the pulleys", function=advice.distance_advice,
+              output=False, takes=("small_radius", "large_radius", "shortest_belt", "longest_belt")),
+        Require(id="ratio_leaves_room", condition=bind(belts.ratio_leaves_room, least="least_center_distance", **RATIO), key="gears",
+                message=RATIO_TOO_GREAT),
         Require(id="driver_large_enough",
                 condition=bind(common.is_at_most, smaller="least_driver_diameter", greater="vbelt.driver_diameter"),
                 key="vbelt.driver_diameter",
                 message="is {vbelt.driver_diameter}, but a belt of section {vbelt.section} needs pulleys of {least_driver_diameter} or more: "
                 "take a larger pulley or a smaller section"),
-        Require(id="pulleys_apart", condition=bind(common.is_below, smaller="least_center_distance", greater="vbelt.center_distance"),
-                key="vbelt.center_distance",
-                message="is {vbelt.center_distance}, but pulleys of {vbelt.driver_diameter} and {driven_diameter} then overlap: it must be "
-                "above {least_center_distance}"),
+        Require(id="pulleys_apart", condition=bind(belts.has_room, least="least_center_distance", **RATIO), key="vbelt.center_distance",
+                message="is {vbelt.center_distance}, but pulleys of {vbelt.driver_diameter} and {driven_diameter} overlap up to "
+                "{least_center_distance:up}: {distance_advice}"),
         Value(id="vbelt_length", symbol="L_0", unit="mm", description="Length of the belt at the wanted distance of the shafts",
               source="geometry", formula=bind(belt_path.open_belt_length, center_distance="vbelt.center_distance", **PULLEYS)),
-        Require(id="belt_exists",
-                condition=bind(belts.stands_between, least="shortest_belt", quantity="vbelt_length", greatest="longest_belt"),
-                key="vbelt.center_distance",
+        Require(id="ratio_leaves_belt", condition=bind(belts.ratio_leaves_belt, **RANGE), key="gears", message=RATIO_TOO_GREAT),
+        Require(id="belt_exists", condition=bind(belts.has_belt, **RANGE), key="vbelt.center_distance",
                 message="is {vbelt.center_distance}; that takes a belt of {vbelt_length}, but section {vbelt.section} has standard lengths of "
-                "{shortest_belt} … {longest_belt}: change the distance or the section"),
+                "{shortest_belt} … {longest_belt}: {distance_advice}"),
         Pick(id="vbelt_standard_length", symbol="L", unit="mm", description="Standard length of the belt", source="ISO 4184",
-             of="vbelt_length", series=LENGTHS, by="vbelt.section", rule="nearest"),
+             of="vbelt_length", series=advice.LENGTHS, by="vbelt.section", rule="nearest"),
         Value(id="least_belt", symbol="L_t", unit="mm", description="Length of the belt with the pulleys touching", output=False,
               formula=bind(belt_path.open_belt_length, center_distance="least_center_distance", **PULLEYS)),
         Require(id="standard_belt_fits", condition=bind(common.is_below, smaller="least_belt", greater="vbelt_standard_length"),
                 key="vbelt.center_distance",
                 message="is {vbelt.center_distance}; the nearest standard belt, {vbelt_standard_length} long, draws the pulleys into each "
-                "other ({least_belt} is the least): take a greater distance"),
+                "other ({least_belt:up} is the least): {distance_advice}"),
         Root(id="center_distance", symbol="a", unit="mm", description="Distance of the shafts, corrected for the standard belt",
              source="geometry", equation=bind(belts.length_left_over, belt="vbelt_standard_length", **PULLEYS),
              unknown="center_distance", low=bind(common.same, quantity="least_center_distance"),
@@ -73,10 +88,10 @@ VBELT = Section(
               formula=bind(belt_path.wrap_small, **PULLEYS)),
         Value(id="vbelt_wrap_large", symbol="β_2", unit="deg", description="Wrap on the larger pulley", source="geometry", output=False,
               formula=bind(belt_path.wrap_large, wrap_small="vbelt_wrap")),
-        Words(id="driver_advice", symbol="d_1", description="How the motor's pulley would meet the demanded speed",
-              function=advice.driver_advice, output=False,
-              takes=("vbelt_ratio", "vbelt.driver_diameter", "least_driver_diameter", "vbelt.center_distance", "shortest_belt",
-                     "longest_belt", "shaft_1_speed")),
+        Words(id="driver_advice", description="How the motor's pulley would meet the demanded speed", function=advice.driver_advice,
+              output=False, takes=FOR_PULLEYS),
+        Words(id="slower_belt_advice", description="How the motor's pulley would make the belt slower", function=advice.slower_belt_advice,
+              output=False, takes=FOR_PULLEYS),
     ),
 )  # fmt: skip
 

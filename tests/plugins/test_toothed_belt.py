@@ -192,7 +192,7 @@ def test_the_drawn_belt_is_a_closed_line_of_the_belt_s_length() -> None:
 def test_the_pulleys_are_drawn_with_their_numbers_and_wraps() -> None:
     figures = {figure["id"]: figure["shapes"] for figure in mechanism_results(belt(IDLER), {})["figures"]}
     labels = [shape["label"] for shape in figures["toothed_belt_layout"] if shape["shape"] == "point"]
-    assert labels == ["1: 196.0°", "2: 196.0°", "3: 32.01°"]
+    assert labels == ["1: 196.0°, driving", "2: 196.0°", "3: 32.01°"]
 
 
 # --- layouts that cannot be ------------------------------------------------------------------------------------------
