@@ -3,20 +3,27 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from math import acos, cos, degrees, floor, log10, pi, radians
+from math import acos, cos, floor, log10, pi
 from typing import Any, NamedTuple
 
 import numpy as np
 
+from diecut_report.api import si
 from diecut_report.mechanics import cam
 from diecut_report.mechanics.motion_laws import LAWS, MotionLaw
 from diecut_report.plugins.cam_gear_transport import formulas, loads
 
 FACTORS = np.linspace(1, 0.05, 20)  # of lengths and sweeps that are tried
-CLEAR = radians(0.01)  # by which a pressure angle keeps its limit
+DEGREE = si(1, "deg")
+CLEAR = 0.01 * DEGREE  # by which a pressure angle keeps its limit
 SOUND = 1.01  # by which radii keep theirs
 PLACES = np.linspace(0, 1, 121)  # of the samples over a rise; the laws' joints are among them
 EIGHTHS = np.linspace(0, 1, 9)  # where the usual laws jump
+
+
+def in_degrees(angle: float) -> float:
+    """An angle as it is typed and printed."""
+    return angle / DEGREE
 
 
 class Rocker(NamedTuple):
@@ -113,16 +120,16 @@ def _three_digits(number: float) -> float:
 
 
 def _best(rocker: Rocker, cycle: Motion, length: float, arm: float, left: bool) -> tuple[float, float]:
-    """An arm's angle that passes, in degrees, and its pressure angle: as it is, or the best; infinite where none passes."""
+    """An arm's angle that passes, in °, and its pressure angle: as it is, or the best; infinite where none passes."""
     limit = rocker.accepted - CLEAR
     if (np.sin(arm + rocker.held / 2) > 0) == left:
         own = float(pressure_angles(rocker, cycle, length, np.array([arm]))[0])
         if own <= limit:
-            return degrees(arm), own
+            return in_degrees(arm), own
     angles = np.arange(1.0, 180.0) + (0 if left else 180) - 360 * (arm < 0)
-    found = pressure_angles(rocker, cycle, length, np.radians(angles))
+    found = pressure_angles(rocker, cycle, length, angles * DEGREE)
     near = angles[np.argmin(found)] + np.arange(-9, 10) / 10
-    fine = pressure_angles(rocker, cycle, length, np.radians(near))
+    fine = pressure_angles(rocker, cycle, length, near * DEGREE)
     angles, found = (angles, found) if found.min() <= limit else (near, fine)
     least = float(found.min())
     return float(round(angles[np.argmin(found)], 1)), least if least <= limit else np.inf
@@ -145,8 +152,8 @@ def fitting(rocker: Rocker) -> tuple[dict[str, str], float] | None:
         one, first = _best(rocker, cycle, length, rocker.arm_angle_1, left)
         other, second = _best(rocker, cycle, length, rocker.arm_angle_2, not left)
         if max(first, second) < np.inf:
-            values = (("arm_length", length * 1000, rocker.arm_length * 1000, " mm"), ("arm_angle_1", one, degrees(rocker.arm_angle_1), "°"),
-                      ("arm_angle_2", other, degrees(rocker.arm_angle_2), "°"))  # fmt: skip
+            values = (("arm_length", length * 1000, rocker.arm_length * 1000, " mm"), ("arm_angle_1", one, in_degrees(rocker.arm_angle_1), "°"),
+                      ("arm_angle_2", other, in_degrees(rocker.arm_angle_2), "°"))  # fmt: skip
             changed = {key: f"{new:.6g}{sign}" for key, new, old, sign in values if new != old}
             if changed:
                 return changed, max(first, second)
@@ -156,14 +163,14 @@ def fitting(rocker: Rocker) -> tuple[dict[str, str], float] | None:
 def narrower(rocker: Rocker) -> Iterator[tuple[dict[str, str], Rocker]]:
     """The same machine with both sweeps narrower at about the same shares of the turn, and what is to be given for that."""
     for factor in FACTORS[1:]:
-        held = _three_digits(degrees(rocker.held) * factor)
+        held = _three_digits(in_degrees(rocker.held) * factor)
         stop = _three_digits(held * rocker.stop / rocker.held)
-        turned = radians(held)
+        turned = held * DEGREE
         if rocker.module:
             together = formulas.teeth_together(rocker.center_distance, rocker.module)
             teeth = np.maximum(formulas.gear_teeth(together, turned, rocker.dwell), 1)
             turned = float(formulas.sweep_of_teeth(rocker.dwell, teeth, formulas.other_teeth(together, teeth)))
-        tried = rocker._replace(held=turned, stop=radians(stop))
+        tried = rocker._replace(held=turned, stop=stop * DEGREE)
         if leaves_time(tried):
             yield {"sector_dwell_sweep": f"{held:g}°", "sector_stop_sweep": f"{stop:g}°"}, tried
 
@@ -171,7 +178,7 @@ def narrower(rocker: Rocker) -> Iterator[tuple[dict[str, str], Rocker]]:
 def _told(values: dict[str, str], greatest: float) -> str:
     words = [f"{'an' if key[0] == 'a' else 'a'} {key} of {value}" for key, value in values.items()]
     loaded = " (shorter arms raise the roller forces)" if "arm_length" in values else ""
-    return f"take {', '.join(words)}: the greatest pressure angle is then {degrees(greatest):.3g}°{loaded}"
+    return f"take {', '.join(words)}: the greatest pressure angle is then {in_degrees(greatest):.3g}°{loaded}"
 
 
 def arms_that_fit(*numbers: float) -> str:
@@ -196,6 +203,6 @@ def angles_at_the_ends(center_distance: float, arm_length: float, held: float, s
     There the rocker turns with the disc, and |cos ψ + a/R|/|sin ψ| is the same at both ends where the middle of the swing, at c,
     has cos c = −a/R·cos(sweep/2).
     """
-    middle = degrees(acos(-min(arm_length / center_distance, 0.99) * cos(sweep / 2)))
-    left, right = (angle - degrees(held) / 2 for angle in (middle, 360 - middle))
+    middle = in_degrees(acos(-min(arm_length / center_distance, 0.99) * cos(sweep / 2)))
+    left, right = (angle - in_degrees(held) / 2 for angle in (middle, 360 - middle))
     return f"{left:.1f}° and {right:.1f}°, with which the pressure angles at both ends of the swings are the least"

@@ -7,6 +7,7 @@ from diecut_report.plugins.clutch.figures import FIGURES
 from diecut_report.plugins.clutch.inputs import Clutch
 from diecut_report.plugins.clutch.steps import SECTIONS
 
+ROUNDING = 1e-9  # relative: a size typed in at its limit reaches it
 HEATED = ("driven_inertia", "speed")
 
 MECHANISM = Mechanism(
@@ -23,35 +24,36 @@ MECHANISM = Mechanism(
     checks=(
         Check(id="wedge_feasible", title="Wedge can be engaged", demand="held_share", limit="radial_share", unit="1", operator="<",
               demand_label="share held by friction, f·sin α", limit_label="share that presses, cos α", source="002 eq. 13",
-              consequence="no force on the cone presses the shoes; make the wedge angle less than {wedge_angle_limit}."),
+              consequence="no force on the cone presses the shoes; {wedge_advice}."),
         Check(id="releases", title="Clutch releases by itself", demand="wedge_friction", limit="wedge_slope", unit="1", operator="<",
               demand_label="friction f", limit_label="slope tan α", source="statics",
               consequence="the wedge locks itself: without P_1 the clutch stays engaged, and the cone must be pulled out with "
-              "{release_force}; make the wedge angle greater than {friction_angle} or its friction less than {wedge_slope}."),
-        Check(id="pressure", title="Pressure of the lining", demand="pressure", limit="allowable_pressure", unit="MPa", needs=("shoe_width",),
+              "{release_force}; {release_advice}."),
+        Check(id="pressure", title="Pressure of the lining", demand="pressure", limit="allowable_pressure", tolerance=ROUNDING, unit="MPa",
+              needs=("shoe_width",),
               demand_label="pressure", limit_label="allowed", source="002 eq. 17",
-              consequence="the given shoes are too narrow; make them at least {shoe_width} wide, or the drum or the coverage greater."),
-        Check(id="width_ratio", title="Width of the shoes", demand="width_ratio", limit=0.5, unit="1",
+              consequence="the given shoes are too narrow; {pressure_advice}."),
+        Check(id="width_ratio", title="Width of the shoes", demand="width_ratio", limit=0.5, tolerance=ROUNDING, unit="1",
               demand_label="width to diameter", limit_label="accepted", source="this method",
-              consequence="so wide shoes do not bear evenly; make shoe_radius at least {least_radius}, or the shoes narrower with a lining "
-              "of more friction or pressure."),
-        Check(id="axial_travel", title="Travel of the cone", demand="axial_travel", limit="available_travel", unit="mm",
+              consequence="so wide shoes do not bear evenly; take a lining of more friction, whose shoes may be narrower, or "
+              "{width_advice}."),
+        Check(id="axial_travel", title="Travel of the cone", demand="axial_travel", limit="available_travel", tolerance=ROUNDING, unit="mm",
               needs=("radial_gap", "available_travel"), demand_label="travel for gap and wear", limit_label="available", source="geometry",
-              consequence="the cone meets its stop before the lining is worn; permit less wear, or make the wedge angle at least "
-              "{travel_angle}, which asks for more force."),
+              consequence="the cone meets its stop before the lining is worn; {travel_advice}."),
         Check(id="slip_share", title="Time between engagements", demand="slip_share", limit=1.0, unit="1", operator="<", needs=HEATED,
               demand_label="share of time in slip", limit_label="all of it", source="kinematics",
               consequence="the next engagement begins before this one is over ({slip_time}); fewer engagements an hour, less inertia or "
               "load, or more torque."),
         Check(id="lining_power_density", title="Friction power of the lining", demand="lining_power_density",
-              limit="allowable_power_density", unit="W/cm**2", needs=(*HEATED, "allowable_power_density"),
+              limit="allowable_power_density", tolerance=ROUNDING, unit="W/cm**2", needs=(*HEATED, "allowable_power_density"),
               demand_label="mean power for each area", limit_label="allowed", source="this method",
-              consequence="the lining wears and burns; at most {engagements_limit} engagements, wider shoes or less driven inertia."),
-        Check(id="pv", title="Pressure times sliding speed", demand="pv", limit="allowable_pv", unit="MPa*m/s",
+              consequence="the lining wears and burns; set engagements_per_hour to at most {engagements_limit:down}, or take wider shoes or "
+              "less driven inertia."),
+        Check(id="pv", title="Pressure times sliding speed", demand="pv", limit="allowable_pv", tolerance=ROUNDING, unit="MPa*m/s",
               needs=("speed", "allowable_pv"), demand_label="product as the shoes touch", limit_label="allowed", source="this method",
-              consequence="the lining glazes as it engages; wider shoes or a lower speed."),
+              consequence="the lining glazes as it engages; {pv_advice}."),
         Check(id="temperature_rise", title="Temperature of the lining", demand="lining_temperature_rise",
-              limit="allowable_temperature_rise", unit="K", needs=(*HEATED, "allowable_temperature_rise"),
+              limit="allowable_temperature_rise", tolerance=ROUNDING, unit="K", needs=(*HEATED, "allowable_temperature_rise"),
               demand_label="greatest rise", limit_label="allowed", source="this method",
               consequence="the lining loses its friction; less driven inertia, wider shoes, fewer engagements or better cooling."),
     ),

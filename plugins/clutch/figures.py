@@ -119,8 +119,13 @@ def _drum(radius: float, width: float) -> Shape:
 def _moved(view: View, cone: list[Point]) -> list[Shape]:
     """The cone where the gap to the drum is open; none where no gap is given, or where it lies far out of the picture."""
     back = view.get("engagement_travel", 0.0)
-    near = 0 < back < 2 * view["lining_width"]
-    return [polyline([(x - back, y) for x, y in cone], "hidden", closed=True)] if near else []
+    if not 0 < back < 2 * view["lining_width"]:
+        return []
+    moved = [(x - back, y) for x, y in cone]
+    return [
+        polyline(moved, "hidden", closed=True),
+        label((moved[0][0], moved[0][1]), "dashed: with the gap open ", "right"),
+    ]
 
 
 def force_over_angle(view: View) -> list[Shape]:
@@ -154,7 +159,7 @@ FIGURES = (
         id="section",
         title="Section through the wedge",
         caption="Half section above the axis, engaged: the cone, driven in by P_1, lifts the shoe and presses it against the drum with P. "
-        "The shoe's width and the wedge angle are to scale, the other sizes are free; dashed: the cone with the gap open.",
+        "The shoe's width and the wedge angle are to scale, the other sizes are free.",
         build=section,
     ),
     Drawing(

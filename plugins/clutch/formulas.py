@@ -94,6 +94,12 @@ def radius_of_square_shoes(design_torque: Any, shoe_friction: Any, shoe_coverage
 
 
 @formula
+def radius_of_given_shoes(lining_width: Any, shoe_radius: Any, shoe_width: Any) -> Any:
+    """Radius at which a width is half the diameter, or carries the force at the allowed pressure, whichever is greater."""
+    return np.maximum(lining_width, shoe_radius * np.sqrt(shoe_width / lining_width))
+
+
+@formula
 def travel(lift: Any, wedge_angle: Any) -> Any:
     """Axial travel of the cone that lifts the shoes so far."""
     return lift / np.tan(wedge_angle)

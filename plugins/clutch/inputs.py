@@ -22,7 +22,7 @@ class Clutch(Inputs):
     one_of: ClassVar[tuple[OneOf, ...]] = (OneOf(("torque",), ("power", "speed"), shared=("speed",)),)
 
     torque: Annotated[float | None, Quantity("M", "N*m", "Torque that the clutch is to carry", gt=0)] = None
-    power: Annotated[float | None, Quantity("N", "kW", "Power that the clutch is to carry, at the speed", gt=0)] = None
+    power: Annotated[float | None, Quantity("W", "kW", "Power that the clutch is to carry, at the speed", gt=0)] = None
     speed: Annotated[
         float | None,
         Quantity("ω", "rpm", "Speed of the driving shaft, constant; with it heat, slip time and q·v", gt=0),

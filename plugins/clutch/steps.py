@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from diecut_report.api import Case, Choice, Require, Section, Value, bind
+from diecut_report.api import Case, Choice, Require, Section, Value, Words, bind
 from diecut_report.mechanics import common
+from diecut_report.plugins.clutch import advice
 from diecut_report.plugins.clutch import formulas as f
 
 TORQUE = Section(
@@ -11,7 +12,7 @@ TORQUE = Section(
     steps=(
         Value(id="torque", symbol="M", unit="N*m", description="Torque that the clutch is to carry", source="002 eq. 16", lacks=("torque",),
               formula=bind(common.quotient, quantity="power", by="speed")),
-        Value(id="power", symbol="N", unit="kW", description="Power at this torque", source="002 eq. 16", needs=("torque", "speed"),
+        Value(id="power", symbol="W", unit="kW", description="Power at this torque", source="002 eq. 16", needs=("torque", "speed"),
               formula=bind(common.product, first="torque", second="speed")),
         Value(id="design_torque", symbol="M_c", unit="N*m", description="Torque that the clutch is designed for", source="this method",
               formula=bind(common.product, first="service_factor", second="torque")),
@@ -31,11 +32,12 @@ WEDGE = Section(
               source="002 eq. 13", formula=f.widest_wedge, output=False),
         Value(id="wedge_friction_limit", symbol="f_lim", description="Friction that does so at the given angle", source="002 eq. 13",
               formula=f.greatest_friction, output=False),
+        Words(id="wedge_advice", description="What to change where the wedge jams", function=advice.against_jamming,
+              takes=("wedge_angle_limit", "wedge_friction_limit")),
         Require(id="wedge_lifts", key="wedge_angle",
                 condition=bind(common.is_below, smaller="held_share", greater="radial_share"),
                 message="is {wedge_angle}, but with a wedge friction of {wedge_friction} no force on the cone presses the shoes outwards: "
-                "cos α > f·sin α is needed; make the wedge angle less than {wedge_angle_limit}, or with this angle the friction less than "
-                "{wedge_friction_limit}"),
+                "cos α > f·sin α is needed; {wedge_advice}"),
         Require(id="load_below_capacity", key="load_torque_at_engagement",
                 condition=bind(common.is_below, smaller="load_torque_at_engagement", greater="design_torque"),
                 message="is {load_torque_at_engagement}, but the slipping clutch carries {design_torque} only, so that the driven side "
@@ -66,11 +68,13 @@ RELEASE = Section(
               output=False, formula=f.slope),
         Value(id="release_force", symbol="F_r", unit="N", description="Force that releases the cone; negative: it opens by itself",
               source="statics", formula=f.release_force),
-        Choice(id="release_behaviour", symbol="F_r", description="Without the engagement force the clutch", source="statics",
+        Choice(id="release_behaviour", symbol="B_r", description="Without the engagement force the clutch", source="statics",
                cases=(Case("opens by itself", "friction is less than the slope of the cone's face",
                            bind(common.is_below, smaller="wedge_friction", greater="wedge_slope")),
                       Case("stays engaged until the cone is pulled out", "friction is not less than the slope of the cone's face"))),
-        Value(id="self_locking", symbol="S", description="Whether the wedge locks itself", source="statics", formula=f.locks_itself),
+        Value(id="self_locking", symbol="L_s", description="Whether the wedge locks itself", source="statics", formula=f.locks_itself),
+        Words(id="release_advice", description="What to change where the wedge locks itself", function=advice.against_locking,
+              takes=("friction_angle", "wedge_slope")),
     ),
 )  # fmt: skip
 
@@ -91,8 +95,19 @@ LINING = Section(
               formula=f.width_ratio),
         Value(id="least_radius", symbol="r_min", unit="mm", description="Radius from which this ratio is at most a half", source="002 eq. 17",
               lacks=("shoe_width",), output=False, formula=f.radius_of_square_shoes),
-        Value(id="least_radius", symbol="r_min", unit="mm", description="Radius from which this ratio is at most a half", source="geometry",
-              needs=("shoe_width",), output=False, formula=bind(common.same, quantity="inputs.shoe_width")),
+        Value(id="least_radius", symbol="r_min", unit="mm", description="Radius from which this ratio is at most a half, and the pressure "
+              "allowed", source="002 eq. 17", needs=("shoe_width",), output=False, formula=f.radius_of_given_shoes),
+        Words(id="pressure_advice", description="What to change against the pressure", needs=("shoe_width",),
+              function=advice.against_pressure, takes=("shoe_width", "lining_width", "shoe_radius", "least_radius", "shoe_coverage")),
+        Words(id="width_advice", description="What to change where the shoes are too wide", lacks=("shoe_width", "allowable_pv"),
+              function=advice.against_width, takes=("shoe_radius", "lining_width")),
+        Words(id="width_advice", description="What to change where the shoes are too wide", lacks=("shoe_width", "speed"),
+              needs=("allowable_pv",), function=advice.against_width, takes=("shoe_radius", "lining_width")),
+        Words(id="width_advice", description="What to change where the shoes are too wide", lacks=("shoe_width",),
+              needs=("speed", "allowable_pv"), function=advice.against_width,
+              takes=("shoe_radius", "lining_width", "pv", "allowable_pv")),
+        Words(id="width_advice", description="What to change where the shoes are too wide", needs=("shoe_width",),
+              function=advice.against_given_width, takes=("least_radius",)),
     ),
 )  # fmt: skip
 
@@ -108,6 +123,9 @@ TRAVEL = Section(
               formula=f.travel_with_wear),
         Value(id="travel_angle", symbol="α_s", unit="deg", description="Wedge angle that does with the available travel", source="geometry",
               needs=("available_travel",), output=False, formula=f.angle_of_travel),
+        Words(id="travel_advice", description="What to change where the travel is too small", needs=("available_travel",),
+              function=advice.against_travel,
+              takes=("wedge_angle", "wedge_angle_limit", "travel_angle", "axial_travel", "available_travel", "radial_gap")),
     ),
 )  # fmt: skip
 
@@ -120,6 +138,11 @@ SLIDING = Section(
               formula=bind(common.product, first="speed", second="shoe_radius")),
         Value(id="pv", symbol="qv", unit="MPa*m/s", description="Pressure times sliding speed", source="this method",
               formula=bind(common.product, first="pressure", second="sliding_speed")),
+        Words(id="pv_advice", description="What to change where the lining glazes", needs=("allowable_pv", "torque"),
+              function=advice.against_glazing_of_torque,
+              takes=("shoe_radius", "shoe_width", "lining_width", "pv", "allowable_pv", "speed")),
+        Words(id="pv_advice", description="What to change where the lining glazes", needs=("allowable_pv",), lacks=("torque",),
+              function=advice.against_glazing, takes=("shoe_radius", "shoe_width", "lining_width", "pv", "allowable_pv")),
     ),
 )  # fmt: skip
 
@@ -138,7 +161,7 @@ HEAT = Section(
               formula=f.engagement_energy),
         Value(id="slip_share", symbol="ε", description="Share of the time in which it slips", source="kinematics",
               formula=bind(common.product, first="engagements_per_hour", second="slip_time")),
-        Value(id="lining_power", symbol="N_m", unit="W", description="Mean friction power", source="energy",
+        Value(id="lining_power", symbol="W_m", unit="W", description="Mean friction power", source="energy",
               formula=bind(common.product, first="engagement_energy", second="engagements_per_hour")),
         Value(id="lining_power_density", symbol="p_A", unit="W/cm**2", description="Mean friction power for each area of lining",
               source="energy", formula=bind(common.quotient, quantity="lining_power", by="lining_area")),

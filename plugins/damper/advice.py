@@ -1,53 +1,196 @@
-"""What to change where a check fails: texts with numbers that pass when they are put in."""
+"""What to change where a check fails: numbers with which all checks of the block pass once they are typed in."""
 
 from __future__ import annotations
 
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass
 from math import ceil, floor, isfinite, log10
 
+import numpy as np
+
 from diecut_report.api import told
+from diecut_report.plugins.damper import formulas as f
 
-DIGITS = 3
+DIGITS = 4  # of lengths; a pad's side has one less, so that three sides have no more
+SOFTEST, HARDEST = 20.0, 80.0  # Shore A hardness that may be given
+MOST_DAMPERS, WIDEST_PAD = 100, 1.0  # beyond these no advice is given: nobody builds it
+ROUNDING = 1e-9  # relative
+
+Range = tuple[float, float]  # empty where the first is greater
+NONE: Range = (np.inf, -np.inf)
 
 
-def rounded(value: float, up: bool) -> float:
+def rounded(value: float, up: bool, digits: int = DIGITS) -> float:
     """A number rounded up or down to so many significant digits as are printed; what has no digits stays."""
     if not (isfinite(value) and value > 0):
         return value
-    step = 10.0 ** (floor(log10(value)) - DIGITS + 1)
-    return step * (ceil(value / step - 1e-9) if up else floor(value / step + 1e-9))
+    step = 10.0 ** (floor(log10(value)) - digits + 1)
+    return step * (ceil(value / step - ROUNDING) if up else floor(value / step + ROUNDING))
 
 
-def against_stress(free_length: float) -> str:
-    """Words where the given length is too short."""
-    enough = told(rounded(free_length, up=True), "mm", DIGITS)
-    return f"set adopted_length to at least {enough}, or leave it out, and the length is sized"
+@dataclass(frozen=True)
+class Block:
+    """A damper's numbers, SI; what is not given (a length, a hardness) has none, and a drive that does not push no force."""
+
+    kinetic_energy: float
+    elastic_modulus: float
+    ring_width: float
+    pad_height: float
+    damper_count: float
+    allowable_stress: float
+    max_strain: float
+    length_step: float
+    driving_force: float = 0.0
+    adopted_length: float | None = None
+    shore_hardness: float | None = None
+
+    @property
+    def area(self) -> float:
+        """Area of all dampers together."""
+        return self.damper_count * self.ring_width * self.pad_height
+
+    @property
+    def stress_limit(self) -> float:
+        """Stress that is allowed and within the linear law."""
+        return min(self.allowable_stress, self.elastic_modulus * self.max_strain)
+
+    @property
+    def three_sides(self) -> float:
+        """Length above which the block buckles."""
+        return 3 * min(self.ring_width, self.pad_height)
+
+    @property
+    def longest(self) -> float:
+        """Length up to which the block does not buckle, as it is printed."""
+        return rounded(self.three_sides, up=False)
+
+    def shortest(self, count: float, area: float) -> float:
+        """Length at which so many dampers of an area take up the energy and the work of the drive."""
+        borne = count * area * self.stress_limit - 2 * self.driving_force
+        return 2 * self.kinetic_energy * self.elastic_modulus / (self.stress_limit * borne) if borne > 0 else np.inf
+
+    def in_steps(self, length: float) -> float:
+        """The next multiple of the step."""
+        return self.length_step * float(np.maximum(np.ceil(length / self.length_step - ROUNDING), 1))
+
+    def moduli(self, length: float | None) -> Range:
+        """Moduli with which all checks pass at a length, or where there is none, at the sized one."""
+        if length is None:
+            return self._moduli_sized()
+        if length > self.three_sides * (1 + ROUNDING):
+            return NONE
+        work = self.kinetic_energy + self.driving_force * self.max_strain * length
+        borne = self.area * self.allowable_stress - 2 * self.driving_force
+        stiffest = self.allowable_stress * borne * length / (2 * self.kinetic_energy)
+        return 2 * work / (self.area * self.max_strain**2 * length), stiffest
+
+    def _moduli_sized(self) -> Range:
+        """The sized length strains by allowed stress over modulus, grows with the modulus, and does not bear a drive."""
+        if self.driving_force > 0:
+            return NONE
+        longest = self.length_step * float(np.floor(self.three_sides / self.length_step + ROUNDING))
+        stiffest = longest * self.area * self.allowable_stress**2 / (2 * self.kinetic_energy)
+        return self.allowable_stress / self.max_strain, stiffest
 
 
-def against_strain(
-    modulus: float, strain: float, max_strain: float, allowable_stress: float, adopted_length: float
-) -> str:
-    """Words where the rubber is strained too far: at one length the strain falls with the root of modulus and length."""
-    excess = (strain / max_strain) ** 2
-    stiffer = told(rounded(max(allowable_stress / max_strain, modulus * excess), up=True), "MPa", DIGITS)
-    longer = told(rounded(adopted_length * excess, up=True), "mm", DIGITS)
-    return f"take a rubber with a modulus of at least {stiffer}, or set adopted_length to at least {longer}"
+def advice(names: tuple[str, ...]) -> Callable[..., str]:
+    """The words for a damper of which these numbers are known."""
+
+    def words(*numbers: float) -> str:
+        with np.errstate(all="ignore"):
+            return against_failure(Block(**dict(zip(names, map(np.float64, numbers), strict=True))))
+
+    return words
 
 
-def against_buckling(
-    side: float, count: float, length: float, modulus: float, allowable_stress: float, max_strain: float
-) -> str:
-    """Words where the block buckles: a wider pad, more dampers, a softer rubber if that is not strained too far."""
-    softer = rounded(modulus, up=False)
-    advice = f"take a pad of at least {told(side, 'mm', DIGITS)} by {told(side, 'mm', DIGITS)}, or {count:.0f} dampers of this pad"
-    held = f"each at a length of at most {told(rounded(length, up=False), 'mm', DIGITS)}"
-    if allowable_stress <= softer * max_strain:
-        return f"{advice}, or a rubber with a modulus of at most {told(softer, 'MPa', DIGITS)}, {held}"
-    return f"{advice}, {held}; a softer rubber alone does not help: short enough, it would be strained by more than {max_strain:g}"
+def against_failure(block: Block) -> str:
+    """All changes of one kind that make every check pass, and the kinds of which none does."""
+    lengths, rubbers = list(_lengths(block)), list(_rubbers(block))
+    changes = [*lengths, *rubbers, *([] if lengths else [*_dampers(block), *_pad(block)])]
+    kind = "elastic_modulus" if block.shore_hardness is None else "shore_hardness"
+    missing = [name for name, found in (("adopted_length", lengths), (kind, rubbers)) if not found]
+    if not changes:
+        return (
+            f"check kinetic_energy and allowable_stress: no adopted_length or {kind} helps, "
+            f"nor do up to {MOST_DAMPERS} dampers or a pad of up to {told(WIDEST_PAD, 'mm')} a side"
+        )
+    return ", or ".join(changes) + (f"; no {' or '.join(missing)} alone helps" if missing else "")
 
 
-def against_drive(length: float, count: float, adopted_length: float) -> str:
-    """Words where the drive that still pushes overloads the dampers."""
-    more = f"{count:.0f} dampers with adopted_length: {told(adopted_length, 'mm', DIGITS)}"
-    if isfinite(length):
-        return f"set adopted_length to {told(length, 'mm', DIGITS)}, or take {more}"
-    return f"no length helps against this force; take {more}, or a drive that lets go before the stop"
+def _between(key: str, low: str, high: str) -> str:
+    return f"set {key} to {low}" if low == high else f"set {key} to between {low} and {high}"
+
+
+def _lengths(block: Block) -> Iterator[str]:
+    """Lengths of this block that pass."""
+    least = block.shortest(block.damper_count, block.ring_width * block.pad_height)
+    low, high = rounded(least, up=True), block.longest
+    if low <= high:
+        yield _between("adopted_length", told(low, "mm", DIGITS), told(high, "mm", DIGITS))
+    if block.adopted_length is not None and not block.driving_force:
+        energy, modulus, area = block.kinetic_energy, block.elastic_modulus, block.area
+        sized = block.in_steps(2 * energy * modulus / (area * block.allowable_stress**2))
+        if least <= sized * (1 + ROUNDING) and sized <= block.three_sides * (1 + ROUNDING):
+            yield "leave adopted_length out, and the length is sized"
+
+
+def _rubbers(block: Block) -> Iterator[str]:
+    """Moduli, or hardnesses, that pass with the length as it is now, or else with another one."""
+    at_longest = f" with adopted_length: {told(block.longest, 'mm', DIGITS)}"
+    sized = "" if block.adopted_length is None else " and leave adopted_length out"
+    lengths = {block.adopted_length: "", None: sized, block.longest: at_longest}
+    for length, words in lengths.items():
+        spoken = _rubber(block, block.moduli(length))
+        if spoken:
+            yield spoken + words
+            return
+
+
+def _rubber(block: Block, moduli: Range) -> str:
+    """Moduli as the key that is given takes them; nothing where there is none."""
+    key, display, limits, digits = "elastic_modulus", "MPa", moduli, (3, DIGITS)
+    if not 0 < moduli[0] <= moduli[1]:
+        return ""
+    if block.shore_hardness is not None:
+        softest, hardest = (_hardness(modulus) for modulus in moduli)
+        limits = max(softest, SOFTEST), min(hardest, HARDEST)
+        key, display, digits = "shore_hardness", "1", (2, 3)
+    for shown in digits:
+        low, high = rounded(limits[0], True, shown), rounded(limits[1], False, shown)
+        if low <= high and isfinite(high):
+            return _between(key, told(low, display, shown), told(high, display, shown))
+    return ""
+
+
+def _hardness(modulus: float) -> float:
+    """Hardness of a rubber by Gent's relation."""
+    if not isfinite(modulus):
+        return modulus
+    relative = 0.137505 * modulus / f.GENT
+    return (254 * relative - 56) / (7.62336 + 2.54 * relative)
+
+
+def _dampers(block: Block) -> Iterator[str]:
+    """More dampers of this pad, with their length."""
+    area, longest, stress = block.ring_width * block.pad_height, block.longest, block.stress_limit
+    demanded = 2 * block.kinetic_energy * block.elastic_modulus / (longest * stress) + 2 * block.driving_force
+    count = demanded / (area * stress)
+    if count <= MOST_DAMPERS:
+        whole = max(ceil(count - ROUNDING), round(block.damper_count) + 1)
+        length = min(rounded(block.in_steps(block.shortest(whole, area)), up=True), longest)
+        yield f"take {whole} dampers of this pad with adopted_length: {told(length, 'mm', DIGITS)}"
+
+
+def _pad(block: Block) -> Iterator[str]:
+    """A square pad whose length of three sides passes: n·[σ]·b³ − 2F·b = 2W·E/(3[σ])."""
+    borne = block.damper_count * block.stress_limit
+    still = (2 * block.kinetic_energy * block.elastic_modulus / (3 * block.stress_limit * borne)) ** (1 / 3)
+    pushed = 2 * block.driving_force / (borne * still**2)
+    if not (isfinite(still) and isfinite(pushed)):
+        return
+    least = still * float(np.roots([1, 0, -pushed, -1]).real.max())
+    side = rounded(block.in_steps(least), up=True, digits=DIGITS - 1)
+    if side <= WIDEST_PAD:
+        length = min(rounded(block.in_steps(block.shortest(block.damper_count, side**2)), up=True), 3 * side)
+        shown = told(side, "mm", DIGITS - 1)
+        yield f"take a pad of at least {shown} by {shown} with adopted_length: {told(length, 'mm', DIGITS)}"

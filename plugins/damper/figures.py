@@ -70,13 +70,14 @@ def _compressed(view: View, level: float, away: float) -> list[Shape]:
     if view["strain"] > MOST_DRAWN:
         return [label((0.0, -half - 2.2 * away), "no block can be pressed together as far as calculated")]
     pressed = length - view["deflection"]
+    is_driven = "driven_deflection" in view and view["driven_strain"] <= MOST_DRAWN
     shapes = [
         *_laid(view, pressed, view["strain"], level),
         polyline([(length, 0.8 * half), (length, level - half)], "centerline"),
         dimension((pressed, level - half), (length, level - half), -away, view.text("deflection")),
-        label((length + 0.4 * away, level), "pressed together"),
+        label((length + 0.4 * away, level), "pressed together" + ("; dashed: by the drive too" if is_driven else "")),
     ]
-    if "driven_deflection" in view and view["driven_strain"] <= MOST_DRAWN:
+    if is_driven:
         driven = length - view["driven_deflection"]
         shapes += [
             polyline([(driven, level + 1.6 * half), (driven, level - 1.6 * half)], "hidden"),
@@ -123,23 +124,27 @@ def force(view: View) -> list[dict[str, Any]]:
 
 
 def length(view: View) -> list[dict[str, Any]]:
-    """Length over the allowed stress, with the adopted one and the limits of buckling and of the linear law."""
-    allowed = view["allowable_stress"]
-    stresses = np.linspace(0.5, 2.0, 181) * allowed
+    """Length over the stress that it leads to, with the adopted one and the limits of stress, buckling and linear law."""
+    allowed, reached = view["allowable_stress"], view["stress"]
+    stresses = np.linspace(min(0.5 * allowed, 0.8 * reached), max(2.0 * allowed, 1.2 * reached), 181)
     names = ("free_length", *(("driven_free_length",) if "driven_free_length" in view else ()))
     found = view.varied({"allowable_stress": stresses}, *names)
     free = found["free_length"]
     lines = [line(stresses, free, "free length")]
     if "driven_free_length" in found:
         driven = found["driven_free_length"]
-        lines.append(line(stresses, np.where(driven <= free.max(), driven, np.nan), "with the drive"))
+        lines.append(
+            line(stresses, np.where(driven <= free.max(), driven, np.nan), "with the drive, within the linear law")
+        )
     linear = view["elastic_modulus"] * view["max_strain"]
-    verticals = [vertical(linear, "linear law ends")] if stresses[0] <= linear <= stresses[-1] else []
+    verticals = [vertical(allowed, "allowed")]
+    if linear != allowed and stresses[0] <= linear <= stresses[-1]:
+        verticals.append(vertical(linear, "linear law ends"))
     return [
         chart_panel(
-            "Length", "mm", "Allowed stress", "[σ]", "MPa",
+            "Length", "mm", "Greatest stress", "σ", "MPa",
             lines=lines,
-            marks=[mark(allowed, view["adopted_length"], "adopted")],
+            marks=[mark(reached, view["adopted_length"], "adopted")],
             levels=[level(view["length_limit"], "buckles above")],
             verticals=verticals,
         )
@@ -150,8 +155,8 @@ FIGURES = (
     Drawing(
         id="block",
         title="Damper block",
-        caption="The block to scale, free and at its greatest deflection, and its pad at the right. The pressed block is drawn with its "
-        "volume kept; with a drive that still pushes, the dashed line is where it presses the block to.",
+        caption="The block to scale, free and at its greatest deflection, and its pad at the right. A pressed block is drawn with its "
+        "volume kept.",
         build=block,
     ),
     Chart(
@@ -162,9 +167,9 @@ FIGURES = (
     ),
     Chart(
         id="length",
-        title="Length over allowed stress",
-        caption="Length that takes up the energy over the allowed stress, with the adopted length; above the level the block buckles. "
-        "With a drive that still pushes, the stress is kept within the linear law too.",
+        title="Length over stress",
+        caption="Length that takes up the energy with a stress, over that stress; marked: the adopted length and the stress that it "
+        "leads to. Above the level the block buckles.",
         build=length,
     ),
 )

@@ -87,9 +87,9 @@ def peak_deceleration(damper_count: Any, peak_force: Any, reduced_mass: Any) -> 
 
 
 @formula
-def is_the_usual(loss_fraction: Any, usual: Any) -> Any:
-    """Whether the share is the one that is taken by default."""
-    return loss_fraction == usual
+def is_missing(share: Any) -> Any:
+    """Whether no share is given: one that is given is not below zero."""
+    return share < 0
 
 
 @formula

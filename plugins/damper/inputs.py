@@ -70,8 +70,15 @@ class Damper(Inputs):
         float, Quantity("ε_max", "1", "Strain up to which the rubber obeys the linear law", gt=0, lt=1)
     ] = 0.20
     loss_fraction: Annotated[
-        float, Quantity("ψ", "1", "Share of the energy that one impact loses; or loss_tangent", ge=0, le=1)
-    ] = USUAL_LOSS
+        float | None,
+        Quantity(
+            "ψ",
+            "1",
+            f"Share of the energy that one impact loses; or loss_tangent; {USUAL_LOSS} where neither is given",
+            ge=0,
+            le=1,
+        ),
+    ] = None
     loss_tangent: Annotated[
         float | None,
         Quantity("η", "1", "Loss tangent of the rubber, tan δ; with it the share that is lost", ge=0, le=1),

@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+from itertools import combinations
+
 from diecut_report.api import Case, Choice, Require, Section, Value, Words, bind
 from diecut_report.mechanics import common
 from diecut_report.plugins.damper import advice
@@ -44,22 +47,20 @@ LOAD = Section(
         Value(id="strain", symbol="ε", description="Greatest strain", source="002 eq. 19", formula=f.strain),
         Value(id="peak_force", symbol="P", unit="N", description="Greatest force on one damper", source="002 eq. 20", formula=f.force),
         Value(id="deflection", symbol="h", unit="mm", description="Greatest deflection", source="002 eq. 21", formula=f.deflection),
-        Words(id="stress_advice", symbol="σ", description="What to change against the stress", output=False,
-              function=advice.against_stress, takes=("free_length",)),
-        Words(id="strain_advice", symbol="ε", description="What to change against the strain", output=False,
-              function=advice.against_strain,
-              takes=("elastic_modulus", "strain", "max_strain", "allowable_stress", "adopted_length")),
     ),
 )  # fmt: skip
 
 LOSS = Section(
     "Loss of an impact",
     steps=(
-        Require(id="one_loss", needs=("loss_tangent",), key="loss_tangent",
-                condition=bind(f.is_the_usual, loss_fraction="inputs.loss_fraction", usual=f.USUAL_LOSS),
-                message="is given, and so is a loss_fraction of {loss_fraction}, but one follows from the other; leave one of them out"),
-        Value(id="loss_fraction", symbol="ψ", description="Share of the energy that one impact loses", source="input",
-              lacks=("loss_tangent",), formula=bind(common.same, quantity="inputs.loss_fraction")),
+        Require(id="one_loss", needs=("loss_fraction", "loss_tangent"), key="loss_tangent",
+                condition=bind(f.is_missing, share="inputs.loss_fraction"),
+                message="is given, and so is a loss_fraction of {inputs.loss_fraction}, but one follows from the other; leave one of them "
+                "out"),
+        Value(id="loss_fraction", symbol="ψ", description="Share of the energy that one impact loses: as given", source="input",
+              needs=("loss_fraction",), lacks=("loss_tangent",), formula=bind(common.same, quantity="inputs.loss_fraction")),
+        Value(id="loss_fraction", symbol="ψ", description="Share of the energy that one impact loses: usual for rubber",
+              source="this method", lacks=("loss_fraction", "loss_tangent"), formula=bind(common.same, quantity=f.USUAL_LOSS)),
         Value(id="loss_fraction", symbol="ψ", description="Share of the energy that one impact loses: half a cycle",
               source="this method", needs=("loss_tangent",), formula=f.loss_of_half_cycle),
     ),
@@ -114,9 +115,6 @@ BUCKLING = Section(
               source="this method", formula=f.steady_count),
         Value(id="steady_modulus", symbol="E_λ", unit="MPa", description="Greatest modulus with which this pad does not buckle",
               source="this method", formula=f.steady_modulus),
-        Words(id="buckling_advice", symbol="λ", description="What to change against buckling", output=False,
-              function=advice.against_buckling,
-              takes=("steady_pad_side", "steady_damper_count", "length_limit", "steady_modulus", "allowable_stress", "max_strain")),
     ),
 )  # fmt: skip
 
@@ -161,9 +159,24 @@ DRIVE = Section(
               exists=bind(common.is_below, smaller="driving_force", greater="force_limit")),
         Value(id="driven_damper_count", whole=True, symbol="n_d", description="Least number of dampers of this pad and length that bears the drive",
               source="energy", formula=f.driven_count),
-        Words(id="drive_advice", symbol="F", description="What to change against the drive", output=False,
-              function=advice.against_drive, takes=("driven_length", "driven_damper_count", "adopted_length")),
     ),
 )  # fmt: skip
 
-SECTIONS = (ENERGY, LENGTH, LOAD, LOSS, STOP, HEAT, BUCKLING, DRIVE)
+KNOWN = ("kinetic_energy", "elastic_modulus", "ring_width", "pad_height", "damper_count", "allowable_stress", "max_strain",
+         "length_step")  # fmt: skip
+"""What advice is made of, whatever is given."""
+
+
+def advice_steps() -> Iterator[Words]:
+    """The advice of failing checks, for each choice of what may be given beside: it is judged for all checks together."""
+    optional = {"drive": "driving_force", "adopted_length": "adopted_length", "shore_hardness": "shore_hardness"}
+    for count in range(len(optional) + 1):
+        for given in combinations(optional, count):
+            takes = (*KNOWN, *(optional[key] for key in given))
+            lacks = tuple(key for key in optional if key not in given)
+            yield Words(id="advice", output=False, needs=given, lacks=lacks, function=advice.advice(takes), takes=takes)
+
+
+ADVICE = Section("Changes", steps=tuple(advice_steps()))
+
+SECTIONS = (ENERGY, LENGTH, LOAD, LOSS, STOP, HEAT, BUCKLING, DRIVE, ADVICE)

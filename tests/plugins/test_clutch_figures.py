@@ -51,6 +51,13 @@ def test_the_chart_shows_the_chosen_point_and_the_self_locking_limit() -> None:
     assert panel["verticals"][0]["x"] == pytest.approx(np.arctan(0.12))
 
 
+def test_the_cone_with_the_gap_open_is_named_where_it_is_drawn_alone() -> None:
+    for changes, is_named in (({}, False), ({"radial_gap": "1 mm"}, True), ({"radial_gap": 0}, False)):
+        figure = drawn(clutch(**changes), "section")
+        assert "dashed" not in figure["caption"]
+        assert any("dashed" in shape.get("text", "") for shape in figure["shapes"]) is is_named
+
+
 @pytest.mark.parametrize(
     "changes",
     [
