@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
 from diecut_report.api import standard_series_by
@@ -52,6 +52,7 @@ def test_a_ratio_too_great_for_the_belt_is_told_first_and_with_the_advised_gears
         told = check(train(output_speed=speed, vbelt=block), "vbelt_ratio")["message"]
     except Impossible as refused:
         key, told = refused.reasons[0]
+        assume("draws the pulleys into each other" not in told)  # the distance alone is at fault there
         assert key == "gears" and len(refused.reasons) == 1
         assert f"{1450 / speed / 5:.4g}"[:3] in told and "above the 7" in told
     advised = GEARS.search(told)

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import re
 from math import pi
-from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -13,10 +12,11 @@ import yaml
 
 from diecut_report.engine import Calculation, Impossible
 from diecut_report.results import mechanism_results
+from tests.configs import EXAMPLES
 from tests.machines import number
 from tests.plugins.drive_trains import check, checked, train
 
-EXAMPLE = Path(__file__).parents[2] / "configs" / "flat_cylinder_belt_press.yaml"
+EXAMPLE = next(path for path in EXAMPLES if path.name == "flat_cylinder_belt_press.yaml")
 LISTED_CHECKS = ("belt_engagement", "driving_pulley_listed", "pulley_teeth_whole", "cylinder_pulley_listed")
 Pulley = tuple[float, float, float, str, str]
 
