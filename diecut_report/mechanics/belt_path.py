@@ -77,21 +77,9 @@ def open_belt_length(center_distance: Any, small: Any, large: Any) -> Any:
 
 
 @formula
-def open_belt_length_of_wrap(center_distance: Any, small: Any, large: Any, wrap_small: Any) -> Any:
-    """The same from the wrap of the small pulley."""
-    return 2 * center_distance * np.sin(wrap_small / 2) + small * wrap_small + large * (2 * np.pi - wrap_small)
-
-
-@formula
 def wrap_small(center_distance: Any, small: Any, large: Any) -> Any:
     """Wrap of the small pulley of an open belt."""
     return 2 * arccos((large - small) / center_distance)
-
-
-@formula
-def wrap_small_of_runs(center_distance: Any, small: Any, large: Any) -> Any:
-    """The same from the triangle of run, difference of the radii and centre distance."""
-    return 2 * np.arctan2(np.sqrt(center_distance**2 - (large - small) ** 2), large - small)
 
 
 @formula

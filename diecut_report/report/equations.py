@@ -82,10 +82,6 @@ class Equations:
             return None
         return Equation(r":\quad ".join(link.latex for link in links), ": ".join(link.text for link in links))
 
-    def inline(self, tree: Tree) -> Equation:
-        """A lone expression."""
-        return Equation(*self._link(tree)[:2])
-
     def _links(self, item: Item) -> list[Link]:
         """What stands behind the symbol: the formula, the numbers in it, and the result."""
         result = self._result(item["result"])

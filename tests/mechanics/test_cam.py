@@ -12,7 +12,7 @@ from hypothesis import strategies as st
 from scipy.optimize import minimize_scalar
 
 from diecut_report.expressions import Array
-from diecut_report.mechanics import cam, contact
+from diecut_report.mechanics import cam
 
 TURN = np.linspace(0, 2 * np.pi, 1441)[:-1]
 STEP = 1e-4
@@ -186,9 +186,6 @@ def test_the_effective_radius_is_that_of_roller_and_profile(curvature: float, ro
     assume(abs(curvature) > 1e-3)
     profile = 1 / curvature - roller  # below zero where it is hollow
     assert cam.effective_radius(roller, curvature) == pytest.approx(1 / (1 / roller + 1 / profile), rel=1e-9)
-    assert cam.effective_radius(roller, curvature) == pytest.approx(
-        contact.effective_radius(roller, 1 / profile), rel=1e-9
-    )
 
 
 def test_least_radii() -> None:
