@@ -59,7 +59,7 @@ from diecut_report.standards import (
     standard_series_by,
     standard_table,
 )
-from diecut_report.texts import si, told
+from diecut_report.texts import below, outward, si, told
 
 __all__ = [
     "GRAVITY", "POINTS", "Abscissa", "Accumulated", "Annotated", "BarGroup", "Bars", "Binding", "Block", "Bound", "Breakpoints",
@@ -67,7 +67,7 @@ __all__ = [
     "Erratum", "Formula", "FromCurve", "FromPress", "Inputs", "Level", "Lookup", "Mark", "Mechanism", "Neighbour", "OneOf",
     "Panel", "Part", "Pick", "Plot", "Point", "Polar", "Profile", "Quantity", "Reduction", "Require", "Root", "Running", "Section",
     "Series", "Shape", "Source", "Span", "StandardSeries", "StandardTable", "Step", "Text", "Total", "Value", "View", "Words",
-    "arc", "arccos", "arrow", "bind", "box", "chart_panel", "circle", "dimension", "fill", "formula", "label", "level", "line",
-    "mark", "point", "polyline", "prefixed", "radius_dimension", "region", "si", "standard_series", "standard_series_by",
+    "arc", "arccos", "arrow", "below", "bind", "box", "chart_panel", "circle", "dimension", "fill", "formula", "label", "level", "line",
+    "mark", "outward", "point", "polyline", "prefixed", "radius_dimension", "region", "si", "standard_series", "standard_series_by",
     "standard_table", "told", "vertical",
 ]  # fmt: skip

@@ -32,6 +32,11 @@ def outward(value: float, up: bool, digits: int = DIGITS) -> float:
     return float(f"{steps * step:.15g}")
 
 
+def below(value: float, digits: int = DIGITS) -> float:
+    """A number above zero rounded down to so many significant digits, and less than itself."""
+    return outward(value * (1 - 1e-9), up=False, digits=digits)
+
+
 def shortest(value: float, digits: int = 6) -> str:
     """What was typed, without the noise of a unit conversion: as few digits as say it, else ``digits``."""
     short = f"{value:.15g}"

@@ -2,24 +2,18 @@
 
 from __future__ import annotations
 
-from math import floor, log10, pi, sqrt
+from math import sqrt
 
-from diecut_report.api import told
+from diecut_report.api import below, si, told
 from diecut_report.plugins.cam_gear_transport import formulas
 
 MODULES = (20, 16, 12, 10, 8, 6, 5, 4, 3, 2.5, 2, 1.5, 1.25, 1)  # mm, the usual ones
 UNDERCUT = 17  # least teeth of a gear without undercut
 
 
-def below(number: float) -> str:
-    """A number in print, rounded down to four digits, and less than itself."""
-    step = 10.0 ** (floor(log10(number)) - 3)
-    return f"{floor(number / step - 1e-6) * step:.10g}"
-
-
 def angle_below(angle: float) -> str:
     """An angle in print, rounded down to four digits, and less than itself."""
-    return f"{below(angle * 180 / pi)}°"
+    return f"{below(angle / si(1, 'deg')):g}°"
 
 
 def leaves_return(dwell: float, sweep: float) -> str:
@@ -86,7 +80,7 @@ def smaller_roller(least_radius: float, tangent_distance: float) -> str:
     """Words on the roller that neither undercuts its profile nor makes it cross itself."""
     if tangent_distance <= 0:
         return "no roller passes with these arms"
-    return f"take a roller_radius of at most {below(min(least_radius, tangent_distance) * 1000)} mm"
+    return f"take a roller_radius of at most {below(min(least_radius, tangent_distance) * 1000):g} mm"
 
 
 def softer_contact(pressure: float, allowed: float, width: float, cycles: float) -> str:

@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from math import acos, cos, floor, log10, pi
+from math import acos, cos, pi
 from typing import Any, NamedTuple
 
 import numpy as np
 
-from diecut_report.api import si
+from diecut_report.api import outward, si
 from diecut_report.mechanics import cam
 from diecut_report.mechanics.motion_laws import LAWS, MotionLaw
 from diecut_report.plugins.cam_gear_transport import formulas, loads
@@ -16,6 +16,7 @@ from diecut_report.plugins.cam_gear_transport import formulas, loads
 FACTORS = np.linspace(1, 0.05, 20)  # of lengths and sweeps that are tried
 DEGREE = si(1, "deg")
 CLEAR = 0.01 * DEGREE  # by which a pressure angle keeps its limit
+DIGITS = 3  # of lengths and sweeps that are named
 SOUND = 1.01  # by which radii keep theirs
 PLACES = np.linspace(0, 1, 121)  # of the samples over a rise; the laws' joints are among them
 EIGHTHS = np.linspace(0, 1, 9)  # where the usual laws jump
@@ -113,12 +114,6 @@ def _sound(rocker: Rocker, cycle: Motion, length: float, direction: Any) -> Any:
     return (SOUND * rocker.roller_radius * curvature < 1) & (distance > SOUND * rocker.roller_radius)
 
 
-def _three_digits(number: float) -> float:
-    """A number rounded down to three digits."""
-    step = 10.0 ** (floor(log10(number)) - 2)
-    return float(f"{floor(number / step + 1e-9) * step:.10g}")
-
-
 def _best(rocker: Rocker, cycle: Motion, length: float, arm: float, left: bool) -> tuple[float, float]:
     """An arm's angle that passes, in °, and its pressure angle: as it is, or the best; infinite where none passes."""
     limit = rocker.accepted - CLEAR
@@ -146,7 +141,7 @@ def fitting(rocker: Rocker) -> tuple[dict[str, str], float] | None:
     cycle = motion(rocker)
     left = bool(np.sin(rocker.arm_angle_1 + rocker.held / 2) > 0)
     for factor in FACTORS:
-        length = rocker.arm_length if factor == 1 else _three_digits(rocker.arm_length * 1000 * factor) / 1000
+        length = rocker.arm_length if factor == 1 else outward(rocker.arm_length * 1000 * factor, False, DIGITS) / 1000
         if factor < 1 and length <= rocker.roller_radius:
             return None  # the roller would cover the pin
         one, first = _best(rocker, cycle, length, rocker.arm_angle_1, left)
@@ -163,8 +158,8 @@ def fitting(rocker: Rocker) -> tuple[dict[str, str], float] | None:
 def narrower(rocker: Rocker) -> Iterator[tuple[dict[str, str], Rocker]]:
     """The same machine with both sweeps narrower at about the same shares of the turn, and what is to be given for that."""
     for factor in FACTORS[1:]:
-        held = _three_digits(in_degrees(rocker.held) * factor)
-        stop = _three_digits(held * rocker.stop / rocker.held)
+        held = outward(in_degrees(rocker.held) * factor, False, DIGITS)
+        stop = outward(held * rocker.stop / rocker.held, False, DIGITS)
         turned = held * DEGREE
         if rocker.module:
             together = formulas.teeth_together(rocker.center_distance, rocker.module)

@@ -4,11 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
-from math import ceil, floor, isfinite, log10
+from math import ceil, isfinite
 
 import numpy as np
+from scipy.optimize import brentq
 
-from diecut_report.api import told
+from diecut_report.api import outward, told
 from diecut_report.plugins.damper import formulas as f
 
 DIGITS = 4  # of lengths; a pad's side has one less, so that three sides have no more
@@ -18,14 +19,6 @@ ROUNDING = 1e-9  # relative
 
 Range = tuple[float, float]  # empty where the first is greater
 NONE: Range = (np.inf, -np.inf)
-
-
-def rounded(value: float, up: bool, digits: int = DIGITS) -> float:
-    """A number rounded up or down to so many significant digits as are printed; what has no digits stays."""
-    if not (isfinite(value) and value > 0):
-        return value
-    step = 10.0 ** (floor(log10(value)) - digits + 1)
-    return step * (ceil(value / step - ROUNDING) if up else floor(value / step + ROUNDING))
 
 
 @dataclass(frozen=True)
@@ -52,26 +45,28 @@ class Block:
     @property
     def stress_limit(self) -> float:
         """Stress that is allowed and within the linear law."""
-        return min(self.allowable_stress, self.elastic_modulus * self.max_strain)
+        return float(f.stress_limit(self.allowable_stress, self.elastic_modulus, self.max_strain))
 
     @property
     def three_sides(self) -> float:
         """Length above which the block buckles."""
-        return 3 * min(self.ring_width, self.pad_height)
+        return float(f.three_sides(min(self.ring_width, self.pad_height)))
 
     @property
     def longest(self) -> float:
         """Length up to which the block does not buckle, as it is printed."""
-        return rounded(self.three_sides, up=False)
+        return outward(self.three_sides, up=False)
 
     def shortest(self, count: float, area: float) -> float:
         """Length at which so many dampers of an area take up the energy and the work of the drive."""
-        borne = count * area * self.stress_limit - 2 * self.driving_force
-        return 2 * self.kinetic_energy * self.elastic_modulus / (self.stress_limit * borne) if borne > 0 else np.inf
+        if self.driving_force >= f.force_limit(count, area, self.stress_limit):
+            return np.inf
+        needed = (self.kinetic_energy, self.elastic_modulus, self.stress_limit, count, area, self.driving_force)
+        return float(f.driven_length(*needed))
 
     def in_steps(self, length: float) -> float:
         """The next multiple of the step."""
-        return self.length_step * float(np.maximum(np.ceil(length / self.length_step - ROUNDING), 1))
+        return float(f.whole_steps_above(length, self.length_step))
 
     def moduli(self, length: float | None) -> Range:
         """Moduli with which all checks pass at a length, or where there is none, at the sized one."""
@@ -124,12 +119,13 @@ def _between(key: str, low: str, high: str) -> str:
 def _lengths(block: Block) -> Iterator[str]:
     """Lengths of this block that pass."""
     least = block.shortest(block.damper_count, block.ring_width * block.pad_height)
-    low, high = rounded(least, up=True), block.longest
+    low, high = outward(least, up=True), block.longest
     if low <= high:
         yield _between("adopted_length", told(low, "mm", DIGITS), told(high, "mm", DIGITS))
     if block.adopted_length is not None and not block.driving_force:
-        energy, modulus, area = block.kinetic_energy, block.elastic_modulus, block.area
-        sized = block.in_steps(2 * energy * modulus / (area * block.allowable_stress**2))
+        sized = block.in_steps(
+            f.free_length(block.kinetic_energy, block.elastic_modulus, 1, block.area, block.allowable_stress)
+        )
         if least <= sized * (1 + ROUNDING) and sized <= block.three_sides * (1 + ROUNDING):
             yield "leave adopted_length out, and the length is sized"
 
@@ -156,18 +152,20 @@ def _rubber(block: Block, moduli: Range) -> str:
         limits = max(softest, SOFTEST), min(hardest, HARDEST)
         key, display, digits = "shore_hardness", "1", (2, 3)
     for shown in digits:
-        low, high = rounded(limits[0], True, shown), rounded(limits[1], False, shown)
+        low, high = outward(limits[0], True, shown), outward(limits[1], False, shown)
         if low <= high and isfinite(high):
             return _between(key, told(low, display, shown), told(high, display, shown))
     return ""
 
 
 def _hardness(modulus: float) -> float:
-    """Hardness of a rubber by Gent's relation."""
-    if not isfinite(modulus):
-        return modulus
-    relative = 0.137505 * modulus / f.GENT
-    return (254 * relative - 56) / (7.62336 + 2.54 * relative)
+    """Hardness of a rubber by Gent's relation, within the hardnesses that may be given and one beyond each end."""
+    softest, hardest = SOFTEST - 1, HARDEST + 1
+    if modulus <= f.gent_modulus(softest):
+        return softest
+    if modulus >= f.gent_modulus(hardest):
+        return hardest
+    return float(brentq(lambda hardness: f.gent_modulus(hardness) - modulus, softest, hardest))
 
 
 def _dampers(block: Block) -> Iterator[str]:
@@ -177,7 +175,7 @@ def _dampers(block: Block) -> Iterator[str]:
     count = demanded / (area * stress)
     if count <= MOST_DAMPERS:
         whole = max(ceil(count - ROUNDING), round(block.damper_count) + 1)
-        length = min(rounded(block.in_steps(block.shortest(whole, area)), up=True), longest)
+        length = min(outward(block.in_steps(block.shortest(whole, area)), up=True), longest)
         yield f"take {whole} dampers of this pad with adopted_length: {told(length, 'mm', DIGITS)}"
 
 
@@ -189,8 +187,8 @@ def _pad(block: Block) -> Iterator[str]:
     if not (isfinite(still) and isfinite(pushed)):
         return
     least = still * float(np.roots([1, 0, -pushed, -1]).real.max())
-    side = rounded(block.in_steps(least), up=True, digits=DIGITS - 1)
+    side = outward(block.in_steps(least), up=True, digits=DIGITS - 1)
     if side <= WIDEST_PAD:
-        length = min(rounded(block.in_steps(block.shortest(block.damper_count, side**2)), up=True), 3 * side)
+        length = min(outward(block.in_steps(block.shortest(block.damper_count, side**2)), up=True), 3 * side)
         shown = told(side, "mm", DIGITS - 1)
         yield f"take a pad of at least {shown} by {shown} with adopted_length: {told(length, 'mm', DIGITS)}"

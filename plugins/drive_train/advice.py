@@ -7,9 +7,11 @@ from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
+from scipy.optimize import elementwise
 
 from diecut_report.api import si, standard_series, standard_series_by, told
 from diecut_report.mechanics import belt_path
+from diecut_report.plugins.drive_train.belts import length_left_over
 
 Array = NDArray[Any]
 PULLEYS = standard_series("renard_r40_lengths")
@@ -17,7 +19,6 @@ SERIES: Array = np.asarray([si(value, PULLEYS.unit) for value in PULLEYS.values]
 LENGTHS = standard_series_by("iso_4184_lengths")
 BELTS: Array = np.unique([si(value, series.unit) for series in LENGTHS.values() for value in series.values])
 NAMED = 3  # diameters in a message
-HALVINGS = 50  # of the range in which a distance of the shafts is sought
 
 LARGEST_RATIO = 7.0
 LARGEST_DEVIATION = 2.0  # of the output's speed, %
@@ -73,13 +74,11 @@ class Demand:
 def distance_of(belt: Array, small: Array, large: Array) -> Array:
     """Distance of the shafts with belts of these lengths, NaN where they are too short for the pulleys."""
     touching = small + large
-    low, high = np.broadcast_to(touching, belt.shape), np.maximum(belt / 2, touching)
-    for _ in range(HALVINGS):
-        middle = (low + high) / 2
-        longer = belt_path.open_belt_length(middle, small, large) > belt
-        low, high = np.where(longer, low, middle), np.where(longer, middle, high)
-    found: Array = np.where(belt_path.open_belt_length(touching, small, large) < belt, low, np.nan)
-    return found
+    found = elementwise.find_root(
+        length_left_over, (touching, np.maximum(belt / 2, touching)), args=(small, large, belt)
+    )
+    distance: Array = np.where(found.success, found.x, np.nan)
+    return distance
 
 
 def is_wrapped(distance: Array, small: Array, large: Array) -> Array:

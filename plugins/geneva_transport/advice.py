@@ -2,24 +2,19 @@
 
 from __future__ import annotations
 
-from math import floor, log10, sqrt
+from math import sqrt
 from typing import Any
 
 import numpy as np
 
-from diecut_report.api import told
+from diecut_report.api import below, told
 from diecut_report.mechanics import triangle
 from diecut_report.plugins.geneva_transport import formulas, loads
 
 ACCEPTED_OVERLAP = 5e-6  # m, of the arms' tips and the disc: half of what the check accepts
 THIN = 0.1  # share of the roller's radius that walls and tips keep, share of the room that a locking arc keeps from its ends
+DIGITS = 3  # of a radius or a clearance that is named
 POINTS = 361  # of the engagement, at which the overlap is tried
-
-
-def below(number: float) -> float:
-    """A number rounded down to three digits, and less than itself."""
-    step = 10.0 ** (floor(log10(number)) - 2)
-    return float(f"{floor(number / step - 1e-6) * step:.10g}")
 
 
 def usual_radius(crank: Any, roller: Any, flank: Any, rim: Any) -> Any:
@@ -68,7 +63,7 @@ def passes(slots: float, center: float, clearance: float, roller: Any, locking: 
 
 def roller_that_fits(slots: float, center: float, clearance: float, roller: float, locking: float | None = None) -> str:
     """Words on the greatest smaller roller with which all is sound, among steps of a hundredth."""
-    tried = np.array([below(roller * 1000 * share) for share in np.linspace(1, 0.02, 99)])
+    tried = np.array([below(roller * 1000 * share, DIGITS) for share in np.linspace(1, 0.02, 99)])
     fit = tried[passes(slots, center, clearance, tried / 1000, locking)]
     return f"a roller_radius of {fit[0]:g} mm" if len(fit) else "a greater center_distance"
 
@@ -91,7 +86,7 @@ def arc_that_fits(slots: float, center: float, clearance: float, roller: float, 
 def clearance_that_fits(slots: float, center: float, roller: float, locking: float) -> str:
     """Words on the clearance that lets the locking disc reach the wheel."""
     room = locking - loads.rim_distance(center, formulas.rim_radius(formulas.wheel_radius(slots, center), roller))
-    return f"take at most {below(room * 1000):g} mm" if room > 0 else "this arc does not reach the wheel"
+    return f"take at most {below(room * 1000, DIGITS):g} mm" if room > 0 else "this arc does not reach the wheel"
 
 
 def slower_crank(speed: float, peak: float, allowed: float) -> str:

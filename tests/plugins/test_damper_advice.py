@@ -13,7 +13,7 @@ from hypothesis import strategies as st
 from diecut_report.engine import calculate
 from diecut_report.expressions import Array
 from diecut_report.plugins.damper import MECHANISM
-from diecut_report.plugins.damper.advice import rounded
+from diecut_report.texts import outward
 from tests.machines import inputs
 from tests.plugins.dampers import calculated, checks, passing, told
 from tests.validation.rows_damper import damper
@@ -169,5 +169,5 @@ def test_what_no_damper_takes_up_is_told_so() -> None:
 
 @given(value=st.floats(1e-9, 1e9))
 def test_advice_is_rounded_to_the_safe_side(value: float) -> None:
-    assert value * 0.989 <= rounded(value, up=False) <= value * (1 + 1e-8)
-    assert value * (1 - 1e-8) <= rounded(value, up=True) <= value * 1.011
+    assert value * 0.989 <= outward(value, up=False) <= value * (1 + 1e-8)
+    assert value * (1 - 1e-8) <= outward(value, up=True) <= value * 1.011
