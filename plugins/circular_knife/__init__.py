@@ -1,0 +1,37 @@
+"""Scissor-like cutting with a circular knife: the arrangement of 001 (Uhryn), with formulas of this project's own."""
+
+from __future__ import annotations
+
+from diecut_report.api import Mechanism, Source
+from diecut_report.plugins.circular_knife import cutting, geometry
+from diecut_report.plugins.circular_knife.checks import CHECKS
+from diecut_report.plugins.circular_knife.figures import FIGURES
+from diecut_report.plugins.circular_knife.inputs import CircularKnife
+
+MECHANISM = Mechanism(
+    kind="circular_knife",
+    version="1.0",
+    title="Circular knife: scissor-like cutting",
+    summary="A knife whose edge is an arc about a point beside its shaft turns against a straight counter-knife on which the board lies, and cuts "
+    "it like scissors, from its front edge along the counter-knife. From the geometry follow the range of the cut, the shear angle, the speed and "
+    "sliding of the edge, force, torque and work. The formulas are this project's own: only the first page of the source survives, with the "
+    "geometry alone.",
+    inputs=CircularKnife,
+    sections=(geometry.REACH, geometry.RANGE, geometry.EDGE, cutting.MOTION, cutting.FORCES, cutting.GUILLOTINE),
+    key_results=("angle_start", "angle_end", "cut_time", "shear_angle_min", "shear_angle_max", "cut_speed_max", "sliding_ratio_max",
+                 "effective_sharpening_angle_min", "force_max", "torque_max", "work", "guillotine_force_ratio"),
+    checks=CHECKS,
+    figures=FIGURES,
+    assumptions=(
+        "The formulas are derived here from the geometry of the source's surviving page and are not compared with measurements.",
+        "The knife turns at constant speed; knife, counter-knife and shaft are rigid, and the edges meet without clearance.",
+        "The board does not move or bend; the force of spreading its cut sides apart is not included.",
+        "The sharpening angle has no influence on force and torque; it gives the effective angle alone.",
+        "Force and torque are taken from where the cutting point is at the board's front edge; before, while the edge enters the board, they rise "
+        "to that.",
+    ),
+    sources=(
+        Source("001", "Uhryn Ya. M. Analytical study of the process of cutting board with a circular knife. Naukovi zapysky (Scientific Papers) "
+               "1999, No. 1, section of printing machine building, UDC 686.12 (in Ukrainian; only the first page survives)."),
+    ),
+)  # fmt: skip

@@ -1,0 +1,36 @@
+"""Inputs of the circular knife."""
+
+from __future__ import annotations
+
+from diecut_report.api import POINTS, Annotated, Inputs, Quantity
+
+
+class CircularKnife(Inputs):
+    """Keys of ``circular_knife``."""
+
+    eccentricity: Annotated[float, Quantity("r", "mm", "Distance of the edge's centre from the shaft's axis", gt=0)]
+    edge_radius: Annotated[
+        float, Quantity("R", "mm", "Radius of the edge about its centre (above the eccentricity)", gt=0)
+    ]
+    depth: Annotated[
+        float, Quantity("H", "mm", "Distance of the counter-knife from the shaft's axis, between R − r and R + r", gt=0)
+    ]
+    front_distance: Annotated[
+        float,
+        Quantity("b", "mm", "Distance of the board's front edge from the shaft's axis, along the counter-knife", ge=0),
+    ]
+    thickness: Annotated[float, Quantity("h", "mm", "Thickness of the board (below the depth)", gt=0)]
+    cut_length: Annotated[float, Quantity("L", "mm", "Length of the cut from the board's front edge", gt=0)]
+    sharpening_angle: Annotated[float, Quantity("δ", "deg", "Sharpening angle of the edge", gt=0, lt=90)]
+    speed: Annotated[float, Quantity("ω", "rpm", "Speed of the knife's shaft; one cut a turn", gt=0)]
+    shear_resistance: Annotated[
+        float,
+        Quantity(
+            "σ",
+            "N/mm**2",
+            "Shear stress on the full thickness where the edge enters, falling to zero as it goes through",
+            gt=0,
+        ),
+    ] = 10
+    friction: Annotated[float, Quantity("f", "1", "Friction of the board on edge and counter-knife", ge=0)] = 0.3
+    n_points: Annotated[int, POINTS] = 720

@@ -1,0 +1,34 @@
+"""Checks of the folding knife's drives, the same for each."""
+
+from __future__ import annotations
+
+from diecut_report.api import Check
+from diecut_report.plugins.knife_drive.working import ALL, Drive
+
+
+def of_drive(drive: Drive) -> tuple[Check, ...]:
+    """Paper in the working stroke, paper in the grip, depth, time on the table."""
+    own, name = drive.key, f"{drive.name[0].upper()}{drive.name[1:]}"
+    return (
+        Check(id=f"{own}_paper_acceleration", title=f"{name}: acceleration of the paper", demand=f"{own}_acceleration_peak",
+              limit="allowable_paper_acceleration", unit="m/s**2", demand_label="greatest in the working stroke", limit_label="allowed",
+              needs=(own,), source="004, after Fig. 3",
+              consequence=f"the knife breaks or tears the paper at the fold; a shorter stroke ({{{own}_stroke}} now) at the same working depth "
+              "lowers it in proportion, a slower machine by the square."),
+        Check(id=f"{own}_grip_acceleration", title=f"{name}: acceleration in the grip", demand=f"{own}_grip_size",
+              limit="allowable_grip_acceleration", unit="m/s**2", demand_label="in the grip of the rollers", limit_label="allowed",
+              needs=(own,), source="004, after Fig. 3",
+              consequence="the rollers jerk the signature off the knife; slower rollers (roller_ratio, roller_diameter), a longer way of "
+              "gripping (grip_angle) or a faster knife at its beginning lower it."),
+        Check(id=f"{own}_depth", title=f"{name}: stroke over working depth", demand="working_depth", limit=f"{own}_stroke", unit="mm",
+              needs=(own,), demand_label="working depth", limit_label="stroke", source="geometry",
+              consequence=f"the edge never rises above the table; {drive.longer} makes the stroke greater."),
+        Check(id=f"{own}_time_budget", title=f"{name}: time on the table", demand=f"{own}_table_time", limit="signature_interval", unit="ms",
+              needs=(own, "signature_length"), demand_label="time of a signature on the table", limit_label="time between two signatures",
+              source="004, before Fig. 2",
+              consequence="the next signature runs into the one that is still on the table; faster rollers, or a drive with a shorter working "
+              "stroke, free the table sooner."),
+    )  # fmt: skip
+
+
+CHECKS = tuple(check for drive in ALL for check in of_drive(drive))

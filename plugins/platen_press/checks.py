@@ -1,0 +1,30 @@
+"""Checks of the platen press."""
+
+from __future__ import annotations
+
+from diecut_report.api import Check
+
+
+def _pressure(name: str, key: str, demand: str, pins: str) -> Check:
+    """The pressure of one kind of pins against what is allowed."""
+    return Check(id=f"contact_stress_{name}", title=f"Pressure of the {pins}", demand=demand, limit="allowable_pin_pressure", unit="MPa",
+                 demand_label="pressure", limit_label="allowed", source="input", needs=(key, "allowable_pin_pressure"),
+                 consequence=f"the {pins} squeeze out their oil and seize; make them longer, or thicker at the price of more friction.")  # fmt: skip
+
+
+CHECKS = (
+    Check(id="torque_sign", title="Relaxing rods never drive the crank", demand="elastic_arm", limit="friction_arm", unit="mm", operator="<",
+          demand_label="arm of the relaxing rods", limit_label="arm of friction", source="001, conclusion 1",
+          consequence="the relaxing rods drive the crank ahead and the play of the drive changes sides with a blow; a drive that stretches less than "
+          "{deformation_limit} avoids it."),
+    Check(id="torque_max", title="Torque at the main shaft", demand="torque_max", limit="allowable_torque", unit="N*m",
+          demand_label="greatest torque", limit_label="allowed", source="input", needs=("allowable_torque",),
+          consequence="the main shaft and its drive are overloaded; less friction in the joints or a stiffer drive lowers the torque, "
+          "and so does a shorter length of rules."),
+    _pressure("journal", "journal_length", "journal_pressure", "journals"),
+    _pressure("crank_pin", "crank_pin_length", "crank_pin_pressure", "crank pins"),
+    _pressure("platen_pin", "platen_pin_length", "platen_pin_pressure", "platen's pins"),
+    Check(id="energy_balance", title="Energy balance over a cycle", demand="energy_residual", limit=1e-6, unit="1",
+          demand_label="relative difference", limit_label="accepted", source="conservation of energy",
+          consequence="the calculation contradicts itself; do not use it."),
+)  # fmt: skip

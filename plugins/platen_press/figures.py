@@ -1,0 +1,182 @@
+"""Figures of the platen press: motion, forces and torque about the dead centre (figures 2 and 3 of the source), and over a turn."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from diecut_report.api import (
+    Chart,
+    Drawing,
+    Mark,
+    Panel,
+    Plot,
+    Series,
+    Shape,
+    View,
+    chart_panel,
+    fill,
+    level,
+    line,
+    mark,
+    vertical,
+)
+from diecut_report.plugins.platen_press.drawing import machine, relaxed
+
+POINTS = 28_801  # over the turn, of which a small part about the dead centre is drawn
+MARGIN = 1.2  # of what is drawn to the angles of cutting and relaxing
+FROM_DEAD_CENTER = ("Crank angle from the dead centre", "φ", "deg")
+SOURCE_PEAK = 5100.0  # N·m, printed by 001, conclusion 1
+SOURCE_MACHINE = {
+    "cutting_force_max": 5e5, "platen_mass": 306.0, "drive_deformation": 4.5e-4, "material_thickness": 5e-4, "crank_radius": 0.11,
+    "rod_length": 0.635, "journal_radius": 0.05025, "crank_pin_radius": 0.0475, "platen_pin_radius": 0.06, "friction_platen_pin": 0.1,
+    "friction_crank_pin": 0.1, "friction_journal": 0.1, "crank_speed": 2 * np.pi / 3,
+}  # fmt: skip
+
+
+def about_dead_center(view: View, *names: str) -> tuple[NDArray[Any], dict[str, NDArray[Any]]]:
+    """Crank angles from before contact to after the dwell, negative before the dead centre, and curves there."""
+    turn, curves = view.varied_curves({}, *names, points=POINTS)
+    before = turn >= 2 * np.pi - MARGIN * view["cutting_start_angle"]
+    after = turn <= MARGIN * max(view["dwell_end_angle"], view["cutting_start_angle"] / 2)
+    angle = np.concatenate([turn[before] - 2 * np.pi, turn[after]])
+    return angle, {name: np.concatenate([values[before], values[after]]) for name, values in curves.items()}
+
+
+def panel(view: View, title: str, unit: str, lines: list[Shape], **more: Any) -> Shape:
+    """One diagram about the dead centre, with contact, dead centre and the end of the dwell."""
+    events = [
+        vertical(-view["cutting_start_angle"], "contact"),
+        vertical(0.0, "dead centre"),
+        vertical(view["dwell_end_angle"], "relaxed"),
+    ]
+    return chart_panel(title, unit, *FROM_DEAD_CENTER, lines=lines, verticals=events, **more)
+
+
+def is_source_machine(view: View) -> bool:
+    """Whether this is the machine whose torque the source prints."""
+    return all(bool(np.isclose(view[name], value, rtol=1e-6)) for name, value in SOURCE_MACHINE.items())
+
+
+def forces(view: View) -> list[Shape]:
+    """Force of the rods, and their stretch, about the dead centre."""
+    angle, curves = about_dead_center(view, "force", "rod_stretch")
+    return [
+        panel(view, "Force of the rods", "kN", [line(angle, curves["force"], "F")]),
+        panel(view, "Stretch of the rods", "mm", [line(angle, curves["rod_stretch"], "Δl")]),
+    ]
+
+
+def cutting(view: View) -> list[Shape]:
+    """Displacement, speed and torque about the dead centre."""
+    names = ("platen_displacement", "platen_displacement_true", "platen_velocity_ideal", "platen_velocity_true",
+             "torque", "torque_useful", "torque_friction")  # fmt: skip
+    angle, found = about_dead_center(view, *names)
+    displacement, displacement_true, velocity, velocity_true, torque, useful, friction = (found[name] for name in names)
+    peak = [mark(-view["torque_max_angle"], view["torque_max"], "greatest")]
+    return [
+        panel(view, "Displacement", "mm", [line(angle, displacement, "ideal"), line(angle, displacement_true, "true")]),
+        panel(view, "Speed", "mm/s", [line(angle, velocity, "ideal"), line(angle, velocity_true, "true")]),
+        panel(view, "Torque", "N*m", [line(angle, torque, "torque"), line(angle, useful, "useful and elastic"), line(angle, friction, "friction")],
+              marks=peak),
+    ]  # fmt: skip
+
+
+def beside_source(view: View) -> list[Shape]:
+    """The torque beside eq. 14 as printed, up to the dead centre."""
+    angle, curves = about_dead_center(view, "torque", "torque_source", "torque_friction")
+    cut = (angle <= 0) & (angle >= -view["cutting_start_angle"])
+    cut[np.flatnonzero(angle == 0)[1:]] = False
+    phi, torque, printed = angle[cut], curves["torque"][cut], curves["torque_source"][cut]
+    levels = [level(view["torque_relaxing"], "friction at the dead centre")]
+    if is_source_machine(view):
+        levels.append(level(SOURCE_PEAK, "printed"))
+    marks = [
+        mark(-view["torque_max_angle"], view["torque_max"], "corrected"),
+        mark(-view["torque_max_source_angle"], view["torque_max_source"], "eq. 14"),
+    ]
+    return [
+        chart_panel("Torque while cutting", "N*m", *FROM_DEAD_CENTER,
+                    lines=[line(phi, torque, "corrected"), line(phi, printed, "eq. 14 as printed")],
+                    fills=[fill(phi, curves["torque_friction"][cut], "friction")],
+                    marks=marks, levels=levels),
+    ]  # fmt: skip
+
+
+def thickness(view: View) -> list[Shape]:
+    """Greatest torque and work over the thickness of the board."""
+    own = view["material_thickness"]
+    boards = np.linspace(0.2, 2.5, 93) * own
+    found = view.varied(
+        {"material_thickness": boards}, "torque_max", "torque_max_source", "work_per_cycle", "friction_work"
+    )
+    at = ("Thickness of the board", "s", "mm")
+    return [
+        chart_panel("Greatest torque", "N*m", *at, lines=[line(boards, found["torque_max"], "corrected"),
+                    line(boards, found["torque_max_source"], "eq. 14 as printed")], marks=[mark(own, view["torque_max"], "this board")]),
+        chart_panel("Work of a cycle", "J", *at, lines=[line(boards, found["work_per_cycle"], "all"),
+                    line(boards, found["friction_work"], "friction")], marks=[mark(own, view["work_per_cycle"], "this board")]),
+    ]  # fmt: skip
+
+
+FIGURES = (
+    Drawing(
+        id="machine",
+        title="Crank, rods and platen",
+        caption="The mechanism to scale a sixth of a turn before the dead centre, with journal, crank pin and platen's pin; light: the platen closed "
+        "and open. Size of the platen and place of the die on it are chosen here.",
+        build=machine,
+    ),
+    Chart(
+        id="cutting",
+        title="Displacement, speed and torque about the dead centre",
+        caption="Figure 3 of 001: before the dead centre the board is cut and the rods stretch, so that the platen is slower than its drive; "
+        "after it the platen stands until the rods have relaxed. Torque of cutting, stretch and inertia, torque of friction, and both "
+        "together; while the rods relax they help the crank.",
+        build=cutting,
+    ),
+    Chart(
+        id="forces",
+        title="Force and stretch of the rods about the dead centre",
+        caption="Figure 2 of 001: the force of both rods grows with the stretch up to the dead centre and goes back with it while the platen stands.",
+        build=forces,
+    ),
+    Chart(
+        id="source",
+        title="Torque while cutting, beside eq. 14",
+        caption="At the dead centre both give the friction of the joints alone, P_max·X less the share of the inertia force. Before it the force "
+        "has an arm too: that of crank and rods, or, in eq. 14, a shorter one by the platen's slower true speed. Arm and force together make "
+        "the peaks before the dead centre. The 5100 N·m that 001 prints for its machine lie 2 % above P_max·X: the number "
+        "is as at the dead centre itself and leaves out the peak of its own equation.",
+        build=beside_source,
+    ),
+    Chart(
+        id="thickness",
+        title="Thickness of the board",
+        caption="A thicker board of the same greatest force is met sooner, where the arm is longer: not only the work grows, as 001 concludes, "
+        "but the greatest torque too.",
+        build=thickness,
+    ),
+    Drawing(
+        id="relaxed",
+        title="Relaxed rods and friction",
+        caption="The shaft to scale where the rods have relaxed: as long as the line of the rods passes the shaft nearer than the arm X of friction, "
+        "the rods do not drive the crank.",
+        build=relaxed,
+    ),
+    Plot(
+        id="turn",
+        title="Motion and torque over a turn",
+        caption="Displacement, speed and torque over a turn of the crank from the inner dead centre.",
+        abscissa="crank_angle",
+        panels=(
+            Panel(title="Displacement", unit="mm", series=(Series(curve="platen_displacement", label="u"),)),
+            Panel(title="Speed", unit="m/s", series=(Series(curve="platen_velocity_true", label="true"),
+                                                     Series(curve="platen_velocity_first_order", label="ideal, first order"))),
+            Panel(title="Torque", unit="N*m", series=(Series(curve="torque", label="M"),),
+                  marks=(Mark(x="torque_max_at", y="torque_max", label="greatest"),)),
+        ),
+    ),
+)  # fmt: skip

@@ -1,0 +1,241 @@
+"""Formulas of the platen press; those of the slider-crank are in ``mechanics.slider_crank``."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+
+from diecut_report.api import GRAVITY, formula
+from diecut_report.mechanics.slider_crank import inner_arm_first_order
+
+
+@formula
+def turning_speed(cycles_per_hour: Any) -> Any:
+    """Angular speed of the crank at one turn for each cycle."""
+    return 2 * np.pi * cycles_per_hour
+
+
+@formula
+def rods_stretch(cutting_force_max: Any, rod_length: Any, rod_area: Any, elastic_modulus: Any) -> Any:
+    """Stretch of two rods under a force that they share."""
+    return cutting_force_max * rod_length / (2 * rod_area * elastic_modulus)
+
+
+@formula
+def fits_stroke(material_thickness: Any, drive_deformation: Any, crank_radius: Any) -> Any:
+    """Whether board and stretch are less than the stroke."""
+    return material_thickness + drive_deformation < 2 * crank_radius
+
+
+@formula
+def no_offset(offset_force: Any, offset_weight: Any) -> Any:
+    """Whether nothing turns the platen in its guides."""
+    return (offset_force == 0) & (offset_weight == 0)
+
+
+@formula
+def friction_arm(
+    friction_platen_pin: Any,
+    friction_crank_pin: Any,
+    friction_journal: Any,
+    platen_pin_radius: Any,
+    crank_pin_radius: Any,
+    journal_radius: Any,
+    lambda_ratio: Any,
+) -> Any:
+    """Arm of the joints' friction at the dead centre."""
+    crank_pin = friction_crank_pin * crank_pin_radius * (1 - lambda_ratio)
+    return friction_platen_pin * platen_pin_radius * lambda_ratio + crank_pin + friction_journal * journal_radius
+
+
+@formula
+def joint_arm(
+    friction_platen_pin: Any,
+    friction_crank_pin: Any,
+    friction_journal: Any,
+    platen_pin_radius: Any,
+    crank_pin_radius: Any,
+    journal_radius: Any,
+    rod_speed_ratio: Any,
+    rod_angle: Any,
+) -> Any:
+    """Arm of the joints' friction for each unit of the rods' force along the guides."""
+    crank_pin = friction_crank_pin * crank_pin_radius * abs(1 - rod_speed_ratio) / np.cos(rod_angle)
+    return (
+        friction_platen_pin * platen_pin_radius * abs(rod_speed_ratio) + crank_pin + friction_journal * journal_radius
+    )
+
+
+@formula
+def acceleration_dead_center(crank_radius: Any, crank_speed: Any, lambda_ratio: Any) -> Any:
+    """Acceleration of the platen at the inner dead centre."""
+    return crank_radius * crank_speed**2 * (1 - lambda_ratio)
+
+
+@formula
+def torque_dead_center(cutting_force_max: Any, inertia_dead_center: Any, friction_arm: Any) -> Any:
+    """Torque at the dead centre: only the friction of the joints is left."""
+    return (cutting_force_max - inertia_dead_center) * friction_arm
+
+
+@formula
+def turn_less(angle: Any) -> Any:
+    """An angle before the dead centre, counted on from the one before."""
+    return 2 * np.pi - angle
+
+
+@formula
+def phase(crank_angle: Any, dwell_end_angle: Any, cutting_begin: Any) -> Any:
+    """1 while the rods relax, 2 in free travel, 3 while the board is cut."""
+    return np.where(crank_angle < dwell_end_angle, 1, np.where(crank_angle < cutting_begin, 2, 3))
+
+
+@formula
+def is_phase(phase: Any, number: Any) -> Any:
+    """Whether it is one of the phases."""
+    return phase == number
+
+
+@formula
+def true_travel(platen_displacement: Any, material_thickness: Any, drive_deformation: Any) -> Any:
+    """Distance of the platen from the dead centre of the unloaded drive while it cuts and the rods stretch."""
+    share = material_thickness / (material_thickness + drive_deformation)
+    return drive_deformation + platen_displacement * share
+
+
+@formula
+def true_velocity(platen_velocity_ideal: Any, material_thickness: Any, drive_deformation: Any) -> Any:
+    """Speed of the platen while it cuts and the rods stretch."""
+    return platen_velocity_ideal * material_thickness / (material_thickness + drive_deformation)
+
+
+@formula
+def stretch_in_cut(platen_displacement: Any, material_thickness: Any, drive_deformation: Any) -> Any:
+    """Stretch of the rods while the board is cut."""
+    return drive_deformation * (1 - platen_displacement / (material_thickness + drive_deformation))
+
+
+@formula
+def standing_distance(rod_length: Any, drive_deformation: Any, crank_radius: Any) -> Any:
+    """Distance of the platen's pins from the shaft while the platen stands on the die."""
+    return rod_length + drive_deformation - crank_radius
+
+
+@formula
+def stretched_length(standing_distance: Any, crank_radius: Any, crank_angle: Any) -> Any:
+    """Distance between crank pin and platen pin while the platen stands."""
+    along = 2 * standing_distance * crank_radius * np.cos(crank_angle)
+    return np.sqrt(standing_distance**2 + crank_radius**2 + along)
+
+
+@formula
+def elastic_force(cutting_force_max: Any, rod_stretch: Any, drive_deformation: Any) -> Any:
+    """Force of the stretched rods."""
+    return cutting_force_max * rod_stretch / drive_deformation
+
+
+@formula
+def inertia(platen_mass: Any, acceleration: Any) -> Any:
+    """Force that gives the platen its acceleration."""
+    return platen_mass * acceleration
+
+
+@formula
+def driving_arm(travel_rate: Any) -> Any:
+    """Arm of the rods' force about the shaft, positive where the crank pulls the platen to the die."""
+    return -travel_rate
+
+
+@formula
+def relaxing_arm(standing_distance: Any, crank_radius: Any, crank_angle: Any, stretched_length: Any) -> Any:
+    """Arm of the rods' force about the shaft while the platen stands, negative where the rods help the crank."""
+    return -standing_distance * crank_radius * np.sin(crank_angle) / stretched_length
+
+
+@formula
+def joint_torque(force: Any, joint_arm: Any) -> Any:
+    """Torque of the joints' friction."""
+    return abs(force) * joint_arm
+
+
+@formula
+def guide_moment(force: Any, offset_force: Any, platen_mass: Any, offset_weight: Any) -> Any:
+    """Moment that turns the platen in its guides."""
+    return force * offset_force - platen_mass * GRAVITY * offset_weight
+
+
+@formula
+def guide_friction(friction_guide: Any, guide_moment: Any, guide_length: Any) -> Any:
+    """Friction of the guides under their two reactions."""
+    return 2 * friction_guide * abs(guide_moment) / guide_length
+
+
+@formula
+def guide_torque(guide_friction: Any, platen_velocity_true: Any, crank_speed: Any) -> Any:
+    """Torque of the guides' friction: the platen's own speed counts."""
+    return guide_friction * abs(platen_velocity_true) / crank_speed
+
+
+@formula
+def torque_as_printed(
+    force: Any,
+    crank_angle: Any,
+    crank_radius: Any,
+    lambda_ratio: Any,
+    material_thickness: Any,
+    drive_deformation: Any,
+    friction_arm: Any,
+) -> Any:
+    """Torque with the platen's true speed for the arm of the rods' force."""
+    share = material_thickness / (material_thickness + drive_deformation)
+    return force * (abs(inner_arm_first_order(crank_angle, crank_radius, lambda_ratio)) * share + friction_arm)
+
+
+@formula
+def return_arm(friction_arm: Any, elastic_arm: Any) -> Any:
+    """What friction has over the help of the rods."""
+    return friction_arm - elastic_arm
+
+
+@formula
+def elastic_arm(standing_distance: Any, crank_radius: Any, dwell_end_angle: Any, rod_length: Any) -> Any:
+    """Arm of the rods' force where they have relaxed: its greatest."""
+    return standing_distance * crank_radius * np.sin(dwell_end_angle) / rod_length
+
+
+@formula
+def friction_limit(friction: Any, elastic_arm: Any, friction_arm: Any) -> Any:
+    """Coefficient of friction at which the torque touches zero."""
+    return friction * elastic_arm / friction_arm
+
+
+@formula
+def deformation_limit(rod_length: Any, crank_radius: Any, friction_arm: Any) -> Any:
+    """Stretch of the drive at which the relaxed rods pass the shaft at the friction's arm."""
+    along = rod_length - np.sqrt(crank_radius**2 - friction_arm**2)
+    return np.sqrt(along**2 + friction_arm**2) - (rod_length - crank_radius)
+
+
+@formula
+def cutting_work(cutting_force_max: Any, material_thickness: Any) -> Any:
+    """Work of a force that grows in proportion to the travel through the board."""
+    return cutting_force_max * material_thickness / 2
+
+
+@formula
+def start_energy(platen_mass: Any, start_velocity: Any) -> Any:
+    """Energy of the platen at the speed that it is given when the rods have relaxed."""
+    return platen_mass * start_velocity**2 / 2
+
+
+@formula
+def energy_residual(work_per_cycle: Any, cutting_work: Any, friction_work: Any) -> Any:
+    """What the work of the torque differs from what it is spent on, relative."""
+    return abs(work_per_cycle - cutting_work - friction_work) / work_per_cycle
+
+
+@formula
+def pin_pressure(force_max: Any, radius: Any, length: Any) -> Any:
+    """Pressure on the projected area of one of two pins that share a force."""
+    return force_max / (4 * radius * length)

@@ -1,0 +1,219 @@
+"""The circular knife against a polygon that turns, finite differences, quadratures and swept areas."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+import pytest
+from scipy import integrate
+
+from diecut_report.engine import Calculation
+from diecut_report.expressions import Array
+from diecut_report.plugins.circular_knife import MECHANISM
+from diecut_report.plugins.circular_knife import formulas as f
+from diecut_report.testing import check_mechanism
+from tests.machines import number
+from tests.plugins.knives import SHAPES, at, crossing, edge_points, in_cut, knife
+
+shapes = pytest.mark.parametrize("shape", SHAPES.values(), ids=SHAPES)
+
+
+def sizes(calc: Calculation) -> tuple[float, ...]:
+    """Depth, depth of the upper face, shear resistance."""
+    return tuple(number(calc, name) for name in ("depth", "face_depth", "shear_resistance"))
+
+
+# --- geometry and motion ---------------------------------------------------------------------------------------------
+
+
+@shapes
+def test_the_cutting_point_is_where_the_turning_polygon_crosses_the_counter_knife(shape: dict[str, Any]) -> None:
+    calc = knife(**shape)
+    angles = in_cut(calc, 7)
+    brute = [float(crossing(calc, angle, number(calc, "depth"))) for angle in angles]
+    np.testing.assert_allclose(at(calc, "cut_position", angles), brute, rtol=1e-9)
+    front, end = number(calc, "front_distance"), number(calc, "cut_end")
+    for name, place in (("angle_start", front), ("angle_end", end)):
+        assert float(crossing(calc, number(calc, name), number(calc, "depth"))) == pytest.approx(place, rel=1e-9)
+
+
+@shapes
+def test_the_shear_angle_is_the_slope_of_the_polygon(shape: dict[str, Any]) -> None:
+    calc = knife(**shape)
+    depth, step = number(calc, "depth"), 1e-6
+    for angle in in_cut(calc, 7, inside=1e-3):
+        around = crossing(calc, angle, np.array([depth - step, depth + step]))
+        slope = np.arctan2(2 * step, around[0] - around[1])
+        assert at(calc, "shear_angle", angle)[0] == pytest.approx(slope, rel=1e-4)
+
+
+@shapes
+def test_the_cutting_speed_is_the_derivative_of_the_cutting_point(shape: dict[str, Any]) -> None:
+    calc = knife(**shape)
+    angles, step = in_cut(calc, 201, inside=1e-2), 1e-5 * number(calc, "cut_angle")
+    near, far = (
+        at(calc, "cut_position", angles + n * step) - at(calc, "cut_position", angles - n * step) for n in (1, 2)
+    )
+    rate = (8 * near - far) / (12 * step) * number(calc, "speed")
+    np.testing.assert_allclose(at(calc, "cut_speed", angles), rate, rtol=1e-7)
+    start, end = map(float, in_cut(calc, 2, inside=1e-12))
+    travelled = integrate.quad(lambda a: float(at(calc, "cut_speed", a)[0]), start, end, epsrel=1e-10, limit=400)[0]
+    assert travelled == pytest.approx(number(calc, "cut_length") * number(calc, "speed"), rel=1e-8)
+
+
+@shapes
+def test_the_sliding_ratio_is_that_of_the_velocity_of_the_knife_where_it_cuts(shape: dict[str, Any]) -> None:
+    """The velocity of a turning body is square to the way from its axis; it is split along and square to the polygon's edge."""
+    calc = knife(**shape)
+    depth = number(calc, "depth")
+    for angle in in_cut(calc, 7, inside=1e-3):
+        points = edge_points(calc, angle)
+        k = int(np.searchsorted(points[:, 1], depth))
+        edge = points[k] - points[k - 1]
+        x, y = points[k]
+        velocity = np.array([-y, x])  # clockwise, y down
+        ratio = abs(velocity @ edge) / abs(velocity @ np.array([edge[1], -edge[0]]))
+        assert at(calc, "sliding_ratio", angle)[0] == pytest.approx(ratio, rel=1e-3)
+
+
+@shapes
+def test_least_and_greatest_values_are_those_of_the_curves(shape: dict[str, Any]) -> None:
+    calc = knife(**shape)
+    angles = in_cut(calc, 20_001, inside=1e-9)
+    for name, curve, extreme in (("shear_angle_min", "shear_angle", np.min), ("shear_angle_max", "shear_angle", np.max),
+                                 ("cut_speed_max", "cut_speed", np.max), ("sliding_ratio_max", "sliding_ratio", np.max),
+                                 ("force_max", "force", np.max), ("torque_max", "torque", np.max)):  # fmt: skip
+        assert number(calc, name) == pytest.approx(float(extreme(at(calc, curve, angles))), rel=1e-6), name
+    way = np.array([1.0, number(calc, "sliding_ratio_max")])  # square to the edge, and along it
+    height = way[0] * np.tan(np.radians(20))
+    assert number(calc, "effective_sharpening_angle_min") == pytest.approx(
+        np.arctan2(height, np.hypot(*way)), rel=1e-12
+    )
+    assert number(calc, "cut_time") == pytest.approx(number(calc, "cut_angle") / number(calc, "speed"), rel=1e-15)
+
+
+def test_the_edge_that_cuts_is_as_long_as_the_places_that_pass_through_the_board() -> None:
+    """Places on the knife's edge that are between the board's faces and between its cut ends at any time."""
+    calc = knife()
+    depth, face, _ = sizes(calc)
+    seen: list[Array] = []
+    for angle in in_cut(calc, 81, inside=0.0):
+        points = edge_points(calc, float(angle), 20_001)
+        through = (points[:, 1] <= depth) & (points[:, 1] >= face)
+        seen.append(np.linspace(-angle, np.pi / 2 - angle, 20_001)[through])
+    places = np.concatenate(seen)
+    assert number(calc, "edge_length") == pytest.approx(0.1 * np.ptp(places), rel=1e-3)
+    assert number(calc, "edge_angle_first") == pytest.approx(places.max(), abs=2e-4)
+    assert number(calc, "edge_angle_last") == pytest.approx(places.min(), abs=2e-4)
+
+
+# --- force, torque, work ---------------------------------------------------------------------------------------------
+
+
+@shapes
+def test_the_force_is_the_stress_times_the_area_behind_the_polygon(shape: dict[str, Any]) -> None:
+    calc = knife(**shape)
+    depth, face, stress = sizes(calc)
+    levels = np.linspace(face, depth, 4001)
+    for angle in in_cut(calc, 5):
+        x = crossing(calc, angle, levels)
+        behind, before = np.trapezoid(x - x[-1], levels), np.trapezoid(x[0] - x, levels)
+        assert at(calc, "force", angle)[0] == pytest.approx(stress * behind, rel=2e-6)
+        assert at(calc, "working_force", angle)[0] == pytest.approx(stress * before, rel=2e-6)
+
+
+@shapes
+def test_the_torque_is_that_of_stress_and_friction_on_each_piece_of_the_polygon(shape: dict[str, Any]) -> None:
+    """σ(H − y) acts square to the edge on each unit of its length in the board; friction takes F_v, at the cutting point."""
+    calc = knife(**shape)
+    depth, face, stress = sizes(calc)
+    for angle in in_cut(calc, 5):
+        levels = np.linspace(face, depth, 4001)
+        x = crossing(calc, angle, levels)
+        middle = (levels[1:] + levels[:-1]) / 2
+        dx, dy = np.diff(x), np.diff(levels)
+        pressure = stress * (depth - middle)
+        force_x, force_y = pressure * dy, -pressure * dx  # on the board; x falls with depth
+        torque = np.sum((x[1:] + x[:-1]) / 2 * force_y - middle * force_x)
+        assert at(calc, "useful_torque", angle)[0] == pytest.approx(float(torque), rel=1e-5)
+        slope, pressed = at(calc, "shear_angle", angle)[0], at(calc, "force", angle)[0]
+        center = number(calc, "eccentricity") * np.exp(1j * angle)  # y down, so clockwise
+        contact = complex(at(calc, "cut_position", angle)[0], depth)
+        along = (contact - center) / abs(contact - center) * 1j
+        slid = abs(np.real(1j * contact * np.conj(along)))  # way of the contact along the edge for each radian
+        friction = number(calc, "friction") * pressed / np.cos(slope) * slid
+        assert at(calc, "friction_torque", angle)[0] == pytest.approx(friction, rel=1e-12)
+
+
+@shapes
+def test_the_work_is_the_integral_of_the_torque_and_that_of_the_forces_over_the_way(shape: dict[str, Any]) -> None:
+    """∫M dφ; and ∫F dx: all forces of cutting pass through the edge's centre, so they work on its way."""
+    calc = knife(**shape)
+    start, end = map(float, in_cut(calc, 2, inside=1e-12))
+    whole = integrate.quad(lambda a: float(at(calc, "torque", a)[0]), start, end, epsrel=1e-10, limit=400)[0]
+    assert number(calc, "work") == pytest.approx(whole, rel=1e-9)
+    angles = number(calc, "angle_start") + number(calc, "cut_angle") * np.linspace(1e-9, 1 - 1e-9, 200_001) ** 2
+    x, down = number(calc, "eccentricity") * np.array([np.cos(angles), np.sin(angles)])
+    thrust = number(calc, "shear_resistance") * number(calc, "thickness") ** 2 / 2
+    by_forces = np.trapezoid(at(calc, "working_force", angles), down) + thrust * (x[-1] - x[0])
+    assert number(calc, "useful_work") == pytest.approx(float(by_forces), rel=1e-7)
+
+
+@shapes
+def test_the_work_of_cutting_is_the_stress_over_the_area_that_the_edge_sweeps(shape: dict[str, Any]) -> None:
+    """Each place (x, y) of the board that the edge passes takes σ(H − y): the energy between the edge's first and last position."""
+    calc = knife(**shape)
+    depth, face, stress = sizes(calc)
+    levels = np.linspace(face, depth, 20_001)
+    first, last = (crossing(calc, number(calc, name), levels) for name in ("angle_start", "angle_end"))
+    swept = np.trapezoid((depth - levels) * (last - first), levels)
+    assert number(calc, "useful_work") == pytest.approx(stress * float(swept), rel=1e-6)
+
+
+def test_a_long_cut_takes_half_the_stress_for_each_unit_of_area() -> None:
+    """With a thin board the ends of the cut do not matter: work per area σh/2."""
+    calc = knife(thickness="0.01 mm")
+    assert number(calc, "useful_work") == pytest.approx(number(calc, "guillotine_work"), rel=5e-3)
+    assert number(calc, "guillotine_force") == pytest.approx(1e7 * 1e-5 * 0.015, rel=1e-14)
+    assert number(calc, "guillotine_work") == pytest.approx(number(calc, "guillotine_force") * 1e-5 / 2, rel=1e-14)
+
+
+@pytest.mark.parametrize("tau", [2.3, 12, 20])
+def test_the_triangle_under_a_straight_edge_is_high_where_the_shear_angle_is_small(tau: float) -> None:
+    """σh²/(2·tan τ) leaves out that the edge rises ever steeper: by the share h/(3R·sin²τ·cos τ) at first, by 60 % at 2.3°."""
+    slope = np.radians(tau)
+    face = np.arccos(np.cos(slope) - 0.5 / 100)
+    area = integrate.quad(lambda t: 100 * (np.sin(t) - np.sin(slope)) * 100 * np.sin(t), slope, face)[0]
+    excess = 0.60 if tau < 3 else 0.5 / (300 * np.sin(slope) ** 2 * np.cos(slope))
+    assert 0.5**2 / (2 * np.tan(slope)) / area - 1 == pytest.approx(excess, rel=0.05)
+    length = f.front_length(0.1, face, slope)
+    half = (face - slope) / 2
+    bow = 0.1**2 * (half - np.sin(half) * np.cos(half))
+    assert f.force(1e7, 5e-4, length, bow) == pytest.approx(1e7 * area * 1e-6, rel=1e-10)
+
+
+# --- curves over the turn --------------------------------------------------------------------------------------------
+
+
+@shapes
+def test_outside_the_cut_nothing_is_cut(shape: dict[str, Any]) -> None:
+    calc = knife(**shape)
+    start, end = number(calc, "angle_start"), number(calc, "angle_end")
+    outside = np.linspace(end + 1e-9, start + 2 * np.pi - 1e-9, 501)
+    for name in ("cut_speed", "sliding_ratio", "force", "torque"):
+        assert not at(calc, name, outside).any(), name
+        assert (at(calc, name, in_cut(calc)) > 0).all(), name
+    np.testing.assert_allclose(at(calc, "cut_position", outside), number(calc, "front_distance"), rtol=1e-12)
+    np.testing.assert_allclose(at(calc, "shear_angle", outside), number(calc, "shear_angle_min"), rtol=1e-12)
+    assert number(calc, "power_mean") == pytest.approx(number(calc, "work") * number(calc, "speed") / (2 * np.pi))
+
+
+def test_the_cut_may_lie_on_both_sides_of_the_turns_beginning() -> None:
+    through, before = knife(**SHAPES["through zero"]), knife(**SHAPES["before zero"])
+    assert number(through, "angle_start") < 0 < number(through, "angle_end")
+    assert number(before, "angle_start") < number(before, "angle_end") < 0
+
+
+def test_the_declaration_keeps_the_plugin_contract() -> None:
+    check_mechanism(MECHANISM)

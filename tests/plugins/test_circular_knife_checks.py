@@ -1,0 +1,140 @@
+"""What a circular knife cannot do, and what its checks say."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from diecut_report import pipeline
+from diecut_report.discovery import Discovery
+from diecut_report.engine import Impossible
+from tests.configs import EXAMPLES, HEAD, problems
+from tests.machines import number
+from tests.plugins.knives import checks, knife
+
+
+@pytest.mark.parametrize(
+    "changes, key, words",
+    [
+        ({"edge_radius": "20 mm"}, "edge_radius", "R > r = 20 mm"),
+        ({"depth": "80 mm"}, "depth", "R − r = 80 mm"),
+        ({"depth": "120 mm"}, "depth", "R + r = 120 mm"),
+        ({"thickness": "112 mm"}, "thickness", "h < H = 112 mm"),
+        ({"front_distance": "44 mm"}, "front_distance", "cannot reach the board"),
+        ({"cut_length": "18 mm"}, "cut_length", "b + L = 44 mm"),
+        ({"front_distance": "16.2 mm"}, "front_distance", "√(r² − (H − h − R)²) = 16.36 mm"),
+        (
+            {"depth": "95 mm", "front_distance": "19.364 mm", "thickness": "6 mm"},
+            "front_distance",
+            "√(r² − (H − R)²) = 19.36 mm",
+        ),
+    ],
+)
+def test_a_knife_that_cannot_cut_is_refused_in_words(changes: dict[str, Any], key: str, words: str) -> None:
+    with pytest.raises(Impossible) as refused:
+        knife(**changes)
+    assert refused.value.key == key
+    assert words in refused.value.message
+
+
+@pytest.mark.parametrize(
+    "limit, changed",
+    [
+        ("front_distance", lambda v: 0.01636 + v),
+        ("cut_length", lambda v: 0.0170813 - v),
+        ("depth", lambda v: 0.1127786 - v),
+    ],
+)
+def test_within_the_limits_of_the_geometry_a_knife_is_calculated(limit: str, changed: Any) -> None:
+    """b ≥ √(20² − 11.5²) = 16.363 mm; b + L ≤ √(120² − 112²) = 43.081 mm; H ≤ √(120² − 41²) = 112.7786 mm."""
+    value = changed(5e-6)
+    calc = knife(**{limit: f"{value} m"})
+    assert number(calc, "work") > 0
+
+
+def test_a_sound_knife_passes_all_checks() -> None:
+    found = checks(knife())
+    assert list(found) == ["reach", "shear_angle", "expulsion", "monotonic"]
+    assert {check["status"] for check in found.values()} == {"pass"}
+    assert found["reach"]["utilisation"] == pytest.approx(41 / (120**2 - 112**2) ** 0.5, rel=1e-12)
+
+
+def test_the_governing_side_of_the_shear_angle_is_shown() -> None:
+    upper, lower = (
+        checks(knife())["shear_angle"],
+        checks(knife(front_distance="20 mm", cut_length="1 mm"))["shear_angle"],
+    )
+    assert upper["demand"] == pytest.approx(number(knife(), "shear_angle_max")) and "20°" in upper["message"]
+    assert "2°" in lower["message"] and lower["utilisation"] == pytest.approx(lower["demand"] / lower["limit"])
+    assert lower["limit"] == number(knife(front_distance="20 mm", cut_length="1 mm"), "shear_angle_min")
+
+
+@pytest.mark.parametrize(
+    "changes, name, words",
+    [
+        ({"front_distance": "18 mm"}, "shear_angle", "less than 2°"),
+        ({"front_distance": "29 mm", "cut_length": "14 mm"}, "shear_angle", "more than 20°"),
+        ({"friction": 0.1}, "expulsion", "clamped"),
+        ({"friction": 0}, "expulsion", "clamped"),
+        ({"thickness": "3 mm", "cut_length": "17 mm"}, "monotonic", "runs back"),
+    ],
+)
+def test_a_check_fails_in_words_that_tell_what_to_change(changes: dict[str, Any], name: str, words: str) -> None:
+    found = checks(knife(**changes))[name]
+    assert found["status"] == "fail"
+    assert words in found["message"]
+
+
+def test_both_sides_of_the_shear_angle_are_told_where_both_are_left() -> None:
+    message = checks(knife(front_distance="18 mm", cut_length="25 mm"))["shear_angle"]["message"]
+    assert "more than 20°" in message and "less than 2°" in message
+
+
+@pytest.mark.parametrize(
+    "start, changed",
+    [({"front_distance": "29 mm", "cut_length": "14 mm"}, changed)
+     for changed in ({"cut_length": "12 mm"}, {"front_distance": "27 mm"}, {"depth": "111.5 mm"})],
+)  # fmt: skip
+def test_what_is_advised_lowers_the_shear_angle(start: dict[str, Any], changed: dict[str, Any]) -> None:
+    assert number(knife(**start | changed), "shear_angle_max") < number(knife(**start), "shear_angle_max")
+
+
+@pytest.mark.parametrize(
+    "changed",
+    [{"cut_length": "16 mm"}, {"front_distance": "25 mm"}, {"edge_radius": "101 mm"}, {"eccentricity": "21 mm"}],
+)
+def test_what_is_advised_keeps_the_edge_from_running_back(changed: dict[str, Any]) -> None:
+    start = {"thickness": "3 mm", "cut_length": "17 mm"}
+    before, after = (checks(knife(**start | change))["monotonic"]["utilisation"] for change in ({}, changed))
+    assert after < before
+
+
+@pytest.mark.parametrize(
+    "change, words",
+    [
+        ("eccentricity: 0", "> 0 mm"),
+        ("sharpening_angle: 90 deg", "< 90 °"),
+        ("friction: -0.1", "≥ 0"),
+        ("speed: 60 1/min", "rpm"),
+        ("knife_radius: 3 mm", "knife_radius"),
+    ],
+)
+def test_inputs_out_of_range_are_refused(tmp_path: Path, change: str, words: str) -> None:
+    keys = {"eccentricity": "20", "edge_radius": "100", "depth": "112", "front_distance": "26", "thickness": "0.5",
+            "cut_length": "15", "sharpening_angle": "20", "speed": "60"}  # fmt: skip
+    key, _, value = change.partition(": ")
+    text = ", ".join(f"{name}: {given}" for name, given in (keys | {key: value}).items())
+    found = problems(tmp_path, HEAD + f"  k: {{kind: circular_knife, {text}}}\n", Discovery([]))
+    assert len(found) == 1 and words in found[0]
+
+
+def test_the_example_is_the_worked_example_and_passes() -> None:
+    config = next(path for path in EXAMPLES if path.name == "circular_knife.yaml")
+    results = pipeline.calc(config, Discovery([]), lambda _: None)[0].results
+    found = results["mechanisms"]["knife"]
+    assert results["status"] == "pass"
+    assert found["outputs"]["force_max"]["value"] == pytest.approx(10.5276, rel=5e-6)
+    for name in ("cut_position", "shear_angle", "cut_speed", "sliding_ratio", "force", "torque"):
+        assert found["curves"][name]["abscissa"] == "knife_angle"

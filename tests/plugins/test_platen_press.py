@@ -1,0 +1,393 @@
+"""The platen press against brute force, virtual work, energy, finite differences, and what must be refused."""
+
+from __future__ import annotations
+
+from itertools import pairwise
+from math import degrees, pi
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+from numpy.typing import NDArray
+from scipy.integrate import quad
+from scipy.optimize import brentq
+
+from diecut_report import pipeline
+from diecut_report.discovery import Discovery
+from diecut_report.engine import Calculation, Impossible, calculate
+from diecut_report.plugins.platen_press import MECHANISM
+from diecut_report.results import mechanism_results
+from diecut_report.testing import check_mechanism
+from tests.configs import EXAMPLES, HEAD, problems, saved
+from tests.machines import inputs, number
+from tests.plugins.platens import FRICTIONS, GUIDED, at, checks, platen
+
+R, ROD, FORCE, MASS, BOARD, STRETCH, OMEGA = 0.11, 0.635, 5e5, 306.0, 5e-4, 4.5e-4, 2 * pi / 3
+
+
+def slider(phi: Any) -> Any:
+    """Distance of the platen's pins from the shaft in an unloaded drive (Pythagoras)."""
+    return -R * np.cos(phi) + np.sqrt(ROD**2 - (R * np.sin(phi)) ** 2)
+
+
+def travel(phi: Any) -> Any:
+    """Its distance from the dead centre."""
+    return slider(phi) - (ROD - R)
+
+
+# --- contact, dwell, motion ------------------------------------------------------------------------------------------
+
+
+def test_contact_and_dwell_are_where_the_loop_puts_them() -> None:
+    calc = platen()
+    contact = brentq(lambda phi: travel(phi) - BOARD - STRETCH, 0.01, 1, xtol=1e-14)
+    relaxed = brentq(lambda phi: travel(phi) - STRETCH, 0.01, 1, xtol=1e-14)
+    assert number(calc, "cutting_start_angle") == pytest.approx(contact, rel=1e-9)
+    assert number(calc, "dwell_end_angle") == pytest.approx(relaxed, rel=1e-9)
+    step = 1e-6
+    speed = (travel(contact + step) - travel(contact - step)) / (2 * step) * OMEGA
+    assert number(calc, "velocity_at_contact") == pytest.approx(speed, rel=1e-7)
+
+
+def smooth(calc: Calculation, count: int = 1201, clear: float = 3e-3) -> NDArray[Any]:
+    """Crank angles that keep clear of all joints of the curves."""
+    phi = np.linspace(0, 2 * pi, count)
+    edges = calc.domains["crank_angle"].edges[0]
+    found: NDArray[Any] = phi[np.abs(phi[:, None] - edges[None, :]).min(axis=1) > clear]
+    return found
+
+
+def slope(calc: Calculation, curve: str, phi: NDArray[Any], step: float = 5e-4) -> NDArray[Any]:
+    """The derivative by the crank angle, by central differences of fourth order."""
+    near, far = (at(calc, curve, phi + n * step) - at(calc, curve, phi - n * step) for n in (1, 2))
+    return np.asarray((8 * near - far) / (12 * step))
+
+
+@pytest.mark.parametrize(
+    "place, rate",
+    [
+        ("platen_displacement", "platen_velocity_ideal"),
+        ("platen_velocity_ideal", "platen_acceleration"),
+        ("platen_displacement_true", "platen_velocity_true"),
+    ],
+)
+def test_speeds_and_accelerations_are_derivatives(place: str, rate: str) -> None:
+    calc = platen()
+    phi = smooth(calc)
+    expected = at(calc, rate, phi)
+    np.testing.assert_allclose(slope(calc, place, phi) * OMEGA, expected, atol=1e-8 * np.abs(expected).max())
+
+
+def test_the_ideal_displacement_closes_the_loop_and_the_true_one_is_it_with_the_stretch() -> None:
+    calc = platen()
+    phi = np.linspace(0, 2 * pi, 4001)[:-1]
+    np.testing.assert_allclose(at(calc, "platen_displacement", phi), travel(phi), atol=1e-15)
+    before = -np.linspace(0.001, 0.999, 300) * number(calc, "cutting_start_angle")
+    stretched = at(calc, "platen_displacement_true", before) - at(calc, "platen_displacement", before)
+    np.testing.assert_allclose(at(calc, "rod_stretch", before), stretched, atol=1e-15)
+    after = np.linspace(0.001, 0.999, 300) * number(calc, "dwell_end_angle")
+    crank = R * np.stack([-np.cos(after), np.sin(after)])
+    rods = np.hypot(crank[0] - (ROD - R + STRETCH), crank[1]) - ROD
+    np.testing.assert_allclose(at(calc, "rod_stretch", after), rods, atol=1e-15)
+
+
+def test_the_first_order_speed_is_reported_beside_the_exact_one() -> None:
+    calc = platen()
+    phi = np.linspace(0, 2 * pi, 20_001)[:-1]
+    lam = R / ROD
+    printed = R * OMEGA * (np.sin(phi) - lam / 2 * np.sin(2 * phi))
+    np.testing.assert_allclose(at(calc, "platen_velocity_first_order", phi), printed, atol=1e-15)
+    exact = np.gradient(travel(phi), phi) * OMEGA
+    assert number(calc, "velocity_difference") == pytest.approx(np.abs(exact - printed)[2:-2].max(), rel=1e-3)
+    assert number(calc, "velocity_difference") < 1e-3 * number(calc, "velocity_max")
+
+
+# --- torque ----------------------------------------------------------------------------------------------------------
+
+
+def brute_torque(before: float, share: float = 1.0, mass: float = MASS) -> float:
+    """Torque while cutting, ``before`` the dead centre: rigid-body speeds by differences, no formula of the plugin."""
+    step = 1e-5
+    down, here, up = (travel(-before + d) for d in (-step, 0.0, step))
+    rate, bend = (up - down) / (2 * step), (up - 2 * here + down) / step**2
+    tilt = np.arcsin(R / ROD * np.sin(before))
+    turn = (np.arcsin(R / ROD * np.sin(before + step)) - np.arcsin(R / ROD * np.sin(before - step))) / (2 * step)
+    arm = 0.1 * (0.06 * abs(turn) + 0.0475 * abs(1 - turn) / np.cos(tilt) + 0.05025)
+    force = FORCE * (1 - here / (BOARD + STRETCH)) - mass * bend * OMEGA**2
+    return float(force * (-rate * share + arm))
+
+
+def test_the_torque_while_cutting_and_its_peak_are_those_of_brute_force() -> None:
+    calc = platen()
+    angles = np.linspace(1e-3, 0.999, 400) * number(calc, "cutting_start_angle")
+    expected = np.array([brute_torque(float(before)) for before in angles])
+    np.testing.assert_allclose(at(calc, "torque", -angles), expected, atol=2e-5 * expected.max())
+    best = int(np.argmax(expected))
+    assert number(calc, "torque_max") == pytest.approx(expected[best], rel=2e-5)
+    assert number(calc, "torque_max_angle") == pytest.approx(angles[best], abs=5e-4)
+    printed = np.array([brute_torque(float(before), BOARD / (BOARD + STRETCH)) for before in angles])
+    assert number(calc, "torque_max_source") == pytest.approx(printed.max(), rel=2e-5)
+    assert number(calc, "torque_max_source_angle") == pytest.approx(angles[int(np.argmax(printed))], abs=5e-4)
+
+
+def test_power_at_every_angle_goes_into_board_rods_platen_and_friction() -> None:
+    """Virtual work: M·ω is the power of the cutting force on the platen, of stretch, of inertia and of friction."""
+    calc = platen(**GUIDED, **FRICTIONS)
+    phi = smooth(calc)
+    stiffness = FORCE / STRETCH
+    force, arm = at(calc, "elastic_force", phi), at(calc, "joint_arm", phi)
+    strain = slope(calc, "rod_stretch", phi) * at(calc, "rod_stretch", phi) * stiffness
+    cutting = np.where(phi > pi, -at(calc, "platen_velocity_true", phi) / OMEGA * force, 0)
+    moving = np.abs(at(calc, "platen_velocity_true", phi)) > 0
+    kinetic = np.where(
+        moving, MASS * at(calc, "platen_acceleration", phi) * at(calc, "platen_velocity_ideal", phi) / OMEGA, 0
+    )
+    sliding = np.abs(at(calc, "platen_velocity_true", phi)) / OMEGA
+    press = np.abs(at(calc, "force", phi) * 0.005 - MASS * 9.80665 * 0.02) * 2 / 0.4
+    friction = np.abs(at(calc, "force", phi)) * arm + 0.15 * press * sliding
+    np.testing.assert_allclose(
+        at(calc, "torque", phi), cutting + strain + kinetic + friction, atol=1e-6 * number(calc, "torque_max")
+    )
+
+
+@pytest.mark.parametrize(
+    "changes", [{}, GUIDED | FRICTIONS, {"cycles_per_hour": 9000}, {"material_thickness": "3 mm"}, {"friction": 0}]
+)
+def test_the_torque_over_a_cycle_is_spent_on_the_board_on_friction_and_on_setting_the_platen_moving(
+    changes: dict[str, Any],
+) -> None:
+    calc = platen(**changes)
+    edges = calc.domains["crank_angle"].edges[0]
+    pieces = [(a + 1e-13, b - 1e-13) for a, b in pairwise(edges) if b - a > 1e-9]
+    work, friction = (
+        sum(
+            quad(lambda x, c=curve: float(at(calc, c, x)[0]), a, b, epsabs=1e-10, epsrel=1e-11, limit=200)[0]
+            for a, b in pieces
+        )
+        for curve in ("torque", "torque_friction")
+    )
+    board = FORCE / 2 * number(calc, "material_thickness")
+    step = 1e-6
+    release = number(calc, "dwell_end_angle")
+    start = (travel(release + step) - travel(release - step)) / (2 * step) * number(calc, "crank_speed")
+    assert work + MASS * start**2 / 2 == pytest.approx(board + friction, rel=1e-8)
+    assert number(calc, "work_per_cycle") == pytest.approx(board + friction, rel=1e-9)
+    assert number(calc, "friction_work") == pytest.approx(friction, rel=1e-9, abs=1e-12)
+    assert number(calc, "power_mean") == pytest.approx(
+        (board + friction) * number(calc, "crank_speed") / (2 * pi), rel=1e-9
+    )
+    assert number(calc, "energy_residual") < 1e-9
+
+
+def test_what_the_rods_take_up_they_give_back() -> None:
+    calc = platen(platen_mass=0)
+    useful = [quad(lambda x: float(at(calc, "torque_useful", x)[0]), *ends, epsabs=1e-10)[0]
+              for ends in ((1e-13, number(calc, "dwell_end_angle")), (number(calc, "cutting_begin"), 2 * pi - 1e-13))]  # fmt: skip
+    assert useful == pytest.approx([-112.5, 237.5], rel=1e-8)
+    assert number(calc, "strain_energy") == pytest.approx(112.5, rel=1e-12)
+
+
+@given(stretch=st.floats(0.05, 5), board=st.floats(0.05, 5), rod=st.floats(130, 2000), force=st.floats(1, 5000),
+       frictions=st.lists(st.floats(0.005, 0.5), min_size=4, max_size=4), rate=st.floats(10, 9000))  # fmt: skip
+@settings(max_examples=60, deadline=None)
+def test_any_machine_keeps_energy_and_its_least_return_arm_is_that_of_the_whole_dwell(
+    stretch: float, board: float, rod: float, force: float, frictions: list[float], rate: float
+) -> None:
+    calc = platen(drive_deformation=stretch, material_thickness=board, rod_length=rod, cutting_force_max=force, friction=frictions,
+                  cycles_per_hour=rate)  # fmt: skip
+    assert number(calc, "energy_residual") < 1e-8
+    after = np.linspace(0, number(calc, "dwell_end_angle"), 2001)
+    pin, stands = R * np.exp(1j * (pi - after)), rod / 1e3 - R + stretch / 1e3
+    passes = np.abs(np.imag(np.conj(stands - pin) * pin)) / np.abs(
+        stands - pin
+    )  # distance of the rods' line from the shaft
+    least = (number(calc, "friction_arm") - passes).min()
+    assert number(calc, "return_arm_min") == pytest.approx(least, abs=1e-9)
+    found = checks(calc)["torque_sign"]["status"]
+    assert found == ("pass" if least > 1e-12 else "fail")
+
+
+def test_the_torque_of_the_relaxing_rods_touches_zero_at_both_limits() -> None:
+    calc = platen()
+    for change in (
+        {"friction": number(calc, "friction_limit")},
+        {"drive_deformation": number(calc, "deformation_limit") * 1e3},
+    ):
+        assert number(platen(**change), "return_arm_min") == pytest.approx(0, abs=1e-12)
+    beyond = platen(drive_deformation=0.6)
+    after = np.linspace(0.01, 0.99, 99) * number(beyond, "dwell_end_angle")
+    assert (
+        at(beyond, "torque", after).min()
+        < 0
+        < at(calc, "torque", np.linspace(0, 0.99, 99) * number(calc, "dwell_end_angle")).min()
+    )
+
+
+# --- inputs ----------------------------------------------------------------------------------------------------------
+
+
+def test_the_stretch_follows_from_two_rods() -> None:
+    calc = platen(rod_area="3000 mm**2", elastic_modulus="210 GPa")
+    assert number(calc, "drive_deformation") == pytest.approx(5e5 / 2 * 0.635 / (210e9 * 0.003), rel=1e-14)
+
+
+def test_four_frictions_act_each_in_its_place() -> None:
+    calc = platen(friction=[0.5, 0.02, 0.03, 0.05])
+    lam = R / ROD
+    arm = 0.02 * 0.06 * lam + 0.03 * 0.0475 * (1 - lam) + 0.05 * 0.05025
+    assert number(calc, "friction_arm") == pytest.approx(arm, rel=1e-14)
+    single = platen(friction=0.02, friction_guide=0.5, friction_crank_pin=0.03, friction_journal=0.05)
+    assert number(single, "torque_max") == number(calc, "torque_max")
+    assert number(platen(friction=[0.1] * 4), "torque_max") == number(platen(), "torque_max")
+    assert "friction_limit" in platen().values and "friction_limit" not in calc.values
+
+
+def test_a_list_of_frictions_may_hold_references_and_be_referred_to(tmp_path: Path) -> None:
+    config = saved(tmp_path, HEAD + "  a: {kind: platen_press, friction: [0.1, 0.02, '${b.friction}', 0.05]}\n"
+                   "  b: {kind: platen_press, friction: 0.03}\n  c: {kind: platen_press, friction: [0.1, 0.02, 0.03, 0.05]}\n"
+                   "  d: {kind: platen_press, friction: '${c.friction}'}\n")  # fmt: skip
+    found = pipeline.calc(config, Discovery([]), lambda _: None)[0].results["mechanisms"]
+    expected = number(platen(friction=[0.1, 0.02, 0.03, 0.05]), "friction_arm")
+    assert [found[name]["outputs"]["friction_arm"]["value"] for name in "acd"] == [expected] * 3
+
+
+@pytest.mark.parametrize(
+    "keys, words",
+    [
+        ("rod_area: 0, elastic_modulus: 210 GPa", "rod_area: 0 mm² is out of range; allowed: > 0 mm²"),
+        ("elastic_modulus: 0, rod_area: 3000", "elastic_modulus: 0 GPa is out of range; allowed: > 0 GPa"),
+        ("drive_deformation: 0", "drive_deformation: 0 mm is out of range"),
+        ("rod_area: 3000", "elastic_modulus is missing beside rod_area"),
+        ("rod_area: 3000, elastic_modulus: 210, drive_deformation: 0.4", "both given, but only one can hold"),
+        ("friction: [0.1, 0.1, 0.1]", "friction: has 3 values; give one coefficient for all, or 4"),
+        ("friction: [0.1, 0.1, -0.2, 0.1]", "friction: of the crank pins: -0.2 is out of range; allowed: ≥ 0, ≤ 1"),
+        ("friction: null", "friction: has no values; give one coefficient for all, or 4"),
+        ("friction: 1.2", "friction: 1.2 is out of range"),
+        ("friction_guide: [0.1, 0.1, 0.1, 0.1]", "friction_guide: is a list; a number"),
+        ("cutting_force_max: 0", "> 0 kN"),
+    ],
+)
+def test_inputs_out_of_range_are_refused(tmp_path: Path, keys: str, words: str) -> None:
+    found = problems(tmp_path, HEAD + f"  p: {{kind: platen_press, {keys}}}\n", Discovery([]))
+    assert len(found) == 1 and words in found[0]
+
+
+@pytest.mark.parametrize(
+    "changes, key, words",
+    [
+        ({"rod_length": "100 mm"}, "rod_length", "longer than the crank's radius 110 mm"),
+        ({"rod_length": "110 mm"}, "rod_length", "longer than the crank's radius"),
+        ({"material_thickness": "219.6 mm"}, "material_thickness", "twice the crank radius"),
+        ({"drive_deformation": "120 mm"}, "cutting_force_max", "stretches the drive by 120 mm"),
+        ({"offset_force": "5 mm"}, "guide_length", "presses on its guides"),
+        ({"offset_weight": "-5 mm"}, "guide_length", "offset_weight = -5 mm"),
+    ],
+)
+def test_an_impossible_press_is_refused_in_words(changes: dict[str, Any], key: str, words: str) -> None:
+    with pytest.raises(Impossible) as refused:
+        platen(**changes)
+    assert refused.value.key == key
+    assert words in refused.value.message.replace("−", "-")
+
+
+# --- checks, figures, contract ---------------------------------------------------------------------------------------
+
+
+def test_pins_share_the_force_and_are_checked() -> None:
+    lengths = {"journal_length": "120 mm", "crank_pin_length": "110 mm", "platen_pin_length": "90 mm"}
+    calc = platen(**lengths, allowable_pin_pressure=23)
+    assert number(calc, "crank_pin_pressure") == pytest.approx(250e3 / (0.095 * 0.11), rel=1e-12)
+    assert number(calc, "journal_pressure") == pytest.approx(250e3 / (0.1005 * 0.12), rel=1e-12)
+    assert number(calc, "platen_pin_pressure") == pytest.approx(250e3 / (0.12 * 0.09), rel=1e-12)
+    found = {name: check["status"] for name, check in checks(calc).items() if name.startswith("contact_stress")}
+    assert found == {
+        "contact_stress_journal": "pass",
+        "contact_stress_crank_pin": "fail",
+        "contact_stress_platen_pin": "fail",
+    }
+
+
+def test_the_torque_is_held_against_what_is_allowed() -> None:
+    assert checks(platen(allowable_torque=6500))["torque_max"]["status"] == "pass"
+    assert checks(platen(allowable_torque=6300))["torque_max"]["status"] == "fail"
+    assert "torque_max" not in checks(platen())
+
+
+def test_the_message_of_a_reversal_tells_the_stretch_that_avoids_it() -> None:
+    found = checks(platen(drive_deformation=0.6))["torque_sign"]
+    assert found["status"] == "fail" and "0.5497 mm" in found["message"]
+
+
+def figure(calc: Calculation, name: str) -> dict[str, Any]:
+    """A figure of the results."""
+    found: dict[str, Any] = next(f for f in mechanism_results(calc, {})["figures"] if f["id"] == name)
+    return found
+
+
+def test_the_printed_torque_stands_in_the_figure_of_the_sources_machine_alone() -> None:
+    levels = [
+        [level["label"] for level in figure(platen(**change), "source")["panels"][0]["levels"]]
+        for change in ({}, {"platen_mass": 300})
+    ]
+    assert levels == [["friction at the dead centre", "printed"], ["friction at the dead centre"]]
+
+
+def test_all_figures_are_drawn_for_a_machine_of_other_proportions() -> None:
+    calc = platen(rod_length="130 mm", material_thickness="40 mm", drive_deformation="20 mm", friction=0)
+    names = [f["id"] for f in mechanism_results(calc, {})["figures"]]
+    assert names == ["machine", "cutting", "forces", "source", "thickness", "relaxed", "turn"]
+
+
+def test_the_figure_over_the_thickness_has_the_peaks_of_single_machines() -> None:
+    lines = figure(platen(), "thickness")["panels"][0]["lines"]
+    for i in (0, 40, 92):
+        single = platen(material_thickness=lines[0]["x"][i] * 1e3)
+        assert lines[0]["y"][i] == pytest.approx(number(single, "torque_max"), rel=1e-9)
+        assert lines[1]["y"][i] == pytest.approx(number(single, "torque_max_source"), rel=1e-9)
+
+
+def test_the_example_is_the_sources_machine() -> None:
+    example = next(path for path in EXAMPLES if path.name == "platen_press_zppt30.yaml")
+    found = pipeline.calc(example, Discovery([]), lambda _: None)[0].results
+    assert found["status"] == "pass"
+    outputs = found["mechanisms"]["platen"]["outputs"]
+    assert outputs["torque_max"]["value"] == number(platen(), "torque_max")
+    assert degrees(outputs["torque_max_angle"]["value"]) == pytest.approx(3.12, abs=5e-3)
+
+
+def test_many_variants_at_once_are_single_runs() -> None:
+    draw, count = np.random.default_rng(5), 120
+    varied = {
+        "material_thickness": draw.uniform(1e-4, 3e-3, count),
+        "drive_deformation": draw.uniform(1e-4, 2e-3, count),
+        "rod_length": draw.uniform(0.08, 1.2, count),
+        "friction": draw.uniform(0.0, 0.3, count),
+        "cycles_per_hour": draw.uniform(0.1, 2, count),
+        "offset_force": draw.uniform(-0.02, 0.02, count),
+    }
+    base = inputs(MECHANISM, GUIDED | {"n_points": 72, "crank_pin_length": "100 mm"})
+    together = calculate(MECHANISM, base | varied, variants=count)
+    names = [
+        name
+        for name, value in together.values.items()
+        if value.shape == (count, 1) and value.dtype != object and "_change_" not in name
+    ]  # a machine has as many crossings as it has
+    assert 0 < len(together.flaws) < 20
+    for i in range(count):
+        single = base | {name: float(values[i]) for name, values in varied.items()}
+        if i in together.flaws:
+            with pytest.raises(Impossible):
+                calculate(MECHANISM, single)
+            continue
+        alone = calculate(MECHANISM, single)
+        for name in names:
+            tolerance = 1e-6 if name.endswith(("_at", "_angle")) else 1e-10
+            scale = 1e-9 if name == "energy_residual" else 1e-14
+            assert together[name][i, 0] == pytest.approx(number(alone, name), rel=tolerance, abs=scale, nan_ok=True)
+
+
+def test_the_declaration_keeps_the_plugin_contract() -> None:
+    check_mechanism(MECHANISM)
