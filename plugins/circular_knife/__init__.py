@@ -27,8 +27,9 @@ MECHANISM = Mechanism(
         "The knife turns at constant speed; knife, counter-knife and shaft are rigid, and the edges meet without clearance.",
         "The board does not move or bend; the force of spreading its cut sides apart is not included.",
         "The sharpening angle has no influence on force and torque; it gives the effective angle alone.",
-        "Force and torque are taken from where the cutting point is at the board's front edge; before, while the edge enters the board, they rise "
-        "to that.",
+        "Force, torque and work are taken from φ_1 on, where the cutting point is at the board's front edge. Before, from φ_e on, the edge enters "
+        "the board: F_v and the friction are smaller there, and the work of entering is not in W; the torque of cutting alone, and F_w, may be "
+        "greater there than at φ_1, which raises the greatest torque only where the friction is below about 0.1.",
     ),
     sources=(
         Source("001", "Uhryn Ya. M. Analytical study of the process of cutting board with a circular knife. Naukovi zapysky (Scientific Papers) "

@@ -13,10 +13,12 @@ CHECKS = (
           consequence="{shear_advice}"),
     Check(id="expulsion", title="Board is not pushed out", demand="shear_angle_max", limit="expulsion_angle", unit="deg", operator="<",
           demand_label="greatest shear angle", limit_label="twice the angle of friction", source="statics",
-          consequence="edge and counter-knife push the board forward instead of cutting it; a shorter cut, a smaller front_distance or a smaller "
-          "depth lowers the shear angle; otherwise the board must be clamped."),
+          consequence="edge and counter-knife push the board forward instead of cutting it; {expulsion_advice}"),
     Check(id="monotonic", title="Edge never runs back in the board", demand="used_sweep", limit="usable_sweep", unit="deg",
           demand_label="turn of the knife up to the end of the cut", limit_label="turn up to where the edge runs back", source="geometry",
-          consequence="before the cut ends, the edge runs back in the upper part of the board; a shorter cut, a smaller front_distance, or a "
-          "greater edge radius or eccentricity helps."),
+          consequence="before the cut ends, the edge runs back in the upper part of the board; {return_advice}"),
+    Check(id="entry", title="Edge comes to the board from the front", demand="depth_least", limit="corner_distance", unit="mm", operator="<",
+          demand_label="least distance of the edge from the axis, R − r", limit_label="board's upper front edge from the axis", source="geometry",
+          consequence="over the whole turn this front edge is inside the edge's circle, so that the blade's end comes down on the board from "
+          "above; {entering_advice}."),
 )  # fmt: skip

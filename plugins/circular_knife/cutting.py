@@ -59,11 +59,14 @@ MOTION = Section(
 
 FORCES = Section(
     "Force and torque",
-    text="Over the length a of the working front the board is partly cut through, and the edge bows out of its chord by the area A_b. F_v is the "
-    "shear stress on that area of the front which the edge has passed; the work is σh/2 for each unit of area cut. A stress square to the edge "
-    "that falls from σ to zero with the thickness left does just this work: it presses down with the smaller force F_w, the stress on the area "
-    "still to be passed, and pushes along the cut with F_h; the torque of cutting is theirs. F_v, taken for force and friction, is greater by "
-    "twice σ·A_b and on the safe side. Both areas are integrals over the board's thickness, in closed form by the segment of the edge's arc.",
+    text="Over the length a of the working front the board is partly cut through; the edge bows out of its chord by the area A_b. Each millimetre "
+    "of the edge in the board carries σ times the thickness that it has still to cut, square to the edge: σ·h where it enters, nothing where the "
+    "board is cut through. So each unit of area cut takes the work σ·h/2. Added up, these loads press down with F_w and push along the cut with "
+    "F_h; they all point to the edge's centre, and their torque about the shaft is M_u. By virtual work it is so: M_u·dφ is the sum of the loads "
+    "times the ways by which they move the edge into the board, and F_w·dy the same if the knife sinks by dy. F_v counts the thickness already "
+    "passed instead of that left. For a straight edge both are σ·h²/(2·tan τ); for this edge F_v is greater by 2·σ·A_b. The greatest force, the "
+    "guillotine ratio and the friction are taken with F_v, on the safe side; the work of cutting belongs to F_w. Both areas are integrals over "
+    "the board's thickness, in closed form by the segment of the edge's arc.",
     steps=(
         Value(id="face_angle", symbol="τ_h", unit="deg", description="Slope of the edge in the board's upper face", source=OWN, output=False,
               formula=bind(f.edge_slope, angle="cut_place", depth="face_depth")),
@@ -73,8 +76,8 @@ FORCES = Section(
         Value(id="bow_area", symbol="A_b", unit="mm**2", description="Area between the working front and its chord", source=OWN, output=False,
               formula=bind(circular_segment.area, radius="edge_radius", half_angle="front_half_angle")),
         _in_cut("force", "F_v", "N", "Force down on the board", bind(f.force), source=OWN),
-        _in_cut("working_force", "F_w", "N", "Force down that belongs to the work", bind(f.working_force), source="energy", output=False),
-        Value(id="thrust", symbol="F_h", unit="N", description="Force along the cut that belongs to the work", source="energy", formula=f.thrust),
+        _in_cut("working_force", "F_w", "N", "Force down by virtual work", bind(f.working_force), source="energy", output=False),
+        Value(id="thrust", symbol="F_h", unit="N", description="Force along the cut by virtual work", source="energy", formula=f.thrust),
         _in_cut("useful_torque", "M_u", "N*m", "Torque of cutting", bind(f.useful_torque, angle="cut_place"), source="statics", output=False),
         _in_cut("friction_torque", "M_f", "N*m", "Torque of friction", bind(f.friction_torque, angle="cut_place"), source=OWN),
         Value(id="torque", symbol="M", unit="N*m", description="Torque at the knife's shaft", source="statics",
@@ -82,9 +85,12 @@ FORCES = Section(
         Reduction(id="front_length_max", symbol="a_max", unit="mm", description="Greatest length of the working front", source=OWN,
                   of="front_length", operation="max"),
         Reduction(id="force_max", symbol="F_max", unit="N", description="Greatest force down on the board", source=OWN, of="force", operation="max"),
+        Reduction(id="working_force_max", symbol="F_w,max", unit="N", description="Greatest force down by virtual work", source="energy",
+                  of="working_force", operation="max"),
         Reduction(id="torque_max", symbol="M_max", unit="N*m", description="Greatest torque at the knife's shaft", source="statics", of="torque",
                   operation="max"),
-        Reduction(id="useful_work", symbol="W_u", unit="J", description="Work of cutting", source="energy", of="useful_torque", operation="integral"),
+        Reduction(id="useful_work", symbol="W_u", unit="J", description="Work of cutting, from φ_1 to φ_2", source="energy", of="useful_torque",
+                  operation="integral"),
         Reduction(id="work", symbol="W", unit="J", description="Work of a cut, with friction", source="energy", of="torque", operation="integral"),
         Value(id="power_mean", symbol="N_mean", unit="W", description="Mean power over a turn with one cut", source="energy", formula=f.mean_power),
         Value(id="power_peak", symbol="N_max", unit="W", description="Greatest power", source="energy",
@@ -94,7 +100,8 @@ FORCES = Section(
 
 GUILLOTINE = Section(
     "Compared with a guillotine",
-    text="A straight blade parallel to the counter-knife cuts the same length at once.",
+    text="A straight blade parallel to the counter-knife cuts the same length at once. Its work is not quite the work of cutting W_u: at φ_1 a part "
+    "of the board is cut into already, and at φ_2 the edge has cut into it beyond the end.",
     steps=(
         Value(id="guillotine_force", symbol="F_g", unit="N", description="Force of a guillotine for the same length", source=OWN,
               formula=f.guillotine_force),

@@ -76,7 +76,7 @@ def _board(view: View, offset: float) -> list[Shape]:
 
 def _position(view: View, words: str, angle: float, offset: float) -> list[Shape]:
     """Knife, board and counter-knife at a knife angle, with the cutting point."""
-    above = 1.6 * view["eccentricity"]
+    above = 1.6 * view["eccentricity"] + 0.12 * view["edge_radius"]
     return [
         *_board(view, offset),
         *_knife(view, angle, offset),
@@ -92,7 +92,8 @@ def positions(view: View) -> list[Shape]:
     reached = [
         x for angle in (start, middle, end) for x, _ in edge_arc(view, angle, *drawn_edge(view, angle), points=9)
     ]
-    apart = max(*reached, view["cut_end"] + 0.4 * view["cut_length"]) + 2.2 * view["eccentricity"]
+    widest = max(*reached, view["cut_end"] + 0.4 * view["cut_length"], view["eccentricity"])
+    apart = widest - min(*reached, -view["eccentricity"]) + 0.6 * view["eccentricity"]
     below = 0.12 * radius
     return [
         *_position(view, "start", start, 0.0),

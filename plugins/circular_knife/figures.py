@@ -56,7 +56,7 @@ def motion(view: View) -> list[Shape]:
 
 def load(view: View) -> list[Shape]:
     """Force and torque over the cut."""
-    forces = (("force", "force"), ("working_force", "force of the work"))
+    forces = (("force", "force"), ("working_force", "by virtual work"))
     torques = (("torque", "whole"), ("friction_torque", "friction"), ("useful_torque", "cutting"))
     return [
         panel(view, "Force down on the board", "N", *forces, marks=greatest(view, "force_max")),
@@ -97,8 +97,8 @@ FIGURES = (
     Drawing(
         id="front",
         title="Working front",
-        caption="Board, edge and counter-knife in the middle of the cut, to scale. At the cross the board is cut through; over the length a the "
-        "edge is in it; the edge advances to the right. Dashed: the upper face where the board is cut.",
+        caption="Board, edge and counter-knife in the middle of the cut, to scale. At the cross the board is cut through; along a the edge is "
+        "in the board; it advances to the right. Dashed: the upper face where the board is cut.",
         build=front,
     ),
     Chart(
@@ -111,7 +111,7 @@ FIGURES = (
     Chart(
         id="load",
         title="Force and torque over the cut",
-        caption="Force down on the board F_v, beside it the smaller one that belongs to the work, F_w; torque at the knife's shaft with its shares.",
+        caption="Force down on the board F_v, beside it the smaller one by virtual work, F_w; torque at the knife's shaft with its shares.",
         build=load,
     ),
     Chart(

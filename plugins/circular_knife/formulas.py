@@ -22,9 +22,35 @@ def lowest_passes(eccentricity: Any, depth: Any, edge_radius: Any) -> Any:
 
 
 @formula
+def is_thick_enough(thickness: Any, edge_radius: Any) -> Any:
+    """Whether the thickness is at least a millionth of the edge's radius."""
+    return thickness >= 1e-6 * edge_radius
+
+
+@formula
 def touching_angle(depth: Any, edge_radius: Any, eccentricity: Any) -> Any:
     """Knife angle at which the edge's lowest point comes to a depth."""
     return np.arcsin((depth - edge_radius) / eccentricity)
+
+
+@formula
+def distance_of(along: Any, down: Any) -> Any:
+    """Distance from the axis of a point beside and below it."""
+    return np.sqrt(along**2 + down**2)
+
+
+@formula
+def meeting_angle(eccentricity: Any, edge_radius: Any, corner: Any, front_distance: Any, face_depth: Any) -> Any:
+    """Knife angle at which the edge meets a point: its direction less the angle at the axis, by the law of cosines."""
+    cosine = (eccentricity**2 + corner**2 - edge_radius**2) / (2 * eccentricity * corner)
+    return np.arctan2(face_depth, front_distance) - np.arccos(np.maximum(cosine, -1))
+
+
+@formula
+def meeting_place(eccentricity: Any, edge_radius: Any, corner: Any) -> Any:
+    """Place on the edge that meets a point at a distance from the axis, by the law of cosines."""
+    cosine = (corner**2 - eccentricity**2 - edge_radius**2) / (2 * eccentricity * edge_radius)
+    return np.arccos(np.maximum(cosine, -1))
 
 
 @formula
@@ -56,6 +82,18 @@ def squared(length: Any) -> Any:
 def is_clear_of(smaller: Any, greater: Any, edge_radius: Any) -> Any:
     """Whether one distance is below another by more than a millionth of the edge's radius, or there is no other one at all."""
     return (smaller + 1e-6 * edge_radius < greater) | (greater != greater)
+
+
+@formula
+def reaches_end(cut_end: Any, front_distance: Any, reach_greatest: Any, edge_radius: Any) -> Any:
+    """Whether the edge reaches the end of the cut, or not even its beginning."""
+    return is_clear_of(cut_end, reach_greatest, edge_radius) | ~is_clear_of(front_distance, reach_greatest, edge_radius)
+
+
+@formula
+def enters_counter(lowest_at_counter: Any, lowest_at_face: Any, front_distance: Any, edge_radius: Any) -> Any:
+    """Whether the edge meets the counter-knife before the board, or comes down on the board from above anyway."""
+    return is_clear_of(lowest_at_counter, front_distance, edge_radius) | (front_distance < lowest_at_face)
 
 
 @formula

@@ -15,6 +15,7 @@ from diecut_report.plugins.circular_knife import formulas as f
 from diecut_report.testing import check_mechanism
 from tests.machines import number
 from tests.plugins.knives import SHAPES, at, crossing, edge_points, in_cut, knife
+from tests.plugins.symbols import doubled
 
 shapes = pytest.mark.parametrize("shape", SHAPES.values(), ids=SHAPES)
 
@@ -83,7 +84,8 @@ def test_least_and_greatest_values_are_those_of_the_curves(shape: dict[str, Any]
     angles = in_cut(calc, 20_001, inside=1e-9)
     for name, curve, extreme in (("shear_angle_min", "shear_angle", np.min), ("shear_angle_max", "shear_angle", np.max),
                                  ("cut_speed_max", "cut_speed", np.max), ("sliding_ratio_max", "sliding_ratio", np.max),
-                                 ("force_max", "force", np.max), ("torque_max", "torque", np.max)):  # fmt: skip
+                                 ("force_max", "force", np.max), ("working_force_max", "working_force", np.max),
+                                 ("torque_max", "torque", np.max)):  # fmt: skip
         assert number(calc, name) == pytest.approx(float(extreme(at(calc, curve, angles))), rel=1e-6), name
     way = np.array([1.0, number(calc, "sliding_ratio_max")])  # square to the edge, and along it
     height = way[0] * np.tan(np.radians(20))
@@ -93,19 +95,30 @@ def test_least_and_greatest_values_are_those_of_the_curves(shape: dict[str, Any]
     assert number(calc, "cut_time") == pytest.approx(number(calc, "cut_angle") / number(calc, "speed"), rel=1e-15)
 
 
-def test_the_edge_that_cuts_is_as_long_as_the_places_that_pass_through_the_board() -> None:
-    """Places on the knife's edge that are between the board's faces and between its cut ends at any time."""
-    calc = knife()
+@shapes
+def test_the_edge_that_cuts_is_as_long_as_the_places_that_pass_through_the_board(shape: dict[str, Any]) -> None:
+    """Places on the knife's edge that are between the board's faces and behind its front edge, from the first touch to the cut's end."""
+    calc = knife(**shape)
     depth, face, _ = sizes(calc)
     seen: list[Array] = []
-    for angle in in_cut(calc, 81, inside=0.0):
+    for angle in np.linspace(number(calc, "angle_entry") - 0.02, number(calc, "angle_end"), 601):
         points = edge_points(calc, float(angle), 20_001)
-        through = (points[:, 1] <= depth) & (points[:, 1] >= face)
-        seen.append(np.linspace(-angle, np.pi / 2 - angle, 20_001)[through])
+        in_board = (points[:, 1] <= depth) & (points[:, 1] >= face) & (points[:, 0] >= number(calc, "front_distance"))
+        seen.append(np.linspace(-angle, np.pi / 2 - angle, 20_001)[in_board])
     places = np.concatenate(seen)
-    assert number(calc, "edge_length") == pytest.approx(0.1 * np.ptp(places), rel=1e-3)
-    assert number(calc, "edge_angle_first") == pytest.approx(places.max(), abs=2e-4)
+    assert number(calc, "edge_angle_first") == pytest.approx(places.max(), abs=2e-3)
     assert number(calc, "edge_angle_last") == pytest.approx(places.min(), abs=2e-4)
+    assert number(calc, "edge_length") == pytest.approx(number(calc, "edge_radius") * np.ptp(places), rel=5e-3)
+
+
+@shapes
+def test_the_edge_meets_the_board_at_its_upper_front_edge_before_the_cut_begins(shape: dict[str, Any]) -> None:
+    calc = knife(**shape)
+    _, face, _ = sizes(calc)
+    entry = number(calc, "angle_entry")
+    assert float(crossing(calc, entry, face)) == pytest.approx(number(calc, "front_distance"), rel=1e-9)
+    assert float(crossing(calc, entry + 1e-6, face)) > number(calc, "front_distance")
+    assert entry < number(calc, "angle_start")
 
 
 # --- force, torque, work ---------------------------------------------------------------------------------------------
@@ -121,6 +134,67 @@ def test_the_force_is_the_stress_times_the_area_behind_the_polygon(shape: dict[s
         behind, before = np.trapezoid(x - x[-1], levels), np.trapezoid(x[0] - x, levels)
         assert at(calc, "force", angle)[0] == pytest.approx(stress * behind, rel=2e-6)
         assert at(calc, "working_force", angle)[0] == pytest.approx(stress * before, rel=2e-6)
+
+
+def energy(calc: Calculation, angle: float, right: float = 0.0, down: float = 0.0) -> float:
+    """Energy put into the board before the cutting point: each mm of it takes σ(h·p − p²/2) where the edge is p deep in it.
+
+    That is a resistance of σ times the thickness left. The polygon is moved by ``right`` and ``down``.
+    """
+    depth, face, stress = sizes(calc)
+    levels = np.linspace(face, depth, 100_001)
+    x = crossing(calc, angle, levels - down) + right
+    return float(stress * np.trapezoid((depth - levels) * x, levels))
+
+
+@shapes
+def test_by_virtual_work_the_forces_are_those_of_the_thickness_left_and_the_torque_is_theirs(
+    shape: dict[str, Any],
+) -> None:
+    """M_u, F_w and F_h are the derivatives of the energy; F_v, which counts the thickness passed, is not."""
+    calc = knife(**shape)
+    step = 1e-3 * number(calc, "thickness")
+    for angle in map(float, in_cut(calc, 5, inside=0.05)):
+        sinking, pushing = (
+            (energy(calc, angle, **{way: step}) - energy(calc, angle, **{way: -step})) / (2 * step)
+            for way in ("down", "right")
+        )
+        turning = (energy(calc, angle + 1e-5) - energy(calc, angle - 1e-5)) / 2e-5
+        assert at(calc, "working_force", angle)[0] == pytest.approx(sinking, rel=1e-4)
+        assert number(calc, "thrust") == pytest.approx(pushing, rel=1e-6)
+        assert at(calc, "useful_torque", angle)[0] == pytest.approx(turning, rel=1e-4, abs=1e-6)
+        bow = number(calc, "shear_resistance") * at(calc, "bow_area", angle)[0]
+        assert at(calc, "force", angle)[0] - sinking == pytest.approx(2 * bow, rel=1e-2)
+
+
+def entering(calc: Calculation) -> Array:
+    """While the edge enters the board: force with the thickness passed, force and torque with the thickness left."""
+    depth, face, stress = sizes(calc)
+    front, found = number(calc, "front_distance"), []
+    levels = np.linspace(face, depth, 20_001)
+    for angle in np.linspace(number(calc, "angle_entry"), number(calc, "angle_start"), 101):
+        x = crossing(calc, angle, levels)
+        within = np.maximum(x, front)
+        rate = (crossing(calc, angle + 1e-6, levels) - crossing(calc, angle - 1e-6, levels)) / 2e-6
+        left = np.sum((depth - (levels[1:] + levels[:-1]) / 2) * -np.diff(within))
+        torque = np.trapezoid(np.where(x > front, (depth - levels) * rate, 0.0), levels)
+        found.append((np.trapezoid(within - front, levels), left, torque))
+    return stress * np.array(found)
+
+
+@shapes
+def test_while_the_edge_enters_the_force_rises_but_not_the_torque_of_cutting(shape: dict[str, Any]) -> None:
+    """As the assumptions say: F_v is greatest at φ_1, F_w and M_u before it; with friction above 0.1 the whole torque at φ_1."""
+    calc = knife(**shape)
+    passed, left, torque = entering(calc).T
+    start = in_cut(calc, 1, inside=0.0)[0] + 1e-9
+    assert (np.diff(passed) > 0).all() and passed[-1] == pytest.approx(at(calc, "force", start)[0], rel=1e-4)
+    assert left[-1] == pytest.approx(at(calc, "working_force", start)[0], rel=1e-3)
+    assert torque[-1] == pytest.approx(at(calc, "useful_torque", start)[0], rel=1e-3)
+    assert torque.max() > 1.001 * torque[-1]
+    assert left.max() < passed[-1]
+    rubbed = at(calc, "friction_torque", start)[0] * passed / passed[-1] * 0.1 / number(calc, "friction")
+    assert (torque + rubbed).max() == pytest.approx((torque + rubbed)[-1], rel=5e-3)
 
 
 @shapes
@@ -213,6 +287,10 @@ def test_the_cut_may_lie_on_both_sides_of_the_turns_beginning() -> None:
     through, before = knife(**SHAPES["through zero"]), knife(**SHAPES["before zero"])
     assert number(through, "angle_start") < 0 < number(through, "angle_end")
     assert number(before, "angle_start") < number(before, "angle_end") < 0
+
+
+def test_each_symbol_stands_for_one_quantity() -> None:
+    assert doubled(MECHANISM) == []
 
 
 def test_the_declaration_keeps_the_plugin_contract() -> None:

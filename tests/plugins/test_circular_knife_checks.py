@@ -2,17 +2,24 @@
 
 from __future__ import annotations
 
+import re
 from pathlib import Path
 from typing import Any
 
 import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
 
 from diecut_report import pipeline
 from diecut_report.discovery import Discovery
 from diecut_report.engine import Impossible
+from diecut_report.errors import UserError
+from diecut_report.plugins.circular_knife.advice import SIZES
 from tests.configs import EXAMPLES, HEAD, problems
 from tests.machines import number
 from tests.plugins.knives import checks, knife
+from tests.plugins.test_circular_knife_any import any_knife
+from tests.validation.rows_circular_knife import KEYS
 
 
 @pytest.mark.parametrize(
@@ -22,13 +29,14 @@ from tests.plugins.knives import checks, knife
         ({"depth": "80 mm"}, "depth", "R − r = 80 mm"),
         ({"depth": "120 mm"}, "depth", "R + r = 120 mm"),
         ({"thickness": "112 mm"}, "thickness", "h < H = 112 mm"),
+        ({"thickness": "1e-9 mm"}, "thickness", "a millionth of the edge's radius R = 100 mm"),
         ({"front_distance": "44 mm"}, "front_distance", "cannot reach the board"),
         ({"cut_length": "18 mm"}, "cut_length", "b + L = 44 mm"),
-        ({"front_distance": "16.2 mm"}, "front_distance", "√(r² − (H − h − R)²) = 16.36 mm"),
+        ({"front_distance": "16.2 mm"}, "front_distance", "front_distance at least 16.37 mm"),
         (
             {"depth": "95 mm", "front_distance": "19.364 mm", "thickness": "6 mm"},
             "front_distance",
-            "√(r² − (H − R)²) = 19.36 mm",
+            "front_distance at least 19.37 mm",
         ),
     ],
 )
@@ -56,7 +64,7 @@ def test_within_the_limits_of_the_geometry_a_knife_is_calculated(limit: str, cha
 
 def test_a_sound_knife_passes_all_checks() -> None:
     found = checks(knife())
-    assert list(found) == ["reach", "shear_angle", "expulsion", "monotonic"]
+    assert list(found) == ["reach", "shear_angle", "expulsion", "monotonic", "entry"]
     assert {check["status"] for check in found.values()} == {"pass"}
     assert found["reach"]["utilisation"] == pytest.approx(41 / (120**2 - 112**2) ** 0.5, rel=1e-12)
 
@@ -78,7 +86,9 @@ def test_the_governing_side_of_the_shear_angle_is_shown() -> None:
         ({"front_distance": "29 mm", "cut_length": "14 mm"}, "shear_angle", "more than 20°"),
         ({"friction": 0.1}, "expulsion", "clamped"),
         ({"friction": 0}, "expulsion", "clamped"),
+        ({"friction": 0}, "expulsion", "friction of at least 0.1521"),
         ({"thickness": "3 mm", "cut_length": "17 mm"}, "monotonic", "runs back"),
+        ({"depth": "80.3 mm", "front_distance": "4 mm"}, "entry", "from above"),
     ],
 )
 def test_a_check_fails_in_words_that_tell_what_to_change(changes: dict[str, Any], name: str, words: str) -> None:
@@ -92,20 +102,90 @@ def test_both_sides_of_the_shear_angle_are_told_where_both_are_left() -> None:
     assert "more than 20°" in message and "less than 2°" in message
 
 
-@pytest.mark.parametrize(
-    "start, changed",
-    [({"front_distance": "29 mm", "cut_length": "14 mm"}, changed)
-     for changed in ({"cut_length": "12 mm"}, {"front_distance": "27 mm"}, {"depth": "111.5 mm"})],
-)  # fmt: skip
-def test_what_is_advised_lowers_the_shear_angle(start: dict[str, Any], changed: dict[str, Any]) -> None:
-    assert number(knife(**start | changed), "shear_angle_max") < number(knife(**start), "shear_angle_max")
+LENGTH = r"([\d.e-]+ (?:mm|m))"
+ADVICE = {
+    "shorter": rf"cut_length of at most {LENGTH}",
+    "range": rf"front_distance from {LENGTH} to {LENGTH}",
+    "both": rf"front_distance of {LENGTH} together with a cut_length of at most {LENGTH}",
+    "least": rf"front_distance at least {LENGTH}",
+    "rougher": r"friction of at least ([\d.e-]+)",
+}
+
+
+def advised(message: str) -> list[dict[str, Any]]:
+    """The changes that a message names, as they would be typed."""
+    if both := re.search(ADVICE["both"], message):
+        return [{"front_distance": both[1], "cut_length": both[2]}]
+    found: list[dict[str, Any]] = [{"cut_length": length} for length in re.findall(ADVICE["shorter"], message)]
+    found += [{"front_distance": place} for places in re.findall(ADVICE["range"], message) for place in places]
+    found += [{"front_distance": place} for place in re.findall(ADVICE["least"], message)]
+    return found + [{"friction": float(value)} for value in re.findall(ADVICE["rougher"], message)]
+
+
+def failing(changes: dict[str, Any]) -> dict[str, str]:
+    """Failed checks with their words."""
+    return {name: check["message"] for name, check in checks(knife(**changes)).items() if check["status"] == "fail"}
+
+
+SHARE = st.floats(0.03, 0.97)
+
+
+@settings(max_examples=150, deadline=None)
+@given(ecc=SHARE, low=SHARE, board=SHARE, cut=SHARE, thin=st.floats(0.05, 10), friction=st.floats(0, 0.5))
+def test_what_a_failing_check_advises_makes_it_pass_as_printed_and_breaks_no_other(
+    ecc: float, low: float, board: float, cut: float, thin: float, friction: float
+) -> None:
+    sized = any_knife(0.1, ecc, low, board, cut, thin)
+    changes = {key: f"{sized[key]!r} m" for key in SIZES if key != "friction"} | {"friction": friction}
+    before = failing(changes)
+    for name, message in before.items():
+        for advice in advised(message):
+            after = failing(changes | advice)
+            assert name not in after, (message, advice)
+            assert set(after) <= set(before), (message, advice, after)
 
 
 @pytest.mark.parametrize(
-    "changed",
-    [{"cut_length": "16 mm"}, {"front_distance": "25 mm"}, {"edge_radius": "101 mm"}, {"eccentricity": "21 mm"}],
+    "changes",
+    [
+        {"front_distance": "44 mm"},
+        {"cut_length": "18 mm"},
+        {"cut_length": "900 mm"},
+        {"front_distance": "43 mm"},
+        {"depth": "119.9 mm", "front_distance": "8 mm"},
+        {"front_distance": "16.2 mm"},
+        {"front_distance": "0 mm"},
+        {"depth": "95 mm", "front_distance": "19.364 mm", "thickness": "6 mm"},
+        {"depth": "95 mm", "front_distance": "10 mm"},
+    ],
 )
-def test_what_is_advised_keeps_the_edge_from_running_back(changed: dict[str, Any]) -> None:
+def test_what_a_refusal_advises_is_calculated_as_printed(changes: dict[str, Any]) -> None:
+    with pytest.raises(Impossible) as refused:
+        knife(**changes)
+    ways = advised(refused.value.message)
+    assert ways
+    for way in ways:
+        if refused.value.key == "front_distance" and set(way) == {"cut_length"}:
+            continue
+        assert number(knife(**changes | way), "work") > 0, way
+
+
+@pytest.mark.parametrize(
+    "changed", [{"front_distance": "44"}, {"front_distance": "0"}, {"depth": "95", "front_distance": "10"}]
+)
+def test_a_knife_that_cannot_cut_is_told_of_once(tmp_path: Path, changed: dict[str, str]) -> None:
+    """A place out of reach, or in the blade's way, is one mistake and one message."""
+    file = tmp_path / "press.yaml"
+    file.write_text(
+        HEAD + f"  k: {{kind: circular_knife, {', '.join(f'{k}: {v}' for k, v in (KEYS | changed).items())}}}\n"
+    )
+    with pytest.raises(UserError) as refused:
+        pipeline.calc(file, Discovery([]), lambda _: None)
+    assert len(refused.value.problems) == 1
+
+
+@pytest.mark.parametrize("changed", [{"thickness": "1 mm"}, {"edge_radius": "101 mm"}, {"eccentricity": "21 mm"}])
+def test_what_is_advised_where_no_place_suits_keeps_the_edge_from_running_back(changed: dict[str, Any]) -> None:
     start = {"thickness": "3 mm", "cut_length": "17 mm"}
     before, after = (checks(knife(**start | change))["monotonic"]["utilisation"] for change in ({}, changed))
     assert after < before
