@@ -72,7 +72,8 @@ def acceleration_first_order(crank_angle: Any, crank_radius: Any, rod_ratio: Any
 def crank_angle_at(displacement: Any, crank_radius: Any, rod_length: Any) -> Any:
     """Crank angle from the extended dead centre at which the slider is at a distance from it, in [0, π]."""
     u = displacement
-    return 2 * np.arcsin(np.sqrt(u * (2 * rod_length - u) / (4 * crank_radius * (rod_length + crank_radius - u))))
+    left = 2 * crank_radius - u
+    return 2 * np.arctan2(np.sqrt(u * (2 * rod_length - u)), np.sqrt(left * (2 * rod_length + left)))
 
 
 @formula
@@ -143,4 +144,5 @@ def inner_acceleration_first_order(crank_angle: Any, crank_radius: Any, crank_ra
 def inner_crank_angle_at(displacement: Any, crank_radius: Any, rod_length: Any) -> Any:
     """Crank angle from the inner dead centre at which the slider is at a distance from it, in [0, π]."""
     u = displacement
-    return 2 * np.arcsin(np.sqrt(u * (2 * rod_length + u) / (4 * crank_radius * (rod_length - crank_radius + u))))
+    left = 2 * crank_radius - u
+    return 2 * np.arctan2(np.sqrt(u * (2 * rod_length + u)), np.sqrt(left * (2 * rod_length - left)))

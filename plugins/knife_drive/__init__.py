@@ -30,7 +30,8 @@ MECHANISM = Mechanism(
         "The rollers bring the signature to their speed with constant acceleration while the shaft turns by the grip angle, which ends at the "
         "knife's lowest point.",
         "The planetary drive is the straight-line one: its knife arm is as long as the carrier and turns back at the carrier's speed.",
-        "The height of the crank-rocker's edge is counted along its arc.",
+        "The height of the crank-rocker's edge is counted along its arc. With the lowest point at the inner dead centre the rocker's angle "
+        "falls as the edge rises; velocity and acceleration count upwards there, too, so they are −ω₃·R and −ε₃·R.",
     ),
     sources=(
         Source("004", "Didych V. P., Nahorniuk S. O. Comparative analysis of the mechanisms of the knife's drive in folders of the second "

@@ -13,21 +13,18 @@ def of_drive(drive: Drive) -> tuple[Check, ...]:
         Check(id=f"{own}_paper_acceleration", title=f"{name}: acceleration of the paper", demand=f"{own}_acceleration_peak",
               limit="allowable_paper_acceleration", unit="m/s**2", demand_label="greatest in the working stroke", limit_label="allowed",
               needs=(own,), source="004, after Fig. 3",
-              consequence=f"the knife breaks or tears the paper at the fold; a shorter stroke ({{{own}_stroke}} now) at the same working depth "
-              "lowers it in proportion, a slower machine by the square."),
+              consequence=f"the knife breaks or tears the paper at the fold; {{{own}_paper_advice}} ({{{own}_stroke}} now)."),
         Check(id=f"{own}_grip_acceleration", title=f"{name}: acceleration in the grip", demand=f"{own}_grip_size",
               limit="allowable_grip_acceleration", unit="m/s**2", demand_label="in the grip of the rollers", limit_label="allowed",
               needs=(own,), source="004, after Fig. 3",
-              consequence="the rollers jerk the signature off the knife; slower rollers (roller_ratio, roller_diameter), a longer way of "
-              "gripping (grip_angle) or a faster knife at its beginning lower it."),
+              consequence=f"the rollers change the signature's speed too fast and may tear it; {{{own}_grip_advice}}."),
         Check(id=f"{own}_depth", title=f"{name}: stroke over working depth", demand="working_depth", limit=f"{own}_stroke", unit="mm",
               needs=(own,), demand_label="working depth", limit_label="stroke", source="geometry",
               consequence=f"the edge never rises above the table; {drive.longer} makes the stroke greater."),
         Check(id=f"{own}_time_budget", title=f"{name}: time on the table", demand=f"{own}_table_time", limit="signature_interval", unit="ms",
               needs=(own, "signature_length"), demand_label="time of a signature on the table", limit_label="time between two signatures",
               source="004, before Fig. 2",
-              consequence="the next signature runs into the one that is still on the table; faster rollers, or a drive with a shorter working "
-              "stroke, free the table sooner."),
+              consequence=f"the next signature runs into the one that is still on the table; {{{own}_time_advice}}."),
     )  # fmt: skip
 
 

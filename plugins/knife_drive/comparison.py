@@ -2,22 +2,34 @@
 
 from __future__ import annotations
 
-from itertools import combinations
 from typing import Any
 
 from diecut_report.api import Binding, Case, Choice, Section, Step, Value, bind
 from diecut_report.mechanics import common
 from diecut_report.plugins.knife_drive import formulas
-from diecut_report.plugins.knife_drive.working import ALL, CRANK_ROCKER, CRANK_SLIDER, PLANETARY, Drive
+from diecut_report.plugins.knife_drive.advice import ADVICE
+from diecut_report.plugins.knife_drive.working import (
+    ALL,
+    CRANK_ROCKER,
+    CRANK_SLIDER,
+    PLANETARY,
+    SIGNATURE_BEYOND_DEPTH,
+    Drive,
+    Drives,
+    grips,
+    groups,
+    keys,
+    lacking,
+)
 
-Drives = tuple[Drive, ...]
 COMPARED = (
     ("stroke", "H", "Stroke", "mm"),
     ("working_time", "t_w", "Duration of the working stroke", "ms"),
-    ("contact_velocity", "V_c", "Speed at contact", "m/s"),
+    ("contact_velocity", "V_t", "Speed at contact", "m/s"),
     ("acceleration_peak", "W_m", "Greatest acceleration in the working stroke", "m/s**2"),
     ("acceleration_end", "W_0", "Acceleration at the lowest point", "m/s**2"),
-    ("grip_size", "W_g", "Size of the acceleration in the grip", "m/s**2"),
+    ("end_factor", "k", "Factor of the acceleration at the lowest point", "1"),
+    ("grip_size", "W_s", "Size of the acceleration in the grip", "m/s**2"),
 )
 # The first with the table at the edge's highest point, the second with rollers as fast as the knife
 MAY_VANISH = ("contact_velocity", "grip_size")
@@ -26,14 +38,6 @@ PEAK, ALLOWED = "acceleration_peak", "allowable_paper_acceleration"
 
 def _indexed(symbol: str, index: str) -> str:
     return f"{symbol}{',' if '_' in symbol else '_'}{index}"
-
-
-def _lacking(drives: Drives) -> tuple[str, ...]:
-    return tuple(drive.key for drive in ALL if drive not in drives)
-
-
-def _keys(drives: Drives) -> tuple[str, ...]:
-    return tuple(drive.key for drive in drives)
 
 
 def _is_best(drive: Drive, *, allowed: bool = False) -> Binding:
@@ -53,7 +57,7 @@ def _least(drives: Drives) -> Binding:
 
 def _best(drives: Drives) -> tuple[Step, ...]:
     """The best of several drives, and its numbers."""
-    given: dict[str, Any] = {"needs": _keys(drives), "lacks": _lacking(drives)}
+    given: dict[str, Any] = {"needs": keys(drives), "lacks": lacking(drives)}
     *first, last = drives
     words = {drive: f"the {drive.name} has the least acceleration" for drive in drives}
     cases = [Case(d.key, words[d], _is_best(d)) for d in first]
@@ -75,7 +79,7 @@ def _ratios(drive: Drive) -> tuple[Step, ...]:
     """A drive's numbers to those of the best one, where there is another to compare it with."""
     return tuple(
         Value(id=f"{drive.key}_{name}_ratio", symbol=f"q_{symbol[0]}{symbol[2:]},{drive.letter}", source="this method",
-              description=f"{title}: {drive.name} to best drive", needs=_keys(pair), lacks=lacks,
+              description=f"{title}: {drive.name} to best drive", needs=keys(pair), lacks=lacks,
               exists=bind(formulas.holds, flag=f"best_{name}") if name in MAY_VANISH else None,
               formula=bind(common.quotient, quantity=f"{drive.key}_{name}", by=f"best_{name}"))
         for name, symbol, title, _ in COMPARED
@@ -91,37 +95,40 @@ def _with_another(drive: Drive) -> list[tuple[Drives, tuple[str, ...]]]:
 
 def _verdict(drives: Drives) -> Choice:
     """In words: which drive, and whether the paper stands it."""
-    kept = [Case(f"the {d.name}: gentlest on the paper, which stands it", f"the {d.name} has the least acceleration, and it is allowed",
-                 _is_best(d, allowed=True)) for d in drives]  # fmt: skip
-    broken = [(f"the {d.name}: gentlest on the paper, but even it accelerates it too much", f"the {d.name} has the least acceleration, but "
-               "it is above the allowed one", d) for d in drives]  # fmt: skip
+    kept = [Case(f"the {d.name} is gentlest on the paper, and its acceleration is allowed",
+                 f"the {d.name} has the least acceleration, and it is allowed", _is_best(d, allowed=True)) for d in drives]  # fmt: skip
+    broken = [(f"the {d.name} is gentlest on the paper, but its acceleration, too, is above the allowed one",
+               f"the {d.name} has the least acceleration, but it is above the allowed one", d) for d in drives]  # fmt: skip
     text, words, _ = broken[-1]
     cases = (*kept, *(Case(text, words, _is_best(d)) for text, words, d in broken[:-1]), Case(text, words))
     return Choice(
-        id="verdict", symbol="→", description="Verdict", needs=_keys(drives), lacks=_lacking(drives), cases=cases
+        id="verdict", symbol="→", description="Verdict", needs=keys(drives), lacks=lacking(drives), cases=cases
     )
 
 
 def _alone(drive: Drive) -> tuple[Step, ...]:
     """A drive that is given alone is the best one."""
-    given: dict[str, Any] = {"needs": (drive.key,), "lacks": _lacking((drive,))}
+    given: dict[str, Any] = {"needs": (drive.key,), "lacks": lacking((drive,))}
     stands = bind(common.is_at_most, smaller=f"{drive.key}_{PEAK}", greater=ALLOWED)
     return (
         Choice(id="best_drive", symbol="→", description="Drive that is gentlest on the paper", **given,
-               cases=(Case(drive.key, "the only drive that is given, and the paper stands it", stands),
-                      Case(drive.key, "the only drive that is given, though it accelerates the paper too much"))),
+               cases=(Case(drive.key, "the only drive that is given, and its acceleration is allowed", stands),
+                      Case(drive.key, "the only drive that is given, though its acceleration is above the allowed one"))),
         Choice(id="verdict", symbol="→", description="Verdict", **given,
-               cases=(Case(f"the {drive.name} alone is given; the paper stands it", "its acceleration is allowed", stands),
-                      Case(f"the {drive.name} alone is given; it accelerates the paper too much", "its acceleration is above the allowed one"))),
+               cases=(Case(f"only the {drive.name} is given; its acceleration is allowed", "its acceleration is allowed", stands),
+                      Case(f"only the {drive.name} is given; its acceleration is above the allowed one", "it is not allowed"))),
     )  # fmt: skip
 
 
-SEVERAL = tuple(group for size in (2, 3) for group in combinations(ALL, size))
+SEVERAL = groups(least=2)
 
 BEST = Section(
     "Comparison",
     text="The best drive is the one with the least greatest acceleration in the working stroke; ratios are to its numbers.",
     steps=(
+        SIGNATURE_BEYOND_DEPTH,
+        *(grips(drive) for drive in ALL),
+        *ADVICE,
         *(step for drive in ALL for step in _alone(drive)),
         *(step for drives in SEVERAL for step in _best(drives)),
         *(step for drive in ALL for step in _ratios(drive)),
@@ -145,7 +152,7 @@ def _best_other() -> tuple[Step, ...]:
     )  # fmt: skip
     single = tuple(
         Value(id=f"other_{name}", symbol=_indexed(symbol, "other"), unit=unit, description=f"{title}, other drive", output=False,
-              needs=(PLANETARY.key, drive.key), lacks=_lacking((PLANETARY, drive)),
+              needs=(PLANETARY.key, drive.key), lacks=lacking((PLANETARY, drive)),
               formula=bind(common.same, quantity=f"{drive.key}_{name}"))
         for drive in (CRANK_SLIDER, CRANK_ROCKER) for name, symbol, title, unit in OTHERS
     )  # fmt: skip
@@ -188,7 +195,7 @@ WHY = Section(
 
 def _grip(drives: Drives) -> Choice:
     return Choice(
-        id="grip_verdict", symbol="→", description="What asks more of the paper", needs=_keys(drives), lacks=_lacking(drives),
+        id="grip_verdict", symbol="→", description="What asks more of the paper", needs=keys(drives), lacks=lacking(drives),
         cases=(Case("the grip of the rollers, not the knife", "with the best drive the grip accelerates the signature more than the knife does",
                     bind(common.is_below, smaller=f"best_{PEAK}", greater="best_grip_size")),
                Case("the knife, not the grip of the rollers", "with the best drive the knife accelerates the signature at least as much")),

@@ -6,8 +6,8 @@ Each gives ``stroke``, ``lowest_angle``, ``working_angle``, ``contact_angle``, `
 
 from __future__ import annotations
 
-from diecut_report.api import Require, Step, Value, bind
-from diecut_report.mechanics import common, slider_crank, triangle
+from diecut_report.api import Formula, Reduction, Require, Step, Value, bind
+from diecut_report.mechanics import common, slider_crank
 from diecut_report.plugins.knife_drive import formulas, working
 
 NO_SPEED = ("grip_speed",)
@@ -15,7 +15,7 @@ RADIUS = "planetary.carrier_radius"
 CRANK, ROD = "crank_slider.crank_radius", "crank_slider.rod_length"
 ANGLES = {"contact": "contact_angle", "grip": "grip_begin"}
 
-CONTACT = Value(id="contact_angle", symbol="φ_c", unit="deg", description="Crank angle of the contact at the table", source="kinematics",
+CONTACT = Value(id="contact_angle", symbol="φ_t", unit="deg", description="Crank angle of the contact at the table", source="kinematics",
                 digits=6, formula=bind(common.difference, greater="lowest_angle", smaller="working_angle"))  # fmt: skip
 GRIP = Value(id="grip_begin", symbol="φ_b", unit="deg", description="Crank angle at which gripping begins", source="004, after Fig. 3",
              output=False, formula=bind(common.difference, greater="lowest_angle", smaller="grip_angle"))  # fmt: skip
@@ -35,7 +35,7 @@ PLANETARY: tuple[Step, ...] = (
     Value(id="working_angle", symbol="φ_w", unit="deg", description="Crank angle of the working stroke", source="004 eq. 1, solved", digits=6,
           formula=bind(formulas.planetary_working_angle, carrier_radius=RADIUS)),
     CONTACT,
-    Value(id="contact_rate", symbol="v_c", unit="m/s", description="Velocity of the edge as it meets the signature", source="004 eq. 1",
+    Value(id="contact_rate", symbol="v_t", unit="m/s", description="Velocity of the edge as it meets the signature", source="004 eq. 1",
           output=False, formula=bind(formulas.planetary_velocity, crank_angle="contact_angle", carrier_radius=RADIUS)),
     Value(id="acceleration_end", symbol="W_0", unit="m/s**2", description="Acceleration of the edge at its lowest point", source="004 eq. 1",
           formula=bind(formulas.planetary_acceleration, crank_angle="lowest_angle", carrier_radius=RADIUS)),
@@ -54,6 +54,18 @@ def _slider_at(place: str, symbol: str, when: str, lacks: tuple[str, ...] = ()) 
         Value(id=f"{place}_rate", symbol=f"v_{symbol}", unit="m/s", description=f"Velocity of the edge {when}", source="004 eq. 2",
               output=False, lacks=lacks,
               formula=bind(slider_crank.velocity, crank_angle=ANGLES[place], coupler_angle=f"{place}_rod_angle", crank_radius=CRANK)),
+    )  # fmt: skip
+
+
+def _first_order(name: str, symbol: str, unit: str, word: str, approximate: Formula) -> tuple[Step, ...]:
+    """A curve to the first order of r/l, as textbooks have it, and how far it is from the exact one."""
+    return (
+        Value(id=f"{name}_first_order", symbol=f"{symbol}_1", unit=unit, description=f"{word.capitalize()} of the edge to the first order of r/l",
+              source="004 eq. 2, to the first order", formula=bind(approximate, crank_radius=CRANK)),
+        Value(id=f"{name}_error", symbol=f"Δ{symbol}_", unit=unit, description=f"Exact {word} less the first-order one", output=False,
+              formula=bind(common.difference, greater=name, smaller=f"{name}_first_order")),
+        Reduction(id=f"{name}_difference", symbol=f"Δ{symbol}_m", unit=unit, of=f"{name}_error", operation="abs_max",
+                  description=f"Greatest difference of the first-order {word} from the exact one"),
     )  # fmt: skip
 
 
@@ -76,14 +88,18 @@ CRANK_SLIDER: tuple[Step, ...] = (
           formula=bind(slider_crank.acceleration, coupler_angle="rod_angle", crank_radius=CRANK)),
     Value(id="lowest_angle", symbol="φ_0", unit="deg", description="Crank angle of the lowest point: a turn after φ = 0", source="004 eq. 2",
           formula=formulas.full_turn),
-    Value(id="contact_reach", symbol="q_c", unit="mm", description="Distance of the rod's far end from the shaft with the edge at the table",
-          source="geometry", output=False, formula=bind(formulas.reach, crank_radius=CRANK, rod_length=ROD)),
-    Value(id="working_angle", symbol="φ_w", unit="deg", description="Crank angle of the working stroke", source="law of cosines", digits=6,
-          formula=bind(triangle.enclosed_angle, one_side=CRANK, other_side="contact_reach", opposite_side=ROD)),
+    Value(id="working_angle", symbol="φ_w", unit="deg", description="Crank angle of the working stroke", source="004 eq. 2, solved", digits=6,
+          formula=bind(slider_crank.crank_angle_at, displacement="working_depth", crank_radius=CRANK, rod_length=ROD)),
     CONTACT,
-    *_slider_at("contact", "c", "as the edge meets the signature"),
+    *_slider_at("contact", "t", "as it meets the signature"),
     Value(id="acceleration_end", symbol="W_0", unit="m/s**2", description="Acceleration of the edge at its lowest point",
           source="004 eq. 2 at φ = 0", formula=bind(formulas.slider_end_acceleration, crank_radius=CRANK)),
     GRIP,
     *_slider_at("grip", "g", "when gripping begins", NO_SPEED),
+    *_first_order("displacement", "S", "mm", "height", slider_crank.displacement_first_order),
+    *_first_order("velocity", "V", "m/s", "velocity", slider_crank.velocity_first_order),
+    *_first_order("acceleration", "W", "m/s**2", "acceleration", slider_crank.acceleration_first_order),
+    Value(id="acceleration_difference_share", symbol="δ_W", source="this method", formula=bind(
+              common.quotient, quantity="acceleration_difference", by="acceleration_end"),
+          description="Greatest difference of the first-order acceleration, to the acceleration at the lowest point"),
 )  # fmt: skip

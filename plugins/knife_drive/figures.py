@@ -54,8 +54,9 @@ def over_turn(drive: Drive) -> Callable[[View], list[Shape]]:
 def from_lowest(view: View) -> list[Shape]:
     """Speeds and accelerations of all drives with their lowest points in one place."""
     reach = max(view[f"{drive.key}_working_angle"] for drive in given(view))
-    end = view["roller_time"] * view["crank_speed"] if "roller_time" in view else reach / 2
-    psi = np.linspace(-min(1.15 * reach, np.pi), min(reach, end) / 3, 361)
+    last = reach / 3
+    psi = np.linspace(-min(1.15 * reach, np.pi), last, 361)
+    end = _off_table(view) if _off_table(view) <= np.pi else last
     rollers = [line([0.0, end], [view["roller_velocity"]] * 2, "rollers")]
     speeds, heights = {}, {}
     for drive in given(view):
@@ -69,6 +70,11 @@ def from_lowest(view: View) -> list[Shape]:
     ]  # fmt: skip
 
 
+def _off_table(view: View) -> float:
+    """Crank angle from the lowest point to where the signature has left the table; boundless where its length is not given."""
+    return view["roller_time"] * view["crank_speed"] if "roller_time" in view else np.inf
+
+
 def _common(
     view: View, title: str, unit: str, psi: Values, curves: dict[Drive, Values], more: list[Shape], **notes: Any
 ) -> Shape:
@@ -80,9 +86,24 @@ def _common(
         fills.append(fill(inside, np.interp(inside, psi, values), f"working stroke, {drive.name}"))
     lines = [line(psi, values, drive.name) for drive, values in curves.items()]
     places = [vertical(-view["grip_angle"], "grip")]
-    if "roller_time" in view:
-        places.append(vertical(view["roller_time"] * view["crank_speed"], "off the table"))
+    if _off_table(view) <= np.pi:
+        places.append(vertical(_off_table(view), "off the table"))
     return chart_panel(title, unit, *FROM_LOWEST, lines=[*lines, *more], fills=fills, verticals=places, **notes)
+
+
+def first_order(view: View) -> list[Shape]:
+    """The crank-slider's acceleration in its exact and its first-order form, and the differences of all three curves."""
+    phi = view.curve("crank_angle")
+    own = [(name, unit, symbol, view.curve(f"crank_slider_{name}"), view.curve(f"crank_slider_{name}_first_order"))
+           for name, _, unit, symbol in CURVES]  # fmt: skip
+    _, unit, _, exact, approximate = own[-1]
+    lines = [line(phi, exact, "exact"), line(phi, approximate, "first order")]
+    return [
+        chart_panel("Acceleration of the edge", unit, "Crank angle", "φ", "deg", lines=lines),
+        *(chart_panel(f"Exact {name} less the first-order one", unit, "Crank angle", "φ", "deg",
+                      lines=[line(phi, np.subtract(exact, approximate), f"Δ{symbol}")])
+          for name, unit, symbol, exact, approximate in own),
+    ]  # fmt: skip
 
 
 def over_stroke(view: View) -> list[Shape]:
@@ -118,10 +139,14 @@ FIGURES = (
           "rollers lead the signature at their speed (figure 3 of 004)."),
     Drawing(id="comparison", title="The drives compared", build=table, schematic=True,
             caption="Numbers of each drive and, in brackets, their ratio to those of the best drive, the one with the least greatest acceleration "
-            "in the working stroke."),
+            "in the working stroke. Factor: acceleration at the end to that of a harmonic motion of the same stroke, so that stroke times "
+            "factor is in proportion to the acceleration at the end."),
     Chart(id="over_stroke", title="Acceleration over the stroke", build=over_stroke,
           caption="Acceleration at the lowest point if each drive is made greater or smaller as a whole (the crank-rocker: its knife arm) at this "
           "speed. It grows with the stroke. The distance of the lines at one stroke is what the kind of drive makes of it."),
+    Chart(id="crank_slider_first_order", title="Crank-slider: exact and first-order form", needs=(CRANK_SLIDER.key,), build=first_order,
+          caption="Acceleration of the edge by both forms, and what the form to the first order of crank to rod, r/l, leaves out of "
+          "displacement, velocity and acceleration. All else is calculated with the exact form."),
     PLANETARY_DRAWN,
     CRANK_SLIDER_DRAWN,
     CRANK_ROCKER_DRAWN,

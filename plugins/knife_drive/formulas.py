@@ -6,7 +6,7 @@ from typing import Any
 
 import numpy as np
 
-from diecut_report.api import arccos, formula
+from diecut_report.api import formula
 
 
 @formula
@@ -72,7 +72,7 @@ def planetary_acceleration(crank_angle: Any, carrier_radius: Any, crank_speed: A
 @formula
 def planetary_working_angle(working_depth: Any, carrier_radius: Any) -> Any:
     """Turn of the carrier from the contact at the table to the lowest point."""
-    return arccos(1 - working_depth / (2 * carrier_radius))
+    return 2 * np.arcsin(np.sqrt(working_depth / (4 * carrier_radius)))
 
 
 @formula
@@ -91,12 +91,6 @@ def full_turn() -> Any:
 def turn_later(angle: Any) -> Any:
     """The same crank angle a turn later."""
     return angle + 2 * np.pi
-
-
-@formula
-def reach(crank_radius: Any, rod_length: Any, working_depth: Any) -> Any:
-    """Distance of the rod's far end from the shaft with the edge at the table."""
-    return crank_radius + rod_length - working_depth
 
 
 @formula
@@ -179,12 +173,6 @@ def end_acceleration_inner(
 def is_within(crank_angle: Any, lowest_angle: Any, working_angle: Any) -> Any:
     """Whether a crank angle lies within the working stroke: nearer to its middle than half of it."""
     return np.cos(crank_angle - lowest_angle + working_angle / 2) > np.cos(working_angle / 2)
-
-
-@formula
-def is_covered(part: Any, whole: Any) -> Any:
-    """Whether a quantity is not above another; one that has no value belongs to a machine that was refused before."""
-    return (part <= whole) | (whole != whole)
 
 
 @formula

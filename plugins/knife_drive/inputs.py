@@ -6,9 +6,11 @@ from typing import Literal
 
 from diecut_report.api import POINTS, Annotated, Block, Inputs, Quantity, Text
 
+MOST_RATIO = 1000
+
 
 def _length(symbol: str, description: str) -> Quantity:
-    return Quantity(symbol, "mm", description, gt=0)
+    return Quantity(symbol, "mm", description, gt=0, le=1e5)
 
 
 class Planetary(Block):
@@ -45,16 +47,18 @@ class CrankRocker(Block):
 class KnifeDrive(Inputs):
     """Keys of ``knife_drive``."""
 
-    cylinder_rate: Annotated[float, Quantity("n", "1/h", "Turns of the plate cylinder an hour", gt=0)] = 25000
+    cylinder_rate: Annotated[float, Quantity("n", "1/h", "Turns of the plate cylinder an hour", gt=0, le=1e6)] = 25000
     drive_ratio: Annotated[
-        float, Quantity("i_1", "1", "Turns of the knife's shaft for each turn of the plate cylinder", gt=0)
+        float,
+        Quantity("i_1", "1", "Turns of the knife's shaft for each turn of the plate cylinder", gt=0, le=MOST_RATIO),
     ] = 2
     working_depth: Annotated[
         float, _length("h", "Travel of the knife's edge below the table, down to its lowest point")
     ]
     roller_diameter: Annotated[float, _length("d", "Diameter of the folding rollers")] = 80
     roller_ratio: Annotated[
-        float, Quantity("i_r", "1", "Turns of the folding rollers for each turn of the knife's shaft", gt=0)
+        float,
+        Quantity("i_r", "1", "Turns of the folding rollers for each turn of the knife's shaft", gt=0, le=MOST_RATIO),
     ] = 2
     grip_angle: Annotated[
         float,
@@ -63,7 +67,9 @@ class KnifeDrive(Inputs):
     ] = 5  # fmt: skip
     grip_speed: Annotated[
         float | None,
-        Quantity("V_g", "m/s", "Speed of the signature when gripping begins; default: that of the knife there", ge=0),
+        Quantity(
+            "V_g", "m/s", "Speed of the signature when gripping begins; default: that of the knife there", ge=0, le=1000
+        ),
     ] = None
     signature_length: Annotated[
         float | None,

@@ -4,12 +4,13 @@ from __future__ import annotations
 
 from typing import Any
 
-from diecut_report.api import Bound, Formula, Require, Step, Value, bind
+from diecut_report.api import Bound, Formula, Require, Step, Value, Words, bind
 from diecut_report.mechanics import common, four_bar, triangle
-from diecut_report.plugins.knife_drive import formulas, working
+from diecut_report.plugins.knife_drive import advice, formulas, working
 from diecut_report.plugins.knife_drive.drives import GRIP, NO_SPEED
 
 ARM = "crank_rocker.knife_arm"
+LINKS = ("crank", "coupler", "rocker", "frame")
 OUTER, INNER = ("crank_rocker.lowest_dead_center=outer",), ("crank_rocker.lowest_dead_center=inner",)
 
 
@@ -65,10 +66,11 @@ GEOMETRY: tuple[Step, ...] = (
     _ratio("Frame", "λ_1", "frame"),
     _ratio("Coupler", "λ_2", "coupler"),
     _ratio("Rocker", "λ_3", "rocker"),
+    Words(id="link_advice", takes=tuple(f"crank_rocker.{link}" for link in LINKS), function=advice.links),
     Require(id="turns_fully", condition=four_bar.is_crank_rocker, key="crank_rocker.crank",
             message="gives no crank-rocker: with crank = {crank_rocker.crank}, coupler = {crank_rocker.coupler}, rocker = "
             "{crank_rocker.rocker} and frame = {crank_rocker.frame} the crank must be the shortest link, and it and the longest one together "
-            "shorter than the other two together (Grashof); make the crank shorter, or the other links more alike"),
+            "shorter than the other two together (Grashof); {crank_rocker_link_advice}"),
     Value(id="outer_direction", symbol="γ_3", unit="deg", description="Direction of the rocker at its outer dead centre",
           source="law of cosines", output=False, formula=four_bar.outer_rocker_direction),
     Value(id="swing_angle", symbol="ψ_s", unit="deg", description="Swing of the rocker", source="law of cosines", digits=6,
@@ -100,16 +102,16 @@ CURVES: tuple[Step, ...] = (
 
 PLACES: tuple[Step, ...] = (
     *_either(bind(formulas.raised_direction, knife_arm=ARM), bind(formulas.lowered_direction, knife_arm=ARM), id="table_direction",
-             symbol="γ_t", unit="deg", description="Direction of the rocker with the edge at the table", source="geometry", output=False),
-    Value(id="table_distance", symbol="q_t", description="Distance of the rocker's joint from the crank's pivot there, in crank lengths",
+             symbol="γ_h", unit="deg", description="Direction of the rocker with the edge at the table", source="geometry", output=False),
+    Value(id="table_distance", symbol="e_h", description="Distance of the rocker's joint from the crank's pivot there, in crank lengths",
           source="law of cosines", output=False, formula=bind(four_bar.joint_distance, rocker_direction="table_direction")),
     *_either(bind(four_bar.crank_angle_return, rocker_direction="table_direction", joint_distance="table_distance"),
              bind(four_bar.crank_angle_forward, rocker_direction="table_direction", joint_distance="table_distance"),
-             id="contact_angle", symbol="φ_c", unit="deg", description="Crank angle of the contact at the table", source="law of cosines", digits=6),
+             id="contact_angle", symbol="φ_t", unit="deg", description="Crank angle of the contact at the table", source="law of cosines", digits=6),
     Value(id="working_angle", symbol="φ_w", unit="deg", description="Crank angle of the working stroke", source="kinematics", digits=6,
           formula=bind(common.difference, greater="lowest_angle", smaller="contact_angle")),
     *_speed_ratio("contact_angle", "contact_", "t", " at contact"),
-    *_rate("contact_rocker_speed_ratio", id="contact_rate", symbol="v_c", output=False,
+    *_rate("contact_rocker_speed_ratio", id="contact_rate", symbol="v_t", output=False,
            description="Velocity of the edge as it meets the signature"),
     *_either(bind(formulas.longer_by_one, ratio="coupler_ratio"), bind(formulas.shorter_by_one, ratio="coupler_ratio"), id="dead_span",
              symbol="λ_d", description="Crank and coupler in line at the lowest point, in crank lengths", source="geometry", output=False),

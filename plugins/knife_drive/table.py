@@ -1,22 +1,26 @@
-"""The comparison as a table: a line for each quantity, a column for each drive."""
+"""The comparison as a table: a line for each quantity, a column for each drive, the verdict in words below."""
 
 from __future__ import annotations
+
+from textwrap import wrap
 
 from diecut_report.api import Shape, View, box, told
 from diecut_report.plugins.knife_drive.working import ALL
 
 LINES = (
-    ("Stroke", "stroke", "mm"),
     ("Working stroke", "working_angle", "deg"),
     ("Its duration", "working_time", "ms"),
     ("Speed at contact", "contact_velocity", "m/s"),
     ("Greatest acceleration", "acceleration_peak", "m/s**2"),
     ("Acceleration at the end", "acceleration_end", "m/s**2"),
-    ("Acceleration in the grip", "grip_acceleration", "m/s**2"),
+    ("Stroke", "stroke", "mm"),
+    ("Factor", "end_factor", "1"),
+    ("Acceleration in the grip", "grip_size", "m/s**2"),
     ("Time on the table", "table_time", "ms"),
 )
 FIRST, OTHER, HIGH = 1.5, 1.6, 0.3  # widths of the columns, height of a line
 GAP = 0.06  # between boxes
+LETTERS = 15  # on a width of one
 
 
 def table(view: View) -> list[Shape]:
@@ -32,7 +36,21 @@ def table(view: View) -> list[Shape]:
         shapes += [
             box((FIRST + (i + 0.5) * OTHER, y), OTHER - GAP, HIGH - GAP, [cell], role) for i, cell in enumerate(cells)
         ]
-    return shapes
+    width = FIRST + OTHER * len(drives)
+    words = [line for text in _verdicts(view) for line in wrap(text, int(width * LETTERS))]
+    high = HIGH * len(words)
+    below = -HIGH * (len(rows) - 0.5) - high / 2
+    return [*shapes, box((width / 2, below), width - GAP, high - GAP, words, "body")]
+
+
+def _verdicts(view: View) -> list[str]:
+    """Which drive is best, and why the planetary drive differs from the best other one."""
+    found = [f"Verdict: {view.word('verdict')}."]
+    if "acceleration_ratio_planetary" in view:
+        stroke, factor = view["stroke_ratio_planetary"], view["factor_ratio_planetary"]
+        found.append(f"Planetary drive to the best other one at the end: {stroke * factor:.2f} = {stroke:.2f} (stroke) × {factor:.2f} (factor); "
+                     f"{view.word('reason')}.")  # fmt: skip
+    return found
 
 
 def _cell(view: View, name: str, unit: str) -> str:

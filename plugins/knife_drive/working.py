@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from itertools import combinations
 from typing import NamedTuple
 
 import numpy as np
@@ -39,6 +40,23 @@ PLANETARY = Drive("planetary", "planetary drive", "a", "a greater carrier_radius
 CRANK_SLIDER = Drive("crank_slider", "crank-slider", "b", "a greater crank_radius")
 CRANK_ROCKER = Drive("crank_rocker", "crank-rocker", "c", "a longer knife_arm or a wider swing")
 ALL = (PLANETARY, CRANK_SLIDER, CRANK_ROCKER)
+Drives = tuple[Drive, ...]
+
+
+def groups(least: int = 1) -> tuple[Drives, ...]:
+    """The drives that may be given together, of so many drives at least."""
+    return tuple(group for size in range(least, len(ALL) + 1) for group in combinations(ALL, size))
+
+
+def keys(drives: Drives) -> tuple[str, ...]:
+    """The blocks of drives."""
+    return tuple(drive.key for drive in drives)
+
+
+def lacking(drives: Drives) -> tuple[str, ...]:
+    """The blocks of the other drives."""
+    return tuple(drive.key for drive in ALL if drive not in drives)
+
 
 SPEEDS = Section(
     "Knife's shaft and folding rollers",
@@ -54,10 +72,6 @@ SPEEDS = Section(
               formula=formulas.roller_velocity),
         Value(id="grip_time", symbol="t_g", unit="ms", description="Time in which the rollers bring the signature to their speed",
               source="004, after Fig. 3", formula=bind(formulas.time_of_angle, angle="grip_angle")),
-        Require(id="signature_beyond_depth", needs=("signature_length",), key="signature_length",
-                condition=bind(common.is_below, smaller="working_depth", greater="signature_length"),
-                message="is {signature_length}, but the knife alone takes {working_depth} of the signature (working_depth) below the table; "
-                "the signature must be longer"),
         Value(id="roller_time", symbol="t_r", unit="ms", needs=("signature_length",),
               description="Time from the knife's lowest point until the trailing edge has left the table", source="kinematics",
               formula=formulas.roller_time),
@@ -70,7 +84,7 @@ SPEEDS = Section(
 WORKING = (
     Value(id="working_time", symbol="t_w", unit="ms", description="Duration of the working stroke", source="kinematics",
           formula=bind(formulas.time_of_angle, angle="working_angle")),
-    Value(id="contact_velocity", symbol="V_c", unit="m/s", description="Speed of the edge as it meets the signature on the table",
+    Value(id="contact_velocity", symbol="V_t", unit="m/s", description="Speed of the edge as it meets the signature on the table",
           source="kinematics", formula=bind(common.size_of, quantity="contact_rate")),
     Breakpoints(id="working_ends", abscissa="crank_angle", places=("contact_angle", "lowest_angle")),
     Choice(id="working", symbol="s_", description="Whether the knife leads the signature (1) or not (0)", output=False, per_piece=True,
@@ -96,27 +110,36 @@ WORKING = (
 )  # fmt: skip
 
 
+SIGNATURE_BEYOND_DEPTH = Require(
+    id="signature_beyond_depth", needs=("signature_length",), key="signature_length",
+    condition=bind(common.is_below, smaller="working_depth", greater="signature_length"),
+    message="is {signature_length}, but the knife alone takes {working_depth} of the signature (working_depth) below the table; make "
+    "signature_length greater than that",
+)  # fmt: skip
+
+
 def reaches(drive: Drive) -> Require:
     """The edge must rise above the table."""
     return Require(
-        id="rises", key="working_depth", condition=bind(formulas.is_covered, part="working_depth", whole="stroke"),
+        id="rises", key="working_depth", condition=bind(common.is_at_most, smaller="working_depth", greater="stroke"),
         message=f"is {{working_depth}}, but the edge of the {drive.name} travels {{{drive.key}_stroke}} in all: it would never rise above "
-        f"the table; make the depth smaller than the stroke, or the stroke greater with {drive.longer} in {drive.key}",
+        f"the table; make the depth at most {{{drive.key}_stroke:down}}, or the stroke greater with {drive.longer} in {drive.key}",
     )  # fmt: skip
 
 
 def grips(drive: Drive) -> Require:
     """The rollers grip what the knife has pushed to them."""
     return Require(
-        id="grips", key="grip_angle", condition=bind(formulas.is_covered, part="grip_angle", whole="working_angle"),
-        message=f"is {{grip_angle}}, but the working stroke of the {drive.name} is {{{drive.key}_working_angle}}: the rollers would grip "
-        "before the knife meets the signature; make grip_angle smaller or working_depth greater",
+        id=f"{drive.key}_grips", key="grip_angle", needs=(drive.key,),
+        condition=bind(common.is_at_most, smaller="grip_angle", greater=f"{drive.key}_working_angle"),
+        message=f"is {{grip_angle}}, but the working stroke of the {drive.name} is {{{drive.key}_working_angle}}: the rollers would grip before "
+        f"the knife meets the signature; make grip_angle at most {{{drive.key}_working_angle:down}}, or working_depth greater",
     )  # fmt: skip
 
 
 def of_drive(drive: Drive, own: tuple[Step, ...]) -> Section:
     """The chapter of a drive: its own motion, then the working stroke."""
-    family = (*own, grips(drive), *WORKING)
+    family = (*own, *WORKING)
     return Section(
         f"{drive.name[0].upper()}{drive.name[1:]}",
         needs=(drive.key,),

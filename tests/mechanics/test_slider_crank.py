@@ -110,6 +110,14 @@ def test_the_crank_angle_of_a_displacement_is_the_inverse(radius: float, ratio: 
     assert sc.inner_displacement(inner, beta, radius, rod) == pytest.approx(travel, rel=1e-9)
 
 
+@given(radius=RADII, ratio=RATIOS)
+@settings(max_examples=300, deadline=None)
+def test_a_whole_stroke_is_half_a_turn_and_none_is_none(radius: float, ratio: float) -> None:
+    for angle_at in (sc.crank_angle_at, sc.inner_crank_angle_at):
+        assert angle_at(2 * radius, radius, radius * ratio) == pytest.approx(np.pi, abs=1e-12)
+        assert angle_at(0.0, radius, radius * ratio) == 0
+
+
 def test_variants_and_crank_angles_broadcast() -> None:
     ratios = np.array([[3.0], [5.0]])
     both = sc.acceleration(PHI, sc.coupler_angle(PHI, ratios), 0.1, ratios, 7.0)

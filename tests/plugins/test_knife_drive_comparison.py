@@ -33,7 +33,15 @@ def test_the_best_drive_has_the_least_peak_of_those_given(names: tuple[str, ...]
     assert word(calc, "best_drive") == best
     assert best.replace("_", "-") in word(calc, "verdict")
     for name in names if len(names) > 1 else ():
-        for what in ("stroke", "working_time", "contact_velocity", "acceleration_peak", "acceleration_end"):
+        for what in (
+            "stroke",
+            "working_time",
+            "contact_velocity",
+            "acceleration_peak",
+            "acceleration_end",
+            "end_factor",
+            "grip_size",
+        ):
             ratio = number(calc, f"{name}_{what}") / number(calc, f"{best}_{what}")
             assert number(calc, f"{name}_{what}_ratio") == pytest.approx(ratio, rel=1e-12)
     others = [peaks[name] for name in names if name != "planetary"]
@@ -52,9 +60,10 @@ def test_the_planetary_drive_is_the_best_one_where_it_is_small() -> None:
 
 
 def test_what_the_paper_stands_is_said() -> None:
-    assert "which stands it" in word(knife(**EVERY), "verdict")
-    assert "even it" in word(knife(**EVERY, allowable_paper_acceleration=100), "verdict")
-    assert "too much" in word(knife(**PLANETARY, allowable_paper_acceleration=999), "verdict")
+    assert "and its acceleration is allowed" in word(knife(**EVERY), "verdict")
+    assert "too, is above the allowed" in word(knife(**EVERY, allowable_paper_acceleration=100), "verdict")
+    assert "given; its acceleration is allowed" in word(knife(**PLANETARY), "verdict")
+    assert "above the allowed" in word(knife(**PLANETARY, allowable_paper_acceleration=999), "verdict")
 
 
 def test_stroke_or_kind_of_drive_is_named_as_the_reason() -> None:
@@ -95,9 +104,13 @@ def test_each_drive_has_its_checks_and_only_the_drives_that_are_given() -> None:
         ({"crank_slider": {"crank_radius": 19, "rod_length": 90}}, "working_depth", "travels 38 mm in all"),
         (OUTER | {"working_depth": 60}, "working_depth", "longer knife_arm"),
         ({"crank_rocker": LINKAGE | {"crank": 85}}, "crank_rocker.crank", "Grashof"),
+        ({"crank_rocker": LINKAGE | {"crank": 85}}, "crank_rocker.crank", "make the crank shorter than 70 mm"),
         ({"crank_rocker": LINKAGE | {"frame": 180}}, "crank_rocker.crank", "frame = 180 mm"),
+        ({"crank_rocker": LINKAGE | {"frame": 200}}, "crank_rocker.crank", "shorter than the two others together, 190 mm"),
         (PLANETARY | {"working_depth": 0.2}, "grip_angle", "before the knife meets the signature"),
-        (PLANETARY | {"signature_length": 40}, "signature_length", "must be longer"),
+        (PLANETARY | {"working_depth": 0.2}, "grip_angle", "make grip_angle at most 3.16268°"),
+        (OUTER | {"working_depth": 60}, "working_depth", "at most 55.44 mm"),
+        (PLANETARY | {"signature_length": 40}, "signature_length", "make signature_length greater than that"),
     ],
 )  # fmt: skip
 def test_an_impossible_knife_is_refused_in_words(keys: dict[str, Any], key: str, words: str) -> None:
@@ -105,6 +118,20 @@ def test_an_impossible_knife_is_refused_in_words(keys: dict[str, Any], key: str,
         knife(**keys)
     assert refused.value.key == key
     assert words in refused.value.message
+
+
+def test_every_drive_that_would_be_gripped_too_early_is_told_at_once() -> None:
+    with pytest.raises(Impossible) as refused:
+        knife(**EVERY, grip_angle=130)
+    told = [message for key, message in refused.value.reasons if key == "grip_angle"]
+    for drive in ("planetary drive", "crank-slider", "crank-rocker"):
+        assert any(f"working stroke of the {drive} is" in message for message in told)
+
+
+def test_a_depth_beyond_stroke_and_signature_is_told_for_both() -> None:
+    with pytest.raises(Impossible) as refused:
+        knife(**PLANETARY, working_depth=300, signature_length=273)
+    assert [key for key, _ in refused.value.reasons] == ["working_depth", "signature_length"]
 
 
 def drawn(calc: Calculation) -> dict[str, dict[str, Any]]:
@@ -131,6 +158,26 @@ def test_all_drives_stand_still_at_the_common_origin() -> None:
     assert panel["lines"][3]["y"][0] == pytest.approx(0.08 * 2 * np.pi * 50000 / 3600)
 
 
+def test_a_long_signature_does_not_stretch_the_comparison() -> None:
+    for length, last in ((273, (0.273 - 0.04) / 0.08), (2000, None)):
+        panel = drawn(knife(**EVERY, signature_length=length))["from_lowest"]["panels"][0]
+        ends = {line["label"]: line["x"][-1] for line in panel["lines"]}
+        assert ends["rollers"] == pytest.approx(last or ends["crank-rocker"])
+        assert ["off the table" in place["label"] for place in panel["verticals"]] == [False, True][
+            : 1 + (length == 273)
+        ]
+
+
+def test_the_differences_of_the_first_order_form_are_drawn() -> None:
+    calc = knife(**SLIDER)
+    exact, *errors = drawn(calc)["crank_slider_first_order"]["panels"]
+    assert [line["label"] for line in exact["lines"]] == ["exact", "first order"]
+    for panel, name in zip(errors, ("displacement", "velocity", "acceleration"), strict=True):
+        assert np.abs(panel["lines"][0]["y"]).max() == pytest.approx(
+            number(calc, f"crank_slider_{name}_difference"), rel=1e-3
+        )
+
+
 def test_the_lines_over_the_stroke_pass_through_the_machines() -> None:
     panel = drawn(knife(**EVERY))["over_stroke"]["panels"][0]
     for line, mark in zip(panel["lines"], panel["marks"], strict=True):
@@ -146,6 +193,9 @@ def test_the_table_holds_the_numbers_and_their_ratios() -> None:
     assert "1000 m/s² (× 6.00)" in cells and "262.6 mm (× 4.74)" in cells
     timed = [line for box in drawn(example())["comparison"]["shapes"] for line in box["lines"]]
     assert "42.56 ms of 72 ms" in timed
+    assert "0.7894 (× 1.00)" in cells and "6815 m/s² (× 1.00)" in cells
+    assert "crank-rocker is gentlest on the paper, and its acceleration is allowed" in " ".join(cells)
+    assert "6.00 = 4.74 (stroke) × 1.27 (factor); mostly its stroke." in " ".join(cells)
     alone = [line for box in drawn(knife(**PLANETARY))["comparison"]["shapes"] for line in box["lines"]]
     assert "262.6 mm" in alone
 
