@@ -1,0 +1,280 @@
+"""Peaks of a driven link on an elastic drive: the published table, closed solutions, scipy's integration, laws of a user."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from itertools import pairwise
+from typing import Any
+
+import numpy as np
+import pytest
+from hypothesis import assume, given, settings
+from hypothesis import strategies as st
+from scipy.integrate import solve_ivp
+from scipy.interpolate import CubicHermiteSpline
+
+from diecut_report.expressions import Array, formula
+from diecut_report.mechanics.follower_peaks import peaks
+from diecut_report.mechanics.motion_laws import LAWS, MotionLaw, register
+from tests.mechanics.closed_follower import WAVES, Wave, after, response, undamped_cycloidal
+
+BY_LAW = pytest.mark.parametrize("law", LAWS.values(), ids=lambda law: law.name)
+JUMPING = ("harmonic", "parabolic")  # in acceleration
+TABLE = [  # law, λ, damping ratio, peak during the rise, peak after it
+    ("cycloidal", 1.5, 0, 2.8532, 2.4000), ("cycloidal", 1.5, 0.05, 2.4833, 1.7858), ("cycloidal", 1.5, 0.2, 1.8443, 0.8823),
+    ("cycloidal", 2.5, 0, 1.6249, 0.9524), ("cycloidal", 2.5, 0.05, 1.5317, 0.6409), ("cycloidal", 2.5, 0.2, 1.3460, 0.3618),
+    ("cycloidal", 5, 0, 1.0825, 0.0000), ("cycloidal", 5, 0.05, 1.0426, 0.1530), ("cycloidal", 5, 0.2, 1.0397, 0.1563),
+    ("harmonic", 5, 0, 2.0202, 2.0202), ("harmonic", 5, 0.05, 1.8315, 1.2203), ("harmonic", 5, 0.2, 1.5481, 1.0118),
+    ("polynomial_345", 2.5, 0, 1.7407, 1.2588), ("polynomial_345", 2.5, 0.05, 1.6306, 0.8484),
+    ("polynomial_345", 2.5, 0.2, 1.4120, 0.4605),
+]  # fmt: skip
+
+
+@pytest.mark.parametrize("name, ratio, damping, rise, residual", TABLE)
+def test_the_published_table(name: str, ratio: float, damping: float, rise: float, residual: float) -> None:
+    found = peaks(LAWS[name], ratio, damping)
+    assert found.rise == pytest.approx(rise, abs=5.0001e-5)
+    assert found.residual == pytest.approx(residual, abs=5.0001e-5)
+
+
+@pytest.mark.parametrize("ratio", [0.1, 0.37, 0.5, 0.9, 1, 1.0001, 1.5, 2, 2.5, 3, 4.8, 5, 10, 33.3, 100])
+def test_the_undamped_cycloidal_law_in_closed_form(ratio: float) -> None:
+    found = peaks(LAWS["cycloidal"], ratio, 0)
+    np.testing.assert_allclose(found, undamped_cycloidal(ratio), rtol=1e-10, atol=1e-12)
+
+
+@pytest.mark.parametrize("ratio", [1, 3, 5, 7, 99])
+def test_a_parabolic_law_is_worst_at_odd_ratios(ratio: float) -> None:
+    """It swings from 0 about A to 2A in the middle, from there about −A to −4A, and ends at 2A with half a period left over."""
+    found = peaks(LAWS["parabolic"], ratio, 0)
+    np.testing.assert_allclose(found, (4, 4), rtol=1e-11)
+
+
+RATIOS = np.array([0.1, 0.6, 1.0, 1.7, 3.35, 9.2])
+DAMPINGS = np.array([0, 0.03, 0.2, 0.9])
+
+
+def stretch(law: MotionLaw, moves: bool, low: float, high: float, start: Array, drives: Array) -> tuple[Array, Array]:
+    """Peaks of all drives (rows ω, ζ) in one smooth stretch, and the state at its end, by scipy's integration.
+
+    ẍ and its derivative are known at 800 places a natural period: cubic pieces between them are out by (2π/800)⁴/384 = 1e-11.
+    """
+    omega, damping = drives
+    places = np.linspace(low, high, 2 + int(800 * (high - low) * omega.max() / (2 * np.pi)))
+    places[[0, -1]] += (1e-13, -1e-13)  # not on a joint
+
+    def driving(k: Array | float) -> Array:
+        return np.asarray(law.acceleration(k), float) if moves else np.zeros(np.shape(k))
+
+    def rates(k: float, state: Array) -> Array:
+        deflection, speed = state.reshape(2, -1)
+        return np.concatenate([speed, -2 * damping * omega * speed - omega**2 * deflection - driving(k)])
+
+    solved = solve_ivp(rates, (places[0], places[-1]), start, "DOP853", places, rtol=1e-12, atol=1e-14,
+                       max_step=0.1 / omega.max())  # fmt: skip
+    deflection, speed = solved.y.reshape(2, omega.size, -1).transpose(0, 2, 1)
+    value = -2 * damping * omega * speed - omega**2 * deflection
+    curve = CubicHermiteSpline(
+        places, value, -2 * damping * omega * (value - driving(places)[:, None]) - omega**2 * speed
+    )
+    still = curve.derivative().roots(extrapolate=False)
+    inside = [np.abs(curve(k[np.isfinite(k)])[:, drive]).max(initial=0) for drive, k in enumerate(still)]
+    return np.maximum(np.abs(value).max(axis=0), inside), solved.y[:, -1]
+
+
+@BY_LAW
+def test_all_laws_as_scipy_integrates_them(law: MotionLaw) -> None:
+    """Broken at the joints; what swings on is followed for the longest half period that there is."""
+    ratio, damping = (grid.ravel() for grid in np.meshgrid(RATIOS, DAMPINGS))
+    drives = np.array([2 * np.pi * ratio, damping])
+    rise, state = np.zeros(ratio.size), np.zeros(2 * ratio.size)
+    for low, high in pairwise((0.0, *law.breakpoints, 1.0)):
+        top, state = stretch(law, True, low, high, state, drives)
+        rise = np.maximum(rise, top)
+    longest = np.pi / np.min(drives[0] * np.sqrt(1 - damping**2))
+    residual, _ = stretch(law, False, 1.0, 1.0 + longest, state, drives)
+    found = peaks(law, ratio, damping)
+    np.testing.assert_allclose(found.rise, rise / law.A, rtol=1e-9)
+    np.testing.assert_allclose(found.residual, residual / law.A, rtol=1e-9, atol=1e-10)
+
+
+@given(
+    name=st.sampled_from(list(WAVES)),
+    ratio=st.floats(0.1, 100),
+    damping=st.one_of(st.just(0.0), st.floats(0, 0.95)),
+)
+@settings(max_examples=150, deadline=None)
+def test_no_place_exceeds_the_peak_and_the_best_of_many_comes_near(name: str, ratio: float, damping: float) -> None:
+    """The greatest of many places is out by half the square of the step, at the fastest swing that there is."""
+    wave = WAVES[name]
+    assume(abs(2 * np.pi * ratio / wave.frequency - 1) > 1e-3)  # the closed form holds beside the resonance
+    law, k = LAWS[name], np.linspace(0, 1, 20001)
+    sample, rate = response(wave, ratio, damping, k)
+    period = 1 / (ratio * np.sqrt(1 - damping**2))
+    decay = after(law, sample[-1], rate[-1], ratio, damping, k * period)
+    found = peaks(law, ratio, damping)
+    for peak, values, step in ((found.rise, sample, k[1]), (found.residual, decay, k[1] * period)):
+        best = float(np.abs(values).max()) / law.A
+        assert best <= peak + 1e-10
+        assert peak <= best + (2 * np.pi * max(ratio, 1) * step) ** 2 * max(1, peak)
+
+
+def test_arrays_give_what_single_numbers_give() -> None:
+    ratios, dampings = np.geomspace(0.1, 100, 31)[:, None], np.array([0, 0.02, 0.05, 0.2, 0.9])
+    for law in LAWS.values():
+        together = peaks(law, ratios, dampings)
+        single = np.array([[peaks(law, ratio, damping) for damping in dampings] for ratio in ratios[:, 0]])
+        assert together.rise.shape == together.residual.shape == (31, 5)
+        np.testing.assert_allclose(np.moveaxis(together, 0, -1), single, rtol=1e-11, atol=1e-12)
+
+
+def test_many_drives_are_taken_in_blocks() -> None:
+    """More values at nodes than one block holds give the same as each block alone."""
+    ratios = np.linspace(60, 64, 120)
+    together = peaks(LAWS["cycloidal"], ratios, 0)
+    expected = np.array([undamped_cycloidal(ratio) for ratio in ratios]).T
+    np.testing.assert_allclose(together, expected, rtol=1e-10, atol=1e-12)
+
+
+def test_the_shape_is_that_of_both_together() -> None:
+    assert np.shape(peaks(LAWS["cycloidal"], 2, 0.1).rise) == ()
+    assert peaks(LAWS["cycloidal"], [2, 3], 0.1).residual.shape == (2,)
+    assert peaks(LAWS["cycloidal"], np.ones((4, 1, 1)), np.zeros((3, 1))).rise.shape == (4, 3, 1)
+    assert peaks(LAWS["cycloidal"], [], 0).rise.shape == (0,)
+
+
+@pytest.mark.parametrize(
+    "ratio, damping", [(0, 0.1), (-1, 0.1), (np.nan, 0.1), (np.inf, 0.1), (5, 1), (5, -0.1), (5, np.nan)]
+)
+def test_what_is_no_damped_swing_is_no_number_and_spoils_nothing(ratio: float, damping: float) -> None:
+    found = peaks(LAWS["cycloidal"], [ratio, 1.5], [damping, 0])
+    assert np.isnan([found.rise[0], found.residual[0]]).all()
+    np.testing.assert_allclose([found.rise[1], found.residual[1]], undamped_cycloidal(1.5), rtol=1e-12)
+
+
+@pytest.mark.parametrize("name", [name for name in LAWS if name not in JUMPING])
+@pytest.mark.parametrize("ratio", [50, 99.7])
+def test_a_stiff_drive_follows_a_smooth_law(name: str, ratio: float) -> None:
+    """Each jump of the jerk leaves a swing of the size jump/ω, of which all together stand beside the rigid motion."""
+    law = LAWS[name]
+    sides = [(float(law.jerk(k - 1e-12)) if k else 0, float(law.jerk(k + 1e-12)) if k < 1 else 0)
+             for k in (0.0, *law.breakpoints, 1.0)]  # fmt: skip
+    swing = sum(abs(right - left) for left, right in sides) / (2 * np.pi * ratio * law.A)
+    found = peaks(law, ratio, 0)
+    assert abs(found.rise - 1) <= swing + 10 / ratio**2
+    assert found.residual <= swing + 10 / ratio**2
+    damped = peaks(law, ratio, 0.9)
+    assert damped.rise == pytest.approx(1, abs=10 / ratio**2 + swing / 5)
+
+
+@pytest.mark.parametrize("name", WAVES)
+def test_a_stiff_drive_of_great_damping_does_not_overflow(name: str) -> None:
+    law, k = LAWS[name], np.linspace(0, 1, 400001)
+    sample, rate = response(WAVES[name], 100, 0.9, k)
+    decay = after(law, sample[-1], rate[-1], 100, 0.9, k / 30)
+    found = peaks(law, 100, 0.9)
+    assert found.rise == pytest.approx(np.abs(sample).max() / law.A, rel=2e-6)
+    assert found.residual == pytest.approx(np.abs(decay).max() / law.A, rel=1e-6)
+
+
+# --- laws of a user --------------------------------------------------------------------------------------------------
+
+
+@formula
+def stepping_position(k: Any) -> Any:
+    return k - np.sin(24 * np.pi * k) / (24 * np.pi)
+
+
+@formula
+def stepping_velocity(k: Any) -> Any:
+    return 1 - np.cos(24 * np.pi * k)
+
+
+@formula
+def stepping_acceleration(k: Any) -> Any:
+    return 24 * np.pi * np.sin(24 * np.pi * k)
+
+
+@formula
+def stepping_jerk(k: Any) -> Any:
+    return 576 * np.pi**2 * np.cos(24 * np.pi * k)
+
+
+@formula
+def stepping_peak() -> Any:
+    return 24 * np.pi
+
+
+@formula
+def hasty_position(k: Any) -> Any:
+    return np.where(k < 3 / 10, k**2 / 0.3, 1 - (1 - k) ** 2 / 0.7)
+
+
+@formula
+def hasty_velocity(k: Any) -> Any:
+    return np.where(k < 3 / 10, 2 * k / 0.3, 2 * (1 - k) / 0.7)
+
+
+@formula
+def hasty_acceleration(k: Any) -> Any:
+    return np.where(k < 3 / 10, 2 / 0.3, -2 / 0.7)
+
+
+@formula
+def nothing(k: Any) -> Any:
+    return 0 * k
+
+
+@formula
+def hasty_joint(k: Any) -> Any:
+    return k - 3 / 10
+
+
+@formula
+def hasty_peak() -> Any:
+    return 2 / 0.3
+
+
+@formula
+def two() -> Any:
+    return 2
+
+
+@pytest.fixture
+def own_laws(monkeypatch: pytest.MonkeyPatch) -> Iterator[None]:
+    """Two laws of a user, taken back after the test."""
+    with monkeypatch.context() as patch:
+        patch.setattr(LAWS, "_laws", dict(LAWS._laws))
+        register(MotionLaw(name="stepping", title="Twelve small steps", position=stepping_position, velocity=stepping_velocity,
+                           acceleration=stepping_acceleration, jerk=stepping_jerk, peak_velocity=two,
+                           peak_acceleration=stepping_peak))  # fmt: skip
+        register(MotionLaw(name="hasty", title="Quick start, slow end", position=hasty_position, velocity=hasty_velocity,
+                           acceleration=hasty_acceleration, jerk=nothing, peak_velocity=two, peak_acceleration=hasty_peak,
+                           breakpoints=(3 / 10,), joint=hasty_joint))  # fmt: skip
+        yield
+    assert not {"stepping", "hasty"} & set(LAWS)
+
+
+@pytest.mark.usefixtures("own_laws")
+@pytest.mark.parametrize("ratio, damping", [(0.2, 0), (0.9, 0.05), (7, 0.3), (40, 0.01)])
+def test_a_law_that_is_quicker_than_the_drive(ratio: float, damping: float) -> None:
+    law, k = LAWS["stepping"], np.linspace(0, 1, 200001)
+    sample, rate = response(Wave(-24j * np.pi, 24 * np.pi), ratio, damping, k)
+    decay = after(law, sample[-1], rate[-1], ratio, damping, k / ratio)
+    found = peaks(law, ratio, damping)
+    np.testing.assert_allclose(found, [np.abs(part).max() / (24 * np.pi) for part in (sample, decay)], rtol=1e-6)
+
+
+@pytest.mark.usefixtures("own_laws")
+@pytest.mark.parametrize("ratio", [0.3, 1, 2.6, 10])
+def test_a_law_with_its_joint_off_the_middle(ratio: float) -> None:
+    """Undamped: each step a of the input's acceleration answers a·(1 − cos ω(k − k₀))."""
+    k, omega = np.linspace(0, 1, 200001), 2 * np.pi * ratio
+    steps = [(0.0, 2 / 0.3), (0.3, -2 / 0.3 - 2 / 0.7), (1.0, 2 / 0.7)]
+
+    def answer(place: Array) -> Array:
+        return np.asarray(sum(size * (1 - np.cos(omega * np.maximum(place - start, 0))) for start, size in steps))
+
+    found = peaks(LAWS["hasty"], ratio, 0)
+    expected = [np.abs(answer(part)).max() / (2 / 0.3) for part in (k, 1 + k / ratio)]
+    np.testing.assert_allclose(found, expected, rtol=1e-7, atol=1e-12)
