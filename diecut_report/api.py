@@ -32,9 +32,11 @@ from diecut_report.contract.figures import (
     radius_dimension,
     region,
 )
+from diecut_report.contract.given import Curve
 from diecut_report.contract.inputs import POINTS, Block, CurveInput, FromPress, Inputs, OneOf, Quantity, Text
 from diecut_report.contract.mechanism import Comparison, Erratum, Mechanism, Profile, Source
 from diecut_report.contract.parts import Lookup, Neighbour, Part, Pick, Running, Total
+from diecut_report.contract.spectra import Spectrum, SpectrumLine
 from diecut_report.contract.steps import (
     Abscissa,
     Accumulated,
@@ -42,7 +44,10 @@ from diecut_report.contract.steps import (
     Case,
     Choice,
     Clash,
+    Computed,
     Crossings,
+    CurvePeriod,
+    Derivative,
     FromCurve,
     Reduction,
     Require,
@@ -62,12 +67,12 @@ from diecut_report.standards import (
 from diecut_report.texts import below, outward, si, told
 
 __all__ = [
-    "GRAVITY", "POINTS", "Abscissa", "Accumulated", "Annotated", "BarGroup", "Bars", "Binding", "Block", "Bound", "Breakpoints",
-    "ByText", "Case", "Chart", "Check", "Choice", "Clash", "Comparison", "Constant", "Crossings", "CurveInput", "Drawing",
-    "Erratum", "Formula", "FromCurve", "FromPress", "Inputs", "Level", "Lookup", "Mark", "Mechanism", "Neighbour", "OneOf",
-    "Panel", "Part", "Pick", "Plot", "Point", "Polar", "Profile", "Quantity", "Reduction", "Require", "Root", "Running", "Section",
-    "Series", "Shape", "Source", "Span", "StandardSeries", "StandardTable", "Step", "Text", "Total", "Value", "View", "Words",
-    "arc", "arccos", "arrow", "below", "bind", "box", "chart_panel", "circle", "dimension", "fill", "formula", "label", "level", "line",
-    "mark", "outward", "point", "polyline", "prefixed", "radius_dimension", "region", "si", "standard_series", "standard_series_by",
-    "standard_table", "told", "vertical",
+    "GRAVITY", "POINTS", "Abscissa", "Accumulated", "Annotated", "BarGroup", "Bars", "Binding", "Block", "Bound", "Breakpoints", "ByText",
+    "Case", "Chart", "Check", "Choice", "Clash", "Comparison", "Computed", "Constant", "Crossings", "Curve", "CurveInput", "CurvePeriod",
+    "Derivative", "Drawing", "Erratum", "Formula", "FromCurve", "FromPress", "Inputs", "Level", "Lookup", "Mark", "Mechanism",
+    "Neighbour", "OneOf", "Panel", "Part", "Pick", "Plot", "Point", "Polar", "Profile", "Quantity", "Reduction", "Require", "Root",
+    "Running", "Section", "Series", "Shape", "Source", "Span", "Spectrum", "SpectrumLine", "StandardSeries", "StandardTable", "Step",
+    "Text", "Total", "Value", "View", "Words", "arc", "arccos", "arrow", "below", "bind", "box", "chart_panel", "circle", "dimension",
+    "fill", "formula", "label", "level", "line", "mark", "outward", "point", "polyline", "prefixed", "radius_dimension", "region", "si",
+    "standard_series", "standard_series_by", "standard_table", "told", "vertical",
 ]  # fmt: skip

@@ -6,9 +6,11 @@ import math
 from typing import Any
 
 from diecut_report import __version__
+from diecut_report.comparing import Found
 from diecut_report.compute import Run
 from diecut_report.config import Press
 from diecut_report.contract.inputs import Block, CurveInput, Quantity, flatten
+from diecut_report.contract.mechanism import Mechanism
 from diecut_report.engine import CurveHandle
 from diecut_report.instances import Instance
 from diecut_report.references import PRESS
@@ -24,6 +26,7 @@ def document(run: Run) -> Data:
     """All results as plain data; the same config gives the same document, byte for byte."""
     config, tree = run.config, run.config.tree
     mechanisms = {name: _mechanism_data(run, name) for name in config.instances if name != PRESS}
+    comparisons = {case.name: _comparison_data(run, case) for case in run.cases}
     status = worst(data["status"] for data in mechanisms.values())
     return {
         "schema_version": 1,
@@ -39,7 +42,7 @@ def document(run: Run) -> Data:
         "status": "error" if run.errors else status,
         "governing": governing(mechanisms),
         "mechanisms": mechanisms,
-    } | ({"comparisons": run.comparisons} if run.comparisons else {})
+    } | ({"comparisons": comparisons} if comparisons else {})
 
 
 EMPTY: Data = {
@@ -56,12 +59,24 @@ def _mechanism_data(run: Run, name: str) -> Data:
     mechanism = instance.mechanism if instance else None
     kind = run.config.kinds[name]
     status, text = ("error", str(run.errors[name])) if name in run.errors else ("skipped", run.skipped[name])
-    head = {
+    return _head(kind, mechanism) | {"status": status, "error": text} | EMPTY
+
+
+def _comparison_data(run: Run, case: Found) -> Data:
+    if case.name in run.comparisons:
+        return run.comparisons[case.name]
+    mechanism = case.comparison.mechanism
+    failed = {"status": "error", "error": str(run.errors[case.name]), "between": list(case.between.values())}
+    return _head(mechanism.kind, mechanism) | failed | EMPTY
+
+
+def _head(kind: str, mechanism: Mechanism | None) -> Data:
+    """What is known of a mechanism that gives no results."""
+    return {
         "kind": kind,
         "title": mechanism.title if mechanism else kind,
         "plugin_version": mechanism.version if mechanism else "",
     }
-    return head | {"status": status, "error": text} | EMPTY
 
 
 def governing(mechanisms: Data) -> Data | None:

@@ -282,11 +282,9 @@ def _summary(results: dict[str, Any]) -> list[str]:
                 )
     count = sum(len(data["checks"]) for data in results["mechanisms"].values())
     failed = sum(rank == 0 for rank, _ in lines)
-    lost = sum("error" in data for data in results["mechanisms"].values())
-    passed = (
-        f"{lost} of {len(results['mechanisms'])} mechanisms were not calculated."
-        if lost
-        else coloured("No check fails.", "pass")
-    )
+    calculated = [*results["mechanisms"].values(), *results.get("comparisons", {}).values()]
+    lost = sum("error" in data for data in calculated)
+    told = "mechanisms and comparisons" if "comparisons" in results else "mechanisms"
+    passed = f"{lost} of {len(calculated)} {told} were not calculated." if lost else coloured("No check fails.", "pass")
     verdict = f"{failed} of {count} checks fail." if failed else passed
     return [line for _, line in sorted(lines, key=lambda pair: pair[0])] + [verdict]

@@ -9,6 +9,7 @@ from typing import Any
 
 import numpy as np
 
+from diecut_report.contract.forms import in_form
 from diecut_report.contract.inputs import SI, flatten
 from diecut_report.contract.mechanism import Comparison
 from diecut_report.engine import Calculation, CurveHandle, calculate
@@ -50,7 +51,7 @@ def compared(case: Found, calculations: Mapping[str, Calculation]) -> Data:
         value = _taken(calculations[instance], name)
         if value is not None:
             values[key], origins[key] = value, Provenance("reference", f"{instance}.{name}")
-    block = case.comparison.mechanism.inputs.model_validate(values)
+    block = in_form(case.comparison.mechanism.inputs, values).model_validate(values)
     calculation = calculate(case.comparison.mechanism, flatten(block))
     return mechanism_results(calculation, origins) | {"between": list(case.between.values())}
 

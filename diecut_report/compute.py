@@ -53,6 +53,7 @@ class Run:
         self.skipped: dict[str, str] = {}
         self.problems: list[Problem] = []
         self.comparisons: dict[str, Data] = {}
+        self.cases: list[Found] = []
         for node in config.order:
             if len(node) == 1:
                 self._mechanism(str(node[0]))
@@ -167,6 +168,7 @@ class Run:
 
     def _compare(self, case: Found) -> None:
         self.tell(case.name)
+        self.cases.append(case)
         try:
             self.comparisons[case.name] = compared(case, self.calculations)
         except Exception as cause:
@@ -183,7 +185,7 @@ class Run:
     def _provenance(self, instance: Instance) -> dict[str, Provenance]:
         found = {}
         for slot in slots(instance.model, instance.data):
-            typed = instance.place.tree.typed((*instance.place.root, *slot.key)) if slot.is_given else None
+            typed = instance.place.typed(slot.key) if slot.is_given else None
             target = self.config.links.get((instance.name, *slot.key))
             origin = "default" if not slot.is_given else "reference" if target else "given"
             found[".".join(map(str, slot.key))] = Provenance(origin, target.path if target else "", typed)  # type: ignore[arg-type]

@@ -11,13 +11,14 @@ from typing import Any, Literal, get_args
 from pydantic import AfterValidator, Field, field_validator
 
 from diecut_report import yaml_tree
+from diecut_report.contract.forms import in_form
 from diecut_report.contract.inputs import Annotated, Block, CurveInput, Pending, Quantity, Text
 from diecut_report.discovery import Discovery, DuplicateKind, UnknownKind, said
 from diecut_report.errors import PluginError, Problem, UserError
 from diecut_report.instances import Instance
 from diecut_report.ordering import ordered
 from diecut_report.references import PRESS, Linker, Node, Target, texts
-from diecut_report.validation import Place, declared, keys_of, told, validate
+from diecut_report.validation import Place, declared, keys_of, spread_out, told, validate
 from diecut_report.yaml_tree import KeyPath, Tree
 
 NAME = re.compile(r"[A-Za-z][A-Za-z0-9_-]*")
@@ -163,7 +164,10 @@ class _Reader:
             self._mechanism(name, body, Place(self.tree, ("mechanisms", name)))
 
     def _add(self, name: str, model: type[Block], data: dict[str, Any], place: Place, mechanism: Any = None) -> None:
-        self.instances[name] = Instance(name, model, as_typed(model, data, place), place, mechanism)
+        data, place, problems = spread_out(model, data, place)
+        self.problems += problems
+        form = in_form(model, [key for key, value in data.items() if value is not None])
+        self.instances[name] = Instance(name, form, as_typed(form, data, place), place, mechanism)
 
     def _mechanism(self, name: str, body: Any, place: Place) -> None:
         fault = _name_fault(name)
@@ -229,7 +233,7 @@ def as_typed(model: type[Block], data: Any, place: Place, key: KeyPath = ()) -> 
         elif known.block:
             typed[name] = as_typed(known.block, given, place, own)
         elif str in (annotation, *get_args(annotation)) and not isinstance(given, dict | list):
-            typed[name] = place.tree.typed((*place.root, *own))
+            typed[name] = place.typed(own)
     return typed
 
 

@@ -165,6 +165,9 @@ class Linker:
         if meta is None:
             raise Unresolved(self._unknown(path, instance, ".".join(parts)))
         _check_index(path, instance.data, key)
+        if name in instance.model.spread and name not in instance.data:
+            single = ", ".join(instance.model.spread[name])
+            raise Unresolved(f"${{{path}}} is a list; refer to one of its values ({single}).")
         if name not in instance.given:
             raise Unresolved(f"${{{path}}} is not given; it is optional. Give {path}, or write the value itself here.")
         si = unit(meta.unit).si if isinstance(meta, Quantity | CurveInput) else None

@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from typing import Any, Literal
 
 import numpy as np
 
-from diecut_report.contract.inputs import CurveInput, Quantity, fields, list_titles
+from diecut_report.contract.inputs import CurveInput, Quantity, list_titles
+from diecut_report.contract.spectra import Spectrum, SpectrumLine
 from diecut_report.contract.steps import SILENT, Crossings, Step
 from diecut_report.engine import Calculation
 from diecut_report.engine.derive import section_items
@@ -53,15 +54,23 @@ def mechanism_results(calc: Calculation, provenance: Mapping[str, Provenance]) -
         "absent": absent(calc, provenance),
         "figures": figures(calc),
         "exports": exports(calc),
-        "errata": [
-            {
-                "source": e.source,
-                "text": e.text,
-                "touches": [calc.step_or_input(n).description for n in e.touches if n in calc.steps],
-            }
-            for e in mechanism.errata
-        ],
+        "errata": list(errata(calc)),
     }
+
+
+def errata(calc: Calculation) -> Iterator[Data]:
+    """The mistakes of the sources that touch this machine: those whose quantities are all absent are left out."""
+    for erratum in calc.mechanism.errata:
+        touched = [calc.step_or_input(name).description for name in erratum.touches if _is_there(calc, name)]
+        if touched or not erratum.touches:
+            yield {"source": erratum.source, "text": erratum.text, "touches": touched}
+
+
+def _is_there(calc: Calculation, name: str) -> bool:
+    """Whether this machine has a quantity: a curve, an input, or a number that applies to it."""
+    if name not in calc.values:
+        return name in calc.curves or name in calc.domains or name in calc.inputs
+    return any(isinstance(value, str) or not np.isnan(value) for value in calc.values[name][0])
 
 
 GIVEN = Provenance("given")
@@ -74,10 +83,11 @@ def absent(calc: Calculation, provenance: Mapping[str, Provenance]) -> list[Data
         for s in calc.mechanism.sections
         if s.absent and not calc.given.issuperset(s.needs)
     ]
+    made = {check.id for check in calc.mechanism.checks if applies(calc, check)}
     unmade = [
         {"title": c.title, "text": f"not checked, though {c.limit} is given: what it limits is not calculated"}
         for c in calc.mechanism.checks
-        if _is_limit_given(calc, str(c.limit), provenance) and not applies(calc, c)
+        if _is_limit_given(calc, str(c.limit), provenance) and c.id not in made
     ]
     return left_out + unmade
 
@@ -95,7 +105,7 @@ def worst(statuses: Any) -> str:
 def inputs(calc: Calculation, provenance: Mapping[str, Provenance]) -> Data:
     """Each input with value, unit, origin and typed text; the parts of a list as ``gears.0.driver_teeth``."""
     found: Data = {}
-    for name, meta in fields(calc.mechanism.inputs):
+    for name, meta in calc.meta.items():
         if name not in calc.inputs:
             continue
         row = calc.inputs[name]
@@ -188,18 +198,24 @@ def curves(calc: Calculation) -> Data:
     for name, domain in calc.domains.items():
         step = calc.steps[name]
         found[name] = _curve(step, domain.samples[0])
-        edges = np.unique(domain.edges[0, 1:-1])
-        edges = edges[edges < domain.period]
-        if not len(edges):
-            continue
-        found[name]["breakpoints"] = edges.tolist()
+        edges = np.unique(domain.joints[0])[1:-1]
+        if len(edges):
+            found[name]["breakpoints"] = edges.tolist()
     for name, curve in calc.curves.items():
         if curve.output:
             found[name] = _curve(curve, calc.curve_samples(name)[0]) | _limits(calc, name)
+    for spectrum in calc.mechanism.spectra:
+        found |= _spectrum(spectrum)
     return found
 
 
-def _curve(step: Step, values: Any) -> Data:
+def _spectrum(spectrum: Spectrum) -> Data:
+    common = {"is_spectrum": True}
+    lines = {line.id: _curve(line, line.values) | {"abscissa": spectrum.id} | common for line in spectrum.lines()}
+    return {spectrum.id: _curve(spectrum, spectrum.values) | common} | lines
+
+
+def _curve(step: Step | SpectrumLine, values: Any) -> Data:
     return {"unit": unit(step.unit).si, "values": np.asarray(values, dtype=float).tolist(), "symbol": step.symbol,
             "description": step.description, "display_unit": step.unit, "source": step.source}  # fmt: skip
 
@@ -207,18 +223,18 @@ def _curve(step: Step, values: Any) -> Data:
 def _limits(calc: Calculation, name: str) -> Data:
     axis = calc.axis[name]
     domain = calc.domains[axis]
-    wide = domain.widths[0] > 1e-12 * domain.period
+    wide = domain.widths[0] > 1e-12 * domain.period[0, 0]
     starts, ends, middles = domain.edges[:1, :-1][:, wide], domain.edges[:1, 1:][:, wide], domain.middles[:1, wide]
     first = np.zeros(1, dtype=int)
     after = calc.kept("starts", axis, lambda _: (starts, middles), first)[name]
     before = calc.kept("ends", axis, lambda _: (ends, middles), first)[name]
     after, before = (np.broadcast_to(limits, starts.shape)[0] for limits in (after, before))
-    places = starts[0, 1:]
+    joint = (domain.is_joint(starts[:, 1:]) | domain.is_joint(ends[:, :-1]))[0]
     return {
         "abscissa": calc.axis[name],
-        "breakpoints": places.tolist(),
-        "left": before[:-1].tolist(),
-        "right": after[1:].tolist(),
+        "breakpoints": starts[0, 1:][joint].tolist(),
+        "left": before[:-1][joint].tolist(),
+        "right": after[1:][joint].tolist(),
     }
 
 

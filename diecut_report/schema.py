@@ -3,9 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from functools import partial
 from typing import Any, get_args
 
 from diecut_report.config import NAME, RESERVED, Press, Project, Revision
+from diecut_report.contract.forms import in_all_units
 from diecut_report.contract.inputs import Block, CurveInput, Quantity, Text
 from diecut_report.contract.mechanism import Mechanism
 from diecut_report.units import pretty
@@ -74,7 +76,9 @@ def _of_kind(mechanism: Mechanism) -> Schema:
 
 def block_schema(model: type[Block]) -> Schema:
     """Schema of a block of keys."""
-    groups = [{"anyOf": [{"required": list(group)} for group in rule.groups]} for rule in model.one_of]
+    groups = [
+        {"anyOf": [{"required": list(group)} for group in rule.groups]} for rule in model.one_of if not rule.optional
+    ]
     return {
         "type": "object",
         "required": [name for name, field in model.model_fields.items() if field.is_required()],
@@ -93,29 +97,47 @@ def _key(model: type[Block], name: str) -> Schema:
     shown = {} if default is None else {"default": default}
     match meta:
         case Quantity():
-            return _quantity(meta, default) | shown
+            quantity = _quantity(meta, default) | shown
+            return quantity | _listed(quantity, len(model.spread[name])) if name in model.spread else quantity
         case CurveInput():
-            value = {"type": ["number", "string"]}
-            described = {
-                "description": f"{meta.description}. Unit: {pretty(meta.unit)}. A reference to a curve, or its values over a turn."
-            }
-            return described | {"anyOf": [_reference(), {"type": "array", "minItems": 4, "items": value}]}
+            return _curve(meta)
     described = {"description": f"{meta.description}."} if meta else {}
     plain = issubclass(model, Project | Revision)  # the title block takes no references
     allowed = {"enum": list(meta.options)} if isinstance(meta, Text) and meta.options else _text(field.annotation)
     return described | (allowed if plain else {"anyOf": [allowed, _reference()]}) | shown
 
 
+def _listed(quantity: Schema, count: int) -> Schema:
+    """A quantity, or a list of so many."""
+    values = {"type": "array", "minItems": count, "maxItems": count, "items": {"anyOf": quantity["anyOf"]}}
+    return {"anyOf": [*quantity["anyOf"], values]}
+
+
 def _reference() -> Schema:
     return {"type": "string", "pattern": REFERENCE, "description": "A reference such as ${cylinder.radius}."}
+
+
+def _curve(meta: CurveInput) -> Schema:
+    ways = "A reference to a curve" + ("" if meta.referred else ", or its values over a turn")
+    values = {"type": "array", "minItems": 4, "items": {"type": ["number", "string"]}}
+    allowed = [_reference()] if meta.referred else [_reference(), values]
+    return {"description": f"{meta.description}. Unit: {in_all_units(meta, _unit)}. {ways}.", "anyOf": allowed}
+
+
+def _unit(meta: Quantity | CurveInput) -> str:
+    return pretty(meta.unit) or "none (a pure number)"
+
+
+def _with_unit(number: Any, meta: Quantity) -> str:
+    return f"{number} {pretty(meta.unit)}".rstrip()
 
 
 def _quantity(meta: Quantity, default: Any) -> Schema:
     """A bare number counts in the display unit, so the bounds hold for it as they stand."""
     limits = {BOUNDS[name]: getattr(meta, name) for name in BOUNDS if getattr(meta, name) is not None}
-    said = [meta.description, f"Unit: {pretty(meta.unit) or 'none (a pure number)'}"]
-    said += [f"Allowed: {meta.allowed}"] if meta.allowed else []
-    said += [f"Default: {default} {pretty(meta.unit)}".rstrip()] if default is not None else []
+    said = [meta.description, f"Unit: {in_all_units(meta, _unit)}"]
+    said += [f"Allowed: {in_all_units(meta, lambda form: form.allowed)}"] if meta.allowed else []
+    said += [f"Default: {in_all_units(meta, partial(_with_unit, default))}"] if default is not None else []
     said += [f"Default: from {meta.press.path}"] if meta.press else []
     number = {"type": "integer" if meta.integer else "number", **limits}
     text = {"type": "string", "pattern": f"{REFERENCE}|{NUMBER}"}

@@ -1,82 +1,71 @@
 """The contract test for a mechanism plugin: ``check_mechanism(MECHANISM)`` raises AssertionError with all that is wrong.
 
-It feeds every declared formula with quantities that carry units (pint) and refuses where dimensions do not balance, computes
-every printed expression against the function it was read from, and looks for ids that nothing gives.
+It feeds every declared formula with quantities that carry units (pint) and refuses where dimensions do not balance, in each
+of the units that a mechanism may have, computes every printed expression against the function it was read from, and looks for
+ids that nothing gives.
 """
 
 from __future__ import annotations
 
-import types
 from collections.abc import Iterator
-from itertools import chain
-from typing import Any
+from dataclasses import replace
+from itertools import chain, combinations
+from typing import cast
 
 import numpy as np
-import pint
 
-from diecut_report.contract.binding import Binding, Bound, ByText, bound
-from diecut_report.contract.checks import Check
-from diecut_report.contract.families import taken
-from diecut_report.contract.inputs import Block, fields, nested
+from diecut_report.contract.families import Section, taken
+from diecut_report.contract.forms import form_keys, in_form, in_unit
+from diecut_report.contract.inputs import Block, Inputs, Quantity, Text, fields, meta_of, nested
 from diecut_report.contract.mechanism import Mechanism, axes
-from diecut_report.contract.steps import SILENT, Abscissa, Case, Choice, Reduction, Root, Step, Value
-from diecut_report.expressions import Constant, Formula, evaluate
-from diecut_report.units import unit
-
-REGISTRY: pint.UnitRegistry[float] = pint.UnitRegistry()
+from diecut_report.contract.steps import (
+    SILENT,
+    Step,
+)
+from diecut_report.dimensions import check_units, curve_units, dimensions, formulas, relations, units_of
+from diecut_report.expressions import evaluate
 
 
 def check_mechanism(mechanism: Mechanism) -> None:
     """Raise AssertionError, listing every flaw of a mechanism's declaration."""
-    problems = list(ids(mechanism)) or list(
-        chain(dimensions(mechanism), relations(mechanism), printing(mechanism), check_units(mechanism))
-    )
+    problems = list(chain(ids(mechanism), unit_keys(mechanism), spectra(mechanism))) or [
+        problem for form in forms(mechanism) for problem in list(unmade(form)) or quantities(form)
+    ]
     assert not problems, f"{mechanism.kind}:\n" + "\n".join(problems)
 
 
-def formulas(mechanism: Mechanism) -> Iterator[tuple[Step, str, Bound]]:
-    """Every bound formula with its step and its part in it."""
-    for _, step in mechanism.steps:
-        for part in ("formula", "condition", "exists", "equation", "low", "high", "left", "right"):
-            declared = getattr(step, part, None)
-            yield from _bindings(step, part, declared)
-        for case in getattr(step, "cases", ()):
-            yield from _of_case(step, case)
+def quantities(mechanism: Mechanism) -> Iterator[str]:
+    """What is wrong with the numbers of a mechanism in one of its forms."""
+    of_steps = chain(dimensions(mechanism), curve_units(mechanism), relations(mechanism), printing(mechanism))
+    return chain(of_steps, check_units(mechanism))
 
 
-def _of_case(step: Step, case: Case) -> Iterator[tuple[Step, str, Bound]]:
-    yield from _bindings(step, "formula", case.value)
-    yield from _bindings(step, "condition", case.condition)
+def forms(mechanism: Mechanism) -> Iterator[Mechanism]:
+    """The mechanism in all units that it may have, each with the steps that are made then."""
+    keys = form_keys(mechanism.inputs).union(*([key for key, _ in step.units] for _, step in mechanism.steps))
+    for count in range(len(keys) + 1):
+        for given in map(frozenset, combinations(sorted(keys), count)):
+            absent = (keys - given) | _excluded(mechanism.inputs, given)
+            sections = tuple(replace(s, steps=_in_form(s, given, absent)) for s in mechanism.sections)
+            yield replace(mechanism, inputs=cast(type[Inputs], in_form(mechanism.inputs, given)), sections=sections)
 
 
-def _bindings(step: Step, part: str, declared: Any) -> Iterator[tuple[Step, str, Bound]]:
-    """The formulas of a part of a step; of a choice by text all of them."""
-    if isinstance(declared, ByText):
-        yield from ((step, part, option) for option in declared.options())
-    elif isinstance(declared, Binding):
-        yield step, part, bound(declared)
+def _excluded(model: type[Block], given: frozenset[str]) -> frozenset[str]:
+    """The keys that stand for what is given by other ones."""
+    rules = [rule.groups for rule in model.one_of if any(given.intersection(group) for group in rule.groups)]
+    return frozenset(key for groups in rules for group in groups if given.isdisjoint(group) for key in group)
 
 
-def units_of(mechanism: Mechanism) -> dict[str, str]:
-    """The SI unit of each id of numbers, inputs and steps."""
-    found = {name: unit(meta.unit).si for name, meta in fields(mechanism.inputs) if hasattr(meta, "unit")}
-    found |= {f"inputs.{name}": si for name, si in found.items()}
-    for _, step in mechanism.steps:
-        if not isinstance(step, SILENT):
-            found[step.id] = unit(step.unit).si
-            if step.numbered:
-                found |= {step.numbered.format(i): found[step.id] for i in range(step.first, step.first + 3)}
-    axis_of = axes(tuple(step for _, step in mechanism.steps), mechanism.inputs)
-    extremes = [s for _, s in mechanism.steps if isinstance(s, Reduction) and s.operation in ("max", "min", "abs_max")]
-    return found | {f"{step.id}_at": found[axis_of[step.of]] for step in extremes}
+def _in_form(section: Section, given: frozenset[str], absent: frozenset[str]) -> tuple[Step, ...]:
+    """The steps of a section that may be made with some of the keys on which units depend, in their units."""
+    made = [s for s in section.steps if absent.isdisjoint(section.needs + s.needs) and given.isdisjoint(s.lacks)]
+    return tuple(in_unit(step, given) for step in made)
 
 
 def ids(mechanism: Mechanism) -> Iterator[str]:
     """Ids that a formula, check or step takes and nothing gives; quantities without symbol or description."""
-    known = {*units_of(mechanism), *inputs_of(mechanism.inputs)}
-    known |= {f"{step.id}_at" for _, step in mechanism.steps} | {f"{step.id}_count" for _, step in mechanism.steps}
-    for _, step in mechanism.steps:
-        yield from (f"{step.id} takes {name}, which nothing gives" for name in sorted(taken(step) - known))
+    known = _known(mechanism)
+    yield from unmade(mechanism)
     for check in mechanism.checks:
         for name in (check.demand, check.limit, *check.needs):
             if isinstance(name, str) and name not in known:
@@ -87,6 +76,49 @@ def ids(mechanism: Mechanism) -> Iterator[str]:
             yield f"{step.id} has no symbol or no description"
 
 
+def unmade(mechanism: Mechanism) -> Iterator[str]:
+    """Ids that a step takes and nothing gives."""
+    known = _known(mechanism)
+    for _, step in mechanism.steps:
+        yield from (f"{step.id} takes {name}, which nothing gives" for name in sorted(taken(step) - known))
+
+
+def _known(mechanism: Mechanism) -> set[str]:
+    own = {f"{step.id}_{part}" for _, step in mechanism.steps for part in ("at", "count")}
+    return own | {*units_of(mechanism), *inputs_of(mechanism.inputs)}
+
+
+def unit_keys(mechanism: Mechanism) -> Iterator[str]:
+    """Units beside a key that is no optional input without a default, by which it could be told; units within a block."""
+    optional = {name for name, field in mechanism.inputs.model_fields.items() if _may_be_absent(mechanism.inputs, name)}
+    declared = [(name, meta) for name, meta in fields(mechanism.inputs) if not isinstance(meta, Text)]
+    for name, told in chain(declared, ((step.id, step) for _, step in mechanism.steps)):
+        if told.units and "." in name:
+            yield f"{name} has other units within a block, where none hold"
+        yield from (f"{name} has units beside {key}, which is no optional input without a default" for key, _ in told.units
+                    if key not in optional)  # fmt: skip
+
+
+def _may_be_absent(model: type[Block], name: str) -> bool:
+    field, meta = model.model_fields[name], meta_of(model, name)
+    from_press = isinstance(meta, Quantity) and meta.press is not None
+    return not field.is_required() and field.default is None and not from_press
+
+
+def spectra(mechanism: Mechanism) -> Iterator[str]:
+    """Curves over a range of their own that have another curve's id, are not as long as their range, or have no symbol."""
+    known = set(axes(tuple(step for _, step in mechanism.steps), mechanism.inputs))
+    for spectrum in mechanism.spectra:
+        for curve in (spectrum, *spectrum.lines()):
+            if curve.id in known:
+                yield f"{curve.id} of a spectrum is the id of another curve"
+            if np.shape(curve.values) != (len(spectrum.values),) or not np.isfinite(curve.values).all():
+                yield f"{curve.id} does not have one number for each of {spectrum.id}"
+            if not (curve.symbol and curve.description):
+                yield f"{curve.id} has no symbol or no description"
+            known.add(curve.id)
+
+
 def inputs_of(model: type[Block], prefix: str = "") -> Iterator[str]:
     """The paths of all inputs and of the blocks that hold them."""
     for name, field in model.model_fields.items():
@@ -94,67 +126,6 @@ def inputs_of(model: type[Block], prefix: str = "") -> Iterator[str]:
         block = nested(field.annotation)
         if block:
             yield from inputs_of(block[0], f"{prefix}{name}.")
-
-
-def dimensions(mechanism: Mechanism) -> Iterator[str]:
-    """Formulas whose dimensions do not balance, or do not give what their step declares."""
-    units = units_of(mechanism)
-    for step, part, link in formulas(mechanism):
-        try:
-            with np.errstate(all="ignore"):
-                result = _dimensioned(link.formula)(*_quantities(link, units))
-        except (pint.DimensionalityError, pint.OffsetUnitCalculusError, ValueError) as error:
-            yield f"{step.id}: {link.formula.__name__}: {error}"
-            continue
-        wanted = _wanted(step, part, units)
-        if wanted is None or (not isinstance(result, pint.Quantity) and result == 0):
-            continue
-        if not _like(result, REGISTRY.Quantity(1, wanted)):
-            yield f"{step.id}: {link.formula.__name__} gives {REGISTRY.Quantity(result).units}, declared is {wanted}"
-
-
-def _like(one: Any, other: Any) -> bool:
-    return bool(REGISTRY.Quantity(one).dimensionality == REGISTRY.Quantity(other).dimensionality)
-
-
-def relations(mechanism: Mechanism) -> Iterator[str]:
-    """Roots that are proved by a relation between quantities of unlike dimensions."""
-    units = units_of(mechanism)
-    sides: dict[str, list[Any]] = {}
-    for step, part, link in formulas(mechanism):
-        if part in ("left", "right"):
-            with np.errstate(all="ignore"):
-                result = _dimensioned(link.formula)(*_quantities(link, units))
-            sides.setdefault(step.id, []).append(result)
-    yield from (f"{name}: the relation equals {a} with {b}" for name, (a, b) in sides.items() if not _like(a, b))
-
-
-def _wanted(step: Step, part: str, units: dict[str, str]) -> str | None:
-    """The unit that a part of a step must give; None for conditions, and for the sides of an equation (compared below)."""
-    if part == "formula" and isinstance(step, Value | Choice | Abscissa):
-        return unit(step.unit).si
-    if part in ("low", "high") and isinstance(step, Root):
-        return unit(step.unit).si
-    return None
-
-
-def _quantities(link: Bound, units: dict[str, str]) -> list[Any]:
-    """What a formula takes, as quantities of unlike sizes: equal ones would make a difference in a denominator zero."""
-    return [REGISTRY.Quantity(np.float64(0.6 + 0.01 * i), units[name]) if isinstance(name, str) else name
-            for i, name in enumerate(link.names.values())]  # fmt: skip
-
-
-def _dimensioned(formula: Formula) -> Any:
-    """The formula's function with its constants, and those of the formulas it calls, as quantities with units."""
-
-    def carried(value: Any) -> Any:
-        if isinstance(value, Constant):
-            return REGISTRY.Quantity(float(value), value.unit)
-        return _dimensioned(value) if isinstance(value, Formula) else value
-
-    function = formula.function
-    named = {n: carried(function.__globals__[n]) for n in function.__code__.co_names if n in function.__globals__}
-    return types.FunctionType(function.__code__, {**function.__globals__, **named})
 
 
 def printing(mechanism: Mechanism) -> Iterator[str]:
@@ -168,16 +139,3 @@ def printing(mechanism: Mechanism) -> Iterator[str]:
             computed = link.formula(**taken)
         if not np.allclose(printed, computed, rtol=1e-12, equal_nan=True):
             yield f"{step.id}: the {part} {link.formula.__name__} prints {printed}, computes {computed}"
-
-
-def check_units(mechanism: Mechanism) -> Iterator[str]:
-    """Checks that compare quantities of unlike kinds."""
-    units = units_of(mechanism)
-    for check in mechanism.checks:
-        yield from _unlike(check, units)
-
-
-def _unlike(check: Check, units: dict[str, str]) -> Iterator[str]:
-    for side in (check.demand, check.limit):
-        if isinstance(side, str) and unit(units[side]).kind != unit(check.unit).kind:
-            yield f"check {check.id} is in {check.unit}, {side} in {units[side]}"

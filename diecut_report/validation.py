@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Container, Iterator, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field, replace
 from functools import cache
 from typing import Any, NamedTuple
 
@@ -24,10 +24,20 @@ class Place:
 
     tree: Tree
     root: KeyPath = ()
+    listed: Mapping[KeyPath, KeyPath] = field(default_factory=dict)
+    """Where keys stand whose values come in the list of another key."""
+
+    def path(self, key: KeyPath) -> KeyPath:
+        """The path in the file of a key below this block."""
+        return (*self.root, *self.listed.get(key, key))
+
+    def typed(self, key: KeyPath) -> Any:
+        """What was typed there."""
+        return self.tree.typed(self.path(key))
 
     def problem(self, key: KeyPath, message: str, *, at_key: bool = False) -> Problem:
         """A problem of the value at ``key`` below this block (or of the key itself)."""
-        path = (*self.root, *key)
+        path = self.path(key)
         line, column = self.tree.key_position(path) if at_key else self.tree.position(path)
         return Problem(message, self.tree.file, line, column, ".".join(map(str, path)))
 
@@ -36,6 +46,31 @@ class Place:
         path = (*self.root, *key)
         line, column = self.tree.key_position(path[:-1])
         return Problem(message, self.tree.file, line, column, ".".join(map(str, path)))
+
+
+def spread_out(
+    model: type[Block], data: Mapping[str, Any], place: Place
+) -> tuple[dict[str, Any], Place, list[Problem]]:
+    """The data with lists that stand for single keys under these, where these stand in the file, and what is wrong with it."""
+    found, problems = dict(data), []
+    for key, single in model.spread.items():
+        values = found.get(key)
+        if not isinstance(values, list):
+            continue
+        del found[key]
+        again = [name for name in single if found.get(name) is not None]
+        if len(values) != len(single):
+            count = {0: "no values", 1: "1 value"}.get(len(values), f"{len(values)} values")
+            problems.append(
+                place.problem((key,), f"has {count}; give one for all, or {len(single)}: for {', '.join(single)}")
+            )
+        elif again:
+            words = f"is a list for all of them, but {' and '.join(again)} is given beside it; give the list, or single keys"
+            problems.append(place.problem((key,), words))
+        else:
+            found |= dict(zip(single, values, strict=True))
+            place = replace(place, listed={**place.listed, **{(name,): (key, i) for i, name in enumerate(single)}})
+    return found, place, problems
 
 
 def validate(
@@ -78,9 +113,9 @@ class Key(NamedTuple):
 def keys_of(model: type[Block]) -> dict[str, Key]:
     """The keys of a block by their names."""
     found = {}
-    for name, field in model.model_fields.items():
-        block, is_list = nested(field.annotation) or (None, False)
-        found[name] = Key(field, meta_of(model, name), block, is_list)
+    for name, declared_as in model.model_fields.items():
+        block, is_list = nested(declared_as.annotation) or (None, False)
+        found[name] = Key(declared_as, meta_of(model, name), block, is_list)
     return found
 
 

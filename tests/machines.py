@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from typing import Any
 
+from diecut_report.contract.forms import in_form
 from diecut_report.contract.inputs import flatten
 from diecut_report.contract.mechanism import Mechanism
 from diecut_report.engine import Calculation, calculate
@@ -37,7 +38,7 @@ UNBALANCED: dict[str, Any] = {
 
 def inputs(mechanism: Mechanism, keys: dict[str, Any]) -> dict[str, Any]:
     """The validated inputs of a mechanism in SI, as the engine takes them."""
-    return flatten(mechanism.inputs.model_validate(keys))
+    return flatten(in_form(mechanism.inputs, keys).model_validate(keys))
 
 
 def cylinder(**changes: Any) -> Calculation:

@@ -36,7 +36,7 @@ LAYERS = [
     {"engine"},
     {"verdicts"},
     {"results"},
-    {"comparing", "testing"},
+    {"comparing", "dimensions", "testing"},
     {"compute"},
     {"assembly"},
     {"report", "exports"},

@@ -129,6 +129,14 @@ def test_a_broken_plugin_gives_3_and_the_results_of_the_others(tmp_path: Path, c
     assert json.loads((tmp_path / "press.json").read_text("utf-8"))["status"] == "error"
 
 
+def test_a_broken_comparison_gives_3_and_is_told(tmp_path: Path, capfd: Capture) -> None:
+    config = saved(tmp_path, LEVER + "  x: {kind: breaks_in_comparison}\n")
+    assert run("report", config, "--plugins", GOOD, "--plugins", BROKEN, "-o", tmp_path, "--format", "json") == 3
+    err = capfd.readouterr().err
+    assert "RuntimeError: the comparison fell over (breaks_in_comparison.py:" in err
+    assert "1 of 3 mechanisms and comparisons were not calculated." in err and "No check fails." not in err
+
+
 def test_check_finds_a_plugin_that_cannot_be_loaded(tmp_path: Path, capfd: Capture) -> None:
     config = saved(tmp_path, LEVER + "  x: {kind: breaks_at_import}\n")
     assert run("check", config, "--plugins", BROKEN) == 3

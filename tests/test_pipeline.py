@@ -154,6 +154,28 @@ def test_a_broken_mechanism_still_has_every_part_of_a_result(tmp_path: Path) -> 
     assert found["x"].keys() == found["a"].keys() | {"error"}
 
 
+COMPARED = LEVER + "  x: {kind: breaks_in_comparison}\n"
+BOTH = "rod_comparison-a-x"
+
+
+def test_a_broken_comparison_is_in_error_and_the_mechanisms_are_kept(tmp_path: Path) -> None:
+    outcome, _ = pipeline.calc(saved(tmp_path, COMPARED), ALL, silent)
+    found = outcome.results["comparisons"][BOTH]
+    assert (found["status"], outcome.results["status"]) == ("error", "error")
+    assert (found["kind"], found["title"], found["plugin_version"]) == ("rod_comparison", "Lever and rod compared", "2")
+    assert found["between"] == ["a", "x"]
+    assert "RuntimeError: the comparison fell over" in found["error"]
+    assert [str(error) for error in outcome.broken] == [found["error"]]
+    assert {data["status"] for data in outcome.results["mechanisms"].values()} == {"pass"}
+    assert outcome.results["mechanisms"]["x"]["outputs"]["result"]["value"] == 0.01
+    json.dumps(outcome.results, allow_nan=False)
+
+
+def test_a_broken_comparison_still_has_every_part_of_a_result(tmp_path: Path) -> None:
+    found = results(saved(tmp_path, COMPARED), ALL)
+    assert found["comparisons"][BOTH].keys() == found["mechanisms"]["a"].keys() | {"error", "between"}
+
+
 def test_an_impossible_machine_is_bad_input_at_its_key(tmp_path: Path) -> None:
     text = HEAD + "  a: {kind: lever, force: 1, teeth: 101}\n  b: {kind: lever, force: 1, teeth: 200}\n"
     with pytest.raises(UserError) as caught:
@@ -316,6 +338,14 @@ def test_a_report_of_a_broken_plugin_is_written_all_the_same(tmp_path: Path) -> 
     written = pipeline.report(saved(tmp_path, text), ALL, silent, tmp_path, ("html",)).written
     html = written[0].read_text("utf-8")
     assert "the plugin fell over" in html and "It refers to x" in html
+
+
+def test_a_report_tells_of_a_broken_comparison(tmp_path: Path) -> None:
+    written = pipeline.report(saved(tmp_path, COMPARED), ALL, silent, tmp_path, ("html",)).written
+    html = written[0].read_text("utf-8")
+    chapter = html[html.index('<h2 id="m-C">') :]
+    assert "This comparison could not be calculated." in chapter and "the comparison fell over" in chapter
+    assert "Not all comparisons could be calculated." in html and "1 not calculated" in html
 
 
 @pytest.mark.slow

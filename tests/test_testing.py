@@ -29,7 +29,8 @@ def mechanism(*steps: Step, checks: tuple[Check, ...] = ()) -> Mechanism:
 
 def value(**changes: Any) -> Value:
     """A sound step with changes."""
-    return Value(**{"id": "m", "symbol": "M", "unit": "N*m", "description": "Moment", "formula": moment} | changes)
+    sound: dict[str, Any] = {"id": "m", "symbol": "M", "unit": "N*m", "description": "Moment", "formula": moment}
+    return Value(**sound | changes)
 
 
 def check(**changes: Any) -> Check:

@@ -8,8 +8,10 @@ from typing import get_args
 
 from pydantic_core import PydanticUndefined
 
+from diecut_report.contract.forms import in_all_units
 from diecut_report.contract.inputs import Block, CurveInput, Meta, OneOf, Quantity, Text, meta_of, nested
 from diecut_report.contract.mechanism import Mechanism
+from diecut_report.contract.spectra import SpectrumLine
 from diecut_report.contract.steps import SILENT, Crossings, Reduction, Step
 from diecut_report.discovery import Discovery
 from diecut_report.units import pretty, unit
@@ -77,12 +79,12 @@ def _groups(rule: OneOf) -> str:
 
 
 def _unit(meta: Meta) -> str:
-    return (pretty(meta.unit) or "–") if isinstance(meta, Quantity | CurveInput) else "–"
+    return in_all_units(meta, lambda form: pretty(form.unit) or "–") if isinstance(meta, Quantity | CurveInput) else "–"
 
 
 def _allowed(meta: Meta, annotation: object) -> str:
     if isinstance(meta, Quantity):
-        return meta.allowed
+        return in_all_units(meta, lambda form: form.allowed) if meta.allowed else ""
     known = meta.options if isinstance(meta, Text) and meta.options else get_args(annotation)
     return ", ".join(f"`{option}`" for option in known if isinstance(option, str))
 
@@ -101,7 +103,18 @@ def _outputs(mechanism: Mechanism) -> Iterator[str]:
         if step.output and not isinstance(step, SILENT) and step.id not in seen:
             seen.add(step.id)
             needs = ", ".join(f"`{n}`" for n in dict.fromkeys((*section.needs, *step.needs)))
-            yield f"| {_id(step)} | {step.symbol} | {unit(step.unit).si} | {step.description} | {step.source} | {needs} |"
+            yield _output(_id(step), step, in_all_units(step, _si), needs)
+    for spectrum in mechanism.spectra:
+        for curve in (spectrum, *spectrum.lines()):
+            yield _output(f"`{curve.id}` (a curve)", curve, _si(curve), "")
+
+
+def _output(name: str, told: Step | SpectrumLine, shown: str, needs: str) -> str:
+    return f"| {name} | {told.symbol} | {shown} | {told.description} | {told.source} | {needs} |"
+
+
+def _si(declared: Step | SpectrumLine) -> str:
+    return unit(declared.unit).si
 
 
 def _id(step: Step) -> str:

@@ -8,11 +8,12 @@ from functools import cache
 from typing import Any
 
 from diecut_report.contract.binding import Bound, ByText, bind
+from diecut_report.contract.forms import in_unit
 from diecut_report.contract.steps import Case, Step
 from diecut_report.expressions import Formula
 
-NAMING = ("formula", "cases", "of", "among", "takes", "given", "by", "points", "abscissa", "places", "shown_at", "equation",
-          "low", "high", "left", "right", "condition", "exists")  # fmt: skip
+NAMING = ("formula", "cases", "of", "among", "takes", "given", "by", "points", "period", "abscissa", "places", "every", "start", "lasts", "shown_at",
+          "equation", "low", "high", "left", "right", "condition", "exists")  # fmt: skip
 """Fields of steps that name quantities."""
 
 Rename = Callable[[str | float], str | float]
@@ -46,7 +47,8 @@ def prefixed(
 
 
 def settled(step: Step, given: frozenset[str]) -> Step:
-    """The step with the formulas that a text chooses, where the text is known."""
+    """The step with the formulas that a text chooses, where the text is known, and with the unit that holds then."""
+    step = in_unit(step, given)
 
     def settle(part: Any) -> Any:
         match part:

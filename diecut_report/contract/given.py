@@ -4,8 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
+from typing import Protocol
 
-from diecut_report.expressions import Formula
+from diecut_report.expressions import Array, Formula
 
 
 @dataclass(frozen=True)
@@ -26,6 +27,17 @@ class Pending:
     is_curve: bool = False
 
 
+class Curve(Protocol):
+    """A curve that an input refers to, over shares of its period."""
+
+    def values(self, share: Array, middle: Array, rows: Array | None) -> Array:
+        """Values at shares, shape (variants, points), each in the smooth piece that the share ``middle`` lies in."""
+
+    @property
+    def breakpoints(self) -> Array:
+        """The inner edges of the curve's smooth pieces, as shares, ascending, shape (variants, places)."""
+
+
 @dataclass(frozen=True)
 class FromPress:
     """A default that the press gives: a press field's path and, where it is not that number itself, a formula of it.
@@ -42,11 +54,11 @@ class OneOf:
     """Inputs of which one group is needed: ``OneOf(("torque",), ("power", "speed"))``.
 
     One group must be given completely, and nothing of another one, but for the keys that are ``shared``: these have a use
-    beside each group.
+    beside each group. Where it is ``optional`` a default holds without any of the keys.
     """
 
-    def __init__(self, *groups: tuple[str, ...], shared: tuple[str, ...] = ()) -> None:
-        self.groups, self.shared = groups, shared
+    def __init__(self, *groups: tuple[str, ...], shared: tuple[str, ...] = (), optional: bool = False) -> None:
+        self.groups, self.shared, self.optional = groups, shared, optional
 
     def fault(self, given: Iterable[str]) -> str:
         """What is wrong with the keys that are given, in words; empty where nothing is."""
@@ -65,7 +77,7 @@ class OneOf:
             missing = [key for key in begun[0] if key not in known]
             beside = [key for key in begun[0] if key in known]
             return f"{listed(missing)} is missing beside {listed(beside)}; give {told}."
-        return f"{told} is needed."
+        return "" if self.optional else f"{told} is needed."
 
 
 def listed(keys: Sequence[str]) -> str:

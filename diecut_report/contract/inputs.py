@@ -11,8 +11,7 @@ from dataclasses import dataclass
 from functools import cached_property
 from typing import Annotated, Any, ClassVar, get_args, get_origin
 
-from pydantic import BaseModel, ConfigDict, GetCoreSchemaHandler, GetJsonSchemaHandler
-from pydantic.json_schema import JsonSchemaValue
+from pydantic import BaseModel, ConfigDict, GetCoreSchemaHandler
 from pydantic_core import CoreSchema, core_schema
 
 from diecut_report.contract.given import SI, FromPress, OneOf, Pending
@@ -27,7 +26,7 @@ class Quantity:
     """A number with a unit: symbol, display unit, description and bounds (in the display unit).
 
     Put into ``Annotated[float, Quantity(...)]`` of an input model. The validated value is an SI float
-    (an int where ``integer``).
+    (an int where ``integer``). ``units`` are other units, each with the key beside which it holds: (("mass", "N/m"),).
     """
 
     symbol: str
@@ -39,6 +38,7 @@ class Quantity:
     le: float | None = None
     integer: bool = False
     press: FromPress | None = None
+    units: tuple[tuple[str, str], ...] = ()
 
     @cached_property
     def parsed_unit(self) -> Unit:
@@ -102,18 +102,6 @@ class Quantity:
     def __get_pydantic_core_schema__(self, source: Any, handler: GetCoreSchemaHandler) -> CoreSchema:
         return core_schema.no_info_plain_validator_function(_optional(source, self.validate))
 
-    def __get_pydantic_json_schema__(self, core: CoreSchema, handler: GetJsonSchemaHandler) -> JsonSchemaValue:
-        shown = pretty(self.unit)
-        described = f"{self.description}. Unit: {shown or 'none (a pure number)'}."
-        described += f" Allowed: {self.allowed}." if self.allowed else ""
-        described += f" Default: from {self.press.path}." if self.press else ""
-        kinds = ["integer", "string"] if self.integer else ["number", "string"]
-        schema: JsonSchemaValue = {"type": kinds, "description": described}
-        if (self.unit == "1" and not self.integer) or self.integer:
-            names = {"gt": "exclusiveMinimum", "ge": "minimum", "lt": "exclusiveMaximum", "le": "maximum"}
-            schema |= {n: getattr(self, b) for b, n in names.items() if getattr(self, b) is not None}
-        return schema
-
 
 def _optional(source: Any, validate: Callable[[Any], Any]) -> Callable[[Any], Any]:
     """A validator that lets None pass where the annotation does."""
@@ -146,14 +134,16 @@ class Text:
 
 @dataclass(frozen=True)
 class CurveInput:
-    """A curve taken by reference, or a list of equally spaced numbers over one period.
+    """A curve taken by reference, or (unless ``referred``) a list of equally spaced numbers over one period.
 
-    The validated value is a ``Pending``, the referred curve, or a tuple of SI floats.
+    The validated value is a ``Pending``, the referred curve, or a tuple of SI floats. ``units`` as for ``Quantity``.
     """
 
     symbol: str
     unit: str
     description: str
+    referred: bool = False
+    units: tuple[tuple[str, str], ...] = ()
 
     def validate(self, given: Any) -> Any:
         """What the engine makes a curve of; ValueError in words where it cannot."""
@@ -161,20 +151,17 @@ class CurveInput:
             if given.unit is None or unit(given.unit).kind != unit(self.unit).kind or not given.is_curve:
                 raise ValueError(f"${{{given.path}}} is no curve in {self.unit}")
             return given
-        if isinstance(given, list):
+        if isinstance(given, list) and not self.referred:
             if len(given) < 4:
                 raise ValueError(f"has {len(given)} values; a curve over one turn needs at least 4")
             return tuple(parse_quantity(value, self.unit) for value in given)
         if hasattr(given, "curve_id"):
             return given
-        raise ValueError(f"is {given!r}; a reference to a curve or a list of values in {self.unit} is needed")
+        or_list = "" if self.referred else " or a list of values"
+        raise ValueError(f"is {given!r}; a reference to a curve{or_list} in {self.unit} is needed")
 
     def __get_pydantic_core_schema__(self, source: Any, handler: GetCoreSchemaHandler) -> CoreSchema:
         return core_schema.no_info_plain_validator_function(_optional(source, self.validate))
-
-    def __get_pydantic_json_schema__(self, core: CoreSchema, handler: GetJsonSchemaHandler) -> JsonSchemaValue:
-        values = {"type": "array", "minItems": 4, "items": {"type": ["number", "string"]}}
-        return {"anyOf": [{"type": "string"}, values], "description": f"{self.description}. Unit: {pretty(self.unit)}."}
 
 
 class Block(BaseModel):
@@ -182,6 +169,8 @@ class Block(BaseModel):
 
     model_config = ConfigDict(extra="forbid", validate_default=True, frozen=True)
     one_of: ClassVar[tuple[OneOf, ...]] = ()
+    spread: ClassVar[Mapping[str, tuple[str, ...]]] = {}
+    """Keys whose value may be a list, each with the single keys that the values of the list stand for, in order."""
 
 
 class Inputs(Block):

@@ -11,12 +11,14 @@ from diecut_report.contract.families import Section, settled
 from diecut_report.contract.figures import Figure
 from diecut_report.contract.inputs import CurveInput, Inputs, fields, list_inputs
 from diecut_report.contract.parts import Lookup, Neighbour, Running
+from diecut_report.contract.spectra import Spectrum
 from diecut_report.contract.steps import (
     SILENT,
     Abscissa,
     Accumulated,
     Choice,
     Crossings,
+    Derivative,
     FromCurve,
     Reduction,
     Step,
@@ -38,7 +40,7 @@ def axes(steps: tuple[Step, ...], inputs: type[Inputs]) -> dict[str, str]:
                 found[step.id] = step.id
             case FromCurve():
                 found[step.id] = step.abscissa
-            case Accumulated(of=of) | Neighbour(of=of) | Running(of=of):
+            case Accumulated(of=of) | Derivative(of=of) | Neighbour(of=of) | Running(of=of):
                 found[step.id] = found[of]
             case Lookup(by=by) if by in found:
                 found[step.id] = found[by]
@@ -119,6 +121,7 @@ class Mechanism:
     errata: tuple[Erratum, ...] = ()
     exports: tuple[Profile, ...] = ()
     comparisons: tuple[Comparison, ...] = ()
+    spectra: tuple[Spectrum, ...] = ()
 
     @cached_property
     def steps(self) -> tuple[tuple[Section, Step], ...]:

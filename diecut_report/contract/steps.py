@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
-from typing import Literal
+from typing import Any, Literal
 
 from diecut_report.contract.binding import Binding, bound
 from diecut_report.expressions import Array
@@ -23,6 +23,7 @@ class Step:
     A text input takes part in them by its value: ``needs=("engagement=away",)``.
     ``exists`` is a condition on numbers: where it does not hold the quantity is absent for that machine.
     ``whole`` marks a count, which the results hold as an integer.
+    ``units`` are other units, each with the input beside which it holds: (("mass", "N"),).
     A row over like parts is named ``ID.0``, ``ID.1`` … in the results, or by ``numbered`` (``shaft_{}_speed``) from ``first`` on.
     """
 
@@ -39,6 +40,7 @@ class Step:
     numbered: str = ""
     first: int = 1
     whole: bool = False
+    units: tuple[tuple[str, str], ...] = ()
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -97,19 +99,27 @@ class Root(Step):
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class Abscissa(Step):
-    """What curves run over, [0, period): sampled at ``points`` (an input's id); shown in print at the place ``shown_at``."""
+    """What curves run over, [0, period): sampled at ``points`` (an input's id); shown in print at the place ``shown_at``.
 
-    period: float
+    ``period`` is a number, or the id of one.
+    """
+
+    period: float | str
     points: str = "n_points"
     shown_at: str = ""
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class Breakpoints(Step):
-    """Places on an abscissa where a curve that follows jumps or has a corner: ids of numbers, or of found crossings."""
+    """Places on an abscissa where a curve that follows jumps or has a corner: ids of numbers, or of found crossings.
+
+    ``every`` is the id of a length within which curves turn back at most a few times: extremes and integrals are searched in
+    pieces no longer than that. These are no breakpoints of the results.
+    """
 
     abscissa: str
-    places: tuple[str, ...]
+    places: tuple[str, ...] = ()
+    every: str = ""
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -141,8 +151,39 @@ class Accumulated(Step):
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
+class Derivative(Step):
+    """A curve: the derivative of another curve by its abscissa, within the smooth pieces."""
+
+    of: str
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class Computed(Step):
+    """A number found by plain code where no closed formula tells it; ``method`` says in words how.
+
+    ``function`` takes the quantities ``takes`` by position: numbers as arrays of shape (variants, 1), texts, the handles of
+    curve inputs (``Curve`` in ``contract.given``). It gives an array of shape (variants, 1), SI.
+    """
+
+    function: Callable[..., Any]
+    takes: tuple[str, ...]
+    method: str
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class CurvePeriod(Step):
+    """The period of what a curve input refers to, a quantity of this step's unit.
+
+    Where the curve runs over another kind of quantity, ``otherwise`` says in words what to give.
+    """
+
+    given: str
+    otherwise: str
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
 class Words(Step):
-    """A text made of numbers by plain code, for messages (``{id}``): ``function`` takes the numbers ``takes`` of one machine, SI.
+    """A text made by plain code, for messages (``{id}``): ``function`` takes the numbers (SI) and texts ``takes`` of one machine.
 
     It is made only where a message or a drawing asks for it.
     """
@@ -155,11 +196,16 @@ class Words(Step):
 class FromCurve(Step):
     """A curve input taken over as a curve of this mechanism, over ``abscissa`` (of the same kind and any period).
 
-    The one period of what is referred to is laid over one period here.
+    The one period of what is referred to is laid over one period here, or over ``lasts`` (an id) of the abscissa, so that
+    the abscissa begins at the share ``start`` (an id) of it. ``gains`` says that the curve goes on where a period ends,
+    as an angle does that grows from turn to turn.
     """
 
     given: str
     abscissa: str
+    start: str = ""
+    lasts: str = ""
+    gains: bool = False
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)

@@ -39,7 +39,7 @@ def varied_curves(
     """
     again = _calculated(calc, inputs, 1, names)
     axis = calc.axis[names[0]]
-    period = calc.domains[axis].period
+    period = float((again or calc).domains[axis].period[0, 0])
     x = np.linspace(0, period, points)
     if again is None:
         return x, dict.fromkeys(names, np.full(points, np.nan))

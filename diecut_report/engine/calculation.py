@@ -9,14 +9,15 @@ from typing import Any
 import numpy as np
 
 from diecut_report.contract.binding import Binding, bound
+from diecut_report.contract.forms import in_form
 from diecut_report.contract.inputs import CurveInput, Meta, Quantity, fields, texts_given
 from diecut_report.contract.mechanism import Mechanism
-from diecut_report.contract.steps import Accumulated, Choice, FromCurve, Step, Value
+from diecut_report.contract.steps import Accumulated, Choice, Derivative, FromCurve, Step, Value
 from diecut_report.engine.domain import LOBATTO, Domain
-from diecut_report.engine.running import RunningIntegral
+from diecut_report.engine.series import PieceSeries
 from diecut_report.expressions import Array
 
-CurveStep = Value | Choice | FromCurve | Accumulated
+CurveStep = Value | Choice | FromCurve | Accumulated | Derivative
 
 
 class Impossible(Exception):
@@ -44,20 +45,37 @@ class CurveHandle:
         """The abscissa that the curve runs over."""
         return self.calculation.domains[self.calculation.axis[self.curve_id]]
 
+    @property
+    def abscissa(self) -> Step:
+        """What the curve runs over, as it is declared."""
+        return self.calculation.steps[self.calculation.axis[self.curve_id]]
+
     def values(self, share: Array, middle: Array, rows: Array | None) -> Array:
         """Values at shares of the period, shape (rows, points), each in the smooth piece of its middle (a share too).
 
         ``rows`` are variants (default all).
         """
-        period = self.domain.period
+        period = self.domain.period_of(rows)
         return self.calculation.sample(
             self.curve_id, share * period, self.domain.middle_of(middle * period, rows), rows
         )
 
+    def gain(self, rows: Array | None) -> Array:
+        """What the curve has more at the end of its period than at its start, shape (rows, 1); rows as in ``values``."""
+        shares = np.tile([0.0, 1.0], (len(self.domain.edges), 1))
+        ends = self.values(shares, shares, None)
+        found: Array = ends[:, 1:] - ends[:, :1]
+        return found if rows is None or len(found) == 1 else found[rows]
+
     @property
     def breakpoints(self) -> Array:
-        """Where the curve jumps or has a corner, as shares of the period, shape (variants, places)."""
+        """The inner edges of the curve's smooth pieces, as shares of the period, shape (variants, places)."""
         return self.domain.edges[:, 1:-1] / self.domain.period
+
+    @property
+    def joints(self) -> Array:
+        """Those of them where the curve jumps or has a corner."""
+        return self.domain.joints[:, 1:-1] / self.domain.period
 
 
 @dataclass(frozen=True)
@@ -77,6 +95,12 @@ class SampledCurve:
         """The given places, where the curve has its corners, as shares of the period, shape (1, places)."""
         return np.arange(len(self.numbers))[None, :] / len(self.numbers)
 
+    joints = breakpoints
+
+    def gain(self, rows: Array | None) -> Array:
+        """Nothing: the curve closes."""
+        return np.zeros((1, 1))
+
 
 class Calculation:
     """All that is known of a mechanism's machines; filled by ``engine.run``."""
@@ -86,14 +110,14 @@ class Calculation:
         self.count = variants
         self.is_partial = False  # whether only some steps are run, so that messages may lack their numbers
         self.given = frozenset(inputs) | texts_given(inputs)
-        self.meta: dict[str, Meta] = dict(fields(mechanism.inputs))
+        self.meta: dict[str, Meta] = dict(fields(in_form(mechanism.inputs, self.given)))
         self.inputs: dict[str, Any] = {name: _column(value, variants) for name, value in inputs.items()}
         self.steps: dict[str, Step] = {step.id: step for _, step in mechanism.active(self.given)}
         self.axis = mechanism.axes(self.given)
         self.values: dict[str, Array] = {}
         self.curves: dict[str, CurveStep] = {}
         self.domains: dict[str, Domain] = {}
-        self.integrals: dict[str, RunningIntegral] = {}
+        self.series: dict[str, PieceSeries] = {}
         self.named: dict[str, Step] = {}  # the steps of crossings and parts that have names of their own
         self.branch: dict[str, Array] = {}  # for each choice, the case taken by each variant
         self.middle: dict[str, Array] = {}  # for each place of an extreme, the middle of its smooth piece
@@ -185,12 +209,10 @@ class _Sampler:
             number = self.owner[name]
             return number if self.rows is None else number[self.rows]
         match step:
-            case FromCurve(given=given):
-                period = self.owner.domains[self.axis].period
-                found: Array = self.owner.inputs[given].values(self.x / period, self.mid / period, self.rows)
-                return found
-            case Accumulated():
-                return self.owner.integrals[name].values(self.x, self.mid, self.rows)
+            case FromCurve():
+                return self._taken_over(step)
+            case Accumulated() | Derivative():
+                return self.owner.series[name].values(self.x, self.mid, self.rows)
             case Value(per_piece=True) | Choice(per_piece=True) if self.mid is not self.x:
                 return _Sampler(self.owner, self.axis, self.mid, self.mid, self.rows)[name]
             case Value(formula=part):
@@ -199,6 +221,16 @@ class _Sampler:
                 held = [self._apply(c.condition) for c in cases if c.condition is not None]
                 taken = [self._apply(c.value) for c in cases if not isinstance(c.value, str)]
                 return np.select(np.broadcast_arrays(*held), np.broadcast_arrays(*taken[:-1]), taken[-1])
+
+    def _taken_over(self, step: FromCurve) -> Array:
+        """A curve input at shares of its period; where it gains, with what it gained in the periods before."""
+        lasts = self[step.lasts] if step.lasts else self.owner.domains[self.axis].period_of(self.rows)
+        start = self[step.start] if step.start else 0.0
+        share, middle = start + self.x / lasts, start + self.mid / lasts
+        passed = np.floor(middle)
+        curve = self.owner.inputs[step.given]
+        found: Array = curve.values(share - passed, middle - passed, self.rows)
+        return found + passed * curve.gain(self.rows) if step.gains else found
 
     def _apply(self, part: Binding) -> Array:
         link = bound(part)

@@ -8,7 +8,20 @@ import numpy as np
 
 from diecut_report.contract.binding import Binding, Bound, bound
 from diecut_report.contract.parts import Lookup, Neighbour, Part, Pick, Running, Total
-from diecut_report.contract.steps import Abscissa, Accumulated, Choice, Crossings, Reduction, Root, Step, Value, Words
+from diecut_report.contract.steps import (
+    Abscissa,
+    Accumulated,
+    Choice,
+    Computed,
+    Crossings,
+    CurvePeriod,
+    Derivative,
+    Reduction,
+    Root,
+    Step,
+    Value,
+    Words,
+)
 from diecut_report.engine import rows
 from diecut_report.engine.calculation import Calculation
 from diecut_report.engine.printing import Substitution, printed
@@ -22,6 +35,7 @@ FIRST = np.zeros(1, dtype=int)  # the variant that is printed
 METHODS = {
     "max": "bounded search on the curve within each smooth piece, one-sided limits at the breakpoints included",
     "mean": "Gauss–Legendre between the breakpoints, repeated with the doubled order",
+    "derivative": "Chebyshev series between the breakpoints, differentiated; the series is compared with the curve at other places",
     "accumulated": "Chebyshev series between the breakpoints, integrated; its end compared with Gauss–Legendre",
 }
 
@@ -51,8 +65,10 @@ def items(calc: Calculation, step: Step) -> list[Item]:
             return [_reduction(calc, step)]
         case Crossings():
             return [_crossings(calc, step)]
-        case Accumulated():
-            return [_accumulated(calc, step)]
+        case Accumulated() | Derivative():
+            return [_of_curve(calc, step)]
+        case Computed() | CurvePeriod():
+            return [_computed(calc, step)]
         case Lookup() if step.id in calc.axis:
             return [rows.looked_up(calc, step)]
         case Total() | Pick() | Lookup() | Part():
@@ -231,12 +247,19 @@ def _reduction(calc: Calculation, step: Reduction) -> Item:
     return item
 
 
-def _accumulated(calc: Calculation, step: Accumulated) -> Item:
+def _computed(calc: Calculation, step: Computed | CurvePeriod) -> Item:
+    method = step.method if isinstance(step, Computed) else f"the period of {calc.meta[step.given].symbol}"
+    result = shown(value_at(calc, step.id, None), step.unit, step.digits)
+    return _head(step) | {"type": "found", "relation": None, "method": method, "result": result}
+
+
+def _of_curve(calc: Calculation, step: Accumulated | Derivative) -> Item:
+    operation = "accumulated" if isinstance(step, Accumulated) else "derivative"
     axis = calc.axis[step.id]
     result = shown(value_at(calc, step.id, axis), step.unit, step.digits)
     return _head(step) | {
-        "type": "reduction", "operation": "accumulated", "of": calc.step_or_input(step.of).symbol, "result": result,
-        "at": _symbolled(calc, axis, False), "method": METHODS["accumulated"],
+        "type": "reduction", "operation": operation, "of": calc.step_or_input(step.of).symbol, "result": result,
+        "at": _symbolled(calc, axis, False), "method": METHODS[operation],
         "residual": {"text": number_text(calc.proof[step.id], 2), "unit": "1"},
     }  # fmt: skip
 

@@ -21,40 +21,83 @@ FEW_EDGES = 40  # up to which edges are compared with all places at once
 
 
 def piece_of(edges: Array, x: Array) -> Array:
-    """The piece that each x (rows, points) lies in, of pieces with these edges (rows, pieces + 1)."""
+    """The piece that each x (rows, points) lies in, of pieces with these edges (rows, pieces + 1), or (1, pieces + 1) for all rows."""
     inner = edges[:, 1:-1]
+    if len(inner) == 1:
+        return np.searchsorted(inner[0], x, side="right")
     if inner.shape[1] <= FEW_EDGES:
         return np.asarray((x[:, :, None] >= inner[:, None, :]).sum(axis=2))
     return np.stack([np.searchsorted(row, places, side="right") for row, places in zip(inner, x, strict=True)])
+
+
+def _of(table: Array, rows: Array | None) -> Array:
+    """The rows of some variants (default all) of a table with a row for each variant, or with one for all."""
+    return table if rows is None or len(table) == 1 else table[rows]
 
 
 @dataclass
 class Domain:
     """The range [0, period) of an abscissa, cut at breakpoints; ``edges`` has shape (variants, pieces + 1), ascending.
 
-    Variants may have fewer pieces than others: the missing ones have no width and lie at the end of the period.
+    ``period`` has shape (variants, 1). Variants may have fewer pieces than others: the missing ones have no width and lie at
+    the end of the period. ``joints`` are the edges where curves jump or have a corner; more edges serve the search alone.
     """
 
-    period: float
+    period: Array
     samples: Array
     edges: Array = field(init=False)
+    joints: Array = field(init=False)
 
     def __post_init__(self) -> None:
-        self.edges = np.tile([0.0, self.period], (len(self.samples), 1))
+        self.edges = self.joints = np.concatenate([np.zeros_like(self.period), self.period], axis=1)
 
     def cut(self, places: Array) -> None:
         """Add breakpoints, shape (variants, any number); NaN stands for none."""
+        same = self.edges is self.joints
+        self.edges = self._with(self.edges, places)
+        self.joints = self.edges if same else self._with(self.joints, places)
+
+    def cut_every(self, length: Array) -> None:
+        """Let no piece be longer than a length, shape (variants, 1), for the search of extremes and for integrals.
+
+        A length that is NaN or not above zero cuts nothing.
+        """
+        length = np.where(length > 0, length, np.nan)
+        count = int(np.nan_to_num(self.period / length).max())
+        places = length * np.arange(1, count + 1)
+        self.cut_finer(np.where(places < self.period, places, np.nan))
+
+    def cut_finer(self, places: Array) -> None:
+        """Add edges, as ``cut`` does, where no curve jumps or has a corner."""
+        self.edges = self._with(self.edges, places)
+
+    def _with(self, known: Array, places: Array) -> Array:
         inside = np.where(np.isfinite(places), np.mod(places, self.period), self.period)
-        edges = np.sort(np.concatenate([self.edges, inside], axis=1), axis=1)
+        inside = np.where(self.period - inside < SAME * self.period, self.period, inside)
+        edges = np.sort(np.concatenate([known, inside], axis=1), axis=1)
         for i in range(1, edges.shape[1] - 1):  # one place that came twice, with other rounding, stays one
-            close = edges[:, i] - edges[:, i - 1] < SAME * self.period
+            close = edges[:, i] - edges[:, i - 1] < SAME * self.period[:, 0]
             edges[:, i] = np.where(close, edges[:, i - 1], edges[:, i])
-        self.edges = edges
+        return edges
+
+    def is_joint(self, places: Array) -> Array:
+        """Which places (variants, any number) are breakpoints of curves."""
+        apart = np.abs(places[:, :, None] - self.joints[:, None, :])
+        near: Array = (apart <= SAME * self.period[:, :, None]).any(axis=2)
+        return near
+
+    def period_of(self, rows: Array | None) -> Array:
+        """The period of variants (default all), shape (rows, 1)."""
+        return _of(self.period, rows)
 
     def middle_of(self, x: Array, rows: Array | None = None) -> Array:
-        """The middle of the piece that each x (rows, points) lies in; at a breakpoint the piece that begins there."""
-        edges, middles = (self.edges, self.middles) if rows is None else (self.edges[rows], self.middles[rows])
-        return np.take_along_axis(middles, piece_of(edges, x), axis=1)
+        """The middle of the piece that each x (rows, points) lies in; at a breakpoint the piece that begins there.
+
+        At the end of the period it is the last piece that has a width.
+        """
+        edges = _of(self.edges, rows)
+        last = np.sum(edges < edges[:, -1:], axis=1, keepdims=True) - 1
+        return np.take_along_axis(_of(self.middles, rows), np.minimum(piece_of(edges, x), last), axis=1)
 
     @property
     def middles(self) -> Array:

@@ -32,7 +32,7 @@ def printed(calc: Calculation, name: str, variant: int = 0, part: int = 0, up: b
     """A quantity as one would say it: ``40 mm``; of a row the value of one part; rounded up or down where ``up`` says so."""
     step = calc.steps.get(name)
     if isinstance(step, Words):
-        return step.function(*(float(calc[taken][variant, 0]) for taken in step.takes))
+        return step.function(*(_plain(calc[taken], variant) for taken in step.takes))
     row: Any = calc[name]
     if isinstance(row, str | tuple):
         return row if isinstance(row, str) else str(row[part])
@@ -44,6 +44,12 @@ def printed(calc: Calculation, name: str, variant: int = 0, part: int = 0, up: b
     if name not in calc.values:
         return with_unit(shortest(float(value) / unit(declared.unit).factor), declared.unit)
     return told(float(value), declared.unit, digits, up=up)
+
+
+def _plain(value: Any, variant: int) -> Any:
+    """A number of one machine, SI; a text as it is."""
+    found = value if isinstance(value, str) else value[variant, 0]
+    return found if isinstance(found, str) else float(found)
 
 
 def filled(calc: Calculation, text: str, variant: int = 0, places: Mapping[str, int] = MappingProxyType({})) -> str:

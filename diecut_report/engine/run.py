@@ -16,7 +16,10 @@ from diecut_report.contract.steps import (
     Breakpoints,
     Choice,
     Clash,
+    Computed,
     Crossings,
+    CurvePeriod,
+    Derivative,
     FromCurve,
     Reduction,
     Require,
@@ -29,6 +32,7 @@ from diecut_report.engine import extremes, parts, possible, solve
 from diecut_report.engine.calculation import Calculation, Impossible, SampledCurve, Unproven
 from diecut_report.engine.domain import Domain
 from diecut_report.expressions import Array
+from diecut_report.units import pretty, unit
 
 
 def calculate(
@@ -126,19 +130,30 @@ def _root(calc: Calculation, step: Root) -> None:
 
 def _abscissa(calc: Calculation, step: Abscissa) -> None:
     points = int(calc[step.points][0, 0])
-    samples = np.tile(np.arange(points) * (step.period / points), (calc.count, 1))
-    calc.domains[step.id] = Domain(step.period, samples)
+    whole = calc[step.period] if isinstance(step.period, str) else np.full((calc.count, 1), step.period)
+    _above_zero(calc, step, whole)
+    calc.domains[step.id] = Domain(whole, np.arange(points) * (whole / points))
+
+
+def _above_zero(calc: Calculation, step: Step, length: Array) -> None:
+    """A length that curves are laid over must be there."""
+    empty = ~(length > 0)[:, 0] & _possible(calc)
+    if empty.any():
+        _mark(calc, step, empty, f"{step.description} ({step.id}) has no length to run over with these inputs")
 
 
 def _breakpoints(calc: Calculation, step: Breakpoints) -> None:
+    domain = calc.domains[step.abscissa]
     for place in step.places:
-        calc.domains[step.abscissa].cut(calc[place])
+        domain.cut(calc[place])
+    if step.every:
+        domain.cut_every(np.where(_possible(calc)[:, None], calc[step.every], np.nan))
 
 
 def _all_crossings(calc: Calculation, curve: str) -> tuple[Array, Array]:
     """Crossings, searched again between those found until no more appear: two may lie between two points of the first grid."""
     domain = calc.domains[calc.axis[curve]]
-    edges = domain.edges
+    edges, joints = domain.edges, domain.joints
     domain.cut(solve.dips(calc, curve))
     found = solve.crossings(calc, curve)
     for _ in range(SEARCHES):
@@ -146,7 +161,7 @@ def _all_crossings(calc: Calculation, curve: str) -> tuple[Array, Array]:
         last, found = found, solve.crossings(calc, curve)
         if np.array_equal(np.isfinite(last[0]).sum(axis=1), np.isfinite(found[0]).sum(axis=1)):
             break
-    domain.edges = edges
+    domain.edges, domain.joints = edges, joints
     return last
 
 
@@ -220,11 +235,44 @@ def _accumulated(calc: Calculation, step: Accumulated) -> None:
     _prove(calc, step, solve.accumulate(calc, step), solve.SAMPLE_TOLERANCE)
 
 
+def _derivative(calc: Calculation, step: Derivative) -> None:
+    _prove(calc, step, solve.differentiate(calc, step), solve.SAMPLE_TOLERANCE)
+
+
 def _from_curve(calc: Calculation, step: FromCurve) -> None:
     calc.curves[step.id] = step
-    domain = calc.domains[step.abscissa]
-    places = calc.inputs[step.given].breakpoints * domain.period
-    domain.cut(np.broadcast_to(places, (calc.count, places.shape[1])))
+    domain, curve = calc.domains[step.abscissa], calc.inputs[step.given]
+    if step.lasts:
+        _above_zero(calc, step, calc[step.lasts])
+    domain.cut(_laid_out(calc, step, curve.joints))
+    domain.cut_finer(_laid_out(calc, step, curve.breakpoints))
+
+
+def _laid_out(calc: Calculation, step: FromCurve, shares: Array) -> Array:
+    """Shares of a curve's period as places on the abscissa that it is laid over, NaN where they are not on it."""
+    period = calc.domains[step.abscissa].period
+    lasts = calc[step.lasts] if step.lasts else period
+    if step.start or step.lasts:
+        shares = np.concatenate([shares, np.zeros((len(shares), 1))], axis=1)  # where a period of the curve begins anew
+    shares = np.mod(shares - (calc[step.start] if step.start else 0), 1)
+    turns = np.where(_possible(calc)[:, None], np.ceil(period / lasts), 1)
+    places = [(shares + turn) * lasts for turn in range(int(turns.max()))]
+    return np.concatenate([np.where(place < period, place, np.nan) for place in places], axis=1)
+
+
+def _curve_period(calc: Calculation, step: CurvePeriod) -> None:
+    curve = calc.inputs[step.given]
+    if isinstance(curve, SampledCurve):
+        raise Impossible([(step.given, f"is a list of values, which tells no period; {step.otherwise}")])
+    declared = curve.abscissa
+    if unit(declared.unit).kind != unit(step.unit).kind:
+        raise Impossible([(step.given, f"runs over {declared.id}, in {pretty(declared.unit)}; {step.otherwise}")])
+    calc.values[step.id] = np.broadcast_to(curve.domain.period, (calc.count, 1))
+
+
+def _computed(calc: Calculation, step: Computed) -> None:
+    found = step.function(*(calc[name] for name in step.takes))
+    calc.values[step.id] = _existing(calc, step, np.broadcast_to(found, (calc.count, 1)))
 
 
 def _finite(calc: Calculation, step: Step) -> None:
@@ -239,7 +287,8 @@ def _finite(calc: Calculation, step: Step) -> None:
 
 RUN: dict[type[Step], Callable[[Calculation, Any], None]] = {
     Value: _value, Choice: _choice, Root: _root, Abscissa: _abscissa, Breakpoints: _breakpoints, Crossings: _crossings,
-    Reduction: _reduction, Accumulated: _accumulated, FromCurve: _from_curve,
+    Reduction: _reduction, Accumulated: _accumulated, Derivative: _derivative, FromCurve: _from_curve,
+    CurvePeriod: _curve_period, Computed: _computed,
     Require: possible.require, Clash: possible.clash,
     Total: parts.total, Neighbour: parts.neighbour, Running: parts.running, Part: parts.part, Lookup: parts.lookup,
     Pick: parts.pick,

@@ -12,10 +12,10 @@ from scipy.optimize import elementwise
 
 from diecut_report.contract.binding import bound
 from diecut_report.contract.families import taken
-from diecut_report.contract.steps import Accumulated, Root
+from diecut_report.contract.steps import Accumulated, Derivative, Root
 from diecut_report.engine.calculation import Calculation
 from diecut_report.engine.domain import LOBATTO
-from diecut_report.engine.running import RunningIntegral
+from diecut_report.engine.series import PieceSeries
 from diecut_report.expressions import Array
 from diecut_report.units import unit
 
@@ -142,20 +142,47 @@ def _rows_of(places: Array, rows: Array, count: int, at_start: Array) -> Array:
 def accumulate(calc: Calculation, step: Accumulated) -> Array:
     """Make the running integral of a curve known; gives its relative difference to the integral by another rule, (variants, 1)."""
     domain = calc.domains[calc.axis[step.of]]
-    values = calc.on_search_grid(step.of)[:, :, ::-1]
-    series = np.moveaxis(dct(values, type=1, axis=2), 2, 0) / LOBATTO
-    series[[0, -1]] /= 2
+    values, series = _series(calc, step.of)
     integrated = chebyshev.chebint(series, lbnd=-1) * domain.widths / 2
     ends = np.cumsum(integrated.sum(axis=0), axis=1)
     integrated[0] += np.concatenate([np.zeros((calc.count, 1)), ends[:, :-1]], axis=1)
     sizes = np.nanmax(np.abs(integrated), axis=(1, 2), initial=0)
     order = int(np.max(np.nonzero(sizes > NEGLIGIBLE * sizes.max(initial=0))[0], initial=0)) + 1
     calc.curves[step.id] = step
-    calc.integrals[step.id] = RunningIntegral(domain.edges, integrated[:order])
+    calc.series[step.id] = PieceSeries(domain.edges, integrated[:order])
     whole, _ = integral(calc, step.of, 1)
     scale = np.max(np.abs(values), axis=(1, 2))[:, None] * domain.period
     noise = ROUNDING * _terms(calc, step.of) * domain.period
     residual: Array = np.maximum(np.abs(ends[:, -1:] - whole) - noise, 0) / np.maximum(scale, np.finfo(float).tiny)
+    return residual
+
+
+def _series(calc: Calculation, curve: str) -> tuple[Array, Array]:
+    """A curve on the search grid, zero in pieces without a width, and the Chebyshev series of its pieces.
+
+    The series have the shape (order, variants, pieces).
+    """
+    wide = calc.domains[calc.axis[curve]].widths > 0
+    values = np.where(wide[:, :, None], calc.on_search_grid(curve), 0)
+    series = np.moveaxis(dct(values[:, :, ::-1], type=1, axis=2), 2, 0) / LOBATTO
+    series[[0, -1]] /= 2
+    return values, series
+
+
+def differentiate(calc: Calculation, step: Derivative) -> Array:
+    """Make the derivative of a curve known; gives how far the series is from the curve elsewhere, relative, (variants, 1)."""
+    domain = calc.domains[calc.axis[step.of]]
+    values, series = _series(calc, step.of)
+    sizes = np.abs(series)
+    series[sizes <= ROUNDING * sizes.max(axis=0)] = 0  # rounding would grow with the square of the order
+    half = np.where(domain.widths > 0, domain.widths, np.inf) / 2
+    calc.curves[step.id] = step
+    calc.series[step.id] = PieceSeries(domain.edges, chebyshev.chebder(series) / half)
+    x, middle = domain.flat_gauss(ORDERS[0])
+    apart = np.abs(PieceSeries(domain.edges, series).values(x, middle, None) - calc.at_gauss_points(step.of, ORDERS[0]))
+    apart = np.where(np.repeat(domain.widths > 0, ORDERS[0], axis=1), apart, 0)
+    top = np.max(np.abs(values), axis=(1, 2))[:, None]
+    residual: Array = np.max(apart, axis=1, keepdims=True) / np.maximum(top, np.finfo(float).tiny)
     return residual
 
 

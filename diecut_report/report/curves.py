@@ -1,15 +1,28 @@
-"""Curves of the results as they are drawn: jumps at their true place, closed over a turn (all SI)."""
+"""Curves of the results as they are drawn and tabled: jumps at their true place, closed over a turn (all SI)."""
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-from typing import Any
+from collections.abc import Iterator, Mapping, Sequence
+from itertools import pairwise
+from typing import Any, Literal, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
 Data = Mapping[str, Any]
 Array = NDArray[Any]
+CURVE_ROWS = 12  # of a table of curves without breakpoints
+MOST_PIECES = 8  # for which a table has the ends and the middle of each: with more it would grow too long
+
+ROUNDING = 1e-5  # of a curve's greatest value; where a root is taken of rounding, it grows to about a millionth
+
+
+class Place(NamedTuple):
+    """Where a row of a table is taken: x, and the list of a curve's results and the number in it (from 0) of the value."""
+
+    x: float
+    values: Literal["values", "left", "right"]
+    number: int
 
 
 def continuous(curve: Data, over: Data, period: float | None) -> tuple[Array, Array]:
@@ -51,3 +64,38 @@ def through_pole(x: Array, y: Array) -> tuple[Array, Array]:
     change = np.nonzero(np.sign(y[:-1]) * np.sign(y[1:]) < 0)[0]
     places = x[change] - y[change] * (x[change + 1] - x[change]) / (y[change + 1] - y[change])
     return np.insert(x, change + 1, places), np.insert(y, change + 1, 0.0)
+
+
+def table_places(over: Data, members: Sequence[Data]) -> Iterator[Place]:
+    """Rows of a table of curves: each smooth piece's ends, the middle and as many beside it as there is room for.
+
+    A jump gives two rows, before and after it. Pieces that are too many are not told apart.
+    """
+    x, breaks = np.asarray(over["values"], dtype=float), members[0].get("breakpoints", [])
+    if len(breaks) >= MOST_PIECES or any(curve.get("breakpoints", []) != breaks for curve in members):
+        breaks = []
+    count = max(1, CURVE_ROWS // (len(breaks) + 1) - 1) | 1  # an odd number has the middle
+    yield Place(float(x[0]), "values", 0)
+    for piece, (start, end) in enumerate(pairwise([x[0], *breaks, 2 * x[-1] - x[-2]])):
+        if piece:
+            yield Place(start, "left", piece - 1)
+        if piece and any(_jumps(curve, piece - 1) for curve in members):
+            yield Place(start, "right", piece - 1)
+        yield from (Place(float(x[index]), "values", index) for index in _within(x, start, end, count))
+
+
+def _jumps(curve: Data, index: int) -> bool:
+    """Whether a curve jumps at a breakpoint by more than rounding."""
+    jump = abs(curve["right"][index] - curve["left"][index])
+    return bool(jump > ROUNDING * max(map(abs, curve["values"])))
+
+
+def _within(x: Array, start: float, end: float, count: int) -> list[int]:
+    """So many samples between the ends of a piece, about equally far apart; fewer where it has fewer."""
+    margin = 1e-9 * float(np.ptp(x))
+    inside = np.nonzero((x > start + margin) & (x < end - margin))[0]
+    if not len(inside):
+        return []
+    sought = start + (end - start) * np.arange(1, count + 1) / (count + 1)
+    nearest = np.abs(x[inside] - sought[:, None]).argmin(axis=1)
+    return [int(index) for index in inside[np.unique(nearest)]]

@@ -62,7 +62,7 @@ def document(results: Data, equations: Equations, words: Words) -> Document:
         project=_title_block(results["project"]),
         press=results["press"],
         status=results["status"],
-        verdict=words[f"verdict_{results['status']}"],
+        verdict=words[_verdict(results)],
         counts=list(_counts(checks, chapters, words)),
         governing=_governing(results, checks),
         checks=checks,
@@ -75,6 +75,14 @@ def document(results: Data, equations: Equations, words: Words) -> Document:
         words=words,
         contents=list(_contents(chapters, words)),
     )
+
+
+def _verdict(results: Data) -> str:
+    """The key of the words for the whole."""
+    of_comparisons = results["status"] == "error" and not any(
+        "error" in data for data in results["mechanisms"].values()
+    )
+    return "verdict_error_comparison" if of_comparisons else f"verdict_{results['status']}"
 
 
 def parts(results: Data) -> Iterator[tuple[str, Data]]:
@@ -130,9 +138,10 @@ def _governing(results: Data, checks: list[CheckRow]) -> CheckRow | None:
 
 
 def _sources(results: Data) -> list[tuple[str, str]]:
-    """All sources of the mechanisms, each once, by their id."""
-    found = {source["id"]: source["citation"] for _, data in parts(results) for source in data.get("sources", ())}
-    return sorted(found.items())
+    """All sources of the mechanisms, each once, by their id; several papers of one volume share it."""
+    return sorted(
+        {(source["id"], source["citation"]) for _, data in parts(results) for source in data.get("sources", ())}
+    )
 
 
 def _contents(chapters: list[Chapter], words: Words) -> Iterator[tuple[str, str, str, int]]:

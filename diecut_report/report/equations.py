@@ -65,7 +65,7 @@ class Equations:
         """The equation of an item; None where there is nothing to typeset."""
         links = self._links(item)
         head, place = self._symbol(item["symbol"]), self._place(item)
-        if item["type"] == "found":
+        if item.get("relation"):
             _, _, left, right = item["relation"]
             return self._stacked([Row(self._link(left), [self._link(right)]), Row(head, links, place)])
         if not links:
@@ -111,6 +111,10 @@ class Equations:
         curve, plain = self.latex.symbol(name), self.linear.symbol(name)
         if operation == "abs_max":
             return [Link(rf"\max \left| {curve} \right|", f"max |{plain}|")]
+        if operation == "derivative":
+            by = item["at"]["symbol"]
+            below = rf"\mathrm{{d}}{self.latex.symbol(by)}"
+            return [Link(rf"\frac{{\mathrm{{d}}{curve}}}{{{below}}}", f"d{plain}/d{by}")]
         if operation == "accumulated":
             end = item["at"]["symbol"]
             upper = self.latex.symbol(end)

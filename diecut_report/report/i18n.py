@@ -16,12 +16,13 @@ ENGLISH: dict[str, str] = {
     # verdicts
     "pass": "pass", "warn": "warning", "fail": "fail", "error": "error", "skipped": "skipped",
     "verdict_pass": "All checks pass.", "verdict_warn": "All checks pass, with warnings.", "verdict_fail": "Checks fail.",
-    "verdict_error": "Not all mechanisms could be calculated.",
+    "verdict_error": "Not all mechanisms could be calculated.", "verdict_error_comparison": "Not all comparisons could be calculated.",
     "count_fail": "{n} of {total} checks fail", "count_fail_one": "1 of {total} checks fails",
     "count_warn": "{n} with a warning", "count_pass": "{n} pass", "count_pass_one": "1 passes",
     "count_error": "{n} not calculated", "governing": "Governing", "no_checks": "There are no checks.",
     # chapters
     "contents": "Contents", "summary": "Summary", "checks": "Checks", "key_results": "Key results", "press_data": "Press data",
+    "no_press_data": "The configuration gives no data of the press but its name.",
     "purpose": "Purpose and assumptions", "assumptions": "Assumptions and limits", "inputs": "Inputs", "results": "Results",
     "curves": "Curves", "figures": "Figures", "absent": "Not calculated",
     "comparison": "Comparison of", "files": "Files beside this report",
@@ -39,7 +40,8 @@ ENGLISH: dict[str, str] = {
     "since": "Branch taken", "method": "Method", "residual": "relation met to {residual}", "checked_to": "verified to {residual}",
     "of_curve": "of {curve}", "series": "Series", "looked_up": "From “{table}” for {choice}",
     "figure": "Figure", "table": "Table", "formula": "Formula",
-    "curves_note": "Some rows of the curves; jumps and extremes lie between them and are given with the results.",
+    "curves_note": "Some rows of the curves; a place that stands twice is a jump, before and after it. Extremes lie between the rows and "
+    "are given with the results.",
     "dxf": "{title} in mm: polylines through {n} points each on the layers PROFILE and PITCH_CURVE, the axis on CENTER",
     "dxf_profile": "{title} in mm: a polyline through {n} points on the layer PROFILE, the axis on CENTER",
     "csv": "{title} as a table of {n} rows: {columns}",
@@ -47,7 +49,7 @@ ENGLISH: dict[str, str] = {
     # programme
     "calculated_by": "Calculated by", "version": "version", "plugin": "Mechanism", "plugin_version": "Version", "kind": "Kind",
     "config_file": "Configuration file", "sha256": "SHA-256",
-    "failed_text": "This mechanism could not be calculated.",
+    "failed_text": "This mechanism could not be calculated.", "failed_comparison": "This comparison could not be calculated.",
     "skipped_text": "This mechanism was not calculated, since one that it refers to is in error.",
 }  # fmt: skip
 CATALOGUES: dict[str, dict[str, str]] = {"en": ENGLISH}

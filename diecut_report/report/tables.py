@@ -6,6 +6,7 @@ from collections.abc import Callable, Iterator, Mapping, Sequence
 from types import MappingProxyType
 from typing import Any, TypeVar
 
+from diecut_report.report.curves import Place, table_places
 from diecut_report.report.i18n import Words
 from diecut_report.report.like_parts import Parts
 from diecut_report.report.numbers import displayed, number
@@ -15,7 +16,7 @@ from diecut_report.units import pretty, to_display
 
 Data = Mapping[str, Any]
 Columns = TypeVar("Columns")
-CURVE_ROWS = 12
+ROUNDING = 2e-6  # of a curve's greatest value: what is less is the root of rounding, and printed as zero
 MOST_COLUMNS = 7  # beside the first one
 
 
@@ -37,28 +38,27 @@ class Tables:
         """Some rows of all curves, by their abscissa, so many columns a table as the page holds."""
         groups: dict[str, list[Data]] = {}
         for curve in curves.values():
-            if "abscissa" in curve:
+            if "abscissa" in curve and not curve.get("is_spectrum"):
                 groups.setdefault(curve["abscissa"], []).append(curve)
         return [
             self._curves(curves[axis], columns) for axis, members in groups.items() for columns in shared_out(members)
         ]
 
     def _curves(self, axis: Data, members: list[Data]) -> Table:
-        shown = [axis, *members]
-        count = len(axis["values"])
-        places = (
-            [round(k * count / CURVE_ROWS) for k in range(CURVE_ROWS)] if count > CURVE_ROWS else list(range(count))
-        )
-        columns = [(c["description"], symbol(c["symbol"]), pretty(c["display_unit"])) for c in shown]
-        rows = [[self._sample(c, place) for c in shown] for place in places]
+        columns = [(c["description"], symbol(c["symbol"]), pretty(c["display_unit"])) for c in (axis, *members)]
+        rows = [
+            [self._abscissa(axis, place.x), *(self._sample(curve, place) for curve in members)]
+            for place in table_places(axis, members)
+        ]
         return Table(self.words.say("curves_over", axis=axis["description"]), columns, rows, self._number())
 
-    def _sample(self, curve: Data, place: int) -> str:
-        value, shown = curve["values"][place], curve["display_unit"]
-        if "abscissa" not in curve:
-            return number(f"{to_display(value, shown):.6g}", self.decimal)
+    def _abscissa(self, axis: Data, x: float) -> str:
+        return number(f"{to_display(x, axis['display_unit']):.6g}", self.decimal)
+
+    def _sample(self, curve: Data, place: Place) -> str:
+        value = curve[place.values][place.number]
         scale = max(abs(v) for v in curve["values"])
-        return displayed(value if abs(value) > 1e-12 * scale else 0.0, shown, 4, self.decimal)
+        return displayed(value if abs(value) > ROUNDING * scale else 0.0, curve["display_unit"], 4, self.decimal)
 
     def of_parts(self, parts: Parts, *, given: bool) -> list[PartsTable]:
         """Quantities of like parts: inputs (``given``) tell their keys and where they come from, results their sources."""

@@ -172,12 +172,6 @@ def share_since(disc_angle: Any, start: Any, time: Any) -> Any:
 
 
 @formula
-def just_inside(share: Any, middle: Any) -> Any:
-    """A share, moved towards the middle of its piece by next to nothing: a jump at the piece's end is taken from inside."""
-    return share + 1e-12 * (middle - share)
-
-
-@formula
 def rolled_angle(disc_angle: Any, sector_dwell_sweep: Any, dwell_angle: Any) -> Any:
     """Sector angle in the dwell."""
     return sector_dwell_sweep * disc_angle / dwell_angle

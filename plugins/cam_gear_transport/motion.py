@@ -68,7 +68,7 @@ SECTOR = Section(
               output=False, per_piece=True, formula=bind(common.same, quantity="law_share")),
         Value(id="law_side", symbol="k_i", output=False, source="this method",
               description="Share k just inside its piece: where the law's acceleration jumps, this tells the side",
-              formula=bind(formulas.just_inside, share="law_share", middle="law_middle")),
+              formula=bind(common.just_inside, share="law_share", middle="law_middle")),
         Value(id="law_acceleration", symbol="f″", description="Law of motion: acceleration at k", source="motion laws", output=False,
               formula=ByText("motion_law", ACCELERATION, k="law_side")),
         Choice(id="sector_angle", symbol="γ", unit="deg", description="Angle of the sector relative to the disc", source="003, Fig. 4",

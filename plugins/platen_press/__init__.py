@@ -28,7 +28,7 @@ MECHANISM = Mechanism(
         "The cutting force acts from contact on, grows in proportion to the platen's travel, and is gone when the platen begins to open.",
         "While it moves, the platen's inertia is that of its ideal motion; the rods' own mass, and their stretch under inertia, are not included.",
         "Friction in the joints follows the force of cutting, stretch and inertia. The push of the inclined rods on the guides is not included "
-        "(at contact it is tan β_c of the force), and the guides' friction does not stretch the rods.",
+        "(at contact it is tan β_c of the force); what the guides' friction stretches the rods is not either.",
     ),
     sources=(
         Source("001", "Banakh Yu. O. Estimation of torques during die-cutting, with the compliance of the press, on a machine of the platen type. "

@@ -61,10 +61,15 @@ def is_source_machine(view: View) -> bool:
 
 
 def forces(view: View) -> list[Shape]:
-    """Force of the rods, and their stretch, about the dead centre."""
-    angle, curves = about_dead_center(view, "force", "rod_stretch")
+    """Force of the rods, with that of the guides where there is one, and their stretch, about the dead centre."""
+    guided = "guide_length" in view
+    angle, curves = about_dead_center(view, "force", "rod_stretch", *(["guide_friction"] if guided else []))
+    lines = [line(angle, curves["force"], "F" if not guided else "F, without the guides")]
+    if guided:
+        against = -np.sign(angle) * curves["guide_friction"]
+        lines.append(line(angle, curves["force"] + against, "with the friction of the guides"))
     return [
-        panel(view, "Force of the rods", "kN", [line(angle, curves["force"], "F")]),
+        panel(view, "Force of the rods", "kN", lines),
         panel(view, "Stretch of the rods", "mm", [line(angle, curves["rod_stretch"], "Δl")]),
     ]
 
@@ -75,7 +80,8 @@ def cutting(view: View) -> list[Shape]:
              "torque", "torque_useful", "torque_friction")  # fmt: skip
     angle, found = about_dead_center(view, *names)
     displacement, displacement_true, velocity, velocity_true, torque, useful, friction = (found[name] for name in names)
-    peak = [mark(-view["torque_max_angle"], view["torque_max"], "greatest")]
+    is_shown = view["torque_max_angle"] <= MARGIN * view["cutting_start_angle"]
+    peak = [mark(-view["torque_max_angle"], view["torque_max"], "greatest")] if is_shown else []
     return [
         panel(view, "Displacement", "mm", [line(angle, displacement, "ideal"), line(angle, displacement_true, "true")]),
         panel(view, "Speed", "mm/s", [line(angle, velocity, "ideal"), line(angle, velocity_true, "true")]),
@@ -90,12 +96,12 @@ def beside_source(view: View) -> list[Shape]:
     cut = (angle <= 0) & (angle >= -view["cutting_start_angle"])
     cut[np.flatnonzero(angle == 0)[1:]] = False
     phi, torque, printed = angle[cut], curves["torque"][cut], curves["torque_source"][cut]
-    levels = [level(view["torque_relaxing"], "friction at the dead centre")]
-    if is_source_machine(view):
-        levels.append(level(SOURCE_PEAK, "printed"))
+    levels = [level(SOURCE_PEAK, "printed")] if is_source_machine(view) else []
+    peaks = (("torque_max", "corrected"), ("torque_max_source", "eq. 14"))
     marks = [
-        mark(-view["torque_max_angle"], view["torque_max"], "corrected"),
-        mark(-view["torque_max_source_angle"], view["torque_max_source"], "eq. 14"),
+        mark(-view[f"{name}_angle"], view[name], label)
+        for name, label in peaks
+        if view[f"{name}_angle"] <= view["cutting_start_angle"]
     ]
     return [
         chart_panel("Torque while cutting", "N*m", *FROM_DEAD_CENTER,
@@ -140,7 +146,8 @@ FIGURES = (
     Chart(
         id="forces",
         title="Force and stretch of the rods about the dead centre",
-        caption="Figure 2 of 001: the force of both rods grows with the stretch up to the dead centre and goes back with it while the platen stands.",
+        caption="Figure 2 of 001: the force of both rods grows with the stretch up to the dead centre and goes back with it while the platen stands. "
+        "A force or weight beside the axis of the guides adds the guides' friction while the platen moves.",
         build=forces,
     ),
     Chart(
@@ -148,8 +155,8 @@ FIGURES = (
         title="Torque while cutting, beside eq. 14",
         caption="At the dead centre both give the friction of the joints alone, P_max·X less the share of the inertia force. Before it the force "
         "has an arm too: that of crank and rods, or, in eq. 14, a shorter one by the platen's slower true speed. Arm and force together make "
-        "the peaks before the dead centre. The 5100 N·m that 001 prints for its machine lie 2 % above P_max·X: the number "
-        "is as at the dead centre itself and leaves out the peak of its own equation.",
+        "the peaks before the dead centre. The 5100 N·m that 001 prints for its machine lie 2 % above P_max·X, friction alone at the dead "
+        "centre, where the force is greatest: both torques pass it before, and the number leaves out the peak of its own equation.",
         build=beside_source,
     ),
     Chart(
@@ -162,8 +169,8 @@ FIGURES = (
     Drawing(
         id="relaxed",
         title="Relaxed rods and friction",
-        caption="The shaft to scale where the rods have relaxed: as long as the line of the rods passes the shaft nearer than the arm X of friction, "
-        "the rods do not drive the crank.",
+        caption="The shaft to scale where the rods have relaxed: as long as the line of the rods passes the shaft at a distance a_d less than the "
+        "arm X of friction, the rods do not drive the crank.",
         build=relaxed,
     ),
     Plot(

@@ -29,6 +29,12 @@ def fits_stroke(material_thickness: Any, drive_deformation: Any, crank_radius: A
 
 
 @formula
+def turns_fully(rod_length: Any, crank_radius: Any) -> Any:
+    """Whether the rod is longer than the crank, so that the crank passes all positions at a finite speed of the rod."""
+    return rod_length > 1.001 * crank_radius
+
+
+@formula
 def no_offset(offset_force: Any, offset_weight: Any) -> Any:
     """Whether nothing turns the platen in its guides."""
     return (offset_force == 0) & (offset_weight == 0)
@@ -76,13 +82,19 @@ def acceleration_dead_center(crank_radius: Any, crank_speed: Any, lambda_ratio: 
 @formula
 def torque_dead_center(cutting_force_max: Any, inertia_dead_center: Any, friction_arm: Any) -> Any:
     """Torque at the dead centre: only the friction of the joints is left."""
-    return (cutting_force_max - inertia_dead_center) * friction_arm
+    return abs(cutting_force_max - inertia_dead_center) * friction_arm
 
 
 @formula
 def turn_less(angle: Any) -> Any:
     """An angle before the dead centre, counted on from the one before."""
     return 2 * np.pi - angle
+
+
+@formula
+def before_dead_center(angle: Any) -> Any:
+    """How far an angle, counted on from a dead centre, lies before the next one; zero where it is none."""
+    return np.where(angle > 0, 2 * np.pi - angle, 0)
 
 
 @formula
@@ -172,9 +184,18 @@ def guide_friction(friction_guide: Any, guide_moment: Any, guide_length: Any) ->
 
 
 @formula
-def guide_torque(guide_friction: Any, platen_velocity_true: Any, crank_speed: Any) -> Any:
-    """Torque of the guides' friction: the platen's own speed counts."""
-    return guide_friction * abs(platen_velocity_true) / crank_speed
+def guide_torque(guide_friction: Any, travel_rate: Any) -> Any:
+    """Torque of the guides' friction, which the rods carry with their own arm."""
+    return guide_friction * abs(travel_rate)
+
+
+@formula
+def weight_torque(
+    friction_guide: Any, platen_mass: Any, offset_weight: Any, guide_length: Any, velocity_max: Any, crank_speed: Any
+) -> Any:
+    """The most that the guides' friction under the platen's weight alone can ask for."""
+    weight = platen_mass * GRAVITY
+    return 2 * friction_guide * weight * abs(offset_weight) * velocity_max / (guide_length * crank_speed)
 
 
 @formula
@@ -239,3 +260,9 @@ def energy_residual(work_per_cycle: Any, cutting_work: Any, friction_work: Any) 
 def pin_pressure(force_max: Any, radius: Any, length: Any) -> Any:
     """Pressure on the projected area of one of two pins that share a force."""
     return force_max / (4 * radius * length)
+
+
+@formula
+def pin_length(force_max: Any, radius: Any, allowable_pin_pressure: Any) -> Any:
+    """Length of two pins that share a force at the allowed pressure."""
+    return force_max / (4 * radius * allowable_pin_pressure)

@@ -2,47 +2,20 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Mapping
 from typing import Any, ClassVar, Self
 
 from diecut_report.api import POINTS, Annotated, Inputs, OneOf, Quantity
 
-JOINTS = {
-    "friction_guide": "guides",
-    "friction_platen_pin": "platen pins",
-    "friction_crank_pin": "crank pins",
-    "friction_journal": "journals",
-}
-"""Keys of the single coefficients of friction f₁…f₄, in the order of a list, and where each acts."""
+STRETCH = "drive_deformation"
+RODS = ("rod_area", "elastic_modulus")
+"""Keys from which the stretch of the drive follows where it is not given."""
 
+JOINTS = ("friction_guide", "friction_platen_pin", "friction_crank_pin", "friction_journal")
+"""Keys of the single coefficients of friction f₁…f₄, in the order of a list."""
 
-class Frictions(Quantity):
-    """A coefficient of friction, or a list of one for each place."""
-
-    def validate(self, given: Any) -> Any:
-        """The coefficient, or a tuple of one for each place; ValueError in words where it is not allowed."""
-        if not isinstance(given, list):
-            return super().validate(given)
-        if len(given) != len(JOINTS):
-            order = f"{len(JOINTS)} in this order: {', '.join(JOINTS.values())}"
-            raise ValueError(f"has {len(given) or 'no'} values; give one coefficient for all, or {order}")
-        return tuple(self._one_of(value, place) for value, place in zip(given, JOINTS.values(), strict=True))
-
-    def _one_of(self, value: Any, place: str) -> Any:
-        """One value of a list; a reference in it comes as a text with the unit of pure numbers."""
-        try:
-            return super().validate(value.removesuffix(" 1") if isinstance(value, str) else value)
-        except ValueError as fault:
-            raise ValueError(f"of the {place}: {fault}") from fault
-
-
-EVERYWHERE = Frictions(
-    "f",
-    "1",
-    f"Coefficient of friction of all joints and guides; or a list of four: {', '.join(JOINTS.values())}",
-    ge=0,
-    le=1,
-)
+INSTEAD = {STRETCH: RODS[:1], "friction": JOINTS}
+"""Keys with a default, each with those that are given instead of it."""
 
 
 def coefficient(place: str, symbol: str) -> Quantity:
@@ -50,45 +23,22 @@ def coefficient(place: str, symbol: str) -> Quantity:
     return Quantity(symbol, "1", f"Coefficient of friction {place}", ge=0, le=1)
 
 
-class Stretch(OneOf):
-    """What the stretch of the drive follows from; without any of the keys its default holds."""
-
-    def fault(self, given: Iterable[str]) -> str:
-        """What is wrong with the keys that are given, in words; empty where nothing is."""
-        own = set(given).intersection(key for group in self.groups for key in group)
-        return super().fault(own) if own else ""
-
-
-def shared_out(keys: Mapping[str, Any]) -> dict[str, Any]:
-    """The keys with a list of frictions as single ones, and without the default stretch where the rods' own is asked for."""
-    found = dict(keys)
-    if isinstance(found.get("friction"), list):
-        found |= _single(found)
-    elif found.get("friction", 0.0) is None and not found.keys() >= JOINTS.keys():
-        found["friction"] = []  # refused in words
-    if "rod_area" in found or "elastic_modulus" in found:
-        found.setdefault("drive_deformation", None)
-    return found
-
-
-def _single(keys: Mapping[str, Any]) -> dict[str, Any]:
-    """The values of a list of frictions under their own keys, where these are not given; nothing where the list is at fault."""
-    try:
-        values = EVERYWHERE.validate(keys["friction"])
-    except ValueError:
-        return {}  # the key's own validation says why
-    return (
-        dict(zip(JOINTS, values, strict=True)) | {key: keys[key] for key in JOINTS if key in keys} | {"friction": None}
-    )
+def without_idle_defaults(keys: Mapping[str, Any]) -> dict[str, Any]:
+    """The keys, without a default that the keys beside it leave no use."""
+    optional = (STRETCH, *RODS, "friction", *JOINTS)
+    given = {key: value for key, value in keys.items() if value is not None or key not in optional}
+    idle = [key for key, others in INSTEAD.items() if given.keys() >= set(others)]
+    return given | {key: None for key in idle if key not in given}
 
 
 class PlatenPress(Inputs):
     """Keys of ``platen_press``."""
 
-    one_of: ClassVar[tuple[OneOf, ...]] = (Stretch(("drive_deformation",), ("rod_area", "elastic_modulus")),)
+    one_of: ClassVar[tuple[OneOf, ...]] = (OneOf((STRETCH,), RODS, optional=True),)
+    spread: ClassVar[Mapping[str, tuple[str, ...]]] = {"friction": JOINTS}
 
     cycles_per_hour: Annotated[
-        float, Quantity("n", "1/h", "Cycles of the platen, one turn of the crank each", gt=0)
+        float, Quantity("n", "1/h", "Cycles of the platen, one turn of the crank each", gt=0, le=1e6)
     ] = 1200
     cutting_force_max: Annotated[
         float, Quantity("P_max", "kN", "Greatest cutting force, of both rods together", gt=0)
@@ -100,7 +50,7 @@ class PlatenPress(Inputs):
             "Δl_m",
             "mm",
             "Stretch of the drive at the platen under the greatest cutting force; or rod_area and elastic_modulus",
-            gt=0,
+            ge=1e-9,
         ),
     ] = 0.45
     rod_area: Annotated[
@@ -116,7 +66,16 @@ class PlatenPress(Inputs):
     journal_radius: Annotated[float, Quantity("r_0", "mm", "Radius of the crankshaft's journals", gt=0)] = 50.25
     crank_pin_radius: Annotated[float, Quantity("r_A", "mm", "Radius of the crank pins", gt=0)] = 47.5
     platen_pin_radius: Annotated[float, Quantity("r_B", "mm", "Radius of the platen's pins", gt=0)] = 60
-    friction: Annotated[float | None, EVERYWHERE] = 0.1
+    friction: Annotated[
+        float | None,
+        Quantity(
+            "f",
+            "1",
+            "Coefficient of friction of all joints and guides; or a list of four: guides, platen pins, crank pins, journals",
+            ge=0,
+            le=1,
+        ),
+    ] = 0.1
     friction_guide: Annotated[float | None, coefficient("of the guides, where it is not that of all", "f_1")] = None
     friction_platen_pin: Annotated[
         float | None, coefficient("of the platen's pins, where it is not that of all", "f_2")
@@ -149,5 +108,5 @@ class PlatenPress(Inputs):
 
     @classmethod
     def model_validate(cls, obj: Any, **how: Any) -> Self:
-        """The validated keys; see ``shared_out``."""
-        return super().model_validate(shared_out(obj) if isinstance(obj, Mapping) else obj, **how)
+        """The validated keys; see ``without_idle_defaults``."""
+        return super().model_validate(without_idle_defaults(obj) if isinstance(obj, Mapping) else obj, **how)

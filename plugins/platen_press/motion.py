@@ -42,8 +42,9 @@ MACHINE = Section(
     "Machine",
     text="The crank angle φ is counted from the inner dead centre, where crank and rods are folded and the platen stands nearest to the shaft.",
     steps=(
-        Require(id="rod_longer", condition=bind(common.is_below, smaller="crank_radius", greater="rod_length"), key="rod_length",
-                message="is {rod_length}, but the rod must be longer than the crank's radius {crank_radius}; else the crank cannot turn fully"),
+        Require(id="rod_longer", condition=formulas.turns_fully, key="rod_length",
+                message="is {rod_length}, but the rod must be longer than the crank's radius {crank_radius}, by a thousandth of it at least; "
+                "else the crank cannot turn fully"),
         Value(id="crank_speed", symbol="ω", unit="rad/s", description="Angular speed of the crank", formula=formulas.turning_speed),
         Value(id="stroke", symbol="H", unit="mm", description="Stroke of the platen",
               formula=bind(common.twice, quantity="crank_radius")),
@@ -55,12 +56,16 @@ MACHINE = Section(
               source="Hooke", lacks=("drive_deformation",), formula=formulas.rods_stretch),
         Value(id="drive_stiffness", symbol="c", unit="kN/mm", description="Stiffness of the drive at the platen",
               formula=bind(common.quotient, quantity="cutting_force_max", by="drive_deformation")),
-        Require(id="within_stroke", condition=formulas.fits_stroke, key="material_thickness",
-                message="is {material_thickness}; with the stretch of the drive {drive_deformation} it must be less than the platen's stroke, "
-                "twice the crank radius {crank_radius}"),
         Require(id="stiff_enough", condition=bind(common.is_below, smaller="drive_deformation", greater="crank_radius"),
-                key="cutting_force_max", message="stretches the drive by {drive_deformation}, more than the crank radius {crank_radius}; "
-                "such a drive cannot cut: make it stiffer or the force smaller"),
+                key="drive_deformation", needs=("drive_deformation",),
+                message="is {drive_deformation}, but must be less than the crank_radius {crank_radius}; a drive that stretches more cannot cut"),
+        Require(id="rods_stiff_enough", condition=bind(common.is_below, smaller="drive_deformation", greater="crank_radius"),
+                key="rod_area", lacks=("drive_deformation",),
+                message="is {rod_area}; under cutting_force_max = {cutting_force_max} the rods stretch by {drive_deformation}, which must be less "
+                "than the crank_radius {crank_radius}: take thicker rods"),
+        Require(id="within_stroke", condition=formulas.fits_stroke, key="material_thickness",
+                message="is {material_thickness}; board and stretch of the drive ({drive_deformation}) together must be less than the platen's "
+                "stroke {stroke}, twice the crank_radius"),
         Require(id="guides_given", condition=formulas.no_offset, key="guide_length", lacks=("guide_length",),
                 message="is needed: with offset_force = {offset_force} and offset_weight = {offset_weight} the platen presses on its guides"),
         *_frictions(),

@@ -2,10 +2,20 @@
 
 from __future__ import annotations
 
-from diecut_report.api import Breakpoints, Case, Choice, Crossings, Reduction, Section, Value, bind
+from diecut_report.api import Breakpoints, Case, Choice, Crossings, Reduction, Section, Value, Words, bind
 from diecut_report.mechanics import common, slider_crank
-from diecut_report.plugins.platen_press import formulas
+from diecut_report.plugins.platen_press import advice, formulas
 from diecut_report.plugins.platen_press.motion import ADOPTED, by_phase, in_phase
+
+LOAD = (
+    "torque_max",
+    "allowable_torque",
+    "cutting_force_max",
+    "torque_max_angle",
+    "cutting_start_angle",
+    "inertia_force_max",
+    "crank_radius",
+)
 
 FORCES = Section(
     "Force of the rods",
@@ -60,7 +70,8 @@ GUIDES = Section(
     "Friction of the guides",
     needs=("guide_length",),
     absent="not calculated: guide_length is not given, and no force is offset from the axis of the guides",
-    text="A force beside the axis of the guides turns the platen in them. Where the platen stands its guides have no friction.",
+    text="A force beside the axis of the guides turns the platen in them. Where the platen stands its guides have no friction. The rods "
+    "carry the friction of the guides too, so that its arm is theirs, V/ω with the ideal speed.",
     steps=(
         Value(id="guide_moment", symbol="M_g", unit="N*m", description="Moment that turns the platen in its guides", source="001 eq. 3",
               output=False, formula=formulas.guide_moment),
@@ -69,10 +80,13 @@ GUIDES = Section(
         Crossings(id="platen_turn", symbol="φ_V", unit="deg", of="platen_velocity_ideal", output=False,
                   description="Crank angle at which the platen turns back"),
         Breakpoints(id="guide_changes", abscissa="crank_angle", places=("guide_change", "platen_turn")),
-        Value(id="guide_friction", symbol="T", unit="N", description="Friction of the guides", source="001 eq. 3, 4",
-              formula=formulas.guide_friction),
+        Choice(id="guide_friction", symbol="T", unit="N", description="Friction of the guides", source="001 eq. 3, 4",
+               cases=(Case(bind(common.zero), "the platen stands on the die", in_phase(1)),
+                      Case(bind(formulas.guide_friction), "the platen moves"))),
         Value(id="guide_torque", symbol="M_n", unit="N*m", description="Torque of the guides' friction", source="001 eq. 4",
               output=False, formula=formulas.guide_torque),
+        Value(id="weight_torque", symbol="M_G", unit="N*m", description="Greatest torque that the guides' friction under the weight alone asks for",
+              source="001 eq. 4", output=False, needs=("allowable_torque",), formula=formulas.weight_torque),
     ),
 )  # fmt: skip
 
@@ -95,8 +109,8 @@ TORQUE = Section(
               formula=bind(common.sum_of, first="torque_useful", second="torque_friction")),
         Reduction(id="torque_max", symbol="M_max", unit="N*m", description="Greatest torque", of="torque", operation="max"),
         Value(id="torque_max_angle", symbol="φ_M", unit="deg", description="Crank angle of the greatest torque, before the dead centre",
-              formula=bind(formulas.turn_less, angle="torque_max_at")),
-        Reduction(id="torque_min", symbol="M_min", unit="N*m", description="Least torque (below zero: the platen's inertia drives)", of="torque",
+              formula=bind(formulas.before_dead_center, angle="torque_max_at")),
+        Reduction(id="torque_min", symbol="M_min", unit="N*m", description="Least torque (below zero: platen or rods drive the crank)", of="torque",
                   operation="min"),
         Choice(id="torque_source", symbol="M_14", unit="N*m", description="Torque by eq. 14 as printed, while cutting", source="001 eq. 14",
                cases=(Case(bind(formulas.torque_as_printed), "the board is cut", in_phase(3)),
@@ -104,7 +118,9 @@ TORQUE = Section(
         Reduction(id="torque_max_source", symbol="M_14,max", unit="N*m", description="Greatest torque by eq. 14 as printed", of="torque_source",
                   operation="max"),
         Value(id="torque_max_source_angle", symbol="φ_14", unit="deg", description="Its crank angle before the dead centre",
-              formula=bind(formulas.turn_less, angle="torque_max_source_at")),
+              formula=bind(formulas.before_dead_center, angle="torque_max_source_at")),
+        Words(id="torque_lower", function=advice.smaller_force, takes=LOAD, needs=("allowable_torque",), lacks=("guide_length",)),
+        Words(id="torque_lower", function=advice.smaller_force, takes=(*LOAD, "weight_torque"), needs=("allowable_torque", "guide_length")),
     ),
 )  # fmt: skip
 
@@ -122,6 +138,9 @@ RETURN = Section(
         Value(id="deformation_limit", symbol="Δl_rev", unit="mm", description="Stretch of the drive above which the rods would drive the crank",
               source="statics", formula=formulas.deformation_limit,
               exists=bind(common.is_below, smaller="friction_arm", greater="crank_radius")),
+        Words(id="drive_stiffer", function=advice.softest_drive, takes=("deformation_limit",), needs=("drive_deformation",)),
+        Words(id="drive_stiffer", function=advice.thinnest_rods, lacks=("drive_deformation",),
+              takes=("deformation_limit", "drive_deformation", "rod_area", "elastic_modulus")),
     ),
 )  # fmt: skip
 
@@ -138,8 +157,8 @@ WORK = Section(
               formula=bind(slider_crank.inner_velocity, crank_angle="dwell_end_angle", coupler_angle="start_rod_angle")),
         Value(id="start_energy", symbol="W_d", unit="J", description="Energy that sets the platen moving", source="energy", output=False,
               formula=formulas.start_energy),
-        Value(id="work_per_cycle", symbol="W_c", unit="J", description="Work of a cycle", source="energy", digits=6,
-              formula=bind(common.sum_of, first="torque_work", second="start_energy")),
+        Value(id="work_per_cycle", symbol="W_c", unit="J", description="Work of a cycle, setting the platen moving included",
+              source="energy", digits=6, formula=bind(common.sum_of, first="torque_work", second="start_energy")),
         Value(id="cutting_work", symbol="W_s", unit="J", description="Work of cutting the board", source="energy",
               formula=formulas.cutting_work),
         Reduction(id="friction_work", symbol="W_f", unit="J", description="Work of friction", of="torque_friction", operation="integral"),
@@ -147,7 +166,7 @@ WORK = Section(
               formula=bind(formulas.cutting_work, material_thickness="drive_deformation")),
         Value(id="friction_share", symbol="k_f", unit="%", description="Share of the work that friction takes",
               formula=bind(common.quotient, quantity="friction_work", by="work_per_cycle")),
-        Value(id="power_mean", symbol="N", unit="W", description="Mean power at the main shaft",
+        Value(id="power_mean", symbol="N_mean", unit="W", description="Mean power at the main shaft",
               formula=bind(common.product, first="work_per_cycle", second="cycles_per_hour")),
         Value(id="energy_residual", symbol="r_E", description="Difference of work and what it is spent on, relative",
               source="conservation of energy", output=False, formula=formulas.energy_residual),
@@ -157,11 +176,15 @@ WORK = Section(
 
 def _pressure(key: str, name: str, symbol: str, pins: str, radius: str) -> Section:
     """The pressure of one kind of pins."""
-    step = Value(id=name, symbol=symbol, unit="MPa", description=f"Pressure of the {pins} on their projected area", source="statics",
-                 formula=bind(formulas.pin_pressure, radius=radius, length=key))  # fmt: skip
+    steps = (
+        Value(id=name, symbol=symbol, unit="MPa", description=f"Pressure of the {pins} on their projected area", source="statics",
+              formula=bind(formulas.pin_pressure, radius=radius, length=key)),
+        Value(id=f"{key}_least", symbol=f"b_{symbol[-1]},min", unit="mm", description=f"Length of one of the {pins} at the allowed pressure",
+              source="statics", output=False, needs=("allowable_pin_pressure",), formula=bind(formulas.pin_length, radius=radius)),
+    )  # fmt: skip
     return Section(
         f"Pressure of the {pins}",
-        (step,),
+        steps,
         "Two of them share the force of the rods.",
         (key,),
         f"not calculated: {key} is not given",

@@ -9,6 +9,7 @@ from numpy.typing import NDArray
 
 from diecut_report.engine import Calculation, calculate
 from diecut_report.plugins.platen_press import MECHANISM
+from diecut_report.plugins.platen_press.inputs import JOINTS
 from diecut_report.verdicts import check_results
 from tests.machines import inputs
 
@@ -17,7 +18,9 @@ FRICTIONS: dict[str, Any] = {"friction": [0.15, 0.12, 0.08, 0.1]}
 
 
 def platen(**changes: Any) -> Calculation:
-    """The machine of 001 with changes."""
+    """The machine of 001 with changes; a list of frictions stands for the single ones."""
+    if isinstance(changes.get("friction"), list):
+        changes |= dict(zip(JOINTS, changes.pop("friction"), strict=True))
     return calculate(MECHANISM, inputs(MECHANISM, changes))
 
 

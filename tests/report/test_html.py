@@ -70,6 +70,14 @@ def test_broken_and_skipped_mechanisms_are_told(html: str) -> None:
     assert "refers to cam, which is in error" in html
 
 
+def test_a_press_with_nothing_but_a_name_has_no_empty_table(results: dict[str, Any], html: str) -> None:
+    assert '<table class="inputs press-data">' in html
+    results["press"]["fields"] = []
+    page = render_html(results)
+    assert 'press-data"' not in page and '<h2 id="press">' in page
+    assert "The configuration gives no data of the press but its name." in page
+
+
 def test_inputs_show_where_they_come_from(html: str) -> None:
     assert "${press.sheet.length}" in html
     assert "default, from press.productivity" in html

@@ -2,13 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-from importlib import import_module
 from pathlib import Path
 from types import ModuleType
 
 from diecut_report.texts import number_text
-from tests.validation.rows import Row
+from tests.validation.rows import Row, modules
 
 PAGE = Path(__file__).parents[2] / "docs" / "validation.md"
 
@@ -33,15 +31,13 @@ def line(row: Row) -> str:
     return f"| {row.place} | {row.quantity} | {row.printed} | {shown(row, row.ours())} | {row.unit} | {row.verdict} | {row.why} |"
 
 
-def chapters() -> Iterator[tuple[str, ModuleType]]:
-    """The modules with rows, each with the title of its chapter: those of sources first."""
-    for file in sorted(Path(__file__).parent.glob("source_*.py")):
-        yield file.stem.removeprefix("source_"), import_module(f"{__package__}.{file.stem}")
-    for file in sorted(Path(__file__).parent.glob("rows_*.py")):
-        yield f"`{file.stem.removeprefix('rows_')}`", import_module(f"{__package__}.{file.stem}")
+def title_of(module: ModuleType) -> str:
+    """The title of a module's chapter: a source's number, or the kind."""
+    group, _, name = module.__name__.rpartition(".")[2].partition("_")
+    return name if group == "source" else f"`{name}`"
 
 
-def chapter(title: str, module: ModuleType) -> str:
+def chapter(module: ModuleType) -> str:
     """The table of one module's rows under what it says of itself."""
     head, _, source = (module.__doc__ or "").partition("\n\n")
     table = [
@@ -50,12 +46,12 @@ def chapter(title: str, module: ModuleType) -> str:
         *map(line, module.ROWS),
     ]
     paragraph = f"{head.strip()} {' '.join(source.split())}".strip()
-    return f"## {title}\n\n{paragraph}\n\n" + "\n".join(table) + "\n"
+    return f"## {title_of(module)}\n\n{paragraph}\n\n" + "\n".join(table) + "\n"
 
 
 def page() -> str:
     """The whole page."""
-    return HEAD + "\n".join(chapter(title, module) for title, module in chapters())
+    return HEAD + "\n".join(map(chapter, modules()))
 
 
 if __name__ == "__main__":

@@ -2,8 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass
+from importlib import import_module
+from pathlib import Path
+from types import ModuleType
 from typing import Literal
 
 Verdict = Literal["agrees", "mistake", "cannot be reproduced"]
@@ -37,3 +40,10 @@ class Row:
     def reproduces(self, value: float) -> bool:
         """Whether a value rounds to the printed number."""
         return abs(value - float(self.printed)) <= self.rounding * (1 + 1e-9)
+
+
+def modules() -> Iterator[ModuleType]:
+    """The modules beside this one whose ``ROWS`` hold rows: those of sources first, then those of kinds, by their names."""
+    for pattern in ("source_*.py", "rows_*.py"):
+        for file in sorted(Path(__file__).parent.glob(pattern)):
+            yield import_module(f"{__package__}.{file.stem}")

@@ -1,4 +1,4 @@
-"""The running integral of a curve, as Chebyshev series of its smooth pieces."""
+"""Running integrals and derivatives of curves, as Chebyshev series of their smooth pieces."""
 
 from __future__ import annotations
 
@@ -12,8 +12,8 @@ from diecut_report.expressions import Array
 
 
 @dataclass(frozen=True)
-class RunningIntegral:
-    """∫ curve from the abscissa's start: for each variant and smooth piece a Chebyshev series over [-1, 1]."""
+class PieceSeries:
+    """A curve as Chebyshev series: for each variant and smooth piece one over [-1, 1]."""
 
     edges: Array  # (variants, pieces + 1)
     series: Array  # (order, variants, pieces)
@@ -23,7 +23,7 @@ class RunningIntegral:
         known = np.arange(len(self.edges)) if rows is None else rows
         variant = np.broadcast_to(known[:, None] if len(self.edges) > 1 else 0, x.shape)
         edges = self.edges if len(self.edges) == 1 else self.edges[known]
-        piece = piece_of(np.broadcast_to(edges, (len(x), edges.shape[1])), np.broadcast_to(middle, x.shape))
+        piece = piece_of(edges, np.broadcast_to(middle, x.shape))
         start, end = self.edges[variant, piece], self.edges[variant, piece + 1]
         place = (2 * x - start - end) / np.where(end > start, end - start, 1)
         return _clenshaw(place, lambda k: self.series[k, variant, piece], len(self.series))

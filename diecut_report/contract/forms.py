@@ -1,0 +1,54 @@
+"""Inputs and steps whose unit depends on which other input is given: angles or lengths, seconds or a share of the cycle."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Collection
+from dataclasses import replace
+from functools import cache
+from typing import Annotated, Any, TypeVar
+
+from pydantic import create_model
+
+from diecut_report.contract.inputs import Block, CurveInput, Quantity, Text, meta_of
+from diecut_report.contract.steps import Step
+
+Declared = TypeVar("Declared", bound="Quantity | Text | CurveInput | Step | None")
+
+
+def in_form(model: type[Block], given: Collection[str]) -> type[Block]:
+    """The inputs with the units that hold when these keys are given."""
+    keys = form_keys(model).intersection(given)
+    return _formed(model, keys) if keys else model
+
+
+def in_unit(declared: Declared, given: Collection[str]) -> Declared:
+    """What is declared, in the unit that holds when these keys are given."""
+    if not isinstance(declared, Quantity | CurveInput | Step):
+        return declared
+    other = next((unit for key, unit in declared.units if key in given), None)
+    return replace(declared, unit=other) if other else declared
+
+
+def in_all_units(declared: Quantity | CurveInput | Step, told: Callable[[Any], str]) -> str:
+    """What is told of a declaration, and of it in its other units with the key of each: ``N·m (with mass: N)``."""
+    others = [f"with {key}: {told(in_unit(declared, [key]))}" for key, _ in declared.units]
+    return told(declared) + (f" ({'; '.join(others)})" if others else "")
+
+
+@cache
+def form_keys(model: type[Block]) -> frozenset[str]:
+    """The keys on which units of a model's inputs depend."""
+    return frozenset(key for name in model.model_fields for key, _ in getattr(meta_of(model, name), "units", ()))
+
+
+@cache
+def _formed(model: type[Block], given: frozenset[str]) -> type[Block]:
+    changed: dict[str, Any] = {}
+    for name, field in model.model_fields.items():
+        meta = meta_of(model, name)
+        other = in_unit(meta, given)
+        if other is not meta:
+            told = (other if part is meta else part for part in field.metadata)
+            changed[name] = (Annotated[field.annotation, *told], ... if field.is_required() else field.default)
+    formed: type[Block] = create_model(model.__name__, __base__=model, __module__=model.__module__, **changed)
+    return formed

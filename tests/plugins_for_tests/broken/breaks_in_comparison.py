@@ -1,0 +1,47 @@
+"""A plugin that calculates, but whose comparison with a lever raises."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from diecut_report.api import Annotated, Comparison, Inputs, Mechanism, Quantity, Section, Value, bind, formula
+
+
+class Rod(Inputs):
+    length: Annotated[float, Quantity("l", "mm", "Length", gt=0)] = 10
+
+
+class Both(Inputs):
+    arm: Annotated[float, Quantity("a", "mm", "Arm of the lever")]
+
+
+@formula
+def same(length: Any) -> Any:
+    return length
+
+
+@formula
+def breaking(arm: Any) -> Any:
+    raise RuntimeError("the comparison fell over")
+
+
+COMPARISON = Mechanism(
+    kind="rod_comparison",
+    version="2",
+    title="Lever and rod compared",
+    summary="",
+    inputs=Both,
+    sections=(Section("Only", steps=(Value(id="ratio", unit="mm", description="Ratio", formula=breaking),)),),
+)
+LENGTH = Value(id="result", unit="mm", description="Result", formula=bind(same, length="length"))
+MECHANISM = Mechanism(
+    kind="breaks_in_comparison",
+    version="1",
+    title="Rod",
+    summary="",
+    inputs=Rod,
+    sections=(Section("Only", steps=(LENGTH,)),),
+    comparisons=(
+        Comparison(kinds=("lever", "breaks_in_comparison"), mechanism=COMPARISON, takes={"arm": ("lever", "arm")}),
+    ),
+)

@@ -1,0 +1,81 @@
+"""Tables of curves: which rows stand in them."""
+
+from __future__ import annotations
+
+import math
+from itertools import pairwise
+from typing import Any
+
+import pytest
+
+from diecut_report.report.curves import table_places
+from diecut_report.report.i18n import Words
+from diecut_report.report.tables import Tables
+
+TURN = {
+    "values": [math.radians(k / 2) for k in range(720)],
+    "unit": "rad",
+    "display_unit": "deg",
+    "symbol": "φ",
+    "description": "Angle",
+}
+
+
+def curve(*breaks: float, jump: float = 0.0) -> dict[str, Any]:
+    """A curve that is 5 everywhere and jumps to 5 + ``jump`` at its breakpoints (degrees), as the results hold it."""
+    common = {"unit": "N", "display_unit": "N", "symbol": "F", "description": "Force", "abscissa": "angle"}
+    places = {
+        "breakpoints": [math.radians(b) for b in breaks],
+        "left": [5.0] * len(breaks),
+        "right": [5.0 + jump] * len(breaks),
+    }
+    return common | {"values": [5.0] * 720} | (places if breaks else {})
+
+
+def angles(*curves: dict[str, Any]) -> list[float]:
+    """Where the rows of a table stand, in degrees."""
+    return [round(math.degrees(place.x), 6) for place in table_places(TURN, curves)]
+
+
+def test_a_curve_without_breakpoints_has_a_row_for_each_twelfth_of_the_turn() -> None:
+    assert angles(curve()) == [30.0 * k for k in range(12)]
+
+
+@pytest.mark.parametrize(
+    "breaks", [(200.0,), (38.8465, 42.97, 55.695), (19, 58.6, 154, 203, 254, 339.8, 342.4), (0.7, 1.6)]
+)
+def test_each_smooth_piece_has_its_ends_and_its_middle(breaks: tuple[float, ...]) -> None:
+    found = angles(curve(*breaks))
+    assert found == sorted(found)
+    assert len(set(found)) <= 16
+    for start, end in pairwise([0.0, *breaks, 360.0]):
+        inside = [x for x in found if start < x < end]
+        assert start in found and any(abs(x - (start + end) / 2) <= 0.25 + 1e-9 for x in inside)
+
+
+def test_a_piece_without_samples_has_its_ends_alone() -> None:
+    assert [x for x in angles(curve(100.1, 100.4)) if 100 < x < 101] == [100.1, 100.4]
+
+
+def test_a_jump_has_a_row_before_and_one_after_it() -> None:
+    table = Tables("A", Words("en")).of_curves({"angle": TURN, "force": curve(100.2, jump=2.0)})[0]
+    assert [row[1] for row in table.rows if row[0] == "100.2"] == ["5.000", "7.000"]
+
+
+@pytest.mark.parametrize("rounding", [0.0, 1e-7, -1e-7])
+def test_a_breakpoint_without_a_jump_has_one_row(rounding: float) -> None:
+    table = Tables("A", Words("en")).of_curves({"angle": TURN, "force": curve(100.2, jump=rounding)})[0]
+    assert [row[1] for row in table.rows if row[0] == "100.2"] == ["5.000"]
+
+
+def test_rounding_beside_great_values_is_printed_as_zero() -> None:
+    force = curve(100.2, jump=2.0) | {"left": [3e-11]}
+    table = Tables("A", Words("en")).of_curves({"angle": TURN, "force": force})[0]
+    assert [row[1] for row in table.rows if row[0] == "100.2"] == ["0", "7.000"]
+
+
+@pytest.mark.parametrize(
+    "curves", [(curve(*range(10, 350, 10)),), (curve(100.2), curve())], ids=["too many", "not shared"]
+)
+def test_pieces_that_are_too_many_or_not_shared_are_not_told_apart(curves: tuple[dict[str, Any], ...]) -> None:
+    assert angles(*curves) == [30.0 * k for k in range(12)]
