@@ -30,9 +30,9 @@ def damped_angular_frequency(angular_frequency: Any, damping_ratio: Any) -> Any:
 
 
 @formula
-def damping_constant(damping_ratio: Any, stiffness: Any, inertia: Any) -> Any:
+def damping_constant(damping_ratio: Any, inertia: Any, angular_frequency: Any) -> Any:
     """C, torque of the damping for each unit of the speed of deflection."""
-    return 2 * damping_ratio * np.sqrt(stiffness * inertia)
+    return 2 * damping_ratio * inertia * angular_frequency
 
 
 @formula

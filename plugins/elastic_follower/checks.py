@@ -1,0 +1,63 @@
+"""Checks of the elastic drive, and what their messages say."""
+
+from __future__ import annotations
+
+from diecut_report.api import Check, Section, Value, Words, bind
+from diecut_report.plugins.elastic_follower import formulas
+from diecut_report.plugins.elastic_follower.advice import passing
+from diecut_report.plugins.elastic_follower.motion import CURVE, LAW, RATE
+from diecut_report.plugins.elastic_follower.spectrum import FIRST, LAST
+
+WANTED = 5  # natural periods within the rise
+TAKEN = (
+    "motion_law",
+    "stiffness",
+    "tuning_ratio",
+    "damping_ratio",
+    "rise_time",
+    "allowable_peak_ratio",
+    "allowable_residual_ratio",
+)
+
+
+ADVICE = Section(
+    "Tuning",
+    steps=(
+        Value(id="wanted_stiffness", symbol="K_5", unit="kN*m/rad", units=(("mass", "N/mm"),), source="this method", output=False,
+              description=f"Stiffness with {WANTED} natural periods within the rise", formula=bind(formulas.tuned_stiffness, wanted=WANTED)),
+        *(Words(id="advice", function=passing(stiffness, time), takes=TAKEN, needs=(*LAW, body, *needs), lacks=lacks)
+          for body, stiffness in (("inertia", "kN*m/rad"), ("mass", "N/mm"))
+          for time, needs, lacks in (("ms", (), RATE), ("1", RATE, ()))),
+    ),
+)  # fmt: skip
+
+
+def _of_peak(id: str, title: str, demand: str, label: str, consequence: str) -> tuple[Check, Check]:
+    limit = {"peak_ratio": "allowable_peak_ratio", "residual": "allowable_residual_ratio"}[id]
+
+    def check(needs: tuple[str, ...], words: str) -> Check:
+        return Check(id=id, title=title, demand=demand, limit=limit, unit="1", demand_label=label, limit_label="allowed",
+                     source="001, first paper", consequence=f"{consequence}; {words}", needs=needs)  # fmt: skip
+
+    by_curve = (
+        "a stiffer drive or a lighter link has more natural periods within the motion (see the figure of this motion)"
+    )
+    return check(LAW, "{advice}."), check(CURVE, f"{by_curve}.")
+
+
+CHECKS = (
+    *_of_peak("peak_ratio", "Peak acceleration in the motion", "peak_ratio", "peak to the rigid one",
+              "the drive is too soft for this motion, the link swings up"),
+    Check(id="tuning_ratio", title="Natural periods within the motion", demand=WANTED, limit="tuning_ratio", unit="1", severity="warn",
+          demand_label="wanted", limit_label="natural periods within the motion", source="practice",
+          consequence="the link cannot follow the input; take a stiffness of at least {wanted_stiffness:up}, a lighter link or a longer motion."),
+    *_of_peak("residual", "Vibration after the motion", "residual_ratio", "peak after the motion, to the rigid one",
+              "the link goes on swinging in its rest"),
+    Check(id="spectrum_start", title="Within the spectrum: not too soft", demand=FIRST, limit="tuning_ratio", unit="1", severity="warn",
+          demand_label="the spectrum begins at", limit_label="natural periods within the motion", source="001, first paper",
+          consequence="the link stays behind the input, and its peaks are small only for that; the spectrum does not show this drive."),
+    Check(id="spectrum_end", title="Within the spectrum: not stiffer", demand="tuning_ratio", limit=LAST, unit="1", severity="warn",
+          demand_label="natural periods within the motion", limit_label="the spectrum ends at", source="001, first paper",
+          consequence="the link follows almost as if it were rigid: nothing is wrong, but the spectrum does not show this drive; its "
+          "own ratios stand in the table of results."),
+)  # fmt: skip

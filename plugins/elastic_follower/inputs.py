@@ -1,0 +1,92 @@
+"""Inputs of the driven link on an elastic drive: a turning link (inertia, angles) or a sliding one (mass, lengths)."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from typing import Annotated, Any, ClassVar
+
+from diecut_report.api import POINTS, CurveInput, Inputs, OneOf, Quantity, Text
+from diecut_report.mechanics.motion_laws import LAWS
+
+
+class Motion(OneOf):
+    """The motion of the input: one rise by a law, or a curve, which has no use for the law."""
+
+    def fault(self, given: Iterable[str]) -> str:
+        """What is wrong with the keys that are given, in words; empty where nothing is."""
+        known = set(given)
+        if {"motion_curve", "motion_law"} <= known:
+            return "motion_law has no use beside motion_curve, which is the motion itself; remove one of them."
+        return super().fault(known)
+
+
+class ElasticFollower(Inputs):
+    """Keys of ``elastic_follower``."""
+
+    one_of: ClassVar[tuple[OneOf, ...]] = (
+        OneOf(("inertia",), ("mass",)),
+        Motion(("rise", "rise_time"), ("motion_curve",)),
+    )
+
+    inertia: Annotated[
+        float | None,
+        Quantity(
+            "I", "kg*m**2", "Inertia of the driven link, where it turns; rise and stiffness are in angles then", gt=0
+        ),
+    ] = None
+    mass: Annotated[
+        float | None,
+        Quantity("m", "kg", "Mass of the driven link, where it slides; rise and stiffness are in lengths then", gt=0),
+    ] = None
+    stiffness: Annotated[
+        float,
+        Quantity(
+            "K", "N*m/rad", "Stiffness of the drive between input and driven link", gt=0, units=(("mass", "N/m"),)
+        ),
+    ]
+    damping_ratio: Annotated[
+        float, Quantity("ζ", "1", "Damping of the drive as a share of critical damping", ge=0, lt=1)
+    ] = 0.05
+    rise: Annotated[
+        float | None,
+        Quantity("h", "rad", "Rise of the input, between two rests", gt=0, units=(("mass", "m"),)),
+    ] = None
+    rise_time: Annotated[
+        float | None,
+        Quantity(
+            "t_1",
+            "s",
+            "Duration of the rise; with cycles_per_hour its share of the cycle",
+            gt=0,
+            units=(("cycles_per_hour", "1"),),
+        ),
+    ] = None
+    motion_law: Annotated[str, Text("Law of motion of the rise; has no use with motion_curve", options=LAWS)] = (
+        "cycloidal"
+    )
+    motion_curve: Annotated[
+        Any | None,
+        CurveInput(
+            "y_c",
+            "rad",
+            "Position of the input by reference, over time or over an angle; instead of rise, rise_time and motion_law",
+            referred=True,
+            units=(("mass", "m"),),
+        ),
+    ] = None
+    cycles_per_hour: Annotated[
+        float | None,
+        Quantity(
+            "n", "1/h", "Cycles: one period of motion_curve each; or the cycles of which rise_time is a share", gt=0
+        ),
+    ] = None
+    dwell_cycles: Annotated[
+        float, Quantity("n_f", "1", "Natural periods for which the vibration after the motion is followed", gt=0, le=50)
+    ] = 3
+    allowable_peak_ratio: Annotated[
+        float, Quantity("[q]", "1", "Allowed ratio of the link's peak acceleration in the rise to the rigid one", gt=0)
+    ] = 1.1
+    allowable_residual_ratio: Annotated[
+        float, Quantity("[q_r]", "1", "Allowed ratio of the peak acceleration after the rise to the rigid one", gt=0)
+    ] = 0.2
+    n_points: Annotated[int, POINTS] = 720
