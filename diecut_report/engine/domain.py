@@ -17,6 +17,8 @@ SAME = 1e-13  # share of the period within which two breakpoints are one
 
 _legendre = cache(leggauss)
 
+SMALLEST = float(np.finfo(float).tiny / np.finfo(float).eps)  # a number below it is not known to full precision
+
 FEW_EDGES = 40  # up to which edges are compared with all places at once
 
 

@@ -9,7 +9,7 @@ import numpy as np
 from scipy.optimize import elementwise
 
 from diecut_report.engine.calculation import Calculation
-from diecut_report.engine.domain import Domain
+from diecut_report.engine.domain import SMALLEST, Domain
 from diecut_report.expressions import Array
 
 PLACE_TOLERANCE = 1e-6  # of an extreme's place, as a share of its bracket; its value errs by the square of it
@@ -69,7 +69,7 @@ def outruns(calc: Calculation, curve: str, found: Array, sign: float) -> Array:
     samples = calc.curve_samples(curve)
     beyond = np.max(sign * (samples - found), axis=1, keepdims=True)
     top = np.max(np.abs(samples), axis=1, keepdims=True)
-    share: Array = np.maximum(beyond, 0) / np.maximum(top, np.finfo(float).tiny)
+    share: Array = np.maximum(beyond, 0) / np.maximum(top, SMALLEST)
     return share
 
 

@@ -14,7 +14,7 @@ from diecut_report.contract.binding import bound
 from diecut_report.contract.families import taken
 from diecut_report.contract.steps import Accumulated, Derivative, Root
 from diecut_report.engine.calculation import Calculation
-from diecut_report.engine.domain import LOBATTO
+from diecut_report.engine.domain import LOBATTO, SMALLEST
 from diecut_report.engine.series import PieceSeries
 from diecut_report.expressions import Array
 from diecut_report.units import unit
@@ -58,7 +58,7 @@ def integral(calc: Calculation, curve: str, power: int) -> tuple[Array, Array]:
     last = _gauss(calc, curve, ORDERS[0], lambda f: f**power)
     for order in ORDERS[1:]:
         now = _gauss(calc, curve, order, lambda f: f**power)
-        difference = np.abs(now - last) / np.maximum(scale, np.finfo(float).tiny)
+        difference = np.abs(now - last) / np.maximum(scale, SMALLEST)
         last = now
         if np.nanmax(difference, initial=0.0) < INTEGRAL_TOLERANCE:
             break
@@ -153,7 +153,7 @@ def accumulate(calc: Calculation, step: Accumulated) -> Array:
     whole, _ = integral(calc, step.of, 1)
     scale = np.max(np.abs(values), axis=(1, 2))[:, None] * domain.period
     noise = ROUNDING * _terms(calc, step.of) * domain.period
-    residual: Array = np.maximum(np.abs(ends[:, -1:] - whole) - noise, 0) / np.maximum(scale, np.finfo(float).tiny)
+    residual: Array = np.maximum(np.abs(ends[:, -1:] - whole) - noise, 0) / np.maximum(scale, SMALLEST)
     return residual
 
 
@@ -182,7 +182,7 @@ def differentiate(calc: Calculation, step: Derivative) -> Array:
     apart = np.abs(PieceSeries(domain.edges, series).values(x, middle, None) - calc.at_gauss_points(step.of, ORDERS[0]))
     apart = np.where(np.repeat(domain.widths > 0, ORDERS[0], axis=1), apart, 0)
     top = np.max(np.abs(values), axis=(1, 2))[:, None]
-    residual: Array = np.max(apart, axis=1, keepdims=True) / np.maximum(top, np.finfo(float).tiny)
+    residual: Array = np.max(apart, axis=1, keepdims=True) / np.maximum(top, SMALLEST)
     return residual
 
 

@@ -142,7 +142,9 @@ def test_what_a_failing_check_advises_makes_it_pass_as_printed_and_breaks_no_oth
         for advice in advised(message):
             after = failing(changes | advice)
             assert name not in after, (message, advice)
-            assert set(after) <= set(before), (message, advice, after)
+            # a board that lies in the blade's way is judged by nothing else: in its new place friction may be too low
+            unavoidable = {"expulsion"} if name == "entry" else set()
+            assert set(after) <= set(before) | unavoidable, (message, advice, after)
 
 
 @pytest.mark.parametrize(
