@@ -80,10 +80,10 @@ def sound(eccentricity: float, edge_radius: float, depth: float, thickness: floa
     bounds = possible(*sizes, thickness)
     steep = _end_at(f.least_shear_angle(), *sizes)
     nearest = max(bounds.nearest, steep, clear_of_blade(*sizes, thickness))
-    runs_back = f.edge_position(
-        f.reversal_angle(depth - thickness, edge_radius, eccentricity), depth, eccentricity, edge_radius
-    )
-    furthest = min(bounds.furthest, _end_at(f.greatest_shear_angle(), *sizes), float(runs_back))
+    turned = f.reversal_angle(depth - thickness, edge_radius, eccentricity)
+    with np.errstate(invalid="ignore"):  # above a thick board the edge turns back before it gets to the counter-knife
+        runs_back = f.edge_position(turned, depth, eccentricity, edge_radius)
+    furthest = float(np.fmin(min(bounds.furthest, _end_at(f.greatest_shear_angle(), *sizes)), runs_back))
     pushed = _end_at(f.expulsion_angle(friction), *sizes)
     return Range(nearest, min(furthest, pushed) if _up(nearest) < _down(pushed) else furthest)
 
