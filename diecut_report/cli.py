@@ -10,26 +10,33 @@ import json
 import os
 import sys
 import traceback
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Sequence
 from contextlib import redirect_stdout, suppress
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, NoReturn, TypeVar
+from typing import TYPE_CHECKING, Any, NoReturn
 
 import click
 
 from diecut_report import __version__
+from diecut_report.cli_batch import batch, variant_files, variants
+from diecut_report.cli_parts import (
+    BAD_INPUT,
+    CHECK_FAILED,
+    FAULT,
+    INTERRUPTED,
+    PASSED,
+    PLUGIN_BROKE,
+    coloured,
+    common,
+    emit,
+    tell,
+)
 from diecut_report.discovery import Discovery, DuplicateKind, UnknownKind
 from diecut_report.errors import PluginError, Problem, UserError, nearest
 from diecut_report.progress import Progress
 
 if TYPE_CHECKING:
     from diecut_report.pipeline import Outcome
-
-PASSED, CHECK_FAILED, BAD_INPUT, PLUGIN_BROKE = 0, 1, 2, 3
-INTERRUPTED, FAULT = 130, 70  # as shells and sysexits have it: Ctrl-C, a fault of the program itself
-COLOURS = {"fail": "31", "error": "31", "skipped": "33", "warn": "33", "pass": "32"}
-
-Command = TypeVar("Command", bound=Callable[..., Any])
 
 
 def run() -> NoReturn:
@@ -64,51 +71,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
         return FAULT
 
 
-def tell(lines: Iterable[str]) -> None:
-    """Messages, on standard error."""
-    for line in lines:
-        click.echo(line, err=True)
-
-
-def emit(text: str) -> None:
-    """What was asked for, on standard output; always UTF-8."""
-    if sys.stdout is None:
-        raise UserError(Problem("Standard output is closed; name a file with -o."))
-    left = memoryview(text.encode())
-    try:
-        while left:  # an unbuffered output may take less than all
-            left = left[sys.stdout.buffer.write(left) :]
-        sys.stdout.flush()
-    except BrokenPipeError:  # the reader has seen enough
-        _close_output()
-    except OSError as error:
-        from diecut_report.writing import reason
-
-        _close_output()
-        raise UserError(Problem(f"Standard output cannot be written: {reason(error)}")) from error
-
-
-def _close_output() -> None:
-    os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())  # what is still buffered goes nowhere
-
-
-def coloured(text: str, status: str) -> str:
-    """The text in the status's colour where standard error is a terminal that wants colours."""
-    plain = not sys.stderr.isatty() or os.environ.get("NO_COLOR") or os.environ.get("TERM") == "dumb"
-    return text if plain else f"\x1b[{COLOURS[status]}m{text}\x1b[0m"
-
-
 # --- options ---------------------------------------------------------------------------------------------------------
-
-
-def common(command: Command) -> Command:
-    """The options that every command has."""
-    folders = click.option("--plugins", "folders", metavar="DIR", multiple=True, type=click.Path(path_type=Path),
-                           help="A folder with plugins of your own; may be given several times.")  # fmt: skip
-    quiet = click.option(
-        "--quiet", is_flag=True, help="Show neither progress nor a summary; errors are told all the same."
-    )
-    return folders(quiet(command))
 
 
 def _formats(_: click.Context, __: click.Parameter, given: str) -> list[str]:
@@ -166,8 +129,8 @@ def report(
     """Calculate and write NAME.html, NAME.pdf and NAME.json."""
     from diecut_report import pipeline
 
-    with Progress(quiet) as progress, redirect_stdout(sys.stderr):
-        outcome = pipeline.report(config, Discovery(folders), progress, folder, formats, language)
+    with Progress(quiet) as progress, redirect_stdout(sys.stderr), variant_files(config) as file:
+        outcome = pipeline.report(file, Discovery(folders), progress, folder, formats, language)
     if not quiet:
         tell(f"written: {path}" for path in outcome.written)
     return _verdict(outcome, quiet)
@@ -184,8 +147,9 @@ def calc(config: Path, target: Path | None, folders: tuple[Path, ...], quiet: bo
     from diecut_report import pipeline
 
     to_file = None if target == Path("-") else target
-    with Progress(quiet) as progress, redirect_stdout(sys.stderr):  # a plugin that prints does not spoil the JSON
-        outcome, text = pipeline.calc(config, Discovery(folders), progress, to_file)
+    # a plugin that prints does not spoil the JSON
+    with Progress(quiet) as progress, redirect_stdout(sys.stderr), variant_files(config) as file:
+        outcome, text = pipeline.calc(file, Discovery(folders), progress, to_file)
     if to_file is None:
         emit(text)
     return _verdict(outcome, quiet or to_file is None)
@@ -238,9 +202,14 @@ def plugins(folders: tuple[Path, ...], quiet: bool) -> int:
 @click.argument("kind", required=False)
 @common
 def schema(kind: str | None, folders: tuple[Path, ...], quiet: bool) -> int:
-    """JSON Schema of the config, or of one KIND's block, for editors."""
+    """JSON Schema of the config, of one KIND's block, or of a study file (KIND study), for editors."""
     from diecut_report.schema import config_schema, kind_schema
 
+    if kind == "study":
+        from diecut_report.batch.study_schema import study_schema
+
+        emit(json.dumps(study_schema(), indent=2, ensure_ascii=False) + "\n")
+        return PASSED
     discovery = Discovery(folders)
     found, broken = {}, {}
     for name in [kind] if kind else discovery.origins:
@@ -256,6 +225,10 @@ def schema(kind: str | None, folders: tuple[Path, ...], quiet: bool) -> int:
         whole = kind_schema(found[kind]) if kind else config_schema(found, broken)
         emit(json.dumps(whole, indent=2, ensure_ascii=False) + "\n")
     return PLUGIN_BROKE if broken else PASSED
+
+
+program.add_command(batch)
+program.add_command(variants)
 
 
 # --- verdict ---------------------------------------------------------------------------------------------------------

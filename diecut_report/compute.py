@@ -59,6 +59,9 @@ class Run:
                 self._mechanism(str(node[0]))
             elif node in config.links:
                 self._value(node, config.links[node])
+        self._comparisons()
+
+    def _comparisons(self) -> None:
         for case in found(self.calculations) if not self.problems else ():
             self._compare(case)
 
@@ -80,7 +83,7 @@ class Run:
         meta = declared(instance.model, node[1:])
         assert isinstance(meta, Quantity) and target.formula is not None
         try:
-            return SI(float(target.formula(value.value)), meta.parsed_unit.si, target.path)
+            return SI(self._number(target.formula(value.value)), meta.parsed_unit.si, target.path)
         except Exception as cause:
             self._broke(instance, cause)
             raise Unavailable(target.path) from cause
@@ -89,13 +92,18 @@ class Run:
         if target.result is not None or target.is_broken:
             if target.instance not in self.calculations:
                 raise Unavailable(target.instance)
-            return output(self.calculations[target.instance], str(target.result), target)
+            return self._output(self.calculations[target.instance], str(target.result), target)
         node = (target.instance, *target.key)
         if node in self.config.links and node not in self.values:
             raise Unavailable(target.instance)
         instance = self.config.instances[target.instance]
         assert instance is not None, "a broken mechanism's links are marked as broken"
         return self._input(instance, target, self.values.get(node))
+
+    _number: Callable[[Any], Any] = staticmethod(float)
+
+    def _output(self, calculation: Calculation, name: str, target: Target) -> Any:
+        return output(calculation, name, target)
 
     def _input(self, instance: Instance, target: Target, followed: Any) -> Any:
         value = instance.value(target.key) if followed is None else followed

@@ -11,7 +11,9 @@ from diecut_report.errors import UserError
 
 PLUGINS = Path(__file__).parent / "plugins_for_tests"
 GOOD, BROKEN, LISTED = PLUGINS / "good", PLUGINS / "broken", PLUGINS / "listed"
-EXAMPLES = sorted(path for folder in configs.__path__ for path in Path(folder).glob("*.yaml"))
+YAML = sorted(path for folder in configs.__path__ for path in Path(folder).glob("*.yaml"))
+STUDIES = [path for path in YAML if path.stem.endswith("_study")]
+EXAMPLES = [path for path in YAML if path not in STUDIES]
 EXAMPLE = next(path for path in EXAMPLES if path.name == "flat_cylinder_press.yaml")
 DISCOVERY = Discovery([GOOD])
 

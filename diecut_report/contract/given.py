@@ -4,16 +4,19 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
-from typing import Protocol
+from typing import Any, Protocol
 
 from diecut_report.expressions import Array, Formula
 
 
 @dataclass(frozen=True)
 class SI:
-    """A number that is already in SI, from a reference or a default of the press; ``told`` says from where."""
+    """A number (of many machines an array of them) that is already in SI, from a reference or a default of the press.
 
-    value: float | int
+    ``told`` says from where.
+    """
+
+    value: Any
     unit: str
     told: str
 

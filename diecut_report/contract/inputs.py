@@ -6,11 +6,13 @@ Values are SI floats once validated. Defaults and bounds are written in the disp
 from __future__ import annotations
 
 import math
+import operator
 from collections.abc import Callable, Collection, Iterator, Mapping
 from dataclasses import dataclass
 from functools import cached_property
 from typing import Annotated, Any, ClassVar, get_args, get_origin
 
+import numpy as np
 from pydantic import BaseModel, ConfigDict, GetCoreSchemaHandler
 from pydantic_core import CoreSchema, core_schema
 
@@ -68,6 +70,8 @@ class Quantity:
                 return given
             case SI(value=value, unit=other, told=told):
                 self._same_kind(other, told)
+                if isinstance(value, np.ndarray):  # of many machines: each is judged on its own
+                    return value
                 return self._bounded(value, f"{to_display(value, self.unit):.6g} {pretty(self.unit)} (from {told})")
             case bool() | list() | dict():
                 kind = (
@@ -91,13 +95,24 @@ class Quantity:
         shown = value / self.parsed_unit.factor
         if not math.isfinite(shown):
             raise ValueError(f"{told.strip()} is not a finite number")
-        outside = (self.gt is not None and not shown > self.gt, self.ge is not None and not shown >= self.ge,
-                   self.lt is not None and not shown < self.lt, self.le is not None and not shown <= self.le)  # fmt: skip
-        if any(outside):
+        if not self._within(shown):
             raise ValueError(f"{told.strip()} is out of range; allowed: {self.allowed}")
         if self.integer and not float(shown).is_integer():
             raise ValueError(f"{told.strip()} is not a whole number")
         return int(shown) if self.integer else value
+
+    def _within(self, shown: Any) -> Any:
+        """Whether numbers in the display unit keep the bounds."""
+        limits = ((self.gt, operator.gt), (self.ge, operator.ge), (self.lt, operator.lt), (self.le, operator.le))
+        return np.logical_and.reduce(
+            [held(shown, limit) for limit, held in limits if limit is not None] or [shown == shown]
+        )
+
+    def holds(self, values: Any) -> Any:
+        """Which numbers (an array, SI) are allowed."""
+        shown = values / self.parsed_unit.factor
+        whole = shown == np.round(shown) if self.integer else True
+        return np.isfinite(shown) & self._within(shown) & whole
 
     def __get_pydantic_core_schema__(self, source: Any, handler: GetCoreSchemaHandler) -> CoreSchema:
         return core_schema.no_info_plain_validator_function(_optional(source, self.validate))

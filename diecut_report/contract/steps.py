@@ -58,6 +58,11 @@ class Value(Step):
         """The ids (or plain numbers) that the formula takes."""
         return tuple(bound(self.formula).names.values())
 
+    @property
+    def is_condition(self) -> bool:
+        """Whether it gives yes or no."""
+        return bound(self.formula).formula.tree.op in ("cmp", "and", "or", "not")
+
 
 @dataclass(frozen=True, eq=False)
 class Case:

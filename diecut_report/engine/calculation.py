@@ -13,8 +13,9 @@ from diecut_report.contract.forms import in_form
 from diecut_report.contract.inputs import CurveInput, Meta, Quantity, fields, texts_given
 from diecut_report.contract.mechanism import Mechanism
 from diecut_report.contract.steps import Accumulated, Choice, Derivative, FromCurve, Step, Value
-from diecut_report.engine.domain import LOBATTO, Domain
+from diecut_report.engine.domain import Domain
 from diecut_report.engine.series import PieceSeries
+from diecut_report.engine.table import Table
 from diecut_report.expressions import Array
 
 CurveStep = Value | Choice | FromCurve | Accumulated | Derivative
@@ -123,6 +124,8 @@ class Calculation:
         self.middle: dict[str, Array] = {}  # for each place of an extreme, the middle of its smooth piece
         self.proof: dict[str, float] = {}  # for each result that is no closed formula, its greatest residual
         self._kept: dict[tuple[str, str], tuple[Array, _Sampler]] = {}  # curves already known at often used places
+        self.ahead: dict[str, tuple[str, ...]] = {}  # for each abscissa the curves that coming steps ask for
+        self._tables: dict[str, Table] = {}
         self.extremes: dict[
             tuple[str, float], tuple[Array, tuple[Array, Array, Array]]
         ] = {}  # with the pieces they are of
@@ -141,6 +144,10 @@ class Calculation:
         result = link.formula(*(self[n] if isinstance(n, str) else n for n in link.names.values()))
         return np.broadcast_to(result, (self.count, *np.shape(result)[1:]) if np.ndim(result) == 2 else (self.count, 1))
 
+    def existing(self, step: Step, values: Array) -> Array:
+        """A quantity's numbers, NaN for the machines that do not have it."""
+        return values if step.exists is None else np.where(self.apply(step.exists), values, np.nan)
+
     def sample(self, curve: str, x: Array, middle: Array, rows: Array | None = None) -> Array:
         """A curve at x (rows, points), each x being in the smooth piece whose middle is given; rows are variants (default all)."""
         found = self.sampler(curve, x, middle, rows)[curve]
@@ -149,6 +156,10 @@ class Calculation:
     def sampler(self, curve: str, x: Array, middle: Array, rows: Array | None = None) -> _Sampler:
         """All curves over the abscissa of this one, at x as in ``sample``: a mapping from id to values."""
         return _Sampler(self, self.axis[curve], x, middle, rows)
+
+    def sampler_of(self, axis: str, x: Array, middle: Array, rows: Array | None) -> _Sampler:
+        """All curves over an abscissa at x (rows, points), in pieces of these middles (rows, points) or (rows, 1)."""
+        return _Sampler(self, axis, x, middle, rows)
 
     def kept(
         self, use: str, axis: str, places: Callable[[Domain], tuple[Array, Array]], rows: Array | None = None
@@ -166,17 +177,19 @@ class Calculation:
         sampler = self.kept(
             "samples", self.axis[curve], lambda domain: (domain.samples, domain.middle_of(domain.samples))
         )
-        return np.broadcast_to(sampler[curve], sampler.x.shape)
+        with np.errstate(all="ignore"):  # among variants some may be impossible
+            return np.broadcast_to(sampler[curve], sampler.x.shape)
+
+    def table(self, axis: str) -> Table:
+        """What is known of the curves over an abscissa, piece by piece."""
+        if axis not in self._tables:
+            self._tables[axis] = Table(self, axis)
+        return self._tables[axis]
 
     def on_search_grid(self, curve: str) -> Array:
-        """A curve on the search grid of its smooth pieces, shape (variants, pieces, points)."""
-        sampler = self.kept("grid", self.axis[curve], Domain.flat_grid)
-        return np.broadcast_to(sampler[curve], sampler.x.shape).reshape(self.count, -1, LOBATTO + 1)
-
-    def at_gauss_points(self, curve: str, order: int) -> Array:
-        """A curve at the Gauss–Legendre points of its smooth pieces, shape (variants, pieces · order)."""
-        sampler = self.kept(f"gauss {order}", self.axis[curve], lambda domain: domain.flat_gauss(order))
-        return np.broadcast_to(sampler[curve], sampler.x.shape)
+        """A curve on the search grid of its smooth pieces, shape (variants, pieces, points); zero in pieces without a width."""
+        table = self.table(self.axis[curve])
+        return table.pieces().spread(table.on_grid([curve])[0])
 
     def step_or_input(self, name: str) -> Step | Quantity:
         """What declares a quantity: its symbol, unit and description."""
@@ -255,7 +268,7 @@ def _column(value: Any, variants: int) -> Any:
 def _row(value: tuple[Any, ...], variants: int) -> Any:
     if any(isinstance(v, str | bool | type(None)) for v in value):
         return value
-    return np.tile(np.asarray(value, dtype=float), (variants, 1))
+    return np.stack([np.broadcast_to(np.asarray(v, dtype=float), (variants,)) for v in value], axis=1)
 
 
 __all__ = ["Calculation", "CurveHandle", "Impossible", "SampledCurve", "Unproven"]

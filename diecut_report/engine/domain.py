@@ -15,7 +15,29 @@ LOBATTO = 64  # intervals of the search grid in each smooth piece; it does not d
 SAME = 1e-13  # share of the period within which two breakpoints are one
 
 
-_legendre = cache(leggauss)
+@cache
+def shares() -> Array:
+    """The search grid in a piece from 0 to 1: Chebyshev–Lobatto points, ends included."""
+    found: Array = (1 - np.cos(np.pi * np.arange(LOBATTO + 1) / LOBATTO)) / 2
+    return found
+
+
+@cache
+def grid_weights() -> Array:
+    """Weights of the Clenshaw–Curtis rule on the search grid, for a piece of the width 1."""
+    k, even = np.arange(LOBATTO + 1), np.arange(2, LOBATTO, 2)
+    inner = 1 - (2 / (even**2 - 1) * np.cos(np.pi * k[:, None] * even / LOBATTO)).sum(axis=1)
+    inner = (inner - np.cos(np.pi * k) / (LOBATTO**2 - 1)) / LOBATTO
+    inner[[0, -1]] /= 2
+    found: Array = inner
+    return found
+
+
+@cache
+def nodes_of(order: int) -> tuple[Array, Array]:
+    """Gauss–Legendre points in [-1, 1] and their weights."""
+    node, weight = leggauss(order)
+    return node, weight
 
 SMALLEST = float(np.finfo(float).tiny / np.finfo(float).eps)  # a number below it is not known to full precision
 
@@ -35,6 +57,14 @@ def piece_of(edges: Array, x: Array) -> Array:
 def _of(table: Array, rows: Array | None) -> Array:
     """The rows of some variants (default all) of a table with a row for each variant, or with one for all."""
     return table if rows is None or len(table) == 1 else table[rows]
+
+
+def _all_near(edges: Array, places: Array, within: Array) -> bool:
+    """Whether each place is an edge already (each row having its own), so that it cuts nothing."""
+    if places.shape[1] > FEW_EDGES:
+        return False
+    near = (np.abs(places[:, :, None] - edges[:, None, :]) < within[:, :, None]).any(axis=2)
+    return bool((near | np.isnan(within)).all())
 
 
 @dataclass
@@ -74,8 +104,11 @@ class Domain:
         self.edges = self._with(self.edges, places)
 
     def _with(self, known: Array, places: Array) -> Array:
-        inside = np.where(np.isfinite(places), np.mod(places, self.period), self.period)
+        is_place = np.isfinite(places)
+        inside = np.where(is_place, np.mod(places, self.period), self.period)
         inside = np.where(self.period - inside < SAME * self.period, self.period, inside)
+        if not places.shape[1] or (is_place.any() and _all_near(known, inside, SAME * self.period)):
+            return known
         edges = np.sort(np.concatenate([known, inside], axis=1), axis=1)
         for i in range(1, edges.shape[1] - 1):  # one place that came twice, with other rounding, stays one
             close = edges[:, i] - edges[:, i - 1] < SAME * self.period[:, 0]
@@ -110,29 +143,3 @@ class Domain:
     def widths(self) -> Array:
         """The width of each piece, shape (variants, pieces)."""
         return np.diff(self.edges, axis=1)
-
-    def search_grid(self) -> Array:
-        """Chebyshev–Lobatto points of each piece, ends included, shape (variants, pieces, points)."""
-        share = (1 - np.cos(np.pi * np.arange(LOBATTO + 1) / LOBATTO)) / 2
-        grid: Array = self.edges[:, :-1, None] + self.widths[:, :, None] * share
-        grid[:, :, -1] = self.edges[:, 1:]
-        return grid
-
-    def flat_grid(self) -> tuple[Array, Array]:
-        """The search grid and the middle of each point's piece, each of shape (variants, pieces · points)."""
-        grid = self.search_grid()
-        middle = np.broadcast_to(self.middles[:, :, None], grid.shape)
-        return grid.reshape(len(grid), -1), middle.reshape(len(grid), -1)
-
-    def flat_gauss(self, order: int) -> tuple[Array, Array]:
-        """The Gauss–Legendre points and the middle of each point's piece, each of shape (variants, pieces · order)."""
-        x, _ = self.gauss(order)
-        return x.reshape(len(x), -1), np.broadcast_to(self.middles[:, :, None], x.shape).reshape(len(x), -1)
-
-    def gauss(self, order: int) -> tuple[Array, Array]:
-        """Gauss–Legendre points and weights in each piece, each of shape (variants, pieces, order)."""
-        node, weight = _legendre(order)
-        return (
-            self.middles[:, :, None] + self.widths[:, :, None] * node / 2,
-            self.widths[:, :, None] * weight / 2,
-        )

@@ -2,18 +2,22 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from typing import NamedTuple
 
 import numpy as np
-from scipy.optimize import elementwise
 
 from diecut_report.engine.calculation import Calculation
-from diecut_report.engine.domain import SMALLEST, Domain
+from diecut_report.engine.domain import SMALLEST
+from diecut_report.engine.evaluation import Curves
+from diecut_report.engine.search import Function, smooth_minimum
+from diecut_report.engine.table import Pieces
 from diecut_report.expressions import Array
 
 PLACE_TOLERANCE = 1e-6  # of an extreme's place, as a share of its bracket; its value errs by the square of it
+SAME_HEIGHT = 1e-12  # share of an extreme within which two places reach the same
 APPROACH = 12  # steps by which an end of a piece is approached, each a quarter of the one before
+PROOF_ORDER = 24  # of the Gauss–Legendre points at which many machines' extremes are proved
 
 
 Wanted = tuple[str, float]  # a curve, and 1 for its greatest or -1 for its least value
@@ -21,13 +25,12 @@ Found = tuple[Array, Array, Array]  # value, place, middle of the smooth piece; 
 
 
 class Candidates(NamedTuple):
-    """Places that may be an extreme, one row each: which one, variant, place, height there, middle of the piece, bracket."""
+    """Places that may be an extreme, one row each: which one, piece (its row), place, height there, bracket."""
 
     which: Array
-    variant: Array
+    piece: Array
     place: Array
     height: Array
-    middle: Array
     left: Array
     right: Array
 
@@ -40,103 +43,128 @@ def extreme(calc: Calculation, curve: str, sign: float) -> Found:
 
 def search(calc: Calculation, wanted: Sequence[Wanted]) -> None:
     """Find several extremes over one abscissa at once; those that are known for the present pieces are kept."""
-    domain = calc.domains[calc.axis[wanted[0][0]]]
+    axis = calc.axis[wanted[0][0]]
+    domain = calc.domains[axis]
     known = {w for w in wanted if w in calc.extremes and calc.extremes[w][0] is domain.edges}
     open_ones = [w for w in dict.fromkeys(wanted) if w not in known]
     if not open_ones:
         return
-    heights = [sign * calc.on_search_grid(curve) for curve, sign in open_ones]
-    parts = [_candidates(domain, i, height) for i, height in enumerate(heights)]
-    seen = _refined(calc, open_ones, Candidates(*(np.concatenate(columns) for columns in zip(*parts, strict=True))))
-    for i, (height, (curve, sign)) in enumerate(zip(heights, open_ones, strict=True)):
-        impossible: Array = np.asarray(np.isnan(height).all(axis=(1, 2)))
-        calc.extremes[curve, sign] = domain.edges, _best(calc, seen, seen.which == i, sign, impossible)
+    table = calc.table(axis)
+    curves = list(dict.fromkeys(curve for curve, _ in open_ones))
+    values = dict(zip(curves, table.on_grid(curves), strict=True))
+    pieces = table.pieces()
+    parts = [_candidates(pieces, i, values[curve], sign) for i, (curve, sign) in enumerate(open_ones)]
+    seen = Candidates(*(np.concatenate(columns) for columns in zip(*parts, strict=True)))
+    seen = _refined(_depths(calc, axis, open_ones, seen), seen)
+    for i, (curve, sign) in enumerate(open_ones):
+        calc.extremes[curve, sign] = domain.edges, _best(pieces, seen, seen.which == i, sign)
 
 
-def _best(calc: Calculation, seen: Candidates, own: Array, sign: float, impossible: Array) -> Found:
-    """The greatest candidate of each variant."""
-    variant, height = seen.variant[own], seen.height[own]
-    order = np.lexsort((height, variant))
-    best = order[np.searchsorted(variant[order], np.arange(calc.count), side="right") - 1]
-    value, place, middle = (
-        np.where(impossible, np.nan, part[best])[:, None] for part in (sign * height, seen.place[own], seen.middle[own])
-    )
-    return value, place, middle
+def _best(pieces: Pieces, seen: Candidates, own: Array, sign: float) -> Found:
+    """The greatest candidate of each variant, at the first of the places that reach it but for rounding; NaN where there is none."""
+    piece, height, place = seen.piece[own], seen.height[own], seen.place[own]
+    variant = pieces.variant[piece]
+    greatest = np.full(pieces.shape[0], -np.inf)
+    np.maximum.at(greatest, variant, height)
+    top = greatest[variant]
+    best = np.flatnonzero(height >= top - SAME_HEIGHT * np.abs(top))
+    best = best[np.flatnonzero(np.diff(variant[best], prepend=-1))]
+    found = np.full((3, pieces.shape[0], 1), np.nan)
+    found[:, variant[best], 0] = sign * top[best], place[best], pieces.middle[piece[best]]
+    return found[0], found[1], found[2]
 
 
 def outruns(calc: Calculation, curve: str, found: Array, sign: float) -> Array:
-    """How far the sampled curve goes beyond the extreme found, relative to the curve's greatest value: the proof of it."""
-    samples = calc.curve_samples(curve)
-    beyond = np.max(sign * (samples - found), axis=1, keepdims=True)
-    top = np.max(np.abs(samples), axis=1, keepdims=True)
-    share: Array = np.maximum(beyond, 0) / np.maximum(top, SMALLEST)
+    """How far the curve goes beyond the extreme found at other places, relative to its greatest value: the proof of it.
+
+    These are the samples of a single machine, and Gauss–Legendre points of the pieces of many: neither served the search.
+    """
+    table, here = calc.table(calc.axis[curve]), found
+    if calc.count == 1:
+        values = calc.curve_samples(curve)
+    else:
+        values, here = table.at_gauss([curve], PROOF_ORDER)[0], found[table.pieces().variant]
+    rows = np.flatnonzero(((values > here) if sign > 0 else (values < here)).any(axis=1))
+    share = np.where(np.isfinite(found), 0.0, np.nan)
+    if len(rows):
+        variant = np.zeros(1, dtype=int) if calc.count == 1 else table.pieces().variant
+        top = np.full(calc.count, SMALLEST)
+        np.maximum.at(top, variant, np.abs(values).max(axis=1))
+        beyond = (sign * (values[rows] - here[rows])).max(axis=1)
+        np.maximum.at(share[:, 0], variant[rows], beyond / top[variant[rows]])
     return share
 
 
-def _candidates(domain: Domain, which: int, curve_heights: Array) -> Candidates:
+def _candidates(pieces: Pieces, which: int, values: Array, sign: float) -> Candidates:
     """Points of the grid not below their neighbours, and near enough to the greatest that a search may lift them above it.
 
     Near enough: a smooth curve rises between two points by less than what it falls to the next ones.
     """
-    heights = np.where((domain.widths > 0)[:, :, None], np.nan_to_num(curve_heights, nan=-np.inf), -np.inf)
-    low = np.full((*heights.shape[:2], 1), -np.inf)
-    before = np.concatenate([low, heights[:, :, :-1]], axis=2)
-    after = np.concatenate([heights[:, :, 1:], low], axis=2)
-    with np.errstate(invalid="ignore"):  # -inf beside -inf, where a piece has no width
-        fall = np.maximum(*(np.where(np.isfinite(side), heights - side, 0) for side in (before, after)))
-    greatest = heights.max(axis=(1, 2), keepdims=True)
-    variant, piece, k = np.nonzero((heights >= before) & (heights >= after) & (heights + fall >= greatest))
-    grid, last = domain.search_grid(), heights.shape[2] - 1
-    left, right = grid[variant, piece, np.maximum(k - 1, 0)], grid[variant, piece, np.minimum(k + 1, last)]
+    if np.isnan(values.sum()):
+        values = np.where(np.isnan(values), -sign * np.inf, values)
+    heights, last = values.ravel(), values.shape[1] - 1
+    flat = np.flatnonzero(_peaks(heights, last + 1, sign))
+    piece, k = np.divmod(flat, last + 1)
+    before, after = flat - (k > 0), flat + (k < last)
+    height = sign * heights[flat]
+    fall = np.fmax(height - sign * heights[before], height - sign * heights[after])
+    greatest = np.full(pieces.shape[0], -np.inf)
+    np.maximum.at(greatest, pieces.variant[piece], height)
+    near = (height + np.where(np.isfinite(fall), fall, 0) >= greatest[pieces.variant[piece]]) & (height > -np.inf)
+    grid = pieces.grid.ravel()
     return Candidates(
-        np.full(len(variant), which),
-        variant,
-        grid[variant, piece, k],
-        heights[variant, piece, k],
-        domain.middles[variant, piece],
-        left,
-        right,
+        np.full(np.count_nonzero(near), which), piece[near], grid[flat[near]], height[near], grid[before[near]], grid[after[near]]
     )
 
 
-def _refined(calc: Calculation, wanted: Sequence[Wanted], seen: Candidates) -> Candidates:
-    """The candidates after a search in their brackets; at a piece's end within its first interval."""
+def _peaks(heights: Array, points: int, sign: float) -> Array:
+    """Which of the heights of pieces, so many points each, are not below their neighbours in the piece (sign -1: not above)."""
+    higher, lower = (np.greater_equal, np.less_equal) if sign > 0 else (np.less_equal, np.greater_equal)
+    before, after = np.empty((2, len(heights)), dtype=bool)
+    higher(heights[1:], heights[:-1], out=before[1:])
+    lower(heights[1:], heights[:-1], out=after[:-1])
+    before[::points] = after[points - 1 :: points] = True
+    return np.logical_and(before, after, out=before)
 
-    def depth(x: Array, which: Array, variant: Array, middle: Array) -> Array:
-        curves = calc.sampler(wanted[0][0], x[:, None], middle[:, None], variant.astype(int))
-        choices = [np.broadcast_to(-sign * curves[curve], (len(x), 1))[:, 0] for curve, sign in wanted]
-        chosen: Array = np.choose(which.astype(int), choices)
+
+def _depths(calc: Calculation, axis: str, wanted: Sequence[Wanted], seen: Candidates) -> Function:
+    """The height of each candidate's curve at other places of its piece, turned round."""
+    pieces = calc.table(axis).pieces()
+    curves = list(dict.fromkeys(curve for curve, _ in wanted))
+    curve_of = np.array([curves.index(curve) for curve, _ in wanted])[seen.which]
+    turned = np.array([-sign for _, sign in wanted])[seen.which]
+
+    owned = Curves(calc, axis, curves, pieces.middle[seen.piece], pieces.variant[seen.piece])
+
+    def depths(x: Array, rows: Array) -> Array:
+        values = np.stack(owned.at(pieces.inside(x[:, None], seen.piece[rows]), rows))
+        chosen: Array = turned[rows] * values[curve_of[rows], np.arange(len(x)), 0]
         return chosen
 
-    def depth_of(x: Array, rows: Array) -> Array:
-        return depth(x, seen.which[rows], seen.variant[rows], seen.middle[rows])
+    return depths
 
+
+def _refined(depth_of: Function, seen: Candidates) -> Candidates:
+    """The candidates after a search in their brackets; at a piece's end within its first interval."""
     low, centre, high = _brackets(seen, depth_of)
     every = np.arange(len(centre))
-    left, middle, right = (depth_of(x, every) for x in (low, centre, high))
-    inner = (middle <= left) & (middle <= right) & (low < centre) & (centre < high)
-    if not inner.any():
-        return seen
-    start, width = low[inner], (high - low)[inner]
-
-    def depth_at(share: Array, row: Array) -> Array:
-        rows = row.astype(int)
-        return depth_of(start[rows] + share * width[rows], np.flatnonzero(inner)[rows])
-
-    searched = elementwise.find_minimum(
-        depth_at,
-        (np.zeros(len(start)), (centre[inner] - start) / width, np.ones(len(start))),
-        args=(np.arange(len(start), dtype=float),),
-        tolerances={"xatol": PLACE_TOLERANCE, "xrtol": 0.0},
+    depths = depth_of(np.concatenate([low, centre, high]), np.tile(every, 3)).reshape(3, -1)
+    inner = np.flatnonzero(
+        (depths[1] <= depths[0]) & (depths[1] <= depths[2]) & (low < centre) & (centre < high)
     )
-    better = -searched.f_x >= seen.height[inner]
+    if not len(inner):
+        return seen
+    found, depth = smooth_minimum(
+        lambda x, row: depth_of(x, inner[row]), low[inner], centre[inner], high[inner], depths[:, inner], PLACE_TOLERANCE
+    )
+    better = -depth >= seen.height[inner]
     place, height = seen.place.copy(), seen.height.copy()
-    place[inner] = np.where(better, start + searched.x * width, place[inner])
-    height[inner] = np.where(better, -searched.f_x, height[inner])
+    place[inner] = np.where(better, found, place[inner])
+    height[inner] = np.where(better, -depth, height[inner])
     return seen._replace(place=place, height=height)
 
 
-def _brackets(seen: Candidates, depth_of: Callable[[Array, Array], Array]) -> tuple[Array, Array, Array]:
+def _brackets(seen: Candidates, depth_of: Function) -> tuple[Array, Array, Array]:
     """Three places about each candidate: its neighbours on the grid and itself.
 
     At a piece's end a peak may hide between the end and the next point: there the deepest of places that come nearer and

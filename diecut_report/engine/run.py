@@ -2,12 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Container, Iterator, Mapping, Sequence
+from collections.abc import Callable, Container, Mapping
 from typing import Any
 
 import numpy as np
 
-from diecut_report.contract.families import taken
 from diecut_report.contract.mechanism import Mechanism
 from diecut_report.contract.parts import Lookup, Neighbour, Part, Pick, Running, Total
 from diecut_report.contract.steps import (
@@ -28,7 +27,7 @@ from diecut_report.contract.steps import (
     Value,
     Words,
 )
-from diecut_report.engine import extremes, parts, possible, solve
+from diecut_report.engine import ahead, extremes, parts, possible, solve
 from diecut_report.engine.calculation import Calculation, Impossible, SampledCurve, Unproven
 from diecut_report.engine.domain import Domain
 from diecut_report.expressions import Array
@@ -53,7 +52,7 @@ def calculate(
     with np.errstate(all="ignore"):
         steps = [step for _, step in mechanism.active(calc.given) if only is None or step.id in only]
         for i, step in enumerate(steps):
-            _search_ahead(calc, steps[i:])
+            ahead.look(calc, steps[i:])
             if isinstance(step, Words):
                 continue
             try:
@@ -102,11 +101,7 @@ def _value(calc: Calculation, step: Value) -> None:
     if step.id in calc.axis and calc.axis[step.id] in calc.domains:
         calc.curves[step.id] = step
     else:
-        calc.values[step.id] = _existing(calc, step, calc.apply(step.formula))
-
-
-def _existing(calc: Calculation, step: Step, values: Array) -> Array:
-    return values if step.exists is None else np.where(calc.apply(step.exists), values, np.nan)
+        calc.values[step.id] = calc.existing(step, calc.apply(step.formula))
 
 
 def _choice(calc: Calculation, step: Choice) -> None:
@@ -120,7 +115,7 @@ def _choice(calc: Calculation, step: Choice) -> None:
         np.full((calc.count, 1), c.value, dtype=object) if isinstance(c.value, str) else calc.apply(c.value)
         for c in step.cases
     ]
-    calc.values[step.id] = _existing(calc, step, np.choose(calc.branch[step.id], taken))
+    calc.values[step.id] = calc.existing(step, np.choose(calc.branch[step.id], taken))
 
 
 def _root(calc: Calculation, step: Root) -> None:
@@ -157,8 +152,12 @@ def _all_crossings(calc: Calculation, curve: str) -> tuple[Array, Array]:
     domain.cut(solve.dips(calc, curve))
     found = solve.crossings(calc, curve)
     for _ in range(SEARCHES):
+        before = domain.edges
         domain.cut(found[0])
-        last, found = found, solve.crossings(calc, curve)
+        last = found
+        if domain.edges is before:
+            break
+        found = solve.crossings(calc, curve)
         if np.array_equal(np.isfinite(last[0]).sum(axis=1), np.isfinite(found[0]).sum(axis=1)):
             break
     domain.edges, domain.joints = edges, joints
@@ -175,41 +174,11 @@ def _crossings(calc: Calculation, step: Crossings) -> None:
 
 
 SEARCHES = 5  # for crossings, each on a finer grid
-SIGNS = {"max": (1.0,), "min": (-1.0,), "abs_max": (1.0, -1.0), "range": (1.0, -1.0)}
-
-
-def _search_ahead(calc: Calculation, steps: Sequence[Step]) -> None:
-    """Search the extremes of all coming reductions over one abscissa together: one search costs hardly less than many."""
-    first = steps[0]
-    if not isinstance(first, Reduction) or first.operation not in SIGNS:
-        return
-    domain = calc.domains[calc.axis[first.of]]
-    if all(calc.extremes.get((first.of, sign), (None,))[0] is domain.edges for sign in SIGNS[first.operation]):
-        return
-    wanted = [
-        (step.of, sign) for step in _computable(calc, steps, calc.axis[first.of]) for sign in SIGNS[step.operation]
-    ]
-    extremes.search(calc, wanted)
-
-
-def _computable(calc: Calculation, steps: Sequence[Step], axis: str) -> Iterator[Reduction]:
-    """The coming reductions over an abscissa, up to where it is cut further, whose curves need nothing that is not known yet."""
-    known = {axis, *calc.inputs, *calc.values, *calc.curves, *(f"inputs.{name}" for name in calc.inputs)}
-    for step in steps:
-        if getattr(step, "abscissa", "") == axis:
-            return
-        if isinstance(step, Value | Choice) and calc.axis.get(step.id) == axis and taken(step) <= known:
-            known.add(step.id)
-            calc.curves[step.id] = step
-        if isinstance(step, Reduction) and step.operation in SIGNS and step.of in known and calc.axis[step.of] == axis:
-            yield step
-
-
 def _reduction(calc: Calculation, step: Reduction) -> None:
     if step.operation in ("mean", "rms", "integral"):
         _integrated(calc, step)
         return
-    signs = SIGNS[step.operation]
+    signs = ahead.SIGNS[step.operation]
     ends = [extremes.extreme(calc, step.of, sign) for sign in signs]
     residual = np.maximum.reduce(
         [extremes.outruns(calc, step.of, end[0], sign) for end, sign in zip(ends, signs, strict=True)]
@@ -218,9 +187,9 @@ def _reduction(calc: Calculation, step: Reduction) -> None:
     if step.operation == "range":
         calc.values[step.id] = ends[0][0] - ends[1][0]
         return
-    upper = np.abs(ends[0][0]) >= np.abs(ends[-1][0])
+    upper = np.abs(ends[0][0]) >= np.abs(ends[-1][0]) * (1 - extremes.SAME_HEIGHT)  # of two alike the upper one
     value, place, middle = (np.where(upper, top, bottom) for top, bottom in zip(ends[0], ends[-1], strict=True))
-    calc.values[step.id] = np.abs(value) if step.operation == "abs_max" else value
+    calc.values[step.id] = np.maximum(*(np.abs(end[0]) for end in ends)) if step.operation == "abs_max" else value
     calc.values[f"{step.id}_at"], calc.middle[f"{step.id}_at"] = place, middle
 
 
@@ -272,7 +241,7 @@ def _curve_period(calc: Calculation, step: CurvePeriod) -> None:
 
 def _computed(calc: Calculation, step: Computed) -> None:
     found = step.function(*(calc[name] for name in step.takes))
-    calc.values[step.id] = _existing(calc, step, np.broadcast_to(found, (calc.count, 1)))
+    calc.values[step.id] = calc.existing(step, np.broadcast_to(found, (calc.count, 1)))
 
 
 def _finite(calc: Calculation, step: Step) -> None:

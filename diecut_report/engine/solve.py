@@ -2,9 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from functools import partial
-
 import numpy as np
 from numpy.polynomial import chebyshev
 from scipy.fft import dct
@@ -13,17 +10,21 @@ from scipy.optimize import elementwise
 from diecut_report.contract.binding import bound
 from diecut_report.contract.families import taken
 from diecut_report.contract.steps import Accumulated, Derivative, Root
+from diecut_report.engine import search
 from diecut_report.engine.calculation import Calculation
-from diecut_report.engine.domain import LOBATTO, SMALLEST
+from diecut_report.engine.domain import LOBATTO, SMALLEST, grid_weights, nodes_of
+from diecut_report.engine.evaluation import Curves
 from diecut_report.engine.series import PieceSeries
+from diecut_report.engine.table import Pieces
 from diecut_report.expressions import Array
 from diecut_report.units import unit
 
-ORDERS = (24, 48, 96, 192, 384)  # of Gauss–Legendre; the next one proves the one before
+ORDERS = (24, 96, 192, 384)  # of Gauss–Legendre; the first proves the rule on the search grid, which lies between it and the next
 INTEGRAL_TOLERANCE = 1e-11
 SAMPLE_TOLERANCE = 1e-8
 NEGLIGIBLE = 1e-17  # share of the greatest Chebyshev coefficient below which the last ones are left out
 ROUNDING = 1e-14  # share of a difference's terms that may be rounding
+DIP_TOLERANCE = 1e-8  # of the place of a dip, as a share of its bracket
 NOISE = 1e-10  # share of a curve's greatest value below which its sign is rounding
 
 
@@ -48,86 +49,110 @@ def root(calc: Calculation, step: Root) -> tuple[Array, Array]:
     return calc.values[step.id], np.abs(left - right) / np.maximum(np.abs(left), np.abs(right))
 
 
-def _at(calc: Calculation, curve: str, x: Array, rows: Array, middle: Array) -> Array:
-    return calc.sample(curve, x[:, None], middle[:, None], rows.astype(int))[:, 0]
-
-
 def integral(calc: Calculation, curve: str, power: int) -> tuple[Array, Array]:
-    """∫ curve^power over the period, piece by piece, and its relative difference to the next higher order of the rule."""
-    scale = _gauss(calc, curve, ORDERS[0], lambda f: np.abs(f) ** power)
-    last = _gauss(calc, curve, ORDERS[0], lambda f: f**power)
+    """∫ curve^power over the period, piece by piece, and its relative difference to the rule before.
+
+    The rules follow each other by what they are exact for; each machine keeps the first that agrees with the one before.
+    """
+    table = calc.table(calc.axis[curve])
+    pieces = table.pieces()
+
+    def total(values: Array, weights: Array) -> Array:
+        return pieces.of_variants(np.add, (values**power @ weights) * pieces.width)
+
+    def gauss(order: int) -> Array:
+        return total(table.at_gauss([curve], order)[0], nodes_of(order)[1] / 2)
+
+    heights = table.on_grid([curve])[0]
+    scale = total(np.abs(heights), grid_weights())
+    found = total(heights, grid_weights())
+    difference = _apart(found, gauss(ORDERS[0]), scale)
+    last = found
     for order in ORDERS[1:]:
-        now = _gauss(calc, curve, order, lambda f: f**power)
-        difference = np.abs(now - last) / np.maximum(scale, SMALLEST)
-        last = now
-        if np.nanmax(difference, initial=0.0) < INTEGRAL_TOLERANCE:
+        if not (difference >= INTEGRAL_TOLERANCE).any():
             break
-    return last, difference
+        now = gauss(order)
+        is_open = difference >= INTEGRAL_TOLERANCE
+        found = np.where(is_open, now, found)
+        difference = np.where(is_open, _apart(now, last, scale), difference)
+        last = now
+    return found, difference
 
 
-def _gauss(calc: Calculation, curve: str, order: int, of: Callable[[Array], Array]) -> Array:
-    weights = calc.domains[calc.axis[curve]].gauss(order)[1].reshape(calc.count, -1)
-    values = calc.at_gauss_points(curve, order)
-    total: Array = np.sum(np.where(weights > 0, of(values) * weights, 0), axis=1, keepdims=True)
-    return total
+def _apart(one: Array, other: Array, scale: Array) -> Array:
+    found: Array = np.abs(one - other) / np.maximum(scale, SMALLEST)
+    return found
 
 
 def crossings(calc: Calculation, curve: str) -> tuple[Array, Array]:
     """Places where the curve changes sign, ascending, padded with NaN, shape (variants, most); and the greatest |curve| at
     those found inside a smooth piece, relative to the curve's greatest value."""
-    domain = calc.domains[calc.axis[curve]]
-    flat, middle = domain.flat_grid()
-    heights = calc.on_search_grid(curve).reshape(calc.count, -1)
-    top = np.max(np.abs(heights), axis=1, keepdims=True)
-    width = np.repeat(domain.widths, LOBATTO + 1, axis=1)
-    clear = (np.abs(heights) > NOISE * top) & (width > 0)
-    sign = _settled(np.where(clear, np.sign(heights), 0))
-    rows, k = np.nonzero(sign[:, :-1] * sign[:, 1:] < 0)
-    inside = (middle[rows, k] == middle[rows, k + 1]) & clear[rows, k] & clear[rows, k + 1]
-    places = flat[rows, k].copy()
+    table = calc.table(calc.axis[curve])
+    pieces, heights = table.pieces(), table.on_grid([curve])[0]
+    top = pieces.of_variants(np.maximum, np.abs(heights))
+    noise = NOISE * top[pieces.variant]
+    sign = ((heights > noise).view(np.int8) - (heights < -noise).view(np.int8)).ravel()
+    points = heights.shape[1]
+    is_last = sign[1:] != sign[:-1]
+    is_last[pieces.starts[1:] * points - 1] = True
+    run = np.concatenate([[0], np.flatnonzero(is_last) + 1])  # where runs of one sign begin
+    run = run[sign[run] != 0]
+    variant = pieces.variant[run // points]
+    k = run[1:][(sign[run[1:]] != sign[run[:-1]]) & (variant[1:] == variant[:-1])] - 1  # zeros count as what is before them
+    piece, rows = k // points, pieces.variant[k // points]
+    places = pieces.grid.ravel()[k]
+    inside = (sign[k] != 0) & (piece == (k + 1) // points)
     worst = np.zeros((calc.count, 1))
     if inside.any():
-        r, i = rows[inside], k[inside]
-        solved = elementwise.find_root(
-            partial(_at, calc, curve), (flat[r, i], flat[r, i + 1]), args=(r.astype(float), middle[r, i])
-        )
-        places[inside] = np.where(solved.success, solved.x, np.nan)
-        np.maximum.at(worst[:, 0], r, np.abs(solved.f_x) / top[r, 0])
-    return _rows_of(places, rows, calc.count, (sign[:, :1] * sign[:, -1:] < 0)[:, 0]), worst
+        places[inside], left = _roots(calc, curve, k[inside])
+        np.maximum.at(worst[:, 0], rows[inside], np.abs(left) / top[rows[inside], 0])
+    first, last = (run[np.flatnonzero(np.diff(variant, **ends))] for ends in ({"prepend": -1}, {"append": calc.count}))
+    at_start = np.zeros(calc.count, dtype=bool)
+    at_start[pieces.variant[first // points]] = sign[first] != sign[last]
+    return _rows_of(places, rows, calc.count, at_start), worst
+
+
+def _roots(calc: Calculation, curve: str, k: Array) -> tuple[Array, Array]:
+    """Roots between a point of the flat search grid and the next one, and what is left there."""
+    table = calc.table(calc.axis[curve])
+    pieces, heights = table.pieces(), table.on_grid([curve])[0]
+    grid, piece = pieces.grid.ravel(), k // heights.shape[1]
+    return search.root(
+        _height_in(calc, curve, pieces, piece), grid[k], grid[k + 1], np.stack([heights.ravel()[k], heights.ravel()[k + 1]])
+    )
+
+
+def _height_in(calc: Calculation, curve: str, pieces: Pieces, piece: Array) -> search.Function:
+    """A curve at places in the pieces given."""
+
+    owned = Curves(calc, calc.axis[curve], [curve], pieces.middle[piece], pieces.variant[piece])
+
+    def height(x: Array, row: Array) -> Array:
+        return owned.at(x[:, None], row)[0][:, 0]
+
+    return height
 
 
 def dips(calc: Calculation, curve: str) -> Array:
     """Places where a curve dips beyond zero and back between two points of the search grid, shape (variants, most), NaN-padded."""
-    domain = calc.domains[calc.axis[curve]]
-    grid, heights = domain.search_grid(), calc.on_search_grid(curve)
-    side = np.sign(heights)
-    before, here, after = (np.abs(heights[:, :, part]) for part in (slice(None, -2), slice(1, -1), slice(2, None)))
-    same = (side[:, :, :-2] == side[:, :, 1:-1]) & (side[:, :, 1:-1] == side[:, :, 2:])
-    near = (here <= before) & (here <= after) & (2 * here <= np.maximum(before, after))  # a dip no deeper than its rise
-    rows, piece, k = np.nonzero(same & near & (domain.widths > 0)[:, :, None])
-    if not len(rows):
+    table = calc.table(calc.axis[curve])
+    pieces, heights = table.pieces(), table.on_grid([curve])[0]
+    sizes = np.abs(heights)
+    lowest = (sizes[:, 1:-1] <= sizes[:, :-2]) & (sizes[:, 1:-1] <= sizes[:, 2:])
+    piece, k = np.divmod(np.flatnonzero(lowest), lowest.shape[1])
+    before, here, after = (heights[piece, k + i] for i in range(3))
+    same = (np.sign(before) == np.sign(here)) & (np.sign(here) == np.sign(after))
+    near = same & (2 * np.abs(here) <= np.maximum(np.abs(before), np.abs(after)))  # a dip no deeper than its rise
+    piece, k = piece[near], k[near]
+    if not len(piece):
         return np.full((calc.count, 0), np.nan)
-
-    def depth(x: Array, row: Array, middle: Array, sign: Array) -> Array:
-        height: Array = sign * _at(calc, curve, x, row, middle)
-        return height
-
-    left, centre, right = (grid[rows, piece, k + i] for i in range(3))
-    found = elementwise.find_minimum(
-        depth,
-        (left, centre, right),
-        args=(rows.astype(float), domain.middles[rows, piece], side[rows, piece, k]),
+    depths = np.abs(np.stack([heights[piece, k + i] for i in range(3)]))
+    side, height, grid = np.sign(heights[piece, k]), _height_in(calc, curve, pieces, piece), pieces.grid
+    place, depth = search.minimum(
+        lambda x, row: side[row] * height(x, row), *(grid[piece, k + i] for i in range(3)), depths, DIP_TOLERANCE
     )
-    places = np.where(found.f_x < 0, found.x, np.nan)
-    return _rows_of(places, rows, calc.count, np.zeros(calc.count, dtype=bool))
-
-
-def _settled(sign: Array) -> Array:
-    """Signs with each zero taking over the sign before it; leading zeros take the first one after them."""
-    index = np.maximum.accumulate(np.where(sign != 0, np.arange(sign.shape[1]), 0), axis=1)
-    forward = np.take_along_axis(sign, index, axis=1)
-    first = np.take_along_axis(sign, np.argmax(sign != 0, axis=1)[:, None], axis=1)
-    return np.where(forward == 0, first, forward)
+    places = np.where(depth < 0, place, np.nan)
+    return _rows_of(places, pieces.variant[piece], calc.count, np.zeros(calc.count, dtype=bool))
 
 
 def _rows_of(places: Array, rows: Array, count: int, at_start: Array) -> Array:
@@ -178,11 +203,12 @@ def differentiate(calc: Calculation, step: Derivative) -> Array:
     half = np.where(domain.widths > 0, domain.widths, np.inf) / 2
     calc.curves[step.id] = step
     calc.series[step.id] = PieceSeries(domain.edges, chebyshev.chebder(series) / half)
-    x, middle = domain.flat_gauss(ORDERS[0])
-    apart = np.abs(PieceSeries(domain.edges, series).values(x, middle, None) - calc.at_gauss_points(step.of, ORDERS[0]))
-    apart = np.where(np.repeat(domain.widths > 0, ORDERS[0], axis=1), apart, 0)
+    table = calc.table(calc.axis[step.of])
+    pieces, expected = table.pieces(), table.at_gauss([step.of], ORDERS[0])[0]
+    found = PieceSeries(domain.edges, series).values(pieces.gauss(ORDERS[0]), pieces.middle[:, None], pieces.variant)
+    apart = pieces.of_variants(np.maximum, np.abs(found - expected))
     top = np.max(np.abs(values), axis=(1, 2))[:, None]
-    residual: Array = np.max(apart, axis=1, keepdims=True) / np.maximum(top, SMALLEST)
+    residual: Array = apart / np.maximum(top, SMALLEST)
     return residual
 
 

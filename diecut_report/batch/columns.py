@@ -1,0 +1,161 @@
+"""Columns of results: what is known of each before anything is calculated, and its values for many machines."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass
+from typing import Any, Literal
+
+import numpy as np
+
+from diecut_report.config import Config
+from diecut_report.contract.checks import Check
+from diecut_report.contract.inputs import list_inputs
+from diecut_report.contract.steps import SILENT, Choice, Crossings, Step, Value
+from diecut_report.engine import Calculation
+from diecut_report.expressions import Array
+from diecut_report.instances import Instance
+from diecut_report.references import PRESS
+from diecut_report.units import unit
+from diecut_report.verdicts import sides, verdict
+
+Kind = Literal["float", "int", "bool", "text"]
+CROSSINGS = 8  # of a curve's changes of sign that have columns of their own
+STATUS = np.array([None, "pass", "warn", "fail", "error"], dtype=object)
+PASS, WARN, FAIL, ERROR = 1, 2, 3, 4
+
+
+@dataclass(frozen=True)
+class Column:
+    """A column: what it holds, its SI unit, and what the quantity is."""
+
+    name: str
+    kind: Kind
+    unit: str = "1"
+    symbol: str = ""
+    description: str = ""
+
+
+def columns_of(config: Config) -> list[Column]:
+    """The columns of all outputs and checks of a config's mechanisms."""
+    found: list[Column] = []
+    for name, instance in config.instances.items():
+        if instance is not None and instance.mechanism is not None and name != PRESS:
+            found += _outputs(name, instance)
+            found += _checks(name, instance)
+    return found
+
+
+def _outputs(name: str, instance: Instance) -> Iterator[Column]:
+    assert instance.mechanism is not None
+    axes = instance.mechanism.axes(instance.given)
+    lists = set(list_inputs(instance.model).values())
+    for _, step in instance.mechanism.active(instance.given):
+        home = axes.get(step.id)
+        if not step.output or isinstance(step, SILENT) or (home is not None and home not in lists):
+            continue
+        for part in _names(step, len(_at(instance.data, home)) if home else None):
+            count = isinstance(step, Crossings) and part.endswith("_count")
+            kind: Kind = "int" if count else _kind(step)
+            yield Column(f"{name}.{part}", kind, "1" if count else unit(step.unit).si, step.symbol, step.description)
+
+
+def _at(data: Any, path: str) -> Any:
+    for part in path.split("."):
+        data = data[part]
+    return data
+
+
+def _names(step: Step, parts: int | None) -> list[str]:
+    """The results of a step by name, as in the results file."""
+    if isinstance(step, Crossings):
+        return [f"{step.id}_count", *(f"{step.id}_{i}" for i in range(1, CROSSINGS + 1))]
+    if parts is None:
+        return [step.id]
+    return [step.numbered.format(step.first + i) if step.numbered else f"{step.id}.{i}" for i in range(parts)]
+
+
+def _kind(step: Step) -> Kind:
+    if isinstance(step, Choice) and isinstance(step.cases[0].value, str):
+        return "text"
+    if isinstance(step, Value) and step.is_condition:
+        return "bool"
+    return "int" if step.whole else "float"
+
+
+def _checks(name: str, instance: Instance) -> Iterator[Column]:
+    for check in _made(instance.mechanism.checks if instance.mechanism else (), instance.given):
+        yield Column(f"{name}.checks.{check.id}.utilisation", "float", "1", "", f"{check.title}: utilisation")
+        yield Column(f"{name}.checks.{check.id}.status", "text", "1", "", f"{check.title}: verdict")
+
+
+def _made(checks: tuple[Check, ...], given: frozenset[str]) -> dict[Check, None]:
+    """The checks whose needs are given, each id once."""
+    found = {check.id: check for check in checks if given.issuperset(check.needs)}
+    return dict.fromkeys(found.values())
+
+
+def output_values(name: str, calc: Calculation) -> dict[str, Array]:
+    """The outputs of many machines by column; NaN (None for texts and flags) where there is none."""
+    found: dict[str, Array] = {}
+    for step in calc.steps.values():
+        if not step.output or isinstance(step, SILENT) or step.id not in calc.values:
+            continue
+        values = calc.values[step.id]
+        if isinstance(step, Crossings):
+            values = np.concatenate([calc.values[f"{step.id}_count"], _wide(values)], axis=1)
+        parts = None if isinstance(step, Crossings) or step.id not in calc.axis else values.shape[1]
+        names = _names(step, parts)
+        found |= {f"{name}.{part}": values[:, index] for index, part in enumerate(names)}
+    return found
+
+
+def _wide(places: Array) -> Array:
+    """Crossings in as many columns as there are for them, NaN where there are fewer."""
+    room = np.full((len(places), CROSSINGS), np.nan)
+    shown = places[:, :CROSSINGS]
+    room[:, : shown.shape[1]] = shown
+    return room
+
+
+@dataclass
+class Verdicts:
+    """Of each check the status codes and utilisations of many machines, shape (checks, machines)."""
+
+    names: list[str]
+    codes: Array
+    ratios: Array
+
+
+def verdicts(calculations: Mapping[str, Calculation], count: int) -> Verdicts:
+    """All checks of all mechanisms; code 0 where a check does not apply."""
+    names, codes, ratios = [], [], []
+    for name, calc in calculations.items():
+        for check in calc.mechanism.checks:
+            if not _can_be_made(calc, check):
+                continue
+            demand, limit = (np.broadcast_to(side, (count, 1))[:, 0] for side in sides(calc, check))
+            held, ratio = verdict(check, demand, limit)
+            there = np.isfinite(demand) & np.isfinite(limit)
+            names.append(f"{name}.checks.{check.id}")
+            codes.append(np.where(there, np.where(held, PASS, FAIL if check.severity == "fail" else WARN), 0))
+            ratios.append(np.where(there, ratio, np.nan))
+    shape = (len(names), count)
+    return Verdicts(names, np.reshape(codes, shape).astype(int), np.reshape(ratios, shape).astype(float))
+
+
+def _can_be_made(calc: Calculation, check: Check) -> bool:
+    named = [side for side in (check.demand, check.limit) if isinstance(side, str)]
+    return calc.given.issuperset(check.needs) and all(side in calc.values or side in calc.inputs for side in named)
+
+
+def governing(found: Verdicts) -> Array:
+    """For each machine the check that governs: fail before warn before pass, then the greatest utilisation; None without checks."""
+    if not found.names:
+        return np.full(found.codes.shape[1], None, dtype=object)
+    unknown = np.where(found.codes == PASS, -np.inf, np.inf)
+    ratios = np.where(np.isnan(found.ratios), unknown, found.ratios)
+    worst = found.codes.max(axis=0)
+    among = np.where(found.codes == worst, ratios, -np.inf)
+    first = np.argmax(np.where(found.codes == worst, np.nextafter(among, np.inf), -np.inf), axis=0)
+    return np.where(worst > 0, np.array(found.names, dtype=object)[first], None)

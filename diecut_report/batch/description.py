@@ -1,0 +1,162 @@
+"""What the results of a study are made of: its files, its columns, its size; and in words, what of it has changed."""
+
+from __future__ import annotations
+
+import difflib
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass, field
+from typing import Any, Literal
+
+from diecut_report import __version__
+from diecut_report.errors import Problem
+
+SCHEMA_VERSION = 1
+CHUNK = 8192  # variants a part file
+LINES = 3  # changed lines that a message shows
+Kind = Literal["float", "int", "bool", "text", "curve"]
+Data = dict[str, Any]
+
+
+@dataclass(frozen=True)
+class Column:
+    """A column of the results: values in ``unit`` (SI, ASCII; "1" for pure numbers and for what is no number).
+
+    ``display``: the unit that people read it in, where it is another. A curve holds a list of numbers for each variant.
+    """
+
+    name: str
+    kind: Kind = "float"
+    unit: str = "1"
+    display: str = ""
+    symbol: str = ""
+    description: str = ""
+
+
+@dataclass(frozen=True)
+class Source:
+    """A file that the study was read from. With its content a copy is kept in the folder of the results."""
+
+    file: str
+    sha256: str
+    content: bytes | None = None
+
+
+@dataclass(frozen=True)
+class Description:
+    """A study as its results see it. ``rows`` counts the sample, before constraints; ``chunk`` of them make one part.
+
+    ``columns`` are those of the varied paths, outputs and checks, in their order; the store adds ``variant`` before
+    them and ``status``, ``governing``, ``error`` after them. ``plugins``: the version of each kind of mechanism.
+    ``facts`` stand in study.json beside the rest (``varied``, ``objectives``); they follow from the study file.
+    """
+
+    study: Source
+    base: Source
+    columns: tuple[Column, ...]
+    rows: int
+    chunk: int = CHUNK
+    tables: tuple[Source, ...] = ()
+    plugins: Mapping[str, str] = field(default_factory=dict)
+    facts: Mapping[str, Any] = field(default_factory=dict)
+    program: str = __version__
+
+    @property
+    def parts(self) -> int:
+        """How many part files the whole study has."""
+        return -(-self.rows // self.chunk)
+
+    @property
+    def all_columns(self) -> tuple[Column, ...]:
+        """The columns of the part files."""
+        return (VARIANT, *self.columns, *VERDICT)
+
+
+VARIANT = Column("variant", "int", description="Number of the variant in the sample, from 0")
+VERDICT = (
+    Column("status", "text", description="Status of the variant: pass, warn, fail or error"),
+    Column("governing", "text", description="Check that governs the variant"),
+    Column("error", "text", description="Why the variant cannot be calculated"),
+)
+
+
+def as_data(description: Description) -> Data:
+    """As it stands in study.json."""
+    sources = {"study": description.study, "base": description.base}
+    return {
+        **description.facts,
+        "schema_version": SCHEMA_VERSION,
+        "program": {"name": "diecut-report", "version": description.program},
+        "plugins": dict(description.plugins),
+        **{role: source.file for role, source in sources.items()},
+        "tables": [table.file for table in description.tables],
+        "sha256": {role: source.sha256 for role, source in sources.items()}
+        | {f"table {number}": table.sha256 for number, table in enumerate(description.tables, 1)},
+        "rows": description.rows,
+        "chunk": description.chunk,
+        "columns": {column.name: _about(column) for column in description.all_columns},
+    }
+
+
+def _about(column: Column) -> Data:
+    return {name: value for name, value in vars(column).items() if value and name != "name"}
+
+
+def from_data(data: Data) -> Description:
+    """Read again from study.json; raises KeyError, TypeError or ValueError where it is none."""
+    columns = tuple(Column(name, **about) for name, about in data["columns"].items())
+    if data["schema_version"] != SCHEMA_VERSION:
+        raise ValueError(f"its schema_version is {data['schema_version']}; this program reads {SCHEMA_VERSION}")
+    return Description(
+        study=Source(data["study"], data["sha256"]["study"]),
+        base=Source(data["base"], data["sha256"]["base"]),
+        columns=columns[1 : -len(VERDICT)],
+        rows=int(data["rows"]),
+        chunk=int(data["chunk"]),
+        tables=tuple(Source(file, data["sha256"][f"table {n}"]) for n, file in enumerate(data["tables"], 1)),
+        plugins=data["plugins"],
+        program=data["program"]["version"],
+    )
+
+
+def changes(before: Description, now: Description) -> Iterator[Problem]:
+    """What of a study has changed since its results were begun; the parts' size may differ and is no change."""
+    yield from _changed("study file", before.study, now.study)
+    yield from _changed("base configuration", before.base, now.base)
+    tables = {table.sha256: table for table in before.tables}
+    yield from (Problem("This table has changed.", t.file) for t in now.tables if t.sha256 not in tables)
+    if len(before.tables) > len(now.tables):
+        yield Problem(f"The study read {len(before.tables)} tables, now it reads {len(now.tables)}.", now.study.file)
+    if before.program != now.program:
+        words = f"The results were begun with version {before.program} of the program; this is {now.program}."
+        yield Problem(words, now.study.file)
+    for kind in sorted(before.plugins.keys() | now.plugins.keys()):
+        old, new = (versions.get(kind, "absent") for versions in (before.plugins, now.plugins))
+        if old != new:
+            yield Problem(f"The plugin {kind!r} was {old} when the results were begun; it is {new}.", now.study.file)
+    yield from _other_rows(before, now)
+
+
+def _other_rows(before: Description, now: Description) -> Iterator[Problem]:
+    if before.rows != now.rows:
+        yield Problem(f"The sample had {before.rows} rows, now it has {now.rows}.", now.study.file)
+    if before.columns != now.columns:
+        old, new = ({column.name: column for column in d.columns} for d in (before, now))
+        names = [name for name in (old | new) if old.get(name) != new.get(name)] or ["their order"]
+        words = f"The columns of the results differ: {', '.join(names[:LINES])}{' …' * (len(names) > LINES)}."
+        yield Problem(words, now.study.file)
+
+
+def _changed(role: str, before: Source, now: Source) -> Iterator[Problem]:
+    if before.sha256 != now.sha256:
+        lines = "".join(f"\n    {line}" for line in _lines(before, now))
+        yield Problem(f"The {role} has changed since the results were begun.{lines}", now.file)
+
+
+def _lines(before: Source, now: Source) -> list[str]:
+    """The first lines that differ, marked - (before) and + (now), where both contents are known texts."""
+    if before.content is None or now.content is None:
+        return []
+    old, new = (source.content.decode("utf-8", "replace").splitlines() for source in (before, now) if source.content)
+    both = difflib.unified_diff(old, new, n=0, lineterm="")
+    found = [line for line in both if line[:1] in "+-" and line[:3] not in ("+++", "---")]
+    return found[: 2 * LINES] + ["…"] * (len(found) > 2 * LINES)

@@ -1,0 +1,227 @@
+"""Chunks of a study on their way through an engine: what an engine is, what its workers do, and `results`."""
+
+from __future__ import annotations
+
+import threading
+from collections import deque
+from collections.abc import Callable, Iterable, Iterator
+from concurrent.futures import FIRST_COMPLETED, CancelledError, Future, wait
+from dataclasses import dataclass, field
+from typing import Any, Protocol, Self
+
+from diecut_report.errors import Problem, UserError
+
+Chunk = Any
+Function = Callable[[Any, Chunk], Any]  # (what the worker has loaded, chunk) -> result
+TRIES = 3  # how often a chunk may lose its process
+PATIENCE = 1.0  # seconds between looks whether the engine is still there
+
+
+@dataclass(frozen=True)
+class Warm:
+    """What each worker loads once before its first chunk: ``load(*args)``; ``key`` (a sha256) tells it from others.
+
+    It is pickled: functions of modules, arguments of plain data. Each thread of a worker loads its own, so that
+    work arrays in it are used by one chunk at a time.
+    """
+
+    key: str
+    load: Callable[..., Any]
+    args: tuple[Any, ...] = ()
+
+
+class ChunkFailed(Exception):
+    """A chunk could not be calculated: which one, and the exception that came up in it (`cause`)."""
+
+    def __init__(self, chunk: Chunk, cause: BaseException) -> None:
+        super().__init__(chunk, cause)
+        self.chunk, self.cause = chunk, cause
+
+    def __str__(self) -> str:
+        return f"{self.chunk}: {type(self.cause).__name__}: {self.cause}"
+
+
+class Engine(Protocol):
+    """A place to calculate; to be entered before its first chunk and left after its last."""
+
+    @property
+    def lost(self) -> tuple[type[BaseException], ...]:
+        """What a chunk raises when its process has ended, and the chunk is to be repeated."""
+
+    @property
+    def gave_up(self) -> tuple[type[BaseException], ...]:
+        """What a chunk raises when the engine itself has repeated it and lost its process too often."""
+
+    @property
+    def limit(self) -> int:
+        """How many chunks keep it busy."""
+
+    def __enter__(self) -> Self: ...
+    def __exit__(self, kind: type[BaseException] | None, error: BaseException | None, trace: object) -> None: ...
+    def submit(self, function: Function, chunk: Chunk) -> Future[Any]:
+        """Begin a chunk."""
+
+    def restart(self) -> None:
+        """Begin again after a process was lost; chunks begun before are gone."""
+
+    def look(self) -> None:
+        """Raise UserError in words where the engine is gone."""
+
+
+def results(
+    engine: Engine, function: Function, chunks: Iterable[Chunk], limit: int | None = None
+) -> Iterator[tuple[Chunk, Any]]:
+    """The chunks with their results, in the order in which they are ready; to be used within ``with engine:``.
+
+    At most ``limit`` chunks are in flight (default: what keeps the engine busy), so memory stays flat however many there are.
+    Ends with ChunkFailed where a chunk raises, with UserError where its process was lost three times. What is in
+    flight is cancelled when it ends early, by an exception, Ctrl-C or the caller.
+    """
+    flight = _Flight(engine, function, iter(chunks), limit)
+    try:
+        while flight.fill():
+            yield from flight.landed()
+    finally:
+        flight.cancel()
+
+
+@dataclass
+class _Flight:
+    """The chunks that are being calculated, and those that lost their process and wait for another try."""
+
+    engine: Engine
+    function: Function
+    source: Iterator[Chunk]
+    limit: int | None
+    waiting: dict[Future[Any], tuple[Chunk, int]] = field(default_factory=dict)  # with the processes lost so far
+    again: deque[tuple[Chunk, int]] = field(default_factory=deque)
+
+    def fill(self) -> bool:
+        """Begin as many chunks as may be in flight; whether there are any.
+
+        A chunk that lost its process twice runs alone: if it is lost again, it and no other is the cause.
+        """
+        while len(self.waiting) < (self.limit or self.engine.limit):
+            alone = [lost for _, lost in (*self.waiting.values(), *tuple(self.again)[:1]) if lost == TRIES - 1]
+            if (alone and self.waiting) or (following := self._next()) is None:
+                break
+            self._begin(*following)
+        return bool(self.waiting)
+
+    def _next(self) -> tuple[Chunk, int] | None:
+        if self.again:
+            return self.again.popleft()
+        return next(((chunk, 0) for chunk in self.source), None)
+
+    def _begin(self, chunk: Chunk, lost: int) -> None:
+        try:
+            self.waiting[self.engine.submit(self.function, chunk)] = chunk, lost
+        except self.engine.lost:  # the pool broke since the last look, which this chunk had no part in
+            self.again.append((chunk, lost))
+            self._restart()
+
+    def landed(self) -> Iterator[tuple[Chunk, Any]]:
+        """Wait for chunks that are ready and give them; after a lost process, begin again."""
+        done, _ = wait(self.waiting, PATIENCE, FIRST_COMPLETED)
+        self.engine.look()
+        lost = {future for future in done if self._is_lost(future)}
+        for future in done - lost:
+            chunk, _ = self.waiting.pop(future)
+            yield chunk, self._result(future, chunk)
+        if lost:
+            self._restart()
+
+    def _result(self, future: Future[Any], chunk: Chunk) -> Any:
+        try:
+            return future.result()
+        except UserError:
+            raise
+        except self.engine.gave_up as error:
+            raise _gave_up(chunk) from error
+        except (Exception, CancelledError) as error:
+            raise ChunkFailed(chunk, error) from error
+
+    def _is_lost(self, future: Future[Any]) -> bool:
+        return not future.cancelled() and isinstance(future.exception(), self.engine.lost)
+
+    def _restart(self) -> None:
+        """All chunks in flight are begun again; one that has lost too many processes is told."""
+        for chunk, lost in self.waiting.values():
+            if lost + 1 >= TRIES:
+                raise _gave_up(chunk)
+            self.again.append((chunk, lost + 1))
+        self.waiting.clear()
+        self.engine.restart()
+
+    def cancel(self) -> None:
+        """Give up what is in flight."""
+        for future in self.waiting:
+            future.cancel()
+
+
+def _gave_up(chunk: Chunk) -> UserError:
+    words = (
+        f"The process that calculates {chunk} ended by itself {TRIES} times or more; most often memory ran "
+        "out. What was finished is kept: continue with --resume, and with fewer --jobs or workers with more memory."
+    )
+    return UserError(Problem(words))
+
+
+# what runs in a worker: what it is to load, by key, and for each thread what it has loaded last
+_known: dict[str, Warm] = {}
+_loaded = threading.local()
+
+
+def make_known(warm: Warm) -> None:
+    """Tell a worker what to load before its first chunk."""
+    _known[warm.key] = warm
+
+
+def forget(key: str) -> None:
+    """Tell a worker that it is done with it."""
+    _known.pop(key, None)
+    if getattr(_loaded, "key", None) == key:
+        _loaded.key, _loaded.value = None, None
+
+
+def work(key: str, function: Function, chunk: Chunk) -> Any:
+    """Calculate a chunk in a worker, with what this thread has loaded for it."""
+    if getattr(_loaded, "key", None) != key:
+        warm = _known[key]
+        _loaded.key, _loaded.value = None, None  # frees the one before
+        _loaded.value = warm.load(*warm.args)
+        _loaded.key = key
+    return function(_loaded.value, chunk)
+
+
+class InProcess:
+    """Each chunk in this process, one after the other."""
+
+    lost: tuple[type[BaseException], ...] = ()
+    gave_up: tuple[type[BaseException], ...] = ()
+    limit = 1
+
+    def __init__(self, warm: Warm) -> None:
+        self._warm = warm
+
+    def __enter__(self) -> Self:
+        make_known(self._warm)
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        forget(self._warm.key)
+
+    def submit(self, function: Function, chunk: Chunk) -> Future[Any]:
+        """Calculate the chunk now."""
+        future: Future[Any] = Future()
+        try:
+            future.set_result(work(self._warm.key, function, chunk))
+        except Exception as error:
+            future.set_exception(error)
+        return future
+
+    def restart(self) -> None:
+        """Nothing can be lost here."""
+
+    def look(self) -> None:
+        """It is always there."""

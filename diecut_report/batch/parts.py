@@ -1,0 +1,102 @@
+"""Columns of values to tables with schema, units and provenance (pyarrow)."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pyarrow as pa
+import pyarrow.parquet as pq
+from numpy.typing import NDArray
+
+from diecut_report.batch.description import SCHEMA_VERSION, VARIANT, VERDICT, Description, Kind
+from diecut_report.batch.files import write
+from diecut_report.errors import Problem, UserError
+
+Values = NDArray[Any] | Sequence[Any]
+TYPES: dict[Kind, Any] = {
+    "float": pa.float64(),
+    "int": pa.int64(),
+    "bool": pa.bool_(),
+    "text": pa.dictionary(pa.int32(), pa.string()),
+    "curve": pa.list_(pa.field("element", pa.float64())),  # the name that Parquet gives
+}
+COMPRESSION = "zstd"
+
+
+def schema_of(description: Description) -> pa.Schema:
+    """Types of the columns, with unit, symbol and description of each, and where the results come from."""
+    fields = []
+    for column in description.all_columns:
+        about = {"unit": column.unit, "symbol": column.symbol, "description": column.description}
+        fields.append(pa.field(column.name, TYPES[column.kind], column.name != VARIANT.name, about))
+    return pa.schema(fields, provenance(description))
+
+
+def provenance(description: Description) -> dict[str, str]:
+    """What the schema of each part says of its origin."""
+    return {
+        "program": "diecut-report",
+        "version": description.program,
+        "study": description.study.sha256,
+        "base": description.base.sha256,
+        "schema_version": str(SCHEMA_VERSION),
+    }
+
+
+def table_of(schema: pa.Schema, columns: Mapping[str, Values], variants: NDArray[np.int64]) -> pa.Table:
+    """The columns as a table; one that is not given holds nulls, for an output that applies to none of the variants."""
+    names = [field.name for field in schema]
+    strange = [name for name in columns if name not in names]
+    if strange or VERDICT[0].name not in columns:
+        raise ValueError(f"a part needs its status and no columns without description: {', '.join(strange)}")
+    arrays = [array_of(field, columns.get(field.name), len(variants)) for field in schema if field.name != VARIANT.name]
+    return pa.Table.from_arrays([pa.array(variants), *arrays], schema=schema)
+
+
+def array_of(field: pa.Field, values: Values | None, count: int) -> pa.Array:
+    """The values of a column in its type; what is missing, not a number or infinite is null."""
+    if values is None:
+        return pa.nulls(count, field.type)
+    if len(values) != count:
+        raise ValueError(f"the column {field.name} has {len(values)} values for {count} variants")
+    try:
+        return _array(field.type, values)
+    except (pa.ArrowException, TypeError, ValueError) as error:
+        raise ValueError(f"the column {field.name} cannot hold its values as {field.type}: {error}") from error
+
+
+def _array(kind: Any, values: Values) -> pa.Array:
+    if pa.types.is_dictionary(kind):
+        return pa.array(list(values), pa.string()).dictionary_encode()
+    if pa.types.is_list(kind):
+        return pa.array([None if one is None else _array(kind.value_type, one) for one in values], kind)
+    if pa.types.is_floating(kind) and not isinstance(values, np.ndarray):
+        values = np.array(values, float)  # None is not a number
+    if isinstance(values, np.ndarray) and values.dtype.kind == "f":
+        missing = ~np.isfinite(values)
+        return pa.array(np.where(missing, 0.0, values), mask=missing).cast(kind)  # refuses 0.5 as an integer
+    return pa.array(values, kind)
+
+
+def write_part(path: Path, table: pa.Table) -> None:
+    """The table as a Parquet file, whole and on the disk."""
+    texts = [field.name for field in table.schema if pa.types.is_dictionary(field.type)]
+    sink = pa.BufferOutputStream()
+    # numbers that seldom repeat only grow by a dictionary
+    pq.write_table(table, sink, compression=COMPRESSION, use_dictionary=texts, row_group_size=max(len(table), 1))
+    write(path, memoryview(sink.getvalue()))
+
+
+def is_whole(path: Path, schema: pa.Schema) -> bool:
+    """Whether a part can be read and is one of this study: its end is there, its origin and columns are the same."""
+    try:
+        return bool(pq.read_schema(path).equals(schema, check_metadata=True))
+    except pa.ArrowInvalid:
+        return False
+    except OSError as error:
+        if error.errno is None:  # Parquet says so too of a damaged file
+            return False
+        raise UserError(Problem(f"This part cannot be read: {error.strerror}.", str(path))) from error

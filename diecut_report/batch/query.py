@@ -1,0 +1,200 @@
+"""Questions to the stored variants: which fulfil a condition, the best first, as a table, CSV or JSON."""
+
+from __future__ import annotations
+
+import csv
+import io
+import json
+import math
+from collections.abc import Iterable, Iterator, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any, Literal
+
+from diecut_report.batch.stored import FIXED, Column, Stored, opened
+from diecut_report.batch.variant import variant_config
+from diecut_report.batch.where import condition
+from diecut_report.batch.where_words import Condition, column_named
+from diecut_report.errors import Problem, UserError
+from diecut_report.report.numbers import number
+from diecut_report.texts import number_text
+from diecut_report.units import pretty, unit
+
+FORMATS = ("table", "csv", "json")
+SHOWN, WIDE = 100, 12  # variants and quantities of a table that asks for no number of them
+ROWS = 2_000  # at a time
+
+Row = tuple[Any, ...]
+
+
+@dataclass(frozen=True)
+class Question:
+    """What is asked: a condition, the order, how many, and which columns."""
+
+    condition: Condition
+    order: tuple[tuple[Column, bool], ...]
+    top: int | None
+    columns: tuple[Column, ...]
+
+    @property
+    def where(self) -> str:
+        """The condition as SQL."""
+        return f"WHERE {self.condition.sql}"
+
+    @property
+    def sql(self) -> str:
+        """The whole question; variants of equal rank stand in the order of the sample, missing values last."""
+        names = ", ".join(column.sql for column in self.columns)
+        order = [f"{column.sql} {'DESC' if falls else 'ASC'} NULLS LAST" for column, falls in self.order]
+        limit = "" if self.top is None else f" LIMIT {self.top}"
+        return f"SELECT {names} FROM v {self.where} ORDER BY {', '.join([*order, 'variant'])}{limit}"
+
+
+def variants(
+    directory: Path,
+    where: str | None = None,
+    sort: str | None = None,
+    top: int | None = None,
+    format: str = "table",
+    columns: Sequence[str] | None = None,
+    width: int | None = None,
+) -> Iterator[str]:
+    """The answer in pieces of text: a ``table`` for people (in the units that they read), ``csv`` or ``json`` (SI, all columns).
+
+    ``sort`` names columns, parted by commas, with - for the greatest first; without ``columns`` a table shows the varied
+    quantities and what the question names. UserError in words for what cannot be asked.
+    """
+    import duckdb
+
+    with opened(directory) as stored:
+        question = _question(stored, where, sort, top, format, columns)
+        try:
+            yield from {"table": _table, "csv": _csv, "json": _json}[format](stored, question, width)
+        except (duckdb.OutOfRangeException, duckdb.ConversionException) as error:
+            words = f"The condition cannot be calculated for every variant ({str(error).splitlines()[0]})."
+            raise UserError(Problem(words)) from error
+
+
+def _question(
+    stored: Stored, where: str | None, sort: str | None, top: int | None, format: str, columns: Sequence[str] | None
+) -> Question:
+    if format not in FORMATS:
+        raise UserError(Problem(f"{format!r} is no format of variants; known: {', '.join(FORMATS)}."))
+    if top is not None and top < 1:
+        raise UserError(Problem(f"--top is {top}; a number of variants from 1 on is needed."))
+    asked = condition(where, stored.columns) if where and where.strip() else Condition("true", [])
+    order = tuple(_order(sort or "", stored))
+    if format == "table" and top is None:
+        top = SHOWN
+    return Question(asked, order, top, tuple(_columns(stored, asked, order, format, columns)))
+
+
+def _order(sort: str, stored: Stored) -> Iterator[tuple[Column, bool]]:
+    for part in filter(None, (part.strip() for part in sort.split(","))):
+        yield column_named(part.removeprefix("-").strip(), stored.columns), part.startswith("-")
+
+
+def _columns(
+    stored: Stored, asked: Condition, order: Iterable[tuple[Column, bool]], format: str, named: Sequence[str] | None
+) -> list[Column]:
+    """The columns to give, each once."""
+    if named is not None:
+        return [stored.columns["variant"], *(column_named(name, stored.columns) for name in named if name != "variant")]
+    if format != "table":
+        return list(stored.columns.values())
+    objectives = [name for each in stored.study.get("objectives") or () for name in each.values()]
+    wanted = ["variant", "status", *(column.name for column, _ in order), *asked.columns, *objectives]
+    inputs = [column.name for column in stored.varied]
+    found = dict.fromkeys([*wanted, *inputs[: max(WIDE - len(wanted), 3)], "governing"])
+    return [stored.columns[name] for name in found if name in stored.columns]
+
+
+def _fetched(stored: Stored, question: Question) -> Iterator[Row]:
+    cursor = stored.connection.execute(question.sql, question.condition.parameters)
+    while rows := cursor.fetchmany(ROWS):
+        yield from rows
+
+
+# --- formats ---------------------------------------------------------------------------------------------------------
+
+
+def _csv(stored: Stored, question: Question, _width: int | None) -> Iterator[str]:
+    """SI numbers, units in the header, as a study reads its tables."""
+    buffer = io.StringIO()
+    writer = csv.writer(buffer, lineterminator="\n")
+    writer.writerow(c.name + (f" [{c.unit}]" if c.unit != "1" else "") for c in question.columns)
+    for row in _fetched(stored, question):
+        writer.writerow("" if value is None else _plain(value) for value in row)
+        if buffer.tell() > 1 << 16:
+            yield _emptied(buffer)
+    yield _emptied(buffer)
+
+
+def _emptied(buffer: io.StringIO) -> str:
+    text = buffer.getvalue()
+    buffer.seek(0)
+    buffer.truncate()
+    return text
+
+
+def _plain(value: Any) -> Any:
+    return str(value).lower() if isinstance(value, bool) else repr(value) if isinstance(value, float) else value
+
+
+def _json(stored: Stored, question: Question, _width: int | None) -> Iterator[str]:
+    """SI numbers, with the units of the columns; a line for each variant."""
+    names = [column.name for column in question.columns]
+    units = {column.name: column.unit for column in question.columns if column.name not in FIXED and column.is_number}
+    yield f'{{"units": {json.dumps(units, ensure_ascii=False)},\n "variants": ['
+    before = "\n  "
+    for row in _fetched(stored, question):
+        yield before + json.dumps(dict(zip(names, map(_finite, row), strict=True)), ensure_ascii=False, allow_nan=False)
+        before = ",\n  "
+    yield "]}\n"
+
+
+def _finite(value: Any) -> Any:
+    return None if isinstance(value, float) and not math.isfinite(value) else value
+
+
+def _table(stored: Stored, question: Question, width: int | None) -> Iterator[str]:
+    """A table for people, and how many variants there are."""
+    from rich import box
+    from rich.console import Console
+    from rich.table import Table
+    from rich.text import Text
+
+    table = Table(box=box.SIMPLE_HEAD, pad_edge=False)
+    for column in question.columns:
+        sign = pretty(column.display)
+        name = column.name.removeprefix("mechanisms.").replace(".", ".\n")
+        justify: Literal["left", "right"] = "right" if column.is_number else "left"
+        table.add_column(Text(name + (f"\n{sign}" if sign else "")), justify=justify, overflow="fold")
+    for row in _fetched(stored, question):
+        table.add_row(*(Text(shown(value, column)) for value, column in zip(row, question.columns, strict=True)))
+    console = Console(file=io.StringIO(), width=width, color_system=None, soft_wrap=False, legacy_windows=False)
+    console.print(table)
+    given = console.file.getvalue()  # type: ignore[attr-defined]  # the StringIO from above
+    yield "\n".join(line.rstrip() for line in given.splitlines()) + f"\n{_counted(stored, question, table.row_count)}\n"
+
+
+def _counted(stored: Stored, question: Question, given: int) -> str:
+    sql = f"SELECT count(*) FILTER ({question.where}), count(*) FROM v"
+    found, total = stored.rows(sql, question.condition.parameters)[0]
+    of_all = f"{number(str(found))} of {number(str(total))} variants"
+    words = of_all if question.condition.sql == "true" else f"Fulfilling the condition: {of_all}"
+    return words + (f"; {given} are shown (--top, --format csv)." if given < found else ".")
+
+
+def shown(value: Any, column: Column) -> str:
+    """A stored value as people read it, in the column's display unit, without the unit."""
+    if value is None:
+        return "–"
+    if isinstance(value, bool):
+        return "yes" if value else "no"
+    if isinstance(value, float):
+        return number(number_text(unit(column.display).from_si(value), 5)) if value else "0"
+    return number(str(value)) if isinstance(value, int) and column.name != "variant" else str(value)
+
+
+__all__ = ["FORMATS", "shown", "variant_config", "variants"]

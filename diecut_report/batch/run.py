@@ -1,0 +1,175 @@
+"""A run of a study: chunks of its sample to an engine, results to the folder, then reports and summary."""
+
+from __future__ import annotations
+
+import os
+import time
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from dataclasses import dataclass, field
+from hashlib import sha256
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from diecut_report.batch import work
+from diecut_report.batch.columns import columns_of
+from diecut_report.batch.description import Column, Description, Source
+from diecut_report.batch.engines import Engine, InProcess, Pool, Warm, dask_cluster, results
+from diecut_report.batch.store import Store
+from diecut_report.batch.study import Study
+from diecut_report.errors import Problem, UserError
+from diecut_report.references import PRESS
+
+SMALL = 1024  # variants up to which a pool of processes costs more time than it saves
+LARGEST = 10_000_000  # rows that are calculated without being asked for twice
+PARTS = 64  # at least as many part files in a study that is large enough, so that all processes have work to the end
+PART = (512, 8192)  # least and most variants of a part file
+
+
+@dataclass
+class Counts:
+    """How far a run is."""
+
+    rows: int
+    done: int = 0
+    failed: int = 0
+    errors: int = 0
+    before: int = 0  # rows that an earlier run has done
+
+
+Tell = Callable[[Counts], None]
+
+
+@dataclass(frozen=True)
+class Where:
+    """Where a study is calculated: so many processes here, or a Dask scheduler's address."""
+
+    jobs: int | None = None
+    dask: str | None = None
+    plugins: Sequence[str] = ()
+
+
+@dataclass
+class Outcome:
+    """What a run left in its folder."""
+
+    store: Store
+    counts: dict[str, int]
+    slow: dict[str, str] = field(default_factory=dict)
+
+    @property
+    def is_failed(self) -> bool:
+        """Whether a variant fails a check; variants that cannot exist do not count."""
+        return self.counts.get("fail", 0) > 0
+
+
+def run_study(study: Study, directory: Path, where: Where, *, resume: bool, tell: Tell) -> Outcome:
+    """Calculate all variants of a study that are not in the folder yet; each part file is whole or absent, whatever happens."""
+    store = Store.open(directory, described(study)) if resume else Store.create(directory, described(study))
+    slow: dict[str, str] = dict(store.state.get("slow") or {}) if resume else {}
+    began = time.monotonic()
+    with store.lock():
+        store.note(facts(study))
+        for done in _calculated(study, store, where, tell):
+            slow |= done.slow
+        spent = time.monotonic() - began + float(store.state.get("seconds") or 0)
+        store.finish({"slow": slow, "seconds": spent})
+    return Outcome(store, store.state["counts"], slow)
+
+
+def _calculated(study: Study, store: Store, where: Where, tell: Tell) -> Iterator[work.Done]:
+    """Write each part as soon as it is calculated."""
+    there = store.done_parts()
+    chunks = [work.Chunk(index, rows.start, rows.stop) for index in range(store.description.parts)
+              for rows in [store.rows(index)] if index not in there]  # fmt: skip
+    counts = Counts(study.sample.count, before=study.sample.count - sum(chunk.stop - chunk.start for chunk in chunks))
+    tell(counts)
+    if not chunks:
+        return
+    with engine_for(study, where, len(chunks)) as engine:
+        for chunk, done in results(engine, work.calculate, chunks):
+            store.write_part(chunk.part, done.columns)
+            counts.done += chunk.stop - chunk.start
+            counts.failed += int(np.sum(done.columns["status"] == "fail"))
+            counts.errors += int(np.sum(done.columns["status"] == "error"))
+            tell(counts)
+            yield done
+
+
+def engine_for(study: Study, where: Where, chunks: int) -> Engine:
+    """A Dask cluster where one is named, a pool of processes for a large study, this process for a small one."""
+    warm = Warm(_key(study, where), work.load, (contents(study), study.file.name, tuple(where.plugins)))
+    if where.dask:
+        return dask_cluster(where.dask, warm)
+    jobs = min(where.jobs or os.cpu_count() or 1, chunks)
+    return Pool(jobs, warm) if jobs > 1 and (where.jobs or study.sample.count > SMALL) else InProcess(warm)
+
+
+def _key(study: Study, where: Where) -> str:
+    known = [study.sha256, study.base.tree.sha256, *study.tables.values(), *where.plugins]
+    return sha256("\n".join(known).encode()).hexdigest()
+
+
+def contents(study: Study) -> dict[str, bytes]:
+    """The files that a study is made of, by their names as it names them."""
+    folder = study.file.parent
+    names = [str(study.data["base"]), *study.tables]
+    return {study.file.name: study.text.encode(), **{name: (folder / name).read_bytes() for name in names}}
+
+
+def described(study: Study) -> Description:
+    """The study as its folder keeps it."""
+    files = contents(study)
+    base = str(study.data["base"])
+    columns = [*varied_columns(study), *result_columns(study)]
+    chunk = int(np.clip(study.sample.count // PARTS, *PART))
+    return Description(
+        study=Source(study.file.name, study.sha256, files[study.file.name]),
+        base=Source(base, study.base.tree.sha256, files[base]),
+        columns=tuple(columns),
+        rows=study.sample.count,
+        chunk=chunk,
+        tables=tuple(Source(name, digest) for name, digest in study.tables.items()),
+        plugins=_versions(study),
+    )
+
+
+def _versions(study: Study) -> dict[str, str]:
+    made = [instance.mechanism for name, instance in study.base.instances.items() if instance and name != PRESS]
+    return {mechanism.kind: mechanism.version for mechanism in made if mechanism}
+
+
+def varied_columns(study: Study) -> list[Column]:
+    """A column for each varied path."""
+    return [Column(path, "text" if asked.unit is None else "float", asked.unit or "1", asked.meta.symbol, asked.meta.description)
+            for path, asked in study.inputs.items()]  # fmt: skip
+
+
+def result_columns(study: Study) -> list[Column]:
+    """The outputs that are kept, and all checks, of all texts that the study varies."""
+    found: dict[str, Any] = {}
+    for base in study.bases:
+        found |= {column.name: column for column in columns_of(base)}
+    kept = [
+        column for name, column in found.items() if study.outputs is None or ".checks." in name or name in study.outputs
+    ]
+    return [Column(c.name, c.kind, c.unit, c.symbol, c.description) for c in kept]
+
+
+def facts(study: Study) -> Mapping[str, Any]:
+    """What else the summary and questions need to know of the study."""
+    objectives = [{"minimise" if each.minimise else "maximise": each.output} for each in study.objectives]
+    known: dict[str, Any] = {"varied": list(study.inputs), "objectives": objectives}
+    design = getattr(study.sample, "design", None)
+    return known | ({"design": "saltelli", "n": design.points} if design else {})
+
+
+def refuse_huge(study: Study, agreed: bool) -> None:
+    """A sample that is larger than one would calculate by mistake must be agreed to."""
+    count = study.sample.count
+    if count > LARGEST and not agreed:
+        words = (
+            f"The sample has {count:,} variants, more than {LARGEST:,}. Vary less, or give --yes to calculate them all."
+        )
+        raise UserError(Problem(words, str(study.file)))

@@ -1,0 +1,215 @@
+"""What the summary says, in its order: texts, tables and charts, ready for the template."""
+
+from __future__ import annotations
+
+import re
+from dataclasses import dataclass
+from typing import Any, NamedTuple
+
+from diecut_report.batch.stored import Column, Stored
+from diecut_report.batch.summary import data, influence, matrix, pareto
+from diecut_report.batch.summary.data import WORST, Failure, Reason, Spread, Utilisation
+from diecut_report.batch.summary.figures import Figure, Figures
+from diecut_report.batch.summary.names import counted, display, named, titled
+
+SAMPLED = 1_500  # variants in the charts of points
+TARGETS, CHARTED = 5, 3  # quantities that influence is told of, and drawn for
+PANELS, RANGES, POINTS = 12, 40, 30  # histograms, rows of ranges, quantities to choose from
+
+
+class Best(NamedTuple):
+    """A variant on the front: its number, report, and its objectives and inputs as texts."""
+
+    variant: int
+    href: str
+    values: list[str]
+
+
+class Ranked(NamedTuple):
+    """The influence of the inputs: quantities and, for each input, a text for each of them; charts of the first quantities."""
+
+    targets: list[str]
+    rows: list[tuple[str, list[str]]]
+    figures: list[Figure]
+    variants: str
+
+
+class Report(NamedTuple):
+    """A full report of a variant."""
+
+    variant: int
+    href: str
+    status: str
+
+
+@dataclass
+class Summary:
+    """The whole page."""
+
+    title: str
+    study: Any
+    total: int
+    statuses: dict[str, int]
+    facts: list[tuple[str, str]]
+    failures: list[Failure]
+    utilisations: list[Utilisation]
+    unmade: list[str]
+    matrices: list[matrix.Matrix]
+    is_whole: bool
+    spreads: list[Spread]
+    more_spreads: int
+    reasons: list[Reason]
+    reports: list[Report]
+    more_reports: int
+    front: pareto.Front | None
+    best_head: list[str]
+    best: list[Best]
+    is_sobol: bool
+    ranked: Ranked | None
+    slow: dict[str, str]
+    figures: dict[str, Figure]
+    sample: data.Sample
+    varied: list[Column]
+    choices: list[Column]
+
+    @property
+    def checksums(self) -> list[tuple[str, str]]:
+        """The files that the study was made from, with their SHA-256."""
+        return [(name, str(sum_)) for name, sum_ in (self.study.get("sha256") or {}).items()]
+
+    @property
+    def status(self) -> str:
+        """What the whole looks like: pass where some variant passes."""
+        return "pass" if self.statuses["pass"] else "warn" if self.statuses["warn"] else "fail"
+
+
+def content(stored: Stored) -> Summary:
+    """The summary of the stored variants."""
+    data.prepare(stored)
+    states = data.statuses(stored)
+    total = sum(states.values())
+    spreads = _spreads(stored, total)
+    goals = pareto.objectives(stored)
+    front = pareto.front(stored, goals, states["pass"] + states["warn"])
+    varying = [spread.column for spread in spreads.values() if spread.varies]
+    main = _main(stored, goals, varying)
+    ranked = influence.influences(stored, main[:TARGETS])
+    choices = _choices(stored, varying, main)
+    sample = data.sample(stored, choices, SAMPLED)
+    used = data.utilisations(stored)
+    made = [row for row in used if row.is_made]
+    figures = Figures(stored, states, sample, front, main)
+    best = [int(variant) for variant in front.variants] if front else []
+    reports = matrix.reported(stored.folder)
+    ranges = [spread for name, spread in spreads.items() if spread.varies and ".checks." not in name]
+    return Summary(
+        title=str(stored.study.get("title") or stored.study.get("study") or stored.folder.name),
+        study=stored.study,
+        total=total,
+        statuses=states,
+        facts=_facts(stored, total),
+        failures=(failures := data.failures(stored)),
+        utilisations=made,
+        unmade=[row.check for row in used if not row.is_made],
+        matrices=list(matrix.matrices(stored, matrix.chosen(stored, total, best), [row.check for row in made])),
+        is_whole=total <= matrix.ALL,
+        spreads=ranges[:RANGES],
+        more_spreads=max(0, len(ranges) - RANGES),
+        reasons=data.reasons(stored) if states["error"] else [],
+        reports=_reports(stored, reports[: matrix.LISTED]),
+        more_reports=max(0, len(reports) - matrix.LISTED),
+        front=front,
+        best_head=[titled(column) for column in _best_columns(stored, goals)],
+        best=_best(stored, best[: matrix.BEST], _best_columns(stored, goals)),
+        is_sobol=influence.is_saltelli(stored),
+        ranked=_ranked(ranked, figures) if ranked else None,
+        slow=dict(stored.study.get("slow") or {}),
+        figures=figures.all(failures, [spreads[c.name] for c in main if c.name in spreads and spreads[c.name].varies][:PANELS], ranked),
+        sample=sample,
+        varied=stored.varied,
+        choices=choices,
+    )  # fmt: skip
+
+
+def _spreads(stored: Stored, total: int) -> dict[str, Spread]:
+    """The ranges of inputs and outputs, and of the greatest utilisation."""
+    goals = [goal.column for goal in pareto.objectives(stored)]
+    columns = [*stored.varied, *([WORST] if stored.checks else []), *stored.outputs, *goals]
+    return data.spreads(stored, list(dict.fromkeys(columns)), total)
+
+
+def _main(stored: Stored, goals: tuple[pareto.Objective, ...], varying: list[Column]) -> list[Column]:
+    """What matters, the first most: objectives, the greatest utilisation, key results (``key`` in study.json), other outputs."""
+    inputs = {column.name for column in stored.varied}
+    aims = [goal.column for goal in goals if goal.column in varying]
+    worst = [WORST] if WORST in varying else []
+    key = [column for column in varying if column.name in (stored.study.get("key") or ())]
+    return list(dict.fromkeys([*aims, *worst, *key, *(column for column in varying if column.name not in inputs)]))
+
+
+def _choices(stored: Stored, varying: list[Column], main: list[Column]) -> list[Column]:
+    """The quantities of the charts of points and lines."""
+    inputs = [column for column in stored.varied if column in varying or column.kind in ("text", "bool")]
+    return list(dict.fromkeys([*inputs, *main]))[:POINTS]
+
+
+def _facts(stored: Stored, total: int) -> list[tuple[str, str]]:
+    """The run in a few numbers."""
+    study, counts = stored.study, stored.study.get("counts") or {}
+    facts = [("Variants calculated", counted(total, "variant")), ("Varied", counted(len(stored.varied), "input"))]
+    if counts.get("dropped"):
+        facts.append(("Left out by constraints", counted(int(counts["dropped"]), "variant")))
+    seconds = float(study.get("seconds") or 0)
+    if seconds > 0:
+        facts.append(("Calculated in", f"{seconds:.3g} s"))
+    return facts
+
+
+def _reports(stored: Stored, variants: list[int]) -> list[Report]:
+    listed = ", ".join(map(str, variants)) or "NULL"
+    states = dict(stored.rows(f"SELECT variant, status FROM v WHERE variant IN ({listed})"))
+    return [Report(one, matrix.report_of(stored.folder, one), states[one]) for one in variants if one in states]
+
+
+def _best_columns(stored: Stored, goals: tuple[pareto.Objective, ...]) -> list[Column]:
+    return list(dict.fromkeys([*(goal.column for goal in goals), *stored.varied[:6]]))
+
+
+def _best(stored: Stored, variants: list[int], columns: list[Column]) -> list[Best]:
+    names, listed = ", ".join(column.sql for column in columns) or "NULL", ", ".join(map(str, variants)) or "NULL"
+    rows = {row[0]: row[1:] for row in stored.rows(f"SELECT variant, {names} FROM v WHERE variant IN ({listed})")}
+    return [
+        Best(
+            one,
+            matrix.report_of(stored.folder, one),
+            [_told(value, column) for value, column in zip(rows[one], columns, strict=True)],
+        )
+        for one in variants
+    ]
+
+
+def _told(value: Any, column: Column) -> str:
+    if value is None:
+        return "–"
+    return display(float(value), column) if column.is_number else str(value)
+
+
+def _ranked(found: list[influence.Influence], figures: Figures) -> Ranked:
+    """One table for all quantities, its inputs in the order of the first of them."""
+    by_target = [{share.column: share for share in each.shares} for each in found]
+    inputs = list(dict.fromkeys(column for shares in by_target for column in shares))
+    rows = [(named(column), [_share(shares.get(column)) for shares in by_target]) for column in inputs]
+    drawn = [figures.influence(each) for each in found[:CHARTED]]
+    return Ranked(
+        [named(each.target) for each in found], rows, drawn, counted(max(each.variants for each in found), "variant")
+    )
+
+
+def _share(share: influence.Share | None) -> str:
+    if share is None:
+        return "–"
+    if share.total is not None:
+        text = f"{share.first:.2f} ± {share.first_error or 0:.2f} / {share.total:.2f} ± {share.total_error or 0:.2f}"
+    else:
+        text = f"{share.first:.2f}" if share.column.kind == "text" else f"{share.first:+.2f}"
+    return re.sub(r"[-+](?=0\.00)", "", text).replace("-", "−")

@@ -1,0 +1,211 @@
+"""What the stored variants say as a whole: counts, failures, utilisations, ranges. DuckDB counts; Python sees sums and samples."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+from itertools import pairwise
+from typing import Any, NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from diecut_report.batch.stored import STATUSES, Column, Stored, text
+
+Array = NDArray[Any]
+WORST = Column("greatest utilisation", "float")
+BANDS = (0.5, 0.8, 1.0, 1.25)  # limits between the classes of utilisation
+BINS, FEWEST = 24, 6  # classes of a histogram
+AT_ONCE, EXACT = 16, 100_000  # columns in a query; rows up to which the median is exact
+REASONS = 15
+
+
+class Failure(NamedTuple):
+    """A check, and of how many failing and warning variants it is the governing one."""
+
+    check: str
+    failing: int
+    warning: int
+
+
+class Utilisation(NamedTuple):
+    """A check over all variants: how many in each class of utilisation, without one, its statuses, and its greatest value."""
+
+    check: str
+    bands: tuple[int, ...]
+    without: int
+    passing: int
+    warning: int
+    failing: int
+    greatest: float | None
+
+    @property
+    def is_made(self) -> bool:
+        """Whether any variant has this check."""
+        return self.passing + self.warning + self.failing > 0
+
+
+class Spread(NamedTuple):
+    """The range of a quantity in SI: least, 5 %, median, 95 %, greatest, and how many variants have it."""
+
+    column: Column
+    values: tuple[float, float, float, float, float]
+    present: int
+
+    @property
+    def varies(self) -> bool:
+        """Whether its values differ by more than rounding."""
+        least, greatest = self.values[0], self.values[-1]
+        return greatest - least > 1e-9 * max(abs(least), abs(greatest))
+
+
+class Histogram(NamedTuple):
+    """How many variants of each status (rows) lie in each class (columns) between the edges (SI)."""
+
+    column: Column
+    edges: Array
+    counts: Array
+
+
+class Reason(NamedTuple):
+    """Why variants could not be calculated, how many, and one of them."""
+
+    told: str
+    variants: int
+    example: int
+
+
+@dataclass(frozen=True)
+class Sample:
+    """Some variants with some quantities (SI, NaN where absent; words as their number in ``words``)."""
+
+    variants: Array
+    status: Array
+    values: dict[str, Array]
+    words: dict[str, list[str]]
+
+
+def prepare(stored: Stored) -> None:
+    """Names ``w``: the variants with their greatest utilisation of all checks."""
+    named = [column.sql for column, _ in stored.checks.values()]
+    worst = f"greatest({', '.join(named)})" if named else "NULL"
+    stored.connection.execute(f"CREATE VIEW w AS SELECT *, CAST({worst} AS DOUBLE) AS {WORST.sql} FROM v")
+
+
+def statuses(stored: Stored) -> dict[str, int]:
+    """How many variants have each status."""
+    found = dict(stored.rows("SELECT status, count(*) FROM v GROUP BY status"))
+    return {status: int(found.get(status, 0)) for status in STATUSES}
+
+
+def failures(stored: Stored) -> list[Failure]:
+    """What governs the variants that fail or warn, the most frequent first."""
+    sql = (
+        "SELECT governing, count(*) FILTER (status = 'fail') AS f, count(*) FILTER (status = 'warn') AS w FROM v "
+        "WHERE status IN ('fail', 'warn') AND governing IS NOT NULL GROUP BY governing ORDER BY f DESC, w DESC, governing"
+    )
+    return [Failure(*row) for row in stored.rows(sql)]
+
+
+def utilisations(stored: Stored) -> list[Utilisation]:
+    """Each check over all variants, those with the most failures first."""
+    found = [part for names in _chunks(list(stored.checks)) for part in _utilisations(stored, names)]
+    return sorted(found, key=lambda row: (-row.failing, -row.warning, -(row.greatest or 0.0), row.check))
+
+
+def _utilisations(stored: Stored, names: Sequence[str]) -> Iterator[Utilisation]:
+    asked = [part for name in names for part in _asked(*stored.checks[name])]
+    row = stored.rows(f"SELECT {', '.join(asked)} FROM v")[0]
+    size = len(asked) // len(names)
+    for index, name in enumerate(names):
+        part = row[index * size : (index + 1) * size]
+        yield Utilisation(name, tuple(part[:-5]), *part[-5:])
+
+
+def _asked(value: Column, status: Column) -> Iterator[str]:
+    edges = [None, *BANDS, None]
+    for low, high in pairwise(edges):
+        limits = ([f"{value.sql} > {low!r}"] if low else []) + ([f"{value.sql} <= {high!r}"] if high else [])
+        yield f"count(*) FILTER ({' AND '.join(limits)})"
+    yield f"count(*) FILTER ({value.sql} IS NULL AND {status.sql} IS NOT NULL)"
+    for known in ("pass", "warn", "fail"):
+        yield f"count(*) FILTER ({status.sql} = {text(known)})"
+    yield f"max({value.sql})"
+
+
+def _chunks(items: list[Any]) -> Iterator[list[Any]]:
+    for start in range(0, len(items), AT_ONCE):
+        yield items[start : start + AT_ONCE]
+
+
+def spreads(stored: Stored, columns: Sequence[Column], total: int) -> dict[str, Spread]:
+    """The range of each quantity; those that no variant has are left out."""
+    quantile = "quantile_cont" if total <= EXACT else "approx_quantile"
+    found = {}
+    for part in _chunks([column for column in columns if column.is_number]):
+        asked = ", ".join(
+            f"min({c.sql}), {quantile}({c.sql}, 0.05), {quantile}({c.sql}, 0.5), {quantile}({c.sql}, 0.95), max({c.sql}), count({c.sql})"
+            for c in part
+        )
+        row = stored.rows(f"SELECT {asked} FROM w")[0]
+        for index, column in enumerate(part):
+            *values, count = row[6 * index : 6 * index + 6]
+            if count:
+                found[column.name] = Spread(column, tuple(map(float, values)), count)  # type: ignore[arg-type]  # five of them
+    return found
+
+
+def histogram(stored: Stored, spread: Spread) -> Histogram:
+    """The distribution of a quantity, by status."""
+    column, low, high = spread.column, spread.values[0], spread.values[-1]
+    bins = int(np.clip(2 * spread.present**0.5, FEWEST, BINS))
+    edges = np.linspace(low, high, bins + 1)
+    place = f"least(CAST(floor(({column.sql} - {low!r}) / {high - low!r} * {bins}) AS BIGINT), {bins - 1})"
+    sql = f"SELECT status, {place} AS place, count(*) FROM w WHERE {column.sql} IS NOT NULL GROUP BY ALL"
+    counts = np.zeros((len(STATUSES), bins), dtype=int)
+    for status, index, count in stored.rows(sql):
+        counts[STATUSES.index(status), max(index, 0)] += count
+    return Histogram(column, edges, counts)
+
+
+def reasons(stored: Stored) -> list[Reason]:
+    """Why variants are in error, without the numbers that differ, the most frequent first."""
+    alike = r"regexp_replace(error, '[-+]?[0-9]+[.]?[0-9]*([eE][-+]?[0-9]+)?', '…', 'g')"
+    sql = (
+        f"SELECT arg_min(error, variant), count(*) AS n, min(variant) FROM v WHERE status = 'error' "
+        f"GROUP BY {alike} ORDER BY n DESC, 3 LIMIT {REASONS}"
+    )
+    return [Reason(told or "no reason was given", count, example) for told, count, example in stored.rows(sql)]
+
+
+def sample(stored: Stored, columns: Sequence[Column], most: int) -> Sample:
+    """So many variants drawn without regard to their values, the same ones each time, in the order of the sample."""
+    words = {column.name: _words(stored, column) for column in columns if column.kind == "text"}
+    asked = [_number(column, words) for column in columns]
+    known = ", ".join(map(text, STATUSES))
+    inside = f"variant IN (SELECT variant FROM v ORDER BY hash(variant), variant LIMIT {most})"
+    sql = f"SELECT {', '.join(['variant', f'list_position([{known}], status) - 1', *asked])} FROM w WHERE {inside} ORDER BY variant"
+    rows = np.array(stored.rows(sql), dtype=float).reshape(-1, len(columns) + 2)
+    values = {column.name: rows[:, index + 2] for index, column in enumerate(columns)}
+    return Sample(rows[:, 0].astype(int), rows[:, 1].astype(int), values, words)
+
+
+def _words(stored: Stored, column: Column) -> list[str]:
+    return [
+        row[0]
+        for row in stored.rows(
+            f"SELECT DISTINCT {column.sql} FROM v WHERE {column.sql} IS NOT NULL ORDER BY 1 LIMIT 50"
+        )
+    ]
+
+
+def _number(column: Column, words: dict[str, list[str]]) -> str:
+    """A quantity as a float: a text by its place among the words, yes as one."""
+    if column.kind == "text":
+        return f"CAST(list_position([{', '.join(map(text, words[column.name]))}], {column.sql}) - 1 AS DOUBLE)"
+    return f"CAST({column.sql} AS DOUBLE)"
+
+
+def number_of(stored: Stored, column: Column) -> str:
+    """SQL that gives a column as a float, words by their number."""
+    return _number(column, {column.name: _words(stored, column)} if column.kind == "text" else {})

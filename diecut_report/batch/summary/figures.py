@@ -1,0 +1,172 @@
+"""The charts of the summary with their captions and text alternatives."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import NamedTuple
+
+import numpy as np
+
+from diecut_report.batch.stored import Column, Stored
+from diecut_report.batch.summary import charts, charts_points, data
+from diecut_report.batch.summary.data import Failure, Histogram, Sample, Spread
+from diecut_report.batch.summary.influence import Influence
+from diecut_report.batch.summary.names import counted, named, percent, quantity
+from diecut_report.batch.summary.pareto import Front
+from diecut_report.report.figures import Svg
+
+AXES, GOVERNING, LINES = 8, 15, 400  # upright axes, bars of governing checks, lines between the axes
+
+
+class Figure(NamedTuple):
+    """A chart, what stands below it, and what it shows in words."""
+
+    svg: Svg
+    caption: str
+    alternative: str
+
+
+@dataclass(frozen=True)
+class Figures:
+    """Makes the charts of a study."""
+
+    stored: Stored
+    states: dict[str, int]
+    sample: Sample
+    front: Front | None
+    main: list[Column]
+
+    def all(
+        self, failures: Sequence[Failure], spreads: Sequence[Spread], ranked: Sequence[Influence]
+    ) -> dict[str, Figure]:
+        """Every chart that the study has something for, by its key."""
+        found = {
+            "counts": self.counts(),
+            "failures": self.failures(failures) if failures else None,
+            "distributions": self.distributions(spreads) if spreads else None,
+            "parallel": self.parallel(),
+            "pair": self.pair(),
+            "grid": self.grid(ranked),
+        }
+        return {key: figure for key, figure in found.items() if figure is not None}
+
+    def counts(self) -> Figure:
+        """The variants by status."""
+        total = sum(self.states.values())
+        told = ", ".join(f"{status} {count} ({percent(count, total)})" for status, count in self.states.items())
+        return Figure(charts.shares(self.states, f"Variants by status: {told}."), "Variants by status.", told)
+
+    def failures(self, failures: Sequence[Failure]) -> Figure:
+        """What governs the failing and the warning variants."""
+        rows = failures[:GOVERNING]
+        told = "; ".join(
+            f"{row.check} governs {row.failing} failing and {row.warning} warning variants" for row in rows
+        )
+        more = f" {len(failures) - GOVERNING} rarer checks are left out." if len(failures) > GOVERNING else ""
+        caption = f"Variants by the check that governs them: failing (red) and with a warning (yellow).{more}"
+        colours = [charts.COLOURS["fail"], charts.COLOURS["warn"]]
+        bars = [(row.check, (row.failing, row.warning)) for row in rows]
+        return Figure(charts.stacked(bars, colours, f"{told}.", "failures"), caption, told)
+
+    def distributions(self, spreads: Sequence[Spread]) -> Figure:
+        """The distributions of the quantities that matter."""
+        found = [data.histogram(self.stored, spread) for spread in spreads]
+        told = "; ".join(_distributed(each, spread) for each, spread in zip(found, spreads, strict=True))
+        caption = (
+            "Distributions over all variants: pass (blue), warning (yellow), fail (red), each on top of the other; "
+            "heights count variants."
+        )
+        return Figure(charts.distributions(found, f"{told}."), caption, told)
+
+    def influence(self, found: Influence) -> Figure:
+        """The influence of the inputs on a quantity."""
+        if found.is_sobol:
+            told = "; ".join(
+                f"{named(share.column)}: first {share.first:.2f}, total {share.total or 0:.2f}"
+                for share in found.shares
+            )
+            caption = (
+                f"Influence on {named(found.target)}. Dark: first index; pale: total index; lines: 95 % intervals."
+            )
+        else:
+            told = "; ".join(f"{named(share.column)}: {share.first:+.2f}" for share in found.shares)
+            caption = f"Influence on {named(found.target)}: rank correlation; to the right, a greater input gives a greater result."
+        told = f"Influence on {named(found.target)}: {told}"
+        return Figure(charts.influence(found, f"{told}.", f"influence of {found.target.name}"), caption, told)
+
+    def parallel(self) -> Figure | None:
+        """Parallel coordinates of inputs and of what matters."""
+        inputs = [column for column in self.stored.varied if column.name in self.sample.values][: AXES - 2]
+        goals = [column for column in self.main if column.name in self.sample.values][: max(2, AXES - len(inputs))]
+        columns = [column for column in (*inputs, *goals) if np.isfinite(self.sample.values[column.name]).any()][:AXES]
+        drawn = self.sample.status != 3
+        if len(columns) < 2 or not drawn.any():
+            return None
+        some = _thinned(self.sample, LINES)
+        told = (
+            f"{counted(len(some.variants), 'variant')} as lines over {', '.join(named(column) for column in columns)}"
+        )
+        caption = (
+            f"Each line is a variant, from input to result: pass blue, warning yellow, fail red. {self._drawn(some)}"
+        )
+        return Figure(charts_points.parallel(some, columns, f"Parallel coordinates: {told}."), caption, told)
+
+    def pair(self) -> Figure | None:
+        """The first two quantities that matter, with the front."""
+        pair = self._goals()
+        if pair is None:
+            return None
+        x, y = pair
+        front = (
+            self.front
+            if self.front and {x.name, y.name} <= {goal.column.name for goal in self.front.objectives}
+            else None
+        )
+        told = f"{named(y)} over {named(x)}, {self._correlated(x, y)}"
+        if front:
+            told += f"; Pareto front of {counted(len(front.variants), 'variant')}, from variant {front.variants[0]} to {front.variants[-1]}"
+        caption = f"{named(y)} over {named(x)}{', with the Pareto front' if front else ''}. {self._drawn(self.sample)}"
+        return Figure(charts_points.scatter(self.sample, [pair], f"Scatter of {told}.", "pair", front), caption, told)
+
+    def _goals(self) -> tuple[Column, Column] | None:
+        known = [column for column in self.main if column.name in self.sample.values]
+        return (known[0], known[1]) if len(known) > 1 else None
+
+    def grid(self, ranked: Sequence[Influence]) -> Figure | None:
+        """What matters over the inputs that move it most."""
+        pairs = [
+            (share.column, found.target) for found in ranked[:3] for share in found.shares[:3]
+            if found.target.name in self.sample.values and share.column.name in self.sample.values
+        ]  # fmt: skip
+        if not pairs:
+            return None
+        some = _thinned(self.sample, LINES)
+        told = "; ".join(f"{named(y)} over {named(x)}, {self._correlated(x, y)}" for x, y in pairs)
+        caption = f"Each quantity over the inputs that move it most. {self._drawn(some)}"
+        return Figure(charts_points.scatter(some, pairs, f"Scatter: {told}.", "grid"), caption, told)
+
+    def _correlated(self, x: Column, y: Column) -> str:
+        one, two = self.sample.values[x.name], self.sample.values[y.name]
+        there = np.isfinite(one) & np.isfinite(two)
+        if there.sum() < 3 or not np.ptp(one[there]) > 0 or not np.ptp(two[there]) > 0:
+            return f"{counted(int(there.sum()), 'variant')}"
+        return f"{counted(int(there.sum()), 'variant')}, correlation {np.corrcoef(one[there], two[there])[0, 1]:.2f}"
+
+    def _drawn(self, some: Sample) -> str:
+        total = sum(self.states.values())
+        if len(some.variants) == total:
+            return "All variants are drawn."
+        return f"Of {counted(total, 'variant')}, a sample of {counted(len(some.variants), 'variant')} is drawn."
+
+
+def _distributed(each: Histogram, spread: Spread) -> str:
+    low, _, middle, _, high = (quantity(value, spread.column) for value in spread.values)
+    return f"{named(each.column)} from {low} to {high}, half of the variants below {middle}"
+
+
+def _thinned(sample: Sample, most: int) -> Sample:
+    """Every so-manieth variant of a sample, which is in no order of sizes."""
+    step = max(1, -(-len(sample.variants) // most))
+    values = {name: column[::step] for name, column in sample.values.items()}
+    return Sample(sample.variants[::step], sample.status[::step], values, sample.words)

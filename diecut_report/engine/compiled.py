@@ -1,0 +1,184 @@
+"""Many curves of one abscissa as one function: their formulas' trees joined, with every common term computed once.
+
+The function that a formula is stays what counts; this gives the same numbers to rounding, faster on large arrays. What
+depends on numbers alone is computed once for each variant, what belongs to a smooth piece once for each piece.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Mapping
+from functools import lru_cache
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from diecut_report.contract.binding import Binding, bound
+from diecut_report.contract.steps import Choice, Step, Value
+from diecut_report.expressions import NUMERIC, Node
+
+NUMBERS, PIECES, POINTS = 0, 1, 2  # what a term depends on at most: each is computed on arrays of its own
+SIGNS = {"^": "**", "and": "&", "or": "|"}
+
+
+class Leaf(NamedTuple):
+    """What a program is given: a number, a flag of the piece, a curve of another origin, or the abscissa."""
+
+    kind: str
+    name: str
+
+
+LEVEL = {"number": NUMBERS, "flag": PIECES, "curve": POINTS, "abscissa": POINTS}
+
+
+class Program:
+    """Curves over one abscissa, compiled; ``at_middle`` for flags of pieces, which are taken where the abscissa is.
+
+    ``numbers``, ``pieces`` and ``points`` take the values of their ``leaves`` and what the functions before them gave.
+    """
+
+    def __init__(self, curves: Mapping[str, Step], axis: str, wanted: Iterable[str], at_middle: bool) -> None:
+        self._curves, self._axis, self._at_middle = curves, axis, at_middle
+        self._ids: dict[tuple[Any, ...], str] = {}
+        self._level: dict[str, int] = {}
+        self._lines: dict[str, tuple[str, tuple[str, ...]]] = {}
+        self._quantities: dict[str, str] = {}
+        self._leaves: dict[str, Leaf] = {}
+        results = [self._quantity(name) for name in wanted]
+        self.leaves = tuple(
+            {name: leaf for name, leaf in self._leaves.items() if LEVEL[leaf.kind] == level} for level in range(3)
+        )
+        self.carried = self._carried(results)
+        self.numbers = self._function(NUMBERS, (), self.carried[NUMBERS])
+        self.pieces = self._function(PIECES, self.carried[NUMBERS], self.carried[PIECES])
+        self.points = self._function(POINTS, (*self.carried[NUMBERS], *self.carried[PIECES]), tuple(results))
+
+    # --- joining the trees ---------------------------------------------------------------------------------------------
+
+    def _quantity(self, name: str | float) -> str:
+        if not isinstance(name, str):
+            return self._constant(name)
+        if name not in self._quantities:
+            self._quantities[name] = self._declared(name)
+        return self._quantities[name]
+
+    def _declared(self, name: str) -> str:
+        if name == self._axis:
+            return self._leaf("abscissa", name)
+        step = self._curves.get(name)
+        match step:
+            case None:
+                return self._leaf("number", name)
+            case Value(per_piece=True) | Choice(per_piece=True) if not self._at_middle:
+                return self._leaf("flag", name)
+            case Value(formula=part):
+                return self._formula(part)
+            case Choice(cases=cases):
+                *first, last = ((c.condition, c.value) for c in cases)
+                result = self._formula(last[1])
+                for condition, value in reversed(first):
+                    result = self._term("where", self._formula(condition), self._formula(value), result)
+                return result
+        return self._leaf("curve", name)
+
+    def _formula(self, part: Any) -> str:
+        link = bound(_binding(part))
+        known = {parameter: self._quantity(name) for parameter, name in link.names.items()}
+        constants = {symbol: self._constant(float(value)) for symbol, value in link.formula.constants.items()}
+        return self._node(link.formula.tree, {"π": self._constant(np.pi)} | constants | known)
+
+    def _node(self, node: Node, known: Mapping[str, str]) -> str:
+        match node:
+            case Node("num", (text,)):
+                return self._constant(float(text))
+            case Node("sym", (symbol,)):
+                return known[symbol]
+            case Node("call", (name, *args)):
+                return self._call(name, *(self._node(part, known) for part in args))
+            case Node("cmp", (sign, left, right)):
+                return self._term(sign, self._node(left, known), self._node(right, known))
+            case Node("cases", (*branches, (otherwise,))):
+                result = self._node(otherwise, known)
+                for value, condition in reversed(branches):
+                    result = self._term("where", self._node(condition, known), self._node(value, known), result)
+                return result
+        return self._term(node.op, *(self._node(part, known) for part in node.args))
+
+    def _call(self, name: str, *args: str) -> str:
+        if name not in ("sin", "cos") or self._level.get(args[0], NUMBERS) < POINTS:
+            return self._term(name, *args)
+        half = self._term("tan", self._term("*", args[0], self._constant(0.5)))  # one tangent gives both, and faster
+        square, one = self._term("*", half, half), self._constant(1.0)
+        over = self._term("+", one, square)
+        above = self._term("+", half, half) if name == "sin" else self._term("-", one, square)
+        return self._term("/", above, over)
+
+    # --- terms, each once ----------------------------------------------------------------------------------------------
+
+    def _constant(self, value: float) -> str:
+        return repr(float(value)) if value >= 0 else f"({float(value)!r})"
+
+    def _leaf(self, kind: str, name: str) -> str:
+        key = ("leaf", kind, name)
+        if key not in self._ids:
+            self._ids[key] = own = f"given_{len(self._ids)}"
+            self._level[own], self._leaves[own] = LEVEL[kind], Leaf(kind, name)
+        return self._ids[key]
+
+    def _term(self, op: str, *args: str) -> str:
+        key = (op, *args)
+        if key not in self._ids:
+            self._ids[key] = own = f"term_{len(self._ids)}"
+            self._level[own] = max((self._level.get(a, NUMBERS) for a in args), default=NUMBERS)
+            self._lines[own] = _written(op, args), args
+        return self._ids[key]
+
+    def _carried(self, results: list[str]) -> tuple[tuple[str, ...], ...]:
+        """The terms of each level that a later level takes."""
+        taken: dict[str, None] = dict.fromkeys(r for r in results if r in self._level and self._level[r] < POINTS)
+        for own, (_, args) in self._lines.items():
+            taken |= dict.fromkeys(a for a in args if a in self._level and self._level[a] < self._level[own])
+        return tuple(tuple(name for name in taken if self._level[name] == level) for level in (NUMBERS, PIECES))
+
+    def _function(self, level: int, carried: tuple[str, ...], results: tuple[str, ...]) -> Callable[..., Any]:
+        own = {name: line for name, line in self._lines.items() if self._level[name] == level}
+        last = {arg: name for name, (_, args) in own.items() for arg in args if arg in own}
+        body = []
+        for name, (text, _) in own.items():
+            done = [arg for arg, user in last.items() if user == name and arg not in results]
+            body += [f"    {name} = {text}", *([f"    del {', '.join(done)}"] if done else [])]
+        given = ", ".join([*self.leaves[level], *carried])
+        source = "\n".join([f"def run({given}):", *body, f"    return ({''.join(f'{r}, ' for r in results)})"])
+        space: dict[str, Any] = {f"np_{name}": function for name, function in NUMERIC.items()} | {
+            "where": np.where, "np_not": np.logical_not, "inf": np.inf, "nan": np.nan, "np_arccos": _arccos,
+        }  # fmt: skip
+        exec(compile(source, "<formulas>", "exec"), space)
+        run: Callable[..., Any] = space["run"]
+        return run
+
+
+def _binding(part: Any) -> Binding:
+    assert not isinstance(part, str), "a curve has no texts"
+    found: Binding = part
+    return found
+
+
+def _written(op: str, args: tuple[str, ...]) -> str:
+    if op == "where":
+        return f"where({', '.join(args)})"
+    if op == "neg":
+        return f"-{args[0]}"
+    if op == "not" or op in NUMERIC:
+        return f"np_{op}({', '.join(args)})"
+    return f"{args[0]} {SIGNS.get(op, op)} {args[1]}"
+
+
+def _arccos(cosine: Any) -> Any:
+    """As ``expressions.arccos``, which looks at each place; most often none is beyond ±1."""
+    found = np.arccos(cosine)
+    return NUMERIC["arccos"](cosine) if np.isnan(np.add.reduce(found, axis=None)) else found
+
+
+@lru_cache(maxsize=512)
+def program(curves: tuple[tuple[str, Step], ...], axis: str, wanted: tuple[str, ...], at_middle: bool) -> Program:
+    """The compiled curves, kept for the next chunk of variants."""
+    return Program(dict(curves), axis, wanted, at_middle)

@@ -1,0 +1,102 @@
+"""Curves at given places, in blocks that stay in the processor's cache; compiled where there is much to compute."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from diecut_report.engine.compiled import Program, program
+from diecut_report.expressions import Array
+
+if TYPE_CHECKING:
+    from diecut_report.engine.calculation import Calculation
+
+BLOCK = 8192  # places at once
+MANY = 8  # variants from which compiling pays
+
+
+class Curves:
+    """Curves in smooth pieces, a row for each: the middle (rows,) of the piece and the machine ``variant`` (rows,) it belongs to."""
+
+    def __init__(self, calc: Calculation, axis: str, wanted: Sequence[str], middle: Array, variant: Array) -> None:
+        self.calc, self.axis, self.wanted, self.middle, self.variant = calc, axis, tuple(wanted), middle, variant
+        self.program: Program | None = None
+        if calc.count >= MANY:
+            self.program = _program(calc, axis, self.wanted, at_middle=False)
+            numbers = _numbers(calc, self.program, variant)
+            self.carried = _Columns([*numbers, *self.program.pieces(*self._flags(), *numbers)])
+
+    def at(self, x: Array, rows: Array | slice = slice(None)) -> list[Array]:
+        """The curves at x (rows, points), in these of the rows (default all)."""
+        middle, variant = self.middle[rows][:, None], self.variant[rows]
+        if self.program is None:
+            sampler = self.calc.sampler_of(self.axis, x, middle, variant)
+            return [np.array(np.broadcast_to(sampler[name], x.shape), dtype=float) for name in self.wanted]
+        carried = self.carried.of(rows)
+        found = [np.empty(x.shape) for _ in self.wanted]
+        size = max(1, BLOCK // x.shape[1])
+        for start in range(0, len(x), size):
+            part = slice(start, start + size)
+            given = _given(self.calc, self.axis, self.program, x[part], middle[part], variant[part])
+            values = self.program.points(*given, *carried.of(part).listed())
+            for result, value in zip(found, values, strict=True):
+                result[part] = value
+        return found
+
+    def _flags(self) -> list[Array]:
+        """What belongs to a piece as a whole, taken at its middle."""
+        assert self.program is not None
+        names = tuple(leaf.name for leaf in self.program.leaves[1].values())
+        if not names:
+            return []
+        own = _program(self.calc, self.axis, names, at_middle=True)
+        numbers, middle = _numbers(self.calc, own, self.variant), self.middle[:, None]
+        found = own.points(*_given(self.calc, self.axis, own, middle, middle, self.variant), *numbers)
+        return [np.broadcast_to(flag, middle.shape) for flag in found]
+
+
+class _Columns:
+    """Columns (rows, 1) and plain numbers, to be taken by rows together."""
+
+    def __init__(self, values: Sequence[Any]) -> None:
+        self.values = list(values)
+        self.tables: list[tuple[list[int], Array]] = []
+        for kind in (float, bool):
+            own = [i for i, value in enumerate(values) if np.ndim(value) and value.dtype == kind]
+            if own:
+                self.tables.append((own, np.stack([values[i][:, 0] for i in own])))
+
+    def of(self, rows: Array | slice) -> _Columns:
+        """These rows of the columns."""
+        found = object.__new__(_Columns)
+        found.values = self.values
+        found.tables = [(own, table[:, rows]) for own, table in self.tables]
+        return found
+
+    def listed(self) -> list[Any]:
+        """The columns in their order."""
+        found = list(self.values)
+        for own, table in self.tables:
+            for i, column in zip(own, table, strict=True):
+                found[i] = column[:, None]
+        return found
+
+
+def _program(calc: Calculation, axis: str, wanted: tuple[str, ...], *, at_middle: bool) -> Program:
+    return program(tuple(calc.curves.items()), axis, wanted, at_middle)
+
+
+def _numbers(calc: Calculation, of: Program, variant: Array) -> list[Any]:
+    """What depends on numbers alone, a row for each row of places."""
+    found = of.numbers(*(calc[leaf.name] for leaf in of.leaves[0].values()))
+    return [np.asarray(value)[variant] if np.ndim(value) else value for value in found]
+
+
+def _given(calc: Calculation, axis: str, of: Program, x: Array, middle: Array, variant: Array) -> list[Array]:
+    leaves = of.leaves[2].values()
+    if all(leaf.kind == "abscissa" for leaf in leaves):
+        return [x] * len(leaves)
+    sampler = calc.sampler_of(axis, x, middle, variant)
+    return [sampler[leaf.name] for leaf in leaves]

@@ -1,0 +1,105 @@
+"""Many machines at once against each one alone: the same numbers, verdicts and reasons."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+
+from diecut_report.assembly import document
+from diecut_report.batch.columns import columns_of
+from diecut_report.batch.inputs import find_input, with_values
+from diecut_report.batch.rows import Rows, calculate_rows
+from diecut_report.compute import compute
+from diecut_report.config import Config, load_config
+from diecut_report.contract.inputs import SI
+from diecut_report.discovery import Discovery
+from diecut_report.errors import UserError
+from tests.configs import EXAMPLES
+
+Values = Mapping[str, Any]
+VARIED: dict[str, dict[str, tuple[float, float] | list[str]]] = {
+    "flat_cylinder_press.yaml": {
+        "mechanisms.drive.crank_speed": (4.0, 12.0), "mechanisms.cylinder.bore_radius": (0.03, 0.12),
+        "press.sheet.thickness": (3e-4, 1.2e-3), "press.productivity": (0.5, 2.5), "mechanisms.feeder.motion_law": ["cycloidal", "modified_sine"],
+    },
+    "flat_cylinder_belt_press.yaml": {"press.productivity": (0.5, 1.6)},
+    "folding_knife.yaml": {"mechanisms.knife.cylinder_rate": (2.0, 9.0), "mechanisms.knife.working_depth": (0.02, 0.06)},
+    "platen_press_zppt30.yaml": {"mechanisms.platen.drive_deformation": (1e-4, 2e-3), "mechanisms.platen.friction": (0.01, 0.3)},
+    "circular_knife.yaml": {"mechanisms.knife.eccentricity": (0.005, 0.06), "mechanisms.knife.front_distance": (0.01, 0.06)},
+    "elastic_transport.yaml": {"mechanisms.conveyor.stiffness": (5e3, 9e4), "mechanisms.transport.motion_law": ["cycloidal", "polynomial_345"]},
+}  # fmt: skip
+
+
+def config(name: str) -> Config:
+    return load_config(next(path for path in EXAMPLES if path.name == name), Discovery([]))
+
+
+def drawn(name: str, count: int) -> dict[str, Any]:
+    """Random values of the varied inputs, SI."""
+    random = np.random.default_rng(7)
+    return {path: random.uniform(*limits, count) if isinstance(limits, tuple) else [limits[i % len(limits)] for i in range(count)]
+            for path, limits in VARIED[name].items()}  # fmt: skip
+
+
+def together(base: Config, values: Values, count: int) -> Rows:
+    return calculate_rows(base, {find_input(base, path): column for path, column in values.items()}, count)
+
+
+def alone(base: Config, values: Values) -> dict[str, Any] | str:
+    """The results document of one machine, or why it cannot exist."""
+    given = {find_input(base, path): value for path, value in values.items()}
+    changed, problems = with_values(base, {asked: value if asked.unit is None else SI(value, asked.unit, asked.path) for asked, value in given.items()})
+    assert not problems
+    try:
+        return document(compute(changed, lambda _: None))
+    except UserError as error:
+        return str(error)
+
+
+def same(one: Any, other: Any) -> bool:
+    if isinstance(one, float) and isinstance(other, int | float) and not isinstance(other, bool):
+        return math.isclose(one, other, rel_tol=1e-9, abs_tol=1e-12)
+    return bool(one == other)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("name", VARIED)
+def test_each_machine_among_many_is_the_one_alone(name: str) -> None:
+    base, count = config(name), 24
+    values = drawn(name, count)
+    rows = together(base, values, count)
+    assert not rows.slow
+    for row in range(count):
+        found = alone(base, {path: column[row] if isinstance(column, list) else float(column[row]) for path, column in values.items()})
+        if isinstance(found, str):
+            assert rows.status[row] == "error"
+            assert rows.errors[row].split(": ", 1)[1] in found
+            continue
+        assert rows.status[row] == found["status"], rows.errors[row]
+        _same_numbers(rows, row, found)
+
+
+def _same_numbers(rows: Rows, row: int, found: dict[str, Any]) -> None:
+    for name, mechanism in found["mechanisms"].items():
+        outputs = {f"{name}.{key}": output["value"] for key, output in mechanism["outputs"].items()}
+        for key, value in outputs.items():
+            if key in rows.columns:
+                assert same(rows.columns[key][row], value), (key, rows.columns[key][row], value)
+        for check in mechanism["checks"]:
+            ratio, status = (rows.columns[f"{name}.checks.{check['id']}.{part}"][row] for part in ("utilisation", "status"))
+            assert status == check["status"], check["id"]
+            is_residual = max(ratio, check["utilisation"] or 0) < 1e-3  # judged by its status
+            assert is_residual or same(ratio, check["utilisation"]) or (math.isnan(ratio) and check["utilisation"] is None), check["id"]
+
+
+@pytest.mark.parametrize("name", VARIED)
+def test_the_columns_are_known_before(name: str) -> None:
+    base = config(name)
+    first = {path: column[:1] for path, column in drawn(name, 1).items()}
+    declared = {column.name for column in columns_of(base)}
+    assert set(together(base, first, 1).columns) <= declared

@@ -1,0 +1,420 @@
+"""Samples against brute force, their distributions by moments and by the test of Kolmogorov and Smirnov."""
+
+from __future__ import annotations
+
+import itertools
+import math
+import pickle
+import tracemalloc
+import warnings
+from collections import Counter
+from collections.abc import Callable
+from typing import Any
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+from scipy import stats
+
+from diecut_report.batch import sampling
+from diecut_report.batch.sampling import Sample, SampleError
+from diecut_report.batch.sensitivity import sobol_indices
+from diecut_report.batch.variables import Choice, Normal, Range, Triangular, Uniform, Variable
+from diecut_report.expressions import Array
+
+SPEED = Range("drive.crank_speed", 4.0, 12.0, 5)
+RADIUS = Choice("cylinder.bore_radius", (0.055, 0.06, 0.065))
+LAW = Choice("drive.motion_law", ("cycloidal", "harmonic"))
+TEETH = Range("train.teeth", 17, 23, 4, integer=True)
+MIXED: tuple[Variable, ...] = (
+    SPEED,
+    LAW,
+    TEETH,
+    Uniform("mass", 2.0, 5.0),
+    Normal("gap", 1e-3, 1e-4, low=0.8e-3),
+    Triangular("friction", 0.1, 0.12, 0.2),
+)
+SAMPLES: dict[str, Callable[[int], Sample]] = {
+    "latin hypercube": lambda count: sampling.latin_hypercube(MIXED, count, seed=3),
+    "sobol": lambda count: sampling.sobol(MIXED, count, seed=3),
+    "indices": lambda count: sampling.sobol(MIXED, count, seed=3, indices=True),
+    "grid": lambda count: sampling.grid([LAW, Range("x", 0.0, 1.0, count), TEETH]),
+    "zip": lambda count: sampling.zipped([Range("y", 2.0, 5.0, count), Range("x", 1.0, 0.1, count, log=True)]),
+    "table": lambda count: sampling.table({"x": np.arange(count) * 0.1, "law": [f"law {i}" for i in range(count)]}),
+}
+SHARES = (np.arange(200_000) + 0.5) / 200_000
+
+
+def whole(sample: Sample) -> dict[str, Any]:
+    return sample.rows(0, sample.count)
+
+
+def numbers(variable: Variable, share: Array = SHARES) -> Array:
+    values = variable.quantile(share)
+    assert isinstance(values, np.ndarray)
+    return values
+
+
+def as_lists(rows: dict[str, Any]) -> dict[str, list[Any]]:
+    return {path: list(values) for path, values in rows.items()}
+
+
+# --- grid, zip, table ------------------------------------------------------------------------------------------------
+
+
+def test_a_grid_is_the_product_with_the_first_path_slowest() -> None:
+    sample = sampling.grid([SPEED, LAW, RADIUS])
+    expected = list(itertools.product([4.0, 6.0, 8.0, 10.0, 12.0], ["cycloidal", "harmonic"], [0.055, 0.06, 0.065]))
+    assert sample.count == 30
+    assert sample.paths == ("drive.crank_speed", "drive.motion_law", "cylinder.bore_radius")
+    assert list(zip(*whole(sample).values(), strict=True)) == expected
+
+
+def test_a_grid_of_a_million_by_a_million_says_its_size_and_gives_its_last_row() -> None:
+    sample = sampling.grid([Range("a", 0.0, 1.0, 10**6), Range("b", 5.0, 7.0, 10**6), LAW])
+    assert sample.count == 2 * 10**12
+    last = sample.rows(sample.count - 3, sample.count)
+    assert list(last["a"]) == [1.0, 1.0, 1.0]
+    assert list(last["b"]) == [pytest.approx(7 - 2e-6, abs=1e-9), 7.0, 7.0]
+    assert last["drive.motion_law"] == ["harmonic", "cycloidal", "harmonic"]
+
+
+def test_zipped_lists_go_together() -> None:
+    sample = sampling.zipped([RADIUS, Range("x", 3.0, 1.0, 3)])
+    assert as_lists(whole(sample)) == {"cylinder.bore_radius": [0.055, 0.06, 0.065], "x": [3.0, 2.0, 1.0]}
+
+
+def test_a_table_gives_its_own_rows() -> None:
+    sample = sampling.table({"x": np.array([1.0, 2.0, 3.0]), "law": ["a", "b", "c"]})
+    assert (sample.count, sample.paths) == (3, ("x", "law"))
+    assert as_lists(sample.rows(1, 3)) == {"x": [2.0, 3.0], "law": ["b", "c"]}
+
+
+def test_a_range_has_both_ends_and_equal_steps_or_ratios() -> None:
+    number = np.arange(7)
+    np.testing.assert_allclose(Range("x", 0.1, 0.7, 7).at(number), np.linspace(0.1, 0.7, 7), rtol=1e-15)
+    np.testing.assert_allclose(Range("x", 0.1, 30.0, 7, log=True).at(number), np.geomspace(0.1, 30.0, 7), rtol=1e-14)
+    ends = Range("x", 0.3, 0.7, 7, log=True).at(np.array([0, 6]))
+    assert list(ends) == [0.3, 0.7]
+
+
+@pytest.mark.parametrize("log", [False, True])
+def test_the_ends_of_a_range_are_exactly_those_given_and_nothing_lies_beyond(log: bool) -> None:
+    for low, high in np.random.default_rng(4).uniform(0.01, 3.0, (300, 2)).tolist():
+        values = Range("x", low, high, 7, log=log).at(np.arange(7))
+        assert (values[0], values[-1]) == (low, high)
+        drawn = numbers(Range("x", low, high, log=log), np.array([1e-300, 1 - 1e-16]))
+        assert min(low, high) <= drawn.min() <= drawn.max() <= max(low, high)
+
+
+@pytest.mark.parametrize("integer", [False, True])
+@pytest.mark.parametrize("log", [False, True])
+def test_a_descending_range_descends(integer: bool, log: bool) -> None:
+    drawn = numbers(Range("x", 9, 2, log=log, integer=integer), np.array([0.01, 0.3, 0.6, 0.99]))
+    assert list(drawn) == sorted(drawn, reverse=True)
+    assert drawn[0] > 8.5
+
+
+@given(st.integers(-50, 50), st.integers(1, 60), st.data())
+def test_whole_numbers_of_a_range_are_different_and_nearest_to_equal_steps(low: int, span: int, data: Any) -> None:
+    count = data.draw(st.integers(2, span + 1))
+    values = Range("x", low, low + span, count, integer=True).at(np.arange(count))
+    assert len(set(values)) == count
+    assert np.all(values == np.round(values))
+    np.testing.assert_allclose(values, np.linspace(low, low + span, count), atol=0.5 + 1e-9)
+    assert (values[0], values[-1]) == (low, low + span)
+
+
+# --- chunks ----------------------------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("kind", SAMPLES)
+@given(st.integers(2, 60), st.data())
+@settings(max_examples=15)
+def test_chunks_give_the_same_rows_as_the_whole(kind: str, count: int, data: Any) -> None:
+    sample = SAMPLES[kind](count)
+    cuts = data.draw(st.lists(st.integers(0, sample.count), max_size=5).map(sorted))
+    edges = [0, *cuts, sample.count]
+    chunks = [as_lists(sample.rows(start, stop)) for start, stop in itertools.pairwise(edges)]
+    joined = {path: [value for chunk in chunks for value in chunk[path]] for path in sample.paths}
+    assert joined == as_lists(whole(sample))
+
+
+@pytest.mark.parametrize("kind", SAMPLES)
+def test_another_process_would_get_the_same_rows(kind: str) -> None:
+    sample = SAMPLES[kind](33)
+    before = as_lists(sample.rows(5, 20))
+    assert as_lists(pickle.loads(pickle.dumps(sample)).rows(5, 20)) == before
+    assert as_lists(SAMPLES[kind](33).rows(5, 20)) == before
+
+
+@pytest.mark.parametrize("bounds", [(-1, 3), (3, 2), (0, 34)])
+def test_rows_that_are_not_there_are_refused(bounds: tuple[int, int]) -> None:
+    with pytest.raises(IndexError, match="of a sample of 33"):
+        SAMPLES["zip"](33).rows(*bounds)
+
+
+@pytest.mark.parametrize("method", [sampling.latin_hypercube, sampling.sobol])
+def test_another_seed_gives_other_rows(method: Callable[..., Sample]) -> None:
+    one, two = (whole(method(MIXED, 16, seed))["mass"] for seed in (0, 1))
+    assert not np.isclose(one, two).any()
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("kind", ["sobol", "indices", "grid", "zip"])
+def test_a_million_rows_need_no_more_memory_than_a_chunk(kind: str) -> None:
+    sample, size = SAMPLES[kind](1_000_000), 10_000
+    sample.rows(0, size)  # imports and caches
+    tracemalloc.start()
+    for start in range(0, 1_000_000, size):
+        sample.rows(start, start + size)
+    peak = tracemalloc.get_traced_memory()[1]
+    tracemalloc.stop()
+    assert peak < 60 * 8 * size
+
+
+@pytest.mark.slow
+def test_a_latin_hypercube_holds_one_number_for_each_row_and_path() -> None:
+    sample = sampling.latin_hypercube(MIXED, 1_000_000, seed=77)
+    tracemalloc.start()
+    for start in range(0, 1_000_000, 10_000):
+        sample.rows(start, start + 10_000)
+    held, peak = tracemalloc.get_traced_memory()
+    tracemalloc.stop()
+    assert held < 1.1 * 8 * 1_000_000 * len(MIXED)
+    assert peak < 2 * 8 * 1_000_000 * len(MIXED)
+
+
+# --- drawn samples ---------------------------------------------------------------------------------------------------
+
+
+def test_a_latin_hypercube_takes_each_part_of_each_variable_once() -> None:
+    rows = whole(sampling.latin_hypercube([Uniform("x", 0.0, 1.0), Uniform("y", 0.0, 1.0)], 500, seed=9))
+    for values in rows.values():
+        assert sorted(np.floor(values * 500)) == list(range(500))
+    assert abs(np.corrcoef(rows["x"], rows["y"])[0, 1]) < 0.2
+
+
+def test_sobol_points_are_those_of_scipy_in_the_middle_of_their_cells() -> None:
+    rows = whole(sampling.sobol([Uniform("x", 0.0, 1.0), Uniform("y", 0.0, 1.0)], 64, seed=5))
+    expected = stats.qmc.Sobol(2, rng=np.random.default_rng(5)).random(64)
+    np.testing.assert_allclose(np.stack([rows["x"], rows["y"]], axis=1), expected + 2**-31, rtol=0, atol=1e-15)
+
+
+def test_sobol_points_put_one_in_each_part_of_each_variable() -> None:
+    rows = whole(sampling.sobol([Uniform(name, 0.0, 1.0) for name in "abcde"], 256))
+    for values in rows.values():
+        assert sorted(np.floor(values * 256)) == list(range(256))
+
+
+def test_a_count_that_is_no_power_of_two_is_noted_and_not_warned_of() -> None:
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        whole(sampling.sobol(MIXED, 1000))
+    assert "512 or 1024" in str(sampling.sobol(MIXED, 1000).note)
+    assert sampling.sobol(MIXED, 1024).note is None
+    assert sampling.grid([SPEED]).note is None
+
+
+def test_a_large_latin_hypercube_says_how_much_it_holds() -> None:
+    assert "458 MB" not in str(sampling.latin_hypercube(MIXED, 10_000_000).note)
+    assert "763 MB" in str(sampling.latin_hypercube([*MIXED, *(Uniform(n, 0, 1) for n in "abcd")], 10_000_000).note)
+
+
+# --- distributions ---------------------------------------------------------------------------------------------------
+
+CUT = stats.truncnorm(-1.5, 2.0, loc=3.0, scale=0.2)
+DISTRIBUTIONS: list[tuple[Variable, Any]] = [
+    (Uniform("x", 2.0, 5.0), stats.uniform(2.0, 3.0)),
+    (Range("x", 2.0, 5.0), stats.uniform(2.0, 3.0)),
+    (Range("x", 5.0, 2.0), stats.uniform(2.0, 3.0)),
+    (Range("x", 0.1, 10.0, log=True), stats.loguniform(0.1, 10.0)),
+    (Normal("x", 3.0, 0.2), stats.norm(3.0, 0.2)),
+    (Normal("x", 3.0, 0.2, low=2.7, high=3.4), CUT),
+    (Normal("x", 3.0, 0.2, low=2.9), stats.truncnorm(-0.5, np.inf, loc=3.0, scale=0.2)),
+    (Triangular("x", 1.0, 1.5, 4.0), stats.triang(1 / 6, loc=1.0, scale=3.0)),
+]
+
+
+@pytest.mark.parametrize(("variable", "law"), DISTRIBUTIONS)
+def test_a_distribution_has_its_moments_and_its_shape(variable: Variable, law: Any) -> None:
+    values = numbers(variable)
+    assert values.mean() == pytest.approx(law.mean(), rel=1e-4)
+    assert values.std() == pytest.approx(law.std(), rel=2e-3)
+    drawn = numbers(variable, np.random.default_rng(1).random(20_000))
+    assert stats.kstest(drawn, law.cdf).pvalue > 1e-3
+
+
+def test_a_truncated_normal_has_the_mean_of_its_formula() -> None:
+    # E[X | a < X < b] = µ + σ (φ(α) - φ(β)) / (Φ(β) - Φ(α))
+    def density(z: float) -> float:
+        return math.exp(-z * z / 2) / math.sqrt(2 * math.pi)
+
+    def below(z: float) -> float:
+        return (1 + math.erf(z / math.sqrt(2))) / 2
+
+    expected = 3 + 0.2 * (density(-1.5) - density(2.0)) / (below(2.0) - below(-1.5))
+    assert numbers(Normal("x", 3.0, 0.2, low=2.7, high=3.4)).mean() == pytest.approx(expected, rel=1e-7)
+
+
+@given(st.floats(0.0, 1.0, exclude_min=True, exclude_max=True))
+def test_values_never_leave_their_limits(share: float) -> None:
+    for variable, low, high in (
+        (Uniform("x", 0.1, 0.7), 0.1, 0.7),
+        (Range("x", 0.7, 0.1, log=True), 0.1, 0.7),
+        (Normal("x", 0.1, 0.2, low=0.1, high=0.7), 0.1, 0.7),
+        (Triangular("x", 0.1, 0.1, 0.7), 0.1, 0.7),
+        (Normal("x", 5, 3, low=1, high=9, integer=True), 1, 9),
+    ):
+        value = numbers(variable, np.array([share]))[0]
+        assert low <= value <= high
+
+
+@pytest.mark.parametrize(
+    "variable",
+    [Uniform("x", 17, 23, integer=True), Range("x", 23, 17, 4, integer=True), Choice("x", (17.0, 20.0, 23.0))],
+)
+def test_whole_numbers_and_lists_are_drawn_evenly(variable: Variable) -> None:
+    counted = Counter(numbers(variable, (np.arange(2100) + 0.5) / 2100))
+    expected = [17.0, 20.0, 23.0] if isinstance(variable, Choice) else [float(i) for i in range(17, 24)]
+    assert counted == dict.fromkeys(expected, 2100 // len(expected))
+
+
+def test_whole_numbers_of_a_normal_take_the_share_of_their_step() -> None:
+    law = stats.norm(20, 2)
+    counted = Counter(numbers(Normal("x", 20, 2, low=17, high=24, integer=True)))
+    mass = law.cdf(24.5) - law.cdf(16.5)
+    for value in range(17, 25):
+        assert counted[value] / len(SHARES) == pytest.approx(
+            (law.cdf(value + 0.5) - law.cdf(value - 0.5)) / mass, abs=1e-5
+        )
+
+
+def test_whole_numbers_of_a_log_range_take_the_share_of_their_ratio() -> None:
+    counted = Counter(numbers(Range("x", 1, 8, log=True, integer=True)))
+    for value in range(1, 9):
+        expected = math.log((value + 0.5) / (value - 0.5)) / math.log(8.5 / 0.5)
+        assert counted[value] / len(SHARES) == pytest.approx(expected, abs=1e-5)
+
+
+def test_texts_are_drawn_as_often_as_each_other() -> None:
+    drawn = whole(sampling.sobol([LAW, RADIUS], 256))["drive.motion_law"]
+    assert Counter(drawn) == {"cycloidal": 128, "harmonic": 128}
+
+
+# --- Sobol indices ---------------------------------------------------------------------------------------------------
+
+
+def test_the_rows_for_indices_mix_two_matrices_one_column_at_a_time() -> None:
+    sample = sampling.sobol(MIXED, 16, seed=2, indices=True)
+    assert sample.count == 16 * 8
+    design = sample.design
+    assert design is not None
+    row = np.arange(sample.count)
+    place, point = design.place(row), design.point(row)
+    columns = {path: np.array(values) for path, values in whole(sample).items()}
+    assert design.matrices[:3] == ("A", "B", "AB drive.crank_speed")
+    for i, path in enumerate(sample.paths):
+        a, b = columns[path][place == 0], columns[path][place == 1]
+        assert (a != b).any()
+        assert list(point[place == 2 + i]) == list(range(16))
+        for j in range(len(MIXED)):
+            assert list(columns[path][place == 2 + j]) == list(b if i == j else a)
+
+
+def test_samples_without_that_design_say_so() -> None:
+    assert sampling.sobol(MIXED, 16).design is None
+    assert sampling.grid([SPEED]).design is None
+
+
+def ishigami(rows: dict[str, Any]) -> Array:
+    x, y, z = rows.values()
+    return np.asarray(np.sin(x) + 7 * np.sin(y) ** 2 + 0.1 * z**4 * np.sin(x))
+
+
+def ishigami_values(points: int, seed: int = 0) -> Array:
+    sample = sampling.sobol([Uniform(n, -math.pi, math.pi) for n in "xyz"], points, seed, indices=True)
+    return ishigami(whole(sample)).reshape(points, 5)
+
+
+def test_the_indices_of_ishigamis_function_are_the_analytic_ones() -> None:
+    a, b, pi4 = 7.0, 0.1, math.pi**4
+    alone = np.array([0.5 * (1 + b * pi4 / 5) ** 2, a**2 / 8, 0.0])
+    together = 8 * b**2 * pi4**2 / 225
+    variance = alone.sum() + together
+    found = sobol_indices(ishigami_values(8192))
+    assert found is not None
+    np.testing.assert_allclose(found.first, alone / variance, atol=0.005)
+    np.testing.assert_allclose(found.total, (alone + np.array([together, 0, together])) / variance, atol=0.005)
+
+
+def test_the_indices_are_those_of_scipy() -> None:
+    values = ishigami_values(256)
+    f_ab = values[:, 2:].T[:, np.newaxis, :]
+    by_scipy: Any = stats.sobol_indices(func={"f_A": values[:, :1].T, "f_B": values[:, 1:2].T, "f_AB": f_ab}, n=256)
+    found = sobol_indices(values)
+    assert found is not None
+    np.testing.assert_allclose(found.first, by_scipy.first_order, rtol=1e-10)
+    np.testing.assert_allclose(found.total, by_scipy.total_order, rtol=1e-10)
+
+
+def test_a_point_with_a_missing_value_is_left_out_whole() -> None:
+    values = ishigami_values(64)
+    holed = values.copy()
+    holed[5, 3] = np.nan
+    holed[9, 0] = np.inf
+    found, without = sobol_indices(holed), sobol_indices(np.delete(values, [5, 9], axis=0))
+    assert found is not None and without is not None
+    assert found.points == 62
+    np.testing.assert_array_equal(found.total, without.total)
+
+
+@pytest.mark.parametrize("values", [np.full((8, 4), 3.3), np.full((8, 4), np.nan), np.zeros((8, 4)), np.ones((1, 4))])
+def test_what_does_not_vary_has_no_indices(values: Array) -> None:
+    assert sobol_indices(values) is None
+
+
+# --- what cannot be --------------------------------------------------------------------------------------------------
+
+WRONG: dict[str, Callable[[], object]] = {
+    "the list is empty": lambda: Choice("x", ()),
+    "mixes numbers and texts": lambda: Choice("x", (1.0, "a")),  # type: ignore[arg-type]
+    "not a finite number": lambda: Choice("x", (1.0, math.nan)),
+    "to must be a finite number": lambda: Range("x", 1.0, math.inf),
+    "from and to above zero": lambda: Range("x", 0.0, 1.0, 3, log=True),
+    "count must be 1 or more": lambda: Range("x", 0.0, 1.0, 0),
+    "from and to differ": lambda: Range("x", 0.0, 1.0, 1),
+    "to must be a whole number": lambda: Range("x", 1, 2.5, integer=True),
+    "holds 4 whole numbers, count: 5": lambda: Range("x", 1, 4, 5, integer=True),
+    "only 7 different whole numbers": lambda: Range("x", 1, 10, 8, log=True, integer=True),
+    "low must be below high": lambda: Uniform("x", 2.0, 2.0),
+    "sd .* above zero": lambda: Normal("x", 2.0, 0.0),
+    "more than 8 standard deviations": lambda: Normal("x", 2.0, 0.1, low=3.0),
+    "mode must lie between": lambda: Triangular("x", 1.0, 5.0, 2.0),
+    "no list of values for sample: grid": lambda: sampling.grid([SPEED, Uniform("x", 0.0, 1.0)]),
+    "no list of values for sample: zip": lambda: sampling.zipped([Normal("x", 0.0, 1.0)]),
+    "count is missing; sample: grid": lambda: sampling.grid([Range("x", 0.0, 1.0)]),
+    "drive.crank_speed has 5, cylinder.bore_radius has 3": lambda: sampling.zipped([SPEED, RADIUS]),
+    "varied more than once": lambda: sampling.sobol([SPEED, SPEED], 8),
+    "nothing is varied": lambda: sampling.grid([]),
+    "the sample is empty": lambda: sampling.latin_hypercube([SPEED], 0),
+    "seed must be 0 or more": lambda: sampling.sobol([SPEED], 8, seed=-1),
+    "at most 1073741824 different points": lambda: sampling.sobol([SPEED], 2**30 + 1),
+    "at most 21201 dimensions": lambda: sampling.sobol([Uniform(f"x{i}", 0, 1) for i in range(10601)], 2, indices=True),
+    "no rows below its header": lambda: sampling.table({"x": np.array([])}),
+    "no columns": lambda: sampling.table({}),
+    "unlike lengths: x has 2, y has 1": lambda: sampling.table({"x": np.zeros(2), "y": ["a"]}),
+}
+
+
+@pytest.mark.parametrize("words", WRONG)
+def test_what_cannot_be_is_told_in_words(words: str) -> None:
+    with pytest.raises(SampleError, match=words):
+        WRONG[words]()
+
+
+def test_an_error_names_the_path_that_it_is_about() -> None:
+    with pytest.raises(SampleError) as caught:
+        sampling.grid([SPEED, Uniform("x", 0.0, 1.0)])
+    assert caught.value.path == "x"
