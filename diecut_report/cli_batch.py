@@ -5,7 +5,7 @@ from __future__ import annotations
 import sys
 import tempfile
 from collections.abc import Iterator
-from contextlib import contextmanager, redirect_stdout
+from contextlib import closing, contextmanager, redirect_stdout
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -91,6 +91,7 @@ def _told(outcome: Outcome, target: Path) -> Iterator[str]:
         f"{kind} cannot take arrays and was calculated machine by machine, which is slow: {why}"
         for kind, why in outcome.slow.items()
     )
+    yield from outcome.notes
 
 
 @click.command()
@@ -118,7 +119,10 @@ def variants(
     """Ask the stored variants of a study."""
     from diecut_report.batch.query import variants as asked
 
-    emit(asked(folder, where=where, sort=sort, top=top, format=form))
+    with closing(asked(folder, where=where, sort=sort, top=top, format=form)) as pieces:
+        for piece in pieces:
+            if not emit(piece):  # the reader has seen enough
+                break
     return PASSED
 
 

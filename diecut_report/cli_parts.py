@@ -25,8 +25,8 @@ def tell(lines: Iterable[str]) -> None:
         click.echo(line, err=True)
 
 
-def emit(text: str) -> None:
-    """What was asked for, on standard output; always UTF-8."""
+def emit(text: str) -> bool:
+    """What was asked for, on standard output; always UTF-8. Says whether the reader is still there."""
     if sys.stdout is None:
         raise UserError(Problem("Standard output is closed; name a file with -o."))
     left = memoryview(text.encode())
@@ -36,11 +36,13 @@ def emit(text: str) -> None:
         sys.stdout.flush()
     except BrokenPipeError:  # the reader has seen enough
         _close_output()
+        return False
     except OSError as error:
         from diecut_report.writing import reason
 
         _close_output()
         raise UserError(Problem(f"Standard output cannot be written: {reason(error)}")) from error
+    return True
 
 
 def _close_output() -> None:

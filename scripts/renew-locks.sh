@@ -21,4 +21,4 @@ compile() {
         --no-emit-index-url --no-emit-trusted-host --no-emit-find-links "$@" pyproject.toml
 }
 compile --all-build-deps --output-file=requirements.lock "$@"
-compile --all-build-deps --extra=dev --constraint=requirements.lock --output-file=requirements-dev.lock "$@"
+compile --all-build-deps --extra=dev --extra=cluster --constraint=requirements.lock --output-file=requirements-dev.lock "$@"

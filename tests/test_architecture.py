@@ -42,16 +42,24 @@ LAYERS = [
     {"report", "exports"},
     {"pipeline"},
     {"progress"},
+    {"batch"},
+    {"cli_parts"},
+    {"cli_batch"},
     {"cli"},
     {"__main__"},
 ]
 REPORT = LAYERS.index({"report", "exports"})
 ONLY_IN = {  # library: the modules of the program that may import it
-    "matplotlib": r"diecut_report\.report\.(figures|charts|drawing)",
-    "weasyprint": r"diecut_report\.report\.pdf",
+    "dask": r"(?!)",  # its client is all that is needed
+    "distributed": r"diecut_report\.batch\.cluster",
+    "duckdb": r"diecut_report\.batch\.(stored|query|summary\.\w+)",
+    "matplotlib": r"diecut_report\.(report\.(figures|charts|drawing)|batch\.summary\.\w+)",
+    "openpyxl": r"diecut_report\.batch\.(table_files|export)",
+    "pyarrow": r"diecut_report\.batch\.(parts|store|export|table_files|cells)",
+    "weasyprint": r"diecut_report\.(report\.pdf|batch\.summary\.pages)",
     "ezdxf": r"diecut_report\.exports",
     "jinja2": r"diecut_report\.report\.(html|document)",
-    "scipy.stats": r"(?!)",  # slow to import, and nothing here needs it
+    "scipy.stats": r"diecut_report\.batch\..*",  # slow to import, and needed by studies alone
     "matplotlib.pyplot": r"(?!)",  # keeps global state
 }
 FOR_PLUGINS = {"diecut_report.api", "diecut_report.mechanics", "numpy", "scipy", *sys.stdlib_module_names}

@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
-from dataclasses import dataclass
-from typing import Any, Literal
+from collections.abc import Iterable, Iterator, Mapping
+from dataclasses import dataclass, replace
+from typing import Any
 
 import numpy as np
 
+from diecut_report.batch.description import Column, Kind
 from diecut_report.config import Config
 from diecut_report.contract.checks import Check
 from diecut_report.contract.inputs import list_inputs
@@ -19,21 +20,9 @@ from diecut_report.references import PRESS
 from diecut_report.units import unit
 from diecut_report.verdicts import sides, verdict
 
-Kind = Literal["float", "int", "bool", "text"]
 CROSSINGS = 8  # of a curve's changes of sign that have columns of their own
 STATUS = np.array([None, "pass", "warn", "fail", "error"], dtype=object)
 PASS, WARN, FAIL, ERROR = 1, 2, 3, 4
-
-
-@dataclass(frozen=True)
-class Column:
-    """A column: what it holds, its SI unit, and what the quantity is."""
-
-    name: str
-    kind: Kind
-    unit: str = "1"
-    symbol: str = ""
-    description: str = ""
 
 
 def columns_of(config: Config) -> list[Column]:
@@ -46,6 +35,22 @@ def columns_of(config: Config) -> list[Column]:
     return found
 
 
+def curve_columns(config: Config, names: Iterable[str]) -> Iterator[Column]:
+    """The columns of curves, such as ``drive.crank_torque``: a list of numbers for each machine."""
+    for name in names:
+        home, _, curve = name.partition(".")
+        instance = config.instances[home]
+        if instance is not None and curve in instance.declared_steps:
+            _, step = instance.declared_steps[curve]
+            yield _column(name, "curve", step.unit, step)
+
+
+def _column(name: str, kind: Kind, display: str, step: Step) -> Column:
+    """A column of what a step gives: SI, and the unit that the report prints it in."""
+    si = unit(display).si
+    return Column(name, kind, si, display if display != si else "", step.symbol, step.description)
+
+
 def _outputs(name: str, instance: Instance) -> Iterator[Column]:
     assert instance.mechanism is not None
     axes = instance.mechanism.axes(instance.given)
@@ -54,10 +59,19 @@ def _outputs(name: str, instance: Instance) -> Iterator[Column]:
         home = axes.get(step.id)
         if not step.output or isinstance(step, SILENT) or (home is not None and home not in lists):
             continue
-        for part in _names(step, len(_at(instance.data, home)) if home else None):
+        parts = _names(step, len(_at(instance.data, home)) if home else None)
+        for index, part in enumerate(parts):
             count = isinstance(step, Crossings) and part.endswith("_count")
             kind: Kind = "int" if count else _kind(step)
-            yield Column(f"{name}.{part}", kind, "1" if count else unit(step.unit).si, step.symbol, step.description)
+            one = _column(f"{name}.{part}", kind, "1" if count else step.unit, step)
+            yield one if len(parts) == 1 else replace(one, description=_numbered(step, index))
+
+
+def _numbered(step: Step, index: int) -> str:
+    """What one of several results of a step is, counted as its name counts it."""
+    if isinstance(step, Crossings):
+        return f"{step.description}: no. {index}" if index else f"{step.description}: how many in a turn"
+    return f"{step.description}: no. {step.first + index}"
 
 
 def _at(data: Any, path: str) -> Any:
@@ -85,8 +99,8 @@ def _kind(step: Step) -> Kind:
 
 def _checks(name: str, instance: Instance) -> Iterator[Column]:
     for check in _made(instance.mechanism.checks if instance.mechanism else (), instance.given):
-        yield Column(f"{name}.checks.{check.id}.utilisation", "float", "1", "", f"{check.title}: utilisation")
-        yield Column(f"{name}.checks.{check.id}.status", "text", "1", "", f"{check.title}: verdict")
+        yield Column(f"{name}.checks.{check.id}.utilisation", "float", description=f"{check.title}: utilisation")
+        yield Column(f"{name}.checks.{check.id}.status", "text", description=f"{check.title}: verdict")
 
 
 def _made(checks: tuple[Check, ...], given: frozenset[str]) -> dict[Check, None]:
@@ -107,6 +121,20 @@ def output_values(name: str, calc: Calculation) -> dict[str, Array]:
         parts = None if isinstance(step, Crossings) or step.id not in calc.axis else values.shape[1]
         names = _names(step, parts)
         found |= {f"{name}.{part}": values[:, index] for index, part in enumerate(names)}
+    return found
+
+
+def curve_values(calculations: Mapping[str, Calculation], names: Iterable[str]) -> dict[str, list[Array]]:
+    """Curves of many machines by column, each at the samples of its abscissa; those that these machines have."""
+    found = {}
+    for name in names:
+        home, _, curve = name.partition(".")
+        calc = calculations.get(home)
+        if calc is not None and curve in calc.domains:
+            samples = calc.domains[curve].samples
+            found[name] = list(np.broadcast_to(samples, (calc.count, samples.shape[1])))
+        elif calc is not None and curve in calc.curves:
+            found[name] = list(calc.curve_samples(curve))
     return found
 
 
@@ -158,4 +186,6 @@ def governing(found: Verdicts) -> Array:
     worst = found.codes.max(axis=0)
     among = np.where(found.codes == worst, ratios, -np.inf)
     first = np.argmax(np.where(found.codes == worst, np.nextafter(among, np.inf), -np.inf), axis=0)
-    return np.where(worst > 0, np.array(found.names, dtype=object)[first], None)
+    names: Array = np.array(found.names, dtype=object)[first]
+    names[worst == 0] = None
+    return names

@@ -6,13 +6,15 @@ import sys
 import tempfile
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
+from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from diecut_report.batch.description import Source
 from diecut_report.batch.export import export
+from diecut_report.batch.refusals import refuse_empty, refuse_huge
 from diecut_report.batch.reports import write_reports
-from diecut_report.batch.run import Counts, Outcome, Where, refuse_huge, run_study
+from diecut_report.batch.run import Counts, Outcome, Where, run_study
 from diecut_report.batch.store import Store
 from diecut_report.batch.study import Study, load_study
 from diecut_report.batch.summary import summarise
@@ -91,14 +93,14 @@ def run(
     """Run a study, or continue the one of a folder; then reports, summary and the other formats."""
     with _loaded(study, directory, where) as known:
         refuse_huge(known, agreed)
+        refuse_empty(known)
         outcome = run_study(known, directory, where, resume=resume, tell=shown)
-        shown.doing("full reports")
-        write_reports(known, outcome.store, where.plugins)
+        told = write_reports(known, outcome.store, where.plugins, agreed=agreed, tell=shown.doing)
     shown.doing("summary")
     with outcome.store.lock():
         export(outcome.store, formats)
         summarise(directory)
-    return outcome
+    return replace(outcome, notes=(*filter(None, [known.sample.note]), *told))
 
 
 @contextmanager

@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 import difflib
+import platform
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field
+from importlib.metadata import version
 from typing import Any, Literal
 
 from diecut_report import __version__
@@ -47,7 +49,6 @@ class Description:
 
     ``columns`` are those of the varied paths, outputs and checks, in their order; the store adds ``variant`` before
     them and ``status``, ``governing``, ``error`` after them. ``plugins``: the version of each kind of mechanism.
-    ``facts`` stand in study.json beside the rest (``varied``, ``objectives``); they follow from the study file.
     """
 
     study: Source
@@ -57,7 +58,6 @@ class Description:
     chunk: int = CHUNK
     tables: tuple[Source, ...] = ()
     plugins: Mapping[str, str] = field(default_factory=dict)
-    facts: Mapping[str, Any] = field(default_factory=dict)
     program: str = __version__
 
     @property
@@ -69,6 +69,11 @@ class Description:
     def all_columns(self) -> tuple[Column, ...]:
         """The columns of the part files."""
         return (VARIANT, *self.columns, *VERDICT)
+
+
+def libraries() -> dict[str, str]:
+    """The versions of what calculates: results may differ between them in the last digits."""
+    return {"python": platform.python_version(), **{name: version(name) for name in ("numpy", "scipy")}}
 
 
 VARIANT = Column("variant", "int", description="Number of the variant in the sample, from 0")
@@ -83,7 +88,6 @@ def as_data(description: Description) -> Data:
     """As it stands in study.json."""
     sources = {"study": description.study, "base": description.base}
     return {
-        **description.facts,
         "schema_version": SCHEMA_VERSION,
         "program": {"name": "diecut-report", "version": description.program},
         "plugins": dict(description.plugins),
@@ -122,10 +126,7 @@ def changes(before: Description, now: Description) -> Iterator[Problem]:
     """What of a study has changed since its results were begun; the parts' size may differ and is no change."""
     yield from _changed("study file", before.study, now.study)
     yield from _changed("base configuration", before.base, now.base)
-    tables = {table.sha256: table for table in before.tables}
-    yield from (Problem("This table has changed.", t.file) for t in now.tables if t.sha256 not in tables)
-    if len(before.tables) > len(now.tables):
-        yield Problem(f"The study read {len(before.tables)} tables, now it reads {len(now.tables)}.", now.study.file)
+    yield from _other_tables(before, now)
     if before.program != now.program:
         words = f"The results were begun with version {before.program} of the program; this is {now.program}."
         yield Problem(words, now.study.file)
@@ -134,6 +135,13 @@ def changes(before: Description, now: Description) -> Iterator[Problem]:
         if old != new:
             yield Problem(f"The plugin {kind!r} was {old} when the results were begun; it is {new}.", now.study.file)
     yield from _other_rows(before, now)
+
+
+def _other_tables(before: Description, now: Description) -> Iterator[Problem]:
+    old, new = ({table.file: table.sha256 for table in d.tables} for d in (before, now))
+    for name in (name for name in (old | new) if old.get(name) != new.get(name)):
+        words = "has changed since the results were begun" if name in old else "is new in the study"
+        yield Problem(f"This table {words if name in new else 'is no longer in the study'}.", name)
 
 
 def _other_rows(before: Description, now: Description) -> Iterator[Problem]:
@@ -156,7 +164,7 @@ def _lines(before: Source, now: Source) -> list[str]:
     """The first lines that differ, marked - (before) and + (now), where both contents are known texts."""
     if before.content is None or now.content is None:
         return []
-    old, new = (source.content.decode("utf-8", "replace").splitlines() for source in (before, now) if source.content)
+    old, new = (content.decode("utf-8", "replace").splitlines() for content in (before.content, now.content))
     both = difflib.unified_diff(old, new, n=0, lineterm="")
     found = [line for line in both if line[:1] in "+-" and line[:3] not in ("+++", "---")]
     return found[: 2 * LINES] + ["…"] * (len(found) > 2 * LINES)

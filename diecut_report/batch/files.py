@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import errno
 import os
+import shutil
+import tempfile
 from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
@@ -47,11 +49,26 @@ def write(path: Path, content: bytes | memoryview) -> None:
         temporary.write_bytes(content)
 
 
+@contextmanager
+def room(folder: Path) -> Iterator[None]:
+    """Temporary files of libraries go into the folder, on whose disk room is wanted, and are removed at the end."""
+    before = tempfile.tempdir
+    with in_words(folder), tempfile.TemporaryDirectory(prefix=".", suffix=".part", dir=folder) as place:
+        tempfile.tempdir = place
+        try:
+            yield
+        finally:
+            tempfile.tempdir = before
+
+
 def remove_stale(folder: Path) -> None:
-    """Remove the temporary files of a run that was killed."""
-    for path in folder.glob(TEMPORARY):
+    """Remove what a run that was killed has left half-written, here and in the folders below."""
+    for path in list(folder.rglob(TEMPORARY)):
         with in_words(path):
-            path.unlink()
+            if path.is_dir():
+                shutil.rmtree(path)
+            else:
+                path.unlink(missing_ok=True)  # it may have stood in a folder that is gone
 
 
 def _sync(path: Path) -> None:

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
 
@@ -24,6 +25,7 @@ TYPES: dict[Kind, Any] = {
     "curve": pa.list_(pa.field("element", pa.float64())),  # the name that Parquet gives
 }
 COMPRESSION = "zstd"
+DAMAGED = "This part of the results is damaged or not of this study. Calculate it again with --resume."
 
 
 def schema_of(description: Description) -> pa.Schema:
@@ -72,7 +74,7 @@ def _array(kind: Any, values: Values) -> pa.Array:
     if pa.types.is_dictionary(kind):
         return pa.array(list(values), pa.string()).dictionary_encode()
     if pa.types.is_list(kind):
-        return pa.array([None if one is None else _array(kind.value_type, one) for one in values], kind)
+        return _lists(kind, values)
     if pa.types.is_floating(kind) and not isinstance(values, np.ndarray):
         values = np.array(values, float)  # None is not a number
     if isinstance(values, np.ndarray) and values.dtype.kind == "f":
@@ -81,19 +83,55 @@ def _array(kind: Any, values: Values) -> pa.Array:
     return pa.array(values, kind)
 
 
+def _lists(kind: Any, values: Values) -> pa.Array:
+    """Curves, one after the other in one array; None where there is none."""
+    missing = np.array([one is None for one in values], bool)
+    given = [np.asarray(one, float) for one in values if one is not None]
+    ends = np.cumsum([0 if one is None else len(one) for one in values])
+    numbers = _array(kind.value_type, np.concatenate([*given, np.empty(0)]))
+    return pa.ListArray.from_arrays(np.append(0, ends).astype(np.int32), numbers, kind, mask=pa.array(missing))
+
+
 def write_part(path: Path, table: pa.Table) -> None:
-    """The table as a Parquet file, whole and on the disk."""
+    """The table as a Parquet file, whole and on the disk, with a checksum for each page."""
     texts = [field.name for field in table.schema if pa.types.is_dictionary(field.type)]
     sink = pa.BufferOutputStream()
     # numbers that seldom repeat only grow by a dictionary
-    pq.write_table(table, sink, compression=COMPRESSION, use_dictionary=texts, row_group_size=max(len(table), 1))
+    pq.write_table(table, sink, compression=COMPRESSION, use_dictionary=texts, row_group_size=max(len(table), 1),
+                   write_page_checksum=True)  # fmt: skip
     write(path, memoryview(sink.getvalue()))
 
 
-def is_whole(path: Path, schema: pa.Schema) -> bool:
-    """Whether a part can be read and is one of this study: its end is there, its origin and columns are the same."""
+@contextmanager
+def readable(path: Path) -> Iterator[None]:
+    """What goes wrong in reading a part becomes a UserError that says what to do."""
     try:
-        return bool(pq.read_schema(path).equals(schema, check_metadata=True))
+        yield
+    except pa.ArrowInvalid as error:
+        raise UserError(Problem(DAMAGED, str(path))) from error
+    except OSError as error:
+        words = f"This part cannot be read: {error.strerror}." if error.errno else DAMAGED  # Parquet's own has no number
+        raise UserError(Problem(words, str(path))) from error
+
+
+def has_schema(path: Path, schema: pa.Schema) -> bool:
+    """Whether a part is of this study, as far as its end tells: its origin and columns are the same."""
+    return _is_sound(path, lambda: bool(pq.read_schema(path).equals(schema, check_metadata=True)))
+
+
+def is_whole(path: Path, schema: pa.Schema) -> bool:
+    """Whether a part is of this study and all of it is as it was written, by its checksums."""
+    return has_schema(path, schema) and _is_sound(path, lambda: _is_read(path))
+
+
+def _is_read(path: Path) -> bool:
+    with pq.ParquetFile(path, page_checksum_verification=True) as file:
+        return sum(batch.num_rows for batch in file.iter_batches()) == file.metadata.num_rows
+
+
+def _is_sound(path: Path, look: Callable[[], bool]) -> bool:
+    try:
+        return look()
     except pa.ArrowInvalid:
         return False
     except OSError as error:

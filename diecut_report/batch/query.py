@@ -6,7 +6,8 @@ import csv
 import io
 import json
 import math
-from collections.abc import Iterable, Iterator, Sequence
+import sys
+from collections.abc import Generator, Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, Literal
@@ -21,8 +22,9 @@ from diecut_report.texts import number_text
 from diecut_report.units import pretty, unit
 
 FORMATS = ("table", "csv", "json")
-SHOWN, WIDE = 100, 12  # variants and quantities of a table that asks for no number of them
+SHOWN, WIDE = 20, 12  # variants and quantities of a table that asks for no number of them
 ROWS = 2_000  # at a time
+FREE = 10_000  # letters of a line that no terminal breaks
 
 Row = tuple[Any, ...]
 
@@ -58,7 +60,7 @@ def variants(
     format: str = "table",
     columns: Sequence[str] | None = None,
     width: int | None = None,
-) -> Iterator[str]:
+) -> Generator[str, None, None]:
     """The answer in pieces of text: a ``table`` for people (in the units that they read), ``csv`` or ``json`` (SI, all columns).
 
     ``sort`` names columns, parted by commas, with - for the greatest first; without ``columns`` a table shows the varied
@@ -105,8 +107,14 @@ def _columns(
     objectives = [name for each in stored.study.get("objectives") or () for name in each.values()]
     wanted = ["variant", "status", *(column.name for column, _ in order), *asked.columns, *objectives]
     inputs = [column.name for column in stored.varied]
-    found = dict.fromkeys([*wanted, *inputs[: max(WIDE - len(wanted), 3)], "governing"])
+    reason = ["error"] if _has_errors(stored, asked) else []
+    found = dict.fromkeys([*wanted, *inputs[: max(WIDE - len(wanted), 3)], "governing", *reason])
     return [stored.columns[name] for name in found if name in stored.columns]
+
+
+def _has_errors(stored: Stored, asked: Condition) -> bool:
+    sql = f"SELECT 1 FROM v WHERE error IS NOT NULL AND {asked.sql} LIMIT 1"
+    return bool(stored.rows(sql, asked.parameters))
 
 
 def _fetched(stored: Stored, question: Question) -> Iterator[Row]:
@@ -172,7 +180,8 @@ def _table(stored: Stored, question: Question, width: int | None) -> Iterator[st
         table.add_column(Text(name + (f"\n{sign}" if sign else "")), justify=justify, overflow="fold")
     for row in _fetched(stored, question):
         table.add_row(*(Text(shown(value, column)) for value, column in zip(row, question.columns, strict=True)))
-    console = Console(file=io.StringIO(), width=width, color_system=None, soft_wrap=False, legacy_windows=False)
+    wide = width or (None if sys.stdout.isatty() else FREE)
+    console = Console(file=io.StringIO(), width=wide, color_system=None, soft_wrap=False, legacy_windows=False)
     console.print(table)
     given = console.file.getvalue()  # type: ignore[attr-defined]  # the StringIO from above
     yield "\n".join(line.rstrip() for line in given.splitlines()) + f"\n{_counted(stored, question, table.row_count)}\n"

@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import tempfile
-from collections.abc import Sequence
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
@@ -18,16 +19,36 @@ from diecut_report.expressions import Array
 
 FOLDER = "reports"
 FORMATS = ("html", "pdf", "json")
+MANY = 200  # reports that are made without being asked for twice; each takes some seconds
+Tell = Callable[[str], None]
 
 
-def write_reports(study: Study, store: Store, plugins: Sequence[str]) -> list[int]:
-    """The full reports that the study asks for, as ``reports/ID.html`` and so on; those that are there already are kept."""
-    chosen = [int(variant) for variant in wanted(study, store)]
+@dataclass(frozen=True)
+class Chosen:
+    """The variants that are to have a full report, ascending, and in words what stands against others that were asked for."""
+
+    variants: tuple[int, ...]
+    notes: tuple[str, ...] = ()
+
+
+def write_reports(study: Study, store: Store, plugins: Sequence[str], *, agreed: bool, tell: Tell) -> tuple[str, ...]:
+    """The full reports that the study asks for, as ``reports/ID.html`` and so on; those that are there already are kept.
+
+    Returns what was not done, in words. ``tell`` hears how far it is.
+    """
+    chosen = wanted(study, store)
     folder = store.directory / FOLDER
-    for variant in chosen:
-        if not all((folder / f"{variant}.{ending}").exists() for ending in FORMATS):
-            _write(store.directory, variant, folder, plugins)
-    return chosen
+    missing = [v for v in chosen.variants if not all((folder / f"{v}.{ending}").exists() for ending in FORMATS)]
+    if len(missing) > MANY and not agreed:
+        words = (
+            f"{len(missing):,} variants are to get a full report, each of which takes some seconds; none was made. "
+            f"Make them all with: batch --resume {store.directory} --yes; or one: report {store.directory}#{missing[0]}"
+        )
+        return (*chosen.notes, words)
+    for done, variant in enumerate(missing):
+        tell(f"full report {done + 1} of {len(missing)}")
+        _write(store.directory, variant, folder, plugins)
+    return chosen.notes
 
 
 def _write(directory: Path, variant: int, folder: Path, plugins: Sequence[str]) -> None:
@@ -38,21 +59,28 @@ def _write(directory: Path, variant: int, folder: Path, plugins: Sequence[str]) 
         pipeline.report(file, discovery, lambda _: None, folder, list(FORMATS), None)
 
 
-def wanted(study: Study, store: Store) -> Array:
-    """The numbers of the variants that get a full report, ascending; those that cannot exist get none."""
+def wanted(study: Study, store: Store) -> Chosen:
+    """Which variants get a full report; those that cannot exist get none."""
     asked = study.reports
     if asked.which == "none":
-        return np.array([], dtype=int)
-    if asked.which == "ids":
-        return np.array(sorted(asked.ids), dtype=int)
+        return Chosen(())
     objectives = [(each.output, each.minimise) for each in study.objectives] if asked.which == "best" else []
     columns = _columns(store, ["variant", "status", *(name for name, _ in objectives)])
     status, variant = columns["status"], columns["variant"].astype(int)
-    if asked.which == "failed":
-        return variant[status == "fail"]
-    if asked.which == "all":
-        return variant[status != "error"]
-    return np.sort(variant[best(columns, objectives, asked.best)])
+    if asked.which == "ids":
+        possible = set(variant[status != "error"].tolist())
+        return Chosen(tuple(sorted(possible & set(asked.ids))), tuple(_refused(asked.ids, possible, variant)))
+    rows = np.flatnonzero(status == "fail" if asked.which == "failed" else status != "error")
+    if asked.which == "best":
+        rows = best(columns, objectives, asked.best)
+    return Chosen(tuple(sorted(variant[rows].tolist())))
+
+
+def _refused(ids: Sequence[int], possible: set[int], stored: Array) -> Iterator[str]:
+    known = set(stored.tolist())
+    for number in sorted(set(ids) - possible):
+        why = "it cannot exist; its reason stands in the column error" if number in known else "a constraint drops it"
+        yield f"variant {number} gets no full report: {why}."
 
 
 def best(columns: dict[str, Array], objectives: Sequence[tuple[str, bool]], count: int) -> Array:
@@ -64,7 +92,8 @@ def best(columns: dict[str, Array], objectives: Sequence[tuple[str, bool]], coun
     for name, minimise in objectives:
         values = columns[name][among].astype(float) * (1 if minimise else -1)
         total += np.argsort(np.argsort(np.nan_to_num(values, nan=np.inf), kind="stable"), kind="stable")
-    return among[np.argsort(total, kind="stable")[:count]]
+    found: Array = among[np.argsort(total, kind="stable")[:count]]
+    return found
 
 
 def _columns(store: Store, names: Sequence[str]) -> dict[str, Array]:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 
 import numpy as np
@@ -22,6 +22,7 @@ class Rows:
     """What was calculated of a number of machines: columns by name, and for each machine status, governing check and reason."""
 
     count: int
+    curves: Sequence[str] = ()
     columns: dict[str, Array] = field(default_factory=dict)
     status: Array = field(init=False)
     governing: Array = field(init=False)
@@ -34,13 +35,13 @@ class Rows:
         self.errors = np.full(self.count, None, dtype=object)
 
 
-def calculate_rows(base: Config, given: Given, count: int) -> Rows:
-    """All outputs and checks of the base with other values: numbers as arrays of shape (count,), SI, or texts.
+def calculate_rows(base: Config, given: Given, count: int, curves: Sequence[str] = ()) -> Rows:
+    """All outputs and checks of the base, and these curves, with other values: arrays of shape (count,), SI, or texts.
 
     A machine that cannot exist has the status ``error`` and its reason. Machines with unlike texts are calculated in groups;
     a plugin that cannot take arrays makes its machines be calculated one by one, which ``slow`` tells.
     """
-    rows = Rows(count)
+    rows = Rows(count, curves)
     for alike, texts in _groups(given, count):
         for chosen in np.array_split(alike, -(-len(alike) // TOGETHER)):
             numbers = {asked: np.asarray(values)[chosen] for asked, values in given.items() if asked not in texts}
@@ -85,6 +86,11 @@ def _kept(machines: Machines, rows: Rows, chosen: Array) -> None:
         column[chosen] = values
     worst = np.maximum(found.codes.max(axis=0, initial=0), columns.PASS)
     worst[bad] = columns.ERROR
+    for name, lists in columns.curve_values(machines.calculations, rows.curves).items():
+        column = rows.columns.setdefault(name, _empty(rows.count, np.dtype(object)))
+        for row, values in zip(chosen, lists, strict=True):
+            column[row] = values
+        column[chosen[bad]] = None
     rows.status[chosen] = columns.STATUS[worst]
     rows.governing[chosen] = columns.governing(found)
     rows.errors[chosen[bad]] = [machines.reasons[int(row)] for row in bad]

@@ -13,16 +13,16 @@ from typing import Any
 import numpy as np
 
 from diecut_report.batch import work
-from diecut_report.batch.columns import columns_of
+from diecut_report.batch.columns import columns_of, curve_columns
 from diecut_report.batch.description import Column, Description, Source
 from diecut_report.batch.engines import Engine, InProcess, Pool, Warm, dask_cluster, results
+from diecut_report.batch.inputs import Input
 from diecut_report.batch.store import Store
 from diecut_report.batch.study import Study
-from diecut_report.errors import Problem, UserError
+from diecut_report.contract.inputs import Quantity
 from diecut_report.references import PRESS
 
 SMALL = 1024  # variants up to which a pool of processes costs more time than it saves
-LARGEST = 10_000_000  # rows that are calculated without being asked for twice
 PARTS = 64  # at least as many part files in a study that is large enough, so that all processes have work to the end
 PART = (512, 8192)  # least and most variants of a part file
 
@@ -57,6 +57,7 @@ class Outcome:
     store: Store
     counts: dict[str, int]
     slow: dict[str, str] = field(default_factory=dict)
+    notes: tuple[str, ...] = ()  # what else the user should know
 
     @property
     def is_failed(self) -> bool:
@@ -67,27 +68,34 @@ class Outcome:
 def run_study(study: Study, directory: Path, where: Where, *, resume: bool, tell: Tell) -> Outcome:
     """Calculate all variants of a study that are not in the folder yet; each part file is whole or absent, whatever happens."""
     store = Store.open(directory, described(study)) if resume else Store.create(directory, described(study))
-    slow: dict[str, str] = dict(store.state.get("slow") or {}) if resume else {}
-    began = time.monotonic()
     with store.lock():
         store.note(facts(study))
-        for done in _calculated(study, store, where, tell):
-            slow |= done.slow
-        spent = time.monotonic() - began + float(store.state.get("seconds") or 0)
-        store.finish({"slow": slow, "seconds": spent})
+        began, before = time.monotonic(), float(store.state.get("seconds") or 0)
+        slow = dict(store.state.get("slow") or {})
+        try:
+            for done in _calculated(study, store, where, tell):
+                slow |= done.slow
+        finally:  # an interrupted run has spent its time too
+            store.note({"slow": slow, "seconds": before + time.monotonic() - began})
+        store.finish({})
     return Outcome(store, store.state["counts"], slow)
 
 
 def _calculated(study: Study, store: Store, where: Where, tell: Tell) -> Iterator[work.Done]:
     """Write each part as soon as it is calculated."""
     there = store.done_parts()
-    chunks = [work.Chunk(index, rows.start, rows.stop) for index in range(store.description.parts)
-              for rows in [store.rows(index)] if index not in there]  # fmt: skip
-    counts = Counts(study.sample.count, before=study.sample.count - sum(chunk.stop - chunk.start for chunk in chunks))
+    for path in (path for index, path in store.parts().items() if index not in there):
+        path.unlink(missing_ok=True)  # a damaged part is calculated again
+    known = store.counts()
+    counts = Counts(study.sample.count, failed=known.get("fail", 0), errors=known.get("error", 0))
+    counts.before = sum(len(store.rows(index)) for index in there)
     tell(counts)
-    if not chunks:
+    missing = store.description.parts - len(there)
+    if not missing:
         return
-    with engine_for(study, where, len(chunks)) as engine:
+    chunks = (work.Chunk(index, store.rows(index).start, store.rows(index).stop)
+              for index in range(store.description.parts) if index not in there)  # fmt: skip
+    with engine_for(study, where, missing) as engine:
         for chunk, done in results(engine, work.calculate, chunks):
             store.write_part(chunk.part, done.columns)
             counts.done += chunk.stop - chunk.start
@@ -142,19 +150,28 @@ def _versions(study: Study) -> dict[str, str]:
 
 def varied_columns(study: Study) -> list[Column]:
     """A column for each varied path."""
-    return [Column(path, "text" if asked.unit is None else "float", asked.unit or "1", asked.meta.symbol, asked.meta.description)
-            for path, asked in study.inputs.items()]  # fmt: skip
+    return [_varied(path, asked) for path, asked in study.inputs.items()]
+
+
+def _varied(path: str, asked: Input) -> Column:
+    meta = asked.meta
+    if not isinstance(meta, Quantity):
+        return Column(path, "text", description=meta.description)
+    si = meta.parsed_unit.si
+    return Column(path, "float", si, meta.unit if meta.unit != si else "", meta.symbol, meta.description)
 
 
 def result_columns(study: Study) -> list[Column]:
     """The outputs that are kept, and all checks, of all texts that the study varies."""
-    found: dict[str, Any] = {}
+    found: dict[str, Column] = {}
+    curves: dict[str, Column] = {}
     for base in study.bases:
         found |= {column.name: column for column in columns_of(base)}
+        curves |= {column.name: column for column in curve_columns(base, study.curves)}
     kept = [
         column for name, column in found.items() if study.outputs is None or ".checks." in name or name in study.outputs
     ]
-    return [Column(c.name, c.kind, c.unit, c.symbol, c.description) for c in kept]
+    return [*kept, *curves.values()]
 
 
 def facts(study: Study) -> Mapping[str, Any]:
@@ -163,13 +180,3 @@ def facts(study: Study) -> Mapping[str, Any]:
     known: dict[str, Any] = {"varied": list(study.inputs), "objectives": objectives}
     design = getattr(study.sample, "design", None)
     return known | ({"design": "saltelli", "n": design.points} if design else {})
-
-
-def refuse_huge(study: Study, agreed: bool) -> None:
-    """A sample that is larger than one would calculate by mistake must be agreed to."""
-    count = study.sample.count
-    if count > LARGEST and not agreed:
-        words = (
-            f"The sample has {count:,} variants, more than {LARGEST:,}. Vary less, or give --yes to calculate them all."
-        )
-        raise UserError(Problem(words, str(study.file)))

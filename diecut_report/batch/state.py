@@ -9,16 +9,16 @@ from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
 from dataclasses import replace
 from hashlib import sha256
-from pathlib import Path
+from pathlib import Path, PurePath
 from typing import Any
 
 from filelock import FileLock, Timeout
 
-from diecut_report.batch.description import Description, Source, as_data, changes, from_data
+from diecut_report.batch.description import Description, Source, as_data, changes, from_data, libraries
 from diecut_report.batch.files import in_words, write
 from diecut_report.errors import Problem, UserError
 
-STATE, STUDY, BASE = "study.json", "study.yaml", "base.yaml"
+STATE, STUDY, BASE, TABLES = "study.json", "study.yaml", "base.yaml", "tables"
 LOCK, HOLDER = ".lock", ".lock.json"
 Data = dict[str, Any]
 
@@ -29,7 +29,7 @@ def read_state(folder: Path) -> Data:
     try:
         return dict(json.loads(path.read_text("utf-8")))
     except FileNotFoundError:
-        words = "There are no results of a study here: study.json is missing. Give the folder that `batch` wrote."
+        words = "There are no results of a study here: study.json is missing. Give a folder that batch wrote, or begin one with -o."
         raise UserError(Problem(words, str(folder))) from None
     except (OSError, ValueError, TypeError) as error:
         raise UserError(Problem(f"The state of the study cannot be read: {error}", str(path))) from error
@@ -46,19 +46,44 @@ def read_description(folder: Path) -> Description:
         found = from_data(read_state(folder))
     except (KeyError, TypeError, ValueError, AttributeError) as error:
         raise UserError(Problem(f"This is no state of a study: {error}", str(folder / STATE))) from error
-    return replace(found, study=_with_copy(found.study, folder / STUDY), base=_with_copy(found.base, folder / BASE))
+    study, base, *tables = (_with_copy(source, path) for path, source in copies(folder, found).items())
+    return replace(found, study=study, base=base, tables=tuple(tables))
+
+
+def copies(folder: Path, description: Description) -> dict[Path, Source]:
+    """Where the copies of the study's files are: the study, its base, its tables; numbered, as names may be paths."""
+    tables = {f"{TABLES}/{n}-{PurePath(table.file).name}": table for n, table in enumerate(description.tables, 1)}
+    files = {STUDY: description.study, BASE: description.base, **tables}
+    return {folder / name: source for name, source in files.items()}
+
+
+def kept(folder: Path) -> dict[str, Path]:
+    """The copies of the base and the tables by their names in the study; UserError where a copy is not as it was."""
+    description = read_description(folder)
+    found = copies(folder, description)
+    for path, source in found.items():
+        if source.content is None:
+            words = f"This copy of {source.file} is missing or has changed. Continue with the study itself: diecut-report batch STUDY --resume {folder}"
+            raise UserError(Problem(words, str(path)))
+    return {source.file: path for path, source in found.items() if source is not description.study}
 
 
 def _with_copy(source: Source, path: Path) -> Source:
-    content = path.read_bytes() if path.is_file() else b""
+    try:
+        content = path.read_bytes() if path.is_file() else b""
+    except OSError as error:
+        words = f"This copy of {source.file} cannot be read: {error.strerror or error}. Check its permissions."
+        raise UserError(Problem(words, str(path))) from error
     return replace(source, content=content) if sha256(content).hexdigest() == source.sha256 else source
 
 
 def write_copies(folder: Path, description: Description) -> None:
-    """Keep the study and its base beside the results, where they are not there yet."""
-    for name, source in ((STUDY, description.study), (BASE, description.base)):
-        if source.content is not None and not (folder / name).exists():
-            write(folder / name, source.content)
+    """Keep the files of the study beside the results, where they are not there yet."""
+    for path, source in copies(folder, description).items():
+        if source.content is not None and not path.exists():
+            with in_words(path):
+                path.parent.mkdir(exist_ok=True)
+            write(path, source.content)
 
 
 def begin(folder: Path, description: Description) -> None:
@@ -72,6 +97,13 @@ def begin(folder: Path, description: Description) -> None:
         raise UserError(Problem(words, str(folder)))
     write_state(folder, as_data(description) | {"state": "running"})
     write_copies(folder, description)
+
+
+def with_libraries(state: Data) -> Data:
+    """The state with the versions of the libraries of this run; where a run continues with others, with both."""
+    before = state.get("libraries", {})
+    now = {name: [*before.get(name, ()), version] for name, version in libraries().items()}
+    return state | {"libraries": {name: list(dict.fromkeys(versions)) for name, versions in now.items()}}
 
 
 def same_study(folder: Path, before: Description, now: Description) -> None:

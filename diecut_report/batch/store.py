@@ -5,25 +5,29 @@ Each file is whole or absent, whatever ends the run; a run holds the folder alon
 
 from __future__ import annotations
 
+import re
 from collections import Counter
 from collections.abc import Iterator, Mapping, Sequence
 from contextlib import contextmanager
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 import pyarrow as pa
 import pyarrow.dataset
+import pyarrow.compute
 import pyarrow.parquet as pq
 from filelock import FileLock
 
 from diecut_report.batch import state
 from diecut_report.batch.description import VARIANT, Description
 from diecut_report.batch.files import in_words, remove_stale
-from diecut_report.batch.parts import Values, is_whole, schema_of, table_of, write_part
+from diecut_report.batch.parts import DAMAGED, Values, has_schema, is_whole, readable, schema_of, table_of, write_part
 from diecut_report.errors import Problem, UserError
 
 PARTS = "variants"
+NAME = re.compile(r"part-(\d+)\.parquet")
 BATCH = 4096  # rows read at a time
 
 
@@ -55,16 +59,21 @@ class Store:
         before = state.read_description(directory)
         if description is not None:
             state.same_study(directory, before, description)
-            state.write_copies(directory, description)
+            now = description
+            before = replace(before, study=now.study, base=now.base, tables=now.tables)  # with their contents
         return cls(directory, before)
 
     @contextmanager
     def lock(self) -> Iterator[None]:
         """Keep other runs out of the folder; what a killed run left half-written is removed."""
         with state.held(self._lock, self.directory):
-            for folder in (self.directory, self._folder):
-                remove_stale(folder)
+            remove_stale(self.directory)
             yield
+
+    def start(self, facts: Mapping[str, Any]) -> None:
+        """Begin or continue a run: keep what the study is made of, and note facts of it in study.json."""
+        state.write_copies(self.directory, self.description)
+        self.note(state.with_libraries(self.state) | dict(facts) | {"state": "running"})
 
     @property
     def _folder(self) -> Path:
@@ -79,24 +88,22 @@ class Store:
         chunk = self.description.chunk
         return range(index * chunk, min((index + 1) * chunk, self.description.rows))
 
-    def write_part(self, index: int, columns: Mapping[str, Values], first_variant: int | None = None) -> None:
-        """Write the variants of one part, whole or not at all; a column ``variant`` numbers those that are left of it.
+    def write_part(self, index: int, columns: Mapping[str, Values]) -> None:
+        """Write the variants of one part, whole or not at all.
 
-        Without it they are numbered from ``first_variant``, or from the first row of the part. Columns: SI floats (NaN
-        becomes null), integers, booleans, texts or None; `status` is needed, other columns may be missing.
+        Columns: SI floats (NaN becomes null), integers, booleans, texts, curves or None; `status` is needed, others may be
+        missing. A column ``variant`` numbers those that constraints have left; without it all of the part are given.
         """
         if not self._lock.is_locked:
             raise RuntimeError("the folder is not locked for writing")
-        table = table_of(self.schema, columns, self._variants(index, columns, first_variant))
+        table = table_of(self.schema, columns, self._variants(index, columns))
         with in_words(self._folder):
             self._folder.mkdir(exist_ok=True)
         write_part(self.part(index), table)
 
-    def _variants(self, index: int, columns: Mapping[str, Values], first: int | None) -> Any:
+    def _variants(self, index: int, columns: Mapping[str, Values]) -> Any:
         rows = self.rows(index)
-        start = rows.start if first is None else first
-        count = len(next(iter(columns.values()), ()))
-        found = np.asarray(columns.get(VARIANT.name, np.arange(start, start + count)), np.int64)
+        found = np.asarray(columns.get(VARIANT.name, rows), np.int64)
         if len(found) and not (rows.start <= found[0] and found[-1] < rows.stop and (np.diff(found) > 0).all()):
             raise ValueError(
                 f"part {index} holds the variants {rows.start} to {rows.stop - 1}, once each, in their order"
@@ -104,24 +111,32 @@ class Store:
         return found
 
     def parts(self) -> dict[int, Path]:
-        """The part files that are there, by index."""
+        """The part files that are there, by index; UserError for a file that only looks like one."""
         found = sorted(self._folder.glob("part-*.parquet"))
+        for path in found:
+            if not (match := NAME.fullmatch(path.name)) or path != self.part(int(match[1])):
+                raise UserError(Problem("This is no part of the results. Move it to another folder.", str(path)))
         return {int(path.stem.partition("-")[2]): path for path in found}
 
     def done_parts(self) -> set[int]:
-        """The parts that are there, can be read and belong to this study; the others are to be calculated."""
-        return {index for index, path in self.parts().items() if self._is_whole(index, path)}
-
-    def _is_whole(self, index: int, path: Path) -> bool:
-        return index < self.description.parts and path == self.part(index) and is_whole(path, self.schema)
+        """The parts that are whole to their last byte and belong to this study; the others are to be calculated."""
+        return {
+            index
+            for index, path in self.parts().items()
+            if index < self.description.parts and is_whole(path, self.schema)
+        }
 
     def _files(self) -> list[Path]:
-        """The part files, in their order; UserError where one of them is damaged."""
-        parts, done = self.parts(), self.done_parts()
-        if damaged := [path for index, path in parts.items() if index not in done]:
-            words = "This part of the results is damaged or not of this study. Calculate it again with --resume."
-            raise UserError(Problem(words, str(path)) for path in damaged)
-        return list(parts.values())
+        """The part files, in their order; UserError where one of them is damaged or of another study."""
+        found = self.parts()
+        damaged = [
+            path
+            for index, path in found.items()
+            if index >= self.description.parts or not has_schema(path, self.schema)
+        ]
+        if damaged:
+            raise UserError(Problem(DAMAGED, str(path)) for path in damaged)
+        return list(found.values())
 
     def read(self, columns: Sequence[str] | None = None) -> pyarrow.dataset.Dataset:
         """The variants stored so far as a dataset of these columns (default: all), in their order."""
@@ -130,10 +145,13 @@ class Store:
         return pyarrow.dataset.dataset([str(path) for path in self._files()], schema=wanted, format="parquet")
 
     def batches(self, columns: Sequence[str] | None = None) -> Iterator[pa.RecordBatch]:
-        """The variants stored so far, some thousands at a time, in their order."""
+        """The variants stored so far, some thousands at a time, in their order; UserError for a part that is damaged."""
+        names = self.schema.names if columns is None else list(columns)
         for path in self._files():
-            with pq.ParquetFile(path) as file:
-                yield from file.iter_batches(BATCH, columns=None if columns is None else list(columns))
+            with readable(path), pq.ParquetFile(path) as file:
+                found = file.iter_batches(BATCH, columns=names)
+                while (batch := next(found, None)) is not None:
+                    yield batch.select(names)  # "status" reads "status.mass" too, of a mechanism of that name
 
     def count(self) -> int:
         """How many variants are stored, by the ends of the part files alone."""
@@ -143,7 +161,8 @@ class Store:
         """How many rows the sample has, how many variants are stored of them, and of each status."""
         found: Counter[str] = Counter(sample=self.description.rows, variants=0)
         for batch in self.batches(["status"]):
-            found.update(batch.column(0).to_pylist())
+            for each in pyarrow.compute.value_counts(batch.column(0)).to_pylist():
+                found[each["values"]] += each["counts"]
             found["variants"] += batch.num_rows
         return dict(found)
 
@@ -158,7 +177,7 @@ class Store:
 
     def finish(self, facts: Mapping[str, Any]) -> None:
         """Mark the results as complete, with their counts and facts of the run; all parts must be there."""
-        missing = set(range(self.description.parts)) - self.done_parts()
+        missing = set(range(self.description.parts)) - self.parts().keys()
         if missing:
             raise RuntimeError(f"{len(missing)} parts are missing, such as {min(missing)}")
         counts = self.counts()

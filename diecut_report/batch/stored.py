@@ -9,31 +9,39 @@ from contextlib import contextmanager
 from dataclasses import dataclass
 from functools import cached_property
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, Literal
+from typing import TYPE_CHECKING, Any
 
-from diecut_report.batch.state import read_state
+from diecut_report.batch.description import VARIANT, VERDICT, Description, Kind
+from diecut_report.batch.state import read_description, read_state
+from diecut_report.batch.titles import UTILISATION, VERDICT_OF, titles
 from diecut_report.errors import Problem, UserError
 from diecut_report.units import UnitError, unit
 
 if TYPE_CHECKING:
     from duckdb import DuckDBPyConnection
 
-Kind = Literal["float", "int", "bool", "text"]
-KINDS: dict[str, Kind] = {"DOUBLE": "float", "FLOAT": "float", "BOOLEAN": "bool", "VARCHAR": "text"}
-DISPLAY = {"m": "mm", "rad": "deg", "rad/s": "rpm", "Pa": "MPa"}  # as designers say it; all else stays in SI
-FIXED = ("variant", "status", "governing", "error")
+DISPLAY = {
+    "m": "mm",
+    "rad": "deg",
+    "rad/s": "rpm",
+    "Pa": "MPa",
+    "1/s": "1/h",
+}  # as designers say it, where a column does not
+FIXED = (VARIANT.name, *(column.name for column in VERDICT))
 STATUSES = ("pass", "warn", "fail", "error")
-MEMORY, BATCH = "400MB", 50_000  # of DuckDB, and rows at a time
+MEMORY = "400MB"  # of DuckDB
 
 
 @dataclass(frozen=True)
 class Column:
-    """A stored quantity: its name, what it holds, its SI unit, and the unit that people read."""
+    """A stored quantity: its name, what it holds, its SI unit, the unit that people read, its symbol, and what it is."""
 
     name: str
     kind: Kind
     unit: str = "1"
     display: str = "1"
+    symbol: str = ""
+    title: str = ""
 
     @property
     def is_number(self) -> bool:
@@ -45,12 +53,18 @@ class Column:
         """The name for DuckDB."""
         return quoted(self.name)
 
+    @property
+    def told(self) -> str:
+        """What people call it."""
+        return self.title or self.name.removeprefix("mechanisms.")
+
 
 @dataclass(frozen=True)
 class Stored:
-    """A folder of results: what ``study.json`` says, the columns, and a connection that reads the part files alone."""
+    """A folder of results: its study, what ``study.json`` says, the columns, and a connection that reads the part files alone."""
 
     folder: Path
+    description: Description
     study: Mapping[str, Any]
     columns: Mapping[str, Column]
     connection: DuckDBPyConnection
@@ -63,9 +77,10 @@ class Stored:
     @cached_property
     def checks(self) -> dict[str, tuple[Column, Column]]:
         """Each check, ``drive.checks.play``, with its columns of utilisation and status."""
-        ends = (".utilisation", ".status")
-        names = [name.removesuffix(ends[0]) for name in self.columns if ".checks." in name and name.endswith(ends[0])]
-        return {name: (self.columns[name + ends[0]], self.columns[name + ends[1]]) for name in names}
+        names = [
+            name.removesuffix(UTILISATION) for name in self.columns if ".checks." in name and name.endswith(UTILISATION)
+        ]
+        return {name: (self.columns[name + UTILISATION], self.columns[name + VERDICT_OF]) for name in names}
 
     @cached_property
     def outputs(self) -> list[Column]:
@@ -74,6 +89,10 @@ class Stored:
         return [
             column for column in self.columns.values() if column.name not in other and ".checks." not in column.name
         ]
+
+    def check_told(self, check: str) -> str:
+        """What people call a check."""
+        return self.checks[check][1].told if check in self.checks else check
 
     def rows(self, sql: str, parameters: Any = ()) -> list[tuple[Any, ...]]:
         """The whole answer to a query, which is to be small."""
@@ -99,6 +118,7 @@ def opened(folder: Path) -> Iterator[Stored]:
     import duckdb
 
     study = _study(folder)
+    description = read_description(folder)
     config: dict[str, str | bool | int | float | list[str]] = {
         "memory_limit": MEMORY,
         "temp_directory": tempfile.gettempdir(),
@@ -106,7 +126,8 @@ def opened(folder: Path) -> Iterator[Stored]:
     }
     with duckdb.connect(":memory:", config=config) as connection:
         try:
-            yield Stored(folder, study, _columns(_view(connection, folder), study), connection)
+            _view(connection, folder)
+            yield Stored(folder, description, study, columns_of(description), connection)
         except (duckdb.IOException, duckdb.InvalidInputException) as error:
             words = f"The stored variants cannot be read ({_first(error)}). Run the study again, or put the file back."
             raise UserError(Problem(words, str(folder / "variants"))) from error
@@ -124,35 +145,30 @@ def _study(folder: Path) -> Mapping[str, Any]:
     return study
 
 
-def _view(connection: DuckDBPyConnection, folder: Path) -> list[tuple[str, str]]:
-    """Names the part files ``v`` and shuts everything else; the columns with their types."""
+def _view(connection: DuckDBPyConnection, folder: Path) -> None:
+    """Names the part files ``v`` and shuts everything else."""
     place = str((folder / "variants").absolute())
     escaped = glob.escape(place)  # a folder may be called a[1]
     connection.execute(f"CREATE VIEW v AS SELECT * FROM read_parquet({text(f'{escaped}/part-*.parquet')})")
     connection.execute(f"SET allowed_directories = [{text(place)}, {text(escaped)}]")
     connection.execute("SET enable_external_access = false")
     connection.execute("SET lock_configuration = true")
-    return [(row[0], row[1]) for row in connection.execute("DESCRIBE v").fetchall()]
 
 
-def _columns(described: list[tuple[str, str]], study: Mapping[str, Any]) -> dict[str, Column]:
-    said = study.get("columns", {})
+def columns_of(description: Description) -> dict[str, Column]:
+    """The columns of the part files by name; curves, which are lists, are no quantities to compare."""
+    known = titles(description.all_columns)
     return {
-        name: _column(name, KINDS.get(kind, "int"), said.get(name, "1")) for name, kind in described if _is_plain(kind)
-    }
+        column.name: Column(column.name, column.kind, column.unit, _display(column.display, column.unit), column.symbol, known[column.name])
+        for column in description.all_columns
+        if column.kind != "curve"
+    }  # fmt: skip
 
 
-def _is_plain(kind: str) -> bool:
-    """Curves, which are lists, are no quantities to compare."""
-    return not kind.endswith("[]")
-
-
-def _column(name: str, kind: Kind, said: Any) -> Column:
-    """A column by what study.json says of it: its SI unit, or a block with ``unit`` and perhaps ``display``."""
-    block = said if isinstance(said, dict) else {"unit": said}
-    si = str(block.get("unit") or "1")
-    display = str(block.get("display") or DISPLAY.get(si, si))
-    return Column(name, kind, si, display if _is_like(display, si) else si)
+def _display(wanted: str, si: str) -> str:
+    """The unit that people read: the column's own, else the usual one for its SI unit."""
+    usual = DISPLAY.get(si, si)
+    return wanted if wanted and _is_like(wanted, si) else usual
 
 
 def _is_like(display: str, si: str) -> bool:

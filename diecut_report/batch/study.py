@@ -29,7 +29,7 @@ class Study:
 
     ``base`` is the config as it stands in its file; ``bases`` are the base with stand-ins for the varied numbers and, one at
     a time, each varied text, so that all of them have the columns of all variants; ``tables`` holds the
-    SHA-256 of each table that the sample reads, by its name in the study.
+    SHA-256 of each table that the sample reads, by its name in the study; ``files`` where base and tables were found.
     """
 
     file: Path
@@ -47,11 +47,15 @@ class Study:
     objectives: tuple[Objective, ...]
     reports: Reports
     tables: Mapping[str, str]
+    files: Mapping[str, Path]
 
 
-def load_study(path: Path, discovery: Discovery) -> Study:
-    """Read a study and its base; UserError with all problems of both, each with its file, line, column and key."""
-    reader = _Reader(path, yaml_tree.load(path), discovery)
+def load_study(path: Path, discovery: Discovery, places: Mapping[str, Path] | None = None) -> Study:
+    """Read a study and its base; UserError with all problems of both, each with its file, line, column and key.
+
+    ``places``: where the files are that the study names, where they are not sought from its folder.
+    """
+    reader = _Reader(path, yaml_tree.load(path), discovery, places or {})
     study = reader.study()
     if study is None or reader.problems:
         raise UserError(_in_order(reader.problems, str(path)))
@@ -70,6 +74,7 @@ class _Reader:
     path: Path
     tree: Tree
     discovery: Discovery
+    places: Mapping[str, Path]
     problems: list[Problem] = field(default_factory=list)
 
     def __post_init__(self) -> None:
@@ -87,16 +92,21 @@ class _Reader:
         base, form = self._base(), self._form()
         if base is None:
             return None
-        reader = SampleReader(self.place, self.path.parent, base)
+        reader = SampleReader(self.place, self._find, base)
         sampled = reader.sampled(form, self.data.get("vary", {}))
         self.problems += reader.problems
         constraints = tuple(self._constraints(sampled))
         outputs, curves, objectives, reports = self._results(sampled)
         if sampled.sample is None or self.problems:
             return None
+        files = {name: self._find(name) for name in (self.data["base"], *sampled.tables)}
         units = {path: asked.unit for path, asked in sampled.inputs.items()}
         return Study(self.path, self.tree.data, self.tree.text, self.tree.sha256, base, tuple(sampled.bases), sampled.sample, sampled.inputs, units,
-                     constraints, outputs, curves, objectives, reports, sampled.tables)  # fmt: skip
+                     constraints, outputs, curves, objectives, reports, sampled.tables, files)  # fmt: skip
+
+    def _find(self, name: str) -> Path:
+        """Where a file is that the study names."""
+        return self.places.get(name, self.path.parent / name)
 
     def _form(self) -> SampleForm | None:
         """The key sample, or None where it, or what it needs, is wrong."""
@@ -111,7 +121,7 @@ class _Reader:
         """The base, or None with its problems; these name its own file."""
         if "base" not in self.data:
             return None
-        path = self.path.parent / self.data["base"]
+        path = self._find(self.data["base"])
         if not path.exists():
             words = f"there is no file {path}. The base is sought from the study's folder; check its name."
             self.problems.append(self.place.problem(("base",), words))

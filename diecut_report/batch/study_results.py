@@ -8,7 +8,8 @@ from dataclasses import dataclass
 from functools import cached_property
 from typing import Any, Literal
 
-from diecut_report.batch.columns import Column, columns_of
+from diecut_report.batch.columns import columns_of
+from diecut_report.batch.description import Column
 from diecut_report.config import Config
 from diecut_report.errors import Problem, nearest
 from diecut_report.references import PRESS

@@ -39,10 +39,10 @@ class Sampled:
 class SampleReader:
     """Reads ``sample`` and ``vary``; gathers ``problems``."""
 
-    def __init__(self, place: Place, folder: Path, base: Config) -> None:
+    def __init__(self, place: Place, find: Callable[[str], Path], base: Config) -> None:
         self.place, self.base = place, base
         self.problems: list[Problem] = []
-        self.tables = TableReader(place, folder)
+        self.tables = TableReader(place, find)
         self.vary = Place(place.tree, ("vary",))
 
     def sampled(self, form: SampleForm | None, vary: Mapping[str, Any]) -> Sampled:

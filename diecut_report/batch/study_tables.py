@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import hashlib
-from collections.abc import Iterable, Iterator
+from collections.abc import Callable, Iterable, Iterator
 from pathlib import Path
 
 import numpy as np
@@ -19,10 +19,10 @@ from diecut_report.yaml_tree import KeyPath
 
 
 class TableReader:
-    """Reads tables beside the study; gathers ``problems``, and the SHA-256 of each file in ``hashes``."""
+    """Reads tables, found by ``find`` by their names in the study; gathers ``problems``, and each one's SHA-256 in ``hashes``."""
 
-    def __init__(self, place: Place, folder: Path) -> None:
-        self.place, self.folder = place, folder
+    def __init__(self, place: Place, find: Callable[[str], Path]) -> None:
+        self.place, self.find = place, find
         self.problems: list[Problem] = []
         self.hashes: dict[str, str] = {}
         self._read: dict[str, TableFile | None] = {}
@@ -34,7 +34,7 @@ class TableReader:
         return self._read[name]
 
     def _opened(self, name: str, key: KeyPath) -> TableFile | None:
-        path = self.folder / name
+        path = self.find(name)
         try:
             if not path.exists():
                 words = f"there is no file {path}. The table is sought from the study's folder; check its name."

@@ -21,11 +21,12 @@ Values = dict[KeyPath, Any]
 def variant_config(directory: Path, variant: int) -> str:
     """The configuration of a variant: the study's base with the varied values put in, SI numbers with their units.
 
-    UserError in words where the variant is not stored.
+    UserError in words where the variant is not stored, and with its reason where it cannot be calculated.
     """
     with opened(directory) as stored:
+        _refuse_error(stored, variant)
         values = {tuple(_keys(column.name)): value for column, value in _row(stored, variant)}
-        study = stored.study.get("study") or "the study"
+        study = stored.description.study.file
     base = yaml_tree.load(directory / "base.yaml")
     wanted = base.data
     for path, value in values.items():
@@ -36,6 +37,13 @@ def variant_config(directory: Path, variant: int) -> str:
     ):  # anchors, say: comments are lost, never a value
         text = yaml.safe_dump(wanted, sort_keys=False, allow_unicode=True)
     return f"# Variant {variant} of {study}: its values stand in SI units, exactly as they were calculated.\n{text}"
+
+
+def _refuse_error(stored: Stored, variant: int) -> None:
+    for status, reason in stored.rows("SELECT status, error FROM v WHERE variant = ?", [variant]):
+        if status == "error":
+            words = f"Variant {variant} cannot be calculated: {reason or 'no reason was stored'}"
+            raise UserError(Problem(words, str(stored.folder)))
 
 
 def _keys(path: str) -> Iterator[str | int]:

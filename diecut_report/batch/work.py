@@ -53,7 +53,7 @@ def calculate(study: Study, chunk: Chunk) -> Done:
     columns: dict[str, Array] = {"variant": chunk.start + kept}
     columns |= {path: np.asarray(values, dtype=_kind(values)) for path, values in given.items()}
     inputs = {study.inputs[path]: values for path, values in given.items()}
-    rows = calculate_rows(study.base, inputs, len(kept))
+    rows = calculate_rows(study.base, inputs, len(kept), study.curves)
     columns |= {name: values for name, values in rows.columns.items() if _is_kept(study, name)}
     verdicts = {"status": rows.status, "governing": rows.governing, "error": rows.errors}
     return Done(columns | verdicts, rows.slow)
@@ -76,4 +76,4 @@ def _kind(values: Values) -> Any:
 
 
 def _is_kept(study: Study, name: str) -> bool:
-    return study.outputs is None or ".checks." in name or name in study.outputs
+    return study.outputs is None or ".checks." in name or name in study.outputs or name in study.curves

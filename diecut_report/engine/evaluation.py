@@ -2,25 +2,48 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from typing import TYPE_CHECKING, Any
+from collections.abc import Mapping, Sequence
+from typing import Any, Protocol
 
 import numpy as np
 
+from diecut_report.contract.steps import Step
 from diecut_report.engine.compiled import Program, program
 from diecut_report.expressions import Array
-
-if TYPE_CHECKING:
-    from diecut_report.engine.calculation import Calculation
 
 BLOCK = 8192  # places at once
 MANY = 8  # variants from which compiling pays
 
 
+class Values(Protocol):
+    """Curves at certain places, by id."""
+
+    def __getitem__(self, name: str) -> Array:
+        """A curve's values."""
+
+
+class Machines(Protocol):
+    """What curves are evaluated of: a calculation of one machine or of many."""
+
+    @property
+    def count(self) -> int:
+        """How many machines."""
+
+    @property
+    def curves(self) -> Mapping[str, Step]:
+        """The curves that are known, as they are declared."""
+
+    def __getitem__(self, name: str) -> Array:
+        """A number of all machines."""
+
+    def sampler_of(self, axis: str, x: Array, middle: Array, rows: Array) -> Values:
+        """All curves over an abscissa by the plain formulas, at x in the pieces of these middles."""
+
+
 class Curves:
     """Curves in smooth pieces, a row for each: the middle (rows,) of the piece and the machine ``variant`` (rows,) it belongs to."""
 
-    def __init__(self, calc: Calculation, axis: str, wanted: Sequence[str], middle: Array, variant: Array) -> None:
+    def __init__(self, calc: Machines, axis: str, wanted: Sequence[str], middle: Array, variant: Array) -> None:
         self.calc, self.axis, self.wanted, self.middle, self.variant = calc, axis, tuple(wanted), middle, variant
         self.program: Program | None = None
         if calc.count >= MANY:
@@ -84,17 +107,17 @@ class _Columns:
         return found
 
 
-def _program(calc: Calculation, axis: str, wanted: tuple[str, ...], *, at_middle: bool) -> Program:
+def _program(calc: Machines, axis: str, wanted: tuple[str, ...], *, at_middle: bool) -> Program:
     return program(tuple(calc.curves.items()), axis, wanted, at_middle)
 
 
-def _numbers(calc: Calculation, of: Program, variant: Array) -> list[Any]:
+def _numbers(calc: Machines, of: Program, variant: Array) -> list[Any]:
     """What depends on numbers alone, a row for each row of places."""
     found = of.numbers(*(calc[leaf.name] for leaf in of.leaves[0].values()))
     return [np.asarray(value)[variant] if np.ndim(value) else value for value in found]
 
 
-def _given(calc: Calculation, axis: str, of: Program, x: Array, middle: Array, variant: Array) -> list[Array]:
+def _given(calc: Machines, axis: str, of: Program, x: Array, middle: Array, variant: Array) -> list[Array]:
     leaves = of.leaves[2].values()
     if all(leaf.kind == "abscissa" for leaf in leaves):
         return [x] * len(leaves)

@@ -120,7 +120,7 @@ def root(function: Function, low: Array, high: Array, heights: Array) -> tuple[A
         kept = np.sign(found) == np.sign(fa)
         state = np.stack([place, np.where(kept, b, a), np.where(kept, a, b), found, np.where(kept, fb, fa),
                           np.where(kept, fa, fb), share])  # fmt: skip
-        a, b, c, fa, fb, fc, _ = state
+        a, b, _, fa, fb, *_ = state
         least = (2 * np.spacing(np.maximum(np.abs(a), np.abs(b)))) / np.where(b == a, 1, np.abs(b - a))
         top = np.where(np.abs(fa) < np.abs(fb), a, b), np.where(np.abs(fa) < np.abs(fb), fa, fb)
         going = (least <= 0.5) & (top[1] != 0)

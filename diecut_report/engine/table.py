@@ -2,18 +2,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from functools import cached_property
-from typing import TYPE_CHECKING
+from typing import Protocol
 
 import numpy as np
 
 from diecut_report.engine.domain import Domain, nodes_of, shares
-from diecut_report.engine.evaluation import Curves
+from diecut_report.engine.evaluation import Curves, Machines
 from diecut_report.expressions import Array
-
-if TYPE_CHECKING:
-    from diecut_report.engine.calculation import Calculation
 
 INSIDE = 2e-14  # share of the period by which places at a piece's end are moved inwards, so that rounding decides no condition
 JUMP = 1e-9  # share of a curve's greatest value by which no curve moves on that way, unless it jumps
@@ -65,10 +62,22 @@ class Pieces:
         return found
 
 
+class Owner(Machines, Protocol):
+    """The calculation that a table belongs to."""
+
+    @property
+    def domains(self) -> Mapping[str, Domain]:
+        """The abscissas with their pieces."""
+
+    @property
+    def ahead(self) -> Mapping[str, Sequence[str]]:
+        """For each abscissa the curves that coming steps ask for."""
+
+
 class Table:
     """What is known of the curves over one abscissa."""
 
-    def __init__(self, calc: Calculation, axis: str) -> None:
+    def __init__(self, calc: Owner, axis: str) -> None:
         self.calc, self.axis = calc, axis
         self._edges: Array | None = None
         self._pieces: Pieces
@@ -113,7 +122,7 @@ class Table:
         if done is not None and not done.all():
             self._fill(known, [name for name in known if name], np.flatnonzero(done[:, 0] == 0), places)
         if any(name not in known for name in curves):
-            missing = [name for name in dict.fromkeys([*curves, *self.calc.ahead[self.axis]]) if name not in known]
+            missing = [name for name in dict.fromkeys([*curves, *self.calc.ahead.get(self.axis, ())]) if name not in known]
             every = np.arange(len(pieces.left))
             known |= dict(zip(missing, self._evaluated(missing, every, places), strict=True))
         known[""] = np.ones((len(pieces.left), 1))

@@ -1,21 +1,37 @@
-"""A small stored study of two mechanisms, as a run leaves it: made here by plain arithmetic, without the program."""
+"""A small stored study of two mechanisms, as a run leaves it: calculated here by plain arithmetic, stored by the program's store."""
 
 from __future__ import annotations
 
-import json
 import math
+from collections.abc import Mapping, Sequence
+from hashlib import sha256
 from pathlib import Path
 from typing import Any
 
 import numpy as np
-import pyarrow as pa
-import pyarrow.parquet as pq
+
+from diecut_report.batch.description import Column, Description, Source
+from diecut_report.batch.store import Store
 
 SPEED, BORE, LAW = "mechanisms.drive.crank_speed", "mechanisms.cylinder.bore_radius", "mechanisms.drive.motion_law"
-UNITS = {
-    SPEED: "rad/s", BORE: "m", "cylinder.mass": "kg", "cylinder.radius": "m", "drive.crank_torque_peak": "N*m", "drive.power_peak": "W",
-    "drive.slip": "1", "drive.idle_ratio": "1",
-}  # fmt: skip
+INPUTS = (
+    Column(SPEED, "float", "rad/s", "rpm", "n", "Speed of the crank"),
+    Column(BORE, "float", "m", "mm", "R_b", "Radius of the bore (below the radius)"),
+    Column(LAW, "text", description="Law of motion"),
+)
+RESULTS = (
+    Column("cylinder.mass", "float", "kg", symbol="m", description="Mass of the cylinder"),
+    Column("cylinder.radius", "float", "m", "mm", "R", "Radius"),
+    Column("cylinder.checks.wall.utilisation", description="Wall at the flat: utilisation"),
+    Column("cylinder.checks.wall.status", "text", description="Wall at the flat: verdict"),
+    Column("drive.crank_torque_peak", "float", "N*m", symbol="M_max", description="Greatest torque"),
+    Column("drive.power_peak", "float", "W", symbol="P_max", description="Greatest power"),
+    Column("drive.slip", "bool", description="Whether the clutch slips"),
+    Column("drive.idle_ratio", "float", description="Idle ratio"),
+    Column("drive.crank_torque", "curve", "N*m", description="Torque over a turn"),
+    Column("drive.checks.play.utilisation", description="Play of the joints: utilisation"),
+    Column("drive.checks.play.status", "text", description="Play of the joints: verdict"),
+)
 BASE = """\
 schema_version: 1
 project: {title: Two mechanisms}   # the title
@@ -38,79 +54,82 @@ mechanisms:
 """
 
 
-def columns_of(speed: Any, bore: Any, law: list[str]) -> dict[str, Any]:
+def calculated(speed: Any, bore: Any, law: Sequence[str]) -> dict[str, Any]:
     """Columns of a study by simple rules: a heavier cylinder and a faster crank ask for more torque."""
     mass = 7800 * 0.7 * math.pi * (0.105**2 - bore**2)
     torque = mass * 0.02 * speed**2 * np.where(np.array(law) == "harmonic", 1.0, 1.3)
-    power = torque * speed
     play = torque / 60.0
     wall = np.where(bore < 0.09, 0.01 / (0.105 - bore), np.nan)
-    broken = bore > 0.1
     status = np.where(play > 1, "fail", np.where(play > 0.9, "warn", "pass")).astype(object)
     thin = np.where(np.isnan(wall), "fail", "pass").astype(object)
-    whole = np.where((status == "fail") | (thin == "fail"), "fail", status).astype(object)
-    governing = np.where(thin == "fail", "cylinder.checks.wall", "drive.checks.play").astype(object)
-    return _masked(
-        {
-            "variant": np.arange(len(bore)), SPEED: speed, BORE: bore, LAW: np.array(law, dtype=object), "cylinder.mass": mass,
-            "cylinder.radius": np.full(len(bore), 0.105), "cylinder.checks.wall.utilisation": wall, "cylinder.checks.wall.status": thin,
-            "drive.crank_torque_peak": torque, "drive.power_peak": power, "drive.slip": play > 1.2, "drive.idle_ratio": torque / power,
-            "drive.checks.play.utilisation": play, "drive.checks.play.status": status, "status": whole, "governing": governing,
-            "error": np.full(len(bore), None, dtype=object),
-        },
-        broken,
-    )  # fmt: skip
-
-
-def _masked(columns: dict[str, Any], broken: Any) -> dict[str, Any]:
-    """Variants that cannot exist have inputs and a reason, and nothing else."""
-    inputs = ("variant", SPEED, BORE, LAW)
-    found = {}
-    for name, values in columns.items():
-        missing = np.zeros(len(broken), bool) if name in inputs else broken
-        if values.dtype == float:
-            missing = missing | np.isnan(values)
-        found[name] = pa.array(values.tolist(), mask=missing, type=_type(values))
-    reasons = [
-        f"bore_radius {bore:.4g} m leaves no wall" if bad else None
-        for bad, bore in zip(broken, columns[BORE], strict=True)
-    ]
-    status = ["error" if bad else value for bad, value in zip(broken, columns["status"], strict=True)]
-    return found | {"error": pa.array(reasons, pa.string()), "status": pa.array(status, pa.string())}
-
-
-def _type(values: Any) -> pa.DataType:
-    return {"f": pa.float64(), "i": pa.int64(), "b": pa.bool_()}.get(values.dtype.kind, pa.string())
-
-
-def made(folder: Path, speed: Any, bore: Any, law: list[str] | None = None, parts: int = 2, **study: Any) -> Path:
-    """Writes a study's folder with its part files; ``study`` is put into study.json."""
-    columns = columns_of(np.asarray(speed, float), np.asarray(bore, float), law or ["harmonic"] * len(bore))
-    table = pa.table(columns)
-    (folder / "variants").mkdir(parents=True)
-    size = -(-len(table) // parts)
-    for part in range(parts):
-        pq.write_table(table.slice(part * size, size), folder / "variants" / f"part-{part:05}.parquet")
-    told = {
-        "state": "complete", "study": "study.yaml", "schema_version": 1, "columns": {name: {"unit": unit} for name, unit in UNITS.items()},
-        "varied": [SPEED, BORE, LAW] if law else [SPEED, BORE], "objectives": [{"minimise": "drive.power_peak"}, {"minimise": "cylinder.mass"}],
-        "program": {"name": "diecut-report", "version": "0.1.0"}, "counts": {"sample": len(bore), "variants": len(bore)}, "seconds": 1.5, "slow": {},
+    worst = np.where((status == "fail") | (thin == "fail"), "fail", status).astype(object)
+    curves = np.empty(len(bore), dtype=object)
+    curves[:] = [np.array([0.0, each]) for each in torque]
+    columns = {
+        "cylinder.mass": mass, "cylinder.radius": np.full(len(bore), 0.105), "drive.crank_torque_peak": torque,
+        "cylinder.checks.wall.utilisation": wall, "cylinder.checks.wall.status": thin, "drive.power_peak": torque * speed,
+        "drive.slip": (play > 1.2).astype(object), "drive.idle_ratio": 1 / speed, "drive.crank_torque": curves,
+        "drive.checks.play.utilisation": play, "drive.checks.play.status": status, "status": worst,
+        "governing": np.where(thin == "fail", "cylinder.checks.wall", "drive.checks.play").astype(object),
     }  # fmt: skip
-    (folder / "study.json").write_text(json.dumps(told | study), encoding="utf-8")
-    (folder / "base.yaml").write_text(BASE, encoding="utf-8")
+    return _without_broken(columns, bore) | {SPEED: speed, BORE: bore, LAW: np.array(law, dtype=object)}
+
+
+def _without_broken(columns: Mapping[str, Any], bore: Any) -> dict[str, Any]:
+    """Variants that cannot exist have inputs and a reason, and nothing else."""
+    broken = bore > 0.1
+    found = {
+        name: np.where(broken, None if values.dtype == object else np.nan, values) for name, values in columns.items()
+    }
+    found["status"][broken] = "error"
+    reasons = [
+        f"bore_radius {each:.4g} m leaves no wall" if bad else None for bad, each in zip(broken, bore, strict=True)
+    ]
+    return found | {"error": np.array(reasons, dtype=object)}
+
+
+def written(
+    folder: Path, columns: Sequence[Column], values: Mapping[str, Any], parts: int = 1, rows: int | None = None, base: str = BASE, **facts: Any
+) -> Path:  # fmt: skip
+    """A study's folder with these values, through the store; ``facts`` are what a run notes in study.json."""
+    count = len(values["status"])
+    every = max(1, -(-count // parts))
+    study = Source("study.yaml", sha256(b"vary: 2\n").hexdigest(), b"vary: 2\n")
+    kept = Source("press.yaml", sha256(base.encode()).hexdigest(), base.encode())
+    store = Store.create(folder, Description(study, kept, tuple(columns), rows or count, every))
+    with store.lock():
+        for index in range(store.description.parts):
+            at = slice(index * every, (index + 1) * every)
+            numbers = {"variant": np.asarray(values["variant"])[at]} if "variant" in values else {}
+            store.write_part(index, {name: column[at] for name, column in values.items()} | numbers, index * every)
+        store.finish({"slow": {}, "seconds": 1.5})
+        store.note(facts)
     return folder
 
 
-def ten(folder: Path, **study: Any) -> Path:
+def made(folder: Path, speed: Any, bore: Any, law: Sequence[str] | None = None, parts: int = 2, **facts: Any) -> Path:
+    """A study of the two mechanisms at these speeds, bores and laws; ``facts`` stand in study.json."""
+    values = calculated(np.asarray(speed, float), np.asarray(bore, float), law or ["harmonic"] * len(bore))
+    inputs = INPUTS if law else INPUTS[:2]
+    known = {column.name for column in (*inputs, *RESULTS)} | {"status", "governing", "error"}
+    told = {
+        "varied": [column.name for column in inputs],
+        "objectives": [{"minimise": "drive.power_peak"}, {"minimise": "cylinder.mass"}],
+    }
+    kept = {name: column for name, column in values.items() if name in known}
+    return written(folder, (*inputs, *RESULTS), kept, parts, **(told | facts))
+
+
+def ten(folder: Path, **facts: Any) -> Path:
     """Ten variants: passing, with a warning, failing by either check, and one that cannot exist."""
     rpm = 2 * math.pi / 60
     speed = [rpm * n for n in (40, 50, 60, 40, 50, 60, 40, 35, 60, 60)]
     bore = [0.055, 0.055, 0.055, 0.065, 0.065, 0.065, 0.07, 0.095, 0.08, 0.104]
-    return made(folder, speed, bore, **study)
+    return made(folder, speed, bore, **facts)
 
 
-def many(folder: Path, count: int, seed: int = 0, **study: Any) -> Path:
+def many(folder: Path, count: int, seed: int = 0, **facts: Any) -> Path:
     """A large random study."""
     draw = np.random.default_rng(seed)
     law = draw.choice(["harmonic", "cycloidal"], count).tolist()
-    return made(folder, draw.uniform(3, 7, count), draw.uniform(0.05, 0.103, count), law, parts=8, **study)
+    return made(folder, draw.uniform(3, 7, count), draw.uniform(0.05, 0.103, count), law, parts=8, **facts)

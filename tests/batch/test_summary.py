@@ -14,13 +14,14 @@ import pytest
 import scipy.stats
 from pypdf import PdfReader
 
+from diecut_report.batch.description import Column
 from diecut_report.batch.query import variants
 from diecut_report.batch.stored import STATUSES, opened
 from diecut_report.batch.summary import content as contents
 from diecut_report.batch.summary import data, influence, pareto, summarise
 from diecut_report.batch.summary.pages import page, sheets
 from diecut_report.errors import UserError
-from tests.batch.stored_study import BORE, LAW, SPEED, made, many, ten
+from tests.batch.stored_study import BORE, LAW, SPEED, made, many, ten, written
 
 GLOBAL = np.array([[0.3138, 0.4424, 0.0], [0.5574, 0.4424, 0.2436]])  # Ishigami: first and total indices, closed form
 
@@ -162,27 +163,20 @@ def ishigami(points: Any) -> Any:
 
 def saltelli(folder: Path, n: int, lost: int = 0) -> Path:
     """A stored Saltelli sample of the Ishigami function, some of the second matrix in error."""
-    import pyarrow as pa
-    import pyarrow.parquet as pq
-
     draw = scipy.stats.qmc.Sobol(6, seed=1).random(n) * 2 * np.pi - np.pi
     a, b = draw[:, :3], draw[:, 3:]
     mixed = [np.column_stack([b[:, k] if k == i else a[:, k] for k in range(3)]) for i in range(3)]
     points = np.stack([a, b, *mixed], axis=1).reshape(-1, 3)  # the rows of a point lie one after the other
     gone = np.isin(np.arange(len(points)), 5 * np.arange(lost) + 1)
     names = [f"mechanisms.m.x{index}" for index in range(3)]
-    table = pa.table(
-        {"variant": np.arange(len(points))}
-        | {name: points[:, index] for index, name in enumerate(names)}
-        | {"m.f": pa.array(ishigami(points.T), mask=gone)}
-        | {"status": np.where(gone, "error", "pass").astype(object), "governing": pa.nulls(len(points), pa.string())}
-        | {"error": np.where(gone, "cannot be", None).astype(object)}
-    )
-    (folder / "variants").mkdir(parents=True)
-    pq.write_table(table, folder / "variants" / "part-00000.parquet")
-    study = {"varied": names, "design": "saltelli", "n": n, "objectives": [{"minimise": "m.f"}], "columns": {}}
-    (folder / "study.json").write_text(json.dumps(study))
-    return folder
+    values: dict[str, Any] = {name: points[:, index] for index, name in enumerate(names)}
+    values |= {
+        "m.f": np.where(gone, np.nan, ishigami(points.T)),
+        "status": np.where(gone, "error", "pass").astype(object),
+    }
+    values |= {"error": np.where(gone, "cannot be", None).astype(object)}
+    columns = [*(Column(name) for name in names), Column("m.f")]
+    return written(folder, columns, values, varied=names, design="saltelli", n=n, objectives=[{"minimise": "m.f"}])
 
 
 def test_sobol_indices_are_those_of_the_closed_form_and_of_scipy(tmp_path: Path) -> None:

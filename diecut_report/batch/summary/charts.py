@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import re
 from collections.abc import Callable, Sequence
 from functools import partial
 from typing import Any
@@ -14,14 +13,15 @@ from matplotlib.figure import Figure
 from diecut_report.batch.stored import STATUSES, Column
 from diecut_report.batch.summary.data import Histogram
 from diecut_report.batch.summary.influence import Influence, Share
-from diecut_report.batch.summary.names import factor, named, titled
+from diecut_report.batch.summary.names import factor, named, titled, wrapped
 from diecut_report.report.charts_diagram import WIDTH
-from diecut_report.report.figures import ACCENT, INK, SOFT, Svg, canvas, drawn, plain, text_size
+from diecut_report.report.figures import ACCENT, FONT_SIZE, INK, SOFT, Svg, canvas, drawn, text_size
 from diecut_report.report.numbers import number
 
 COLOURS = {"pass": "#6f9fc0", "warn": "#d9a13a", "fail": "#a3161a", "error": "#9aa4ae"}
 ORDER = ("pass", "warn", "fail")  # from the back to the front
 FOOT, HEAD = 24.0, 22.0  # points below and above a small diagram
+LABEL = 240.0  # points of a name beside a bar
 MOST_BARS = 15  # inputs of an influence
 
 
@@ -73,7 +73,8 @@ def stacked(rows: Sequence[tuple[str, Sequence[float]]], colours: Sequence[str],
 
 
 def _stacked(rows: Sequence[tuple[str, Sequence[float]]], colours: Sequence[str]) -> Figure:
-    sheet, names = canvas(WIDTH, 17.0 * len(rows) + 8), max(text_size(plain(name))[0] for name, _ in rows) + 10
+    labels = [wrapped(name, LABEL, FONT_SIZE, 1) for name, _ in rows]
+    sheet, names = canvas(WIDTH, 17.0 * len(rows) + 8), max(text_size(label)[0] for label in labels) + 10
     axes = panel(sheet, names, 4, WIDTH - names - 50, 17.0 * len(rows))
     for place, (_, parts) in zip(range(len(rows))[::-1], rows, strict=True):
         start = 0.0
@@ -83,7 +84,7 @@ def _stacked(rows: Sequence[tuple[str, Sequence[float]]], colours: Sequence[str]
         axes.annotate(
             number(f"{start:.0f}"), (start, place), (4, 0), textcoords="offset points", va="center_baseline", size=8
         )
-    axes.set_yticks(range(len(rows))[::-1], [plain(name) for name, _ in rows], va="center_baseline")
+    axes.set_yticks(range(len(rows))[::-1], labels, va="center_baseline")
     _bare(axes, len(rows))
     axes.set_xlim(0, max(sum(parts) for _, parts in rows) or 1)
     return sheet
@@ -107,14 +108,15 @@ def influence(found: Influence, told: str, key: str) -> Svg:
 def _influence(found: Influence) -> Figure:
     rows = found.shares[:MOST_BARS]
     sheet = canvas(WIDTH, 17.0 * len(rows) + 26)
-    names = max(text_size(plain(named(share.column)))[0] for share in rows) + 10
+    labels = [wrapped(named(share.column), LABEL, FONT_SIZE, 1) for share in rows]
+    names = max(text_size(label)[0] for label in labels) + 10
     axes = panel(sheet, names, 18, WIDTH - names - 12, 17.0 * len(rows))
     for place, share in zip(range(len(rows))[::-1], rows, strict=True):
         if share.total is not None:
             axes.barh(place, share.total, 0.66, color="#c3d4e0", xerr=share.total_error, error_kw=_whisker(SOFT))
         axes.barh(place, share.first, 0.66 if share.total is None else 0.34, color=_colour(share),
                   xerr=share.first_error, error_kw=_whisker(INK))  # fmt: skip
-    axes.set_yticks(range(len(rows))[::-1], [plain(named(share.column)) for share in rows], va="center_baseline")
+    axes.set_yticks(range(len(rows))[::-1], labels, va="center_baseline")
     _bare(axes, len(rows))
     axes.tick_params(axis="x", bottom=True, labelbottom=True)
     axes.grid(visible=True, axis="x")
@@ -171,15 +173,3 @@ def _bars(axes: Axes, each: Histogram) -> None:
 def _title(axes: Axes, column: Column, wide: float) -> None:
     """The quantity above a diagram, on two lines where it is long."""
     axes.set_title(wrapped(titled(column), wide, 7.5, 2), pad=3, size=7.5, linespacing=1.05)
-
-
-def wrapped(words: str, wide: float, size: float, most: int) -> str:
-    """A name on lines of a width, broken behind its dots and underscores; what does not fit on so many lines is left out."""
-    lines = [""]
-    for part in re.findall(r"[^._ ]*[._ ]?", words):
-        if lines[-1] and text_size(plain(lines[-1] + part), size)[0] > wide:
-            lines.append("")
-        lines[-1] += part
-    if len(lines) > most:
-        lines = [*lines[: most - 1], "…" + "".join(lines[most - 1 :])[-len(lines[most - 1]) :]]
-    return plain("\n".join(lines))

@@ -8,18 +8,20 @@ from typing import Any
 
 import numpy as np
 from matplotlib.axes import Axes
+from matplotlib.colors import LinearSegmentedColormap
 from matplotlib.figure import Figure
 from matplotlib.ticker import MaxNLocator
 from numpy.typing import NDArray
 
 from diecut_report.batch.stored import STATUSES, Column
-from diecut_report.batch.summary.charts import COLOURS, HEAD, ORDER, chart, panel, wrapped
-from diecut_report.batch.summary.data import Sample
-from diecut_report.batch.summary.names import display, factor, titled
+from diecut_report.batch.summary.charts import COLOURS, HEAD, ORDER, chart, panel
+from diecut_report.batch.summary.data import Density, Sample
+from diecut_report.batch.summary.names import display, factor, titled, wrapped
 from diecut_report.batch.summary.pareto import Front
 from diecut_report.report.charts_diagram import WIDTH
 from diecut_report.report.figures import INK, Svg, canvas, plain
 
+SHADES = LinearSegmentedColormap.from_list("shares", [COLOURS["fail"], "#c9c2c0", "#2f6f9e"])
 MARKERS = {"pass": "o", "warn": "^", "fail": "x"}
 
 
@@ -62,6 +64,40 @@ def _points(axes: Axes, drawn_from: Sample, x: Column, y: Column, size: float) -
             axes.scatter(across, up, s=size, c=COLOURS[status], marker=MARKERS[status], linewidths=width, label=status)
 
 
+def cells(found: Density, told: str, key: str, front: Front | None = None) -> Svg:
+    """Where all variants of a large study lie over two quantities: a square for each cell that has some."""
+    return chart(partial(_cells, found, front), told, key)
+
+
+def _cells(found: Density, front: Front | None) -> Figure:
+    wide, high, foot = WIDTH - 60, 230.0, 40.0
+    sheet = canvas(WIDTH, high + foot + HEAD)
+    axes = panel(sheet, 44, foot, wide, high)
+    j, i = np.nonzero(found.counts)
+    counts, share = found.counts[j, i], found.sound[j, i] / found.counts[j, i]
+    x, y = (
+        (edges[:-1] + edges[1:]) / 2 * factor(each)
+        for edges, each in ((found.x_edges, found.x), (found.y_edges, found.y))
+    )
+    most = min(wide / len(x), high / len(y)) - 0.6
+    side = most * (0.3 + 0.7 * np.log1p(counts) / np.log1p(counts.max()))
+    order = np.argsort(share, kind="stable")
+    axes.scatter(
+        x[i][order], y[j][order], s=side[order] ** 2, c=[shade(each) for each in share[order]], marker="s", linewidths=0
+    )
+    _front(axes, front, found.x, found.y)
+    _titles(axes, found.x, found.y, wide)
+    for told, part in (("none passes", 0.0), ("half pass", 0.5), ("all pass", 1.0)):
+        axes.plot([], [], "s", color=shade(part), markersize=5, label=told)
+    axes.legend(loc="best", frameon=True, framealpha=0.85, edgecolor="none")
+    return sheet
+
+
+def shade(share: float) -> Any:
+    """From red, where no variant passes, over grey to blue, where all do."""
+    return SHADES(share)
+
+
 def _spread(drawn_from: Sample, column: Column, here: NDArray[Any]) -> NDArray[Any]:
     """Values of some variants; words a little to both sides of their place, so that points do not cover each other."""
     values: NDArray[Any] = drawn_from.values[column.name]
@@ -82,8 +118,7 @@ def _front(axes: Axes, front: Front | None, x: Column, y: Column) -> None:
 
 
 def _named(axes: Axes, drawn_from: Sample, x: Column, y: Column, wide: float) -> None:
-    axes.set_title(wrapped(titled(y), wide, 7.5, 2), pad=3, size=7.5, linespacing=1.05)
-    axes.set_xlabel(wrapped(titled(x), wide, 7.5, 2), labelpad=1.5, size=7.5, linespacing=1.05)
+    _titles(axes, x, y, wide)
     for column, axis, limits in ((x, axes.xaxis, axes.set_xlim), (y, axes.yaxis, axes.set_ylim)):
         words = drawn_from.words.get(column.name)
         if words:
@@ -91,6 +126,11 @@ def _named(axes: Axes, drawn_from: Sample, x: Column, y: Column, wide: float) ->
             limits(-0.6, len(words) - 0.4)
         else:
             axis.set_major_locator(MaxNLocator(4))
+
+
+def _titles(axes: Axes, x: Column, y: Column, wide: float) -> None:
+    axes.set_title(wrapped(titled(y), wide, 7.5, 2), pad=3, size=7.5, linespacing=1.05)
+    axes.set_xlabel(wrapped(titled(x), wide, 7.5, 2), labelpad=1.5, size=7.5, linespacing=1.05)
 
 
 def parallel(drawn_from: Sample, columns: Sequence[Column], told: str) -> Svg:

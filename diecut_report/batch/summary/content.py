@@ -13,8 +13,9 @@ from diecut_report.batch.summary.figures import Figure, Figures
 from diecut_report.batch.summary.names import counted, display, named, titled
 
 SAMPLED = 1_500  # variants in the charts of points
+NUMBERS, FEWEST = 200_000, 400  # that the page carries for the chart of any two quantities; variants of them at least
 TARGETS, CHARTED = 5, 3  # quantities that influence is told of, and drawn for
-PANELS, RANGES, POINTS = 12, 40, 30  # histograms, rows of ranges, quantities to choose from
+PANELS, RANGES, POINTS = 12, 60, 30  # histograms, rows of ranges, quantities of the charts on paper
 
 
 class Best(NamedTuple):
@@ -47,7 +48,10 @@ class Summary:
     """The whole page."""
 
     title: str
+    folder: str
     study: Any
+    files: list[tuple[str, str]]
+    checks: dict[str, str]
     total: int
     statuses: dict[str, int]
     facts: list[tuple[str, str]]
@@ -68,14 +72,15 @@ class Summary:
     ranked: Ranked | None
     slow: dict[str, str]
     figures: dict[str, Figure]
-    sample: data.Sample
+    any_two: data.Sample
     varied: list[Column]
     choices: list[Column]
 
     @property
-    def checksums(self) -> list[tuple[str, str]]:
-        """The files that the study was made from, with their SHA-256."""
-        return [(name, str(sum_)) for name, sum_ in (self.study.get("sha256") or {}).items()]
+    def example(self) -> int:
+        """A variant to name in a command: the best, else the first of the matrix."""
+        rows = self.matrices[0].rows if self.matrices else []
+        return self.best[0].variant if self.best else rows[0].variant if rows else 0
 
     @property
     def status(self) -> str:
@@ -95,16 +100,20 @@ def content(stored: Stored) -> Summary:
     main = _main(stored, goals, varying)
     ranked = influence.influences(stored, main[:TARGETS])
     choices = _choices(stored, varying, main)
-    sample = data.sample(stored, choices, SAMPLED)
+    sample = data.sample(stored, choices[:POINTS], SAMPLED)
+    drawn = min(SAMPLED, max(FEWEST, NUMBERS // max(1, len(choices))))
     used = data.utilisations(stored)
     made = [row for row in used if row.is_made]
-    figures = Figures(stored, states, sample, front, main)
+    figures = Figures(stored, states, sample, front, main, spreads)
     best = [int(variant) for variant in front.variants] if front else []
     reports = matrix.reported(stored.folder)
     ranges = [spread for name, spread in spreads.items() if spread.varies and ".checks." not in name]
     return Summary(
-        title=str(stored.study.get("title") or stored.study.get("study") or stored.folder.name),
+        title=str(stored.study.get("title") or stored.description.study.file),
+        folder=stored.folder.resolve().name,
         study=stored.study,
+        files=_files(stored),
+        checks={check: stored.check_told(check) for check in stored.checks},
         total=total,
         statuses=states,
         facts=_facts(stored, total),
@@ -125,7 +134,7 @@ def content(stored: Stored) -> Summary:
         ranked=_ranked(ranked, figures) if ranked else None,
         slow=dict(stored.study.get("slow") or {}),
         figures=figures.all(failures, [spreads[c.name] for c in main if c.name in spreads and spreads[c.name].varies][:PANELS], ranked),
-        sample=sample,
+        any_two=data.sample(stored, choices, drawn),
         varied=stored.varied,
         choices=choices,
     )  # fmt: skip
@@ -148,9 +157,9 @@ def _main(stored: Stored, goals: tuple[pareto.Objective, ...], varying: list[Col
 
 
 def _choices(stored: Stored, varying: list[Column], main: list[Column]) -> list[Column]:
-    """The quantities of the charts of points and lines."""
+    """The quantities of the charts of points and lines: inputs, outputs, utilisations; what matters most first."""
     inputs = [column for column in stored.varied if column in varying or column.kind in ("text", "bool")]
-    return list(dict.fromkeys([*inputs, *main]))[:POINTS]
+    return list(dict.fromkeys([*inputs, *main]))
 
 
 def _facts(stored: Stored, total: int) -> list[tuple[str, str]]:
@@ -159,10 +168,28 @@ def _facts(stored: Stored, total: int) -> list[tuple[str, str]]:
     facts = [("Variants calculated", counted(total, "variant")), ("Varied", counted(len(stored.varied), "input"))]
     if counts.get("dropped"):
         facts.append(("Left out by constraints", counted(int(counts["dropped"]), "variant")))
+    facts += _margin(stored)
     seconds = float(study.get("seconds") or 0)
     if seconds > 0:
         facts.append(("Calculated in", f"{seconds:.3g} s"))
     return facts
+
+
+def _margin(stored: Stored) -> list[tuple[str, str]]:
+    """Which of the variants that do not fail keeps most from its limits."""
+    if not stored.checks:
+        return []
+    sql = f"SELECT variant, {WORST.sql} FROM w WHERE status IN ('pass', 'warn') AND {WORST.sql} IS NOT NULL ORDER BY 2, 1 LIMIT 1"
+    return [
+        ("Most margin", f"variant {one}: no check is utilised by more than {used:.2f}")
+        for one, used in stored.rows(sql)
+    ]
+
+
+def _files(stored: Stored) -> list[tuple[str, str]]:
+    """The files that the study was made from, with their SHA-256."""
+    made = stored.description
+    return [(source.file, source.sha256) for source in (made.study, made.base, *made.tables)]
 
 
 def _reports(stored: Stored, variants: list[int]) -> list[Report]:

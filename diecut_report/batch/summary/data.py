@@ -13,9 +13,10 @@ from numpy.typing import NDArray
 from diecut_report.batch.stored import STATUSES, Column, Stored, text
 
 Array = NDArray[Any]
-WORST = Column("greatest utilisation", "float")
+WORST = Column("greatest utilisation", "float", title="Greatest utilisation of all checks")
 BANDS = (0.5, 0.8, 1.0, 1.25)  # limits between the classes of utilisation
 BINS, FEWEST = 24, 6  # classes of a histogram
+CELLS = (52, 34)  # across and upwards, in a chart of where variants lie
 AT_ONCE, EXACT = 16, 100_000  # columns in a query; rows up to which the median is exact
 REASONS = 15
 
@@ -65,6 +66,17 @@ class Histogram(NamedTuple):
     column: Column
     edges: Array
     counts: Array
+
+
+class Density(NamedTuple):
+    """How many variants lie in each cell over two quantities, and how many of them do not fail: shape (cells of y, cells of x)."""
+
+    x: Column
+    y: Column
+    x_edges: Array
+    y_edges: Array
+    counts: Array
+    sound: Array
 
 
 class Reason(NamedTuple):
@@ -160,12 +172,32 @@ def histogram(stored: Stored, spread: Spread) -> Histogram:
     column, low, high = spread.column, spread.values[0], spread.values[-1]
     bins = int(np.clip(2 * spread.present**0.5, FEWEST, BINS))
     edges = np.linspace(low, high, bins + 1)
-    place = f"least(CAST(floor(({column.sql} - {low!r}) / {high - low!r} * {bins}) AS BIGINT), {bins - 1})"
-    sql = f"SELECT status, {place} AS place, count(*) FROM w WHERE {column.sql} IS NOT NULL GROUP BY ALL"
+    sql = f"SELECT status, {_place(spread, bins)} AS place, count(*) FROM w WHERE {column.sql} IS NOT NULL GROUP BY ALL"
     counts = np.zeros((len(STATUSES), bins), dtype=int)
     for status, index, count in stored.rows(sql):
-        counts[STATUSES.index(status), max(index, 0)] += count
+        counts[STATUSES.index(status), index] += count
     return Histogram(column, edges, counts)
+
+
+def density(stored: Stored, x: Spread, y: Spread) -> Density:
+    """All variants over two quantities, counted in cells."""
+    across, up = CELLS
+    places = f"{_place(x, across)} AS i, {_place(y, up)} AS j"
+    there = f"{x.column.sql} IS NOT NULL AND {y.column.sql} IS NOT NULL"
+    sql = f"SELECT {places}, count(*), count(*) FILTER (status IN ('pass', 'warn')) FROM w WHERE {there} GROUP BY ALL"
+    counts, sound = np.zeros((2, up, across), dtype=int)
+    for i, j, all_, good in stored.rows(sql):
+        counts[j, i], sound[j, i] = all_, good
+    edges = (np.linspace(each.values[0], each.values[-1], cells + 1) for each, cells in ((x, across), (y, up)))
+    return Density(x.column, y.column, *edges, counts, sound)
+
+
+def _place(spread: Spread, cells: int) -> str:
+    """SQL for the cell of a quantity, from 0."""
+    low, wide = float(spread.values[0]), float(spread.values[-1] - spread.values[0])
+    return (
+        f"CAST(greatest(0, least(floor(({spread.column.sql} - {low!r}) / {wide!r} * {cells}), {cells - 1})) AS BIGINT)"
+    )
 
 
 def reasons(stored: Stored) -> list[Reason]:

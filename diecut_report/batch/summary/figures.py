@@ -16,6 +16,7 @@ from diecut_report.batch.summary.names import counted, named, percent, quantity
 from diecut_report.batch.summary.pareto import Front
 from diecut_report.report.figures import Svg
 
+DENSE = 5_000  # variants from which a chart counts them in cells
 AXES, GOVERNING, LINES = 8, 15, 400  # upright axes, bars of governing checks, lines between the axes
 
 
@@ -36,6 +37,7 @@ class Figures:
     sample: Sample
     front: Front | None
     main: list[Column]
+    spreads: dict[str, Spread]
 
     def all(
         self, failures: Sequence[Failure], spreads: Sequence[Spread], ranked: Sequence[Influence]
@@ -61,12 +63,13 @@ class Figures:
         """What governs the failing and the warning variants."""
         rows = failures[:GOVERNING]
         told = "; ".join(
-            f"{row.check} governs {row.failing} failing and {row.warning} warning variants" for row in rows
+            f"{self.stored.check_told(row.check)} governs {row.failing} failing and {row.warning} warning variants"
+            for row in rows
         )
         more = f" {len(failures) - GOVERNING} rarer checks are left out." if len(failures) > GOVERNING else ""
         caption = f"Variants by the check that governs them: failing (red) and with a warning (yellow).{more}"
         colours = [charts.COLOURS["fail"], charts.COLOURS["warn"]]
-        bars = [(row.check, (row.failing, row.warning)) for row in rows]
+        bars = [(self.stored.check_told(row.check), (row.failing, row.warning)) for row in rows]
         return Figure(charts.stacked(bars, colours, f"{told}.", "failures"), caption, told)
 
     def distributions(self, spreads: Sequence[Spread]) -> Figure:
@@ -126,8 +129,17 @@ class Figures:
         told = f"{named(y)} over {named(x)}, {self._correlated(x, y)}"
         if front:
             told += f"; Pareto front of {counted(len(front.variants), 'variant')}, from variant {front.variants[0]} to {front.variants[-1]}"
-        caption = f"{named(y)} over {named(x)}{', with the Pareto front' if front else ''}. {self._drawn(self.sample)}"
+        caption = f"{named(y)} over {named(x)}{', with the Pareto front' if front else ''}."
+        if sum(self.states.values()) > DENSE and {x.name, y.name} <= self.spreads.keys():
+            return self._cells(x, y, front, caption, told)
+        caption = f"{caption} {self._drawn(self.sample)}"
         return Figure(charts_points.scatter(self.sample, [pair], f"Scatter of {told}.", "pair", front), caption, told)
+
+    def _cells(self, x: Column, y: Column, front: Front | None, caption: str, told: str) -> Figure:
+        found = data.density(self.stored, self.spreads[x.name], self.spreads[y.name])
+        counted_ = counted(int(found.counts.sum()), "variant")
+        caption = f"{caption} Counted in cells are {counted_}: the larger a square, the more variants; its colour is the share that does not fail."
+        return Figure(charts_points.cells(found, f"Density of {told}.", "pair", front), caption, told)
 
     def _goals(self) -> tuple[Column, Column] | None:
         known = [column for column in self.main if column.name in self.sample.values]

@@ -67,7 +67,7 @@ def matrices(stored: Stored, variants: Sequence[int], checks: Sequence[str]) -> 
     """The matrix in parts that fit on paper."""
     for start in range(0, len(checks), ACROSS):
         part = list(checks[start : start + ACROSS])
-        numbers = [(start + index + 1, name) for index, name in enumerate(part)]
+        numbers = [(start + index + 1, stored.check_told(name)) for index, name in enumerate(part)]
         yield Matrix(numbers, list(_rows(stored, variants, part)))
 
 

@@ -3,8 +3,11 @@
 from __future__ import annotations
 
 import math
+import re
+from collections.abc import Iterator
 
 from diecut_report.batch.stored import Column
+from diecut_report.report.figures import plain, text_size
 from diecut_report.report.numbers import joined, number
 from diecut_report.texts import number_text
 from diecut_report.units import pretty, unit
@@ -13,8 +16,8 @@ DIGITS = 4
 
 
 def named(column: Column) -> str:
-    """A quantity by its path, without the word that all varied inputs begin with."""
-    return column.name.removeprefix("mechanisms.")
+    """A quantity as people call it: ``Radius of the bore (cylinder)``."""
+    return column.told
 
 
 def titled(column: Column) -> str:
@@ -23,9 +26,35 @@ def titled(column: Column) -> str:
     return named(column) + (f", {sign}" if sign else "")
 
 
-def breakable(name: str) -> str:
-    """A name that may be broken between its parts."""
-    return name.replace(".", ".\u200b").replace("_", "_\u200b")
+def wrapped(words: str, wide: float, size: float, most: int) -> str:
+    """A name for matplotlib on lines of a width, broken at its spaces; a word that is too long behind dots and underscores.
+
+    Of what does not fit on so many lines the last line stays, with the mechanism and the unit.
+    """
+    lines = [""]
+    for part in _pieces(words, wide, size):
+        if lines[-1] and text_size(plain((lines[-1] + part).rstrip()), size)[0] > wide:
+            lines.append("")
+        lines[-1] += part
+    if len(lines) > most:
+        kept = [line.rstrip() for line in lines[: most - 1]]
+        lines = [*kept, _shortened(" ".join(line.strip() for line in lines[most - 1 :]), wide, size)]
+    return plain("\n".join(line.rstrip() for line in lines))
+
+
+def _pieces(words: str, wide: float, size: float) -> Iterator[str]:
+    for word in re.findall(r"[^ ]+ ?| ", words):
+        fits = text_size(plain(word), size)[0] <= wide
+        yield from [word] if fits else re.findall(r"[^._]*[._]|[^._]+", word)
+
+
+def _shortened(words: str, wide: float, size: float) -> str:
+    """As much of the beginning of a name as fits on a line before its end in brackets."""
+    head, bracket, tail = words.rpartition(" (")
+    head, tail = (head, f"… ({tail}") if bracket else (words, "…")
+    while head and text_size(plain(head.rstrip() + tail), size)[0] > wide:
+        head = head[:-1]
+    return head.rstrip() + tail
 
 
 def factor(column: Column) -> float:

@@ -15,7 +15,7 @@ from weasyprint.urls import URLFetcher
 from diecut_report import __version__
 from diecut_report.batch.stored import Column
 from diecut_report.batch.summary.content import Summary
-from diecut_report.batch.summary.names import breakable, counted, display, named, percent, titled
+from diecut_report.batch.summary.names import counted, display, named, percent, titled
 from diecut_report.report import html, pdf
 from diecut_report.report.i18n import Words
 from diecut_report.report.numbers import number
@@ -48,7 +48,7 @@ def _filled(summary: Summary, kind: str) -> str:
     return html._environment().get_template("summary.html.j2").render(
         s=summary, t=Words("en"), kind=kind, style=Markup(style), version=__version__, figure=partial(_figure, summary, kind),
         points=Markup(_points(summary)) if kind == "screen" else "", named=named, titled=titled, display=display, counted=counted,
-        percent=percent, breakable=breakable, number=number, pretty=pretty,
+        percent=percent, number=number, pretty=pretty,
     )  # fmt: skip
 
 
@@ -63,7 +63,7 @@ def _figure(summary: Summary, kind: str, key: str | Any) -> Markup:
 
 def _points(summary: Summary) -> str:
     """The sample for the page's own chart of any two quantities, in display units, as JSON that cannot end a script."""
-    sample = summary.sample
+    sample = summary.any_two
     columns = [
         {
             "title": titled(column),

@@ -25,7 +25,7 @@ class Objective:
     @property
     def told(self) -> str:
         """The objective in words."""
-        return f"{'least' if self.is_less else 'greatest'} {self.column.name}"
+        return f"{'least' if self.is_less else 'greatest'} {self.column.told}"
 
 
 @dataclass(frozen=True)
