@@ -75,7 +75,7 @@ def _target(study: Path | None, folder: Path | None, resume: Path | None) -> Pat
         raise click.UsageError("--resume names the folder; leave -o out.")
     if study is None and resume is None:
         raise click.UsageError("Name a study file, or a folder to continue with --resume DIR.")
-    return resume or folder or Path(str(study)).with_suffix("").with_name(Path(str(study)).stem)
+    return resume or folder or Path(Path(str(study)).stem)
 
 
 def _told(outcome: Outcome, target: Path) -> Iterator[str]:

@@ -64,7 +64,10 @@ class Dask:
     @property
     def limit(self) -> int:
         """How many chunks keep the workers busy that are there now."""
-        return AHEAD * max(1, int(self._client.scheduler_info()["total_threads"]))
+        try:
+            return AHEAD * max(1, sum(self._client.nthreads().values()))
+        except OSError as error:
+            raise self._gone() from error
 
     def submit(self, function: Function, chunk: Chunk) -> Future[Any]:
         """Send a chunk to the scheduler."""
@@ -77,7 +80,10 @@ class Dask:
     def look(self) -> None:
         """UserError where the scheduler is gone."""
         if self._client.status != "running":
-            raise UserError(Problem(f"The Dask scheduler at {self._address} cannot be reached any more. {KEPT}"))
+            raise self._gone()
+
+    def _gone(self) -> UserError:
+        return UserError(Problem(f"The Dask scheduler at {self._address} cannot be reached any more. {KEPT}"))
 
 
 class _Study(WorkerPlugin):

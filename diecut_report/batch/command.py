@@ -3,23 +3,19 @@
 from __future__ import annotations
 
 import sys
-import tempfile
-from collections.abc import Iterator, Sequence
-from contextlib import contextmanager
+from collections.abc import Sequence
 from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from diecut_report.batch.description import Source
+from diecut_report.batch import state
 from diecut_report.batch.export import export
 from diecut_report.batch.refusals import refuse_empty, refuse_huge
 from diecut_report.batch.reports import write_reports
 from diecut_report.batch.run import Counts, Outcome, Where, run_study
-from diecut_report.batch.store import Store
 from diecut_report.batch.study import Study, load_study
 from diecut_report.batch.summary import summarise
 from diecut_report.discovery import Discovery
-from diecut_report.errors import Problem, UserError
 
 if TYPE_CHECKING:
     from rich.progress import Progress
@@ -54,7 +50,7 @@ class Shown:
     def doing(self, what: str) -> None:
         """What is done after the variants."""
         if self.bar is not None:
-            self.bar.update(self.task, told=what)
+            self.bar.update(self.task, description=what)
 
 
 def _bar() -> Progress:
@@ -91,36 +87,21 @@ def run(
     shown: Shown,
 ) -> Outcome:
     """Run a study, or continue the one of a folder; then reports, summary and the other formats."""
-    with _loaded(study, directory, where) as known:
-        refuse_huge(known, agreed)
-        refuse_empty(known)
-        outcome = run_study(known, directory, where, resume=resume, tell=shown)
-        told = write_reports(known, outcome.store, where.plugins, agreed=agreed, tell=shown.doing)
-    shown.doing("summary")
+    known = _loaded(study, directory, where)
+    refuse_huge(known, agreed)
+    refuse_empty(known)
+    outcome = run_study(known, directory, where, resume=resume, tell=shown)
     with outcome.store.lock():
-        export(outcome.store, formats)
+        told = write_reports(known, outcome.store, where.plugins, agreed=agreed, tell=shown.doing)
+        shown.doing("summary")
+        told += export(outcome.store, formats)
         summarise(directory)
     return replace(outcome, notes=(*filter(None, [known.sample.note]), *told))
 
 
-@contextmanager
-def _loaded(study: Path | None, directory: Path, where: Where) -> Iterator[Study]:
+def _loaded(study: Path | None, directory: Path, where: Where) -> Study:
     """The study of a file, or as it was when the run of the folder was begun."""
     discovery = Discovery([Path(folder) for folder in where.plugins])
     if study is not None:
-        yield load_study(study, discovery)
-        return
-    kept = Store.open(directory).description
-    with tempfile.TemporaryDirectory() as place:
-        for source in (kept.study, kept.base, *kept.tables):
-            copy = Path(place) / source.file
-            copy.parent.mkdir(parents=True, exist_ok=True)
-            copy.write_bytes(_content(source, directory))
-        yield load_study(Path(place) / kept.study.file, discovery)
-
-
-def _content(source: Source, directory: Path) -> bytes:
-    if source.content is None:
-        words = f"The copy of {source.file} is missing or has changed; continue with the study itself: batch STUDY --resume {directory}."
-        raise UserError(Problem(words, str(directory)))
-    return source.content
+        return load_study(study, discovery)
+    return load_study(directory / state.STUDY, discovery, state.kept(directory))

@@ -4,35 +4,48 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterable, Iterator
+from contextlib import contextmanager, suppress
 from itertools import chain, islice
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from diecut_report.batch.files import replaced
-from diecut_report.batch.store import Store
+from diecut_report.batch.files import replaced, room
+from diecut_report.batch.store import PARTS, Store
 from diecut_report.errors import Problem, UserError, nearest
 
 if TYPE_CHECKING:
+    from openpyxl import Workbook
     from openpyxl.worksheet._write_only import WriteOnlyWorksheet
 
 NAME = "variants"
 SHEET_ROWS, SHEET_COLUMNS = 1_048_576, 16_384  # what a sheet of a workbook holds
 
 
-def export(store: Store, formats: Iterable[str]) -> list[Path]:
-    """Write the variants stored so far as DIR/variants.csv or .xlsx, a row each; gives the files."""
+def export(store: Store, formats: Iterable[str]) -> tuple[str, ...]:
+    """Write the variants stored so far as DIR/variants.csv or .xlsx, a row each; says what is to be known of the files."""
     wanted = list(dict.fromkeys(formats))
     if strange := [name for name in wanted if name not in WRITERS]:
         words = f"{strange[0]!r} is no format of a table{nearest(strange[0], WRITERS)}. Allowed: {', '.join(WRITERS)}."
         raise UserError(Problem(words))
-    return [_exported(store, name) for name in wanted]
+    for name in wanted:
+        path = store.directory / f"{NAME}.{name}"
+        with replaced(path) as temporary:
+            WRITERS[name](store, temporary, path)
+    return tuple(_told(store, wanted))
 
 
-def _exported(store: Store, name: str) -> Path:
-    path = store.directory / f"{NAME}.{name}"
-    with replaced(path) as temporary:
-        WRITERS[name](store, temporary, path)
-    return path
+def _told(store: Store, formats: list[str]) -> Iterator[str]:
+    """What of the results stands elsewhere than one would look for it."""
+    curves = [column.name for column in store.description.columns if column.kind == "curve"]
+    if curves and formats:
+        names = " and ".join(f"{NAME}.{name}" for name in formats)
+        yield f"{names}: without the curves {', '.join(curves)}, which only the Parquet files in {store.directory / PARTS} hold."
+    if "xlsx" in formats and _sheets(store) > 1:
+        yield f"{NAME}.xlsx: {store.count()} variants in {_sheets(store)} sheets, as a sheet holds {SHEET_ROWS} rows."
+
+
+def _sheets(store: Store) -> int:
+    return max(1, math.ceil(store.count() / (SHEET_ROWS - 1)))
 
 
 def heads(store: Store) -> dict[str, str]:
@@ -63,9 +76,22 @@ def _write_xlsx(store: Store, temporary: Path, path: Path) -> None:
         raise UserError(Problem(words, str(path)))
     book = Workbook(write_only=True)
     rows = _rows(store, list(names))
-    for sheet in range(max(1, math.ceil(store.count() / (SHEET_ROWS - 1)))):
-        _fill(book.create_sheet(f"{NAME} {sheet + 1}"), list(names.values()), islice(rows, SHEET_ROWS - 1))
-    book.save(temporary)
+    with room(store.directory), _closed(book):  # it keeps each sheet in a temporary file
+        for sheet in range(_sheets(store)):
+            _fill(book.create_sheet(f"{NAME} {sheet + 1}"), list(names.values()), islice(rows, SHEET_ROWS - 1))
+        book.save(temporary)
+
+
+@contextmanager
+def _closed(book: Workbook) -> Iterator[None]:
+    """After an error the sheets are closed, which else complain when they are forgotten."""
+    try:
+        yield
+    except BaseException:
+        for sheet in book.worksheets:
+            with suppress(Exception):  # the error that is told is the one before
+                sheet.close()  # type: ignore[attr-defined]  # one that is only written has it
+        raise
 
 
 def _fill(sheet: WriteOnlyWorksheet, names: list[str], rows: Iterable[list[Any]]) -> None:

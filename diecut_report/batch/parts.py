@@ -110,7 +110,9 @@ def readable(path: Path) -> Iterator[None]:
     except pa.ArrowInvalid as error:
         raise UserError(Problem(DAMAGED, str(path))) from error
     except OSError as error:
-        words = f"This part cannot be read: {error.strerror}." if error.errno else DAMAGED  # Parquet's own has no number
+        words = (
+            f"This part cannot be read: {error.strerror}." if error.errno else DAMAGED
+        )  # Parquet's own has no number
         raise UserError(Problem(words, str(path))) from error
 
 

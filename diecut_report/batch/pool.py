@@ -69,22 +69,33 @@ class Pool:
         self._context.started.clear()
 
 
+class _Process(SpawnProcess):
+    """A process that no Ctrl-C reaches, from its beginning on: this one ends it."""
+
+    def start(self) -> None:
+        """Begin with the signal blocked, which the new process takes over."""
+        before = signal.pthread_sigmask(signal.SIG_BLOCK, [signal.SIGINT])
+        try:
+            super().start()
+        finally:
+            signal.pthread_sigmask(signal.SIG_SETMASK, before)
+
+
 class _Processes(SpawnContext):
     """Starts processes and knows them, so that they can be ended in the middle of a chunk."""
 
     def __init__(self) -> None:
         super().__init__()
-        self.started: list[SpawnProcess] = []
+        self.started: list[_Process] = []
 
-    def Process(self, *args: Any, **kwargs: Any) -> SpawnProcess:  # type: ignore[override]  # noqa: N802  # the name of the base
-        process = SpawnProcess(*args, **kwargs)
+    def Process(self, *args: Any, **kwargs: Any) -> _Process:  # type: ignore[override]  # noqa: N802  # the name of the base
+        process = _Process(*args, **kwargs)
         self.started.append(process)
         return process
 
 
 def _begin(warm: Warm) -> None:
-    """Ctrl-C is the parent's business, and a process does not outlive it."""
-    signal.signal(signal.SIGINT, signal.SIG_IGN)
+    """A process does not outlive its parent."""
     threading.Thread(target=_end_with_parent, daemon=True).start()
     make_known(warm)
 

@@ -6,11 +6,12 @@ import csv
 import io
 import json
 import math
+import shutil
 import sys
 from collections.abc import Generator, Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any, Literal
+from typing import Any
 
 from diecut_report.batch.stored import FIXED, Column, Stored, opened
 from diecut_report.batch.variant import variant_config
@@ -18,13 +19,10 @@ from diecut_report.batch.where import condition
 from diecut_report.batch.where_words import Condition, column_named
 from diecut_report.errors import Problem, UserError
 from diecut_report.report.numbers import number
-from diecut_report.texts import number_text
-from diecut_report.units import pretty, unit
 
 FORMATS = ("table", "csv", "json")
 SHOWN, WIDE = 20, 12  # variants and quantities of a table that asks for no number of them
 ROWS = 2_000  # at a time
-FREE = 10_000  # letters of a line that no terminal breaks
 
 Row = tuple[Any, ...]
 
@@ -167,24 +165,18 @@ def _finite(value: Any) -> Any:
 
 def _table(stored: Stored, question: Question, width: int | None) -> Iterator[str]:
     """A table for people, and how many variants there are."""
-    from rich import box
-    from rich.console import Console
-    from rich.table import Table
-    from rich.text import Text
+    from diecut_report.batch.table import table_text
 
-    table = Table(box=box.SIMPLE_HEAD, pad_edge=False)
-    for column in question.columns:
-        sign = pretty(column.display)
-        name = column.name.removeprefix("mechanisms.").replace(".", ".\n")
-        justify: Literal["left", "right"] = "right" if column.is_number else "left"
-        table.add_column(Text(name + (f"\n{sign}" if sign else "")), justify=justify, overflow="fold")
-    for row in _fetched(stored, question):
-        table.add_row(*(Text(shown(value, column)) for value, column in zip(row, question.columns, strict=True)))
-    wide = width or (None if sys.stdout.isatty() else FREE)
-    console = Console(file=io.StringIO(), width=wide, color_system=None, soft_wrap=False, legacy_windows=False)
-    console.print(table)
-    given = console.file.getvalue()  # type: ignore[attr-defined]  # the StringIO from above
-    yield "\n".join(line.rstrip() for line in given.splitlines()) + f"\n{_counted(stored, question, table.row_count)}\n"
+    rows = list(_fetched(stored, question))
+    found, without = table_text(question.columns, rows, width or _terminal())
+    yield f"{found}\n{_counted(stored, question, len(rows))}\n"
+    if without:
+        yield f"No room on a line for: {', '.join(column.name for column in without)} (--format csv has them all).\n"
+
+
+def _terminal() -> int | None:
+    """How many letters a line of the terminal has; nothing where the answer goes elsewhere."""
+    return shutil.get_terminal_size().columns if sys.stdout.isatty() else None
 
 
 def _counted(stored: Stored, question: Question, given: int) -> str:
@@ -195,15 +187,4 @@ def _counted(stored: Stored, question: Question, given: int) -> str:
     return words + (f"; {given} are shown (--top, --format csv)." if given < found else ".")
 
 
-def shown(value: Any, column: Column) -> str:
-    """A stored value as people read it, in the column's display unit, without the unit."""
-    if value is None:
-        return "–"
-    if isinstance(value, bool):
-        return "yes" if value else "no"
-    if isinstance(value, float):
-        return number(number_text(unit(column.display).from_si(value), 5)) if value else "0"
-    return number(str(value)) if isinstance(value, int) and column.name != "variant" else str(value)
-
-
-__all__ = ["FORMATS", "shown", "variant_config", "variants"]
+__all__ = ["FORMATS", "variant_config", "variants"]

@@ -69,12 +69,14 @@ def run_study(study: Study, directory: Path, where: Where, *, resume: bool, tell
     """Calculate all variants of a study that are not in the folder yet; each part file is whole or absent, whatever happens."""
     store = Store.open(directory, described(study)) if resume else Store.create(directory, described(study))
     with store.lock():
-        store.note(facts(study))
+        store.start(facts(study))
         began, before = time.monotonic(), float(store.state.get("seconds") or 0)
         slow = dict(store.state.get("slow") or {})
         try:
             for done in _calculated(study, store, where, tell):
-                slow |= done.slow
+                if done.slow.keys() - slow.keys():
+                    slow |= done.slow
+                    store.note({"slow": slow})  # a run that is killed later has told it
         finally:  # an interrupted run has spent its time too
             store.note({"slow": slow, "seconds": before + time.monotonic() - began})
         store.finish({})
@@ -107,7 +109,7 @@ def _calculated(study: Study, store: Store, where: Where, tell: Tell) -> Iterato
 
 def engine_for(study: Study, where: Where, chunks: int) -> Engine:
     """A Dask cluster where one is named, a pool of processes for a large study, this process for a small one."""
-    warm = Warm(_key(study, where), work.load, (contents(study), study.file.name, tuple(where.plugins)))
+    warm = Warm(_key(study, where), work.load, (study.file.read_bytes(), contents(study), tuple(where.plugins)))
     if where.dask:
         return dask_cluster(where.dask, warm)
     jobs = min(where.jobs or os.cpu_count() or 1, chunks)
@@ -120,10 +122,8 @@ def _key(study: Study, where: Where) -> str:
 
 
 def contents(study: Study) -> dict[str, bytes]:
-    """The files that a study is made of, by their names as it names them."""
-    folder = study.file.parent
-    names = [str(study.data["base"]), *study.tables]
-    return {study.file.name: study.text.encode(), **{name: (folder / name).read_bytes() for name in names}}
+    """The base and the tables of a study, by their names as it names them."""
+    return {name: path.read_bytes() for name, path in study.files.items()}
 
 
 def described(study: Study) -> Description:
@@ -133,12 +133,12 @@ def described(study: Study) -> Description:
     columns = [*varied_columns(study), *result_columns(study)]
     chunk = int(np.clip(study.sample.count // PARTS, *PART))
     return Description(
-        study=Source(study.file.name, study.sha256, files[study.file.name]),
+        study=Source(study.file.name, study.sha256, study.file.read_bytes()),
         base=Source(base, study.base.tree.sha256, files[base]),
         columns=tuple(columns),
         rows=study.sample.count,
         chunk=chunk,
-        tables=tuple(Source(name, digest) for name, digest in study.tables.items()),
+        tables=tuple(Source(name, digest, files[name]) for name, digest in study.tables.items()),
         plugins=_versions(study),
     )
 

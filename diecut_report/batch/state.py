@@ -63,7 +63,8 @@ def kept(folder: Path) -> dict[str, Path]:
     found = copies(folder, description)
     for path, source in found.items():
         if source.content is None:
-            words = f"This copy of {source.file} is missing or has changed. Continue with the study itself: diecut-report batch STUDY --resume {folder}"
+            continued = f"diecut-report batch STUDY --resume {folder}"
+            words = f"This copy of {source.file} is missing or has changed. Continue with the study itself: {continued}"
             raise UserError(Problem(words, str(path)))
     return {source.file: path for path, source in found.items() if source is not description.study}
 

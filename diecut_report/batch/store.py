@@ -15,8 +15,8 @@ from typing import Any
 
 import numpy as np
 import pyarrow as pa
-import pyarrow.dataset
 import pyarrow.compute
+import pyarrow.dataset
 import pyarrow.parquet as pq
 from filelock import FileLock
 
@@ -92,7 +92,7 @@ class Store:
         """Write the variants of one part, whole or not at all.
 
         Columns: SI floats (NaN becomes null), integers, booleans, texts, curves or None; `status` is needed, others may be
-        missing. A column ``variant`` numbers those that constraints have left; without it all of the part are given.
+        missing. A column ``variant`` numbers those that constraints have left; without it they are the part's first ones.
         """
         if not self._lock.is_locked:
             raise RuntimeError("the folder is not locked for writing")
@@ -103,7 +103,8 @@ class Store:
 
     def _variants(self, index: int, columns: Mapping[str, Values]) -> Any:
         rows = self.rows(index)
-        found = np.asarray(columns.get(VARIANT.name, rows), np.int64)
+        count = len(next(iter(columns.values()), ()))
+        found = np.asarray(columns.get(VARIANT.name, range(rows.start, rows.start + count)), np.int64)
         if len(found) and not (rows.start <= found[0] and found[-1] < rows.stop and (np.diff(found) > 0).all()):
             raise ValueError(
                 f"part {index} holds the variants {rows.start} to {rows.stop - 1}, once each, in their order"

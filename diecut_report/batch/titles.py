@@ -14,8 +14,13 @@ UTILISATION, VERDICT_OF = ".utilisation", ".status"  # ends of the columns of a 
 
 def titles(columns: Sequence[Column]) -> dict[str, str]:
     """Titles by name: ``Radius of the bore (cylinder)``; longer where two columns would share one, empty without a description."""
+    checks = [column for column in columns if _is_verdict(column)]
+    return _titles([column for column in columns if not _is_verdict(column)]) | _titles(checks)
+
+
+def _titles(columns: Sequence[Column]) -> dict[str, str]:
     found = {column.name: "" for column in columns}
-    open_: list[Column] = [column for column in columns if column.description and home(column.name)]
+    open_ = [column for column in columns if column.description and home(column.name)]
     for title in (_short, _whole, _with_name):
         made = {column.name: title(column) for column in open_}
         often = Counter([*made.values(), *found.values()])
@@ -46,8 +51,11 @@ def _with_name(column: Column) -> str:
 
 def _told(column: Column) -> str:
     """The description; of a check's verdict the check alone."""
-    is_verdict = ".checks." in column.name and column.name.endswith(VERDICT_OF)
-    return column.description.removesuffix(": verdict") if is_verdict else column.description
+    return column.description.removesuffix(": verdict") if _is_verdict(column) else column.description
+
+
+def _is_verdict(column: Column) -> bool:
+    return ".checks." in column.name and column.name.endswith(VERDICT_OF)
 
 
 def _placed(column: Column, told: str) -> str:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import tempfile
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
-from pathlib import Path
+from pathlib import Path, PurePath
 from typing import Any
 
 import numpy as np
@@ -35,14 +35,18 @@ class Done:
     slow: dict[str, str] = field(default_factory=dict)
 
 
-def load(files: Mapping[str, bytes], study: str, plugins: Sequence[str]) -> Study:
-    """The study from the contents of its files, which a worker on another machine does not have; cluster-wide plugin folders."""
+def load(study: bytes, files: Mapping[str, bytes], plugins: Sequence[str]) -> Study:
+    """The study from the contents of its files, which a worker on another machine does not have; cluster-wide plugin folders.
+
+    ``files``: the base and the tables by their names in the study, which may be paths to anywhere.
+    """
     with tempfile.TemporaryDirectory() as folder:
+        places = {name: Path(folder) / f"{n}-{PurePath(name).name}" for n, name in enumerate(files)}
         for name, content in files.items():
-            path = Path(folder) / name
-            path.parent.mkdir(parents=True, exist_ok=True)
-            path.write_bytes(content)
-        return load_study(Path(folder) / study, Discovery([Path(plugin) for plugin in plugins]))
+            places[name].write_bytes(content)
+        file = Path(folder) / "study.yaml"
+        file.write_bytes(study)
+        return load_study(file, Discovery([Path(plugin) for plugin in plugins]), places)
 
 
 def calculate(study: Study, chunk: Chunk) -> Done:

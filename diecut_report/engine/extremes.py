@@ -15,7 +15,8 @@ from diecut_report.engine.table import Pieces
 from diecut_report.expressions import Array
 
 PLACE_TOLERANCE = 1e-6  # of an extreme's place, as a share of its bracket; its value errs by the square of it
-SAME_HEIGHT = 1e-12  # share of an extreme within which two places reach the same
+SAME_HEIGHT = 1e-9  # share of an extreme within which two places reach the same, as far as rounding lets tell
+PLATEAU = 1e-11  # share of an extreme within which neighbouring points of the grid lie on a plateau
 APPROACH = 12  # steps by which an end of a piece is approached, each a quarter of the one before
 PROOF_ORDER = 24  # of the Gauss–Legendre points at which many machines' extremes are proved
 
@@ -25,7 +26,7 @@ Found = tuple[Array, Array, Array]  # value, place, middle of the smooth piece; 
 
 
 class Candidates(NamedTuple):
-    """Places that may be an extreme, one row each: which one, piece (its row), place, height there, bracket."""
+    """Places that may be an extreme, one row each: which one, piece (its row), place, height there, bracket, whether it is flat."""
 
     which: Array
     piece: Array
@@ -33,6 +34,7 @@ class Candidates(NamedTuple):
     height: Array
     left: Array
     right: Array
+    flat: Array
 
 
 def extreme(calc: Calculation, curve: str, sign: float) -> Found:
@@ -57,21 +59,43 @@ def search(calc: Calculation, wanted: Sequence[Wanted]) -> None:
     seen = Candidates(*(np.concatenate(columns) for columns in zip(*parts, strict=True)))
     seen = _refined(_depths(calc, axis, open_ones, seen), seen)
     for i, (curve, sign) in enumerate(open_ones):
-        calc.extremes[curve, sign] = domain.edges, _best(pieces, seen, seen.which == i, sign)
+        own = Candidates(*(column[seen.which == i] for column in seen))
+        best, flat = _best(pieces, own, sign)
+        calc.extremes[curve, sign] = domain.edges, _at_start(pieces, best, flat, values[curve], sign)
 
 
-def _best(pieces: Pieces, seen: Candidates, own: Array, sign: float) -> Found:
-    """The greatest candidate of each variant, at the first of the places that reach it but for rounding; NaN where there is none."""
-    piece, height, place = seen.piece[own], seen.height[own], seen.place[own]
-    variant = pieces.variant[piece]
+def _best(pieces: Pieces, seen: Candidates, sign: float) -> tuple[Found, Array]:
+    """The greatest candidate of each variant, at the first of the places that reach it but for rounding; NaN where there is none.
+
+    Also which variants' are on a plateau.
+    """
+    variant = pieces.variant[seen.piece]
     greatest = np.full(pieces.shape[0], -np.inf)
-    np.maximum.at(greatest, variant, height)
+    np.maximum.at(greatest, variant, seen.height)
     top = greatest[variant]
-    best = np.flatnonzero(height >= top - SAME_HEIGHT * np.abs(top))
-    best = best[np.flatnonzero(np.diff(variant[best], prepend=-1))]
+    alike = np.flatnonzero(seen.height >= top - SAME_HEIGHT * np.abs(top))
+    best = alike[np.flatnonzero(np.diff(variant[alike], prepend=-1))]
     found = np.full((3, pieces.shape[0], 1), np.nan)
-    found[:, variant[best], 0] = sign * top[best], place[best], pieces.middle[piece[best]]
-    return found[0], found[1], found[2]
+    found[:, variant[best], 0] = sign * top[best], seen.place[best], pieces.middle[seen.piece[best]]
+    return (found[0], found[1], found[2]), np.unique(variant[alike[seen.flat[alike]]])
+
+
+def _at_start(pieces: Pieces, found: Found, flat: Array, values: Array, sign: float) -> Found:
+    """Extremes of which some are on a plateau: rounding must not choose the place on it, so it is the first point of the grid there."""
+    if not len(flat):
+        return found
+    value, place, middle = found
+    is_flat = np.zeros(len(value), dtype=bool)
+    is_flat[flat] = True
+    rows = np.flatnonzero(is_flat[pieces.variant])
+    variant = pieces.variant[rows]
+    least = sign * value[variant] - PLATEAU * np.abs(value[variant])
+    reached = sign * values[rows] >= least
+    own = np.flatnonzero(reached.any(axis=1))
+    own = own[np.flatnonzero(np.diff(variant[own], prepend=-1))]
+    place[variant[own], 0] = pieces.grid[rows[own], reached[own].argmax(axis=1)]
+    middle[variant[own], 0] = pieces.middle[rows[own]]
+    return found
 
 
 def outruns(calc: Calculation, curve: str, found: Array, sign: float) -> Array:
@@ -110,11 +134,13 @@ def _candidates(pieces: Pieces, which: int, values: Array, sign: float) -> Candi
     fall = np.fmax(height - sign * heights[before], height - sign * heights[after])
     greatest = np.full(pieces.shape[0], -np.inf)
     np.maximum.at(greatest, pieces.variant[piece], height)
-    near = (height + np.where(np.isfinite(fall), fall, 0) >= greatest[pieces.variant[piece]]) & (height > -np.inf)
+    is_near = (height + np.where(np.isfinite(fall), fall, 0) >= greatest[pieces.variant[piece]]) & (height > -np.inf)
+    near = np.flatnonzero(is_near)
     grid = pieces.grid.ravel()
     return Candidates(
-        np.full(np.count_nonzero(near), which), piece[near], grid[flat[near]], height[near], grid[before[near]], grid[after[near]]
-    )
+        np.full(len(near), which), piece[near], grid[flat[near]], height[near], grid[before[near]], grid[after[near]],
+        fall[near] <= PLATEAU * np.abs(height[near]),
+    )  # fmt: skip
 
 
 def _peaks(heights: Array, points: int, sign: float) -> Array:

@@ -89,19 +89,18 @@ def _without_broken(columns: Mapping[str, Any], bore: Any) -> dict[str, Any]:
 
 
 def written(
-    folder: Path, columns: Sequence[Column], values: Mapping[str, Any], parts: int = 1, rows: int | None = None, base: str = BASE, **facts: Any
+    folder: Path, columns: Sequence[Column], values: Mapping[str, Any], parts: int = 1, **facts: Any
 ) -> Path:  # fmt: skip
     """A study's folder with these values, through the store; ``facts`` are what a run notes in study.json."""
     count = len(values["status"])
     every = max(1, -(-count // parts))
     study = Source("study.yaml", sha256(b"vary: 2\n").hexdigest(), b"vary: 2\n")
-    kept = Source("press.yaml", sha256(base.encode()).hexdigest(), base.encode())
-    store = Store.create(folder, Description(study, kept, tuple(columns), rows or count, every))
+    kept = Source("press.yaml", sha256(BASE.encode()).hexdigest(), BASE.encode())
+    store = Store.create(folder, Description(study, kept, tuple(columns), count, every))
     with store.lock():
         for index in range(store.description.parts):
             at = slice(index * every, (index + 1) * every)
-            numbers = {"variant": np.asarray(values["variant"])[at]} if "variant" in values else {}
-            store.write_part(index, {name: column[at] for name, column in values.items()} | numbers, index * every)
+            store.write_part(index, {name: column[at] for name, column in values.items()})
         store.finish({"slow": {}, "seconds": 1.5})
         store.note(facts)
     return folder

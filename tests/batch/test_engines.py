@@ -8,6 +8,7 @@ import subprocess
 import sys
 import time
 from collections.abc import Callable, Iterator
+from contextlib import suppress
 from pathlib import Path
 
 import psutil
@@ -155,6 +156,29 @@ def test_ended_run_leaves_no_process(tmp_path: Path, sent: signal.Signals) -> No
     said, errors = run.communicate(timeout=20)
     until(lambda: not any(psutil.pid_exists(worker) for worker in workers), 10)
     assert (said, errors) == (("interrupted\n", "") if sent is signal.SIGINT else ("", errors))
+
+
+def test_interrupt_while_the_processes_begin_is_silent(tmp_path: Path) -> None:
+    script = tmp_path / "run.py"
+    script.write_text(RUN)
+    command, paths = [sys.executable, str(script), str(tmp_path)], os.environ | {"PYTHONPATH": str(ROOT)}
+    run = subprocess.Popen(
+        command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, env=paths, process_group=0
+    )
+    until(lambda: workers_of(run.pid))
+    workers = workers_of(run.pid)
+    os.killpg(run.pid, signal.SIGINT)
+    assert run.communicate(timeout=20) == ("interrupted\n", "")
+    until(lambda: not any(psutil.pid_exists(worker) for worker in workers), 10)
+
+
+def workers_of(run: int) -> list[int]:
+    """Processes of a pool, which may have begun just now."""
+    found = []
+    for child in psutil.Process(run).children(recursive=True):
+        with suppress(psutil.NoSuchProcess):
+            found += [child.pid] if "spawn_main" in " ".join(child.cmdline()) else []
+    return found
 
 
 def test_interrupt_in_this_process_goes_through(tmp_path: Path) -> None:

@@ -23,8 +23,10 @@ import psutil
 import pyarrow as pa
 import pyarrow.parquet as pq
 import pytest
+import scipy
 
 from diecut_report.batch import export as exports
+from diecut_report.batch import state
 from diecut_report.batch.description import Column, Description
 from diecut_report.batch.export import export
 from diecut_report.batch.store import Store
@@ -75,6 +77,12 @@ def process(code: str, folder: Path) -> Iterator[tuple[int, IO[str]]]:
 
 def hidden(folder: Path) -> list[str]:
     return [path.name for path in folder.rglob(".*.part")]
+
+
+def exported(store: Store, name: str) -> Path:
+    """The variants in another format."""
+    export(store, [name])
+    return store.directory / f"variants.{name}"
 
 
 def expect(folder: Path, now: Description) -> str:
@@ -140,8 +148,23 @@ def test_curves_are_lists(tmp_path: Path) -> None:
     with store.lock():
         store.write_part(0, {"status": ["pass", "error"], "drive.torque": [np.array([1.0, np.nan]), None]})
     assert store.read().to_table()["drive.torque"].to_pylist() == [[1.0, None], None]
-    [path] = export(store, ["csv"])
-    assert "torque" not in path.read_text()
+    [told] = export(store, ["csv", "xlsx"])
+    assert "torque" not in (tmp_path / "out/variants.csv").read_text()
+    assert told.startswith(
+        "variants.csv and variants.xlsx: without the curves drive.torque, which only the Parquet files in"
+    )
+
+
+def test_curves_of_unlike_lengths_are_as_they_were(tmp_path: Path) -> None:
+    store = Store.create(tmp_path / "out", description(5, columns=(Column("drive.torque", "curve", "N*m"),)))
+    given = [np.array([1.0, 2.0, 3.0]), None, np.array([]), [4, np.inf], np.array([5.0])]
+    with store.lock():
+        store.write_part(0, {"status": ["pass"] * 5, "drive.torque": given})
+    assert store.read().to_table()["drive.torque"].to_pylist() == [[1, 2, 3], None, [], [4, None], [5]]
+    assert store.done_parts() == {0}
+    with duckdb.connect() as connection:
+        asked = f"select \"drive.torque\"[1] from '{tmp_path}/out/variants/part-*.parquet' order by variant"
+        assert connection.execute(asked).fetchall() == [(1.0,), (None,), (None,), (4.0,), (5.0,)]
 
 
 @pytest.mark.parametrize(
@@ -176,11 +199,25 @@ def test_dropped_rows_leave_their_numbers_free(tmp_path: Path) -> None:
 
 
 def test_state_runs_until_all_parts_are_there(tmp_path: Path) -> None:
-    store = Store.create(tmp_path / "out", description(facts={"varied": [SPEED]}))
+    store = Store.create(tmp_path / "out", description())
+    with store.lock():
+        store.start({"varied": [SPEED]})
     assert store.state["state"] == "running" and store.state["varied"] == [SPEED]
     assert store.state["columns"][SPEED]["unit"] == "rad/s"
     with store.lock(), pytest.raises(RuntimeError, match="10 parts are missing"):
         store.finish({})
+
+
+def test_versions_of_what_calculates_are_told(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    store = Store.create(tmp_path / "out", description())
+    own = {"python": [sys.version.split()[0]], "numpy": [np.__version__], "scipy": [scipy.__version__]}
+    with store.lock():
+        for _ in range(2):
+            store.start({})
+            assert store.state["libraries"] == own
+        monkeypatch.setattr(state, "libraries", lambda: {"python": own["python"][0], "numpy": "9.9", "scipy": "9"})
+        store.start({})
+    assert store.state["libraries"] == {**own, "numpy": [np.__version__, "9.9"], "scipy": [scipy.__version__, "9"]}
 
 
 def test_nothing_is_written_without_the_lock(tmp_path: Path) -> None:
@@ -201,8 +238,26 @@ def test_files_of_the_study_are_kept(tmp_path: Path) -> None:
     Store.create(tmp_path / "out", description())
     assert (tmp_path / "out/study.yaml").read_text() == "count: 9\n"
     (tmp_path / "out/base.yaml").unlink()  # as if killed before it was there
-    Store.open(tmp_path / "out", description())
+    with pytest.raises(UserError, match=r"base\.yaml: This copy of press\.yaml is missing.*batch STUDY --resume"):
+        state.kept(tmp_path / "out")
+    continued = Store.open(tmp_path / "out", description())
+    with continued.lock():
+        continued.start({})
     assert (tmp_path / "out/base.yaml").read_text().startswith("title: press")
+
+
+def test_tables_of_the_study_are_kept_within_the_folder(tmp_path: Path) -> None:
+    tables = tuple(source(f"{place}/a.csv", place) for place in ("../data", str(tmp_path), "x"))
+    Store.create(tmp_path / "out", description(tables=tables))
+    copies = state.kept(tmp_path / "out")
+    assert {name: path.read_text() for name, path in copies.items() if name != "press.yaml"} == {
+        table.file: str(Path(table.file).parent) for table in tables
+    }
+    assert sorted(tmp_path.iterdir()) == [tmp_path / "out"]
+    assert sorted(path.name for path in (tmp_path / "out/tables").iterdir()) == ["1-a.csv", "2-a.csv", "3-a.csv"]
+    copies["x/a.csv"].write_text("other")
+    with pytest.raises(UserError, match=r"tables/3-a\.csv: This copy of x/a\.csv is missing or has changed"):
+        state.kept(tmp_path / "out")
 
 
 def test_folder_with_anything_in_it_is_refused(tmp_path: Path) -> None:
@@ -242,8 +297,9 @@ def test_same_study_is_continued_with_the_parts_of_the_folder(tmp_path: Path) ->
         ({"study": source("speeds.yaml", "count: 10\n")}, r"study file has changed.*\n *-count: 9\n *\+count: 10"),
         ({"base": source("press.yaml", "title: press\nmass: 6 kg\n")}, r"base configuration has.*\n *-mass: 5 kg\n *\+mass: 6 kg"),
         ({"rows": 90}, "sample had 100 rows, now it has 90"),
-        ({"tables": (source("b.csv", "2"),)}, r"b\.csv: This table has changed"),
-        ({"tables": ()}, "read 1 tables, now it reads 0"),
+        ({"tables": (source("a.csv", "2"), source("b.csv", "1"))}, r"a\.csv: This table has changed since"),
+        ({"tables": (source("a.csv", "2"), source("b.csv", "1"))}, r"b\.csv: This table is new"),
+        ({"tables": ()}, r"a\.csv: This table is no longer"),
         ({"program": "9.9"}, r"begun with version .* this is 9\.9"),
         ({"plugins": {"clutch": "2"}}, "plugin 'clutch' was 1 .* it is 2"),
         ({"columns": description().columns[1:]}, f"columns of the results differ: {re.escape(SPEED)}"),
@@ -279,6 +335,8 @@ def test_killed_writer_leaves_whole_parts_alone(tmp_path: Path) -> None:
         for index, path in again.parts().items():
             assert pq.read_table(path)["variant"].to_pylist() == list(again.rows(index))
     (tmp_path / "out/variants/.0123456789abcdef.part").write_bytes(b"PAR1")
+    (tmp_path / "out/reports/.abc.part").mkdir(parents=True)
+    (tmp_path / "out/reports/.abc.part/openpyxl").touch()
     with store.lock():
         assert hidden(tmp_path / "out") == []
 
@@ -291,6 +349,36 @@ def test_damaged_part_is_to_be_calculated_again(tmp_path: Path, keep: int) -> No
     assert store.done_parts() == set(range(10)) - {4}
     with pytest.raises(UserError, match=r"part-00004\.parquet: .* damaged"):
         store.read()
+
+
+def test_part_of_which_some_bytes_have_changed_is_to_be_calculated_again(tmp_path: Path) -> None:
+    store = filled(tmp_path / "out", description(3000, 3000))
+    content = bytearray(store.part(0).read_bytes())
+    place = len(content) // 4
+    content[place : place + 64] = bytes(64)
+    store.part(0).write_bytes(content)
+    assert store.done_parts() == set()
+    with pytest.raises(UserError, match=r"part-00000\.parquet: .* damaged"):
+        export(store, ["csv"])
+    assert hidden(tmp_path) == [] and not (tmp_path / "out/variants.csv").exists()
+
+
+@pytest.mark.parametrize("name", ["part-copy.parquet", "part-3.parquet", "part-00003 (1).parquet"])
+def test_file_that_only_looks_like_a_part_is_told(tmp_path: Path, name: str) -> None:
+    store = filled(tmp_path / "out")
+    (tmp_path / "out/variants" / name).write_bytes(b"PAR1")
+    with pytest.raises(UserError, match=re.escape(f"{name}: This is no part of the results. Move it")):
+        store.done_parts()
+
+
+def test_mechanism_may_be_called_as_a_column(tmp_path: Path) -> None:
+    store = Store.create(
+        tmp_path / "out", description(2, columns=(Column("status.mass"), Column("variant.status", "text")))
+    )
+    with store.lock():
+        store.write_part(0, {"status": ["pass", "fail"], "status.mass": [1, 2], "variant.status": ["a", "b"]})
+    assert store.counts() == {"sample": 2, "variants": 2, "pass": 1, "fail": 1}
+    assert exported(store, "csv").read_text().splitlines()[1:] == ['0,1,"a","pass",,', '1,2,"b","fail",,']
 
 
 def test_part_of_another_study_is_not_taken(tmp_path: Path) -> None:
@@ -335,15 +423,30 @@ def limited(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(Path, "write_bytes", write_bytes)
 
 
+@contextmanager
+def room_made(disk: Path, patch: pytest.MonkeyPatch) -> Iterator[None]:
+    """The disk is larger now."""
+    if disk.name == "no disk":
+        patch.undo()
+    else:
+        subprocess.run(["mount", "-o", "remount,size=50m", str(disk)], check=True)
+    yield
+
+
 def test_full_disk_is_told_and_leaves_nothing_half_written(small_disk: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     store = Store.create(small_disk / "out", description(100_000, 1000))
     if small_disk.name == "no disk":
         limited(monkeypatch)
     with pytest.raises(UserError, match=r"part-.*parquet: This cannot be written: the disk is full.*--resume"):
         fill(store)
-    assert hidden(small_disk / "out") == []
-    assert store.done_parts() == set(store.parts()) != set(range(100))
+    there = store.done_parts()
+    assert hidden(small_disk / "out") == [] and there == set(store.parts()) != set(range(100))
     assert store.state["state"] == "running"
+    with room_made(small_disk, monkeypatch), store.lock():
+        for index in set(range(100)) - there:
+            store.write_part(index, part(1000 * index, 1000))
+        store.finish({})
+        assert store.counts()["variants"] == 100_000
 
 
 @pytest.mark.parametrize("number", [errno.ENOSPC, errno.EDQUOT, errno.EIO])
@@ -405,8 +508,7 @@ def test_memory_stays_flat_over_many_parts(tmp_path: Path) -> None:
 
 # tables for other programs
 def test_csv_reads_back_exactly(tmp_path: Path) -> None:
-    store = filled(tmp_path / "out")
-    [path] = export(store, ["csv"])
+    path = exported(filled(tmp_path / "out"), "csv")
     with path.open(encoding="utf-8", newline="") as file:
         rows = list(csv.DictReader(file))
     assert [float(row[f"{SPEED} [rad/s]"]) for row in rows] == [n / 7 for n in range(100)]
@@ -417,8 +519,9 @@ def test_csv_reads_back_exactly(tmp_path: Path) -> None:
 
 def test_workbook_has_as_many_sheets_as_the_rows_need(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(exports, "SHEET_ROWS", 41)
-    [path] = export(filled(tmp_path / "out"), ["xlsx"])
-    book = openpyxl.load_workbook(path)
+    [told] = export(filled(tmp_path / "out"), ["xlsx"])
+    assert told == "variants.xlsx: 100 variants in 3 sheets, as a sheet holds 41 rows."
+    book = openpyxl.load_workbook(tmp_path / "out/variants.xlsx")
     sheets = [list(sheet.iter_rows(values_only=True)) for sheet in book]
     assert [len(rows) for rows in sheets] == [41, 41, 21]
     assert {rows[0] for rows in sheets} == {sheets[0][0]} and sheets[0][0][:2] == ("variant", f"{SPEED} [rad/s]")
@@ -431,7 +534,7 @@ def test_texts_of_a_workbook_stay_texts(tmp_path: Path) -> None:
     store = Store.create(tmp_path / "out", description(2))
     with store.lock():
         store.write_part(0, {"status": ["error"] * 2, "error": ["=1+1", "a\x00b"]})
-    [path] = export(store, ["xlsx"])
+    path = exported(store, "xlsx")
     rows = list(openpyxl.load_workbook(path).worksheets[0].iter_rows(min_row=2))
     assert [row[-1].value for row in rows] == ["=1+1", "a\N{REPLACEMENT CHARACTER}b"]
     assert rows[0][-1].data_type == "s"
@@ -443,6 +546,23 @@ def test_more_columns_than_a_sheet_holds_are_told(tmp_path: Path, monkeypatch: p
     with pytest.raises(UserError, match=r"9 columns; a sheet holds 8\. Use CSV"):
         export(store, ["xlsx"])
     assert hidden(tmp_path) == [] and not (tmp_path / "out/variants.xlsx").exists()
+
+
+def test_workbook_that_finds_no_room_leaves_nothing(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    store, places = filled(tmp_path / "out"), []
+
+    def rows(*_: object) -> Iterator[list[Any]]:
+        yield [1]
+        places.extend(tmp_path.rglob("openpyxl.*"))
+        raise OSError(errno.ENOSPC, os.strerror(errno.ENOSPC))
+
+    monkeypatch.setattr(exports, "_rows", rows)
+    with pytest.raises(UserError, match="out: This cannot be written: the disk is full"):
+        export(store, ["xlsx"])
+    assert places and not any(place.exists() for place in places)  # its temporary files were in the folder
+    assert hidden(tmp_path) == [] and not (tmp_path / "out/variants.xlsx").exists()
+    monkeypatch.undo()
+    assert exported(store, "xlsx").exists()
 
 
 def test_unknown_format_is_told_before_anything_is_written(tmp_path: Path) -> None:

@@ -456,6 +456,8 @@ def test_variants_at_once_are_single_runs(law: str) -> None:
         alone = calculate(MECHANISM, single)
         for name in names:
             tolerance = {"rel": 1e-5, "abs": 1e-6} if name.endswith("_at") else {"rel": 1e-9, "abs": 1e-9}
+            if name == "energy_turn":  # a difference that vanishes: it errs as its terms do
+                tolerance["abs"] = 1e-9 * number(alone, "kinetic_energy_max")
             assert together[name][i, 0] == pytest.approx(alone[name][0, 0], nan_ok=True, **tolerance), name
         for curve in ("gear_speed", "cam_1_x", "roller_force_2"):
             np.testing.assert_allclose(

@@ -165,6 +165,8 @@ def _bars(axes: Axes, each: Histogram) -> None:
     axes.set_ylim(0, max(1, float(each.counts.sum(axis=0).max()) * 1.05))
     axes.yaxis.set_visible(False)
     axes.locator_params(axis="x", nbins=4)
+    if each.is_open:
+        axes.text(1, 0.3, "≥", transform=axes.transAxes, ha="right", va="bottom", size=8)
     axes.grid(visible=False)
     for side in ("top", "right", "left"):
         axes.spines[side].set_visible(False)
@@ -172,4 +174,4 @@ def _bars(axes: Axes, each: Histogram) -> None:
 
 def _title(axes: Axes, column: Column, wide: float) -> None:
     """The quantity above a diagram, on two lines where it is long."""
-    axes.set_title(wrapped(titled(column), wide, 7.5, 2), pad=3, size=7.5, linespacing=1.05)
+    axes.set_title(wrapped(titled(column), wide - 12, 7.5, 2), pad=3, size=7.5, linespacing=1.05)

@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 
 from diecut_report.batch.stored import STATUSES, Column
 from diecut_report.batch.summary.charts import COLOURS, HEAD, ORDER, chart, panel
-from diecut_report.batch.summary.data import Density, Sample
+from diecut_report.batch.summary.data import Density, Sample, reach
 from diecut_report.batch.summary.names import display, factor, titled, wrapped
 from diecut_report.batch.summary.pareto import Front
 from diecut_report.report.charts_diagram import WIDTH
@@ -34,7 +34,7 @@ def scatter(
 
 def _scatter(drawn_from: Sample, pairs: Sequence[tuple[Column, Column]], front: Front | None) -> Figure:
     across = 1 if len(pairs) == 1 else 3
-    wide, high = (WIDTH - 60, 230.0) if across == 1 else ((WIDTH - 3 * 44) / 3, 96.0)
+    wide, high = (WIDTH - 60, 230.0) if across == 1 else ((WIDTH - 3 * 44) / 3 - 4, 96.0)
     rows, pitch = -(-len(pairs) // across), high + 46 + HEAD
     sheet = canvas(WIDTH, rows * pitch)
     for index, (x, y) in enumerate(pairs):
@@ -56,12 +56,21 @@ def _scatter(drawn_from: Sample, pairs: Sequence[tuple[Column, Column]], front: 
 
 
 def _points(axes: Axes, drawn_from: Sample, x: Column, y: Column, size: float) -> None:
-    for status in ORDER:
+    for status in reversed(ORDER):
         here = drawn_from.status == STATUSES.index(status)
         if here.any():
             across, up = (_spread(drawn_from, column, here) * factor(column) for column in (x, y))
             width = 0.8 if status == "fail" else 0
-            axes.scatter(across, up, s=size, c=COLOURS[status], marker=MARKERS[status], linewidths=width, label=status)
+            axes.scatter(
+                across,
+                up,
+                s=size,
+                c=COLOURS[status],
+                marker=MARKERS[status],
+                linewidths=width,
+                label=status,
+                alpha=0.75,
+            )
 
 
 def cells(found: Density, told: str, key: str, front: Front | None = None) -> Svg:
@@ -145,15 +154,17 @@ def _parallel(drawn_from: Sample, columns: Sequence[Column]) -> Figure:
     sheet = canvas(WIDTH, 204 + foot)
     axes = panel(sheet, 38, foot, WIDTH - 76, 190)
     raw = np.column_stack([drawn_from.values[column.name] for column in columns])
-    low, high = np.nanmin(raw, axis=0), np.nanmax(raw, axis=0)
-    scaled = (raw - low) / np.where(high > low, high - low, 1.0)
+    low, most, high = np.nanmin(raw, axis=0), np.nanquantile(raw, 0.95, axis=0), np.nanmax(raw, axis=0)
+    top = np.array([reach(*each) for each in zip(low, most, high, strict=True)])
+    scaled = np.minimum((raw - low) / np.where(top > low, top - low, 1.0), 1.0)
     alpha = float(np.clip(60 / max(len(raw), 1), 0.15, 0.9))
     for status in ("fail", "warn", "pass"):
         lines = scaled[drawn_from.status == STATUSES.index(status)]
         axes.plot(np.arange(len(columns)), lines.T, "-", color=COLOURS[status], linewidth=0.7, alpha=alpha)
     for place, column in enumerate(columns):
         axes.axvline(place, color=INK, linewidth=0.8)
-        lower, upper = _ends(drawn_from, column, low[place], high[place])
+        lower, upper = _ends(drawn_from, column, low[place], top[place])
+        upper = f"≥ {upper}" if top[place] < high[place] else upper
         _text(axes, lower, (place, 0), -3, 7)
         _text(axes, upper, (place, 1), 3, 7)
         _text(axes, names[place], (place, 0), -13, 6.5)

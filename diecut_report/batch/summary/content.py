@@ -6,16 +6,17 @@ import re
 from dataclasses import dataclass
 from typing import Any, NamedTuple
 
+from diecut_report import yaml_tree
 from diecut_report.batch.stored import Column, Stored
 from diecut_report.batch.summary import data, influence, matrix, pareto
 from diecut_report.batch.summary.data import WORST, Failure, Reason, Spread, Utilisation
 from diecut_report.batch.summary.figures import Figure, Figures
-from diecut_report.batch.summary.names import counted, display, named, titled
+from diecut_report.batch.summary.names import counted, display, named, titled, utilised
 
 SAMPLED = 1_500  # variants in the charts of points
 NUMBERS, FEWEST = 200_000, 400  # that the page carries for the chart of any two quantities; variants of them at least
 TARGETS, CHARTED = 5, 3  # quantities that influence is told of, and drawn for
-PANELS, RANGES, POINTS = 12, 60, 30  # histograms, rows of ranges, quantities of the charts on paper
+PANELS, RANGES, POINTS = 12, 36, 30  # histograms, rows of ranges, quantities of the charts on paper
 
 
 class Best(NamedTuple):
@@ -58,6 +59,7 @@ class Summary:
     failures: list[Failure]
     utilisations: list[Utilisation]
     unmade: list[str]
+    idle: int
     matrices: list[matrix.Matrix]
     is_whole: bool
     spreads: list[Spread]
@@ -97,19 +99,19 @@ def content(stored: Stored) -> Summary:
     goals = pareto.objectives(stored)
     front = pareto.front(stored, goals, states["pass"] + states["warn"])
     varying = [spread.column for spread in spreads.values() if spread.varies]
-    main = _main(stored, goals, varying)
+    used = data.utilisations(stored)
+    main = _main(stored, goals, varying, [row.check for row in used if row.failing or row.warning])
     ranked = influence.influences(stored, main[:TARGETS])
     choices = _choices(stored, varying, main)
     sample = data.sample(stored, choices[:POINTS], SAMPLED)
     drawn = min(SAMPLED, max(FEWEST, NUMBERS // max(1, len(choices))))
-    used = data.utilisations(stored)
     made = [row for row in used if row.is_made]
     figures = Figures(stored, states, sample, front, main, spreads)
     best = [int(variant) for variant in front.variants] if front else []
     reports = matrix.reported(stored.folder)
-    ranges = [spread for name, spread in spreads.items() if spread.varies and ".checks." not in name]
+    ranges = [spreads[c.name] for c in (*stored.varied, *main) if c in varying and ".checks." not in c.name]
     return Summary(
-        title=str(stored.study.get("title") or stored.description.study.file),
+        title=_title(stored),
         folder=stored.folder.resolve().name,
         study=stored.study,
         files=_files(stored),
@@ -120,7 +122,8 @@ def content(stored: Stored) -> Summary:
         failures=(failures := data.failures(stored)),
         utilisations=made,
         unmade=[row.check for row in used if not row.is_made],
-        matrices=list(matrix.matrices(stored, matrix.chosen(stored, total, best), [row.check for row in made])),
+        idle=len(made) - len(matrix.telling(made)),
+        matrices=list(matrix.matrices(stored, matrix.chosen(stored, total, best), [row.check for row in matrix.telling(made)])),
         is_whole=total <= matrix.ALL,
         spreads=ranges[:RANGES],
         more_spreads=max(0, len(ranges) - RANGES),
@@ -143,17 +146,20 @@ def content(stored: Stored) -> Summary:
 def _spreads(stored: Stored, total: int) -> dict[str, Spread]:
     """The ranges of inputs and outputs, and of the greatest utilisation."""
     goals = [goal.column for goal in pareto.objectives(stored)]
-    columns = [*stored.varied, *([WORST] if stored.checks else []), *stored.outputs, *goals]
+    used = [value for value, _ in stored.checks.values()]
+    columns = [*stored.varied, *([WORST] if stored.checks else []), *stored.outputs, *goals, *used]
     return data.spreads(stored, list(dict.fromkeys(columns)), total)
 
 
-def _main(stored: Stored, goals: tuple[pareto.Objective, ...], varying: list[Column]) -> list[Column]:
-    """What matters, the first most: objectives, the greatest utilisation, key results (``key`` in study.json), other outputs."""
+def _main(
+    stored: Stored, goals: tuple[pareto.Objective, ...], varying: list[Column], failing: list[str]
+) -> list[Column]:
+    """What matters, the first most: objectives, utilisations of all checks and of those that fail most, other outputs."""
     inputs = {column.name for column in stored.varied}
     aims = [goal.column for goal in goals if goal.column in varying]
     worst = [WORST] if WORST in varying else []
-    key = [column for column in varying if column.name in (stored.study.get("key") or ())]
-    return list(dict.fromkeys([*aims, *worst, *key, *(column for column in varying if column.name not in inputs)]))
+    failed = [stored.checks[check][0] for check in failing if stored.checks[check][0] in varying]
+    return list(dict.fromkeys([*aims, *worst, *failed, *(column for column in varying if column.name not in inputs)]))
 
 
 def _choices(stored: Stored, varying: list[Column], main: list[Column]) -> list[Column]:
@@ -175,14 +181,21 @@ def _facts(stored: Stored, total: int) -> list[tuple[str, str]]:
     return facts
 
 
+def _title(stored: Stored) -> str:
+    """The title of the base's project, else the study's file."""
+    content = stored.description.base.content
+    project = yaml_tree.parse(content.decode(), "base").data.get("project") if content else None
+    return str((project or {}).get("title") or stored.description.study.file)
+
+
 def _margin(stored: Stored) -> list[tuple[str, str]]:
     """Which of the variants that do not fail keeps most from its limits."""
     if not stored.checks:
         return []
-    sql = f"SELECT variant, {WORST.sql} FROM w WHERE status IN ('pass', 'warn') AND {WORST.sql} IS NOT NULL ORDER BY 2, 1 LIMIT 1"
+    sql = f"SELECT variant, {WORST.sql}, governing FROM w WHERE status IN ('pass', 'warn') AND {WORST.sql} IS NOT NULL ORDER BY 2, 1 LIMIT 1"
     return [
-        ("Most margin", f"variant {one}: no check is utilised by more than {used:.2f}")
-        for one, used in stored.rows(sql)
+        ("Most margin", f"variant {one}: utilisation {utilised(used)} at most, by “{stored.check_told(check)}”")
+        for one, used, check in stored.rows(sql)
     ]
 
 
@@ -226,14 +239,14 @@ def _ranked(found: list[influence.Influence], figures: Figures) -> Ranked:
     by_target = [{share.column: share for share in each.shares} for each in found]
     inputs = list(dict.fromkeys(column for shares in by_target for column in shares))
     rows = [(named(column), [_share(shares.get(column)) for shares in by_target]) for column in inputs]
-    drawn = [figures.influence(each) for each in found[:CHARTED]]
+    drawn = [figures.influence(each) for each in found if each.is_certain][:CHARTED]
     return Ranked(
         [named(each.target) for each in found], rows, drawn, counted(max(each.variants for each in found), "variant")
     )
 
 
 def _share(share: influence.Share | None) -> str:
-    if share is None:
+    if share is None or not share.is_certain:
         return "–"
     if share.total is not None:
         text = f"{share.first:.2f} ± {share.first_error or 0:.2f} / {share.total:.2f} ± {share.total_error or 0:.2f}"

@@ -61,11 +61,15 @@ class Spread(NamedTuple):
 
 
 class Histogram(NamedTuple):
-    """How many variants of each status (rows) lie in each class (columns) between the edges (SI)."""
+    """How many variants of each status (rows) lie in each class (columns) between the edges (SI).
+
+    ``is_open`` says that the last class holds all greater values too.
+    """
 
     column: Column
     edges: Array
     counts: Array
+    is_open: bool
 
 
 class Density(NamedTuple):
@@ -169,35 +173,39 @@ def spreads(stored: Stored, columns: Sequence[Column], total: int) -> dict[str, 
 
 def histogram(stored: Stored, spread: Spread) -> Histogram:
     """The distribution of a quantity, by status."""
-    column, low, high = spread.column, spread.values[0], spread.values[-1]
+    column, low, high = spread.column, spread.values[0], reach(spread.values[0], spread.values[3], spread.values[-1])
     bins = int(np.clip(2 * spread.present**0.5, FEWEST, BINS))
     edges = np.linspace(low, high, bins + 1)
-    sql = f"SELECT status, {_place(spread, bins)} AS place, count(*) FROM w WHERE {column.sql} IS NOT NULL GROUP BY ALL"
+    sql = f"SELECT status, {_place(column, low, high, bins)} AS place, count(*) FROM w WHERE {column.sql} IS NOT NULL GROUP BY ALL"
     counts = np.zeros((len(STATUSES), bins), dtype=int)
     for status, index, count in stored.rows(sql):
         counts[STATUSES.index(status), index] += count
-    return Histogram(column, edges, counts)
+    return Histogram(column, edges, counts, high < spread.values[-1])
 
 
 def density(stored: Stored, x: Spread, y: Spread) -> Density:
     """All variants over two quantities, counted in cells."""
     across, up = CELLS
-    places = f"{_place(x, across)} AS i, {_place(y, up)} AS j"
+    (left, right), (low, high) = ((each.values[0], each.values[-1]) for each in (x, y))
+    places = f"{_place(x.column, left, right, across)} AS i, {_place(y.column, low, high, up)} AS j"
     there = f"{x.column.sql} IS NOT NULL AND {y.column.sql} IS NOT NULL"
     sql = f"SELECT {places}, count(*), count(*) FILTER (status IN ('pass', 'warn')) FROM w WHERE {there} GROUP BY ALL"
     counts, sound = np.zeros((2, up, across), dtype=int)
     for i, j, all_, good in stored.rows(sql):
         counts[j, i], sound[j, i] = all_, good
-    edges = (np.linspace(each.values[0], each.values[-1], cells + 1) for each, cells in ((x, across), (y, up)))
+    edges = np.linspace(left, right, across + 1), np.linspace(low, high, up + 1)
     return Density(x.column, y.column, *edges, counts, sound)
 
 
-def _place(spread: Spread, cells: int) -> str:
-    """SQL for the cell of a quantity, from 0."""
-    low, wide = float(spread.values[0]), float(spread.values[-1] - spread.values[0])
-    return (
-        f"CAST(greatest(0, least(floor(({spread.column.sql} - {low!r}) / {wide!r} * {cells}), {cells - 1})) AS BIGINT)"
-    )
+def reach(low: float, most: float, high: float) -> float:
+    """Up to where a chart shows a quantity: its greatest value, or a little over 95 % of them where a few lie far above."""
+    return most + 0.25 * (most - low) if most > low and high - most > 2 * (most - low) else high
+
+
+def _place(column: Column, low: float, high: float, cells: int) -> str:
+    """SQL for the cell of a quantity, from 0; what lies outside counts in the outermost ones."""
+    at = f"floor(({column.sql} - {low!r}) / {high - low!r} * {cells})"
+    return f"CAST(greatest(0, least({at}, {cells - 1})) AS BIGINT)"
 
 
 def reasons(stored: Stored) -> list[Reason]:

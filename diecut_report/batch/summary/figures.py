@@ -11,7 +11,7 @@ import numpy as np
 from diecut_report.batch.stored import Column, Stored
 from diecut_report.batch.summary import charts, charts_points, data
 from diecut_report.batch.summary.data import Failure, Histogram, Sample, Spread
-from diecut_report.batch.summary.influence import Influence
+from diecut_report.batch.summary.influence import Influence, Share
 from diecut_report.batch.summary.names import counted, named, percent, quantity
 from diecut_report.batch.summary.pareto import Front
 from diecut_report.report.figures import Svg
@@ -80,6 +80,8 @@ class Figures:
             "Distributions over all variants: pass (blue), warning (yellow), fail (red), each on top of the other; "
             "heights count variants."
         )
+        if any(each.is_open for each in found):
+            caption += " Where a few variants lie far above the others (≥), the last bar holds them all."
         return Figure(charts.distributions(found, f"{told}."), caption, told)
 
     def influence(self, found: Influence) -> Figure:
@@ -147,16 +149,18 @@ class Figures:
 
     def grid(self, ranked: Sequence[Influence]) -> Figure | None:
         """What matters over the inputs that move it most."""
-        pairs = [
-            (share.column, found.target) for found in ranked[:3] for share in found.shares[:3]
-            if found.target.name in self.sample.values and share.column.name in self.sample.values
-        ]  # fmt: skip
+        known = [found for found in ranked[:3] if found.target.name in self.sample.values]
+        pairs = [(share.column, found.target) for found in known for share in self._drawable(found)[:2]]
         if not pairs:
             return None
         some = _thinned(self.sample, LINES)
         told = "; ".join(f"{named(y)} over {named(x)}, {self._correlated(x, y)}" for x, y in pairs)
         caption = f"Each quantity over the inputs that move it most. {self._drawn(some)}"
         return Figure(charts_points.scatter(some, pairs, f"Scatter: {told}.", "grid"), caption, told)
+
+    def _drawable(self, found: Influence) -> list[Share]:
+        """The inputs that an axis of numbers can carry."""
+        return [share for share in found.shares if share.column.is_number and share.column.name in self.sample.values]
 
     def _correlated(self, x: Column, y: Column) -> str:
         one, two = self.sample.values[x.name], self.sample.values[y.name]

@@ -19,6 +19,7 @@ Array = NDArray[Any]
 RANKED = 100_000  # variants that a rank correlation looks at
 FEWEST = 8  # variants (or points of a Saltelli sample) from which a number says anything
 DRAWS, REDRAWN = 50, 20_000  # of the points for the intervals, and of how many
+UNSURE = 0.3  # half the width of an interval from which an index says nothing
 SURE = 1.96  # standard errors to each side of an interval of 95 %
 
 
@@ -31,6 +32,11 @@ class Share(NamedTuple):
     first_error: float | None = None
     total_error: float | None = None
 
+    @property
+    def is_certain(self) -> bool:
+        """Whether the sample is large enough to tell it."""
+        return max(self.first_error or 0.0, self.total_error or 0.0) <= UNSURE
+
 
 @dataclass(frozen=True)
 class Influence:
@@ -40,6 +46,11 @@ class Influence:
     is_sobol: bool
     shares: tuple[Share, ...]
     variants: int
+
+    @property
+    def is_certain(self) -> bool:
+        """Whether the sample is large enough to tell it."""
+        return all(share.is_certain for share in self.shares)
 
 
 def is_saltelli(stored: Stored) -> bool:

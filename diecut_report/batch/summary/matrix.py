@@ -7,12 +7,13 @@ from pathlib import Path
 from typing import NamedTuple
 
 from diecut_report.batch.stored import Stored
-from diecut_report.batch.summary.data import BANDS, WORST
-from diecut_report.report.numbers import number
+from diecut_report.batch.summary.data import BANDS, WORST, Utilisation
+from diecut_report.batch.summary.names import utilised
 
-ALL, REPORTED, BEST, WORST_ONES = 40, 15, 15, 10  # rows: up to which all variants stand, else of each sort
+ALL, REPORTED, BEST, WORST_ONES = 80, 15, 15, 10  # rows: up to which all variants stand, else of each sort
 ACROSS = 14  # checks in a table
 LISTED = 200  # links to full reports
+IDLE = 0.1  # utilisation that a check of the matrix reaches in some variant
 
 
 class Cell(NamedTuple):
@@ -63,6 +64,11 @@ def chosen(stored: Stored, total: int, best: Iterable[int]) -> list[int]:
     return sorted(dict.fromkeys(int(variant) for variant in found))
 
 
+def telling(used: Sequence[Utilisation]) -> list[Utilisation]:
+    """The checks that stand in the matrix: those that do not always pass with ease."""
+    return [row for row in used if row.failing or row.warning or (row.greatest or 0.0) > IDLE]
+
+
 def matrices(stored: Stored, variants: Sequence[int], checks: Sequence[str]) -> Iterator[Matrix]:
     """The matrix in parts that fit on paper."""
     for start in range(0, len(checks), ACROSS):
@@ -85,5 +91,4 @@ def _cell(value: float | None, made: str | None) -> Cell:
     failing = made == "fail"
     if value is None:
         return Cell("✗" if failing else "–" if made is None else "✓", "u4" if failing else "none", failing)
-    text = f"{value:.2f}" if value < 99.995 else number(f"{value:.3g}" if value >= 1e6 else f"{value:.0f}")
-    return Cell(text, f"u{sum(value > limit for limit in BANDS)}", failing)
+    return Cell(utilised(value), f"u{sum(value > limit for limit in BANDS)}", failing)

@@ -74,6 +74,16 @@ def quantity(value: float, column: Column) -> str:
     return joined(display(value, column), pretty(column.display))
 
 
+def utilised(value: float) -> str:
+    """A utilisation; one that is next to 1 shows on which side it is, and a small one that is not none does not print as 0."""
+    text = f"{value:.2f}"
+    if text == "1.00" and abs(value - 1) > 5e-5:
+        return f"{value:.4f}"
+    if value >= 99.995:
+        return number(f"{value:.3g}" if value >= 1e6 else f"{value:.0f}")
+    return "< 0.01" if text == "0.00" and value > 0 else text
+
+
 def counted(count: int, one: str, many: str = "") -> str:
     """A number with its noun."""
     return f"{number(str(count))} {one if count == 1 else many or one + 's'}"

@@ -15,13 +15,13 @@ from weasyprint.urls import URLFetcher
 from diecut_report import __version__
 from diecut_report.batch.stored import Column
 from diecut_report.batch.summary.content import Summary
-from diecut_report.batch.summary.names import counted, display, named, percent, titled
+from diecut_report.batch.summary.names import counted, display, named, percent, titled, utilised
 from diecut_report.report import html, pdf
 from diecut_report.report.i18n import Words
 from diecut_report.report.numbers import number
 from diecut_report.units import pretty, unit
 
-DIGITS = 5  # of the numbers that a browser draws
+DIGITS = 4  # of the numbers that a browser draws
 
 
 def page(summary: Summary) -> str:
@@ -48,7 +48,7 @@ def _filled(summary: Summary, kind: str) -> str:
     return html._environment().get_template("summary.html.j2").render(
         s=summary, t=Words("en"), kind=kind, style=Markup(style), version=__version__, figure=partial(_figure, summary, kind),
         points=Markup(_points(summary)) if kind == "screen" else "", named=named, titled=titled, display=display, counted=counted,
-        percent=percent, number=number, pretty=pretty,
+        percent=percent, utilised=utilised, number=number, pretty=pretty,
     )  # fmt: skip
 
 

@@ -1,0 +1,83 @@
+"""Stored variants as a table for people: in the units that they read, as many columns as the line holds."""
+
+from __future__ import annotations
+
+import io
+import re
+from collections.abc import Sequence
+from typing import Any, Literal
+
+from diecut_report.batch.stored import Column
+from diecut_report.report.numbers import number
+from diecut_report.texts import number_text
+from diecut_report.units import pretty, unit
+
+FREE = 10_000  # letters of a line that no terminal breaks
+HEAD = 14  # letters of a line of a heading
+BETWEEN, FEWEST = 3, 3  # letters between columns; columns that stand whatever the line holds
+
+
+def table_text(columns: Sequence[Column], rows: Sequence[Sequence[Any]], width: int | None) -> tuple[str, list[Column]]:
+    """The table, and the columns that the line has no room for: the last ones but for the very last."""
+    heads = [_head(column) for column in columns]
+    texts = [[shown(value, column) for value, column in zip(row, columns, strict=True)] for row in rows]
+    wide = [max(map(len, (*head.split("\n"), *column))) for head, *column in zip(heads, *texts, strict=True)]
+    kept = _kept(wide, width or FREE)
+    return _drawn(columns, heads, texts, kept, width or FREE), [c for i, c in enumerate(columns) if i not in kept]
+
+
+def _kept(wide: Sequence[int], room: int) -> list[int]:
+    """The columns that fit, by index; the first ones before the last one before the rest."""
+    order = [
+        *range(min(FEWEST, len(wide))),
+        *([len(wide) - 1] if len(wide) > FEWEST else []),
+        *range(FEWEST, len(wide) - 1),
+    ]
+    kept, used = [], 0
+    for index in order:
+        used += wide[index] + BETWEEN
+        if used > room and len(kept) >= FEWEST:
+            break
+        kept.append(index)
+    return sorted(kept)
+
+
+def _drawn(
+    columns: Sequence[Column], heads: Sequence[str], texts: Sequence[Sequence[str]], kept: Sequence[int], width: int
+) -> str:
+    from rich import box
+    from rich.console import Console
+    from rich.table import Table
+    from rich.text import Text
+
+    table = Table(box=box.SIMPLE_HEAD, pad_edge=False)
+    for index in kept:
+        justify: Literal["left", "right"] = "right" if columns[index].is_number else "left"
+        table.add_column(Text(heads[index]), justify=justify, overflow="fold")
+    for row in texts:
+        table.add_row(*(Text(row[index]) for index in kept))
+    target = io.StringIO()
+    Console(file=target, width=width, color_system=None, soft_wrap=False, legacy_windows=False).print(table)
+    return "\n".join(line.rstrip() for line in target.getvalue().splitlines())
+
+
+def _head(column: Column) -> str:
+    """The name on short lines, and the unit below it."""
+    lines = [""]
+    for part in re.findall(r"[^._]*[._]|[^._]+", column.name.removeprefix("mechanisms.")):
+        if lines[-1] and (lines[-1].endswith(".") or len(lines[-1] + part) > HEAD):
+            lines.append("")
+        lines[-1] += part
+    sign = pretty(column.display)
+    return "\n".join([*lines, sign] if sign else lines)
+
+
+def shown(value: Any, column: Column) -> str:
+    """A stored value as people read it, in the column's display unit, without the unit."""
+    if value is None:
+        return "–"
+    if isinstance(value, bool):
+        return "yes" if value else "no"
+    if isinstance(value, float):
+        return number(number_text(unit(column.display).from_si(value), 5)) if value else "0"
+    return number(str(value)) if isinstance(value, int) and column.name != "variant" else str(value)
