@@ -14,31 +14,28 @@ from diecut_report.units import pretty, unit
 
 FREE = 10_000  # letters of a line that no terminal breaks
 HEAD = 14  # letters of a line of a heading
-BETWEEN, FEWEST = 3, 3  # letters between columns; columns that stand whatever the line holds
+BETWEEN, REASON = 3, 40  # letters between columns; on a line of a reason, at least
+FEWEST = 3  # columns that stand whatever the line holds
 
 
 def table_text(columns: Sequence[Column], rows: Sequence[Sequence[Any]], width: int | None) -> tuple[str, list[Column]]:
-    """The table, and the columns that the line has no room for: the last ones but for the very last."""
+    """The table, and the columns that the line has no room for."""
     heads = [_head(column) for column in columns]
     texts = [[shown(value, column) for value, column in zip(row, columns, strict=True)] for row in rows]
     wide = [max(map(len, (*head.split("\n"), *column))) for head, *column in zip(heads, *texts, strict=True)]
-    kept = _kept(wide, width or FREE)
+    kept = _kept(columns, wide, width or FREE)
     return _drawn(columns, heads, texts, kept, width or FREE), [c for i, c in enumerate(columns) if i not in kept]
 
 
-def _kept(wide: Sequence[int], room: int) -> list[int]:
-    """The columns that fit, by index; the first ones before the last one before the rest."""
-    order = [
-        *range(min(FEWEST, len(wide))),
-        *([len(wide) - 1] if len(wide) > FEWEST else []),
-        *range(FEWEST, len(wide) - 1),
-    ]
+def _kept(columns: Sequence[Column], wide: Sequence[int], room: int) -> list[int]:
+    """The columns that fit, by index: the first ones, the reason of an error (on several lines, if need be), then what fits."""
+    reason = [index for index, column in enumerate(columns) if column.name == "error"]
     kept, used = [], 0
-    for index in order:
-        used += wide[index] + BETWEEN
-        if used > room and len(kept) >= FEWEST:
-            break
-        kept.append(index)
+    for index in dict.fromkeys([*range(min(FEWEST, len(wide))), *reason, *range(len(wide))]):
+        own = BETWEEN + (min(wide[index], REASON) if index in reason else wide[index])
+        if used + own <= room or len(kept) < FEWEST:
+            kept.append(index)
+            used += own
     return sorted(kept)
 
 

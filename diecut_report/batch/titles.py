@@ -46,6 +46,9 @@ def _whole(column: Column) -> str:
 
 def _with_name(column: Column) -> str:
     name = column.name.removeprefix(MECHANISMS).partition(".")[2]
+    listed = re.fullmatch(r"(.+)\.(\d+)\.\w+", name)
+    if listed:
+        return _placed(column, f"{_told(column)}: no. {int(listed[2]) + 1} of {listed[1]}")
     return _placed(column, f"{_told(column)}, {name}")
 
 

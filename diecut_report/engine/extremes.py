@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from functools import cache
 from typing import NamedTuple
 
 import numpy as np
@@ -16,6 +17,7 @@ from diecut_report.expressions import Array
 
 PLACE_TOLERANCE = 1e-6  # of an extreme's place, as a share of its bracket; its value errs by the square of it
 SAME_HEIGHT = 1e-9  # share of an extreme within which two places reach the same, as far as rounding lets tell
+FEW = 2048  # places up to which all curves are evaluated together
 PLATEAU = 1e-11  # share of an extreme within which neighbouring points of the grid lie on a plateau
 APPROACH = 12  # steps by which an end of a piece is approached, each a quarter of the one before
 PROOF_ORDER = 24  # of the Gauss–Legendre points at which many machines' extremes are proved
@@ -48,7 +50,8 @@ def search(calc: Calculation, wanted: Sequence[Wanted]) -> None:
     axis = calc.axis[wanted[0][0]]
     domain = calc.domains[axis]
     known = {w for w in wanted if w in calc.extremes and calc.extremes[w][0] is domain.edges}
-    open_ones = [w for w in dict.fromkeys(wanted) if w not in known]
+    curves = list(dict.fromkeys(curve for curve, _ in wanted))
+    open_ones = sorted((w for w in dict.fromkeys(wanted) if w not in known), key=lambda w: curves.index(w[0]))
     if not open_ones:
         return
     table = calc.table(axis)
@@ -154,34 +157,50 @@ def _peaks(heights: Array, points: int, sign: float) -> Array:
 
 
 def _depths(calc: Calculation, axis: str, wanted: Sequence[Wanted], seen: Candidates) -> Function:
-    """The height of each candidate's curve at other places of its piece, turned round."""
+    """The height of each candidate's curve at other places of its piece, turned round; candidates are ordered by their curves.
+
+    A few places are evaluated on all curves together, many on their own curve alone.
+    """
     pieces = calc.table(axis).pieces()
     curves = list(dict.fromkeys(curve for curve, _ in wanted))
     curve_of = np.array([curves.index(curve) for curve, _ in wanted])[seen.which]
     turned = np.array([-sign for _, sign in wanted])[seen.which]
+    starts = np.searchsorted(curve_of, np.arange(len(curves) + 1))
+    middle, variant = pieces.middle[seen.piece], pieces.variant[seen.piece]
 
-    owned = Curves(calc, axis, curves, pieces.middle[seen.piece], pieces.variant[seen.piece])
+    @cache
+    def of(curve: int | None) -> Curves:
+        if curve is None:
+            return Curves(calc, axis, curves, middle, variant)
+        own = slice(starts[curve], starts[curve + 1])
+        return Curves(calc, axis, [curves[curve]], middle[own], variant[own])
 
     def depths(x: Array, rows: Array) -> Array:
-        values = np.stack(owned.at(pieces.inside(x[:, None], seen.piece[rows]), rows))
-        chosen: Array = turned[rows] * values[curve_of[rows], np.arange(len(x)), 0]
+        x = pieces.inside(x[:, None], seen.piece[rows])
+        if len(rows) < FEW and len(curves) > 1:
+            values = np.stack(of(None).at(x, rows))[curve_of[rows], np.arange(len(x)), 0]
+        else:
+            values = np.empty(len(rows))
+            for curve in np.unique(curve_of[rows]):
+                own = np.flatnonzero(curve_of[rows] == curve)
+                values[own] = of(int(curve)).at(x[own], rows[own] - starts[curve])[0][:, 0]
+        chosen: Array = turned[rows] * values
         return chosen
 
     return depths
 
 
 def _refined(depth_of: Function, seen: Candidates) -> Candidates:
-    """The candidates after a search in their brackets; at a piece's end within its first interval."""
-    low, centre, high = _brackets(seen, depth_of)
-    every = np.arange(len(centre))
-    depths = depth_of(np.concatenate([low, centre, high]), np.tile(every, 3)).reshape(3, -1)
-    inner = np.flatnonzero(
-        (depths[1] <= depths[0]) & (depths[1] <= depths[2]) & (low < centre) & (centre < high)
-    )
+    """The candidates after a search in their brackets; at a piece's end within its first interval, on a plateau none."""
+    rising = np.flatnonzero(~seen.flat)
+    low, centre, high, depths = _brackets(Candidates(*(column[rising] for column in seen)), lambda x, row: depth_of(x, rising[row]))
+    is_inner = (depths[1] <= depths[0]) & (depths[1] <= depths[2]) & (low < centre) & (centre < high)
+    low, centre, high, depths = (part[..., is_inner] for part in (low, centre, high, depths))
+    inner = rising[is_inner]
     if not len(inner):
         return seen
     found, depth = smooth_minimum(
-        lambda x, row: depth_of(x, inner[row]), low[inner], centre[inner], high[inner], depths[:, inner], PLACE_TOLERANCE
+        lambda x, row: depth_of(x, inner[row]), low, centre, high, depths, PLACE_TOLERANCE
     )
     better = -depth >= seen.height[inner]
     place, height = seen.place.copy(), seen.height.copy()
@@ -190,8 +209,8 @@ def _refined(depth_of: Function, seen: Candidates) -> Candidates:
     return seen._replace(place=place, height=height)
 
 
-def _brackets(seen: Candidates, depth_of: Function) -> tuple[Array, Array, Array]:
-    """Three places about each candidate: its neighbours on the grid and itself.
+def _brackets(seen: Candidates, depth_of: Function) -> tuple[Array, Array, Array, Array]:
+    """Three places about each candidate, its neighbours on the grid and itself, and the depths there, (3, candidates).
 
     At a piece's end a peak may hide between the end and the next point: there the deepest of places that come nearer and
     nearer to the end, between its neighbours among these.
@@ -207,4 +226,5 @@ def _brackets(seen: Candidates, depth_of: Function) -> tuple[Array, Array, Array
         row = np.arange(len(at_end))
         around = np.stack([places[row, best + 1], places[row, best - 1]])
         left[at_end], right[at_end], centre[at_end] = around.min(axis=0), around.max(axis=0), places[row, best]
-    return left, centre, right
+    every = np.arange(len(centre))
+    return left, centre, right, depth_of(np.concatenate([left, centre, right]), np.tile(every, 3)).reshape(3, -1)

@@ -18,6 +18,7 @@ from diecut_report.batch import flight
 from diecut_report.batch.engines import ChunkFailed, Engine, InProcess, Pool, dask_cluster, results
 from diecut_report.errors import UserError
 from tests.batch.made_store import dies_at_three, fails_at_three, slow_square, square, warm
+from tests.processes import until
 
 ROOT = Path(__file__).parents[2]
 RUN = """
@@ -35,13 +36,6 @@ if __name__ == "__main__":
 """
 Make = Callable[[Path], Engine]
 ENGINES = [lambda folder: InProcess(warm(folder)), lambda folder: Pool(2, warm(folder))]
-
-
-def until(condition: Callable[[], object], seconds: float = 30) -> None:
-    end = time.monotonic() + seconds
-    while not condition():
-        assert time.monotonic() < end
-        time.sleep(0.02)
 
 
 def begun(folder: Path) -> set[int]:
@@ -158,7 +152,8 @@ def test_ended_run_leaves_no_process(tmp_path: Path, sent: signal.Signals) -> No
     assert (said, errors) == (("interrupted\n", "") if sent is signal.SIGINT else ("", errors))
 
 
-def test_interrupt_while_the_processes_begin_is_silent(tmp_path: Path) -> None:
+@pytest.mark.parametrize("later", [0, 0.05, 0.1])
+def test_interrupt_while_the_processes_begin_is_silent(tmp_path: Path, later: float) -> None:
     script = tmp_path / "run.py"
     script.write_text(RUN)
     command, paths = [sys.executable, str(script), str(tmp_path)], os.environ | {"PYTHONPATH": str(ROOT)}
@@ -167,6 +162,7 @@ def test_interrupt_while_the_processes_begin_is_silent(tmp_path: Path) -> None:
     )
     until(lambda: workers_of(run.pid))
     workers = workers_of(run.pid)
+    time.sleep(later)  # in another place of their beginning
     os.killpg(run.pid, signal.SIGINT)
     assert run.communicate(timeout=20) == ("interrupted\n", "")
     until(lambda: not any(psutil.pid_exists(worker) for worker in workers), 10)

@@ -19,7 +19,10 @@ from diecut_report.batch.query import variants
 from diecut_report.batch.stored import STATUSES, opened
 from diecut_report.batch.summary import content as contents
 from diecut_report.batch.summary import data, influence, pareto, summarise
+from diecut_report.batch.summary.charts_points import near
+from diecut_report.batch.summary.names import utilised
 from diecut_report.batch.summary.pages import page, sheets
+from diecut_report.batch.titles import titles
 from diecut_report.errors import UserError
 from tests.batch.stored_study import BORE, LAW, SPEED, made, many, ten, written
 
@@ -83,7 +86,7 @@ def test_ranges_and_histograms_are_those_of_the_rows(large: Path) -> None:
     failing = [row["drive.power_peak"] for row in rows if row["status"] == "fail"]
     assert histogram.counts[STATUSES.index("fail")].tolist() == np.histogram(failing, histogram.edges)[0].tolist()
     checks = [(row["drive.checks.play.utilisation"], row["cylinder.checks.wall.utilisation"]) for row in rows]
-    worst = max(max(value for value in pair if value is not None) for pair in checks if any(pair))
+    worst = max(max(pair) for pair in checks if None not in pair)  # a wall without a utilisation fails
     assert spread[data.WORST.name].values[-1] == worst
 
 
@@ -311,10 +314,56 @@ def test_a_large_study_is_aggregated_and_says_so(large_summary: contents.Summary
     assert "its functions take one number at a time" in page(found)
 
 
-def test_key_results_come_before_other_outputs(tmp_path: Path) -> None:
-    found = summary_of(ten(tmp_path / "out", key=["drive.idle_ratio"]))
-    names = [column.name for column in found.choices]
-    assert names[2:6] == ["drive.power_peak", "cylinder.mass", "greatest utilisation", "drive.idle_ratio"]
+def test_objectives_and_failing_checks_come_before_other_outputs(tmp_path: Path) -> None:
+    names = [column.name for column in summary_of(ten(tmp_path / "out")).choices]
+    assert names[2:6] == ["drive.power_peak", "cylinder.mass", "greatest utilisation", "drive.checks.play.utilisation"]
+    assert {"drive.crank_torque_peak", "drive.idle_ratio"} <= set(names[6:])
+
+
+def test_what_people_read_are_titles_and_units_not_names(small: Path) -> None:
+    text = re.sub(r"<[^>]+>", " ", page(summary_of(small)))
+    assert "Most failures: Play of the joints (drive)" in " ".join(text.split())
+    assert "Speed of the crank (drive), rpm" in text and "Mass of the cylinder (cylinder), kg" in text
+    assert re.search(r"diecut-report report out#\d", text)
+
+
+def test_titles_are_unlike_each_other() -> None:
+    gear = [Column(f"mechanisms.train.gears.{i}.teeth", description="Teeth of the gear") for i in range(2)]
+    force = [Column(f"{name}.force", description=f"Force ({end})") for name, end in (("a", "up"), ("b", "up"))]
+    both = [Column(f"a.force_{end}", description=f"Force ({end})") for end in ("mean", "peak")]
+    found = titles([*gear, *force, *both, Column("status", description="Status")])
+    assert list(found.values()) == [
+        "Teeth of the gear: no. 1 of gears (train)", "Teeth of the gear: no. 2 of gears (train)",
+        "Force (up) (a)", "Force (b)", "Force (mean) (a)", "Force (peak) (a)", "",
+    ]  # fmt: skip
+
+
+@pytest.mark.parametrize(
+    ("value", "text"),
+    [(0.0, "0.00"), (1e-9, "< 0.01"), (0.996, "0.9960"), (1.0, "1.00"), (1.003, "1.0030"), (120, "120")],
+)
+def test_a_utilisation_shows_on_which_side_of_one_it_is(value: float, text: str) -> None:
+    assert utilised(value) == text
+
+
+def test_cells_count_every_variant_once(large: Path) -> None:
+    rows = [row for row in rows_of(large) if row["status"] != "error"]
+    with opened(large) as stored:
+        data.prepare(stored)
+        mass, power = (stored.columns[name] for name in ("cylinder.mass", "drive.power_peak"))
+        spread = data.spreads(stored, [mass, power], len(rows))
+        found = data.density(stored, spread[mass.name], spread[power.name])
+    points = np.array([(row["drive.power_peak"], row["cylinder.mass"]) for row in rows])
+    expected = np.histogram2d(*points.T, [found.y_edges, found.x_edges])[0]
+    np.testing.assert_array_equal(found.counts, expected)
+    assert found.sound.sum() == sum(row["status"] in ("pass", "warn") for row in rows)
+
+
+def test_a_few_values_far_out_do_not_press_the_others_together() -> None:
+    values = np.r_[np.linspace(0, 1, 99), 60.0]
+    assert near(values).max() == pytest.approx(data.reach(0, float(np.quantile(values, 0.95)), 60.0))
+    assert near(values).max() < 1.3
+    np.testing.assert_array_equal(near(values[:-1]), values[:-1])
 
 
 def test_the_same_variants_give_the_same_page(small: Path) -> None:

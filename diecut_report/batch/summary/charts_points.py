@@ -107,9 +107,18 @@ def shade(share: float) -> Any:
     return SHADES(share)
 
 
+def near(values: NDArray[Any]) -> NDArray[Any]:
+    """Values of which a few lie far above the others, with these at the edge."""
+    there = values[np.isfinite(values)]
+    if not len(there):
+        return values
+    found: NDArray[Any] = np.minimum(values, reach(there.min(), np.quantile(there, 0.95), there.max()))
+    return found
+
+
 def _spread(drawn_from: Sample, column: Column, here: NDArray[Any]) -> NDArray[Any]:
     """Values of some variants; words a little to both sides of their place, so that points do not cover each other."""
-    values: NDArray[Any] = drawn_from.values[column.name]
+    values: NDArray[Any] = near(drawn_from.values[column.name])
     if column.name in drawn_from.words:
         values = values + 0.5 * (np.arange(len(values)) * 0.618 % 1 - 0.5)
     found: NDArray[Any] = values[here]
@@ -154,9 +163,9 @@ def _parallel(drawn_from: Sample, columns: Sequence[Column]) -> Figure:
     sheet = canvas(WIDTH, 204 + foot)
     axes = panel(sheet, 38, foot, WIDTH - 76, 190)
     raw = np.column_stack([drawn_from.values[column.name] for column in columns])
-    low, most, high = np.nanmin(raw, axis=0), np.nanquantile(raw, 0.95, axis=0), np.nanmax(raw, axis=0)
-    top = np.array([reach(*each) for each in zip(low, most, high, strict=True)])
-    scaled = np.minimum((raw - low) / np.where(top > low, top - low, 1.0), 1.0)
+    shown = np.column_stack([near(values) for values in raw.T])
+    low, top, high = np.nanmin(raw, axis=0), np.nanmax(shown, axis=0), np.nanmax(raw, axis=0)
+    scaled = (shown - low) / np.where(top > low, top - low, 1.0)
     alpha = float(np.clip(60 / max(len(raw), 1), 0.15, 0.9))
     for status in ("fail", "warn", "pass"):
         lines = scaled[drawn_from.status == STATUSES.index(status)]

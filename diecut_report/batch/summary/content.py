@@ -98,17 +98,16 @@ def content(stored: Stored) -> Summary:
     spreads = _spreads(stored, total)
     goals = pareto.objectives(stored)
     front = pareto.front(stored, goals, states["pass"] + states["warn"])
-    varying = [spread.column for spread in spreads.values() if spread.varies]
+    varying = [spread.column for spread in spreads.values() if _is_telling(spread)]
     used = data.utilisations(stored)
     main = _main(stored, goals, varying, [row.check for row in used if row.failing or row.warning])
     ranked = influence.influences(stored, main[:TARGETS])
     choices = _choices(stored, varying, main)
     sample = data.sample(stored, choices[:POINTS], SAMPLED)
     drawn = min(SAMPLED, max(FEWEST, NUMBERS // max(1, len(choices))))
-    made = [row for row in used if row.is_made]
+    made, failures = [row for row in used if row.is_made], data.failures(stored)
     figures = Figures(stored, states, sample, front, main, spreads)
-    best = [int(variant) for variant in front.variants] if front else []
-    reports = matrix.reported(stored.folder)
+    best, reports = [int(variant) for variant in front.variants] if front else [], matrix.reported(stored.folder)
     ranges = [spreads[c.name] for c in (*stored.varied, *main) if c in varying and ".checks." not in c.name]
     return Summary(
         title=_title(stored),
@@ -119,7 +118,7 @@ def content(stored: Stored) -> Summary:
         total=total,
         statuses=states,
         facts=_facts(stored, total),
-        failures=(failures := data.failures(stored)),
+        failures=failures,
         utilisations=made,
         unmade=[row.check for row in used if not row.is_made],
         idle=len(made) - len(matrix.telling(made)),
@@ -141,6 +140,11 @@ def content(stored: Stored) -> Summary:
         varied=stored.varied,
         choices=choices,
     )  # fmt: skip
+
+
+def _is_telling(spread: Spread) -> bool:
+    """Whether a quantity varies; a utilisation that is next to nothing tells nothing."""
+    return spread.varies and (".checks." not in spread.column.name or spread.values[-1] > matrix.IDLE)
 
 
 def _spreads(stored: Stored, total: int) -> dict[str, Spread]:

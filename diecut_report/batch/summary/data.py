@@ -102,9 +102,12 @@ class Sample:
 
 
 def prepare(stored: Stored) -> None:
-    """Names ``w``: the variants with their greatest utilisation of all checks."""
-    named = [column.sql for column, _ in stored.checks.values()]
-    worst = f"greatest({', '.join(named)})" if named else "NULL"
+    """Names ``w``: the variants with their greatest utilisation of all checks; none where a check fails without one."""
+    pairs = [(value.sql, status.sql) for value, status in stored.checks.values()]
+    lost = " OR ".join(f"({status} = 'fail' AND {value} IS NULL)" for value, status in pairs)
+    worst = (
+        f"CASE WHEN {lost} THEN NULL ELSE greatest({', '.join(value for value, _ in pairs)}) END" if pairs else "NULL"
+    )
     stored.connection.execute(f"CREATE VIEW w AS SELECT *, CAST({worst} AS DOUBLE) AS {WORST.sql} FROM v")
 
 

@@ -19,6 +19,8 @@ from diecut_report.report.figures import Svg
 DENSE = 5_000  # variants from which a chart counts them in cells
 AXES, GOVERNING, LINES = 8, 15, 400  # upright axes, bars of governing checks, lines between the axes
 
+FAR = "Values that lie far above the others stand at the edge."
+
 
 class Figure(NamedTuple):
     """A chart, what stands below it, and what it shows in words."""
@@ -120,7 +122,7 @@ class Figures:
     def pair(self) -> Figure | None:
         """The first two quantities that matter, with the front."""
         pair = self._goals()
-        if pair is None:
+        if pair is None or not self.stored.study.get("objectives"):
             return None
         x, y = pair
         front = (
@@ -172,8 +174,8 @@ class Figures:
     def _drawn(self, some: Sample) -> str:
         total = sum(self.states.values())
         if len(some.variants) == total:
-            return "All variants are drawn."
-        return f"Of {counted(total, 'variant')}, a sample of {counted(len(some.variants), 'variant')} is drawn."
+            return f"All variants are drawn. {FAR}"
+        return f"Of {counted(total, 'variant')}, a sample of {counted(len(some.variants), 'variant')} is drawn. {FAR}"
 
 
 def _distributed(each: Histogram, spread: Spread) -> str:

@@ -58,7 +58,9 @@ def chosen(stored: Stored, total: int, best: Iterable[int]) -> list[int]:
     """All variants of a small study; of a large one those with reports, the best, and the most overloaded."""
     if total <= ALL:
         return [row[0] for row in stored.rows("SELECT variant FROM v ORDER BY variant")]
-    sql = f"SELECT variant FROM w WHERE {WORST.sql} IS NOT NULL ORDER BY {WORST.sql} DESC, variant LIMIT {WORST_ONES}"
+    sql = (
+        f"SELECT variant FROM w WHERE status = 'fail' ORDER BY {WORST.sql} DESC NULLS FIRST, variant LIMIT {WORST_ONES}"
+    )
     worst = [row[0] for row in stored.rows(sql)]
     found = [*reported(stored.folder)[:REPORTED], *list(best)[:BEST], *worst]
     return sorted(dict.fromkeys(int(variant) for variant in found))

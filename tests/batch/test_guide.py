@@ -1,0 +1,52 @@
+"""The guide to studies says what the program does: its study can be read, its questions can be asked."""
+
+from __future__ import annotations
+
+import re
+import shutil
+from pathlib import Path
+
+import pytest
+
+from diecut_report.batch.run import result_columns, varied_columns
+from diecut_report.batch.stored import Column
+from diecut_report.batch.study import Study, load_study
+from diecut_report.batch.where import condition
+from diecut_report.discovery import Discovery
+from tests.configs import EXAMPLE, STUDIES, saved
+
+pytestmark = pytest.mark.repository
+GUIDE = Path(__file__).parents[2] / "docs" / "studies.md"
+
+
+@pytest.fixture(scope="module")
+def guide() -> str:
+    return GUIDE.read_text("utf-8")
+
+
+@pytest.fixture
+def example(tmp_path: Path, guide: str) -> Study:
+    shutil.copy(EXAMPLE, tmp_path)
+    text = guide.split("```yaml\n")[1].partition("```")[0]
+    return load_study(saved(tmp_path, text, "study.yaml"), Discovery([]))
+
+
+def test_its_study_is_valid(example: Study) -> None:
+    assert example.sample.count == 2000
+    assert len(example.inputs) == 4
+    assert example.curves == ("drive.crank_torque", "drive.crank_angle")
+
+
+def test_its_questions_can_be_asked(guide: str) -> None:
+    known = load_study(STUDIES[0], Discovery([]))
+    columns = {c.name: Column(c.name, c.kind, c.unit) for c in (*varied_columns(known), *result_columns(known)) if c.kind != "curve"}
+    columns |= {name: Column(name, "text") for name in ("status", "governing")}
+    questions = re.findall(r"""`"([^`]*)"`""", guide)
+    assert len(questions) == 3
+    for question in questions:
+        assert condition(question, columns).sql
+
+
+def test_its_commands_are_those_of_the_program(guide: str) -> None:
+    commands = re.findall(r"^diecut-report (\w+)", guide, re.MULTILINE)
+    assert set(commands) == {"batch", "variants", "report"}
