@@ -86,7 +86,8 @@ def _told(outcome: Outcome, target: Path) -> Iterator[str]:
         for status in ("pass", "warn", "fail", "error")
         if counts.get(status)
     ]
-    yield f"{counts.get('variants', 0)} variants: {', '.join(named) or 'none'}."
+    dropped = f"; the constraints drop {counts['dropped']} more of the sample" if counts.get("dropped") else ""
+    yield f"{counts.get('variants', 0)} variants: {', '.join(named) or 'none'}{dropped}."
     yield from (
         f"{kind} cannot take arrays and was calculated machine by machine, which is slow: {why}"
         for kind, why in outcome.slow.items()
@@ -101,7 +102,7 @@ def _told(outcome: Outcome, target: Path) -> Iterator[str]:
 )
 @click.option("--sort", metavar="COLUMN", help="Sort by a column, -COLUMN downwards.")
 @click.option(
-    "--top", metavar="N", type=click.IntRange(1), help="So many variants (default: 20 on the screen, else all)."
+    "--top", metavar="N", type=click.IntRange(1), help="So many variants (default: 100 in a table, else all)."
 )
 @click.option(
     "--format", "form", default="table", type=click.Choice(["table", "csv", "json"]), help="table, csv or json."

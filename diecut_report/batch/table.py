@@ -30,7 +30,8 @@ def table_text(columns: Sequence[Column], rows: Sequence[Sequence[Any]], width: 
 def _kept(columns: Sequence[Column], wide: Sequence[int], room: int) -> list[int]:
     """The columns that fit, by index: the first ones, the reason of an error (on several lines, if need be), then what fits."""
     reason = [index for index, column in enumerate(columns) if column.name == "error"]
-    kept, used = [], 0
+    kept: list[int] = []
+    used = 0
     for index in dict.fromkeys([*range(min(FEWEST, len(wide))), *reason, *range(len(wide))]):
         own = BETWEEN + (min(wide[index], REASON) if index in reason else wide[index])
         if used + own <= room or len(kept) < FEWEST:

@@ -14,6 +14,7 @@ from diecut_report.contract.inputs import CurveInput, Meta, Quantity, fields, te
 from diecut_report.contract.mechanism import Mechanism
 from diecut_report.contract.steps import Accumulated, Choice, Derivative, FromCurve, Step, Value
 from diecut_report.engine.domain import Domain
+from diecut_report.engine.evaluation import MANY, Curves
 from diecut_report.engine.series import PieceSeries
 from diecut_report.engine.table import Table
 from diecut_report.expressions import Array
@@ -150,6 +151,8 @@ class Calculation:
 
     def sample(self, curve: str, x: Array, middle: Array, rows: Array | None = None) -> Array:
         """A curve at x (rows, points), each x being in the smooth piece whose middle is given; rows are variants (default all)."""
+        if self.count >= MANY and rows is not None and middle.shape == (len(x), 1):
+            return Curves(self, self.axis[curve], [curve], middle[:, 0], rows).at(x)[0]
         found = self.sampler(curve, x, middle, rows)[curve]
         return np.broadcast_to(found, np.broadcast_shapes(np.shape(found), np.shape(x)))
 

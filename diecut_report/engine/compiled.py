@@ -17,6 +17,7 @@ from diecut_report.contract.steps import Choice, Step, Value
 from diecut_report.expressions import NUMERIC, Node
 
 NUMBERS, PIECES, POINTS = 0, 1, 2  # what a term depends on at most: each is computed on arrays of its own
+WRITING = {"+": "add", "-": "subtract", "*": "multiply", "/": "divide"}  # what may put its result where it belongs
 SIGNS = {"^": "**", "and": "&", "or": "|"}
 
 
@@ -33,7 +34,8 @@ LEVEL = {"number": NUMBERS, "flag": PIECES, "curve": POINTS, "abscissa": POINTS}
 class Program:
     """Curves over one abscissa, compiled; ``at_middle`` for flags of pieces, which are taken where the abscissa is.
 
-    ``numbers``, ``pieces`` and ``points`` take the values of their ``leaves`` and what the functions before them gave.
+    ``numbers``, ``pieces`` and ``points`` take the values of their ``leaves`` and what the functions before them gave;
+    ``points`` also the arrays that its results are put into.
     """
 
     def __init__(self, curves: Mapping[str, Step], axis: str, wanted: Iterable[str], at_middle: bool) -> None:
@@ -41,6 +43,7 @@ class Program:
         self._ids: dict[tuple[Any, ...], str] = {}
         self._level: dict[str, int] = {}
         self._lines: dict[str, tuple[str, tuple[str, ...]]] = {}
+        self._ops: dict[str, str] = {}
         self._quantities: dict[str, str] = {}
         self._leaves: dict[str, Leaf] = {}
         results = [self._quantity(name) for name in wanted]
@@ -50,7 +53,8 @@ class Program:
         self.carried = self._carried(results)
         self.numbers = self._function(NUMBERS, (), self.carried[NUMBERS])
         self.pieces = self._function(PIECES, self.carried[NUMBERS], self.carried[PIECES])
-        self.points = self._function(POINTS, (*self.carried[NUMBERS], *self.carried[PIECES]), tuple(results))
+        self.pieces_needed = bool(self.carried[PIECES])
+        self.points = self._function(POINTS, (*self.carried[NUMBERS], *self.carried[PIECES]), (), tuple(results))
 
     # --- joining the trees ---------------------------------------------------------------------------------------------
 
@@ -129,7 +133,7 @@ class Program:
         if key not in self._ids:
             self._ids[key] = own = f"term_{len(self._ids)}"
             self._level[own] = max((self._level.get(a, NUMBERS) for a in args), default=NUMBERS)
-            self._lines[own] = _written(op, args), args
+            self._lines[own], self._ops[own] = (_written(op, args), args), op
         return self._ids[key]
 
     def _carried(self, results: list[str]) -> tuple[tuple[str, ...], ...]:
@@ -139,18 +143,27 @@ class Program:
             taken |= dict.fromkeys(a for a in args if a in self._level and self._level[a] < self._level[own])
         return tuple(tuple(name for name in taken if self._level[name] == level) for level in (NUMBERS, PIECES))
 
-    def _function(self, level: int, carried: tuple[str, ...], results: tuple[str, ...]) -> Callable[..., Any]:
+    def _function(
+        self, level: int, carried: tuple[str, ...], results: tuple[str, ...], into: tuple[str, ...] = ()
+    ) -> Callable[..., Any]:
+        """The terms of a level as one function; its results are returned, or put into arrays that are given."""
         own = {name: line for name, line in self._lines.items() if self._level[name] == level}
         last = {arg: name for name, (_, args) in own.items() for arg in args if arg in own}
+        places = {name: f"into_{i}" for i, name in reversed(list(enumerate(into)))}  # of each term the first array
         body = []
-        for name, (text, _) in own.items():
-            done = [arg for arg, user in last.items() if user == name and arg not in results]
-            body += [f"    {name} = {text}", *([f"    del {', '.join(done)}"] if done else [])]
-        given = ", ".join([*self.leaves[level], *carried])
+        for name, (text, args) in own.items():
+            op = WRITING.get(self._ops[name])
+            direct = op and name in places
+            written = f"{op}({', '.join(args)}, out={places[name]})" if direct else text
+            done = [arg for arg, user in last.items() if user == name and arg not in results and arg not in into]
+            body += [f"    {name} = {written}", *([f"    del {', '.join(done)}"] if done else [])]
+        written = {f"into_{i}" for i, name in enumerate(into) if places[name] == f"into_{i}" and name in own and WRITING.get(self._ops[name])}
+        body += [f"    into_{i}[...] = {name}" for i, name in enumerate(into) if f"into_{i}" not in written]
+        given = ", ".join([*self.leaves[level], *carried, *(f"into_{i}" for i in range(len(into)))])
         source = "\n".join([f"def run({given}):", *body, f"    return ({''.join(f'{r}, ' for r in results)})"])
         space: dict[str, Any] = {f"np_{name}": function for name, function in NUMERIC.items()} | {
             "where": np.where, "np_not": np.logical_not, "inf": np.inf, "nan": np.nan, "np_arccos": _arccos,
-        }  # fmt: skip
+        } | {name: getattr(np, name) for name in WRITING.values()}  # fmt: skip
         exec(compile(source, "<formulas>", "exec"), space)
         run: Callable[..., Any] = space["run"]
         return run

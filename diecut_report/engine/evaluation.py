@@ -48,8 +48,10 @@ class Curves:
         self.program: Program | None = None
         if calc.count >= MANY:
             self.program = _program(calc, axis, self.wanted, at_middle=False)
-            numbers = _numbers(calc, self.program, variant)
-            self.carried = _Columns([*numbers, *self.program.pieces(*self._flags(), *numbers)])
+            numbers = _numbers(calc, self.program)
+            self.numbers = _Columns(numbers)
+            given = self.numbers.of(variant) if self.program.pieces_needed else []
+            self.pieces = _Columns(self.program.pieces(*self._flags(), *given))
 
     def at(self, x: Array, rows: Array | slice = slice(None)) -> list[Array]:
         """The curves at x (rows, points), in these of the rows (default all)."""
@@ -57,15 +59,14 @@ class Curves:
         if self.program is None:
             sampler = self.calc.sampler_of(self.axis, x, middle, variant)
             return [np.array(np.broadcast_to(sampler[name], x.shape), dtype=float) for name in self.wanted]
-        carried = self.carried.of(rows)
+        chosen = np.arange(len(self.middle))[rows] if self.pieces.tables else variant
         found = [np.empty(x.shape) for _ in self.wanted]
         size = max(1, BLOCK // x.shape[1])
         for start in range(0, len(x), size):
             part = slice(start, start + size)
             given = _given(self.calc, self.axis, self.program, x[part], middle[part], variant[part])
-            values = self.program.points(*given, *carried.of(part).listed())
-            for result, value in zip(found, values, strict=True):
-                result[part] = value
+            carried = [*self.numbers.of(variant[part]), *self.pieces.of(chosen[part])]
+            self.program.points(*given, *carried, *(result[part] for result in found))
         return found
 
     def _flags(self) -> list[Array]:
@@ -75,9 +76,11 @@ class Curves:
         if not names:
             return []
         own = _program(self.calc, self.axis, names, at_middle=True)
-        numbers, middle = _numbers(self.calc, own, self.variant), self.middle[:, None]
-        found = own.points(*_given(self.calc, self.axis, own, middle, middle, self.variant), *numbers)
-        return [np.broadcast_to(flag, middle.shape) for flag in found]
+        middle = self.middle[:, None]
+        flags = [np.empty(middle.shape) for _ in names]
+        numbers = _Columns(_numbers(self.calc, own)).of(self.variant)
+        own.points(*_given(self.calc, self.axis, own, middle, middle, self.variant), *numbers, *flags)
+        return flags
 
 
 class _Columns:
@@ -91,19 +94,12 @@ class _Columns:
             if own:
                 self.tables.append((own, np.stack([values[i][:, 0] for i in own])))
 
-    def of(self, rows: Array | slice) -> _Columns:
-        """These rows of the columns."""
-        found = object.__new__(_Columns)
-        found.values = self.values
-        found.tables = [(own, table[:, rows]) for own, table in self.tables]
-        return found
-
-    def listed(self) -> list[Any]:
-        """The columns in their order."""
+    def of(self, rows: Array) -> list[Any]:
+        """These rows of the columns, in the columns' order."""
         found = list(self.values)
         for own, table in self.tables:
-            for i, column in zip(own, table, strict=True):
-                found[i] = column[:, None]
+            for i, column in zip(own, table.take(rows, axis=1)[:, :, None], strict=True):
+                found[i] = column
         return found
 
 
@@ -111,10 +107,10 @@ def _program(calc: Machines, axis: str, wanted: tuple[str, ...], *, at_middle: b
     return program(tuple(calc.curves.items()), axis, wanted, at_middle)
 
 
-def _numbers(calc: Machines, of: Program, variant: Array) -> list[Any]:
-    """What depends on numbers alone, a row for each row of places."""
-    found = of.numbers(*(calc[leaf.name] for leaf in of.leaves[0].values()))
-    return [np.asarray(value)[variant] if np.ndim(value) else value for value in found]
+def _numbers(calc: Machines, of: Program) -> list[Any]:
+    """What depends on numbers alone, a row for each machine."""
+    found: list[Any] = list(of.numbers(*(calc[leaf.name] for leaf in of.leaves[0].values())))
+    return found
 
 
 def _given(calc: Machines, axis: str, of: Program, x: Array, middle: Array, variant: Array) -> list[Array]:

@@ -240,8 +240,9 @@ def _curve_period(calc: Calculation, step: CurvePeriod) -> None:
 
 
 def _computed(calc: Calculation, step: Computed) -> None:
-    found = step.function(*(calc[name] for name in step.takes))
-    if calc.count > 1 and np.shape(found)[:1] != (calc.count,):
+    taken = [calc[name] for name in step.takes]
+    found = step.function(*taken)
+    if calc.count > 1 and np.shape(found)[:1] != (calc.count,) and any(isinstance(each, np.ndarray) for each in taken):
         raise TypeError(f"{step.id} was given {calc.count} machines and has one value for all")
     calc.values[step.id] = calc.existing(step, np.broadcast_to(found, (calc.count, 1)))
 

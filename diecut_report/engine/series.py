@@ -21,9 +21,9 @@ class PieceSeries:
     def values(self, x: Array, middle: Array, rows: Array | None) -> Array:
         """Values at x (rows, points), each in the piece that its middle lies in; rows are variants (default all)."""
         known = np.arange(len(self.edges)) if rows is None else rows
-        variant = np.broadcast_to(known[:, None] if len(self.edges) > 1 else 0, x.shape)
         edges = self.edges if len(self.edges) == 1 else self.edges[known]
-        piece = piece_of(edges, np.broadcast_to(middle, x.shape))
+        piece = piece_of(edges, np.broadcast_to(middle, (len(x), np.shape(middle)[-1])))  # one a row, or one a place
+        variant = np.broadcast_to(known[:, None] if len(self.edges) > 1 else 0, piece.shape)
         start, end = self.edges[variant, piece], self.edges[variant, piece + 1]
         place = (2 * x - start - end) / np.where(end > start, end - start, 1)
         return _clenshaw(place, lambda k: self.series[k, variant, piece], len(self.series))

@@ -12,12 +12,16 @@ from collections.abc import Iterator
 from dataclasses import dataclass, field
 from pathlib import Path
 
+import pyarrow.parquet as pq
 import pytest
 
 from diecut_report.batch import cluster as module
 from diecut_report.batch.engines import ChunkFailed, InProcess, dask_cluster, results
+from diecut_report.batch.run import Counts, Where, run_study
 from diecut_report.errors import UserError
 from tests.batch.made_store import dies_at_three, fails_at_three, slow_square, square, warm
+from tests.batch.studies import study
+from tests.configs import GOOD
 
 ROOT = Path(__file__).parents[2]
 
@@ -74,6 +78,40 @@ def test_killed_worker_loses_nothing_and_rows_are_the_same(cluster: Cluster, tmp
         expected = [(chunk, value) for chunk, (value, _) in results(alone, slow_square, range(40))]
     assert killed and sorted(found) == expected
     assert len(workers) == 2 and len(list(tmp_path.glob("loaded.*"))) == 3  # once each, and here
+
+
+STUDY = """\
+schema_version: 1
+base: press.yaml
+sample: {method: latin_hypercube, count: 40000}
+constraints: ["mechanisms.a.force < '2.95 kN'"]
+vary:
+  mechanisms.a.force: {from: 1 kN, to: 3 kN}
+  mechanisms.a.arm: [100 mm, 150 mm, 200 mm]
+  mechanisms.a.grade: [fine, coarse]
+"""
+
+
+@pytest.mark.slow
+def test_study_on_a_cluster_that_loses_a_worker_has_the_rows_of_one_in_this_process(
+    cluster: Cluster, tmp_path: Path
+) -> None:
+    first, _ = cluster.worker(), cluster.worker()
+    made = study(tmp_path, STUDY)
+    killed = []
+
+    def kill(counts: Counts) -> None:
+        if counts.done > 5000 and not killed:
+            killed.append(counts.done)
+            first.send_signal(signal.SIGKILL)
+
+    remote, own = (Where(jobs=1, dask=address, plugins=(str(GOOD),)) for address in (cluster.address, None))
+    there = run_study(made, tmp_path / "there", remote, resume=False, tell=kill)
+    here = run_study(made, tmp_path / "here", own, resume=False, tell=lambda _: None)
+    assert killed and killed[0] < 40_000
+    assert there.counts == here.counts and there.counts["dropped"] == 1000 and there.counts["pass"] > 10_000
+    rows = [pq.read_table(outcome.store.directory / "variants") for outcome in (there, here)]
+    assert rows[0].equals(rows[1]) and rows[0].num_rows == 39_000
 
 
 @pytest.mark.slow

@@ -189,7 +189,7 @@ def histogram(stored: Stored, spread: Spread) -> Histogram:
 def density(stored: Stored, x: Spread, y: Spread) -> Density:
     """All variants over two quantities, counted in cells."""
     across, up = CELLS
-    (left, right), (low, high) = ((each.values[0], each.values[-1]) for each in (x, y))
+    (left, right), (low, high) = ((each.values[0], reach(each.values[0], *each.values[3:])) for each in (x, y))
     places = f"{_place(x.column, left, right, across)} AS i, {_place(y.column, low, high, up)} AS j"
     there = f"{x.column.sql} IS NOT NULL AND {y.column.sql} IS NOT NULL"
     sql = f"SELECT {places}, count(*), count(*) FILTER (status IN ('pass', 'warn')) FROM w WHERE {there} GROUP BY ALL"

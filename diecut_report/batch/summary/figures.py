@@ -10,6 +10,7 @@ import numpy as np
 
 from diecut_report.batch.stored import Column, Stored
 from diecut_report.batch.summary import charts, charts_points, data
+from diecut_report.batch.summary.charts_points import near
 from diecut_report.batch.summary.data import Failure, Histogram, Sample, Spread
 from diecut_report.batch.summary.influence import Influence, Share
 from diecut_report.batch.summary.names import counted, named, percent, quantity
@@ -114,9 +115,7 @@ class Figures:
         told = (
             f"{counted(len(some.variants), 'variant')} as lines over {', '.join(named(column) for column in columns)}"
         )
-        caption = (
-            f"Each line is a variant, from input to result: pass blue, warning yellow, fail red. {self._drawn(some)}"
-        )
+        caption = f"Each line is a variant, from input to result: pass blue, warning yellow, fail red. {self._drawn(some, columns)}"
         return Figure(charts_points.parallel(some, columns, f"Parallel coordinates: {told}."), caption, told)
 
     def pair(self) -> Figure | None:
@@ -136,7 +135,7 @@ class Figures:
         caption = f"{named(y)} over {named(x)}{', with the Pareto front' if front else ''}."
         if sum(self.states.values()) > DENSE and {x.name, y.name} <= self.spreads.keys():
             return self._cells(x, y, front, caption, told)
-        caption = f"{caption} {self._drawn(self.sample)}"
+        caption = f"{caption} {self._drawn(self.sample, pair)}"
         return Figure(charts_points.scatter(self.sample, [pair], f"Scatter of {told}.", "pair", front), caption, told)
 
     def _cells(self, x: Column, y: Column, front: Front | None, caption: str, told: str) -> Figure:
@@ -157,7 +156,9 @@ class Figures:
             return None
         some = _thinned(self.sample, LINES)
         told = "; ".join(f"{named(y)} over {named(x)}, {self._correlated(x, y)}" for x, y in pairs)
-        caption = f"Each quantity over the inputs that move it most. {self._drawn(some)}"
+        caption = (
+            f"Each quantity over the inputs that move it most. {self._drawn(some, [c for pair in pairs for c in pair])}"
+        )
         return Figure(charts_points.scatter(some, pairs, f"Scatter: {told}.", "grid"), caption, told)
 
     def _drawable(self, found: Influence) -> list[Share]:
@@ -171,11 +172,13 @@ class Figures:
             return f"{counted(int(there.sum()), 'variant')}"
         return f"{counted(int(there.sum()), 'variant')}, correlation {np.corrcoef(one[there], two[there])[0, 1]:.2f}"
 
-    def _drawn(self, some: Sample) -> str:
-        total = sum(self.states.values())
-        if len(some.variants) == total:
-            return f"All variants are drawn. {FAR}"
-        return f"Of {counted(total, 'variant')}, a sample of {counted(len(some.variants), 'variant')} is drawn. {FAR}"
+    def _drawn(self, some: Sample, columns: Sequence[Column]) -> str:
+        """How many of the variants a chart has, and whether some of them are out of its reach."""
+        total, drawn = sum(self.states.values()), len(some.variants)
+        of_all = f"Of {counted(total, 'variant')}, a sample of {counted(drawn, 'variant')} is drawn."
+        told = "All variants are drawn." if drawn == total else of_all
+        is_far = any((near(values) < values).any() for values in (some.values[column.name] for column in columns))
+        return f"{told} {FAR}" if is_far else told
 
 
 def _distributed(each: Histogram, spread: Spread) -> str:
