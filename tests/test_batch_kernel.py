@@ -17,7 +17,12 @@ from diecut_report.verdicts import applies, sides, verdict
 pytestmark = pytest.mark.repository
 
 COUNT = 48
-LIMITS = {"crank_torque_mean": 4e-3, "crank_torque_rms": 4e-3, "power_mean": 4e-3, "power_peak": 2e-2}  # jumps lie between two samples
+LIMITS = {
+    "crank_torque_mean": 4e-3,
+    "crank_torque_rms": 4e-3,
+    "power_mean": 4e-3,
+    "power_peak": 2e-2,
+}  # jumps lie between two samples
 NEAR = 1.5 * 2 * np.pi / 720  # of places: one-sided limits at a jump lie up to an interval beside the sample
 
 

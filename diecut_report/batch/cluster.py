@@ -65,7 +65,7 @@ class Dask:
     def limit(self) -> int:
         """How many chunks keep the workers busy that are there now."""
         try:
-            return AHEAD * max(1, sum(self._client.nthreads().values()))
+            return AHEAD * max(1, int(sum(self._client.nthreads().values())))
         except OSError as error:
             raise self._gone() from error
 

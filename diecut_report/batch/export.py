@@ -90,7 +90,7 @@ def _closed(book: Workbook) -> Iterator[None]:
     except BaseException:
         for sheet in book.worksheets:
             with suppress(Exception):  # the error that is told is the one before
-                sheet.close()  # type: ignore[attr-defined]  # one that is only written has it
+                sheet.close()
         raise
 
 

@@ -128,7 +128,8 @@ def is_whole(path: Path, schema: pa.Schema) -> bool:
 
 def _is_read(path: Path) -> bool:
     with pq.ParquetFile(path, page_checksum_verification=True) as file:
-        return sum(batch.num_rows for batch in file.iter_batches()) == file.metadata.num_rows
+        found: int = sum(batch.num_rows for batch in file.iter_batches())
+        return found == int(file.metadata.num_rows)
 
 
 def _is_sound(path: Path, look: Callable[[], bool]) -> bool:

@@ -19,7 +19,9 @@ def refuse_huge(study: Study, agreed: bool) -> None:
     """A sample that is larger than one would calculate by mistake must be agreed to."""
     count = study.sample.count
     if count > LARGEST and not agreed:
-        words = f"the sample has {count:,} variants, more than {LARGEST:,}. Vary less, or give --yes to calculate them all."
+        words = (
+            f"the sample has {count:,} variants, more than {LARGEST:,}. Vary less, or give --yes to calculate them all."
+        )
         raise UserError(Problem(words, str(study.file), path="sample"))
 
 

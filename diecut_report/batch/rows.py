@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
+from typing import Any
 
 import numpy as np
 
@@ -11,9 +12,10 @@ from diecut_report.batch import columns
 from diecut_report.batch.chain import Machines, NotOnArrays, calculated
 from diecut_report.batch.inputs import Input
 from diecut_report.config import Config
+from diecut_report.contract.inputs import POINTS
 from diecut_report.expressions import Array
 
-TOGETHER = 128  # machines that are calculated at a time: their curves stay in the processor's cache
+TOGETHER = 256  # machines that are calculated at a time: their curves stay in the processor's cache
 Given = Mapping[Input, Array | list[str]]
 
 
@@ -49,9 +51,9 @@ def calculate_rows(base: Config, given: Given, count: int, curves: Sequence[str]
     return rows
 
 
-def _groups(given: Given, count: int) -> Iterator[tuple[Array, dict[Input, str]]]:
-    """The machines that have the same texts, by index."""
-    texts = {asked: np.asarray(values, dtype=object) for asked, values in given.items() if asked.unit is None}
+def _groups(given: Given, count: int) -> Iterator[tuple[Array, dict[Input, Any]]]:
+    """The machines that have the same texts, and as many points of their curves, by index."""
+    texts = {asked: np.asarray(values, dtype=object) for asked, values in given.items() if _is_common(asked)}
     if not texts:
         yield np.arange(count), {}
         return
@@ -60,7 +62,11 @@ def _groups(given: Given, count: int) -> Iterator[tuple[Array, dict[Input, str]]
         yield np.flatnonzero([other == key for other in keys]), dict(zip(texts, key, strict=True))
 
 
-def _group(base: Config, numbers: Mapping[Input, Array], texts: Mapping[Input, str], rows: Rows, chosen: Array) -> None:
+def _is_common(asked: Input) -> bool:
+    return asked.unit is None or asked.meta is POINTS
+
+
+def _group(base: Config, numbers: Mapping[Input, Array], texts: Mapping[Input, Any], rows: Rows, chosen: Array) -> None:
     try:
         _kept(calculated(base, {**numbers, **texts}, len(chosen)), rows, chosen)
     except NotOnArrays as cause:

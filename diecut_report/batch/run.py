@@ -25,6 +25,7 @@ from diecut_report.references import PRESS
 SMALL = 1024  # variants up to which a pool of processes costs more time than it saves
 PARTS = 64  # at least as many part files in a study that is large enough, so that all processes have work to the end
 PART = (512, 8192)  # least and most variants of a part file
+VALUES = 8_000_000  # numbers of a part file at most, for curves are long
 
 
 @dataclass
@@ -131,7 +132,7 @@ def described(study: Study) -> Description:
     files = contents(study)
     base = str(study.data["base"])
     columns = [*varied_columns(study), *result_columns(study)]
-    chunk = int(np.clip(study.sample.count // PARTS, *PART))
+    chunk = min(int(np.clip(study.sample.count // PARTS, *PART)), max(1, VALUES // _width(study, columns)))
     return Description(
         study=Source(study.file.name, study.sha256, study.file.read_bytes()),
         base=Source(base, study.base.tree.sha256, files[base]),
@@ -141,6 +142,15 @@ def described(study: Study) -> Description:
         tables=tuple(Source(name, digest, files[name]) for name, digest in study.tables.items()),
         plugins=_versions(study),
     )
+
+
+def _width(study: Study, columns: Sequence[Column]) -> int:
+    """How many numbers a variant has, curves with as many points as the longest of the base."""
+    models = [instance for instance in study.base.instances.values() if instance is not None]
+    points = [instance.data.get("n_points", field.default) for instance in models
+              if (field := instance.model.model_fields.get("n_points"))]  # fmt: skip
+    most = max((int(number) for number in points if isinstance(number, int)), default=1)
+    return sum(most if column.kind == "curve" else 1 for column in columns)
 
 
 def _versions(study: Study) -> dict[str, str]:

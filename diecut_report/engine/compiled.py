@@ -14,7 +14,7 @@ import numpy as np
 
 from diecut_report.contract.binding import Binding, bound
 from diecut_report.contract.steps import Choice, Step, Value
-from diecut_report.expressions import NUMERIC, Node
+from diecut_report.expressions import NUMERIC, FormulaError, Node
 
 NUMBERS, PIECES, POINTS = 0, 1, 2  # what a term depends on at most: each is computed on arrays of its own
 WRITING = {"+": "add", "-": "subtract", "*": "multiply", "/": "divide"}  # what may put its result where it belongs
@@ -32,10 +32,10 @@ LEVEL = {"number": NUMBERS, "flag": PIECES, "curve": POINTS, "abscissa": POINTS}
 
 
 class Program:
-    """Curves over one abscissa, compiled; ``at_middle`` for flags of pieces, which are taken where the abscissa is.
+    """Curves over one abscissa, compiled; ``at_middle`` for flags of pieces, which are taken where the abscissa is and returned.
 
     ``numbers``, ``pieces`` and ``points`` take the values of their ``leaves`` and what the functions before them gave;
-    ``points`` also the arrays that its results are put into.
+    of curves ``points`` also takes the arrays that its results are put into.
     """
 
     def __init__(self, curves: Mapping[str, Step], axis: str, wanted: Iterable[str], at_middle: bool) -> None:
@@ -53,8 +53,9 @@ class Program:
         self.carried = self._carried(results)
         self.numbers = self._function(NUMBERS, (), self.carried[NUMBERS])
         self.pieces = self._function(PIECES, self.carried[NUMBERS], self.carried[PIECES])
-        self.pieces_needed = bool(self.carried[PIECES])
-        self.points = self._function(POINTS, (*self.carried[NUMBERS], *self.carried[PIECES]), (), tuple(results))
+        given = (*self.carried[NUMBERS], *self.carried[PIECES])
+        returned, into = (tuple(results), ()) if at_middle else ((), tuple(results))
+        self.points = self._function(POINTS, given, returned, into)
 
     # --- joining the trees ---------------------------------------------------------------------------------------------
 
@@ -74,9 +75,9 @@ class Program:
                 return self._leaf("number", name)
             case Value(per_piece=True) | Choice(per_piece=True) if not self._at_middle:
                 return self._leaf("flag", name)
-            case Value(formula=part):
+            case Value(formula=part) if _has_tree(part):
                 return self._formula(part)
-            case Choice(cases=cases):
+            case Choice(cases=cases) if all(_has_tree(part) for c in cases for part in (c.value, c.condition) if part):
                 *first, last = ((c.condition, c.value) for c in cases)
                 result = self._formula(last[1])
                 for condition, value in reversed(first):
@@ -149,21 +150,16 @@ class Program:
         """The terms of a level as one function; its results are returned, or put into arrays that are given."""
         own = {name: line for name, line in self._lines.items() if self._level[name] == level}
         last = {arg: name for name, (_, args) in own.items() for arg in args if arg in own}
-        places = {name: f"into_{i}" for i, name in reversed(list(enumerate(into)))}  # of each term the first array
+        home = {name: f"into_{i}" for i, name in enumerate(into) if name in own and self._ops[name] in WRITING}
         body = []
         for name, (text, args) in own.items():
-            op = WRITING.get(self._ops[name])
-            direct = op and name in places
-            written = f"{op}({', '.join(args)}, out={places[name]})" if direct else text
-            done = [arg for arg, user in last.items() if user == name and arg not in results and arg not in into]
-            body += [f"    {name} = {written}", *([f"    del {', '.join(done)}"] if done else [])]
-        written = {f"into_{i}" for i, name in enumerate(into) if places[name] == f"into_{i}" and name in own and WRITING.get(self._ops[name])}
-        body += [f"    into_{i}[...] = {name}" for i, name in enumerate(into) if f"into_{i}" not in written]
+            put = f"{WRITING[self._ops[name]]}({', '.join(args)}, out={home[name]})" if name in home else text
+            done = [arg for arg, user in last.items() if user == name and arg not in (*results, *into)]
+            body += [f"    {name} = {put}", *([f"    del {', '.join(done)}"] if done else [])]
+        body += [f"    into_{i}[...] = {name}" for i, name in enumerate(into) if home.get(name) != f"into_{i}"]
         given = ", ".join([*self.leaves[level], *carried, *(f"into_{i}" for i in range(len(into)))])
         source = "\n".join([f"def run({given}):", *body, f"    return ({''.join(f'{r}, ' for r in results)})"])
-        space: dict[str, Any] = {f"np_{name}": function for name, function in NUMERIC.items()} | {
-            "where": np.where, "np_not": np.logical_not, "inf": np.inf, "nan": np.nan, "np_arccos": _arccos,
-        } | {name: getattr(np, name) for name in WRITING.values()}  # fmt: skip
+        space = dict(SPACE)
         exec(compile(source, "<formulas>", "exec"), space)
         run: Callable[..., Any] = space["run"]
         return run
@@ -173,6 +169,14 @@ def _binding(part: Any) -> Binding:
     assert not isinstance(part, str), "a curve has no texts"
     found: Binding = part
     return found
+
+
+def _has_tree(part: Any) -> bool:
+    """Whether a formula can be read; one that cannot is called as it is."""
+    try:
+        return bound(_binding(part)).formula.tree is not None
+    except FormulaError:
+        return False
 
 
 def _written(op: str, args: tuple[str, ...]) -> str:
@@ -189,6 +193,14 @@ def _arccos(cosine: Any) -> Any:
     """As ``expressions.arccos``, which looks at each place; most often none is beyond ±1."""
     found = np.arccos(cosine)
     return NUMERIC["arccos"](cosine) if np.isnan(np.add.reduce(found, axis=None)) else found
+
+
+SPACE: dict[str, Any] = {
+    **{f"np_{name}": function for name, function in NUMERIC.items()},
+    **{name: getattr(np, name) for name in WRITING.values()},
+    "where": np.where, "np_not": np.logical_not, "inf": np.inf, "nan": np.nan, "np_arccos": _arccos,
+}  # fmt: skip
+"""What the text of a function may name."""
 
 
 @lru_cache(maxsize=512)

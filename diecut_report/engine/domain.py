@@ -39,6 +39,7 @@ def nodes_of(order: int) -> tuple[Array, Array]:
     node, weight = leggauss(order)
     return node, weight
 
+
 SMALLEST = float(np.finfo(float).tiny / np.finfo(float).eps)  # a number below it is not known to full precision
 
 FEW_EDGES = 40  # up to which edges are compared with all places at once

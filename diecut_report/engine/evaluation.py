@@ -8,7 +8,7 @@ from typing import Any, Protocol
 import numpy as np
 
 from diecut_report.contract.steps import Step
-from diecut_report.engine.compiled import Program, program
+from diecut_report.engine.compiled import NUMBERS, PIECES, POINTS, Program, program
 from diecut_report.expressions import Array
 
 BLOCK = 8192  # places at once
@@ -48,10 +48,8 @@ class Curves:
         self.program: Program | None = None
         if calc.count >= MANY:
             self.program = _program(calc, axis, self.wanted, at_middle=False)
-            numbers = _numbers(calc, self.program)
-            self.numbers = _Columns(numbers)
-            given = self.numbers.of(variant) if self.program.pieces_needed else []
-            self.pieces = _Columns(self.program.pieces(*self._flags(), *given))
+            self.numbers = _Columns(_numbers(calc, self.program))
+            self.pieces = _Columns(self._of_pieces(self.program) if self.program.carried[PIECES] else ())
 
     def at(self, x: Array, rows: Array | slice = slice(None)) -> list[Array]:
         """The curves at x (rows, points), in these of the rows (default all)."""
@@ -69,18 +67,21 @@ class Curves:
             self.program.points(*given, *carried, *(result[part] for result in found))
         return found
 
-    def _flags(self) -> list[Array]:
-        """What belongs to a piece as a whole, taken at its middle."""
-        assert self.program is not None
-        names = tuple(leaf.name for leaf in self.program.leaves[1].values())
+    def _of_pieces(self, program: Program) -> Sequence[Any]:
+        """What belongs to a piece as a whole."""
+        found: Sequence[Any] = program.pieces(*self._flags(program), *self.numbers.of(self.variant))
+        return found
+
+    def _flags(self, program: Program) -> list[Array]:
+        """The flags of pieces, taken at their middles."""
+        names = tuple(leaf.name for leaf in program.leaves[PIECES].values())
         if not names:
             return []
         own = _program(self.calc, self.axis, names, at_middle=True)
         middle = self.middle[:, None]
-        flags = [np.empty(middle.shape) for _ in names]
         numbers = _Columns(_numbers(self.calc, own)).of(self.variant)
-        own.points(*_given(self.calc, self.axis, own, middle, middle, self.variant), *numbers, *flags)
-        return flags
+        found = own.points(*_given(self.calc, self.axis, own, middle, middle, self.variant), *numbers)
+        return [np.broadcast_to(flag, middle.shape) for flag in found]
 
 
 class _Columns:
@@ -109,12 +110,12 @@ def _program(calc: Machines, axis: str, wanted: tuple[str, ...], *, at_middle: b
 
 def _numbers(calc: Machines, of: Program) -> list[Any]:
     """What depends on numbers alone, a row for each machine."""
-    found: list[Any] = list(of.numbers(*(calc[leaf.name] for leaf in of.leaves[0].values())))
+    found: list[Any] = list(of.numbers(*(calc[leaf.name] for leaf in of.leaves[NUMBERS].values())))
     return found
 
 
 def _given(calc: Machines, axis: str, of: Program, x: Array, middle: Array, variant: Array) -> list[Array]:
-    leaves = of.leaves[2].values()
+    leaves = of.leaves[POINTS].values()
     if all(leaf.kind == "abscissa" for leaf in leaves):
         return [x] * len(leaves)
     sampler = calc.sampler_of(axis, x, middle, variant)

@@ -193,15 +193,15 @@ def _depths(calc: Calculation, axis: str, wanted: Sequence[Wanted], seen: Candid
 def _refined(depth_of: Function, seen: Candidates) -> Candidates:
     """The candidates after a search in their brackets; at a piece's end within its first interval, on a plateau none."""
     rising = np.flatnonzero(~seen.flat)
-    low, centre, high, depths = _brackets(Candidates(*(column[rising] for column in seen)), lambda x, row: depth_of(x, rising[row]))
+    low, centre, high, depths = _brackets(
+        Candidates(*(column[rising] for column in seen)), lambda x, row: depth_of(x, rising[row])
+    )
     is_inner = (depths[1] <= depths[0]) & (depths[1] <= depths[2]) & (low < centre) & (centre < high)
     low, centre, high, depths = (part[..., is_inner] for part in (low, centre, high, depths))
     inner = rising[is_inner]
     if not len(inner):
         return seen
-    found, depth = smooth_minimum(
-        lambda x, row: depth_of(x, inner[row]), low, centre, high, depths, PLACE_TOLERANCE
-    )
+    found, depth = smooth_minimum(lambda x, row: depth_of(x, inner[row]), low, centre, high, depths, PLACE_TOLERANCE)
     better = -depth >= seen.height[inner]
     place, height = seen.place.copy(), seen.height.copy()
     place[inner] = np.where(better, found, place[inner])

@@ -174,6 +174,8 @@ def _crossings(calc: Calculation, step: Crossings) -> None:
 
 
 SEARCHES = 5  # for crossings, each on a finer grid
+
+
 def _reduction(calc: Calculation, step: Reduction) -> None:
     if step.operation in ("mean", "rms", "integral"):
         _integrated(calc, step)

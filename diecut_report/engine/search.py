@@ -9,14 +9,18 @@ import numpy as np
 from diecut_report.expressions import Array
 
 GOLDEN = (3 - 5**0.5) / 2
-COARSE = 0.02  # share of a bracket to which the least value of a smooth function is searched before a polynomial tells it
+COARSE = (
+    0.02  # share of a bracket to which the least value of a smooth function is searched before a polynomial tells it
+)
 FOLLOWS = 1e-12  # share of a function's size by which it may be off the polynomial that tells its least value
 MOST = 100  # evaluations in one bracket
 
 Function = Callable[[Array, Array], Array]  # of places and the rows of their brackets
 
 
-def smooth_minimum(function: Function, low: Array, centre: Array, high: Array, depths: Array, share: float) -> tuple[Array, Array]:
+def smooth_minimum(
+    function: Function, low: Array, centre: Array, high: Array, depths: Array, share: float
+) -> tuple[Array, Array]:
     """As ``minimum``; where the function is smooth, the place is far more exact than its values could tell by themselves."""
     place, depth = minimum(function, low, centre, high, depths, COARSE)
     place, depth, is_smooth = _at_vertex(function, low, place, high, depth)
@@ -39,17 +43,23 @@ def _at_vertex(function: Function, low: Array, place: Array, high: Array, depth:
     second, fourth = (16 * even[1] - even[0]) / 24, (even[0] - 4 * even[1]) / 24
     s = -first / (2 * second)
     for _ in range(3):
-        s = s - (first + s * (2 * second + s * (3 * third + s * 4 * fourth))) / (2 * second + s * (6 * third + s * 12 * fourth))
+        s = s - (first + s * (2 * second + s * (3 * third + s * 4 * fourth))) / (
+            2 * second + s * (6 * third + s * 12 * fourth)
+        )
     expected = s * (first + s * (second + s * (third + s * fourth)))
     s = np.where(np.abs(s) <= 2, s, 0)
     vertex = place + s * step
     found = function(vertex, row)
     size = np.abs(depth) + np.abs(values).max(axis=0)
-    follows: Array = (np.abs(found - depth - expected) <= FOLLOWS * size) & (found <= depth + FOLLOWS * size) & (step > 0)
+    follows: Array = (
+        (np.abs(found - depth - expected) <= FOLLOWS * size) & (found <= depth + FOLLOWS * size) & (step > 0)
+    )
     return np.where(follows, vertex, place), np.where(follows, found, depth), follows
 
 
-def minimum(function: Function, low: Array, centre: Array, high: Array, depths: Array, share: float) -> tuple[Array, Array]:
+def minimum(
+    function: Function, low: Array, centre: Array, high: Array, depths: Array, share: float
+) -> tuple[Array, Array]:
     """Place and value of the least value in brackets low < centre < high, to a share of each.
 
     ``depths`` are the known values at the three, of shape (3, brackets), the middle one not above the others.

@@ -19,7 +19,12 @@ from diecut_report.engine.table import Pieces
 from diecut_report.expressions import Array
 from diecut_report.units import unit
 
-ORDERS = (24, 96, 192, 384)  # of Gauss–Legendre; the first proves the rule on the search grid, which lies between it and the next
+ORDERS = (
+    24,
+    96,
+    192,
+    384,
+)  # of Gauss–Legendre; the first proves the rule on the search grid, which lies between it and the next
 INTEGRAL_TOLERANCE = 1e-11
 SAMPLE_TOLERANCE = 1e-8
 NEGLIGIBLE = 1e-17  # share of the greatest Chebyshev coefficient below which the last ones are left out
@@ -98,7 +103,9 @@ def crossings(calc: Calculation, curve: str) -> tuple[Array, Array]:
     run = np.concatenate([[0], np.flatnonzero(is_last) + 1])  # where runs of one sign begin
     run = run[sign[run] != 0]
     variant = pieces.variant[run // points]
-    k = run[1:][(sign[run[1:]] != sign[run[:-1]]) & (variant[1:] == variant[:-1])] - 1  # zeros count as what is before them
+    k = (
+        run[1:][(sign[run[1:]] != sign[run[:-1]]) & (variant[1:] == variant[:-1])] - 1
+    )  # zeros count as what is before them
     piece, rows = k // points, pieces.variant[k // points]
     places = pieces.grid.ravel()[k]
     inside = (sign[k] != 0) & (piece == (k + 1) // points)
@@ -118,7 +125,10 @@ def _roots(calc: Calculation, curve: str, k: Array) -> tuple[Array, Array]:
     pieces, heights = table.pieces(), table.on_grid([curve])[0]
     grid, piece = pieces.grid.ravel(), k // heights.shape[1]
     return search.root(
-        _height_in(calc, curve, pieces, piece), grid[k], grid[k + 1], np.stack([heights.ravel()[k], heights.ravel()[k + 1]])
+        _height_in(calc, curve, pieces, piece),
+        grid[k],
+        grid[k + 1],
+        np.stack([heights.ravel()[k], heights.ravel()[k + 1]]),
     )
 
 

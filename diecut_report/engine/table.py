@@ -122,13 +122,17 @@ class Table:
         if done is not None and not done.all():
             self._fill(known, [name for name in known if name], np.flatnonzero(done[:, 0] == 0), places)
         if any(name not in known for name in curves):
-            missing = [name for name in dict.fromkeys([*curves, *self.calc.ahead.get(self.axis, ())]) if name not in known]
+            missing = [
+                name for name in dict.fromkeys([*curves, *self.calc.ahead.get(self.axis, ())]) if name not in known
+            ]
             every = np.arange(len(pieces.left))
             known |= dict(zip(missing, self._evaluated(missing, every, places), strict=True))
         known[""] = np.ones((len(pieces.left), 1))
         return [known[name] for name in curves]
 
-    def _fill(self, known: dict[str, Array], names: list[str], row: Array, places: Callable[[Pieces, Array], Array]) -> None:
+    def _fill(
+        self, known: dict[str, Array], names: list[str], row: Array, places: Callable[[Pieces, Array], Array]
+    ) -> None:
         for name, values in zip(names, self._evaluated(names, row, places), strict=True):
             known[name][row] = values
 

@@ -169,3 +169,13 @@ def test_the_columns_are_known_before(name: str) -> None:
     first = {path: column[:1] for path, column in drawn(name, 1).items()}
     declared = {column.name for column in columns_of(base)}
     assert set(together(base, first, 1).columns) <= declared
+
+
+def test_machines_with_unlike_numbers_of_samples_have_the_curves_that_they_ask_for() -> None:
+    base = config("flat_cylinder_press.yaml")
+    points = np.array([90.0, 180.0, 90.0])
+    rows = calculate_rows(base, {find_input(base, "mechanisms.drive.n_points"): points}, 3, ["drive.crank_torque"])
+    assert not rows.slow
+    assert [len(values) for values in rows.columns["drive.crank_torque"]] == [90, 180, 90]
+    peaks = rows.columns["drive.crank_torque_peak"]
+    np.testing.assert_allclose(peaks, peaks[0], rtol=1e-12)

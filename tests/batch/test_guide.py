@@ -39,7 +39,11 @@ def test_its_study_is_valid(example: Study) -> None:
 
 def test_its_questions_can_be_asked(guide: str) -> None:
     known = load_study(STUDIES[0], Discovery([]))
-    columns = {c.name: Column(c.name, c.kind, c.unit) for c in (*varied_columns(known), *result_columns(known)) if c.kind != "curve"}
+    columns = {
+        c.name: Column(c.name, c.kind, c.unit)
+        for c in (*varied_columns(known), *result_columns(known))
+        if c.kind != "curve"
+    }
     columns |= {name: Column(name, "text") for name in ("status", "governing")}
     questions = re.findall(r"""`"([^`]*)"`""", guide)
     assert len(questions) == 3

@@ -40,7 +40,9 @@ def test_reductions_of_a_derivative_take_the_limits_in() -> None:
 def test_a_derivative_keeps_its_value_at_the_end_of_the_period() -> None:
     calc = follower(made(duration=2), duration=0.4)  # the curve's corner lies beyond this abscissa
     domain = calc.domains["time"]
-    domain.edges = np.concatenate([domain.edges, domain.period], axis=1)  # as among variants of which some have more pieces
+    domain.edges = np.concatenate(
+        [domain.edges, domain.period], axis=1
+    )  # as among variants of which some have more pieces
     assert domain.widths[0, -1] == 0
     assert MachineView(calc).at("speed", 0.4) == pytest.approx(CLOSED["speed"](0.2, 2), rel=1e-11)
 

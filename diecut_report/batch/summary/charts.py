@@ -147,7 +147,7 @@ def _distributions(found: Sequence[Histogram]) -> Figure:
     sheet = canvas(WIDTH, rows * (high + FOOT + HEAD))
     for index, each in enumerate(found):
         row, column = divmod(index, 3)
-        axes = panel(sheet, column * (wide + 16) + 4, (rows - row - 1) * (high + FOOT + HEAD) + FOOT, wide - 8, high)
+        axes = panel(sheet, column * (wide + 16) + 4, (rows - row - 1) * (high + FOOT + HEAD) + FOOT, wide - 16, high)
         _bars(axes, each)
         _title(axes, each.column, wide)
     return sheet

@@ -132,7 +132,15 @@ def _front(axes: Axes, front: Front | None, x: Column, y: Column) -> None:
     values = front.values[:, [names.index(x.name), names.index(y.name)]] * (factor(x), factor(y))
     values = values[np.argsort(values[:, 0])]
     line = "-" if len(names) == 2 else "none"
-    axes.plot(*values.T, linestyle=line, marker="D", color=INK, markersize=3.4, linewidth=0.9, label="Pareto front")
+    axes.plot(
+        *values.T,
+        linestyle=line,
+        marker="D",
+        color=INK,
+        markersize=3.4 if len(values) < 60 else 1.2,
+        linewidth=0.9,
+        label="Pareto front",
+    )
 
 
 def _named(axes: Axes, drawn_from: Sample, x: Column, y: Column, wide: float) -> None:
