@@ -36,6 +36,11 @@ class Machines:
     calculations: dict[str, Calculation]
     reasons: dict[int, str] = field(default_factory=dict)
 
+    def release(self) -> None:
+        """Free the memory of the curves at once, and not when garbage is collected."""
+        for calculation in self.calculations.values():
+            calculation.release()
+
 
 def calculated(base: Config, values: Values, count: int) -> Machines:
     """All mechanisms of the base for so many machines: numbers as arrays of shape (count,), SI; texts the same for all.

@@ -68,7 +68,9 @@ def _is_common(asked: Input) -> bool:
 
 def _group(base: Config, numbers: Mapping[Input, Array], texts: Mapping[Input, Any], rows: Rows, chosen: Array) -> None:
     try:
-        _kept(calculated(base, {**numbers, **texts}, len(chosen)), rows, chosen)
+        machines = calculated(base, {**numbers, **texts}, len(chosen))
+        _kept(machines, rows, chosen)
+        machines.release()
     except NotOnArrays as cause:
         if len(chosen) == 1:
             rows.errors[chosen] = str(cause)

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
+from weakref import proxy
 
 import numpy as np
 
@@ -171,7 +172,7 @@ class Calculation:
         domain = self.domains[axis]
         edges, sampler = self._kept.get((use, axis), (None, None))
         if sampler is None or edges is not domain.edges:
-            sampler = _Sampler(self, axis, *places(domain), rows)
+            sampler = _Sampler(proxy(self), axis, *places(domain), rows)
             self._kept[use, axis] = domain.edges, sampler
         return sampler
 
@@ -188,6 +189,11 @@ class Calculation:
         if axis not in self._tables:
             self._tables[axis] = Table(self, axis)
         return self._tables[axis]
+
+    def release(self) -> None:
+        """Forget the curves at all places: they hold this calculation, and no reference count would ever free them."""
+        self._tables.clear()
+        self._kept.clear()
 
     def on_search_grid(self, curve: str) -> Array:
         """A curve on the search grid of its smooth pieces, shape (variants, pieces, points); zero in pieces without a width."""
