@@ -11,6 +11,7 @@ from typing import Any
 import yaml
 
 from diecut_report import yaml_tree
+from diecut_report.batch.state import kept
 from diecut_report.batch.stored import Column, Stored, opened
 from diecut_report.errors import Problem, UserError
 from diecut_report.yaml_tree import KeyPath
@@ -26,8 +27,8 @@ def variant_config(directory: Path, variant: int) -> str:
     with opened(directory) as stored:
         _refuse_error(stored, variant)
         values = {tuple(_keys(column.name)): value for column, value in _row(stored, variant)}
-        study = stored.description.study.file
-    base = yaml_tree.load(directory / "base.yaml")
+        description = stored.description
+    base = yaml_tree.load(kept(directory)[description.base.file])
     wanted = base.data
     for path, value in values.items():
         wanted = replaced(wanted, path, value)
@@ -36,7 +37,7 @@ def variant_config(directory: Path, variant: int) -> str:
         text is None or yaml_tree.parse(text, "variant").data != wanted
     ):  # anchors, say: comments are lost, never a value
         text = yaml.safe_dump(wanted, sort_keys=False, allow_unicode=True)
-    return f"# Variant {variant} of {study}: its values stand in SI units, exactly as they were calculated.\n{text}"
+    return f"# Variant {variant} of {description.study.file}: its values stand in SI units, exactly as they were calculated.\n{text}"
 
 
 def _refuse_error(stored: Stored, variant: int) -> None:

@@ -124,7 +124,7 @@ def root(function: Function, low: Array, high: Array, heights: Array) -> tuple[A
     row = np.arange(len(low))
     state = np.stack([high, low, low, heights[1], heights[0], heights[0], np.full_like(low, 0.5)])
     for _ in range(MOST):
-        a, b, c, fa, fb, fc, share = state
+        a, b, _, fa, fb, _, share = state
         place = a + share * (b - a)
         found = function(place, row)
         kept = np.sign(found) == np.sign(fa)

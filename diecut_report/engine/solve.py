@@ -158,9 +158,8 @@ def dips(calc: Calculation, curve: str) -> Array:
         return np.full((calc.count, 0), np.nan)
     depths = np.abs(np.stack([heights[piece, k + i] for i in range(3)]))
     side, height, grid = np.sign(heights[piece, k]), _height_in(calc, curve, pieces, piece), pieces.grid
-    place, depth = search.minimum(
-        lambda x, row: side[row] * height(x, row), *(grid[piece, k + i] for i in range(3)), depths, DIP_TOLERANCE
-    )
+    low, centre, high = (grid[piece, k + i] for i in range(3))
+    place, depth = search.minimum(lambda x, row: side[row] * height(x, row), low, centre, high, depths, DIP_TOLERANCE)
     places = np.where(depth < 0, place, np.nan)
     return _rows_of(places, pieces.variant[piece], calc.count, np.zeros(calc.count, dtype=bool))
 

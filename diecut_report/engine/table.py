@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping, Sequence
 from functools import cached_property
 from typing import Protocol
+from weakref import proxy
 
 import numpy as np
 
@@ -78,7 +79,8 @@ class Table:
     """What is known of the curves over one abscissa."""
 
     def __init__(self, calc: Owner, axis: str) -> None:
-        self.calc, self.axis = calc, axis
+        self.calc: Owner = proxy(calc)  # which holds this table: among many machines no memory may wait for the collector
+        self.axis = axis
         self._edges: Array | None = None
         self._pieces: Pieces
         self._known: dict[str, dict[str, Array]] = {}  # by use and curve: a row for each present piece

@@ -124,6 +124,14 @@ def test_one_stored_variant_is_a_config_for_other_commands(tmp_path: Path, capfd
     assert "There is no variant 9 here" in capfd.readouterr().err
 
 
+def test_a_copy_of_the_base_that_was_edited_is_no_base_of_these_variants(tmp_path: Path, capfd: Capture) -> None:
+    run("batch", files(tmp_path), "-o", tmp_path / "out", "--quiet")
+    copy = tmp_path / "out" / "base.yaml"
+    copy.write_text(copy.read_text().replace("200 mm", "300 mm"))
+    assert run("calc", f"{tmp_path / 'out'}#4") == 2
+    assert "This copy of press.yaml is missing or has changed." in capfd.readouterr().err
+
+
 def test_other_formats_stand_beside_the_parts(tmp_path: Path) -> None:
     run("batch", files(tmp_path), "-o", tmp_path / "out", "--quiet", "--format", "csv,xlsx")
     assert {"variants.csv", "variants.xlsx"} <= {path.name for path in (tmp_path / "out").iterdir()}

@@ -7,6 +7,7 @@ import io
 import json
 import math
 from collections.abc import Callable
+from hashlib import sha256
 from pathlib import Path
 from typing import Any
 
@@ -266,7 +267,11 @@ def test_a_value_goes_where_its_path_leads(tmp_path: Path, name: str) -> None:
 
 def test_a_value_beside_an_anchor_changes_one_place_only(tmp_path: Path) -> None:
     out = ten(tmp_path / "out", varied=[BORE])
-    (out / "base.yaml").write_text("mechanisms:\n  a: &a {bore_radius: 70 mm}\n  cylinder: *a\n", encoding="utf-8")
+    base = "mechanisms:\n  a: &a {bore_radius: 70 mm}\n  cylinder: *a\n"
+    (out / "base.yaml").write_text(base, encoding="utf-8")
+    state = json.loads((out / "study.json").read_text("utf-8"))
+    state["sha256"]["base"] = sha256(base.encode()).hexdigest()
+    (out / "study.json").write_text(json.dumps(state), encoding="utf-8")
     data = yaml_tree.parse(variant_config(out, 3), "variant").data
     assert data == {"mechanisms": {"a": {"bore_radius": "70 mm"}, "cylinder": {"bore_radius": "0.065 m"}}}
 
