@@ -27,7 +27,7 @@ from diecut_report.plugins.cylinder_drive import MECHANISM
 from diecut_report.verdicts import applies, sides, verdict
 
 VARIANTS = 4096
-ENGINE_CHUNKS, KERNEL_CHUNKS = (1, 64, 256, 1024), (8, 16, 32, 64)
+ENGINE_CHUNKS, KERNEL_CHUNKS = (64, 256, 512, 1024), (16, 32, 64, 128, 256)
 BASE: dict[str, float] = {
     "frame_ratio": 5, "coupler_ratio": 5, "rocker_ratio": 2.05, "crank_speed": 2 * np.pi * 50 / 60, "cylinder_radius": 0.105,
     "cylinder_length": 0.7, "cylinder_mass": 80.9077, "cylinder_inertia": 0.63623, "static_unbalance": 1.97727,
@@ -68,7 +68,9 @@ def rate(function: Callable[[Mapping[str, Any], int], Any], inputs: Mapping[str,
 def main(rounds: int) -> None:
     """Run both in turns and print variants a second, and the ratio of the best."""
     inputs = variants(VARIANTS)
-    runs: dict[tuple[str, int], Callable[[Mapping[str, Any], int], Any]] = {("engine", n): by_engine for n in ENGINE_CHUNKS}
+    runs: dict[tuple[str, int], Callable[[Mapping[str, Any], int], Any]] = {
+        ("engine", n): by_engine for n in ENGINE_CHUNKS
+    }
     runs |= {("kernel", n): Kernel(n).calculate for n in KERNEL_CHUNKS}
     best = dict.fromkeys(runs, 0.0)
     for _ in range(rounds):

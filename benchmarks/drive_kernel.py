@@ -160,7 +160,10 @@ class Kernel:
         np.abs(force, out=sizes)
         np.add(sizes, a, out=sizes)
         self._extreme(v, "rocker_bearing_force_max", sizes, 1)
-        v["tooth_normal_force_max"], v["tooth_normal_force_max_at"] = v["tooth_force_max"] / cosine, v["tooth_force_max_at"]
+        v["tooth_normal_force_max"], v["tooth_normal_force_max_at"] = (
+            v["tooth_force_max"] / cosine,
+            v["tooth_force_max_at"],
+        )
         v["tooth_radial_force_max"] = v["tooth_force_max"] * np.tan(v["pressure_angle"])
 
     # --- reductions ----------------------------------------------------------------------------------------------------
@@ -191,7 +194,9 @@ class Kernel:
         first, second = curve[row, k], curve[row, (k + 1) % POINTS]
         count = np.bincount(row, minlength=len(self.row))
         places = np.full((len(self.row), max(int(count.max(initial=0)), 1)), np.nan)
-        places[row, np.arange(len(row)) - np.repeat(np.cumsum(count) - count, count)] = (k + first / (first - second)) * STEP
+        places[row, np.arange(len(row)) - np.repeat(np.cumsum(count) - count, count)] = (
+            k + first / (first - second)
+        ) * STEP
         v[name], v[f"{name}_count"] = places, count
 
 

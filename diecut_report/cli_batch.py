@@ -101,9 +101,7 @@ def _told(outcome: Outcome, target: Path) -> Iterator[str]:
     "--where", metavar="CONDITION", help="Such as \"drive.crank_torque_peak < '40 N*m' and status = 'pass'\"."
 )
 @click.option("--sort", metavar="COLUMN", help="Sort by a column, -COLUMN downwards.")
-@click.option(
-    "--top", metavar="N", type=click.IntRange(1), help="So many variants (default: 20 in a table, else all)."
-)
+@click.option("--top", metavar="N", type=click.IntRange(1), help="So many variants (default: 20 in a table, else all).")
 @click.option(
     "--format", "form", default="table", type=click.Choice(["table", "csv", "json"]), help="table, csv or json."
 )

@@ -79,7 +79,9 @@ class Table:
     """What is known of the curves over one abscissa."""
 
     def __init__(self, calc: Owner, axis: str) -> None:
-        self.calc: Owner = proxy(calc)  # which holds this table: among many machines no memory may wait for the collector
+        self.calc: Owner = proxy(
+            calc
+        )  # which holds this table: among many machines no memory may wait for the collector
         self.axis = axis
         self._edges: Array | None = None
         self._pieces: Pieces

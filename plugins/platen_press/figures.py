@@ -101,7 +101,7 @@ def beside_source(view: View) -> list[Shape]:
     marks = [
         mark(-view[f"{name}_angle"], view[name], label)
         for name, label in peaks
-        if view[f"{name}_angle"] <= view["cutting_start_angle"]
+        if view[name] > 0 and view[f"{name}_angle"] <= view["cutting_start_angle"]
     ]
     return [
         chart_panel("Torque while cutting", "N*m", *FROM_DEAD_CENTER,
