@@ -80,7 +80,7 @@ def _target(study: Path | None, folder: Path | None, resume: Path | None) -> Pat
 
 def _told(outcome: Outcome, target: Path) -> Iterator[str]:
     counts = outcome.counts
-    yield f"written: {target}"
+    yield f"written: {target}, with summary.html and summary.pdf" + _reports(target)
     named = [
         f"{counts[status]} {coloured(status, status)}"
         for status in ("pass", "warn", "fail", "error")
@@ -93,6 +93,11 @@ def _told(outcome: Outcome, target: Path) -> Iterator[str]:
         for kind, why in outcome.slow.items()
     )
     yield from outcome.notes
+
+
+def _reports(target: Path) -> str:
+    made = len(list((target / "reports").glob("*.pdf")))
+    return f", and {made} full report{'s' if made > 1 else ''} in reports/" if made else ""
 
 
 @click.command()
@@ -116,8 +121,11 @@ def variants(
     quiet: bool,
 ) -> int:
     """Ask the stored variants of a study."""
+    from diecut_report.batch.query import unfinished
     from diecut_report.batch.query import variants as asked
 
+    if not quiet:
+        tell(unfinished(folder))
     with closing(asked(folder, where=where, sort=sort, top=top, format=form)) as pieces:
         for piece in pieces:
             if not emit(piece):  # the reader has seen enough

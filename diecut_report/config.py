@@ -123,6 +123,7 @@ class Config:
 def load_config(path: Path, discovery: Discovery) -> Config:
     """Read and validate a configuration; UserError with all its problems. A broken plugin is kept in ``broken``."""
     tree = yaml_tree.load(path)
+    _refuse_study(tree)
     discovery.extend()
     reader = _Reader(tree, discovery)
     linker = Linker(reader.instances)
@@ -135,6 +136,11 @@ def load_config(path: Path, discovery: Discovery) -> Config:
         raise UserError(sorted(dict.fromkeys(problems), key=lambda p: (p.line or 0, p.column or 0)))
     assert reader.project is not None
     return Config(tree, reader.project, reader.instances, reader.kinds, linker.links, tuple(order), reader.broken)
+
+
+def _refuse_study(tree: Tree) -> None:
+    if isinstance(tree.data, dict) and {"base", "sample"} <= tree.data.keys() and "mechanisms" not in tree.data:
+        raise UserError(Problem(f"This is a study: calculate it with diecut-report batch {tree.file}", tree.file))
 
 
 @dataclass

@@ -149,4 +149,7 @@ if ! is_current "$purpose"; then
     install_dependencies "$lock"
     stamp "$purpose" >"$venv/$purpose.stamp"
 fi
-is_current program || install_program
+# a copy that pip put beside the checkout ("pip install .") would hide it
+program_works() { (cd "$root" && "$venv/bin/python" -c 'import diecut_report.plugins' 2>/dev/null); }
+
+if ! is_current program || ! program_works; then install_program; fi

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import logging
 import socket
 from concurrent.futures import Future
 from typing import Any, Self
@@ -31,6 +32,8 @@ class Dask:
         self._executor: Any = None
 
     def __enter__(self) -> Self:
+        logging.getLogger("distributed").setLevel(logging.CRITICAL)  # what is lost is told in words, not by tracebacks
+        logging.getLogger("distributed.client").setLevel(logging.CRITICAL)
         self._client = _connected(self._address)
         try:
             self._make_ready()

@@ -12,7 +12,7 @@ from diecut_report.batch import state
 from diecut_report.batch.export import export
 from diecut_report.batch.refusals import refuse_empty, refuse_huge
 from diecut_report.batch.reports import write_reports
-from diecut_report.batch.run import Counts, Outcome, Where, run_study
+from diecut_report.batch.run import Counts, Outcome, Where, engine_for, run_study
 from diecut_report.batch.study import Study, load_study
 from diecut_report.batch.summary import summarise
 from diecut_report.discovery import Discovery
@@ -30,6 +30,7 @@ class Shown:
         self.is_quiet = quiet or not sys.stderr.isatty()
         self.bar: Progress | None = None
         self.task: Any = None
+        self.after: Any = None
 
     def __enter__(self) -> Shown:
         if not self.is_quiet:
@@ -44,13 +45,18 @@ class Shown:
 
     def __call__(self, counts: Counts) -> None:
         if self.bar is not None:
-            told = f"{counts.failed} fail" + (f", {counts.errors} in error" if counts.errors else "")
+            told = f"{counts.failed:,} of {counts.variants:,} fail" + (
+                f", {counts.errors:,} in error" if counts.errors else ""
+            )
             self.bar.update(self.task, total=counts.rows, completed=counts.before + counts.done, told=told)
 
     def doing(self, what: str) -> None:
-        """What is done after the variants."""
-        if self.bar is not None:
-            self.bar.update(self.task, description=what)
+        """What is done after the variants, on a line below."""
+        if self.bar is None:
+            return
+        if self.after is None:
+            self.after = self.bar.add_task(what, total=None, told="")
+        self.bar.update(self.after, description=what)
 
 
 def _bar() -> Progress:
@@ -90,6 +96,9 @@ def run(
     known = _loaded(study, directory, where)
     refuse_huge(known, agreed)
     refuse_empty(known)
+    if where.dask:
+        with engine_for(known, where, 1):  # before anything is written: whether it can be reached
+            pass
     outcome = run_study(known, directory, where, resume=resume, tell=shown)
     with outcome.store.lock():
         told = write_reports(known, outcome.store, where.plugins, agreed=agreed, tell=shown.doing)

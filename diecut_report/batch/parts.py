@@ -126,6 +126,14 @@ def is_whole(path: Path, schema: pa.Schema) -> bool:
     return has_schema(path, schema) and _is_sound(path, lambda: _is_read(path))
 
 
+def is_within(path: Path, rows: range) -> bool:
+    """Whether a part's variants are of these rows of the sample: a copy of another part is not."""
+    with pq.ParquetFile(path) as file:
+        groups = [file.metadata.row_group(index) for index in range(file.metadata.num_row_groups)]
+        known = [group.column(0).statistics for group in groups if group.num_rows]
+    return all(rows.start <= told.min and told.max < rows.stop for told in known)
+
+
 def _is_read(path: Path) -> bool:
     with pq.ParquetFile(path, page_checksum_verification=True) as file:
         found: int = sum(batch.num_rows for batch in file.iter_batches())

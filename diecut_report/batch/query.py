@@ -13,6 +13,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
+from diecut_report.batch.state import read_state
 from diecut_report.batch.stored import FIXED, Column, Stored, opened
 from diecut_report.batch.variant import variant_config
 from diecut_report.batch.where import condition
@@ -75,6 +76,17 @@ def variants(
             raise UserError(Problem(words)) from error
 
 
+def unfinished(directory: Path) -> Iterator[str]:
+    """A warning where a study is not calculated to its end: its best variant may still come."""
+    state = read_state(directory)
+    if state.get("state") != "complete":
+        parts, rows, chunk = len(list((directory / "variants").glob("part-*.parquet"))), state["rows"], state["chunk"]
+        yield (
+            f"This study is not finished: {parts} of {-(-rows // chunk)} parts are calculated. Go on with: "
+            f"diecut-report batch --resume {directory}"
+        )
+
+
 def _question(
     stored: Stored, where: str | None, sort: str | None, top: int | None, format: str, columns: Sequence[str] | None
 ) -> Question:
@@ -103,10 +115,10 @@ def _columns(
     if format != "table":
         return list(stored.columns.values())
     objectives = [name for each in stored.study.get("objectives") or () for name in each.values()]
-    wanted = ["variant", "status", *(column.name for column, _ in order), *asked.columns, *objectives]
+    wanted = ["variant", "status", "governing", *(column.name for column, _ in order), *asked.columns, *objectives]
     inputs = [column.name for column in stored.varied]
     reason = ["error"] if _has_errors(stored, asked) else []
-    found = dict.fromkeys([*wanted, *inputs[: max(WIDE - len(wanted), 3)], "governing", *reason])
+    found = dict.fromkeys([*wanted, *inputs[: max(WIDE - len(wanted), 3)], *reason])
     return [stored.columns[name] for name in found if name in stored.columns]
 
 

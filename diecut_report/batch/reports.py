@@ -84,14 +84,19 @@ def _refused(ids: Sequence[int], possible: set[int], stored: Array) -> Iterator[
 
 
 def best(columns: dict[str, Array], objectives: Sequence[tuple[str, bool]], count: int) -> Array:
-    """Rows of the best variants: of those that pass (of all that exist where none does) the least sums of ranks."""
+    """Rows of the best variants: of those that pass (of all that exist where none does) the least sums of ranks.
+
+    What is alike to ten digits has one rank, so none of them is worse than another in all objectives.
+    """
+    from scipy.stats import rankdata
+
     status = columns["status"]
     sound = np.isin(status, ("pass", "warn"))
     among = np.flatnonzero(sound if sound.any() else status != "error")
     total = np.zeros(len(among))
     for name, minimise in objectives:
-        values = columns[name][among].astype(float) * (1 if minimise else -1)
-        total += np.argsort(np.argsort(np.nan_to_num(values, nan=np.inf), kind="stable"), kind="stable")
+        values = np.nan_to_num(columns[name][among].astype(float) * (1 if minimise else -1), nan=np.inf)
+        total += rankdata([float(f"{value:.10g}") for value in values], method="min")  # rounding makes nothing better
     found: Array = among[np.argsort(total, kind="stable")[:count]]
     return found
 

@@ -34,6 +34,7 @@ class Counts:
 
     rows: int
     done: int = 0
+    variants: int = 0  # that the constraints leave
     failed: int = 0
     errors: int = 0
     before: int = 0  # rows that an earlier run has done
@@ -75,9 +76,8 @@ def run_study(study: Study, directory: Path, where: Where, *, resume: bool, tell
         slow = dict(store.state.get("slow") or {})
         try:
             for done in _calculated(study, store, where, tell):
-                if done.slow.keys() - slow.keys():
-                    slow |= done.slow
-                    store.note({"slow": slow})  # a run that is killed later has told it
+                slow |= done.slow  # noted with each part: a run that is killed later has told it
+                store.note({"slow": slow, "seconds": before + time.monotonic() - began})
         finally:  # an interrupted run has spent its time too
             store.note({"slow": slow, "seconds": before + time.monotonic() - began})
         store.finish({})
@@ -90,7 +90,9 @@ def _calculated(study: Study, store: Store, where: Where, tell: Tell) -> Iterato
     for path in (path for index, path in store.parts().items() if index not in there):
         path.unlink(missing_ok=True)  # a damaged part is calculated again
     known = store.counts()
-    counts = Counts(study.sample.count, failed=known.get("fail", 0), errors=known.get("error", 0))
+    counts = Counts(
+        study.sample.count, variants=known["variants"], failed=known.get("fail", 0), errors=known.get("error", 0)
+    )
     counts.before = sum(len(store.rows(index)) for index in there)
     tell(counts)
     missing = store.description.parts - len(there)
@@ -102,6 +104,7 @@ def _calculated(study: Study, store: Store, where: Where, tell: Tell) -> Iterato
         for chunk, done in results(engine, work.calculate, chunks):
             store.write_part(chunk.part, done.columns)
             counts.done += chunk.stop - chunk.start
+            counts.variants += len(done.columns["status"])
             counts.failed += int(np.sum(done.columns["status"] == "fail"))
             counts.errors += int(np.sum(done.columns["status"] == "error"))
             tell(counts)

@@ -89,6 +89,13 @@ def write_copies(folder: Path, description: Description) -> None:
 
 def begin(folder: Path, description: Description) -> None:
     """Make a folder the place of a study's results; it must hold nothing yet."""
+    refuse_used(folder)
+    write_state(folder, as_data(description) | {"state": "running"})
+    write_copies(folder, description)
+
+
+def refuse_used(folder: Path) -> None:
+    """A folder that holds anything is not written into."""
     others = sorted(path.name for path in folder.iterdir() if path.name not in (LOCK, HOLDER))
     if STATE in others:
         words = "Results of a study are here already. Continue them with --resume, or choose another folder with -o."
@@ -96,8 +103,6 @@ def begin(folder: Path, description: Description) -> None:
     if others:
         words = f"This folder is not empty ({others[0]} is in it). Choose a new one with -o, so that nothing is lost."
         raise UserError(Problem(words, str(folder)))
-    write_state(folder, as_data(description) | {"state": "running"})
-    write_copies(folder, description)
 
 
 def with_libraries(state: Data) -> Data:

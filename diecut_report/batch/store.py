@@ -23,7 +23,17 @@ from filelock import FileLock
 from diecut_report.batch import state
 from diecut_report.batch.description import VARIANT, Description
 from diecut_report.batch.files import in_words, remove_stale
-from diecut_report.batch.parts import DAMAGED, Values, has_schema, is_whole, readable, schema_of, table_of, write_part
+from diecut_report.batch.parts import (
+    DAMAGED,
+    Values,
+    has_schema,
+    is_whole,
+    is_within,
+    readable,
+    schema_of,
+    table_of,
+    write_part,
+)
 from diecut_report.errors import Problem, UserError
 
 PARTS = "variants"
@@ -44,6 +54,7 @@ class Store:
         """Begin the results of a study in a folder that is new or empty."""
         with in_words(directory):
             directory.mkdir(parents=True, exist_ok=True)
+            state.refuse_used(directory)
         store = cls(directory, description)
         with store.lock():
             state.begin(directory, description)
@@ -124,7 +135,7 @@ class Store:
         return {
             index
             for index, path in self.parts().items()
-            if index < self.description.parts and is_whole(path, self.schema)
+            if index < self.description.parts and is_whole(path, self.schema) and is_within(path, self.rows(index))
         }
 
     def _files(self) -> list[Path]:

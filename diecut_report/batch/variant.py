@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import json
 import re
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from pathlib import Path
 from typing import Any
 
@@ -26,9 +26,10 @@ def variant_config(directory: Path, variant: int) -> str:
     """
     with opened(directory) as stored:
         _refuse_error(stored, variant)
-        values = {tuple(_keys(column.name)): value for column, value in _row(stored, variant)}
+        values: Values = {tuple(_keys(column.name)): value for column, value in _row(stored, variant)}
         description = stored.description
     base = yaml_tree.load(kept(directory)[description.base.file])
+    values |= dict(_named(base.data.get("project") or {}, variant, description.study.file))
     wanted = base.data
     for path, value in values.items():
         wanted = replaced(wanted, path, value)
@@ -38,6 +39,13 @@ def variant_config(directory: Path, variant: int) -> str:
     ):  # anchors, say: comments are lost, never a value
         text = yaml.safe_dump(wanted, sort_keys=False, allow_unicode=True)
     return f"# Variant {variant} of {description.study.file}: its values stand in SI units, exactly as they were calculated.\n{text}"
+
+
+def _named(project: Mapping[str, Any], variant: int, study: str) -> Iterator[tuple[KeyPath, str]]:
+    """The title block says which variant it is: no two documents are called alike."""
+    yield ("project", "title"), f"{project.get('title', '')} – variant {variant} of {Path(study).stem}"
+    if number := project.get("document_number"):
+        yield ("project", "document_number"), f"{number}/V{variant}"
 
 
 def _refuse_error(stored: Stored, variant: int) -> None:
@@ -57,9 +65,10 @@ def _row(stored: Stored, variant: int) -> list[tuple[Column, Any]]:
     rows = stored.rows(f"SELECT {names} FROM v WHERE variant = ?", [variant])
     if not rows:
         first, last = stored.rows("SELECT min(variant), max(variant) FROM v")[0]
+        is_whole = stored.study.get("state") == "complete"
         words = (
-            f"There is no variant {variant} here. The stored ones are within {first} … {last}; "
-            "a number in between that is missing was dropped by a constraint or is not calculated yet."
+            f"There is no variant {variant} here. The stored ones are within {first} … {last}; a number in between that is missing "
+            + ("was dropped by a constraint." if is_whole else "was dropped by a constraint or is not calculated yet.")
         )
         raise UserError(Problem(words, str(stored.folder)))
     given = [(column, _told(value, column)) for column, value in zip(stored.varied, rows[0], strict=False)]

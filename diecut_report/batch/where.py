@@ -154,7 +154,7 @@ class _Reader:
     def alike(self, one: Term, two: Term) -> None:
         """Refuses different kinds, and numbers without unit where the unit that people read is not the SI unit."""
         for term, other in ((one, two), (two, one)):
-            if term.bare and other.kind != PURE:
+            if term.bare and (other.kind != PURE or other.column):
                 self.bare(term, other)
                 return
         if same(one, two):

@@ -5,6 +5,7 @@ from __future__ import annotations
 import re
 from collections.abc import Mapping
 from dataclasses import dataclass, field
+from functools import reduce
 from typing import Any, NamedTuple
 
 from diecut_report.batch.stored import Column
@@ -120,9 +121,11 @@ def same(one: Term, two: Term) -> bool:
 
 
 def known(term: Term) -> str:
-    """The SQL of a side of a comparison; what is not defined (the root of a negative number) is neither more nor less."""
+    """The SQL of a side of a comparison; what is not defined (a root of less than 0, a division by 0) is neither more nor less."""
     is_made = term.sort == "number" and term.sql[0] not in '?"'
-    return f"nullif({term.sql}, 'NaN'::DOUBLE)" if is_made else term.sql
+    if not is_made:
+        return term.sql
+    return reduce(lambda sql, undefined: f"nullif({sql}, '{undefined}'::DOUBLE)", ("NaN", "inf", "-inf"), term.sql)
 
 
 def measured(typed: str, column: Column | None) -> Term:

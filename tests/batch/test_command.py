@@ -9,10 +9,12 @@ import subprocess
 import sys
 from pathlib import Path
 
+import numpy as np
 import pyarrow.parquet as pq
 import pytest
 
 from diecut_report import cli
+from diecut_report.batch.reports import best
 from tests.batch.studies import BASE, STUDY, varied
 from tests.configs import GOOD, saved
 
@@ -41,7 +43,7 @@ def test_a_study_becomes_a_folder_named_as_it(tmp_path: Path, monkeypatch: pytes
     assert run("batch", "../study.yaml") == 0
     out, err = capfd.readouterr()
     assert out == ""
-    assert err.splitlines() == ["written: study", "6 variants: 6 pass."]
+    assert err.splitlines() == ["written: study, with summary.html and summary.pdf", "6 variants: 6 pass."]
     assert {path.name for path in Path("study").iterdir()} >= {
         "study.json",
         "study.yaml",
@@ -139,6 +141,30 @@ def test_other_formats_stand_beside_the_parts(tmp_path: Path) -> None:
     assert "mechanisms.a.force [N]" in header
 
 
+def test_a_study_given_to_another_command_is_told(tmp_path: Path, capfd: Capture) -> None:
+    assert run("calc", files(tmp_path)) == 2
+    assert "This is a study: calculate it with diecut-report batch" in capfd.readouterr().err
+
+
+def test_a_refused_folder_and_a_cluster_that_is_not_there_leave_nothing(tmp_path: Path, capfd: Capture) -> None:
+    (tmp_path / "full").mkdir()
+    (tmp_path / "full" / "mine").touch()
+    assert run("batch", files(tmp_path), "-o", tmp_path / "full") == 2
+    assert [path.name for path in (tmp_path / "full").iterdir()] == ["mine"]
+    assert run("batch", files(tmp_path), "-o", tmp_path / "out", "--dask", "tcp://127.0.0.1:1") == 2
+    assert "cannot be reached" in capfd.readouterr().err
+    assert not (tmp_path / "out").exists()
+
+
+def test_rounding_makes_no_variant_better(tmp_path: Path) -> None:
+    columns = {
+        "status": np.array(["pass"] * 3, object),
+        "a.x": np.array([2.0, 1.0, 1 + 1e-15]),
+        "a.y": np.array([1.0, 1 + 2e-16, 1.0]),
+    }
+    assert list(best(columns, [("a.x", True), ("a.y", True)], 1)) == [1]
+
+
 @pytest.mark.parametrize(
     ("arguments", "words"),
     [
@@ -174,7 +200,11 @@ def test_progress_on_a_terminal_and_silence_in_pipes(tmp_path: Path) -> None:
     os.close(parent)
     assert shown.wait() == 0
     assert b"6/6" in told
-    assert b"0 fail" in told
+    assert b"0 of 6 fail" in told
+    assert b"summary" in told
     silent = subprocess.run([*command, str(tmp_path / "two")], capture_output=True)
-    assert silent.stderr.decode().splitlines() == [f"written: {tmp_path / 'two'}", "6 variants: 6 pass."]
+    assert silent.stderr.decode().splitlines() == [
+        f"written: {tmp_path / 'two'}, with summary.html and summary.pdf",
+        "6 variants: 6 pass.",
+    ]
     assert subprocess.run([*command, str(tmp_path / "three"), "--quiet"], capture_output=True).stderr == b""

@@ -150,7 +150,7 @@ def test_chunk_that_ends_its_workers_is_told(cluster: Cluster, tmp_path: Path) -
 
 
 @pytest.mark.slow
-def test_lost_scheduler_is_told(cluster: Cluster, tmp_path: Path) -> None:
+def test_lost_scheduler_is_told(cluster: Cluster, tmp_path: Path, caplog: pytest.LogCaptureFixture) -> None:
     cluster.worker()
     with (
         pytest.raises(UserError, match=r"cannot be reached any more\. .*--resume"),
@@ -159,6 +159,7 @@ def test_lost_scheduler_is_told(cluster: Cluster, tmp_path: Path) -> None:
         for chunk, _ in results(engine, slow_square, range(1000)):
             if chunk == 2:
                 cluster.started[0].kill()
+    assert [record.name for record in caplog.records] == []  # no traceback beside the words
 
 
 @pytest.mark.slow

@@ -33,7 +33,7 @@ def example(tmp_path: Path, guide: str) -> Study:
 
 def test_its_study_is_valid(example: Study) -> None:
     assert example.sample.count == 2000
-    assert len(example.inputs) == 4
+    assert len(example.inputs) == 5
     assert example.curves == ("drive.crank_torque", "drive.crank_angle")
 
 

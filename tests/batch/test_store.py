@@ -351,6 +351,12 @@ def test_damaged_part_is_to_be_calculated_again(tmp_path: Path, keep: int) -> No
         store.read()
 
 
+def test_copy_of_another_part_is_to_be_calculated_again(tmp_path: Path) -> None:
+    store = filled(tmp_path / "out")
+    store.part(4).write_bytes(store.part(5).read_bytes())
+    assert store.done_parts() == set(range(10)) - {4}
+
+
 def test_part_of_which_some_bytes_have_changed_is_to_be_calculated_again(tmp_path: Path) -> None:
     store = filled(tmp_path / "out", description(3000, 3000))
     content = bytearray(store.part(0).read_bytes())
