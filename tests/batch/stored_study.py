@@ -53,6 +53,22 @@ mechanisms:
         driven_teeth: 36
 """
 
+STUDY = """\
+schema_version: 1
+base: press.yaml
+sample: {method: latin_hypercube, count: 13, seed: 4}
+vary:
+  mechanisms.drive.crank_speed: {from: 30 rpm, to: 6.6e1 rpm}   # the crank
+  mechanisms.cylinder.bore_radius: {distribution: normal, mean: 70 mm, sd: 5 mm, low: 50 mm}
+  mechanisms.drive.motion_law: ["harmonic", cycloidal]
+constraints:
+  - mechanisms.cylinder.bore_radius <= mechanisms.cylinder.radius - '1 mm'
+objectives:
+  - minimise: drive.power_peak
+  - minimise: cylinder.mass
+reports: best 2
+"""
+
 
 def calculated(speed: Any, bore: Any, law: Sequence[str]) -> dict[str, Any]:
     """Columns of a study by simple rules: a heavier cylinder and a faster crank ask for more torque."""
@@ -89,12 +105,12 @@ def _without_broken(columns: Mapping[str, Any], bore: Any) -> dict[str, Any]:
 
 
 def written(
-    folder: Path, columns: Sequence[Column], values: Mapping[str, Any], parts: int = 1, **facts: Any
+    folder: Path, columns: Sequence[Column], values: Mapping[str, Any], parts: int = 1, text: str = STUDY, **facts: Any
 ) -> Path:  # fmt: skip
-    """A study's folder with these values, through the store; ``facts`` are what a run notes in study.json."""
+    """A study's folder with these values, through the store; ``text`` is its study file, ``facts`` are what a run notes in study.json."""
     count = len(values["status"])
     every = max(1, -(-count // parts))
-    study = Source("study.yaml", sha256(b"vary: 2\n").hexdigest(), b"vary: 2\n")
+    study = Source("study.yaml", sha256(text.encode()).hexdigest(), text.encode())
     kept = Source("press.yaml", sha256(BASE.encode()).hexdigest(), BASE.encode())
     store = Store.create(folder, Description(study, kept, tuple(columns), count, every))
     with store.lock():

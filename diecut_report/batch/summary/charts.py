@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from functools import partial
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 from matplotlib.axes import Axes
@@ -13,7 +13,7 @@ from matplotlib.figure import Figure
 from diecut_report.batch.stored import STATUSES, Column
 from diecut_report.batch.summary.data import Histogram
 from diecut_report.batch.summary.influence import Influence, Share
-from diecut_report.batch.summary.names import factor, named, titled, wrapped
+from diecut_report.batch.summary.names import factor, is_utilisation, named, titled, wrapped
 from diecut_report.report.charts_diagram import WIDTH
 from diecut_report.report.figures import ACCENT, FONT_SIZE, INK, SOFT, Svg, canvas, drawn, text_size
 from diecut_report.report.numbers import number
@@ -21,6 +21,7 @@ from diecut_report.report.numbers import number
 COLOURS = {"pass": "#6f9fc0", "warn": "#d9a13a", "fail": "#a3161a", "error": "#9aa4ae"}
 ORDER = ("pass", "warn", "fail")  # from the back to the front
 FOOT, HEAD = 24.0, 22.0  # points below and above a small diagram
+SCALE = 24.0  # points of the numbers beside a small diagram
 LABEL = 240.0  # points of a name beside a bar
 MOST_BARS = 15  # inputs of an influence
 
@@ -67,26 +68,33 @@ def _shares(counts: dict[str, int]) -> Figure:
     return sheet
 
 
-def stacked(rows: Sequence[tuple[str, Sequence[float]]], colours: Sequence[str], told: str, key: str) -> Svg:
-    """Horizontal bars of counts, each of several parts, with their sum."""
+class Bar(NamedTuple):
+    """A bar of counts: its name, its parts, and what stands behind it."""
+
+    name: str
+    parts: Sequence[float]
+    told: str
+
+
+def stacked(rows: Sequence[Bar], colours: Sequence[str], told: str, key: str) -> Svg:
+    """Horizontal bars of counts, each of several parts."""
     return chart(partial(_stacked, rows, colours), told, key)
 
 
-def _stacked(rows: Sequence[tuple[str, Sequence[float]]], colours: Sequence[str]) -> Figure:
-    labels = [wrapped(name, LABEL, FONT_SIZE, 1) for name, _ in rows]
+def _stacked(rows: Sequence[Bar], colours: Sequence[str]) -> Figure:
+    labels = [wrapped(row.name, LABEL, FONT_SIZE, 1) for row in rows]
     sheet, names = canvas(WIDTH, 17.0 * len(rows) + 8), max(text_size(label)[0] for label in labels) + 10
-    axes = panel(sheet, names, 4, WIDTH - names - 50, 17.0 * len(rows))
-    for place, (_, parts) in zip(range(len(rows))[::-1], rows, strict=True):
+    behind = max(text_size(row.told, 8)[0] for row in rows) + 10
+    axes = panel(sheet, names, 4, WIDTH - names - behind, 17.0 * len(rows))
+    for place, row in zip(range(len(rows))[::-1], rows, strict=True):
         start = 0.0
-        for part, colour in zip(parts, colours, strict=True):
+        for part, colour in zip(row.parts, colours, strict=True):
             axes.barh(place, part, 0.66, start, color=colour)
             start += part
-        axes.annotate(
-            number(f"{start:.0f}"), (start, place), (4, 0), textcoords="offset points", va="center_baseline", size=8
-        )
+        axes.annotate(row.told, (start, place), (4, 0), textcoords="offset points", va="center_baseline", size=8)
     axes.set_yticks(range(len(rows))[::-1], labels, va="center_baseline")
     _bare(axes, len(rows))
-    axes.set_xlim(0, max(sum(parts) for _, parts in rows) or 1)
+    axes.set_xlim(0, max(sum(row.parts) for row in rows) or 1)
     return sheet
 
 
@@ -106,7 +114,7 @@ def influence(found: Influence, told: str, key: str) -> Svg:
 
 
 def _influence(found: Influence) -> Figure:
-    rows = found.shares[:MOST_BARS]
+    rows = found.telling[:MOST_BARS]
     sheet = canvas(WIDTH, 17.0 * len(rows) + 26)
     labels = [wrapped(named(share.column), LABEL, FONT_SIZE, 1) for share in rows]
     names = max(text_size(label)[0] for label in labels) + 10
@@ -147,9 +155,10 @@ def _distributions(found: Sequence[Histogram]) -> Figure:
     sheet = canvas(WIDTH, rows * (high + FOOT + HEAD))
     for index, each in enumerate(found):
         row, column = divmod(index, 3)
-        axes = panel(sheet, column * (wide + 16) + 4, (rows - row - 1) * (high + FOOT + HEAD) + FOOT, wide - 16, high)
+        left, below = column * (wide + 16) + SCALE, (rows - row - 1) * (high + FOOT + HEAD) + FOOT
+        axes = panel(sheet, left, below, wide - SCALE - 12, high)
         _bars(axes, each)
-        _title(axes, each.column, wide)
+        _title(axes, each.column, wide - SCALE)
     return sheet
 
 
@@ -162,8 +171,12 @@ def _bars(axes: Axes, each: Histogram) -> None:
     other = each.counts.sum(axis=0) - start
     axes.bar(edges[:-1], other, np.diff(edges), start, align="edge", color=COLOURS["error"], linewidth=0)
     axes.set_xlim(edges[0], edges[-1])
-    axes.set_ylim(0, max(1, float(each.counts.sum(axis=0).max()) * 1.05))
-    axes.yaxis.set_visible(False)
+    most = int(each.counts.sum(axis=0).max())
+    axes.set_ylim(0, max(1, most * 1.05))
+    axes.set_yticks([most], [number(str(most))], size=6.5)
+    axes.tick_params(axis="y", length=2, pad=1)
+    if is_utilisation(each.column) and edges[0] < 1 < edges[-1]:
+        axes.axvline(1, color=INK, linewidth=0.6, linestyle=(0, (2, 2)))
     axes.locator_params(axis="x", nbins=4)
     if each.is_open:
         axes.text(1, 0.3, "≥", transform=axes.transAxes, ha="right", va="bottom", size=8)

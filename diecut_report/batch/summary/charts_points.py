@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from functools import partial
 from typing import Any
 
@@ -21,7 +21,10 @@ from diecut_report.batch.summary.pareto import Front
 from diecut_report.report.charts_diagram import WIDTH
 from diecut_report.report.figures import INK, Svg, canvas, plain
 
+Ends = tuple[float, float, bool]  # of an axis, and whether greater values stand at its upper end
 SHADES = LinearSegmentedColormap.from_list("shares", [COLOURS["fail"], "#c9c2c0", "#2f6f9e"])
+WORDS = 16  # on an upright axis
+LEGEND = 16.0  # points of a legend below a chart
 MARKERS = {"pass": "o", "warn": "^", "fail": "x"}
 
 
@@ -35,11 +38,12 @@ def scatter(
 def _scatter(drawn_from: Sample, pairs: Sequence[tuple[Column, Column]], front: Front | None) -> Figure:
     across = 1 if len(pairs) == 1 else 3
     wide, high = (WIDTH - 60, 230.0) if across == 1 else ((WIDTH - 3 * 44) / 3 - 4, 96.0)
-    rows, pitch = -(-len(pairs) // across), high + 46 + HEAD
+    under = LEGEND if across == 1 else 0.0
+    rows, pitch = -(-len(pairs) // across), high + 46 + HEAD + under
     sheet = canvas(WIDTH, rows * pitch)
     for index, (x, y) in enumerate(pairs):
         row, column = divmod(index, across)
-        axes = panel(sheet, 44 + column * (wide + 44), (rows - row - 1) * pitch + 40, wide, high)
+        axes = panel(sheet, 44 + column * (wide + 44), (rows - row - 1) * pitch + 40 + under, wide, high)
         _points(
             axes,
             drawn_from,
@@ -50,8 +54,7 @@ def _scatter(drawn_from: Sample, pairs: Sequence[tuple[Column, Column]], front: 
         _front(axes, front, x, y)
         _named(axes, drawn_from, x, y, wide)
     if across == 1:
-        handles, names = axes.get_legend_handles_labels()
-        axes.legend(handles, names, loc="best", frameon=True, framealpha=0.85, edgecolor="none")
+        _legend(sheet, axes)
     return sheet
 
 
@@ -79,7 +82,7 @@ def cells(found: Density, told: str, key: str, front: Front | None = None) -> Sv
 
 
 def _cells(found: Density, front: Front | None) -> Figure:
-    wide, high, foot = WIDTH - 60, 230.0, 40.0
+    wide, high, foot = WIDTH - 60, 230.0, 40.0 + LEGEND
     sheet = canvas(WIDTH, high + foot + HEAD)
     axes = panel(sheet, 44, foot, wide, high)
     j, i = np.nonzero(found.counts)
@@ -98,8 +101,15 @@ def _cells(found: Density, front: Front | None) -> Figure:
     _titles(axes, found.x, found.y, wide)
     for told, part in (("none passes", 0.0), ("half pass", 0.5), ("all pass", 1.0)):
         axes.plot([], [], "s", color=shade(part), markersize=5, label=told)
-    axes.legend(loc="best", frameon=True, framealpha=0.85, edgecolor="none")
+    _legend(sheet, axes)
     return sheet
+
+
+def _legend(sheet: Figure, axes: Axes) -> None:
+    """The legend below the chart, where no point lies."""
+    handles, names = axes.get_legend_handles_labels()
+    left = axes.get_position().x0
+    sheet.legend(handles, names, loc="lower left", bbox_to_anchor=(left, 0), ncols=len(names), borderaxespad=0)
 
 
 def shade(share: float) -> Any:
@@ -131,10 +141,14 @@ def _front(axes: Axes, front: Front | None, x: Column, y: Column) -> None:
         return
     values = front.values[:, [names.index(x.name), names.index(y.name)]] * (factor(x), factor(y))
     values = values[np.argsort(values[:, 0])]
+    step = (
+        "steps-post" if front.objectives[names.index(x.name)].is_less else "steps-pre"
+    )  # round what the front betters
     line = "-" if len(names) == 2 else "none"
     axes.plot(
         *values.T,
         linestyle=line,
+        drawstyle=step,
         marker="D",
         color=INK,
         markersize=3.4 if len(values) < 60 else 1.2,
@@ -159,36 +173,51 @@ def _titles(axes: Axes, x: Column, y: Column, wide: float) -> None:
     axes.set_xlabel(wrapped(titled(x), wide, 7.5, 2), labelpad=1.5, size=7.5, linespacing=1.05)
 
 
-def parallel(drawn_from: Sample, columns: Sequence[Column], told: str) -> Svg:
-    """A line for each variant over an upright axis for each quantity; those that fail behind those that pass."""
-    return chart(partial(_parallel, drawn_from, columns), told, "parallel")
+def parallel(drawn_from: Sample, columns: Sequence[Column], ends: Mapping[str, Ends], told: str) -> Svg:
+    """A line for each variant over an upright axis for each quantity; those that fail behind those that pass.
+
+    ``ends`` are the ends of the axes, over all variants.
+    """
+    return chart(partial(_parallel, drawn_from, columns, ends), told, "parallel")
 
 
-def _parallel(drawn_from: Sample, columns: Sequence[Column]) -> Figure:
+def _parallel(drawn_from: Sample, columns: Sequence[Column], ends: Mapping[str, Ends]) -> Figure:
     pitch = (WIDTH - 76) / (len(columns) - 1)
     names = [wrapped(titled(column), min(pitch, 100) - 6, 6.5, 6) for column in columns]
     foot = 16 + 8.0 * max(name.count("\n") + 1 for name in names)
     sheet = canvas(WIDTH, 204 + foot)
     axes = panel(sheet, 38, foot, WIDTH - 76, 190)
+    low, top = (np.array([ends[column.name][side] for column in columns]) for side in (0, 1))
     raw = np.column_stack([drawn_from.values[column.name] for column in columns])
-    shown = np.column_stack([near(values) for values in raw.T])
-    low, top, high = np.nanmin(raw, axis=0), np.nanmax(shown, axis=0), np.nanmax(raw, axis=0)
-    scaled = (shown - low) / np.where(top > low, top - low, 1.0)
+    scaled = (np.minimum(raw, top) - low) / np.where(top > low, top - low, 1.0)
     alpha = float(np.clip(60 / max(len(raw), 1), 0.15, 0.9))
-    for status in ("fail", "warn", "pass"):
+    for order, status in enumerate(("fail", "warn", "pass")):
         lines = scaled[drawn_from.status == STATUSES.index(status)]
-        axes.plot(np.arange(len(columns)), lines.T, "-", color=COLOURS[status], linewidth=0.7, alpha=alpha)
+        wide, strong = (0.5, alpha) if status == "fail" else (1.0, min(1.0, 3 * alpha))
+        look: dict[str, Any] = {"color": COLOURS[status], "linewidth": wide, "alpha": strong, "zorder": 2 + 0.1 * order}
+        axes.plot(np.arange(len(columns)), lines.T, "-", **look)
     for place, column in enumerate(columns):
-        axes.axvline(place, color=INK, linewidth=0.8)
-        lower, upper = _ends(drawn_from, column, low[place], top[place])
-        upper = f"≥ {upper}" if top[place] < high[place] else upper
-        _text(axes, lower, (place, 0), -3, 7)
-        _text(axes, upper, (place, 1), 3, 7)
+        axes.axvline(place, color=INK, linewidth=0.8, zorder=3)
+        _scale(axes, place, column, ends[column.name], drawn_from.words.get(column.name))
         _text(axes, names[place], (place, 0), -13, 6.5)
     axes.set_ylim(-0.01, 1.01)
     axes.set_xlim(0, len(columns) - 1)
     axes.set_axis_off()
     return sheet
+
+
+def _scale(axes: Axes, place: int, column: Column, ends: Ends, words: list[str] | None) -> None:
+    """The ends of an upright axis; of words each at its place."""
+    low, top, is_cut = ends
+    if words is None:
+        _text(axes, display(low, column), (place, 0), -3, 7)
+        _text(axes, f"{'≥ ' if is_cut else ''}{display(top, column)}", (place, 1), 3, 7)
+        return
+    last = len(words) - 1
+    for index, word in list(enumerate(words))[:: -(-len(words) // WORDS)]:
+        box = {"facecolor": "white", "edgecolor": "none", "alpha": 0.8, "pad": 0.6}
+        height = index / last if last else 0.0
+        axes.annotate(plain(word), (place, height), ha="center", va="center", size=6.5, bbox=box, zorder=4)
 
 
 def _text(axes: Axes, text: str, place: tuple[float, float], above: float, size: float) -> None:
@@ -197,10 +226,3 @@ def _text(axes: Axes, text: str, place: tuple[float, float], above: float, size:
     axes.annotate(
         text, place, (0, above), textcoords="offset points", ha="center", va=side, size=size, linespacing=1.05
     )
-
-
-def _ends(drawn_from: Sample, column: Column, low: float, high: float) -> tuple[str, str]:
-    words = drawn_from.words.get(column.name)
-    if words:
-        return plain(words[int(low)]), plain(words[int(high)])
-    return display(low, column), display(high, column)

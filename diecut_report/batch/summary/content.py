@@ -2,46 +2,27 @@
 
 from __future__ import annotations
 
-import re
 from dataclasses import dataclass
-from typing import Any, NamedTuple
+from typing import Any
 
 from diecut_report import yaml_tree
 from diecut_report.batch.stored import Column, Stored
-from diecut_report.batch.summary import data, influence, matrix, pareto
-from diecut_report.batch.summary.data import WORST, Failure, Reason, Spread, Utilisation
+from diecut_report.batch.summary import asked, best, data, influence, matrix, pareto, passing, verdicts
+from diecut_report.batch.summary.data import Reason, Spread, Utilisation
 from diecut_report.batch.summary.figures import Figure, Figures
-from diecut_report.batch.summary.names import counted, display, named, titled, utilised
+from diecut_report.batch.summary.names import WORST, counted, titled, utilised
+from diecut_report.batch.summary.ranked import Ranked, ranked
+from diecut_report.batch.summary.verdicts import Failure
 
 SAMPLED = 1_500  # variants in the charts of points
 NUMBERS, FEWEST = 200_000, 400  # that the page carries for the chart of any two quantities; variants of them at least
-TARGETS, CHARTED = 5, 3  # quantities that influence is told of, and drawn for
-PANELS, RANGES, POINTS = 12, 36, 30  # histograms, rows of ranges, quantities of the charts on paper
-
-
-class Best(NamedTuple):
-    """A variant on the front: its number, report, and its objectives and inputs as texts."""
-
-    variant: int
-    href: str
-    values: list[str]
-
-
-class Ranked(NamedTuple):
-    """The influence of the inputs: quantities and, for each input, a text for each of them; charts of the first quantities."""
-
-    targets: list[str]
-    rows: list[tuple[str, list[str]]]
-    figures: list[Figure]
-    variants: str
-
-
-class Report(NamedTuple):
-    """A full report of a variant."""
-
-    variant: int
-    href: str
-    status: str
+TARGETS = 5  # quantities that influence is told of
+PANELS, CHECKS, RANGES, POINTS = (
+    12,
+    4,
+    36,
+    30,
+)  # histograms, checks of them, rows of ranges, quantities of the charts on paper
 
 
 @dataclass
@@ -56,7 +37,10 @@ class Summary:
     total: int
     statuses: dict[str, int]
     facts: list[tuple[str, str]]
+    asked: asked.Asked | None
     failures: list[Failure]
+    governing: list[verdicts.Governing]
+    passing: list[passing.Values]
     utilisations: list[Utilisation]
     unmade: list[str]
     idle: int
@@ -65,11 +49,11 @@ class Summary:
     spreads: list[Spread]
     more_spreads: int
     reasons: list[Reason]
-    reports: list[Report]
+    reports: list[best.Report]
     more_reports: int
     front: pareto.Front | None
     best_head: list[str]
-    best: list[Best]
+    best: list[best.Best]
     is_sobol: bool
     ranked: Ranked | None
     slow: dict[str, str]
@@ -83,6 +67,16 @@ class Summary:
         """A variant to name in a command: the best, else the first of the matrix."""
         rows = self.matrices[0].rows if self.matrices else []
         return self.best[0].variant if self.best else rows[0].variant if rows else 0
+
+    @property
+    def calculated(self) -> int:
+        """How many variants can exist."""
+        return self.total - self.statuses["error"]
+
+    @property
+    def sound(self) -> int:
+        """How many variants do not fail."""
+        return self.statuses["pass"] + self.statuses["warn"]
 
     @property
     def status(self) -> str:
@@ -101,45 +95,45 @@ def content(stored: Stored) -> Summary:
     varying = [spread.column for spread in spreads.values() if _is_telling(spread)]
     used = data.utilisations(stored)
     main = _main(stored, goals, varying, [row.check for row in used if row.failing or row.warning])
-    ranked = influence.influences(stored, main[:TARGETS])
+    found = influence.influences(stored, main[:TARGETS])
     choices = _choices(stored, varying, main)
     sample = data.sample(stored, choices[:POINTS], SAMPLED)
     drawn = min(SAMPLED, max(FEWEST, NUMBERS // max(1, len(choices))))
-    made, failures = [row for row in used if row.is_made], data.failures(stored)
+    made, failures = [row for row in used if row.is_made], verdicts.failures(stored, used)
+    governing = verdicts.governing(stored)
     figures = Figures(stored, states, sample, front, main, spreads)
-    best, reports = [int(variant) for variant in front.variants] if front else [], matrix.reported(stored.folder)
+    first, reports = [int(variant) for variant in front.variants] if front else [], matrix.reported(stored.folder)
     ranges = [spreads[c.name] for c in (*stored.varied, *main) if c in varying and ".checks." not in c.name]
+    panels = _panels(stored, goals, [*(row.check for row in failures), *(row.check for row in governing)], varying)
+    groups = matrix.chosen(stored, total, first)
+    shown = best.columns(stored, goals)
     return Summary(
-        title=_title(stored),
-        folder=stored.folder.resolve().name,
-        study=stored.study,
-        files=_files(stored),
+        title=_title(stored), folder=stored.folder.resolve().name, study=stored.study, files=_files(stored),
         checks={check: stored.check_told(check) for check in stored.checks},
-        total=total,
-        statuses=states,
-        facts=_facts(stored, total),
-        failures=failures,
-        utilisations=made,
-        unmade=[row.check for row in used if not row.is_made],
+        total=total, statuses=states, facts=_facts(stored, total), asked=asked.asked(stored),
+        failures=failures, governing=governing, passing=passing.values(stored),
+        utilisations=made, unmade=[row.check for row in used if not row.is_made],
         idle=len(made) - len(matrix.telling(made)),
-        matrices=list(matrix.matrices(stored, matrix.chosen(stored, total, best), [row.check for row in matrix.telling(made)])),
+        matrices=list(matrix.matrices(stored, groups, [row.check for row in matrix.telling(made)])),
         is_whole=total <= matrix.ALL,
-        spreads=ranges[:RANGES],
-        more_spreads=max(0, len(ranges) - RANGES),
+        spreads=ranges[:RANGES], more_spreads=max(0, len(ranges) - RANGES),
         reasons=data.reasons(stored) if states["error"] else [],
-        reports=_reports(stored, reports[: matrix.LISTED]),
-        more_reports=max(0, len(reports) - matrix.LISTED),
-        front=front,
-        best_head=[titled(column) for column in _best_columns(stored, goals)],
-        best=_best(stored, best[: matrix.BEST], _best_columns(stored, goals)),
-        is_sobol=influence.is_saltelli(stored),
-        ranked=_ranked(ranked, figures) if ranked else None,
+        reports=best.reports(stored, reports[: matrix.LISTED]), more_reports=max(0, len(reports) - matrix.LISTED),
+        front=front, best_head=[titled(column) for column in shown], best=best.best(stored, first[: matrix.BEST], shown),
+        is_sobol=influence.is_saltelli(stored), ranked=ranked(found, figures) if found else None,
         slow=dict(stored.study.get("slow") or {}),
-        figures=figures.all(failures, [spreads[c.name] for c in main if c.name in spreads and spreads[c.name].varies][:PANELS], ranked),
-        any_two=data.sample(stored, choices, drawn),
-        varied=stored.varied,
-        choices=choices,
+        figures=figures.all(failures, [spreads[column.name] for column in panels][:PANELS], found),
+        any_two=data.sample(stored, choices, drawn), varied=stored.varied, choices=choices,
     )  # fmt: skip
+
+
+def _panels(
+    stored: Stored, goals: tuple[pareto.Objective, ...], checks: list[str], varying: list[Column]
+) -> list[Column]:
+    """The quantities of histograms: objectives, utilisations of failing and governing checks, inputs, then the others."""
+    limits = [stored.checks[check][0] for check in dict.fromkeys(checks) if check in stored.checks]
+    wanted = [*(goal.column for goal in goals), WORST, *limits[:CHECKS], *stored.varied, *limits, *varying]
+    return [column for column in dict.fromkeys(wanted) if column in varying]
 
 
 def _is_telling(spread: Spread) -> bool:
@@ -194,66 +188,15 @@ def _title(stored: Stored) -> str:
 
 def _margin(stored: Stored) -> list[tuple[str, str]]:
     """Which of the variants that do not fail keeps most from its limits."""
-    if not stored.checks:
+    found = verdicts.margin(stored) if stored.checks else None
+    if found is None:
         return []
-    sql = f"SELECT variant, {WORST.sql}, governing FROM w WHERE status IN ('pass', 'warn') AND {WORST.sql} IS NOT NULL ORDER BY 2, 1 LIMIT 1"
-    return [
-        ("Most margin", f"variant {one}: utilisation {utilised(used)} at most, by “{stored.check_told(check)}”")
-        for one, used, check in stored.rows(sql)
-    ]
+    whose = f"utilisation {utilised(found.utilisation)} at most, by “{stored.check_told(found.check)}”"
+    more = f", and {counted(found.shared - 1, 'other variant')} with the same" if found.shared > 1 else ""
+    return [("Most margin", f"variant {found.variant}{more}: {whose}")]
 
 
 def _files(stored: Stored) -> list[tuple[str, str]]:
     """The files that the study was made from, with their SHA-256."""
     made = stored.description
     return [(source.file, source.sha256) for source in (made.study, made.base, *made.tables)]
-
-
-def _reports(stored: Stored, variants: list[int]) -> list[Report]:
-    listed = ", ".join(map(str, variants)) or "NULL"
-    states = dict(stored.rows(f"SELECT variant, status FROM v WHERE variant IN ({listed})"))
-    return [Report(one, matrix.report_of(stored.folder, one), states[one]) for one in variants if one in states]
-
-
-def _best_columns(stored: Stored, goals: tuple[pareto.Objective, ...]) -> list[Column]:
-    return list(dict.fromkeys([*(goal.column for goal in goals), *stored.varied[:6]]))
-
-
-def _best(stored: Stored, variants: list[int], columns: list[Column]) -> list[Best]:
-    names, listed = ", ".join(column.sql for column in columns) or "NULL", ", ".join(map(str, variants)) or "NULL"
-    rows = {row[0]: row[1:] for row in stored.rows(f"SELECT variant, {names} FROM v WHERE variant IN ({listed})")}
-    return [
-        Best(
-            one,
-            matrix.report_of(stored.folder, one),
-            [_told(value, column) for value, column in zip(rows[one], columns, strict=True)],
-        )
-        for one in variants
-    ]
-
-
-def _told(value: Any, column: Column) -> str:
-    if value is None:
-        return "–"
-    return display(float(value), column) if column.is_number else str(value)
-
-
-def _ranked(found: list[influence.Influence], figures: Figures) -> Ranked:
-    """One table for all quantities, its inputs in the order of the first of them."""
-    by_target = [{share.column: share for share in each.shares} for each in found]
-    inputs = list(dict.fromkeys(column for shares in by_target for column in shares))
-    rows = [(named(column), [_share(shares.get(column)) for shares in by_target]) for column in inputs]
-    drawn = [figures.influence(each) for each in found if each.is_certain][:CHARTED]
-    return Ranked(
-        [named(each.target) for each in found], rows, drawn, counted(max(each.variants for each in found), "variant")
-    )
-
-
-def _share(share: influence.Share | None) -> str:
-    if share is None or not share.is_certain:
-        return "–"
-    if share.total is not None:
-        text = f"{share.first:.2f} ± {share.first_error or 0:.2f} / {share.total:.2f} ± {share.total_error or 0:.2f}"
-    else:
-        text = f"{share.first:.2f}" if share.column.kind == "text" else f"{share.first:+.2f}"
-    return re.sub(r"[-+](?=0\.00)", "", text).replace("-", "−")

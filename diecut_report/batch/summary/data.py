@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from itertools import pairwise
@@ -11,22 +12,16 @@ import numpy as np
 from numpy.typing import NDArray
 
 from diecut_report.batch.stored import STATUSES, Column, Stored, text
+from diecut_report.batch.summary.names import WORST, is_utilisation
 
 Array = NDArray[Any]
-WORST = Column("greatest utilisation", "float", title="Greatest utilisation of all checks")
+FAILING = '"failing checks"'  # SQL: how many checks of a variant fail
+SOUND = "status IN ('pass', 'warn')"  # SQL: no check fails
 BANDS = (0.5, 0.8, 1.0, 1.25)  # limits between the classes of utilisation
 BINS, FEWEST = 24, 6  # classes of a histogram
 CELLS = (52, 34)  # across and upwards, in a chart of where variants lie
 AT_ONCE, EXACT = 16, 100_000  # columns in a query; rows up to which the median is exact
 REASONS = 15
-
-
-class Failure(NamedTuple):
-    """A check, and of how many failing and warning variants it is the governing one."""
-
-    check: str
-    failing: int
-    warning: int
 
 
 class Utilisation(NamedTuple):
@@ -102,13 +97,19 @@ class Sample:
 
 
 def prepare(stored: Stored) -> None:
-    """Names ``w``: the variants with their greatest utilisation of all checks; none where a check fails without one."""
+    """Names ``w``: the variants with their greatest utilisation of all checks, none where a check fails without one.
+
+    And with the number of checks that fail.
+    """
     pairs = [(value.sql, status.sql) for value, status in stored.checks.values()]
     lost = " OR ".join(f"({status} = 'fail' AND {value} IS NULL)" for value, status in pairs)
     worst = (
         f"CASE WHEN {lost} THEN NULL ELSE greatest({', '.join(value for value, _ in pairs)}) END" if pairs else "NULL"
     )
-    stored.connection.execute(f"CREATE VIEW w AS SELECT *, CAST({worst} AS DOUBLE) AS {WORST.sql} FROM v")
+    failing = " + ".join(f"CASE WHEN {status} = 'fail' THEN 1 ELSE 0 END" for _, status in pairs) or "0"
+    stored.connection.execute(
+        f"CREATE VIEW w AS SELECT *, CAST({worst} AS DOUBLE) AS {WORST.sql}, {failing} AS {FAILING} FROM v"
+    )
 
 
 def statuses(stored: Stored) -> dict[str, int]:
@@ -117,18 +118,9 @@ def statuses(stored: Stored) -> dict[str, int]:
     return {status: int(found.get(status, 0)) for status in STATUSES}
 
 
-def failures(stored: Stored) -> list[Failure]:
-    """What governs the variants that fail or warn, the most frequent first."""
-    sql = (
-        "SELECT governing, count(*) FILTER (status = 'fail') AS f, count(*) FILTER (status = 'warn') AS w FROM v "
-        "WHERE status IN ('fail', 'warn') AND governing IS NOT NULL GROUP BY governing ORDER BY f DESC, w DESC, governing"
-    )
-    return [Failure(*row) for row in stored.rows(sql)]
-
-
 def utilisations(stored: Stored) -> list[Utilisation]:
     """Each check over all variants, those with the most failures first."""
-    found = [part for names in _chunks(list(stored.checks)) for part in _utilisations(stored, names)]
+    found = [part for names in chunks(list(stored.checks)) for part in _utilisations(stored, names)]
     return sorted(found, key=lambda row: (-row.failing, -row.warning, -(row.greatest or 0.0), row.check))
 
 
@@ -152,7 +144,8 @@ def _asked(value: Column, status: Column) -> Iterator[str]:
     yield f"max({value.sql})"
 
 
-def _chunks(items: list[Any]) -> Iterator[list[Any]]:
+def chunks(items: list[Any]) -> Iterator[list[Any]]:
+    """As many columns at a time as a query asks for."""
     for start in range(0, len(items), AT_ONCE):
         yield items[start : start + AT_ONCE]
 
@@ -161,7 +154,7 @@ def spreads(stored: Stored, columns: Sequence[Column], total: int) -> dict[str, 
     """The range of each quantity; those that no variant has are left out."""
     quantile = "quantile_cont" if total <= EXACT else "approx_quantile"
     found = {}
-    for part in _chunks([column for column in columns if column.is_number]):
+    for part in chunks([column for column in columns if column.is_number]):
         asked = ", ".join(
             f"min({c.sql}), {quantile}({c.sql}, 0.05), {quantile}({c.sql}, 0.5), {quantile}({c.sql}, 0.95), max({c.sql}), count({c.sql})"
             for c in part
@@ -175,15 +168,24 @@ def spreads(stored: Stored, columns: Sequence[Column], total: int) -> dict[str, 
 
 
 def histogram(stored: Stored, spread: Spread) -> Histogram:
-    """The distribution of a quantity, by status."""
+    """The distribution of a quantity, by status; of a utilisation no class lies on both sides of 1."""
     column, low, high = spread.column, spread.values[0], reach(spread.values[0], spread.values[3], spread.values[-1])
     bins = int(np.clip(2 * spread.present**0.5, FEWEST, BINS))
+    is_open, at = high < spread.values[-1], ""
+    if is_utilisation(column) and low < 1 < high:
+        below = max(1, round((1 - low) / (high - low) * bins))
+        wide = max((1 - low) / below, (high - 1) / max(1, bins - below))
+        low, above = 1 - below * wide, math.ceil((high - 1) / wide)
+        high, bins = 1 + above * wide, below + above
+        place = _place(column, low, high, bins)
+        at = f"CASE WHEN {column.sql} <= 1 THEN least({place}, {below - 1}) ELSE greatest({place}, {below}) END"
     edges = np.linspace(low, high, bins + 1)
-    sql = f"SELECT status, {_place(column, low, high, bins)} AS place, count(*) FROM w WHERE {column.sql} IS NOT NULL GROUP BY ALL"
+    at = at or _place(column, low, high, bins)
+    sql = f"SELECT status, {at} AS place, count(*) FROM w WHERE {column.sql} IS NOT NULL GROUP BY ALL"
     counts = np.zeros((len(STATUSES), bins), dtype=int)
     for status, index, count in stored.rows(sql):
         counts[STATUSES.index(status), index] += count
-    return Histogram(column, edges, counts, high < spread.values[-1])
+    return Histogram(column, edges, counts, is_open)
 
 
 def density(stored: Stored, x: Spread, y: Spread) -> Density:
@@ -192,7 +194,7 @@ def density(stored: Stored, x: Spread, y: Spread) -> Density:
     (left, right), (low, high) = ((each.values[0], reach(each.values[0], *each.values[3:])) for each in (x, y))
     places = f"{_place(x.column, left, right, across)} AS i, {_place(y.column, low, high, up)} AS j"
     there = f"{x.column.sql} IS NOT NULL AND {y.column.sql} IS NOT NULL"
-    sql = f"SELECT {places}, count(*), count(*) FILTER (status IN ('pass', 'warn')) FROM w WHERE {there} GROUP BY ALL"
+    sql = f"SELECT {places}, count(*), count(*) FILTER ({SOUND}) FROM w WHERE {there} GROUP BY ALL"
     counts, sound = np.zeros((2, up, across), dtype=int)
     for i, j, all_, good in stored.rows(sql):
         counts[j, i], sound[j, i] = all_, good

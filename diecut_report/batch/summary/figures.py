@@ -11,15 +11,18 @@ import numpy as np
 from diecut_report.batch.stored import Column, Stored
 from diecut_report.batch.summary import charts, charts_points, data
 from diecut_report.batch.summary.charts_points import near
-from diecut_report.batch.summary.data import Failure, Histogram, Sample, Spread
+from diecut_report.batch.summary.data import Histogram, Sample, Spread
 from diecut_report.batch.summary.influence import Influence, Share
 from diecut_report.batch.summary.names import counted, named, percent, quantity
 from diecut_report.batch.summary.pareto import Front
+from diecut_report.batch.summary.verdicts import Failure
 from diecut_report.report.figures import Svg
+from diecut_report.report.numbers import number
 
 DENSE = 5_000  # variants from which a chart counts them in cells
 AXES, GOVERNING, LINES = 8, 15, 400  # upright axes, bars of governing checks, lines between the axes
 
+PALE = "#e0a3a1"  # of failures that another check governs
 FAR = "Values that lie far above the others stand at the edge."
 
 
@@ -63,16 +66,26 @@ class Figures:
         return Figure(charts.shares(self.states, f"Variants by status: {told}."), "Variants by status.", told)
 
     def failures(self, failures: Sequence[Failure]) -> Figure:
-        """What governs the failing and the warning variants."""
+        """In how many variants the checks fail and govern."""
         rows = failures[:GOVERNING]
         told = "; ".join(
-            f"{self.stored.check_told(row.check)} governs {row.failing} failing and {row.warning} warning variants"
+            f"{self.stored.check_told(row.check)} fails in {row.failing}, governs {row.governing} of them, warns in {row.warning}"
             for row in rows
         )
         more = f" {len(failures) - GOVERNING} rarer checks are left out." if len(failures) > GOVERNING else ""
-        caption = f"Variants by the check that governs them: failing (red) and with a warning (yellow).{more}"
-        colours = [charts.COLOURS["fail"], charts.COLOURS["warn"]]
-        bars = [(self.stored.check_told(row.check), (row.failing, row.warning)) for row in rows]
+        caption = (
+            "Variants in which a check fails: those that it governs (dark red) and those in which another check is "
+            f"overloaded more (pale red); those with a warning (yellow).{more}"
+        )
+        colours = [charts.COLOURS["fail"], PALE, charts.COLOURS["warn"]]
+        bars = [
+            charts.Bar(
+                self.stored.check_told(row.check),
+                (row.governing, row.failing - row.governing, row.warning),
+                _behind(row),
+            )
+            for row in rows
+        ]
         return Figure(charts.stacked(bars, colours, f"{told}.", "failures"), caption, told)
 
     def distributions(self, spreads: Sequence[Spread]) -> Figure:
@@ -81,7 +94,7 @@ class Figures:
         told = "; ".join(_distributed(each, spread) for each, spread in zip(found, spreads, strict=True))
         caption = (
             "Distributions over all variants: pass (blue), warning (yellow), fail (red), each on top of the other; "
-            "heights count variants."
+            "heights count variants, the number is that of the highest bar."
         )
         if any(each.is_open for each in found):
             caption += " Where a few variants lie far above the others (≥), the last bar holds them all."
@@ -92,14 +105,14 @@ class Figures:
         if found.is_sobol:
             told = "; ".join(
                 f"{named(share.column)}: first {share.first:.2f}, total {share.total or 0:.2f}"
-                for share in found.shares
+                for share in found.telling
             )
             caption = (
                 f"Influence on {named(found.target)}. Dark: first index; pale: total index; lines: 95 % intervals."
             )
         else:
-            told = "; ".join(f"{named(share.column)}: {share.first:+.2f}" for share in found.shares)
-            caption = f"Influence on {named(found.target)}: rank correlation; to the right, a greater input gives a greater result."
+            told = "; ".join(f"{named(share.column)}: {share.first:+.2f}" for share in found.telling)
+            caption = f"Influence on {named(found.target)}: partial rank correlation; to the right, a greater input gives a greater result."
         told = f"Influence on {named(found.target)}: {told}"
         return Figure(charts.influence(found, f"{told}.", f"influence of {found.target.name}"), caption, told)
 
@@ -115,8 +128,26 @@ class Figures:
         told = (
             f"{counted(len(some.variants), 'variant')} as lines over {', '.join(named(column) for column in columns)}"
         )
-        caption = f"Each line is a variant, from input to result: pass blue, warning yellow, fail red. {self._drawn(some, columns)}"
-        return Figure(charts_points.parallel(some, columns, f"Parallel coordinates: {told}."), caption, told)
+        caption = (
+            "Each line is a variant, from input to result: pass blue (in front), warning yellow, fail red. "
+            f"The ends of the axes are those of all variants. {self._drawn(some, columns)}"
+        )
+        return Figure(
+            charts_points.parallel(some, columns, self._ends(columns), f"Parallel coordinates: {told}."), caption, told
+        )
+
+    def _ends(self, columns: Sequence[Column]) -> dict[str, charts_points.Ends]:
+        """The ends of upright axes over all variants."""
+        found: dict[str, charts_points.Ends] = {}
+        for name in (column.name for column in columns):
+            if name in self.spreads:
+                low, _, _, most, high = self.spreads[name].values
+                top = data.reach(low, most, high)
+                found[name] = (low, top, top < high)
+            else:
+                last = len(self.sample.words[name]) - 1 if name in self.sample.words else 1
+                found[name] = (0.0, float(last), False)
+        return found
 
     def pair(self) -> Figure | None:
         """The first two quantities that matter, with the front."""
@@ -163,7 +194,7 @@ class Figures:
 
     def _drawable(self, found: Influence) -> list[Share]:
         """The inputs that an axis of numbers can carry."""
-        return [share for share in found.shares if share.column.is_number and share.column.name in self.sample.values]
+        return [share for share in found.telling if share.column.is_number and share.column.name in self.sample.values]
 
     def _correlated(self, x: Column, y: Column) -> str:
         one, two = self.sample.values[x.name], self.sample.values[y.name]
@@ -179,6 +210,12 @@ class Figures:
         told = "All variants are drawn." if drawn == total else of_all
         is_far = any((near(values) < values).any() for values in (some.values[column.name] for column in columns))
         return f"{told} {FAR}" if is_far else told
+
+
+def _behind(row: Failure) -> str:
+    """What stands behind the bar of a check."""
+    told = f"{number(str(row.failing))}, governs {number(str(row.governing))}" if row.failing else ""
+    return ", ".join(part for part in (told, counted(row.warning, "warning") if row.warning else "") if part)
 
 
 def _distributed(each: Histogram, spread: Spread) -> str:

@@ -1,10 +1,11 @@
-"""How much each varied input moves a quantity: Sobol indices where the sample is made for them, else rank correlation."""
+"""How much each varied input moves a quantity: Sobol indices where the sample is made for them, else partial rank correlation."""
 
 from __future__ import annotations
 
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass
+from itertools import pairwise
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -20,6 +21,8 @@ RANKED = 100_000  # variants that a rank correlation looks at
 FEWEST = 8  # variants (or points of a Saltelli sample) from which a number says anything
 DRAWS, REDRAWN = 50, 20_000  # of the points for the intervals, and of how many
 UNSURE = 0.3  # half the width of an interval from which an index says nothing
+WEAK = 0.05  # size of a number up to which it is not told
+ALIKE = 0.999  # correlation of ranks from which two inputs are one
 SURE = 1.96  # standard errors to each side of an interval of 95 %
 
 
@@ -37,6 +40,11 @@ class Share(NamedTuple):
         """Whether the sample is large enough to tell it."""
         return max(self.first_error or 0.0, self.total_error or 0.0) <= UNSURE
 
+    @property
+    def is_telling(self) -> bool:
+        """Whether it is more than next to nothing."""
+        return max(abs(self.first), self.total or 0.0) >= WEAK
+
 
 @dataclass(frozen=True)
 class Influence:
@@ -51,6 +59,11 @@ class Influence:
     def is_certain(self) -> bool:
         """Whether the sample is large enough to tell it."""
         return all(share.is_certain for share in self.shares)
+
+    @property
+    def telling(self) -> tuple[Share, ...]:
+        """The inputs whose influence is more than next to nothing."""
+        return tuple(share for share in self.shares if share.is_telling)
 
 
 def is_saltelli(stored: Stored) -> bool:
@@ -98,48 +111,90 @@ def _half_widths(values: Array) -> Array:
     return widths
 
 
-# --- rank correlation ------------------------------------------------------------------------------------------------
+# --- partial rank correlation ----------------------------------------------------------------------------------------
 
 
 def _ranks(stored: Stored, target: Column) -> Influence | None:
-    """Spearman's rank correlation with each input; for words the correlation ratio of the ranks, which has no sign."""
-    inputs = stored.varied
-    asked = ", ".join(f"{number_of(stored, column)} AS i{index}" for index, column in enumerate(inputs))
+    """The correlation of the ranks of a quantity and of each input, both without what the other inputs explain."""
+    goal, columns = _read(stored, target)
+    columns = {column: values for column, values in columns.items() if np.isfinite(values).any()}
+    there = (
+        np.all([np.isfinite(values) for values in columns.values()], axis=0) if columns else np.zeros(len(goal), bool)
+    )
+    goal = goal[there]
+    columns = {column: values[there] for column, values in columns.items()}
+    columns = {column: values for column, values in columns.items() if len(values) and np.ptp(values) > 0}
+    if len(goal) < FEWEST or not columns or not np.ptp(goal) > 0:
+        return None
+    found = partial([_terms(column, values) for column, values in columns.items()], ranks(goal))
+    known = [(column, value) for column, value in zip(columns, found, strict=True) if value is not None]
+    judged = [Share(column, abs(value) if column.kind == "text" else value) for column, value in known]
+    shares = sorted(judged, key=lambda share: -abs(share.first))
+    return Influence(target, False, tuple(shares), len(goal)) if shares else None
+
+
+def _read(stored: Stored, target: Column) -> tuple[Array, dict[Column, Array]]:
+    """A quantity and the inputs of the variants that have it, of many a part."""
+    asked = ", ".join(f"{number_of(stored, column)} AS i{index}" for index, column in enumerate(stored.varied))
     count = stored.rows(f"SELECT count({target.sql}) FROM w")[0][0]
     every = max(1, math.ceil(count / RANKED))
     drawn = "" if every == 1 else f" AND hash(variant) % {every} = 0"
     sql = f"SELECT CAST({target.sql} AS DOUBLE) AS f, {asked} FROM w WHERE {target.sql} IS NOT NULL{drawn}"
     found = stored.connection.execute(sql).fetchnumpy()
-    columns: dict[str, Array] = {
-        name: np.ma.filled(np.ma.asarray(column, dtype=float), np.nan) for name, column in found.items()
-    }
-    goal = columns.pop("f")
-    if len(goal) < FEWEST or not np.ptp(goal) > 0:
+    columns: list[Array] = [np.ma.filled(np.ma.asarray(column, dtype=float), np.nan) for column in found.values()]
+    return columns[0], dict(zip(stored.varied, columns[1:], strict=True))
+
+
+def _terms(column: Column, values: Array) -> Array:
+    """What stands for an input in the regression: its ranks; for words a column for each but the first."""
+    if column.kind != "text":
+        return ranks(values)[:, None]
+    known = np.unique(values)[1:]
+    found: Array = (values[:, None] == known).astype(float)
+    return found
+
+
+def partial(inputs: Sequence[Array], goal: Array) -> list[float | None]:
+    """Partial correlation of the goal with each input, the others regressed out; for several columns that of their best sum.
+
+    An input that goes with another one shares its influence. None where too few variants are there, or nothing is left of an input.
+    """
+    wide = [each.shape[1] for each in inputs]
+    if len(goal) < 2 * (sum(wide) + 1) + 2:
+        return [None] * len(inputs)
+    every = np.column_stack([*inputs, goal])
+    every = (every - every.mean(axis=0)) / every.std(axis=0)
+    triangle: Array = np.asarray(np.linalg.qr(every, mode="r"))  # keeps all sums of products
+    ends = np.cumsum([0, *wide])
+    parts = [triangle[:, start:end] for start, end in pairwise(ends)]
+    return [_partial(parts, index, triangle[:, -1]) for index in range(len(parts))]
+
+
+def _partial(parts: Sequence[Array], index: int, goal: Array) -> float | None:
+    mine = parts[index]
+    others = [each for place, each in enumerate(parts) if place != index and not _alike(mine, each)]
+    other = np.column_stack(others) if others else np.zeros((len(goal), 0))
+    own, left = _without(other, mine), _without(other, goal[:, None])[:, 0]
+    size = float(left @ left)
+    if (own**2).sum() < 1e-6 * (mine**2).sum() or size < 1e-12 * float(goal @ goal):
         return None
-    judged = [_share(column, values, goal) for column, values in zip(inputs, columns.values(), strict=True)]
-    shares = sorted((share for share in judged if share is not None), key=lambda share: -abs(share.first))
-    return Influence(target, False, tuple(shares), len(goal)) if shares else None
+    rest = _without(own, left[:, None])[:, 0]
+    share = math.sqrt(max(0.0, 1.0 - float(rest @ rest) / size))
+    return math.copysign(share, float(own[:, 0] @ left)) if mine.shape[1] == 1 else share
 
 
-def _share(column: Column, values: Array, goal: Array) -> Share | None:
-    there = np.isfinite(values)
-    values, goal = values[there], goal[there]
-    if len(values) < FEWEST or not np.ptp(values) > 0 or not np.ptp(goal) > 0:
-        return None
-    return Share(column, ratio(values, goal) if column.kind == "text" else correlation(values, goal))
+def _alike(one: Array, two: Array) -> bool:
+    """Whether two inputs go up and down together."""
+    if one.shape[1] > 1 or two.shape[1] > 1:
+        return False
+    size = math.sqrt(float((one**2).sum() * (two**2).sum()))
+    return abs(float((one * two).sum())) > ALIKE * size
 
 
-def correlation(one: Array, two: Array) -> float:
-    """Spearman's rank correlation."""
-    return float(np.corrcoef(ranks(one), ranks(two))[0, 1])
-
-
-def ratio(groups: Array, goal: Array) -> float:
-    """The root of the share of the ranks' variance that lies between the groups."""
-    ranked = ranks(goal)
-    _, group = np.unique(groups, return_inverse=True)
-    means = np.bincount(group, ranked) / np.bincount(group)
-    return float(np.sqrt(means[group].var() / ranked.var()))
+def _without(others: Array, values: Array) -> Array:
+    """What a linear regression on the others leaves."""
+    left: Array = values - others @ np.linalg.lstsq(others, values, rcond=None)[0] if others.shape[1] else values
+    return left
 
 
 def ranks(values: Array) -> Array:

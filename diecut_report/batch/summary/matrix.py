@@ -7,8 +7,8 @@ from pathlib import Path
 from typing import NamedTuple
 
 from diecut_report.batch.stored import Stored
-from diecut_report.batch.summary.data import BANDS, WORST, Utilisation
-from diecut_report.batch.summary.names import utilised
+from diecut_report.batch.summary.data import BANDS, SOUND, Utilisation
+from diecut_report.batch.summary.names import WORST, counted, utilised
 
 ALL, REPORTED, BEST, WORST_ONES = 80, 15, 15, 10  # rows: up to which all variants stand, else of each sort
 ACROSS = 14  # checks in a table
@@ -33,11 +33,23 @@ class Row(NamedTuple):
     cells: list[Cell]
 
 
+class Group(NamedTuple):
+    """Variants that stand together in the matrix, under a title that says why."""
+
+    title: str
+    variants: list[int]
+
+
 class Matrix(NamedTuple):
-    """Part of the matrix: numbers and names of its checks, and its rows."""
+    """Part of the matrix: numbers and names of its checks, and its rows in groups."""
 
     checks: list[tuple[int, str]]
-    rows: list[Row]
+    groups: list[tuple[str, list[Row]]]
+
+    @property
+    def rows(self) -> list[Row]:
+        """The rows of all groups."""
+        return [row for _, rows in self.groups for row in rows]
 
 
 def report_of(folder: Path, variant: int) -> str:
@@ -54,16 +66,48 @@ def reported(folder: Path) -> list[int]:
     return sorted({int(file.stem) for file in files if file.stem.isdecimal() and file.suffix in (".html", ".pdf")})
 
 
-def chosen(stored: Stored, total: int, best: Iterable[int]) -> list[int]:
-    """All variants of a small study; of a large one those with reports, the best, and the most overloaded."""
+def chosen(stored: Stored, total: int, best: Sequence[int]) -> list[Group]:
+    """The best first, then those with reports, then the most overloaded; of a small study all variants. Each stands once."""
+    reports = reported(stored.folder)
+    first = "first by the objective" if len(_goals(stored)) == 1 else "on the Pareto front"
+    groups = [Group(_cut(f"Best: {first}", len(best), BEST), list(best[:BEST]))]
     if total <= ALL:
-        return [row[0] for row in stored.rows("SELECT variant FROM v ORDER BY variant")]
-    sql = (
-        f"SELECT variant FROM w WHERE status = 'fail' ORDER BY {WORST.sql} DESC NULLS FIRST, variant LIMIT {WORST_ONES}"
-    )
-    worst = [row[0] for row in stored.rows(sql)]
-    found = [*reported(stored.folder)[:REPORTED], *list(best)[:BEST], *worst]
-    return sorted(dict.fromkeys(int(variant) for variant in found))
+        groups += [
+            Group("Others that pass, with most margin first", _numbers(stored, SOUND, "NULLS LAST")),
+            Group("Those that fail, the least overloaded first", _numbers(stored, "status = 'fail'", "NULLS LAST")),
+            Group("Those that cannot exist", _numbers(stored, "status = 'error'", "")),
+        ]
+    else:
+        groups += [
+            Group(_cut("Others with a full report", len(reports), REPORTED), reports[:REPORTED]),
+            Group(
+                f"Fail: the {counted(WORST_ONES, 'most overloaded variant')}",
+                _numbers(stored, "status = 'fail'", f"DESC NULLS FIRST, variant LIMIT {WORST_ONES}"),
+            ),
+        ]
+    return list(_once(groups))
+
+
+def _goals(stored: Stored) -> Sequence[object]:
+    return stored.study.get("objectives") or ()
+
+
+def _cut(title: str, count: int, most: int) -> str:
+    return f"{title} (the first {most} of {count})" if count > most else title
+
+
+def _numbers(stored: Stored, where: str, order: str) -> list[int]:
+    order = order if "variant" in order else f"{order}, variant"
+    return [row[0] for row in stored.rows(f"SELECT variant FROM w WHERE {where} ORDER BY {WORST.sql} {order}")]
+
+
+def _once(groups: Iterable[Group]) -> Iterator[Group]:
+    known: set[int] = set()
+    for title, variants in groups:
+        new = [int(variant) for variant in variants if variant not in known]
+        known |= set(new)
+        if new:
+            yield Group(title, new)
 
 
 def telling(used: Sequence[Utilisation]) -> list[Utilisation]:
@@ -71,22 +115,24 @@ def telling(used: Sequence[Utilisation]) -> list[Utilisation]:
     return [row for row in used if row.failing or row.warning or (row.greatest or 0.0) > IDLE]
 
 
-def matrices(stored: Stored, variants: Sequence[int], checks: Sequence[str]) -> Iterator[Matrix]:
+def matrices(stored: Stored, groups: Sequence[Group], checks: Sequence[str]) -> Iterator[Matrix]:
     """The matrix in parts that fit on paper."""
     for start in range(0, len(checks), ACROSS):
         part = list(checks[start : start + ACROSS])
         numbers = [(start + index + 1, stored.check_told(name)) for index, name in enumerate(part)]
-        yield Matrix(numbers, list(_rows(stored, variants, part)))
+        rows = _rows(stored, [variant for group in groups for variant in group.variants], part)
+        found = [(group.title, [rows[one] for one in group.variants if one in rows]) for group in groups]
+        yield Matrix(numbers, [(title, some) for title, some in found if some])
 
 
-def _rows(stored: Stored, variants: Sequence[int], checks: Sequence[str]) -> Iterator[Row]:
+def _rows(stored: Stored, variants: Sequence[int], checks: Sequence[str]) -> dict[int, Row]:
     asked = ", ".join(column.sql for check in checks for column in stored.checks[check])
     listed = ", ".join(str(variant) for variant in variants) or "NULL"
-    for variant, status, *values in stored.rows(
-        f"SELECT variant, status, {asked} FROM v WHERE variant IN ({listed}) ORDER BY variant"
-    ):
+    found = {}
+    for variant, status, *values in stored.rows(f"SELECT variant, status, {asked} FROM v WHERE variant IN ({listed})"):
         cells = [_cell(value, made) for value, made in zip(values[::2], values[1::2], strict=True)]
-        yield Row(variant, report_of(stored.folder, variant), status, cells)
+        found[variant] = Row(variant, report_of(stored.folder, variant), status, cells)
+    return found
 
 
 def _cell(value: float | None, made: str | None) -> Cell:

@@ -7,12 +7,14 @@ import re
 from collections.abc import Iterator
 
 from diecut_report.batch.stored import Column
+from diecut_report.batch.titles import UTILISATION
 from diecut_report.report.figures import plain, text_size
 from diecut_report.report.numbers import joined, number
 from diecut_report.texts import number_text
 from diecut_report.units import pretty, unit
 
 DIGITS = 4
+WORST = Column("greatest utilisation", "float", title="Greatest utilisation of all checks")
 
 
 def named(column: Column) -> str:
@@ -66,6 +68,8 @@ def display(value: float, column: Column) -> str:
     """An SI value in the unit that people read, without the unit."""
     if not math.isfinite(value):
         return "–"
+    if is_utilisation(column):
+        return utilised(value)
     return number(number_text(unit(column.display).from_si(value), DIGITS)) if value else "0"
 
 
@@ -74,11 +78,17 @@ def quantity(value: float, column: Column) -> str:
     return joined(display(value, column), pretty(column.display))
 
 
+def is_utilisation(column: Column) -> bool:
+    """Whether 1 is the limit of a quantity."""
+    return column.name == WORST.name or (".checks." in column.name and column.name.endswith(UTILISATION))
+
+
 def utilised(value: float) -> str:
     """A utilisation; one that is next to 1 shows on which side it is, and a small one that is not none does not print as 0."""
     text = f"{value:.2f}"
-    if text == "1.00" and abs(value - 1) > 5e-5:
-        return f"{value:.4f}"
+    if text == "1.00" and value != 1:
+        near = f"{value:.4f}"
+        return near if near != "1.0000" else "< 1" if value < 1 else "> 1"
     if value >= 99.995:
         return number(f"{value:.3g}" if value >= 1e6 else f"{value:.0f}")
     return "< 0.01" if text == "0.00" and value > 0 else text
