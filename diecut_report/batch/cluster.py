@@ -5,6 +5,7 @@ from __future__ import annotations
 import logging
 import socket
 from concurrent.futures import Future
+from contextlib import suppress
 from typing import Any, Self
 
 from distributed import Client, KilledWorker, WorkerPlugin
@@ -47,7 +48,8 @@ class Dask:
         try:
             if self._client.status == "running":
                 self._executor.shutdown(wait=kind is None)
-                self._client.unregister_worker_plugin(self._warm.key)
+                with suppress(OSError):  # a scheduler that has just ended has nothing left to forget
+                    self._client.unregister_worker_plugin(self._warm.key)
         finally:
             self._client.close()
 

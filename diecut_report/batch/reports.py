@@ -11,6 +11,7 @@ from typing import Any
 import numpy as np
 
 from diecut_report import pipeline
+from diecut_report.batch.alike import rounded
 from diecut_report.batch.store import Store
 from diecut_report.batch.study import Study
 from diecut_report.batch.variant import variant_config
@@ -96,7 +97,7 @@ def best(columns: dict[str, Array], objectives: Sequence[tuple[str, bool]], coun
     total = np.zeros(len(among))
     for name, minimise in objectives:
         values = np.nan_to_num(columns[name][among].astype(float) * (1 if minimise else -1), nan=np.inf)
-        total += rankdata([float(f"{value:.10g}") for value in values], method="min")  # rounding makes nothing better
+        total += rankdata(rounded(values), method="min")
     found: Array = among[np.argsort(total, kind="stable")[:count]]
     return found
 

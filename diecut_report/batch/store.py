@@ -54,7 +54,8 @@ class Store:
         """Begin the results of a study in a folder that is new or empty."""
         with in_words(directory):
             directory.mkdir(parents=True, exist_ok=True)
-            state.refuse_used(directory)
+            if not (directory / state.STATE).exists():
+                state.refuse_used(directory)
         store = cls(directory, description)
         with store.lock():
             state.begin(directory, description)

@@ -124,7 +124,9 @@ def test_optional_title_block_entries_may_be_missing(results: dict[str, Any]) ->
 
 
 def test_templates_have_no_words_of_their_own() -> None:
-    of_reports = [path for path in html.folder().glob("*.j2") if not path.name.startswith("summary")]  # which is English
+    of_reports = [
+        path for path in html.folder().glob("*.j2") if not path.name.startswith("summary")
+    ]  # which is English
     assert of_reports
     for path in of_reports:
         text = re.sub(

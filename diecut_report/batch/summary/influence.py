@@ -21,6 +21,7 @@ RANKED = 100_000  # variants that a rank correlation looks at
 FEWEST = 8  # variants (or points of a Saltelli sample) from which a number says anything
 DRAWS, REDRAWN = 50, 20_000  # of the points for the intervals, and of how many
 UNSURE = 0.3  # half the width of an interval from which an index says nothing
+COMPLETE = 0.99  # share of a Saltelli sample that must have results
 WEAK = 0.05  # size of a number up to which it is not told
 ALIKE = 0.999  # correlation of ranks from which two inputs are one
 SURE = 1.96  # standard errors to each side of an interval of 95 %
@@ -67,8 +68,15 @@ class Influence:
 
 
 def is_saltelli(stored: Stored) -> bool:
-    """Whether the sample has the rows that Sobol indices are made from."""
-    return stored.study.get("design") == "saltelli" and int(stored.study.get("n") or 0) > 1
+    """Whether the sample has the rows that Sobol indices are made from, and (nearly) all of them could be calculated.
+
+    Where machines that cannot exist or constraints cut into it, its inputs are no longer independent: indices would sum
+    to more than 1.
+    """
+    if stored.study.get("design") != "saltelli" or (points := int(stored.study.get("n") or 0)) < 2:
+        return False
+    whole = points * (len(stored.varied) + 2)
+    return bool(stored.rows("SELECT count(*) FROM v WHERE status <> 'error'")[0][0] >= COMPLETE * whole)
 
 
 def influences(stored: Stored, targets: Sequence[Column]) -> list[Influence]:

@@ -14,7 +14,7 @@ from diecut_report.texts import number_text
 from diecut_report.units import pretty, unit
 
 DIGITS = 4
-WORST = Column("greatest utilisation", "float", title="Greatest utilisation of all checks")
+WORST = Column("greatest utilisation", "float", title="Greatest utilisation of all checks (where each has one)")
 
 
 def named(column: Column) -> str:

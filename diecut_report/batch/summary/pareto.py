@@ -8,6 +8,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from diecut_report.batch.alike import rounded
 from diecut_report.batch.stored import Column, Stored
 
 Array = NDArray[Any]
@@ -71,7 +72,7 @@ def front(stored: Stored, wanted: tuple[Objective, ...], passing: int) -> Front 
     variants, values = columns[0], np.column_stack([column.astype(float) for column in columns[1:]])
     if not len(variants):
         return None
-    costs = values * np.array([1.0 if objective.is_less else -1.0 for objective in wanted])
+    costs = rounded(values) * np.array([1.0 if objective.is_less else -1.0 for objective in wanted])
     kept = best(costs) if len(wanted) > 1 else np.lexsort((variants, costs[:, 0]))[:FIRST]
     order = kept[np.lexsort((variants[kept], costs[kept, 0]))]
     return Front(wanted, variants[order], values[order], len(variants), bool(passing), len(kept) >= MOST)
