@@ -106,12 +106,14 @@ class Root(Step):
 class Abscissa(Step):
     """What curves run over, [0, period): sampled at ``points`` (an input's id); shown in print at the place ``shown_at``.
 
-    ``period`` is a number, or the id of one.
+    ``period`` is a number, or the id of one. ``intervals`` are those of the search grid in each smooth piece: fewer are enough
+    where breakpoints leave the pieces short.
     """
 
     period: float | str
     points: str = "n_points"
     shown_at: str = ""
+    intervals: int = 64
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)

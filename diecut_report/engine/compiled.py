@@ -43,7 +43,7 @@ class Program:
         self._ids: dict[tuple[Any, ...], str] = {}
         self._level: dict[str, int] = {}
         self._lines: dict[str, tuple[str, tuple[str, ...]]] = {}
-        self._ops: dict[str, str] = {}
+        self._made: dict[str, tuple[str, ...]] = {}  # of each term the operation and what it takes
         self._quantities: dict[str, str] = {}
         self._leaves: dict[str, Leaf] = {}
         results = [self._quantity(name) for name in wanted]
@@ -109,13 +109,35 @@ class Program:
         return self._term(node.op, *(self._node(part, known) for part in node.args))
 
     def _call(self, name: str, *args: str) -> str:
+        if name == "arccos":
+            return self._term(name, self._term("cosine", *args))
         if name not in ("sin", "cos") or self._level.get(args[0], NUMBERS) < POINTS:
             return self._term(name, *args)
-        half = self._term("tan", self._term("*", args[0], self._constant(0.5)))  # one tangent gives both, and faster
-        square, one = self._term("*", half, half), self._constant(1.0)
-        over = self._term("+", one, square)
-        above = self._term("+", half, half) if name == "sin" else self._term("-", one, square)
-        return self._term("/", above, over)
+        return self._sine(args[0]) if name == "sin" else self._cosine(args[0])
+
+    def _sine(self, angle: str) -> str:
+        match self._made.get(angle):
+            case ("neg", other):
+                return self._term("neg", self._sine(other))
+            case ("arccos", cosine):
+                one = self._constant(1.0)
+                return self._term("sqrt", self._term("*", self._term("-", one, cosine), self._term("+", one, cosine)))
+        tangent, share = self._half(angle)
+        return self._term("*", tangent, share)
+
+    def _cosine(self, angle: str) -> str:
+        match self._made.get(angle):
+            case ("neg", other):
+                return self._cosine(other)
+            case ("arccos", cosine):
+                return cosine
+        return self._term("-", self._half(angle)[1], self._constant(1.0))
+
+    def _half(self, angle: str) -> tuple[str, str]:
+        """tan(x/2) and 2/(1 + tan²(x/2)): one tangent gives sine and cosine, and faster than either is computed."""
+        tangent = self._term("tan", self._term("*", angle, self._constant(0.5)))
+        over = self._term("+", self._constant(1.0), self._term("*", tangent, tangent))
+        return tangent, self._term("/", self._constant(2.0), over)
 
     # --- terms, each once ----------------------------------------------------------------------------------------------
 
@@ -130,11 +152,17 @@ class Program:
         return self._ids[key]
 
     def _term(self, op: str, *args: str) -> str:
+        match op, *(self._made.get(arg, arg) for arg in args):
+            case "^", _, "2.0":
+                return self._term("*", args[0], args[0])
+            case "-", _, ("+", *parts) if args[0] in parts:  # a - (a + b)
+                parts.remove(args[0])
+                return self._term("neg", parts[0])
         key = (op, *args)
         if key not in self._ids:
             self._ids[key] = own = f"term_{len(self._ids)}"
             self._level[own] = max((self._level.get(a, NUMBERS) for a in args), default=NUMBERS)
-            self._lines[own], self._ops[own] = (_written(op, args), args), op
+            self._lines[own], self._made[own] = (_written(op, args), args), key
         return self._ids[key]
 
     def _carried(self, results: list[str]) -> tuple[tuple[str, ...], ...]:
@@ -150,10 +178,10 @@ class Program:
         """The terms of a level as one function; its results are returned, or put into arrays that are given."""
         own = {name: line for name, line in self._lines.items() if self._level[name] == level}
         last = {arg: name for name, (_, args) in own.items() for arg in args if arg in own}
-        home = {name: f"into_{i}" for i, name in enumerate(into) if name in own and self._ops[name] in WRITING}
+        home = {name: f"into_{i}" for i, name in enumerate(into) if name in own and self._made[name][0] in WRITING}
         body = []
         for name, (text, args) in own.items():
-            put = f"{WRITING[self._ops[name]]}({', '.join(args)}, out={home[name]})" if name in home else text
+            put = f"{WRITING[self._made[name][0]]}({', '.join(args)}, out={home[name]})" if name in home else text
             done = [arg for arg, user in last.items() if user == name and arg not in (*results, *into)]
             body += [f"    {name} = {put}", *([f"    del {', '.join(done)}"] if done else [])]
         body += [f"    into_{i}[...] = {name}" for i, name in enumerate(into) if home.get(name) != f"into_{i}"]
@@ -184,21 +212,22 @@ def _written(op: str, args: tuple[str, ...]) -> str:
         return f"where({', '.join(args)})"
     if op == "neg":
         return f"-{args[0]}"
-    if op == "not" or op in NUMERIC:
+    if op in ("not", "cosine") or op in NUMERIC:
         return f"np_{op}({', '.join(args)})"
     return f"{args[0]} {SIGNS.get(op, op)} {args[1]}"
 
 
-def _arccos(cosine: Any) -> Any:
-    """As ``expressions.arccos``, which looks at each place; most often none is beyond ±1."""
-    found = np.arccos(cosine)
-    return NUMERIC["arccos"](cosine) if np.isnan(np.add.reduce(found, axis=None)) else found
+def _cosine(value: Any) -> Any:
+    """What ``expressions.arccos`` takes the angle of, which looks at each place; most often none is beyond ±1."""
+    if np.min(value) >= -1 and np.max(value) <= 1:
+        return value
+    return np.where(np.isnan(NUMERIC["arccos"](value)), np.nan, np.clip(value, -1, 1))
 
 
 SPACE: dict[str, Any] = {
     **{f"np_{name}": function for name, function in NUMERIC.items()},
     **{name: getattr(np, name) for name in WRITING.values()},
-    "where": np.where, "np_not": np.logical_not, "inf": np.inf, "nan": np.nan, "np_arccos": _arccos,
+    "where": np.where, "np_not": np.logical_not, "inf": np.inf, "nan": np.nan, "np_cosine": _cosine, "np_arccos": np.arccos,
 }  # fmt: skip
 """What the text of a function may name."""
 

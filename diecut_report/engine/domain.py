@@ -10,24 +10,24 @@ from numpy.polynomial.legendre import leggauss
 
 from diecut_report.expressions import Array
 
-LOBATTO = 64  # intervals of the search grid in each smooth piece; it does not depend on n_points
+INTERVALS = 64  # of the search grid in each smooth piece, where an abscissa declares none; they do not depend on n_points
 
 SAME = 1e-13  # share of the period within which two breakpoints are one
 
 
 @cache
-def shares() -> Array:
+def shares(intervals: int) -> Array:
     """The search grid in a piece from 0 to 1: Chebyshev–Lobatto points, ends included."""
-    found: Array = (1 - np.cos(np.pi * np.arange(LOBATTO + 1) / LOBATTO)) / 2
+    found: Array = (1 - np.cos(np.pi * np.arange(intervals + 1) / intervals)) / 2
     return found
 
 
 @cache
-def grid_weights() -> Array:
+def grid_weights(intervals: int) -> Array:
     """Weights of the Clenshaw–Curtis rule on the search grid, for a piece of the width 1."""
-    k, even = np.arange(LOBATTO + 1), np.arange(2, LOBATTO, 2)
-    inner = 1 - (2 / (even**2 - 1) * np.cos(np.pi * k[:, None] * even / LOBATTO)).sum(axis=1)
-    inner = (inner - np.cos(np.pi * k) / (LOBATTO**2 - 1)) / LOBATTO
+    k, even = np.arange(intervals + 1), np.arange(2, intervals, 2)
+    inner = 1 - (2 / (even**2 - 1) * np.cos(np.pi * k[:, None] * even / intervals)).sum(axis=1)
+    inner = (inner - np.cos(np.pi * k) / (intervals**2 - 1)) / intervals
     inner[[0, -1]] /= 2
     found: Array = inner
     return found
@@ -78,6 +78,7 @@ class Domain:
 
     period: Array
     samples: Array
+    intervals: int = INTERVALS
     edges: Array = field(init=False)
     joints: Array = field(init=False)
 
@@ -115,6 +116,11 @@ class Domain:
             close = edges[:, i] - edges[:, i - 1] < SAME * self.period[:, 0]
             edges[:, i] = np.where(close, edges[:, i - 1], edges[:, i])
         return edges
+
+    @property
+    def proof_order(self) -> int:
+        """Of the Gauss–Legendre points at which what the search grid tells is proved; fewer, as they serve nothing else."""
+        return self.intervals // 4 + 8
 
     def is_joint(self, places: Array) -> Array:
         """Which places (variants, any number) are breakpoints of curves."""

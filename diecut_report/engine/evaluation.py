@@ -11,7 +11,7 @@ from diecut_report.contract.steps import Step
 from diecut_report.engine.compiled import NUMBERS, PIECES, POINTS, Program, program
 from diecut_report.expressions import Array
 
-BLOCK = 8192  # places at once
+BLOCK = 16384  # places at once
 MANY = 8  # variants from which compiling pays
 
 

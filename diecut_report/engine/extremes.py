@@ -13,6 +13,7 @@ from diecut_report.engine.domain import SMALLEST
 from diecut_report.engine.evaluation import Curves
 from diecut_report.engine.search import Function, smooth_minimum
 from diecut_report.engine.table import Pieces
+from diecut_report.engine.vertices import Spots, around, vertices
 from diecut_report.expressions import Array
 
 PLACE_TOLERANCE = 1e-6  # of an extreme's place, as a share of its bracket; its value errs by the square of it
@@ -20,7 +21,6 @@ SAME_HEIGHT = 1e-9  # share of an extreme within which two places reach the same
 FEW = 2048  # places up to which all curves are evaluated together
 PLATEAU = 1e-11  # share of an extreme within which neighbouring points of the grid lie on a plateau
 APPROACH = 12  # steps by which an end of a piece is approached, each a quarter of the one before
-PROOF_ORDER = 24  # of the Gauss–Legendre points at which many machines' extremes are proved
 
 
 Wanted = tuple[str, float]  # a curve, and 1 for its greatest or -1 for its least value
@@ -28,15 +28,20 @@ Found = tuple[Array, Array, Array]  # value, place, middle of the smooth piece; 
 
 
 class Candidates(NamedTuple):
-    """Places that may be an extreme, one row each: which one, piece (its row), place, height there, bracket, whether it is flat."""
+    """Points of the grid that may be an extreme, one row each: which one, piece (its row), number in it, place, height there.
+
+    Also their bracket, whether they lie on a plateau, and the heights around them.
+    """
 
     which: Array
     piece: Array
+    k: Array
     place: Array
     height: Array
     left: Array
     right: Array
     flat: Array
+    around: Array
 
 
 def extreme(calc: Calculation, curve: str, sign: float) -> Found:
@@ -60,7 +65,7 @@ def search(calc: Calculation, wanted: Sequence[Wanted]) -> None:
     pieces = table.pieces()
     parts = [_candidates(pieces, i, values[curve], sign) for i, (curve, sign) in enumerate(open_ones)]
     seen = Candidates(*(np.concatenate(columns) for columns in zip(*parts, strict=True)))
-    seen = _refined(_depths(calc, axis, open_ones, seen), seen)
+    seen = _refined(_depths(calc, axis, open_ones, seen), seen, pieces)
     for i, (curve, sign) in enumerate(open_ones):
         own = Candidates(*(column[seen.which == i] for column in seen))
         best, flat = _best(pieces, own, sign)
@@ -110,7 +115,7 @@ def outruns(calc: Calculation, curve: str, found: Array, sign: float) -> Array:
     if calc.count == 1:
         values = calc.curve_samples(curve)
     else:
-        values, here = table.at_gauss([curve], PROOF_ORDER)[0], found[table.pieces().variant]
+        values, here = table.at_gauss([curve], table.pieces().proof_order)[0], found[table.pieces().variant]
     rows = np.flatnonzero(((values > here) if sign > 0 else (values < here)).any(axis=1))
     share = np.where(np.isfinite(found), 0.0, np.nan)
     if len(rows):
@@ -141,8 +146,8 @@ def _candidates(pieces: Pieces, which: int, values: Array, sign: float) -> Candi
     near = np.flatnonzero(is_near)
     grid = pieces.grid.ravel()
     return Candidates(
-        np.full(len(near), which), piece[near], grid[flat[near]], height[near], grid[before[near]], grid[after[near]],
-        fall[near] <= PLATEAU * np.abs(height[near]),
+        np.full(len(near), which), piece[near], k[near], grid[flat[near]], height[near], grid[before[near]], grid[after[near]],
+        fall[near] <= PLATEAU * np.abs(height[near]), sign * around(values, piece[near], k[near]),
     )  # fmt: skip
 
 
@@ -190,9 +195,19 @@ def _depths(calc: Calculation, axis: str, wanted: Sequence[Wanted], seen: Candid
     return depths
 
 
-def _refined(depth_of: Function, seen: Candidates) -> Candidates:
-    """The candidates after a search in their brackets; at a piece's end within its first interval, on a plateau none."""
+def _refined(depth_of: Function, seen: Candidates, pieces: Pieces) -> Candidates:
+    """The candidates at their vertices, by a polynomial or else by a search; on a plateau as they are."""
     rising = np.flatnonzero(~seen.flat)
+    piece = seen.piece[rising]
+    spots = Spots(seen.k[rising], seen.around[rising], pieces.left[piece], pieces.width[piece])
+    place, height, holds = vertices(lambda x, row: -depth_of(x, rising[row]), spots, pieces.intervals)
+    told = rising[holds]
+    seen.place[told], seen.height[told] = place[holds], np.maximum(height[holds], seen.height[told])
+    return seen if holds.all() else _searched(depth_of, seen, rising[~holds])
+
+
+def _searched(depth_of: Function, seen: Candidates, rising: Array) -> Candidates:
+    """The candidates, of which these were searched in their brackets; at a piece's end within its first interval."""
     low, centre, high, depths = _brackets(
         Candidates(*(column[rising] for column in seen)), lambda x, row: depth_of(x, rising[row])
     )

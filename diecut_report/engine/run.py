@@ -127,7 +127,7 @@ def _abscissa(calc: Calculation, step: Abscissa) -> None:
     points = int(calc[step.points][0, 0])
     whole = calc[step.period] if isinstance(step.period, str) else np.full((calc.count, 1), step.period)
     _above_zero(calc, step, whole)
-    calc.domains[step.id] = Domain(whole, np.arange(points) * (whole / points))
+    calc.domains[step.id] = Domain(whole, np.arange(points) * (whole / points), step.intervals)
 
 
 def _above_zero(calc: Calculation, step: Step, length: Array) -> None:

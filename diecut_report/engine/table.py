@@ -28,12 +28,12 @@ class Pieces:
         self.width = self.right - self.left
         self.period = domain.period[self.variant, 0] if len(domain.period) > 1 else domain.period[0, 0]
         self.starts = np.flatnonzero(np.diff(self.variant, prepend=-1))  # the first piece of each variant that has one
-        self.shape = widths.shape
+        self.shape, self.intervals, self.proof_order = widths.shape, domain.intervals, domain.proof_order
 
     @cached_property
     def grid(self) -> Array:
         """Chebyshev–Lobatto points of each piece, ends included."""
-        found: Array = self.left[:, None] + self.width[:, None] * shares()
+        found: Array = self.left[:, None] + self.width[:, None] * shares(self.intervals)
         found[:, -1] = self.right
         return found
 

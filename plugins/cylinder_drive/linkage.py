@@ -117,7 +117,7 @@ CUTTING = Section(
 KINEMATICS = Section(
     "Kinematics over a turn of the crank",
     steps=(
-        Abscissa(id="crank_angle", symbol="φ", unit="deg", description="Crank angle from the frame line", period=2 * np.pi,
+        Abscissa(id="crank_angle", symbol="φ", unit="deg", description="Crank angle from the frame line", period=2 * np.pi, intervals=32,
                  shown_at="crank_torque_peak_at"),
         Breakpoints(id="strokes", abscissa="crank_angle", places=(
             "dead_center_outer", "dead_center_inner", "cut_begin_forward", "cut_end_forward", "cut_begin_return", "cut_end_return")),

@@ -1,0 +1,94 @@
+"""Extremes of smooth curves by the polynomial through the points of the search grid about each, proved by the curve itself."""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+import numpy as np
+
+from diecut_report.engine.search import Function
+from diecut_report.expressions import Array
+
+REACH = 4  # points of the grid to each side of a candidate that the polynomial goes through
+OFFSETS = np.arange(-REACH, REACH + 1)
+POWERS = np.linalg.inv(np.vander(OFFSETS, increasing=True))  # the polynomial's coefficients by the heights at the points
+APART = 0.02  # of the places where the curve is compared with the polynomial, in intervals of the grid
+BESIDE, BESIDE_APART = 0.5, 0.25  # the same beside the end of a piece
+FOLLOWS = 1e-5  # share of the heights' spread by which the curve may be off the polynomial
+ROUNDING = 1e-14  # share of the height by which it may be off besides
+
+
+class Spots(NamedTuple):
+    """Points of the search grid, one each: their number in the piece, the heights around them, left end and width of the piece."""
+
+    k: Array
+    around: Array
+    left: Array
+    width: Array
+
+
+def around(values: Array, piece: Array, k: Array) -> Array:
+    """Values of pieces (rows, points) at points of the grid and their neighbours, shape (spots, 2·REACH + 1).
+
+    The grid's points lie as the cosines of equal angles; over that angle a smooth curve goes on past the ends as in a mirror.
+    """
+    last = values.shape[1] - 1
+    beside = last - np.abs(last - np.abs(k[:, None] + OFFSETS))
+    found: Array = values.ravel().take(beside + piece[:, None] * (last + 1))
+    return found
+
+
+def vertices(height_of: Function, spots: Spots, intervals: int) -> tuple[Array, Array, Array]:
+    """Place and height of the greatest height about each spot, and whether they hold; at the end of a piece it is the end itself.
+
+    They hold where the curve follows the polynomial at three places, and falls from the end of a piece. Between the places the
+    polynomial tells bend and third derivative alone: the slope, so the vertex, is the curve's own.
+    """
+    powers = POWERS @ spots.around.T
+    inward = (spots.k == 0) * 1.0 - (spots.k == intervals)
+    at_end = (inward != 0) & (powers[2] <= 0)
+    near = np.where(at_end, BESIDE * inward, _top(powers, inward))
+    apart = np.where(at_end, BESIDE_APART, APART)
+
+    def place(share: Array) -> Array:
+        found: Array = spots.left + spots.width * np.sin((spots.k + share) * (np.pi / 2 / intervals)) ** 2
+        return found
+
+    shares = near + apart * np.array([[-1.0], [0.0], [1.0]])
+    found = height_of(place(shares).ravel(), np.tile(np.arange(len(near)), 3)).reshape(3, -1)
+    centre = spots.around[:, REACH]
+    spread = np.abs(spots.around - centre[:, None]).max(axis=1)
+    follows = (np.abs(found - _value(powers, shares)) <= FOLLOWS * spread + ROUNDING * np.abs(centre)).all(axis=0)
+    bend = _value(_slope(_slope(powers)), near)
+    slope = (found[2] - found[0]) / (2 * apart) - apart**2 / 6 * _value(_slope(_slope(_slope(powers))), near)
+    share = -slope / bend
+    inside = (np.abs(near + share) <= 1) & ((inward == 0) | (near * inward > apart))
+    falls = at_end | (inside & (bend < 0) & (np.abs(share) < apart))
+    top = np.where(at_end, centre, found[1] + slope * share / 2)
+    return place(np.where(at_end, 0.0, near + share)), top, follows & falls & (found <= top + ROUNDING * np.abs(top)).all(axis=0)
+
+
+def _top(powers: Array, inward: Array) -> Array:
+    """The polynomial's vertex within an interval of the middle, by Newton's method from that of the parabola.
+
+    At the end of a piece, where the polynomial is even, from that of the parabola over the square.
+    """
+    slope = _slope(powers)
+    bend = _slope(slope)
+    share = np.where(inward == 0, -powers[1] / (2 * powers[2]), inward * np.sqrt(np.abs(powers[2] / (2 * powers[4]))))
+    share = np.clip(share, -1, 1)
+    for _ in range(3):
+        share = np.clip(share - _value(slope, share) / _value(bend, share), -1, 1)
+    return share
+
+
+def _slope(powers: Array) -> Array:
+    found: Array = powers[1:] * np.arange(1, len(powers))[:, None]
+    return found
+
+
+def _value(powers: Array, share: Array) -> Array:
+    total = powers[-1]
+    for power in powers[-2::-1]:
+        total = total * share + power
+    return total
