@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import logging
 import socket
+from collections.abc import Iterable
 from concurrent.futures import Future
 from contextlib import suppress
 from typing import Any, Self
@@ -81,6 +82,11 @@ class Dask:
 
     def restart(self) -> None:
         """Dask itself repeats what was lost."""
+
+    def give_up(self, begun: Iterable[Future[Any]]) -> None:
+        """Take them from the scheduler."""
+        for future in begun:
+            future.cancel()
 
     def look(self) -> None:
         """UserError where the scheduler is gone."""

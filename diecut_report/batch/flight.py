@@ -64,6 +64,9 @@ class Engine(Protocol):
     def restart(self) -> None:
         """Begin again after a process was lost; chunks begun before are gone."""
 
+    def give_up(self, begun: Iterable[Future[Any]]) -> None:
+        """Chunks that were begun are not wanted any more."""
+
     def look(self) -> None:
         """Raise UserError in words where the engine is gone."""
 
@@ -155,8 +158,8 @@ class _Flight:
 
     def cancel(self) -> None:
         """Give up what is in flight."""
-        for future in self.waiting:
-            future.cancel()
+        if self.waiting:
+            self.engine.give_up(self.waiting)
 
 
 def _gave_up(chunk: Chunk) -> UserError:
@@ -222,6 +225,9 @@ class InProcess:
 
     def restart(self) -> None:
         """Nothing can be lost here."""
+
+    def give_up(self, begun: Iterable[Future[Any]]) -> None:
+        """Each is done already."""
 
     def look(self) -> None:
         """It is always there."""

@@ -5,6 +5,7 @@ from __future__ import annotations
 import os
 import signal
 import threading
+from collections.abc import Iterable
 from concurrent.futures import Future, ProcessPoolExecutor
 from concurrent.futures.process import BrokenProcessPool
 from multiprocessing import parent_process
@@ -58,6 +59,10 @@ class Pool:
         self._end()
         self._executor = None
 
+    def give_up(self, begun: Iterable[Future[Any]]) -> None:
+        """End the processes: chunks that are cancelled while their processes end would be told of it, and fail."""
+        self.restart()
+
     def look(self) -> None:
         """A lost process is told by the chunks."""
 
@@ -65,7 +70,7 @@ class Pool:
         for process in self._context.started:
             process.kill()
         if self._executor is not None:
-            self._executor.shutdown(cancel_futures=True)
+            self._executor.shutdown()
         self._context.started.clear()
 
 

@@ -20,7 +20,7 @@ def look(calc: Calculation, steps: Sequence[Step]) -> None:
     if not isinstance(first, Asking):
         return
     axis = calc.axis[first.of]
-    if first.of not in calc.ahead.get(axis, ()):
+    if first.of not in calc.ahead.get(axis, ()) or isinstance(first, Crossings):
         coming = [step for step in _computable(calc, steps, axis) if isinstance(step, Asking)]
         calc.ahead[axis] = tuple(dict.fromkeys(step.of for step in coming))
     if isinstance(first, Reduction) and first.operation in SIGNS:

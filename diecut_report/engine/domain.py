@@ -10,7 +10,9 @@ from numpy.polynomial.legendre import leggauss
 
 from diecut_report.expressions import Array
 
-INTERVALS = 64  # of the search grid in each smooth piece, where an abscissa declares none; they do not depend on n_points
+INTERVALS = (
+    64  # of the search grid in each smooth piece, where an abscissa declares none; they do not depend on n_points
+)
 
 SAME = 1e-13  # share of the period within which two breakpoints are one
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from typing import Any, Protocol
 
 import numpy as np
@@ -12,6 +12,7 @@ from diecut_report.engine.compiled import NUMBERS, PIECES, POINTS, Program, prog
 from diecut_report.expressions import Array
 
 BLOCK = 16384  # places at once
+NARROW = 4  # places a row up to which it is faster to take them in turn, each for all rows
 MANY = 8  # variants from which compiling pays
 
 
@@ -20,6 +21,9 @@ class Values(Protocol):
 
     def __getitem__(self, name: str) -> Array:
         """A curve's values."""
+
+
+Flags = Callable[[tuple[str, ...]], list[Array]]  # of names, a column (rows, 1) for each
 
 
 class Machines(Protocol):
@@ -41,15 +45,26 @@ class Machines(Protocol):
 
 
 class Curves:
-    """Curves in smooth pieces, a row for each: the middle (rows,) of the piece and the machine ``variant`` (rows,) it belongs to."""
+    """Curves in smooth pieces, a row for each: the middle (rows,) of the piece and the machine ``variant`` (rows,) it belongs to.
 
-    def __init__(self, calc: Machines, axis: str, wanted: Sequence[str], middle: Array, variant: Array) -> None:
+    ``flags`` gives flags of these pieces where they are known already.
+    """
+
+    def __init__(
+        self,
+        calc: Machines,
+        axis: str,
+        wanted: Sequence[str],
+        middle: Array,
+        variant: Array,
+        flags: Flags | None = None,
+    ) -> None:
         self.calc, self.axis, self.wanted, self.middle, self.variant = calc, axis, tuple(wanted), middle, variant
         self.program: Program | None = None
         if calc.count >= MANY:
             self.program = _program(calc, axis, self.wanted, at_middle=False)
             self.numbers = _Columns(_numbers(calc, self.program))
-            self.pieces = _Columns(self._of_pieces(self.program) if self.program.carried[PIECES] else ())
+            self.pieces = _Columns(self._of_pieces(self.program, flags) if self.program.carried[PIECES] else ())
 
     def at(self, x: Array, rows: Array | slice = slice(None)) -> list[Array]:
         """The curves at x (rows, points), in these of the rows (default all)."""
@@ -59,6 +74,11 @@ class Curves:
             return [np.array(np.broadcast_to(sampler[name], x.shape), dtype=float) for name in self.wanted]
         chosen = np.arange(len(self.middle))[rows] if self.pieces.tables else variant
         found = [np.empty(x.shape) for _ in self.wanted]
+        if 1 < x.shape[1] <= NARROW:
+            for i in range(x.shape[1]):
+                for values, column in zip(found, self.at(x[:, [i]], rows), strict=True):
+                    values[:, i] = column[:, 0]
+            return found
         size = max(1, BLOCK // x.shape[1])
         for start in range(0, len(x), size):
             part = slice(start, start + size)
@@ -67,21 +87,22 @@ class Curves:
             self.program.points(*given, *carried, *(result[part] for result in found))
         return found
 
-    def _of_pieces(self, program: Program) -> Sequence[Any]:
+    def _of_pieces(self, program: Program, flags: Flags | None) -> Sequence[Any]:
         """What belongs to a piece as a whole."""
-        found: Sequence[Any] = program.pieces(*self._flags(program), *self.numbers.of(self.variant))
+        names = tuple(leaf.name for leaf in program.leaves[PIECES].values())
+        known = flags(names) if flags else flags_of(self.calc, self.axis, names, self.middle, self.variant)
+        found: Sequence[Any] = program.pieces(*known, *self.numbers.of(self.variant))
         return found
 
-    def _flags(self, program: Program) -> list[Array]:
-        """The flags of pieces, taken at their middles."""
-        names = tuple(leaf.name for leaf in program.leaves[PIECES].values())
-        if not names:
-            return []
-        own = _program(self.calc, self.axis, names, at_middle=True)
-        middle = self.middle[:, None]
-        numbers = _Columns(_numbers(self.calc, own)).of(self.variant)
-        found = own.points(*_given(self.calc, self.axis, own, middle, middle, self.variant), *numbers)
-        return [np.broadcast_to(flag, middle.shape) for flag in found]
+
+def flags_of(calc: Machines, axis: str, names: tuple[str, ...], middle: Array, variant: Array) -> list[Array]:
+    """The flags of pieces, taken at their middles; (rows, 1) each."""
+    if not names:
+        return []
+    own, places = _program(calc, axis, names, at_middle=True), middle[:, None]
+    numbers = _Columns(_numbers(calc, own)).of(variant)
+    found = own.points(*_given(calc, axis, own, places, places, variant), *numbers)
+    return [np.broadcast_to(flag, places.shape) for flag in found]
 
 
 class _Columns:

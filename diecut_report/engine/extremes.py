@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from functools import cache
+from functools import cache, partial
 from typing import NamedTuple
 
 import numpy as np
@@ -66,8 +66,9 @@ def search(calc: Calculation, wanted: Sequence[Wanted]) -> None:
     parts = [_candidates(pieces, i, values[curve], sign) for i, (curve, sign) in enumerate(open_ones)]
     seen = Candidates(*(np.concatenate(columns) for columns in zip(*parts, strict=True)))
     seen = _refined(_depths(calc, axis, open_ones, seen), seen, pieces)
+    start = np.searchsorted(seen.which, np.arange(len(open_ones) + 1))
     for i, (curve, sign) in enumerate(open_ones):
-        own = Candidates(*(column[seen.which == i] for column in seen))
+        own = Candidates(*(column[start[i] : start[i + 1]] for column in seen))
         best, flat = _best(pieces, own, sign)
         calc.extremes[curve, sign] = domain.edges, _at_start(pieces, best, flat, values[curve], sign)
 
@@ -111,19 +112,17 @@ def outruns(calc: Calculation, curve: str, found: Array, sign: float) -> Array:
 
     These are the samples of a single machine, and Gauss–Legendre points of the pieces of many: neither served the search.
     """
-    table, here = calc.table(calc.axis[curve]), found
     if calc.count == 1:
         values = calc.curve_samples(curve)
+        most = partial(np.ufunc.reduce, axis=1, keepdims=True)
     else:
-        values, here = table.at_gauss([curve], table.pieces().proof_order)[0], found[table.pieces().variant]
-    rows = np.flatnonzero(((values > here) if sign > 0 else (values < here)).any(axis=1))
+        table = calc.table(calc.axis[curve])
+        values, most = table.at_gauss([curve], table.pieces().proof_order)[0], table.pieces().of_variants
+    beyond = sign * (most(np.fmax if sign > 0 else np.fmin, values) - found)
     share = np.where(np.isfinite(found), 0.0, np.nan)
-    if len(rows):
-        variant = np.zeros(1, dtype=int) if calc.count == 1 else table.pieces().variant
-        top = np.full(calc.count, SMALLEST)
-        np.maximum.at(top, variant, np.abs(values).max(axis=1))
-        beyond = (sign * (values[rows] - here[rows])).max(axis=1)
-        np.maximum.at(share[:, 0], variant[rows], beyond / top[variant[rows]])
+    if (beyond > 0).any():
+        beyond /= np.maximum(most(np.fmax, np.abs(values)), SMALLEST)
+        share = np.where(beyond > 0, beyond, share)
     return share
 
 
@@ -132,7 +131,7 @@ def _candidates(pieces: Pieces, which: int, values: Array, sign: float) -> Candi
 
     Near enough: a smooth curve rises between two points by less than what it falls to the next ones.
     """
-    if np.isnan(values.sum()):
+    if np.isnan(np.vdot(values, values)):
         values = np.where(np.isnan(values), -sign * np.inf, values)
     heights, last = values.ravel(), values.shape[1] - 1
     flat = np.flatnonzero(_peaks(heights, last + 1, sign))
@@ -166,28 +165,27 @@ def _depths(calc: Calculation, axis: str, wanted: Sequence[Wanted], seen: Candid
 
     A few places are evaluated on all curves together, many on their own curve alone.
     """
-    pieces = calc.table(axis).pieces()
+    table = calc.table(axis)
+    pieces = table.pieces()
     curves = list(dict.fromkeys(curve for curve, _ in wanted))
     curve_of = np.array([curves.index(curve) for curve, _ in wanted])[seen.which]
     turned = np.array([-sign for _, sign in wanted])[seen.which]
     starts = np.searchsorted(curve_of, np.arange(len(curves) + 1))
-    middle, variant = pieces.middle[seen.piece], pieces.variant[seen.piece]
 
     @cache
     def of(curve: int | None) -> Curves:
         if curve is None:
-            return Curves(calc, axis, curves, middle, variant)
-        own = slice(starts[curve], starts[curve + 1])
-        return Curves(calc, axis, [curves[curve]], middle[own], variant[own])
+            return table.curves(curves, seen.piece)
+        return table.curves([curves[curve]], seen.piece[starts[curve] : starts[curve + 1]])
 
     def depths(x: Array, rows: Array) -> Array:
         x = pieces.inside(x[:, None], seen.piece[rows])
         if len(rows) < FEW and len(curves) > 1:
             values = np.stack(of(None).at(x, rows))[curve_of[rows], np.arange(len(x)), 0]
         else:
-            values = np.empty(len(rows))
-            for curve in np.unique(curve_of[rows]):
-                own = np.flatnonzero(curve_of[rows] == curve)
+            values, which = np.empty(len(rows)), curve_of[rows]
+            for curve in np.flatnonzero(np.bincount(which)):
+                own = np.flatnonzero(which == curve)
                 values[own] = of(int(curve)).at(x[own], rows[own] - starts[curve])[0][:, 0]
         chosen: Array = turned[rows] * values
         return chosen

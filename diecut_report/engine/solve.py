@@ -13,9 +13,7 @@ from diecut_report.contract.steps import Accumulated, Derivative, Root
 from diecut_report.engine import search
 from diecut_report.engine.calculation import Calculation
 from diecut_report.engine.domain import SMALLEST, grid_weights, nodes_of
-from diecut_report.engine.evaluation import Curves
 from diecut_report.engine.series import PieceSeries
-from diecut_report.engine.table import Pieces
 from diecut_report.expressions import Array
 from diecut_report.units import unit
 
@@ -58,7 +56,7 @@ def integral(calc: Calculation, curve: str, power: int) -> tuple[Array, Array]:
     pieces = table.pieces()
 
     def total(values: Array, weights: Array, rows: Array | slice = slice(None)) -> Array:
-        parts = (values**power @ weights) * pieces.width[rows]
+        parts = ((values if power == 1 else values**power) @ weights) * pieces.width[rows]
         return np.bincount(pieces.variant[rows], parts, calc.count)[:, None]
 
     heights, weights, order = table.on_grid([curve])[0], grid_weights(pieces.intervals), pieces.proof_order
@@ -70,8 +68,7 @@ def integral(calc: Calculation, curve: str, power: int) -> tuple[Array, Array]:
         if not is_open.any():
             break
         rows = np.flatnonzero(is_open[pieces.variant])
-        own = Curves(calc, calc.axis[curve], [curve], pieces.middle[rows], pieces.variant[rows])
-        now = total(own.at(pieces.gauss(order)[rows])[0], nodes_of(order)[1] / 2, rows)
+        now = total(table.curves([curve], rows).at(pieces.gauss(order)[rows])[0], nodes_of(order)[1] / 2, rows)
         difference = np.where(is_open, _apart(now, found, scale), difference)
         found = np.where(is_open, now, found)
     return found, difference
@@ -118,17 +115,17 @@ def _roots(calc: Calculation, curve: str, k: Array) -> tuple[Array, Array]:
     pieces, heights = table.pieces(), table.on_grid([curve])[0]
     grid, piece = pieces.grid.ravel(), k // heights.shape[1]
     return search.root(
-        _height_in(calc, curve, pieces, piece),
+        _height_in(calc, curve, piece),
         grid[k],
         grid[k + 1],
         np.stack([heights.ravel()[k], heights.ravel()[k + 1]]),
     )
 
 
-def _height_in(calc: Calculation, curve: str, pieces: Pieces, piece: Array) -> search.Function:
+def _height_in(calc: Calculation, curve: str, piece: Array) -> search.Function:
     """A curve at places in the pieces given."""
 
-    owned = Curves(calc, calc.axis[curve], [curve], pieces.middle[piece], pieces.variant[piece])
+    owned = calc.table(calc.axis[curve]).curves([curve], piece)
 
     def height(x: Array, row: Array) -> Array:
         return owned.at(x[:, None], row)[0][:, 0]
@@ -150,7 +147,7 @@ def dips(calc: Calculation, curve: str) -> Array:
     if not len(piece):
         return np.full((calc.count, 0), np.nan)
     depths = np.abs(np.stack([heights[piece, k + i] for i in range(3)]))
-    side, height, grid = np.sign(heights[piece, k]), _height_in(calc, curve, pieces, piece), pieces.grid
+    side, height, grid = np.sign(heights[piece, k]), _height_in(calc, curve, piece), pieces.grid
     low, centre, high = (grid[piece, k + i] for i in range(3))
     place, depth = search.minimum(lambda x, row: side[row] * height(x, row), low, centre, high, depths, DIP_TOLERANCE)
     places = np.where(depth < 0, place, np.nan)

@@ -2,19 +2,25 @@
 
 from __future__ import annotations
 
+from collections import defaultdict
 from collections.abc import Callable, Mapping, Sequence
-from functools import cached_property
-from typing import Protocol
+from functools import cached_property, partial
+from typing import NamedTuple, Protocol
 from weakref import proxy
 
 import numpy as np
 
 from diecut_report.engine.domain import Domain, nodes_of, shares
-from diecut_report.engine.evaluation import Curves, Machines
+from diecut_report.engine.evaluation import Curves, Machines, flags_of
+from diecut_report.engine.jumps import jumping
 from diecut_report.expressions import Array
 
 INSIDE = 2e-14  # share of the period by which places at a piece's end are moved inwards, so that rounding decides no condition
+SIZED = 4  # of so many points of a piece one tells how great a curve is there
 JUMP = 1e-9  # share of a curve's greatest value by which no curve moves on that way, unless it jumps
+
+Rows = Array | slice
+EVERY = slice(None)
 
 
 class Pieces:
@@ -28,7 +34,13 @@ class Pieces:
         self.width = self.right - self.left
         self.period = domain.period[self.variant, 0] if len(domain.period) > 1 else domain.period[0, 0]
         self.starts = np.flatnonzero(np.diff(self.variant, prepend=-1))  # the first piece of each variant that has one
+        self._gauss: dict[int, Array] = {}
         self.shape, self.intervals, self.proof_order = widths.shape, domain.intervals, domain.proof_order
+
+    @cached_property
+    def margin(self) -> Array:
+        """How far inwards from the very end of each piece rounding decides no condition."""
+        return np.minimum(INSIDE * self.period, self.width / 4)
 
     @cached_property
     def grid(self) -> Array:
@@ -39,12 +51,13 @@ class Pieces:
 
     def gauss(self, order: int) -> Array:
         """The Gauss–Legendre points of each piece."""
-        found: Array = self.middle[:, None] + self.width[:, None] * nodes_of(order)[0] / 2
-        return found
+        if order not in self._gauss:
+            self._gauss[order] = self.middle[:, None] + self.width[:, None] * (nodes_of(order)[0] / 2)
+        return self._gauss[order]
 
-    def inside(self, x: Array, row: Array) -> Array:
+    def inside(self, x: Array, row: Rows) -> Array:
         """Places (rows, points) of these pieces, moved inwards from the very ends."""
-        step = np.minimum(INSIDE * self.period, self.width / 4)[row][:, None]
+        step = self.margin[row][:, None]
         found: Array = np.clip(x, self.left[row][:, None] + step, self.right[row][:, None] - step)
         return found
 
@@ -75,6 +88,13 @@ class Owner(Machines, Protocol):
         """For each abscissa the curves that coming steps ask for."""
 
 
+class Known(NamedTuple):
+    """A curve's values, a row for each of the pieces that there were after so many cuts."""
+
+    cuts: int
+    values: Array
+
+
 class Table:
     """What is known of the curves over one abscissa."""
 
@@ -85,89 +105,105 @@ class Table:
         self.axis = axis
         self._edges: Array | None = None
         self._pieces: Pieces
-        self._known: dict[str, dict[str, Array]] = {}  # by use and curve: a row for each present piece
+        self._cuts: list[Array] = []  # for each cut the rows that pieces after it had before, -1 for none
+        self._known: dict[str, dict[str, Known]] = defaultdict(dict)  # by use and curve
+        self._flags: dict[str, Known] = {}
 
     def pieces(self) -> Pieces:
         """The present pieces."""
         domain = self.calc.domains[self.axis]
-        if self._edges is None:
-            self._edges, self._pieces = domain.edges, Pieces(domain)
-        elif self._edges is not domain.edges:
-            self._move(domain)
-        return self._pieces
-
-    def _move(self, domain: Domain) -> None:
-        """Take over what is known of pieces that stay; the entry "" tells which rows are computed."""
-        old, new = self._pieces, Pieces(domain)
+        if self._edges is domain.edges:
+            return self._pieces
+        new = Pieces(domain)
+        if self._edges is not None and not all(
+            np.array_equal(getattr(self._pieces, name), getattr(new, name)) for name in PIECE
+        ):
+            self._cuts.append(_matches(self._pieces, new))
         self._edges, self._pieces = domain.edges, new
-        if all(np.array_equal(getattr(old, name), getattr(new, name)) for name in ("variant", "left", "right")):
-            return
-        if not len(old.left):
-            self._known.clear()
-        same = _matches(old, new)
-        for known in self._known.values():
-            done = known.pop("")
-            for name, values in known.items():
-                known[name] = values[same]
-            known[""] = np.where(same >= 0, done[same, 0], 0.0)[:, None]
+        return new
+
+    def curves(self, names: Sequence[str], row: Rows = EVERY) -> Curves:
+        """Curves in these of the present pieces, anywhere."""
+        pieces = self.pieces()
+        return Curves(
+            self.calc, self.axis, names, pieces.middle[row], pieces.variant[row], partial(self._flags_in, row)
+        )
+
+    def _flags_in(self, row: Rows, names: tuple[str, ...]) -> list[Array]:
+        """Flags of pieces, each computed once; where few machines are, the sampler keeps them."""
+        new = tuple(name for name in names if name not in self._flags or self._flags[name].cuts < len(self._cuts))
+        found = flags_of(self.calc, self.axis, new, self._pieces.middle, self._pieces.variant)
+        self._flags |= {name: Known(len(self._cuts), flag) for name, flag in zip(new, found, strict=True)}
+        return [self._flags[name].values[row] for name in names]
 
     def on_grid(self, curves: Sequence[str]) -> list[Array]:
         """Curves on the search grid, (pieces, points) each."""
-        return self._at("grid", curves, lambda pieces, row: pieces.grid[row])
+        return self._at("grid", curves, lambda pieces: pieces.grid)
 
     def at_gauss(self, curves: Sequence[str], order: int) -> list[Array]:
         """Curves at the Gauss–Legendre points, (pieces, points) each."""
-        return self._at(f"gauss {order}", curves, lambda pieces, row: pieces.gauss(order)[row])
+        return self._at(f"gauss {order}", curves, lambda pieces: pieces.gauss(order))
 
-    def _at(self, use: str, curves: Sequence[str], places: Callable[[Pieces, Array], Array]) -> list[Array]:
-        pieces = self.pieces()
-        known = self._known.setdefault(use, {})
-        done = known.get("")
-        if done is not None and not done.all():
-            self._fill(known, [name for name in known if name], np.flatnonzero(done[:, 0] == 0), places)
-        if any(name not in known for name in curves):
-            missing = [
-                name for name in dict.fromkeys([*curves, *self.calc.ahead.get(self.axis, ())]) if name not in known
-            ]
-            every = np.arange(len(pieces.left))
-            known |= dict(zip(missing, self._evaluated(missing, every, places), strict=True))
-        known[""] = np.ones((len(pieces.left), 1))
-        return [known[name] for name in curves]
+    def _at(self, use: str, curves: Sequence[str], places: Callable[[Pieces], Array]) -> list[Array]:
+        x, known = places(self.pieces()), self._known[use]
+        if any(name not in known or known[name].cuts < len(self._cuts) for name in curves):
+            old: dict[int, list[str]] = defaultdict(list)
+            for name in dict.fromkeys([*curves, *self.calc.ahead.get(self.axis, ())]):
+                old[known[name].cuts if name in known else -1].append(name)
+            for cuts, names in old.items():
+                if cuts < len(self._cuts):
+                    known |= self._renewed(known, cuts, names, x)
+        return [known[name].values for name in curves]
 
-    def _fill(
-        self, known: dict[str, Array], names: list[str], row: Array, places: Callable[[Pieces, Array], Array]
-    ) -> None:
-        for name, values in zip(names, self._evaluated(names, row, places), strict=True):
-            known[name][row] = values
+    def _renewed(self, known: Mapping[str, Known], cuts: int, names: Sequence[str], x: Array) -> dict[str, Known]:
+        """Curves at x in the present pieces, evaluated in those that have come since so many cuts (-1: in all)."""
+        if cuts < 0 or not len(known[names[0]].values):
+            found = self._evaluated(names, EVERY, x)
+        else:
+            same = self._since(cuts)
+            row = np.flatnonzero(same < 0)
+            found = [known[name].values.take(same, axis=0, mode="clip") for name in names]
+            for values, new in zip(found, self._evaluated(names, row, x[row]), strict=True):
+                values[row] = new
+        return {name: Known(len(self._cuts), values) for name, values in zip(names, found, strict=True)}
 
-    def _evaluated(self, names: Sequence[str], row: Array, places: Callable[[Pieces, Array], Array]) -> list[Array]:
+    def _since(self, cuts: int) -> Array:
+        """For each present piece the row that it had after so many cuts, -1 for none."""
+        same = self._cuts[-1]
+        for earlier in reversed(self._cuts[cuts:-1]):
+            same = np.where(same < 0, -1, earlier[same])
+        return same
+
+    def _evaluated(self, names: Sequence[str], row: Rows, x: Array) -> list[Array]:
         pieces = self._pieces
-        x = places(pieces, row)
-        curves = Curves(self.calc, self.axis, names, pieces.middle[row], pieces.variant[row])
-        found = curves.at(x)
+        found = self.curves(names, row).at(x)
+        jump = [name for name in names if name in jumping(tuple(self.calc.curves.items()), self.axis)]
         ends = x[:, [0, -1]]
         inside = pieces.inside(ends, row)
-        if (ends != inside).any():
-            for values, limit in zip(found, curves.at(inside), strict=True):
-                _take_limits(values, limit)
+        if jump and (ends != inside).any():
+            limits = self.curves(jump, row).at(inside)
+            for name, limit in zip(jump, limits, strict=True):
+                _take_limits(found[names.index(name)], limit)
         return found
 
 
 def _take_limits(values: Array, limits: Array) -> None:
     """Where a condition changes at the very end of a piece, and rounding decides there, the value from inside holds."""
-    ends = values[:, [0, -1]]
-    apart = np.abs(ends - limits)
-    rows = np.flatnonzero((apart > JUMP * np.abs(ends)).any(axis=1))
-    if len(rows):
-        row, side = np.nonzero(apart[rows] > JUMP * np.abs(values[rows]).max(axis=1, keepdims=True))
-        values[rows[row], -side] = limits[rows[row], side]
+    for side in (0, -1):
+        end, limit = values[:, side], limits[:, side]
+        rows = np.flatnonzero(np.abs(end - limit) > JUMP * np.abs(end))
+        rows = rows[np.abs(end - limit)[rows] > JUMP * np.abs(values[:, ::SIZED][rows]).max(axis=1)]
+        values[rows, side] = limit[rows]
+
+
+PIECE = ("variant", "left", "right")
 
 
 def _matches(old: Pieces, new: Pieces) -> Array:
     """For each new piece the row of the old one that it is, -1 for none."""
-    columns = [np.concatenate([getattr(old, name), getattr(new, name)]) for name in ("right", "left", "variant")]
-    order = np.lexsort(columns)  # stable: an old piece comes right before the new one that it is
-    same = np.logical_and.reduce([column[order][1:] == column[order][:-1] for column in columns])
-    found = np.full(len(new.left), -1)
-    found[order[1:][same] - len(old.left)] = order[:-1][same]
-    return found
+    if not len(old.left):
+        return np.full(len(new.left), -1)
+    keys = [pieces.variant + pieces.left / pieces.period for pieces in (old, new)]
+    found = np.minimum(np.searchsorted(*keys), len(old.left) - 1)
+    same = np.logical_and.reduce([getattr(old, name)[found] == getattr(new, name) for name in PIECE])
+    return np.where(same, found, -1)
