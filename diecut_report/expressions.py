@@ -132,10 +132,10 @@ def _definition(code: CodeType) -> ast.FunctionDef:
     first, last = code.co_firstlineno, max(line for *_, line in code.co_lines() if line)
     for end in range(last, len(lines) + 1):  # brackets may close below the last line that does something
         try:
-            found = ast.parse(dedent("".join(lines[first - 1 : end])))
+            found = ast.parse("\n" * (first - 1) + dedent("".join(lines[first - 1 : end])))
         except SyntaxError:
             continue
-        definition = ast.increment_lineno(found, first - 1).body[0]
+        definition = found.body[0]
         if isinstance(definition, ast.FunctionDef):
             return definition
     raise FormulaError(f"{code.co_filename}:{first}: the source of formula {code.co_name} cannot be read")

@@ -15,7 +15,7 @@ from diecut_report.config import Config
 from diecut_report.contract.inputs import POINTS
 from diecut_report.expressions import Array
 
-TOGETHER = 256  # machines that are calculated at a time: their curves stay in the processor's cache
+TOGETHER = 1024  # machines that are calculated at a time: fewer cost more per machine, more do not fit into the processor's cache
 Given = Mapping[Input, Array | list[str]]
 
 

@@ -47,8 +47,11 @@ class Program:
         self._quantities: dict[str, str] = {}
         self._leaves: dict[str, Leaf] = {}
         results = [self._quantity(name) for name in wanted]
+        needed = self._needed(results)
+        self._lines = {own: line for own, line in self._lines.items() if own in needed}
         self.leaves = tuple(
-            {name: leaf for name, leaf in self._leaves.items() if LEVEL[leaf.kind] == level} for level in range(3)
+            {name: leaf for name, leaf in self._leaves.items() if name in needed and LEVEL[leaf.kind] == level}
+            for level in range(3)
         )
         self.carried = self._carried(results)
         self.numbers = self._function(NUMBERS, (), self.carried[NUMBERS])
@@ -164,6 +167,13 @@ class Program:
             self._level[own] = max((self._level.get(a, NUMBERS) for a in args), default=NUMBERS)
             self._lines[own], self._made[own] = (_written(op, args), args), key
         return self._ids[key]
+
+    def _needed(self, results: list[str]) -> set[str]:
+        """What results are made of: a sine may be known without its angle."""
+        needed = set(results)
+        for own, (_, args) in reversed(self._lines.items()):
+            needed |= set(args) if own in needed else set()
+        return needed
 
     def _carried(self, results: list[str]) -> tuple[tuple[str, ...], ...]:
         """The terms of each level that a later level takes."""

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from functools import cache, partial
+from functools import cache
 from typing import NamedTuple
 
 import numpy as np
@@ -63,7 +63,11 @@ def search(calc: Calculation, wanted: Sequence[Wanted]) -> None:
     curves = list(dict.fromkeys(curve for curve, _ in open_ones))
     values = dict(zip(curves, table.on_grid(curves), strict=True))
     pieces = table.pieces()
-    parts = [_candidates(pieces, i, values[curve], sign) for i, (curve, sign) in enumerate(open_ones)]
+    broken = {curve for curve, found in values.items() if np.isnan(np.vdot(found, found))}
+    parts = [
+        _candidates(pieces, i, _low(values[curve], sign) if curve in broken else values[curve], sign)
+        for i, (curve, sign) in enumerate(open_ones)
+    ]
     seen = Candidates(*(np.concatenate(columns) for columns in zip(*parts, strict=True)))
     seen = _refined(_depths(calc, axis, open_ones, seen), seen, pieces)
     start = np.searchsorted(seen.which, np.arange(len(open_ones) + 1))
@@ -102,7 +106,7 @@ def _at_start(pieces: Pieces, found: Found, flat: Array, values: Array, sign: fl
     reached = sign * values[rows] >= least
     own = np.flatnonzero(reached.any(axis=1))
     own = own[np.flatnonzero(np.diff(variant[own], prepend=-1))]
-    place[variant[own], 0] = pieces.grid[rows[own], reached[own].argmax(axis=1)]
+    place[variant[own], 0] = pieces.point(rows[own], reached[own].argmax(axis=1))
     middle[variant[own], 0] = pieces.middle[rows[own]]
     return found
 
@@ -112,12 +116,16 @@ def outruns(calc: Calculation, curve: str, found: Array, sign: float) -> Array:
 
     These are the samples of a single machine, and Gauss–Legendre points of the pieces of many: neither served the search.
     """
-    if calc.count == 1:
-        values = calc.curve_samples(curve)
-        most = partial(np.ufunc.reduce, axis=1, keepdims=True)
-    else:
-        table = calc.table(calc.axis[curve])
-        values, most = table.at_gauss([curve], table.pieces().proof_order)[0], table.pieces().of_variants
+    table = calc.table(calc.axis[curve])
+    pieces = table.pieces()
+    values = calc.curve_samples(curve) if calc.count == 1 else table.at_gauss([curve], pieces.proof_order)[0]
+
+    def most(choose: np.ufunc, heights: Array) -> Array:
+        if calc.count > 1:
+            return pieces.of_variants(choose, heights)
+        whole: Array = choose.reduce(heights, axis=1, keepdims=True)
+        return whole
+
     beyond = sign * (most(np.fmax if sign > 0 else np.fmin, values) - found)
     share = np.where(np.isfinite(found), 0.0, np.nan)
     if (beyond > 0).any():
@@ -131,8 +139,6 @@ def _candidates(pieces: Pieces, which: int, values: Array, sign: float) -> Candi
 
     Near enough: a smooth curve rises between two points by less than what it falls to the next ones.
     """
-    if np.isnan(np.vdot(values, values)):
-        values = np.where(np.isnan(values), -sign * np.inf, values)
     heights, last = values.ravel(), values.shape[1] - 1
     flat = np.flatnonzero(_peaks(heights, last + 1, sign))
     piece, k = np.divmod(flat, last + 1)
@@ -143,11 +149,17 @@ def _candidates(pieces: Pieces, which: int, values: Array, sign: float) -> Candi
     np.maximum.at(greatest, pieces.variant[piece], height)
     is_near = (height + np.where(np.isfinite(fall), fall, 0) >= greatest[pieces.variant[piece]]) & (height > -np.inf)
     near = np.flatnonzero(is_near)
-    grid = pieces.grid.ravel()
+    piece, k, height = piece[near], k[near], height[near]
+    place, left, right = pieces.point(piece, np.stack([k, np.maximum(k - 1, 0), np.minimum(k + 1, last)]))
     return Candidates(
-        np.full(len(near), which), piece[near], k[near], grid[flat[near]], height[near], grid[before[near]], grid[after[near]],
-        fall[near] <= PLATEAU * np.abs(height[near]), sign * around(values, piece[near], k[near]),
+        np.full(len(near), which), piece, k, place, height, left, right, fall[near] <= PLATEAU * np.abs(height),
+        sign * around(values, piece, k),
     )  # fmt: skip
+
+
+def _low(values: Array, sign: float) -> Array:
+    """Values of which those that are none stand below all others."""
+    return np.where(np.isnan(values), -sign * np.inf, values)
 
 
 def _peaks(heights: Array, points: int, sign: float) -> Array:
@@ -197,10 +209,10 @@ def _refined(depth_of: Function, seen: Candidates, pieces: Pieces) -> Candidates
     """The candidates at their vertices, by a polynomial or else by a search; on a plateau as they are."""
     rising = np.flatnonzero(~seen.flat)
     piece = seen.piece[rising]
-    spots = Spots(seen.k[rising], seen.around[rising], pieces.left[piece], pieces.width[piece])
-    place, height, holds = vertices(lambda x, row: -depth_of(x, rising[row]), spots, pieces.intervals)
-    told = rising[holds]
-    seen.place[told], seen.height[told] = place[holds], np.maximum(height[holds], seen.height[told])
+    spots = Spots(seen.k[rising], seen.around[rising], pieces.left[piece], pieces.width[piece], pieces.intervals)
+    place, height, holds = vertices(lambda x, row: -depth_of(x, rising[row]), spots)
+    higher = np.flatnonzero(holds & (height > seen.height[rising]))
+    seen.place[rising[higher]], seen.height[rising[higher]] = place[higher], height[higher]
     return seen if holds.all() else _searched(depth_of, seen, rising[~holds])
 
 

@@ -17,7 +17,7 @@ from diecut_report.engine.series import PieceSeries
 from diecut_report.expressions import Array
 from diecut_report.units import unit
 
-ORDERS = (96, 192, 384)  # of the Gauss–Legendre rules that follow where the search grid's rule is not proved
+ORDERS = (48, 96, 192, 384)  # of the Gauss–Legendre rules that follow where the search grid's rule is not proved
 INTEGRAL_TOLERANCE = 1e-11
 SAMPLE_TOLERANCE = 1e-8
 NEGLIGIBLE = 1e-17  # share of the greatest Chebyshev coefficient below which the last ones are left out
@@ -60,15 +60,15 @@ def integral(calc: Calculation, curve: str, power: int) -> tuple[Array, Array]:
         return np.bincount(pieces.variant[rows], parts, calc.count)[:, None]
 
     heights, weights, order = table.on_grid([curve])[0], grid_weights(pieces.intervals), pieces.proof_order
-    scale = total(np.abs(heights), weights)
     found = total(heights, weights)
+    scale = found if power == 2 else total(np.abs(heights), weights)
     difference = _apart(found, total(table.at_gauss([curve], order)[0], nodes_of(order)[1] / 2), scale)
     for order in ORDERS:
         is_open = difference >= INTEGRAL_TOLERANCE
         if not is_open.any():
             break
         rows = np.flatnonzero(is_open[pieces.variant])
-        now = total(table.curves([curve], rows).at(pieces.gauss(order)[rows])[0], nodes_of(order)[1] / 2, rows)
+        now = total(table.curves([curve], rows).at(pieces.gauss(order, rows))[0], nodes_of(order)[1] / 2, rows)
         difference = np.where(is_open, _apart(now, found, scale), difference)
         found = np.where(is_open, now, found)
     return found, difference
@@ -97,7 +97,7 @@ def crossings(calc: Calculation, curve: str) -> tuple[Array, Array]:
         run[1:][(sign[run[1:]] != sign[run[:-1]]) & (variant[1:] == variant[:-1])] - 1
     )  # zeros count as what is before them
     piece, rows = k // points, pieces.variant[k // points]
-    places = pieces.grid.ravel()[k]
+    places = pieces.point(piece, k % points)
     inside = (sign[k] != 0) & (piece == (k + 1) // points)
     worst = np.zeros((calc.count, 1))
     if inside.any():
@@ -113,13 +113,10 @@ def _roots(calc: Calculation, curve: str, k: Array) -> tuple[Array, Array]:
     """Roots between a point of the flat search grid and the next one, and what is left there."""
     table = calc.table(calc.axis[curve])
     pieces, heights = table.pieces(), table.on_grid([curve])[0]
-    grid, piece = pieces.grid.ravel(), k // heights.shape[1]
-    return search.root(
-        _height_in(calc, curve, piece),
-        grid[k],
-        grid[k + 1],
-        np.stack([heights.ravel()[k], heights.ravel()[k + 1]]),
-    )
+    piece, k = np.divmod(k, heights.shape[1])
+    ends = np.stack([k, k + 1])
+    low, high = pieces.point(piece, ends)
+    return search.root(_height_in(calc, curve, piece), low, high, heights[piece, ends])
 
 
 def _height_in(calc: Calculation, curve: str, piece: Array) -> search.Function:
@@ -147,8 +144,8 @@ def dips(calc: Calculation, curve: str) -> Array:
     if not len(piece):
         return np.full((calc.count, 0), np.nan)
     depths = np.abs(np.stack([heights[piece, k + i] for i in range(3)]))
-    side, height, grid = np.sign(heights[piece, k]), _height_in(calc, curve, piece), pieces.grid
-    low, centre, high = (grid[piece, k + i] for i in range(3))
+    side, height = np.sign(heights[piece, k]), _height_in(calc, curve, piece)
+    low, centre, high = (pieces.point(piece, k + i) for i in range(3))
     place, depth = search.minimum(lambda x, row: side[row] * height(x, row), low, centre, high, depths, DIP_TOLERANCE)
     places = np.where(depth < 0, place, np.nan)
     return _rows_of(places, pieces.variant[piece], calc.count, np.zeros(calc.count, dtype=bool))
@@ -205,7 +202,9 @@ def differentiate(calc: Calculation, step: Derivative) -> Array:
     table = calc.table(calc.axis[step.of])
     pieces, order = table.pieces(), domain.proof_order
     expected = table.at_gauss([step.of], order)[0]
-    found = PieceSeries(domain.edges, series).values(pieces.gauss(order), pieces.middle[:, None], pieces.variant)
+    found = PieceSeries(domain.edges, series).values(
+        pieces.gauss(order, slice(None)), pieces.middle[:, None], pieces.variant
+    )
     apart = pieces.of_variants(np.maximum, np.abs(found - expected))
     top = np.max(np.abs(values), axis=(1, 2))[:, None]
     residual: Array = apart / np.maximum(top, SMALLEST)

@@ -34,26 +34,29 @@ class Pieces:
         self.width = self.right - self.left
         self.period = domain.period[self.variant, 0] if len(domain.period) > 1 else domain.period[0, 0]
         self.starts = np.flatnonzero(np.diff(self.variant, prepend=-1))  # the first piece of each variant that has one
-        self._gauss: dict[int, Array] = {}
         self.shape, self.intervals, self.proof_order = widths.shape, domain.intervals, domain.proof_order
 
     @cached_property
     def margin(self) -> Array:
         """How far inwards from the very end of each piece rounding decides no condition."""
-        return np.minimum(INSIDE * self.period, self.width / 4)
-
-    @cached_property
-    def grid(self) -> Array:
-        """Chebyshev–Lobatto points of each piece, ends included."""
-        found: Array = self.left[:, None] + self.width[:, None] * shares(self.intervals)
-        found[:, -1] = self.right
+        found: Array = np.minimum(INSIDE * self.period, self.width / 4)
         return found
 
-    def gauss(self, order: int) -> Array:
-        """The Gauss–Legendre points of each piece."""
-        if order not in self._gauss:
-            self._gauss[order] = self.middle[:, None] + self.width[:, None] * (nodes_of(order)[0] / 2)
-        return self._gauss[order]
+    def grid(self, row: Rows) -> Array:
+        """The search grid of these pieces, (rows, points): Chebyshev–Lobatto points, ends included."""
+        found: Array = self.left[row][:, None] + self.width[row][:, None] * shares(self.intervals)
+        found[:, -1] = self.right[row]
+        return found
+
+    def point(self, row: Array, k: Array) -> Array:
+        """Points of the search grid by their pieces and numbers, any shape."""
+        found = self.left[row] + self.width[row] * shares(self.intervals)[k]
+        return np.where(k == self.intervals, self.right[row], found)
+
+    def gauss(self, order: int, row: Rows) -> Array:
+        """The Gauss–Legendre points of these pieces, (rows, points)."""
+        found: Array = self.middle[row][:, None] + self.width[row][:, None] * (nodes_of(order)[0] / 2)
+        return found
 
     def inside(self, x: Array, row: Rows) -> Array:
         """Places (rows, points) of these pieces, moved inwards from the very ends."""
@@ -86,6 +89,9 @@ class Owner(Machines, Protocol):
     @property
     def ahead(self) -> Mapping[str, Sequence[str]]:
         """For each abscissa the curves that coming steps ask for."""
+
+
+Places = Callable[[Pieces, Rows], Array]  # of pieces, (rows, points)
 
 
 class Known(NamedTuple):
@@ -138,32 +144,33 @@ class Table:
 
     def on_grid(self, curves: Sequence[str]) -> list[Array]:
         """Curves on the search grid, (pieces, points) each."""
-        return self._at("grid", curves, lambda pieces: pieces.grid)
+        return self._at("grid", curves, Pieces.grid)
 
     def at_gauss(self, curves: Sequence[str], order: int) -> list[Array]:
         """Curves at the Gauss–Legendre points, (pieces, points) each."""
-        return self._at(f"gauss {order}", curves, lambda pieces: pieces.gauss(order))
+        return self._at(f"gauss {order}", curves, lambda pieces, row: pieces.gauss(order, row))
 
-    def _at(self, use: str, curves: Sequence[str], places: Callable[[Pieces], Array]) -> list[Array]:
-        x, known = places(self.pieces()), self._known[use]
+    def _at(self, use: str, curves: Sequence[str], places: Places) -> list[Array]:
+        self.pieces()
+        known = self._known[use]
         if any(name not in known or known[name].cuts < len(self._cuts) for name in curves):
             old: dict[int, list[str]] = defaultdict(list)
             for name in dict.fromkeys([*curves, *self.calc.ahead.get(self.axis, ())]):
                 old[known[name].cuts if name in known else -1].append(name)
             for cuts, names in old.items():
                 if cuts < len(self._cuts):
-                    known |= self._renewed(known, cuts, names, x)
+                    known |= self._renewed(known, cuts, names, places)
         return [known[name].values for name in curves]
 
-    def _renewed(self, known: Mapping[str, Known], cuts: int, names: Sequence[str], x: Array) -> dict[str, Known]:
-        """Curves at x in the present pieces, evaluated in those that have come since so many cuts (-1: in all)."""
+    def _renewed(self, known: Mapping[str, Known], cuts: int, names: Sequence[str], places: Places) -> dict[str, Known]:
+        """Curves at places of the present pieces, evaluated in those that have come since so many cuts (-1: in all)."""
         if cuts < 0 or not len(known[names[0]].values):
-            found = self._evaluated(names, EVERY, x)
+            found = self._evaluated(names, EVERY, places)
         else:
             same = self._since(cuts)
             row = np.flatnonzero(same < 0)
             found = [known[name].values.take(same, axis=0, mode="clip") for name in names]
-            for values, new in zip(found, self._evaluated(names, row, x[row]), strict=True):
+            for values, new in zip(found, self._evaluated(names, row, places), strict=True):
                 values[row] = new
         return {name: Known(len(self._cuts), values) for name, values in zip(names, found, strict=True)}
 
@@ -174,8 +181,8 @@ class Table:
             same = np.where(same < 0, -1, earlier[same])
         return same
 
-    def _evaluated(self, names: Sequence[str], row: Rows, x: Array) -> list[Array]:
-        pieces = self._pieces
+    def _evaluated(self, names: Sequence[str], row: Rows, places: Places) -> list[Array]:
+        pieces, x = self._pieces, places(self._pieces, row)
         found = self.curves(names, row).at(x)
         jump = [name for name in names if name in jumping(tuple(self.calc.curves.items()), self.axis)]
         ends = x[:, [0, -1]]

@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import NamedTuple
 
 import numpy as np
+from numpy.polynomial.polynomial import polyder, polyval
 
 from diecut_report.engine.search import Function
 from diecut_report.expressions import Array
@@ -27,6 +28,13 @@ class Spots(NamedTuple):
     around: Array
     left: Array
     width: Array
+    intervals: int
+
+    def place(self, share: Array) -> Array:
+        """Places so many intervals of the grid beside the points, as the grid is spaced there."""
+        square = np.tan((self.k + share) * (np.pi / 2 / self.intervals)) ** 2  # NumPy's sine is many times slower
+        found: Array = self.left + self.width * (square / (1 + square))
+        return found
 
 
 def around(values: Array, piece: Array, k: Array) -> Array:
@@ -40,39 +48,40 @@ def around(values: Array, piece: Array, k: Array) -> Array:
     return found
 
 
-def vertices(height_of: Function, spots: Spots, intervals: int) -> tuple[Array, Array, Array]:
+def vertices(height_of: Function, spots: Spots) -> tuple[Array, Array, Array]:
     """Place and height of the greatest height about each spot, and whether they hold; at the end of a piece it is the end itself.
 
-    They hold where the curve follows the polynomial at three places, and falls from the end of a piece. Between the places the
+    They hold where the curve follows the polynomial at three places, and falls from the end of a piece. Between these places the
     polynomial tells bend and third derivative alone: the slope, so the vertex, is the curve's own.
     """
-    powers = POWERS @ spots.around.T
-    inward = (spots.k == 0) * 1.0 - (spots.k == intervals)
+    powers, centre = POWERS @ spots.around.T, spots.around[:, REACH]
+    inward = (spots.k == 0) * 1.0 - (spots.k == spots.intervals)
     at_end = (inward != 0) & (powers[2] <= 0)
     near = np.where(at_end, BESIDE * inward, _top(powers, inward))
     apart = np.where(at_end, BESIDE_APART, APART)
-
-    def place(share: Array) -> Array:
-        square = np.tan((spots.k + share) * (np.pi / 2 / intervals)) ** 2  # of which NumPy's sine is many times slower
-        found: Array = spots.left + spots.width * (square / (1 + square))
-        return found
-
     shares = near + apart * np.array([[-1.0], [0.0], [1.0]])
-    found = height_of(place(shares).ravel(), np.tile(np.arange(len(near)), 3)).reshape(3, -1)
-    centre = spots.around[:, REACH]
-    spread = np.abs(spots.around - centre[:, None]).max(axis=1)
-    follows = (np.abs(found - _value(powers, shares)) <= FOLLOWS * spread + ROUNDING * np.abs(centre)).all(axis=0)
-    bend = _value(_slope(_slope(powers)), near)
-    slope = (found[2] - found[0]) / (2 * apart) - apart**2 / 6 * _value(_slope(_slope(_slope(powers))), near)
+    found = height_of(spots.place(shares).ravel(), np.tile(np.arange(len(near)), 3)).reshape(3, -1)
+    bend, third = (polyval(near, polyder(powers, order), tensor=False) for order in (2, 3))
+    slope = (found[2] - found[0]) / (2 * apart) - apart**2 / 6 * third
     share = -slope / bend
     inside = (np.abs(near + share) <= 1) & ((inward == 0) | (near * inward > apart))
-    falls = at_end | (inside & (bend < 0) & (np.abs(share) < apart))
+    is_top = at_end | (inside & (bend < 0) & (np.abs(share) < apart))
     top = np.where(at_end, centre, found[1] + slope * share / 2)
+    is_highest = (found <= top + ROUNDING * np.abs(top)).all(axis=0)
     return (
-        place(np.where(at_end, 0.0, near + share)),
+        spots.place(np.where(at_end, 0, near + share)),
         top,
-        follows & falls & (found <= top + ROUNDING * np.abs(top)).all(axis=0),
+        _follows(spots, powers, shares, found) & is_top & is_highest,
     )
+
+
+def _follows(spots: Spots, powers: Array, shares: Array, found: Array) -> Array:
+    """Whether the heights found are the polynomial's at all places of a spot."""
+    centre = spots.around[:, REACH]
+    allowed = FOLLOWS * np.abs(spots.around - centre[:, None]).max(axis=1) + ROUNDING * np.abs(centre)
+    apart: Array = np.abs(found - polyval(shares, powers, tensor=False)) - allowed
+    follows: Array = apart.max(axis=0) <= 0
+    return follows
 
 
 def _top(powers: Array, inward: Array) -> Array:
@@ -80,22 +89,10 @@ def _top(powers: Array, inward: Array) -> Array:
 
     At the end of a piece, where the polynomial is even, from that of the parabola over the square.
     """
-    slope = _slope(powers)
-    bend = _slope(slope)
-    share = np.where(inward == 0, -powers[1] / (2 * powers[2]), inward * np.sqrt(np.abs(powers[2] / (2 * powers[4]))))
-    share = np.clip(share, -1, 1)
+    slope, bend = polyder(powers), polyder(powers, 2)
+    start = np.where(inward == 0, -powers[1] / (2 * powers[2]), inward * np.sqrt(np.abs(powers[2] / (2 * powers[4]))))
+    share: Array = np.clip(start, -1, 1)
     for _ in range(3):
-        share = np.clip(share - _value(slope, share) / _value(bend, share), -1, 1)
+        step = polyval(share, slope, tensor=False) / polyval(share, bend, tensor=False)
+        share = np.clip(share - step, -1, 1)
     return share
-
-
-def _slope(powers: Array) -> Array:
-    found: Array = powers[1:] * np.arange(1, len(powers))[:, None]
-    return found
-
-
-def _value(powers: Array, share: Array) -> Array:
-    total = powers[-1]
-    for power in powers[-2::-1]:
-        total = total * share + power
-    return total

@@ -1,0 +1,44 @@
+"""Curves that are said not to jump, at the very ends of their pieces and a rounding inside: every mechanism of the examples."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+import pytest
+
+from diecut_report.config import load_config
+from diecut_report.discovery import Discovery
+from diecut_report.engine import Calculation
+from diecut_report.engine.jumps import jumping
+from diecut_report.engine.table import JUMP
+from tests.configs import EXAMPLES
+from tests.engine.test_compiled import axes, machines
+
+
+def jumps(calc: Calculation, axis: str) -> frozenset[str]:
+    return jumping(tuple(calc.curves.items()), axis)
+
+
+@pytest.mark.parametrize("path", EXAMPLES, ids=lambda path: path.stem)
+def test_what_does_not_jump_is_the_same_at_the_end_and_just_inside(path: Any) -> None:
+    for calc in machines(load_config(path, Discovery([])), {}, 5).values():
+        for axis, curves in axes(calc):
+            pieces = calc.table(axis).pieces()
+            row = np.array([i for i, variant in enumerate(pieces.variant) if variant not in calc.flaws])
+            ends = np.stack([pieces.left[row], pieces.right[row]], axis=1)
+            places = np.concatenate([pieces.inside(ends, row), pieces.grid(row)], axis=1)
+            with np.errstate(all="ignore"):
+                known = calc.sampler_of(axis, places, pieces.middle[row][:, None], pieces.variant[row])
+                for name in set(curves) - jumps(calc, axis):
+                    values = np.broadcast_to(known[name], places.shape)
+                    apart = np.abs(values[:, :2] - values[:, [2, -1]])
+                    assert (apart <= JUMP * np.abs(values).max()).all(), name
+
+
+def test_the_drive_jumps_only_where_the_direction_of_power_decides() -> None:
+    base = load_config(next(path for path in EXAMPLES if path.stem == "flat_cylinder_press"), Discovery([]))
+    calc = machines(base, {}, 6)["drive"]
+    assert jumps(calc, "crank_angle") == {
+        "rocker_torque", "crank_torque", "coupler_force", "rocker_bearing_force", "crank_bearing_force_x", "crank_bearing_force_y",
+    }  # fmt: skip
