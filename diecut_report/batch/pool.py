@@ -5,9 +5,10 @@ from __future__ import annotations
 import os
 import signal
 import threading
-from collections.abc import Iterable
+from collections.abc import Iterable, Iterator
 from concurrent.futures import Future, ProcessPoolExecutor
 from concurrent.futures.process import BrokenProcessPool
+from contextlib import contextmanager
 from multiprocessing import parent_process
 from multiprocessing.context import SpawnContext, SpawnProcess
 from typing import Any, Self
@@ -50,9 +51,10 @@ class Pool:
 
     def submit(self, function: Function, chunk: Chunk) -> Future[Any]:
         """Begin a chunk in the next process that is free."""
-        if self._executor is None:
-            self._executor = ProcessPoolExecutor(self._jobs, self._context, _begin, (self._warm,))
-        return self._executor.submit(work, self._warm.key, function, chunk)
+        with _interrupt_held_back():
+            if self._executor is None:
+                self._executor = ProcessPoolExecutor(self._jobs, self._context, _begin, (self._warm,))
+            return self._executor.submit(work, self._warm.key, function, chunk)
 
     def restart(self) -> None:
         """New processes; chunks of the old ones are gone."""
@@ -72,6 +74,22 @@ class Pool:
         if self._executor is not None:
             self._executor.shutdown()
         self._context.started.clear()
+
+
+@contextmanager
+def _interrupt_held_back() -> Iterator[None]:
+    """A Ctrl-C meanwhile counts afterwards: a process that has half begun could not be ended."""
+    if threading.current_thread() is not threading.main_thread():
+        yield
+        return
+    held: list[int] = []
+    before = signal.signal(signal.SIGINT, lambda number, _: held.append(number))
+    try:
+        yield
+    finally:
+        signal.signal(signal.SIGINT, before)
+        if held:
+            signal.raise_signal(held[0])
 
 
 class _Process(SpawnProcess):

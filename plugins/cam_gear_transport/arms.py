@@ -100,9 +100,11 @@ def pressure_angles(rocker: Rocker, cycle: Motion, length: float, arms: Any) -> 
     direction = arms[:, None] + cycle.angle
     lowest = loads.lowest_direction(arms, rocker.stop)
     beside = loads.stays_on_one_side(lowest, loads.highest_direction(lowest, rocker.held + rocker.stop))
-    with np.errstate(divide="ignore"):  # an arm on the line O₁O₃
+    with np.errstate(
+        divide="ignore", invalid="ignore"
+    ):  # an arm on the line O₁O₃, a roller that stands still: they do not pass
         found = cam.pressure_angle(rocker.center_distance, length, direction, cycle.turn).max(axis=1)
-    return np.where(beside & _sound(rocker, cycle, length, direction), found, np.inf)
+        return np.where(beside & _sound(rocker, cycle, length, direction), found, np.inf)
 
 
 def _sound(rocker: Rocker, cycle: Motion, length: float, direction: Any) -> Any:

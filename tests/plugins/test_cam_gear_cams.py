@@ -7,7 +7,7 @@ from typing import Any
 
 import numpy as np
 import pytest
-from hypothesis import assume, given, settings
+from hypothesis import assume, example, given, settings
 from hypothesis import strategies as st
 from scipy.optimize import minimize_scalar
 
@@ -59,6 +59,7 @@ def test_the_rollers_stay_tangent_to_their_profiles(n: str, law: str) -> None:
     phi=st.floats(0, 6.28),
     dwell=st.floats(60, 190),
 )
+@example(arm=150.0, roller=5.0, one=40.0, other=200.0, phi=0.0, dwell=60.0)  # a roller that stands still on its cam
 @settings(deadline=None, max_examples=60)
 def test_the_checks_tell_whether_the_rollers_touch_their_profiles_once(
     arm: float, roller: float, one: float, other: float, phi: float, dwell: float
