@@ -28,7 +28,7 @@ from diecut_report.plugins.cylinder_drive import MECHANISM
 from diecut_report.verdicts import applies, sides, verdict
 
 VARIANTS = 4096
-ENGINE_CHUNKS, KERNEL_CHUNKS = (256, 512, 1024, 2048), (16, 32, 64, 128, 256)
+ENGINE_CHUNKS, KERNEL_CHUNKS = (512, 1024, 2048), (32, 64, 128, 256, 512)
 BASE: dict[str, float] = {
     "frame_ratio": 5, "coupler_ratio": 5, "rocker_ratio": 2.05, "crank_speed": 2 * np.pi * 50 / 60, "cylinder_radius": 0.105,
     "cylinder_length": 0.7, "cylinder_mass": 80.9077, "cylinder_inertia": 0.63623, "static_unbalance": 1.97727,

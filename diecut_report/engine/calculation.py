@@ -143,7 +143,9 @@ class Calculation:
     def apply(self, part: Binding) -> Array:
         """A formula of numbers (or rows over like parts), for all variants."""
         link = bound(part)
-        result = link.formula(*(self[n] if isinstance(n, str) else n for n in link.names.values()))
+        result: Array = link.formula.function(*[self[n] if isinstance(n, str) else n for n in link.takes])
+        if np.ndim(result) == 2 and len(result) == self.count:
+            return result
         return np.broadcast_to(result, (self.count, *np.shape(result)[1:]) if np.ndim(result) == 2 else (self.count, 1))
 
     def existing(self, step: Step, values: Array) -> Array:

@@ -254,7 +254,10 @@ def _finite(calc: Calculation, step: Step) -> None:
     values = calc.values.get(step.id)
     if values is None or values.dtype == object or step.exists is not None or isinstance(step, Crossings):
         return
-    bad = ~np.isfinite(values).all(axis=1) & _possible(calc)
+    is_finite = np.isfinite(values)
+    if is_finite.all():
+        return
+    bad = ~is_finite.all(axis=1) & _possible(calc)
     if bad.any():
         _mark(calc, step, bad, f"{step.description} ({step.id}) has no value with these inputs")
 

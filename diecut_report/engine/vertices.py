@@ -15,10 +15,11 @@ OFFSETS = np.arange(-REACH, REACH + 1)
 POWERS = np.linalg.inv(
     np.vander(OFFSETS, increasing=True)
 )  # the polynomial's coefficients by the heights at the points
-APART = 0.02  # of the places where the curve is compared with the polynomial, in intervals of the grid
+APART = 0.01  # of the places where the curve is compared with the polynomial, in intervals of the grid
 BESIDE, BESIDE_APART = 0.5, 0.25  # the same beside the end of a piece
 FOLLOWS = 1e-5  # share of the heights' spread by which the curve may be off the polynomial
 ROUNDING = 1e-14  # share of the height by which it may be off besides
+ALIKE = 1e-12  # share of the height by which rounding may lift a place beside the vertex above it
 
 
 class Spots(NamedTuple):
@@ -56,7 +57,7 @@ def vertices(height_of: Function, spots: Spots) -> tuple[Array, Array, Array]:
     """
     powers, centre = POWERS @ spots.around.T, spots.around[:, REACH]
     inward = (spots.k == 0) * 1.0 - (spots.k == spots.intervals)
-    at_end = (inward != 0) & (powers[2] <= 0)
+    at_end = (inward != 0) & (_rise(powers) <= ALIKE * np.abs(centre))
     near = np.where(at_end, BESIDE * inward, _top(powers, inward))
     apart = np.where(at_end, BESIDE_APART, APART)
     shares = near + apart * np.array([[-1.0], [0.0], [1.0]])
@@ -66,13 +67,19 @@ def vertices(height_of: Function, spots: Spots) -> tuple[Array, Array, Array]:
     share = -slope / bend
     inside = (np.abs(near + share) <= 1) & ((inward == 0) | (near * inward > apart))
     is_top = at_end | (inside & (bend < 0) & (np.abs(share) < apart))
-    top = np.where(at_end, centre, found[1] + slope * share / 2)
-    is_highest = (found <= top + ROUNDING * np.abs(top)).all(axis=0)
-    return (
-        spots.place(np.where(at_end, 0, near + share)),
-        top,
-        _follows(spots, powers, shares, found) & is_top & is_highest,
-    )
+    place, top = spots.place(np.where(at_end, 0, near + share)), centre.copy()
+    inner = np.flatnonzero(is_top & ~at_end)
+    top[inner] = height_of(place[inner], inner)
+    is_highest = (found <= top + ALIKE * np.abs(top)).all(axis=0)
+    return place, top, _follows(spots, powers, shares, found) & is_top & is_highest
+
+
+def _rise(powers: Array) -> Array:
+    """How far the polynomial, which is even at the end of a piece, rises from there."""
+    _, _, second, _, fourth, *_ = powers
+    turns = (second > 0) & (fourth < 0)
+    found: Array = np.where(turns, -(second**2) / np.where(turns, 4 * fourth, 1), second)
+    return found
 
 
 def _follows(spots: Spots, powers: Array, shares: Array, found: Array) -> Array:
