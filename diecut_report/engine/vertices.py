@@ -14,9 +14,10 @@ REACH = 4  # points of the grid to each side of a candidate that the polynomial 
 OFFSETS = np.arange(-REACH, REACH + 1)
 POWERS = np.linalg.inv(
     np.vander(OFFSETS, increasing=True)
-)  # the polynomial's coefficients by the heights at the points
-APART = 0.01  # of the places where the curve is compared with the polynomial, in intervals of the grid
-BESIDE, BESIDE_APART = 0.5, 0.25  # the same beside the end of a piece
+)  # gives the polynomial's coefficients by these points' heights
+APART = 0.01  # intervals of the grid between the places where the curve is compared with the polynomial
+BESIDE, BESIDE_APART = 0.5, 0.25  # intervals from the end of a piece to the middle of these places, and between them
+SHIFT = 0.02  # most intervals by which the curve's own slope may move the polynomial's vertex
 FOLLOWS = 1e-5  # share of the heights' spread by which the curve may be off the polynomial
 ROUNDING = 1e-14  # share of the height by which it may be off besides
 ALIKE = 1e-12  # share of the height by which rounding may lift a place beside the vertex above it
@@ -32,7 +33,7 @@ class Spots(NamedTuple):
     intervals: int
 
     def place(self, share: Array) -> Array:
-        """Places so many intervals of the grid beside the points, as the grid is spaced there."""
+        """Places so many intervals of the grid beside the points, as the grid is spaced there; back from the end at an end."""
         square = np.tan((self.k + share) * (np.pi / 2 / self.intervals)) ** 2  # NumPy's sine is many times slower
         found: Array = self.left + self.width * (square / (1 + square))
         return found
@@ -57,7 +58,7 @@ def vertices(height_of: Function, spots: Spots) -> tuple[Array, Array, Array]:
     """
     powers, centre = POWERS @ spots.around.T, spots.around[:, REACH]
     inward = (spots.k == 0) * 1.0 - (spots.k == spots.intervals)
-    at_end = (inward != 0) & (_rise(powers) <= ALIKE * np.abs(centre))
+    at_end = (inward != 0) & (_rise(powers) <= ROUNDING * np.abs(centre))
     near = np.where(at_end, BESIDE * inward, _top(powers, inward))
     apart = np.where(at_end, BESIDE_APART, APART)
     shares = near + apart * np.array([[-1.0], [0.0], [1.0]])
@@ -65,8 +66,7 @@ def vertices(height_of: Function, spots: Spots) -> tuple[Array, Array, Array]:
     bend, third = (polyval(near, polyder(powers, order), tensor=False) for order in (2, 3))
     slope = (found[2] - found[0]) / (2 * apart) - apart**2 / 6 * third
     share = -slope / bend
-    inside = (np.abs(near + share) <= 1) & ((inward == 0) | (near * inward > apart))
-    is_top = at_end | (inside & (bend < 0) & (np.abs(share) < apart))
+    is_top = at_end | ((bend < 0) & (np.abs(share) < SHIFT) & (np.abs(near + share) <= 1))
     place, top = spots.place(np.where(at_end, 0, near + share)), centre.copy()
     inner = np.flatnonzero(is_top & ~at_end)
     top[inner] = height_of(place[inner], inner)
