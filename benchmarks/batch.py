@@ -33,7 +33,7 @@ from diecut_report.discovery import Discovery
 
 CONFIGS = Path(import_module("diecut_report.configs").__path__[0])
 STUDY, BASE = CONFIGS / "flat_cylinder_study.yaml", CONFIGS / "flat_cylinder_press.yaml"
-PRESS_ROWS, CORES_ROWS, ROUNDS = 4096, 65536, 5
+PRESS_ROWS, CORES_ROWS, ROUNDS = 4096, 131072, 5
 SIZES = (1_000, 10_000, 100_000, 1_000_000)
 DRIVE = """\
 schema_version: 1

@@ -22,7 +22,7 @@ from typing import Any
 import numpy as np
 from drive_kernel import Kernel
 
-from diecut_report.batch.memory import keep_freed_memory
+from diecut_report.batch.process import settle
 from diecut_report.engine import calculate
 from diecut_report.plugins.cylinder_drive import MECHANISM
 from diecut_report.verdicts import applies, sides, verdict
@@ -68,7 +68,7 @@ def rate(function: Callable[[Mapping[str, Any], int], Any], inputs: Mapping[str,
 
 def main(rounds: int) -> None:
     """Run both in turns and print variants a second, and the ratio of the best."""
-    keep_freed_memory()  # as workers of a study do
+    settle()  # as workers of a study do
     inputs = variants(VARIANTS)
     runs: dict[tuple[str, int], Callable[[Mapping[str, Any], int], Any]] = {
         ("engine", n): by_engine for n in ENGINE_CHUNKS

@@ -56,6 +56,7 @@ ONLY_IN = {  # library: the modules of the program that may import it
     "matplotlib": r"diecut_report\.(report\.(figures|charts|drawing)|batch\.summary\.\w+)",
     "openpyxl": r"diecut_report\.batch\.(table_files|export)",
     "pyarrow": r"diecut_report\.batch\.(parts|store|export|table_files|cells)",
+    "threadpoolctl": r"diecut_report\.batch\.process",
     "weasyprint": r"diecut_report\.(report\.pdf|batch\.summary\.pages)",
     "ezdxf": r"diecut_report\.exports",
     "jinja2": r"diecut_report\.report\.(html|document)",

@@ -15,7 +15,7 @@ from diecut_report.config import Config
 from diecut_report.contract.inputs import POINTS
 from diecut_report.expressions import Array
 
-TOGETHER = 2048  # machines that are calculated at a time: fewer cost more per machine
+TOGETHER = 1024  # machines that are calculated at a time: fewer cost more per machine, more take more memory
 Given = Mapping[Input, Array | list[str]]
 
 

@@ -23,7 +23,7 @@ from diecut_report.contract.inputs import Quantity
 from diecut_report.references import PRESS
 
 SMALL = 1024  # variants up to which a pool of processes costs more time than it saves
-PARTS = 64  # at least as many part files in a study that is large enough, so that all processes have work to the end
+PARTS = 16  # at least as many part files in a study that is large enough, so that all processes have work to the end
 PART = (512, 8192)  # least and most variants of a part file
 VALUES = 8_000_000  # numbers of a part file at most, for curves are long
 

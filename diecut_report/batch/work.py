@@ -10,7 +10,7 @@ from typing import Any
 
 import numpy as np
 
-from diecut_report.batch.memory import keep_freed_memory
+from diecut_report.batch.process import settle
 from diecut_report.batch.rows import calculate_rows
 from diecut_report.batch.study import Study, load_study
 from diecut_report.discovery import Discovery
@@ -41,7 +41,7 @@ def load(study: bytes, files: Mapping[str, bytes], plugins: Sequence[str]) -> St
 
     ``files``: the base and the tables by their names in the study, which may be paths to anywhere.
     """
-    keep_freed_memory()
+    settle()
     with tempfile.TemporaryDirectory() as folder:
         places = {name: Path(folder) / f"{n}-{PurePath(name).name}" for n, name in enumerate(files)}
         for name, content in files.items():

@@ -112,7 +112,11 @@ class _Columns:
         self.values = list(values)
         self.tables: list[tuple[list[int], Array]] = []
         for kind in (float, bool):
-            own = [i for i, value in enumerate(values) if np.ndim(value) and value.dtype == kind]
+            own = [
+                i
+                for i, value in enumerate(values)
+                if isinstance(value, np.ndarray) and value.ndim and value.dtype == kind
+            ]
             if own:
                 self.tables.append((own, np.stack([values[i][:, 0] for i in own])))
 
