@@ -81,9 +81,10 @@ def sound(eccentricity: float, edge_radius: float, depth: float, thickness: floa
     steep = _end_at(f.least_shear_angle(), *sizes)
     nearest = max(bounds.nearest, steep, clear_of_blade(*sizes, thickness))
     turned = f.reversal_angle(depth - thickness, edge_radius, eccentricity)
-    with np.errstate(invalid="ignore"):  # above a thick board the edge turns back before it gets to the counter-knife
-        runs_back = f.edge_position(turned, depth, eccentricity, edge_radius)
-    furthest = float(np.fmin(min(bounds.furthest, _end_at(f.greatest_shear_angle(), *sizes)), runs_back))
+    with np.errstate(invalid="ignore"):
+        runs_back = np.nan_to_num(f.edge_position(turned, depth, eccentricity, edge_radius), nan=0.0)
+    # 0: above a thick board the edge turns back before it gets to the counter-knife, and no cut is sound
+    furthest = float(min(bounds.furthest, _end_at(f.greatest_shear_angle(), *sizes), runs_back))
     pushed = _end_at(f.expulsion_angle(friction), *sizes)
     return Range(nearest, min(furthest, pushed) if _up(nearest) < _down(pushed) else furthest)
 

@@ -7,7 +7,7 @@ from pathlib import Path
 from typing import Any
 
 import pytest
-from hypothesis import assume, given, settings
+from hypothesis import assume, example, given, settings
 from hypothesis import strategies as st
 
 from diecut_report import pipeline
@@ -130,6 +130,9 @@ def failing(changes: dict[str, Any]) -> dict[str, str]:
 SHARE = st.floats(0.03, 0.97)
 
 
+@example(
+    ecc=0.9375, low=0.96484375, board=0.5, cut=0.5, thin=8.0, friction=0.0
+)  # turns back before it is at the counter-knife
 @settings(max_examples=150, deadline=None)
 @given(ecc=SHARE, low=SHARE, board=SHARE, cut=SHARE, thin=st.floats(0.05, 10), friction=st.floats(0, 0.5))
 def test_what_a_failing_check_advises_makes_it_pass_as_printed_and_breaks_no_other(
