@@ -72,6 +72,8 @@ class Pool:
         for process in self._context.started:
             process.kill()
         if self._executor is not None:
+            # A process may have died in the middle of a result: its rest would be awaited as long as anybody could write it.
+            self._executor._result_queue._writer.close()  # type: ignore[attr-defined]
             self._executor.shutdown()
         self._context.started.clear()
 
