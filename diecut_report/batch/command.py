@@ -101,7 +101,7 @@ def run(
             pass
     outcome = run_study(known, directory, where, resume=resume, tell=shown)
     with outcome.store.lock():
-        told = write_reports(known, outcome.store, where.plugins, agreed=agreed, tell=shown.doing)
+        told = write_reports(known, outcome.store, where, agreed=agreed, tell=shown.doing)
         shown.doing("summary")
         told += export(outcome.store, formats)
         summarise(directory)

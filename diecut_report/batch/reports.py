@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 import tempfile
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
@@ -12,6 +13,8 @@ import numpy as np
 
 from diecut_report import pipeline
 from diecut_report.batch.alike import rounded
+from diecut_report.batch.engines import Engine, InProcess, Pool, Warm, results
+from diecut_report.batch.run import Where
 from diecut_report.batch.store import Store
 from diecut_report.batch.study import Study
 from diecut_report.batch.variant import variant_config
@@ -32,10 +35,28 @@ class Chosen:
     notes: tuple[str, ...] = ()
 
 
-def write_reports(study: Study, store: Store, plugins: Sequence[str], *, agreed: bool, tell: Tell) -> tuple[str, ...]:
+@dataclass(frozen=True)
+class Place:
+    """What a process needs to make reports: the folder of the study, and folders of plugins."""
+
+    directory: Path
+    plugins: tuple[str, ...]
+
+
+@dataclass(frozen=True)
+class Report:
+    """One full report."""
+
+    variant: int
+
+    def __str__(self) -> str:
+        return f"the full report of variant {self.variant}"
+
+
+def write_reports(study: Study, store: Store, where: Where, *, agreed: bool, tell: Tell) -> tuple[str, ...]:
     """The full reports that the study asks for, as ``reports/ID.html`` and so on; those that are there already are kept.
 
-    Returns what was not done, in words. ``tell`` hears how far it is.
+    Returns what was not done, in words. ``tell`` hears how far it is. They are made side by side in processes of this machine.
     """
     chosen = wanted(study, store)
     folder = store.directory / FOLDER
@@ -46,18 +67,27 @@ def write_reports(study: Study, store: Store, plugins: Sequence[str], *, agreed:
             f"Make them all with: batch --resume {store.directory} --yes; or one: report {store.directory}#{missing[0]}"
         )
         return (*chosen.notes, words)
-    for done, variant in enumerate(missing):
-        tell(f"full report {done + 1} of {len(missing)}")
-        _write(store.directory, variant, folder, plugins)
+    if missing:
+        with _engine(store, where, len(missing)) as engine:
+            tell(f"full reports: 0 of {len(missing)}")
+            for done, _ in enumerate(results(engine, _write, map(Report, missing)), 1):
+                tell(f"full reports: {done} of {len(missing)}")
     return chosen.notes
 
 
-def _write(directory: Path, variant: int, folder: Path, plugins: Sequence[str]) -> None:
-    with tempfile.TemporaryDirectory() as place:
-        file = Path(place) / f"{variant}.yaml"
-        file.write_text(variant_config(directory, variant), encoding="utf-8")
-        discovery = Discovery([Path(plugin) for plugin in plugins])
-        pipeline.report(file, discovery, lambda _: None, folder, list(FORMATS), None)
+def _engine(store: Store, where: Where, reports: int) -> Engine:
+    plugins = tuple(where.plugins)
+    warm = Warm("\n".join(["reports", str(store.directory), *plugins]), Place, (store.directory, plugins))
+    jobs = min(where.jobs or os.cpu_count() or 1, reports)
+    return Pool(jobs, warm) if jobs > 1 else InProcess(warm)
+
+
+def _write(place: Place, report: Report) -> None:
+    with tempfile.TemporaryDirectory() as folder:
+        file = Path(folder) / f"{report.variant}.yaml"
+        file.write_text(variant_config(place.directory, report.variant), encoding="utf-8")
+        discovery = Discovery([Path(plugin) for plugin in place.plugins])
+        pipeline.report(file, discovery, lambda _: None, place.directory / FOLDER, list(FORMATS), None)
 
 
 def wanted(study: Study, store: Store) -> Chosen:

@@ -106,6 +106,16 @@ def test_reports_of_some_variants(tmp_path: Path, capfd: Capture) -> None:
     assert "variant 3 gets no full report: a constraint drops it." in capfd.readouterr().err
 
 
+def test_reports_are_the_same_from_several_processes(tmp_path: Path) -> None:
+    study = files(tmp_path, varied("[1 kN, 2 kN, 3 kN]", rest="reports: all\n"))
+    made = []
+    for jobs in (1, 2):
+        assert run("batch", study, "-o", tmp_path / f"{jobs}", "--jobs", f"{jobs}", "--quiet") == 0
+        made.append({path.name: path.read_bytes() for path in (tmp_path / f"{jobs}" / "reports").iterdir()})
+    assert len(made[0]) == 9
+    assert made[0] == made[1]
+
+
 def test_the_failed_ones_get_a_report(tmp_path: Path) -> None:
     text = varied("[2 kN, 3 kN]", rest="reports: failed\n")
     assert run("batch", files(tmp_path, text, CHECKED), "-o", tmp_path / "out", "--quiet") == 1
