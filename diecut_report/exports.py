@@ -90,6 +90,8 @@ def _zoom(drawing: Drawing, points: list[Point]) -> None:
 
 
 def _written(drawing: Drawing) -> bytes:
+    for kind in sorted(drawing.entitydb.dxf_types_in_use()):  # of itself ezdxf takes them in the order of a set
+        drawing.classes.add_class(kind)
     text = io.StringIO()
     drawing.write(text)
     return text.getvalue().encode(drawing.output_encoding)
