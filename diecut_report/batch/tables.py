@@ -8,7 +8,7 @@ Rows count as a spreadsheet shows them, the header being row 1; in Parquet from 
 from __future__ import annotations
 
 import re
-from collections.abc import Collection, Iterable, Iterator
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -89,14 +89,6 @@ class TableFile:
         if name not in self.columns:
             raise UserError(self._missing(name))
         return self.columns[name]
-
-    def mismatch(self, wanted: Collection[str]) -> list[Problem]:
-        """What is wrong with the columns where just these are wanted: the missing and the extra ones."""
-        extra = [column for name, column in self.columns.items() if name not in wanted]
-        words = "is no column that is wanted here{near}; remove it, or mend its name"
-        return [self._missing(name) for name in wanted if name not in self.columns] + [
-            column.problem(words.format(near=nearest(column.name, wanted))) for column in extra
-        ]
 
     def _missing(self, name: str) -> Problem:
         there = ", ".join(self.columns)

@@ -200,11 +200,20 @@ def test_a_column_of_a_table_gives_the_values_of_a_path(tmp_path: Path) -> None:
     assert list(sample.rows(0, 2)[FORCE]) == [1000.0, 2000.0]
 
 
+def test_a_column_that_a_table_lacks_is_told_with_those_that_it_has(tmp_path: Path) -> None:
+    saved(tmp_path, "load [kN],other\n1,x\n", "loads.csv")
+    told = "loads.csv:1: the table has no column laod (did you mean 'load'?). Its columns: load, other"
+    assert [
+        line.removeprefix(f"{tmp_path}/") for line in faults(tmp_path, varied("{table: loads.csv, column: laod}"))
+    ] == [told]
+
+
 TABLES = [  # the file, and what is told of it
     (f"{FORCE} [N]\n1500\n-2\n", "machines.csv:3:1: mechanisms.a.force: row 3: -0.002 kN (from the table) is out of range; allowed: > 0 kN"),
     (f"{FORCE} [N]\n" + "-2\n" * 7, "machines.csv:7:1: mechanisms.a.force: row 7: 2 more cells of this column are wrong"),
     (f"{FORCE} [mm]\n1\n", "machines.csv:1:1: mechanisms.a.force: the header's unit [mm] is of another kind"),
     ("mechanisms.a.forse\n1\n", "machines.csv:1:1: mechanisms.a.forse: the column's name 'forse' is no input of a (did you mean 'force'?)"),
+    (f"{FORCE},remark\n1,2\n", "machines.csv:1:2: remark: the column's name is no path of an input (did you mean 'mechanisms.a.remark'?); paths"),
     (f"{GRADE}\nfine\nfin\n", "machines.csv:3:1: mechanisms.a.grade: row 3: is “fin” (did you mean 'fine'?); allowed: fine, coarse"),
     (f"{FORCE}\n", "machines.csv: the table has no rows below its header; give at least one"),
 ]  # fmt: skip
