@@ -26,10 +26,10 @@ from pathlib import Path
 import numpy as np
 from calc import COMMANDS, seconds
 
-from diecut_report.batch import work
-from diecut_report.batch.run import Where, run_study
-from diecut_report.batch.study import Study, load_study
-from diecut_report.discovery import Discovery
+from diecut_report.config.discovery import Discovery
+from diecut_report.study.definition.study_file import Study, load_study
+from diecut_report.study.execution import worker
+from diecut_report.study.execution.study_run import Where, run_study
 
 CONFIGS = Path(import_module("diecut_report.configs").__path__[0])
 STUDY, BASE = CONFIGS / "flat_cylinder_study.yaml", CONFIGS / "flat_cylinder_press.yaml"
@@ -65,11 +65,11 @@ def press(folder: Path) -> None:
     """Time of a variant against one calc process, in turns."""
     study = example(folder, PRESS_ROWS)
     calc = variant = math.inf
-    work.calculate(study, work.Chunk(0, 0, 256))
+    worker.calculate(study, worker.Chunk(0, 0, 256))
     for _ in range(ROUNDS):
         calc = min(calc, seconds(COMMANDS["full"]))
         start = time.perf_counter()
-        done = work.calculate(study, work.Chunk(0, 0, PRESS_ROWS))
+        done = worker.calculate(study, worker.Chunk(0, 0, PRESS_ROWS))
         variant = min(variant, (time.perf_counter() - start) / len(done.columns["variant"]))
     print(f"calc, one process   {calc:.3f} s")
     print(f"a variant           {variant * 1e3:.2f} ms   {1 / variant:.0f} variants a second")

@@ -13,9 +13,9 @@ from pathlib import Path
 from markupsafe import Markup
 from weasyprint import HTML
 
+from diecut_report.report.context import Material
 from diecut_report.report.equations import Equation
 from diecut_report.report.html import filled
-from diecut_report.report.material import Material
 
 
 def image(svg: str, title: str, depth: float | None = None) -> Markup:

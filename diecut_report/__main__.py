@@ -1,5 +1,5 @@
 """``python -m diecut_report`` is the command line."""
 
-from diecut_report.cli import run
+from diecut_report.cli.main import run
 
 run()

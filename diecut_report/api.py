@@ -5,7 +5,6 @@ from typing import Annotated
 from diecut_report.contract.binding import Binding, Bound, ByText, bind
 from diecut_report.contract.charts import chart_panel, fill, level, line, mark, vertical
 from diecut_report.contract.checks import Check
-from diecut_report.contract.families import Section, prefixed
 from diecut_report.contract.figures import (
     BarGroup,
     Bars,
@@ -32,10 +31,11 @@ from diecut_report.contract.figures import (
     radius_dimension,
     region,
 )
-from diecut_report.contract.given import Curve
 from diecut_report.contract.inputs import POINTS, Block, CurveInput, FromPress, Inputs, OneOf, Quantity, Text
 from diecut_report.contract.mechanism import Comparison, Erratum, Mechanism, Profile, Source
-from diecut_report.contract.parts import Lookup, Neighbour, Part, Pick, Running, Total
+from diecut_report.contract.part_steps import Lookup, Neighbour, Part, Pick, Running, Total
+from diecut_report.contract.placeholders import Curve
+from diecut_report.contract.sections import Section, prefixed
 from diecut_report.contract.spectra import Spectrum, SpectrumLine
 from diecut_report.contract.steps import (
     Abscissa,
@@ -57,14 +57,8 @@ from diecut_report.contract.steps import (
     Words,
 )
 from diecut_report.expressions import GRAVITY, Constant, Formula, arccos, formula
-from diecut_report.standards import (
-    StandardSeries,
-    StandardTable,
-    standard_series,
-    standard_series_by,
-    standard_table,
-)
-from diecut_report.texts import below, outward, si, told
+from diecut_report.quantities.formatting import below, outward, si, told
+from diecut_report.standards import StandardSeries, StandardTable, standard_series, standard_series_by, standard_table
 
 __all__ = [
     "GRAVITY", "POINTS", "Abscissa", "Accumulated", "Annotated", "BarGroup", "Bars", "Binding", "Block", "Bound", "Breakpoints", "ByText",

@@ -8,8 +8,8 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-from diecut_report.config import load_config
-from diecut_report.discovery import Discovery
+from diecut_report.config.discovery import Discovery
+from diecut_report.config.loader import load_config
 from diecut_report.errors import PluginError, Problem, UserError
 
 FORMATS = ("html", "pdf", "json")
@@ -65,8 +65,8 @@ def report(
 def _calculated(path: Path, discovery: Discovery, tell: Tell) -> tuple[Data, tuple[PluginError, ...]]:
     tell("reading the configuration")
     config = load_config(path, discovery)
-    from diecut_report.assembly import document  # with the engine, which checking alone does not need
-    from diecut_report.compute import compute
+    from diecut_report.results.document import document  # with the engine, which checking alone does not need
+    from diecut_report.results.press_run import compute
 
     run = compute(config, lambda name: tell(f"calculating {name}"))
     return document(run), tuple(run.errors.values())
@@ -94,7 +94,7 @@ def _exported(results: Data, tell: Tell) -> dict[str, bytes]:
     if not any(mechanism["exports"] for mechanism in calculated.values()):
         return {}
     tell("drawing the profiles")
-    from diecut_report.exports import exports
+    from diecut_report.report.profile_files import exports
 
     return exports(results)
 
@@ -112,7 +112,7 @@ def _pdf(rendering: Any) -> bytes:
 
 
 def _write(files: dict[Path, bytes], config: Path) -> None:
-    from diecut_report.writing import write_all
+    from diecut_report.files import write_all
 
     write_all(files, keep=config)
 

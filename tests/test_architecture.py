@@ -25,42 +25,36 @@ FOLDERS = {  # folder of the repository: package or name under which its modules
 
 # A module of diecut_report may import modules of its own line and of the lines above it ("" is the package itself).
 LAYERS = [
-    {"", "errors", "units"},
-    {"standards", "texts"},
+    {"", "errors", "quantities"},
+    {"standards"},
     {"expressions"},
     {"mechanics"},
     {"contract"},
     {"api"},
-    {"yaml_tree", "writing"},
-    {"config", "discovery", "instances", "ordering", "references", "schema", "validation"},
+    {"files"},
+    {"config"},
     {"engine"},
-    {"verdicts"},
+    {"testing"},
     {"results"},
-    {"comparing", "dimensions", "testing"},
-    {"compute"},
-    {"assembly"},
-    {"report", "exports"},
+    {"report"},
     {"pipeline"},
-    {"progress"},
-    {"batch"},
-    {"cli_parts"},
-    {"cli_batch"},
+    {"study"},
     {"cli"},
     {"__main__"},
 ]
-REPORT = LAYERS.index({"report", "exports"})
+REPORT = LAYERS.index({"report"})
 ONLY_IN = {  # library: the modules of the program that may import it
     "dask": r"(?!)",  # its client is all that is needed
-    "distributed": r"diecut_report\.batch\.cluster",
-    "duckdb": r"diecut_report\.batch\.(stored|query|summary\.\w+)",
-    "matplotlib": r"diecut_report\.(report\.(figures|charts|drawing)|batch\.summary\.\w+)",
-    "openpyxl": r"diecut_report\.batch\.(table_files|export)",
-    "pyarrow": r"diecut_report\.batch\.(parts|store|export|table_files|cells)",
-    "threadpoolctl": r"diecut_report\.batch\.process",
-    "weasyprint": r"diecut_report\.(report\.pdf|batch\.summary\.pages)",
-    "ezdxf": r"diecut_report\.exports",
+    "distributed": r"diecut_report\.study\.execution\.dask_cluster",
+    "duckdb": r"diecut_report\.study\.(analysis|summary)\.\w+",
+    "matplotlib": r"diecut_report\.(report\.figures|study\.summary)\.\w+",
+    "openpyxl": r"diecut_report\.study\.(tables\.file_formats|storage\.spreadsheets)",
+    "pyarrow": r"diecut_report\.study\.(storage|tables)\.\w+",
+    "threadpoolctl": r"diecut_report\.study\.execution\.process_settings",
+    "weasyprint": r"diecut_report\.(report\.pdf|study\.summary\.pages)",
+    "ezdxf": r"diecut_report\.report\.profile_files",
     "jinja2": r"diecut_report\.report\.(html|document)",
-    "scipy.stats": r"diecut_report\.batch\..*",  # slow to import, and needed by studies alone
+    "scipy.stats": r"diecut_report\.study\..*",  # slow to import, and needed by studies alone
     "matplotlib.pyplot": r"(?!)",  # keeps global state
 }
 FOR_PLUGINS = {"diecut_report.api", "diecut_report.mechanics", "numpy", "scipy", *sys.stdlib_module_names}
@@ -136,7 +130,7 @@ def test_imports_make_no_loop() -> None:
 
 
 def test_a_report_is_made_of_results_alone() -> None:
-    allowed = {"report", "results", "units", "errors", ""}
+    allowed = {"report", "results", "quantities", "errors", ""}
     parts = {(name, [*m.split("."), ""][1]) for name in PROGRAM if layer(name) == REPORT for m in own_imports(name)}
     assert {(name, part) for name, part in parts if part not in allowed} == set()
 

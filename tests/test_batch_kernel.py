@@ -12,7 +12,7 @@ import pytest
 from diecut_report.contract.steps import Crossings
 from diecut_report.engine import calculate
 from diecut_report.plugins.cylinder_drive import MECHANISM
-from diecut_report.verdicts import applies, sides, verdict
+from diecut_report.results.checks import applies, sides, verdict
 
 pytestmark = pytest.mark.repository
 

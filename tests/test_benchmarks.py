@@ -9,7 +9,7 @@ from pathlib import Path
 import pytest
 
 from diecut_report import pipeline
-from diecut_report.discovery import Discovery
+from diecut_report.config.discovery import Discovery
 from tests.configs import EXAMPLE
 
 BENCHMARKS = Path(__file__).parents[1] / "benchmarks"

@@ -13,8 +13,9 @@ from pathlib import Path
 
 import pytest
 
-from diecut_report import __version__, cli, plugins
-from diecut_report.progress import Progress
+from diecut_report import __version__, plugins
+from diecut_report.cli import main
+from diecut_report.cli.progress import Progress
 from tests.configs import BROKEN, EXAMPLE, GOOD, HEAD, LEVER, LISTED, saved
 
 FAILS = LEVER.replace("force: 2 kN", "force: 2 kN, allowable_moment: 150")
@@ -23,7 +24,7 @@ Capture = pytest.CaptureFixture[str]
 
 def run(*arguments: object) -> int:
     """The exit code of a command, with the kinds for tests."""
-    return cli.main([*map(str, arguments), "--plugins", str(GOOD)])
+    return main.main([*map(str, arguments), "--plugins", str(GOOD)])
 
 
 def program(*arguments: object, **options: object) -> subprocess.CompletedProcess[bytes]:
@@ -192,13 +193,13 @@ def test_schema_of_all_and_of_one_kind(capfd: Capture) -> None:
     ],
 )
 def test_wrong_usage_gives_2_with_words(arguments: list[str], words: str, capfd: Capture) -> None:
-    assert cli.main(arguments) == 2
+    assert main.main(arguments) == 2
     out, err = capfd.readouterr()
     assert out == "" and words in err
 
 
 def test_help_and_version_go_to_standard_output(capfd: Capture) -> None:
-    assert cli.main(["--version"]) == cli.main(["report", "--help"]) == 0
+    assert main.main(["--version"]) == main.main(["report", "--help"]) == 0
     out, err = capfd.readouterr()
     assert __version__ in out and "--plugins DIR" in out and err == ""
 
@@ -381,7 +382,7 @@ def test_an_interrupted_run_ends_at_once_and_writes_nothing(tmp_path: Path) -> N
 
 
 def test_progress_is_not_shown_when_it_is_quick(capfd: Capture, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("diecut_report.progress.PATIENCE", 60)
+    monkeypatch.setattr("diecut_report.cli.progress.PATIENCE", 60)
     monkeypatch.setattr("sys.stderr.isatty", lambda: True, raising=False)
     with Progress(quiet=False) as progress:
         progress("doing")
@@ -417,7 +418,7 @@ def test_check_does_not_import_the_engine() -> None:
 
 
 def test_the_example_is_calculated_with_its_two_failing_checks(capfd: Capture) -> None:
-    assert cli.main(["calc", str(EXAMPLE)]) == 1
+    assert main.main(["calc", str(EXAMPLE)]) == 1
     found = json.loads(capfd.readouterr().out)
     failing = [c["id"] for data in found["mechanisms"].values() for c in data["checks"] if c["status"] == "fail"]
     assert failing == ["wall_at_flat", "radius"]

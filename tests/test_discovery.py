@@ -9,8 +9,8 @@ from pathlib import Path
 
 import pytest
 
-from diecut_report import discovery
-from diecut_report.discovery import Discovery, DuplicateKind, UnknownKind
+from diecut_report.config import discovery
+from diecut_report.config.discovery import Discovery, DuplicateKind, UnknownKind
 from diecut_report.errors import PluginError, UserError
 from tests.configs import BROKEN, GOOD, LISTED
 
@@ -23,7 +23,7 @@ def installed(monkeypatch: pytest.MonkeyPatch, **values: str) -> None:
 
 def test_the_built_in_kinds_are_known_without_importing_them() -> None:
     code = (
-        "import sys; from diecut_report.discovery import Discovery; print(sorted(Discovery().origins)); "
+        "import sys; from diecut_report.config.discovery import Discovery; print(sorted(Discovery().origins)); "
         "print([m for m in sys.modules if m.startswith('diecut_report.plugins.')])"
     )
     shown = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True).stdout.splitlines()

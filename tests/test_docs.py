@@ -10,11 +10,11 @@ from types import ModuleType
 
 import pytest
 
-from diecut_report.contract.forms import in_form
 from diecut_report.contract.inputs import flatten
 from diecut_report.contract.mechanism import Mechanism
+from diecut_report.contract.unit_variants import in_form
 from diecut_report.engine import CurveHandle, calculate
-from diecut_report.results import mechanism_results
+from diecut_report.results.mechanism import mechanism_results
 from diecut_report.testing import check_mechanism
 from tests.engine.swing import MECHANISM as SWING
 from tests.engine.swings import CLOSED, made, swing

@@ -10,7 +10,7 @@ import pytest
 from diecut_report.api import Erratum, Source
 from diecut_report.engine import calculate
 from diecut_report.plugins.damper import MECHANISM
-from diecut_report.results import mechanism_results
+from diecut_report.results.mechanism import mechanism_results
 from tests.machines import inputs
 
 ERRATA = (

@@ -16,7 +16,7 @@ import ezdxf
 import pytest
 from ezdxf.document import Drawing
 
-from diecut_report.exports import exports
+from diecut_report.report.profile_files import exports
 from tests.report.made_results import curves, export, mechanism
 
 Data = dict[str, Any]
@@ -165,5 +165,5 @@ def test_unknown_type_is_refused() -> None:
 
 
 def test_the_library_is_imported_only_when_a_profile_is_drawn() -> None:
-    code = "import sys, diecut_report.exports as e; e.exports({'mechanisms': {}}); print('ezdxf' in sys.modules)"
+    code = "import sys, diecut_report.report.profile_files as e; e.exports({'mechanisms': {}}); print('ezdxf' in sys.modules)"
     assert subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True).stdout == "False\n"

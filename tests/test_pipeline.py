@@ -15,9 +15,9 @@ from typing import Any
 import pytest
 
 from diecut_report import pipeline, report
-from diecut_report.assembly import governing
-from diecut_report.discovery import Discovery
+from diecut_report.config.discovery import Discovery
 from diecut_report.errors import UserError
+from diecut_report.results.document import governing
 from tests.configs import BROKEN, DISCOVERY, EXAMPLE, EXAMPLES, GOOD, HEAD, LEVER, saved
 
 ALL = Discovery([GOOD, BROKEN])
@@ -358,7 +358,7 @@ def test_equal_inputs_give_equal_reports(tmp_path: Path) -> None:
 @pytest.mark.parametrize("config", EXAMPLES, ids=lambda path: path.stem)
 def test_an_example_is_calculated_without_slow_imports(config: Path) -> None:
     code = (
-        "import sys; from pathlib import Path; from diecut_report import pipeline; from diecut_report.discovery import Discovery; "
+        "import sys; from pathlib import Path; from diecut_report import pipeline; from diecut_report.config.discovery import Discovery; "
         f"pipeline.calc(Path({str(config)!r}), Discovery([]), lambda name: None); "
         "print(sorted({'pint', 'matplotlib', 'weasyprint', 'jinja2', 'ezdxf', 'scipy.stats'} & set(sys.modules)))"
     )

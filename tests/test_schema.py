@@ -9,7 +9,7 @@ import jsonschema
 import pytest
 import yaml
 
-from diecut_report.schema import config_schema, kind_schema
+from diecut_report.config.schema import config_schema, kind_schema
 from tests.configs import DISCOVERY, EXAMPLES, LEVER
 
 SCHEMA = config_schema({kind: DISCOVERY.mechanism(kind) for kind in DISCOVERY.origins}, {"broken": "it fell over"})

@@ -11,8 +11,8 @@ from typing import Any
 import pint
 import pytest
 
-from diecut_report import units
-from diecut_report.units import UnitError, parse_quantity, pretty, to_display, unit
+from diecut_report.quantities import units
+from diecut_report.quantities.units import UnitError, parse_quantity, pretty, to_display, unit
 
 TABLE: dict[str, Any] = json.loads(units.TABLE_FILE.read_text(encoding="utf-8"))
 PINT: Any = pint.UnitRegistry()

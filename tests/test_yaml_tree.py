@@ -11,9 +11,9 @@ from typing import Any
 import pytest
 import yaml
 
-from diecut_report import yaml_tree
+from diecut_report.config import yaml_tree
+from diecut_report.config.yaml_tree import MAX_BYTES, MAX_DEPTH, load, parse
 from diecut_report.errors import Problem, UserError
-from diecut_report.yaml_tree import MAX_BYTES, MAX_DEPTH, load, parse
 
 LOADERS = [yaml.SafeLoader, *([yaml.CSafeLoader] if yaml.__with_libyaml__ else [])]
 

@@ -8,13 +8,13 @@ from typing import get_args
 
 from pydantic_core import PydanticUndefined
 
-from diecut_report.contract.forms import in_all_units
+from diecut_report.config.discovery import Discovery
 from diecut_report.contract.inputs import Block, CurveInput, Meta, OneOf, Quantity, Text, meta_of, nested
 from diecut_report.contract.mechanism import Mechanism
 from diecut_report.contract.spectra import SpectrumLine
 from diecut_report.contract.steps import SILENT, Crossings, Reduction, Step
-from diecut_report.discovery import Discovery
-from diecut_report.units import pretty, unit
+from diecut_report.contract.unit_variants import in_all_units
+from diecut_report.quantities.units import pretty, unit
 
 PAGES = Path(__file__).parents[1] / "docs" / "mechanisms"
 

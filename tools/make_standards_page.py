@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from pathlib import Path
 
+from diecut_report.quantities.units import pretty
 from diecut_report.standards import (
     StandardSeries,
     StandardTable,
@@ -13,7 +14,6 @@ from diecut_report.standards import (
     standard_series_by,
     standard_table,
 )
-from diecut_report.units import pretty
 
 PAGE = Path(__file__).parents[1] / "docs" / "standards.md"
 INTRODUCTION = """\

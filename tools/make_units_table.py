@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import json
 
-from diecut_report.units import TABLE_FILE, measure_with_pint
+from diecut_report.quantities.units import TABLE_FILE, measure_with_pint
 
 # name with article, coherent SI unit, a typical SI value for examples in messages, units of the family
 FAMILIES: list[tuple[str, str, float, str]] = [
@@ -66,7 +66,7 @@ FAMILIES: list[tuple[str, str, float, str]] = [
     ("a voltage per angular speed", "V*s/rad", 0.5, "V*s/rad"),
 ]
 
-# Other spellings, after the general ones (·, ², ^, °, spaces, "Nm") that diecut_report.units reads itself.
+# Other spellings, after the general ones (·, ², ^, °, spaces, "Nm") that diecut_report.quantities.units reads itself.
 # Machine plates write rev/min for an angular speed, while rev/h counts strokes: a frequency.
 ALIASES: dict[str, str] = {
     "rev": "revolution",

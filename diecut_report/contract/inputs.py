@@ -16,9 +16,9 @@ import numpy as np
 from pydantic import BaseModel, ConfigDict, GetCoreSchemaHandler
 from pydantic_core import CoreSchema, core_schema
 
-from diecut_report.contract.given import SI, FromPress, OneOf, Pending
+from diecut_report.contract.placeholders import SI, FromPress, OneOf, Pending
 from diecut_report.errors import nearest
-from diecut_report.units import Unit, parse_quantity, pretty, to_display, unit
+from diecut_report.quantities.units import Unit, parse_quantity, pretty, to_display, unit
 
 BOUNDS = (("gt", ">"), ("ge", "≥"), ("lt", "<"), ("le", "≤"))
 

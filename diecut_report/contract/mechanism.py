@@ -7,10 +7,10 @@ from dataclasses import dataclass
 from functools import cached_property
 
 from diecut_report.contract.checks import Check
-from diecut_report.contract.families import Section, settled
 from diecut_report.contract.figures import Figure
 from diecut_report.contract.inputs import CurveInput, Inputs, fields, list_inputs
-from diecut_report.contract.parts import Lookup, Neighbour, Running
+from diecut_report.contract.part_steps import Lookup, Neighbour, Running
+from diecut_report.contract.sections import Section, settled
 from diecut_report.contract.spectra import Spectrum
 from diecut_report.contract.steps import (
     SILENT,
@@ -24,7 +24,7 @@ from diecut_report.contract.steps import (
     Step,
     Value,
 )
-from diecut_report.units import unit
+from diecut_report.quantities.units import unit
 
 MOST_NAMED = (
     99  # crossings of a curve or parts of a list that a reference may name; how many there are shows in calculating

@@ -10,14 +10,14 @@ from weakref import proxy
 import numpy as np
 
 from diecut_report.contract.binding import Binding, bound
-from diecut_report.contract.forms import in_form
 from diecut_report.contract.inputs import CurveInput, Meta, Quantity, fields, texts_given
 from diecut_report.contract.mechanism import Mechanism
 from diecut_report.contract.steps import Accumulated, Choice, Derivative, FromCurve, Step, Value
-from diecut_report.engine.domain import Domain
-from diecut_report.engine.evaluation import MANY, Curves
-from diecut_report.engine.series import PieceSeries
-from diecut_report.engine.table import Table
+from diecut_report.contract.unit_variants import in_form
+from diecut_report.engine.numerics.chebyshev import PieceSeries
+from diecut_report.engine.numerics.curve_evaluation import MANY, Curves
+from diecut_report.engine.numerics.domain import Domain
+from diecut_report.engine.numerics.sample_cache import Table
 from diecut_report.expressions import Array
 
 CurveStep = Value | Choice | FromCurve | Accumulated | Derivative

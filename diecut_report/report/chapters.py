@@ -6,11 +6,9 @@ from collections.abc import Iterator, Mapping
 from typing import Any
 
 from diecut_report.report.equations import Equations
-from diecut_report.report.files import suffixes
+from diecut_report.report.file_names import suffixes
 from diecut_report.report.i18n import Words
-from diecut_report.report.like_parts import counted, gathered
-from diecut_report.report.numbers import quantity
-from diecut_report.report.rows import (
+from diecut_report.report.model import (
     Chapter,
     CheckRow,
     File,
@@ -21,6 +19,8 @@ from diecut_report.report.rows import (
     quantity_row,
     utilisation,
 )
+from diecut_report.report.number_format import quantity
+from diecut_report.report.repeated_parts import counted, gathered
 from diecut_report.report.tables import Tables
 
 Data = Mapping[str, Any]

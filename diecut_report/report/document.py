@@ -10,7 +10,7 @@ from typing import Any
 from diecut_report.report.chapters import chapter
 from diecut_report.report.equations import Equations
 from diecut_report.report.i18n import Words
-from diecut_report.report.rows import Chapter, CheckRow, QuantityRow, quantity_row
+from diecut_report.report.model import Chapter, CheckRow, QuantityRow, quantity_row
 
 Data = Mapping[str, Any]
 ORDER = {"fail": 0, "warn": 1, "pass": 2}

@@ -6,8 +6,8 @@ from collections.abc import Callable, Mapping
 from functools import reduce
 from typing import Any, NamedTuple
 
-from diecut_report.report.formulas import Latex, Linear, escaped
-from diecut_report.report.printing import Tree, factors, terms
+from diecut_report.report.expression_printer import Tree, factors, terms
+from diecut_report.report.latex import Latex, Linear, escaped
 
 Item = Mapping[str, Any]
 Measure = Callable[[str], float]  # the width of LaTeX in em

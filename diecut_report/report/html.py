@@ -12,9 +12,9 @@ from typing import Any, Protocol
 from jinja2 import Environment, FileSystemLoader, StrictUndefined
 from markupsafe import Markup
 
+from diecut_report.report.context import Material
 from diecut_report.report.equations import Equation
-from diecut_report.report.material import Material
-from diecut_report.report.numbers import tidy
+from diecut_report.report.number_format import tidy
 from diecut_report.report.symbols import prose, symbol
 
 FACES = {  # family, weight, style: file

@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import Any
 
+from diecut_report.report.context import Material
 from diecut_report.report.html import page
-from diecut_report.report.material import Material
 
 
 class Rendering:

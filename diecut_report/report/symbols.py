@@ -6,7 +6,7 @@ import re
 
 from markupsafe import Markup, escape
 
-from diecut_report.report.numbers import tidy
+from diecut_report.report.number_format import tidy
 
 _SIGNS = "=<>≤≥≈≠−+√"
 SYMBOL = re.compile(r"(?P<before>[|\[\d]*)(?P<base>[^\W\d_]+[′']*)(?:_(?P<below>.*?))?(?P<after>[′'|\]]*)")

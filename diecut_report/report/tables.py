@@ -6,13 +6,13 @@ from collections.abc import Callable, Iterator, Mapping, Sequence
 from types import MappingProxyType
 from typing import Any, TypeVar
 
+from diecut_report.quantities.units import pretty, to_display
 from diecut_report.report.curves import Place, table_places
 from diecut_report.report.i18n import Words
-from diecut_report.report.like_parts import Parts
-from diecut_report.report.numbers import displayed, number
-from diecut_report.report.rows import Cell, Column, PartsTable, Table, is_words
+from diecut_report.report.model import Cell, Column, PartsTable, Table, is_words
+from diecut_report.report.number_format import displayed, number
+from diecut_report.report.repeated_parts import Parts
 from diecut_report.report.symbols import symbol
-from diecut_report.units import pretty, to_display
 
 Data = Mapping[str, Any]
 Columns = TypeVar("Columns")

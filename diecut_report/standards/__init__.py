@@ -24,7 +24,7 @@ from pathlib import Path
 from types import MappingProxyType
 from typing import Any, NoReturn
 
-from diecut_report.units import UnitError, unit
+from diecut_report.quantities.units import UnitError, unit
 
 DATA = Path(__file__).with_name("data")
 FORMS: dict[str, set[str]] = {  # form of a file: what else stands in it

@@ -6,18 +6,7 @@ from math import cos, pi, sin
 
 import numpy as np
 
-from diecut_report.api import (
-    Point,
-    Shape,
-    View,
-    arc,
-    circle,
-    dimension,
-    label,
-    point,
-    polyline,
-    radius_dimension,
-)
+from diecut_report.api import Point, Shape, View, arc, circle, dimension, label, point, polyline, radius_dimension
 
 MOST_POINTS = 720  # of a drawn curve
 

@@ -2,17 +2,7 @@
 
 from __future__ import annotations
 
-from diecut_report.api import (
-    Lookup,
-    Pick,
-    Require,
-    Root,
-    Section,
-    Value,
-    Words,
-    bind,
-    standard_table,
-)
+from diecut_report.api import Lookup, Pick, Require, Root, Section, Value, Words, bind, standard_table
 from diecut_report.mechanics import belt_path, common, triangle
 from diecut_report.plugins.drive_train import advice, belts
 

@@ -11,8 +11,8 @@ from typing import Any
 
 import numpy as np
 
-from diecut_report.batch.description import Column, Description, Source
-from diecut_report.batch.flight import Warm
+from diecut_report.study.execution.in_flight import Warm
+from diecut_report.study.storage.description import Column, Description, Source
 
 SPEED, MASS = "mechanisms.drive.crank_speed", "cylinder.mass"
 COLUMNS = (

@@ -10,8 +10,8 @@ from typing import Any
 
 import numpy as np
 
-from diecut_report.batch.description import Column, Description, Source
-from diecut_report.batch.store import Store
+from diecut_report.study.storage.description import Column, Description, Source
+from diecut_report.study.storage.store import Store
 
 SPEED, BORE, LAW = "mechanisms.drive.crank_speed", "mechanisms.cylinder.bore_radius", "mechanisms.drive.motion_law"
 INPUTS = (

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from diecut_report.batch.study import Study, load_study
-from diecut_report.discovery import Discovery
+from diecut_report.config.discovery import Discovery
 from diecut_report.errors import UserError
+from diecut_report.study.definition.study_file import Study, load_study
 from tests.configs import DISCOVERY, HEAD, saved
 
 BASE = HEAD + (

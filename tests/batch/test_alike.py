@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import numpy as np
 
-from diecut_report.batch.alike import rounded
-from diecut_report.batch.summary.pareto import best
+from diecut_report.study.analysis.near_equality import rounded
+from diecut_report.study.summary.pareto import best
 
 
 def test_ten_digits_are_kept() -> None:

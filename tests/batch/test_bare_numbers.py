@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import pytest
 
-from diecut_report.batch.stored import Column
-from diecut_report.batch.where import condition
 from diecut_report.errors import UserError
+from diecut_report.study.analysis.stored_variants import Column
+from diecut_report.study.conditions.where import condition
 
 COLUMNS = {
     column.name: column

@@ -9,17 +9,17 @@ from typing import Any
 import numpy as np
 import pytest
 
-from diecut_report.assembly import document
-from diecut_report.batch.columns import columns_of
-from diecut_report.batch.inputs import find_input, with_values
-from diecut_report.batch.rows import Rows, calculate_rows
-from diecut_report.compute import compute
-from diecut_report.config import Config, load_config
+from diecut_report.config.discovery import Discovery
+from diecut_report.config.instances import slots
+from diecut_report.config.loader import Config, load_config
+from diecut_report.config.references import PRESS
 from diecut_report.contract.inputs import SI, Quantity
-from diecut_report.discovery import Discovery
 from diecut_report.errors import UserError
-from diecut_report.instances import slots
-from diecut_report.references import PRESS
+from diecut_report.results.document import document
+from diecut_report.results.press_run import compute
+from diecut_report.study.definition.base_inputs import find_input, with_values
+from diecut_report.study.execution.result_columns import columns_of
+from diecut_report.study.execution.variant_rows import Rows, calculate_rows
 from tests.configs import EXAMPLES
 
 Values = Mapping[str, Any]

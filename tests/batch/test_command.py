@@ -13,8 +13,8 @@ import numpy as np
 import pyarrow.parquet as pq
 import pytest
 
-from diecut_report import cli
-from diecut_report.batch.reports import best
+from diecut_report.cli import main
+from diecut_report.study.execution.variant_reports import best
 from tests.batch.studies import BASE, STUDY, varied
 from tests.configs import GOOD, saved
 
@@ -23,7 +23,7 @@ CHECKED = BASE.replace("force: 2 kN,", "force: 2 kN, allowable_moment: 450,")
 
 
 def run(*arguments: object) -> int:
-    return cli.main([*map(str, arguments), "--plugins", str(GOOD)])
+    return main.main([*map(str, arguments), "--plugins", str(GOOD)])
 
 
 def files(folder: Path, text: str = STUDY, base: str = BASE) -> Path:

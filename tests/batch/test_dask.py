@@ -15,10 +15,10 @@ from pathlib import Path
 import pyarrow.parquet as pq
 import pytest
 
-from diecut_report.batch import cluster as module
-from diecut_report.batch.engines import ChunkFailed, InProcess, dask_cluster, results
-from diecut_report.batch.run import Counts, Where, run_study
 from diecut_report.errors import UserError
+from diecut_report.study.execution import dask_cluster as module
+from diecut_report.study.execution.engines import ChunkFailed, InProcess, dask_cluster, results
+from diecut_report.study.execution.study_run import Counts, Where, run_study
 from tests.batch.made_store import dies_at_three, fails_at_three, slow_square, square, warm
 from tests.batch.studies import study
 from tests.configs import GOOD

@@ -14,9 +14,9 @@ from pathlib import Path
 import psutil
 import pytest
 
-from diecut_report.batch import flight
-from diecut_report.batch.engines import ChunkFailed, Engine, InProcess, Pool, dask_cluster, results
 from diecut_report.errors import UserError
+from diecut_report.study.execution import in_flight
+from diecut_report.study.execution.engines import ChunkFailed, Engine, InProcess, Pool, dask_cluster, results
 from tests.batch.made_store import dies_at_three, fails_at_three, slow_square, square, warm
 from tests.processes import until
 
@@ -125,7 +125,7 @@ def test_chunk_that_ends_its_process_is_told_after_three_times_and_no_other_is_b
         Pool(2, warm(tmp_path)) as pool,
     ):
         found.extend(chunk for chunk, _ in results(pool, dies_at_three, range(12)))
-    assert len(list(tmp_path.glob("call.3.*"))) == flight.TRIES
+    assert len(list(tmp_path.glob("call.3.*"))) == in_flight.TRIES
     assert 3 not in found
 
 
@@ -187,11 +187,11 @@ def test_interrupt_in_this_process_goes_through(tmp_path: Path) -> None:
 
 def test_missing_dask_is_told(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setitem(sys.modules, "distributed", None)
-    monkeypatch.delitem(sys.modules, "diecut_report.batch.cluster", raising=False)
+    monkeypatch.delitem(sys.modules, "diecut_report.study.execution.dask_cluster", raising=False)
     with pytest.raises(UserError, match=r"pip install 'diecut-report\[cluster\]'"):
         dask_cluster("tcp://127.0.0.1:1", warm(tmp_path))
 
 
 def test_dask_is_imported_only_for_a_cluster() -> None:
-    code = "import sys, diecut_report.batch.engines; print({'dask', 'distributed', 'pyarrow'} & set(sys.modules))"
+    code = "import sys, diecut_report.study.execution.engines; print({'dask', 'distributed', 'pyarrow'} & set(sys.modules))"
     assert subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True).stdout == "set()\n"

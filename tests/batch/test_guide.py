@@ -8,11 +8,11 @@ from pathlib import Path
 
 import pytest
 
-from diecut_report.batch.run import result_columns, varied_columns
-from diecut_report.batch.stored import Column
-from diecut_report.batch.study import Study, load_study
-from diecut_report.batch.where import condition
-from diecut_report.discovery import Discovery
+from diecut_report.config.discovery import Discovery
+from diecut_report.study.analysis.stored_variants import Column
+from diecut_report.study.conditions.where import condition
+from diecut_report.study.definition.study_file import Study, load_study
+from diecut_report.study.execution.study_run import result_columns, varied_columns
 from tests.configs import EXAMPLE, STUDIES, saved
 
 pytestmark = pytest.mark.repository

@@ -15,12 +15,12 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from diecut_report import yaml_tree
-from diecut_report.batch.description import Column, Kind
-from diecut_report.batch.query import variant_config, variants
-from diecut_report.batch.stored import Column as Read
-from diecut_report.batch.where import condition
+from diecut_report.config import yaml_tree
 from diecut_report.errors import UserError
+from diecut_report.study.analysis.query import variant_config, variants
+from diecut_report.study.analysis.stored_variants import Column as Read
+from diecut_report.study.conditions.where import condition
+from diecut_report.study.storage.description import Column, Kind
 from tests.batch.stored_study import BORE, SPEED, calculated, many, ten, written
 
 

@@ -25,12 +25,12 @@ import pyarrow.parquet as pq
 import pytest
 import scipy
 
-from diecut_report.batch import export as exports
-from diecut_report.batch import state
-from diecut_report.batch.description import Column, Description
-from diecut_report.batch.export import export
-from diecut_report.batch.store import Store
 from diecut_report.errors import UserError
+from diecut_report.study.storage import spreadsheets as exports
+from diecut_report.study.storage import state
+from diecut_report.study.storage.description import Column, Description
+from diecut_report.study.storage.spreadsheets import export
+from diecut_report.study.storage.store import Store
 from tests.batch.made_store import MASS, SPEED, description, part, source
 
 ROOT = Path(__file__).parents[2]

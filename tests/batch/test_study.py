@@ -9,10 +9,10 @@ import numpy as np
 import pytest
 import yaml
 
-from diecut_report.batch.study import load_study
-from diecut_report.batch.study_results import Objective, Reports
-from diecut_report.batch.study_schema import study_schema
-from diecut_report.discovery import Discovery
+from diecut_report.config.discovery import Discovery
+from diecut_report.study.definition.schema import study_schema
+from diecut_report.study.definition.study_file import load_study
+from diecut_report.study.definition.wanted_results import Objective, Reports
 from tests.batch.studies import BASE, STUDY, faults, study, varied
 from tests.configs import BROKEN, EXAMPLE, GOOD, HEAD, saved
 

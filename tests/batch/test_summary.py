@@ -14,17 +14,17 @@ import pytest
 import scipy.stats
 from pypdf import PdfReader
 
-from diecut_report import yaml_tree
-from diecut_report.batch.description import Column
-from diecut_report.batch.query import variants
-from diecut_report.batch.stored import STATUSES, opened
-from diecut_report.batch.summary import asked, data, influence, pareto, summarise
-from diecut_report.batch.summary import content as contents
-from diecut_report.batch.summary.charts_points import near
-from diecut_report.batch.summary.names import WORST, display, utilised
-from diecut_report.batch.summary.pages import page, sheets
-from diecut_report.batch.titles import titles
+from diecut_report.config import yaml_tree
 from diecut_report.errors import UserError
+from diecut_report.study.analysis.query import variants
+from diecut_report.study.analysis.stored_variants import STATUSES, opened
+from diecut_report.study.analysis.titles import titles
+from diecut_report.study.storage.description import Column
+from diecut_report.study.summary import content as contents
+from diecut_report.study.summary import data, influence, pareto, questions, summarise
+from diecut_report.study.summary.pages import page, sheets
+from diecut_report.study.summary.point_charts import near
+from diecut_report.study.summary.quantity_names import WORST, display, utilised
 from tests.batch.stored_study import BORE, LAW, SPEED, made, many, ten, written
 
 GLOBAL = np.array([[0.3138, 0.4424, 0.0], [0.5574, 0.4424, 0.2436]])  # Ishigami: first and total indices, closed form
@@ -210,8 +210,8 @@ def test_what_was_studied_stands_there_as_it_is_written(tmp_path: Path) -> None:
 def test_a_table_is_told_by_its_file() -> None:
     text = "vary: {a.b: {table: motors.csv, column: n}, a.c: {from: 1, to: 9, count: 3, spacing: log}}"
     tree = yaml_tree.parse(text, "study.yaml")
-    assert asked.written(tree, ("vary", "a.b")) == "column n of the table motors.csv"
-    assert asked.written(tree, ("vary", "a.c")) == "from 1 to 9, count 3, spacing log"
+    assert questions.written(tree, ("vary", "a.b")) == "column n of the table motors.csv"
+    assert questions.written(tree, ("vary", "a.c")) == "from 1 to 9, count 3, spacing log"
 
 
 def test_inputs_of_a_table_name_its_file(tmp_path: Path) -> None:
@@ -567,7 +567,7 @@ def test_three_hundred_thousand_variants_stay_within_memory(tmp_path: Path) -> N
 
     folder = many(tmp_path / "out", 300_000)
     code = (
-        "import resource, sys; from pathlib import Path; from diecut_report.batch.summary import summarise; "
+        "import resource, sys; from pathlib import Path; from diecut_report.study.summary import summarise; "
         "summarise(Path(sys.argv[1])); print(resource.getrusage(resource.RUSAGE_SELF).ru_maxrss)"
     )
     done = subprocess.run([sys.executable, "-c", code, str(folder)], capture_output=True, text=True, check=True)

@@ -16,10 +16,10 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from diecut_report.batch.cells import Cells, si_numbers
-from diecut_report.batch.tables import read_table
 from diecut_report.errors import UserError
-from diecut_report.units import parse_quantity
+from diecut_report.quantities.units import parse_quantity
+from diecut_report.study.tables.cells import Cells, si_numbers
+from diecut_report.study.tables.reading import read_table
 
 HEADERS = ["drive.crank_speed [rpm]", "cylinder.bore_radius", "drive.motion_law", "train.teeth"]
 ROWS: list[list[Any]] = [[60, "55 mm", "cycloidal", 17], [90.5, "60.5 mm", "harmonic", 23]]

@@ -11,12 +11,12 @@ from typing import Any
 
 import pytest
 
-from diecut_report.batch.query import variant_config, variants
-from diecut_report.batch.run import Where, run_study
-from diecut_report.batch.study import load_study
 from diecut_report.cli import main
-from diecut_report.discovery import Discovery
+from diecut_report.config.discovery import Discovery
 from diecut_report.errors import UserError
+from diecut_report.study.analysis.query import variant_config, variants
+from diecut_report.study.definition.study_file import load_study
+from diecut_report.study.execution.study_run import Where, run_study
 from tests.batch.stored_study import many, ten
 from tests.configs import EXAMPLES
 

@@ -7,10 +7,10 @@ from typing import Any
 
 import numpy as np
 
-from diecut_report.contract.forms import in_form
 from diecut_report.contract.inputs import flatten
+from diecut_report.contract.unit_variants import in_form
 from diecut_report.engine import Calculation, CurveHandle, calculate
-from diecut_report.results import mechanism_results
+from diecut_report.results.mechanism import mechanism_results
 from tests.engine.swing import MECHANISM, Swing
 
 TURN = 2 * np.pi / 3

@@ -8,17 +8,18 @@ from typing import Any
 import numpy as np
 import pytest
 
-from diecut_report.batch.chain import calculated
-from diecut_report.batch.inputs import Input, UnknownPath, find_input, known_paths
-from diecut_report.config import Config, load_config
+from diecut_report.config.discovery import Discovery
+from diecut_report.config.loader import Config, load_config
+from diecut_report.config.references import PRESS
 from diecut_report.contract.inputs import Quantity
 from diecut_report.contract.steps import Choice, Value
-from diecut_report.discovery import Discovery
-from diecut_report.engine import Calculation, evaluation
-from diecut_report.engine.compiled import Program
-from diecut_report.engine.evaluation import MANY, Curves
+from diecut_report.engine import Calculation
+from diecut_report.engine.numerics import curve_evaluation
+from diecut_report.engine.numerics.codegen import Program
+from diecut_report.engine.numerics.curve_evaluation import MANY, Curves
 from diecut_report.mechanics.motion_laws import LAWS
-from diecut_report.references import PRESS
+from diecut_report.study.definition.base_inputs import Input, UnknownPath, find_input, known_paths
+from diecut_report.study.execution.press_batch import calculated
 from tests.configs import EXAMPLES
 
 COUNT = 2 * MANY
@@ -129,6 +130,6 @@ def test_the_comparison_sees_a_wrong_term(monkeypatch: pytest.MonkeyPatch) -> No
         def _constant(self, value: float) -> str:
             return super()._constant(value * (1 + 1e-9))
 
-    monkeypatch.setattr(evaluation, "program", lambda curves, *rest: Wrong(dict(curves), *rest))
+    monkeypatch.setattr(curve_evaluation, "program", lambda curves, *rest: Wrong(dict(curves), *rest))
     with pytest.raises(AssertionError):
         assert_alike(calc, "crank_angle", ["rocker_speed_ratio"], 0)

@@ -12,7 +12,7 @@ from diecut_report.api import Annotated, CurveInput, Inputs, Mechanism, Require,
 from diecut_report.contract.steps import Root
 from diecut_report.engine import Calculation, CurveHandle, Impossible, Unproven, calculate
 from diecut_report.mechanics import common
-from diecut_report.results import mechanism_results
+from diecut_report.results.mechanism import mechanism_results
 from tests.engine.toy import MECHANISM, ROOTED, cube, doubled, plus_one, zero
 from tests.machines import inputs, number
 

@@ -9,16 +9,16 @@ from typing import Any
 import jsonschema
 import pytest
 
-from diecut_report.contract.forms import in_form
+from diecut_report.config.discovery import Discovery
+from diecut_report.config.schema import config_schema, kind_schema
 from diecut_report.contract.inputs import flatten
-from diecut_report.discovery import Discovery
+from diecut_report.contract.unit_variants import in_form
 from diecut_report.engine import calculate
 from diecut_report.errors import UserError
 from diecut_report.pipeline import calc as run
 from diecut_report.report.equations import Equations
 from diecut_report.report.i18n import Words
-from diecut_report.results import mechanism_results
-from diecut_report.schema import config_schema, kind_schema
+from diecut_report.results.mechanism import mechanism_results
 from tests.configs import problems, saved
 from tests.engine.swing import MECHANISM, Swing
 

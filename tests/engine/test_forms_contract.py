@@ -8,8 +8,8 @@ from typing import Annotated, Any
 import pytest
 
 from diecut_report.api import Block, Derivative, FromPress, Inputs, Mechanism, Quantity, SpectrumLine, Step
-from diecut_report.contract.forms import form_keys, in_all_units, in_form, in_unit
 from diecut_report.contract.inputs import meta_of
+from diecut_report.contract.unit_variants import form_keys, in_all_units, in_form, in_unit
 from diecut_report.testing import check_mechanism
 from tests.engine.swing import MECHANISM, RATIOS, SPECTRUM, Swing
 from tests.test_testing import mechanism as of_steps

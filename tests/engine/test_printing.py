@@ -9,9 +9,9 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from diecut_report.expressions import Node, evaluate
-from diecut_report.results import mechanism_results
-from diecut_report.texts import number_text, shortest, told
-from diecut_report.units import unit
+from diecut_report.quantities.formatting import number_text, shortest, told
+from diecut_report.quantities.units import unit
+from diecut_report.results.mechanism import mechanism_results
 from tests.machines import UNBALANCED, cylinder, drive
 
 

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from diecut_report.engine import CurveHandle, Impossible, calculate
-from diecut_report.engine.views import MachineView
+from diecut_report.engine.figure_views import MachineView
 from tests.engine.loop import MECHANISM as LOOP
 from tests.engine.swing import MECHANISM, RATIOS
 from tests.engine.swings import CLOSED, TURN, follower, grown, made, results, swing, values

@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 
 from diecut_report.engine import CurveHandle, Unproven, calculate
-from diecut_report.engine.again import varied, varied_curves
-from diecut_report.engine.domain import Domain
+from diecut_report.engine.numerics.domain import Domain
+from diecut_report.engine.steps.rerun import varied, varied_curves
 from tests.engine.swing import MECHANISM
 from tests.engine.swings import CLOSED, TURN, follower, grown, made, results, several, single
 

@@ -7,8 +7,8 @@ from collections.abc import Callable
 import numpy as np
 import pytest
 
-from diecut_report.engine.domain import shares
-from diecut_report.engine.vertices import Spots, around, vertices
+from diecut_report.engine.numerics.domain import shares
+from diecut_report.engine.numerics.polynomial_peaks import Spots, around, vertices
 from diecut_report.expressions import Array
 
 INTERVALS = 32

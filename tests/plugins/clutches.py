@@ -6,7 +6,7 @@ from typing import Any
 
 from diecut_report.engine import Calculation, calculate
 from diecut_report.plugins.clutch import MECHANISM
-from diecut_report.results import mechanism_results
+from diecut_report.results.mechanism import mechanism_results
 from tests.machines import inputs
 
 BASE: dict[str, Any] = {"torque": "300 N*m", "service_factor": 1, "shoe_radius": "120 mm", "wedge_angle": "10 deg"}

@@ -6,7 +6,7 @@ from typing import Any
 
 from diecut_report.engine import Calculation, calculate
 from diecut_report.plugins.damper import MECHANISM
-from diecut_report.results import mechanism_results
+from diecut_report.results.mechanism import mechanism_results
 from tests.machines import inputs
 
 

@@ -12,7 +12,7 @@ from diecut_report.api import Abscissa, Annotated, Inputs, Mechanism, Quantity, 
 from diecut_report.engine import Calculation, CurveHandle, calculate
 from diecut_report.expressions import Array
 from diecut_report.plugins.drive_train import MECHANISM
-from diecut_report.verdicts import check_results
+from diecut_report.results.checks import check_results
 from tests.machines import inputs
 
 RPM = 2 * pi / 60

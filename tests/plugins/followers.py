@@ -11,12 +11,12 @@ import numpy as np
 from scipy.integrate import solve_ivp
 from scipy.interpolate import CubicHermiteSpline
 
-from diecut_report.contract.forms import in_form
 from diecut_report.contract.inputs import flatten
+from diecut_report.contract.unit_variants import in_form
 from diecut_report.engine import Calculation, CurveHandle, calculate
 from diecut_report.expressions import Array
 from diecut_report.plugins.elastic_follower import MECHANISM
-from diecut_report.verdicts import check_results
+from diecut_report.results.checks import check_results
 
 SHAFT: dict[str, Any] = {
     "inertia": "0.8 kg*m**2",

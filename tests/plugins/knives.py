@@ -9,7 +9,7 @@ import numpy as np
 from diecut_report.engine import Calculation, calculate
 from diecut_report.expressions import Array
 from diecut_report.plugins.circular_knife import MECHANISM
-from diecut_report.verdicts import check_results
+from diecut_report.results.checks import check_results
 from tests.machines import inputs, number
 from tests.validation.rows_circular_knife import KEYS
 

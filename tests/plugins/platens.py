@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 from diecut_report.engine import Calculation, calculate
 from diecut_report.plugins.platen_press import MECHANISM
 from diecut_report.plugins.platen_press.inputs import JOINTS
-from diecut_report.verdicts import check_results
+from diecut_report.results.checks import check_results
 from tests.machines import inputs
 
 GUIDED: dict[str, Any] = {"guide_length": "400 mm", "offset_force": "5 mm", "offset_weight": "20 mm"}

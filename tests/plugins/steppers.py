@@ -9,7 +9,7 @@ import numpy as np
 from diecut_report.engine import Calculation, calculate
 from diecut_report.expressions import Array
 from diecut_report.plugins.cam_gear_transport import MECHANISM
-from diecut_report.verdicts import check_results
+from diecut_report.results.checks import check_results
 from tests.machines import inputs
 
 PUBLISHED: dict[str, Any] = {

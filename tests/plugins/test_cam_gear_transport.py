@@ -15,11 +15,11 @@ from scipy.integrate import quad
 
 from diecut_report.api import formula
 from diecut_report.engine import Calculation, Impossible, calculate
-from diecut_report.engine.views import MachineView
+from diecut_report.engine.figure_views import MachineView
 from diecut_report.mechanics.motion_laws import LAWS, MotionLaw, register
 from diecut_report.plugins.cam_gear_transport import MECHANISM, drawing, figures
 from diecut_report.plugins.cam_gear_transport.advice import leaves_return
-from diecut_report.results import mechanism_results
+from diecut_report.results.mechanism import mechanism_results
 from diecut_report.testing import check_mechanism
 from tests.machines import inputs, number
 from tests.plugins.steppers import CAMS, CONVEYOR, LOADED, PUBLISHED, RATE, at, checks, slope, smooth_places, stepper

@@ -12,7 +12,7 @@ from hypothesis import strategies as st
 
 from diecut_report.engine import Impossible, calculate
 from diecut_report.plugins.circular_knife import MECHANISM
-from diecut_report.results import mechanism_results
+from diecut_report.results.mechanism import mechanism_results
 from tests.machines import inputs, number
 from tests.plugins.knives import at, in_cut
 from tests.validation.rows_circular_knife import KEYS

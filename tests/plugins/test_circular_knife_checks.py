@@ -11,7 +11,7 @@ from hypothesis import assume, example, given, settings
 from hypothesis import strategies as st
 
 from diecut_report import pipeline
-from diecut_report.discovery import Discovery
+from diecut_report.config.discovery import Discovery
 from diecut_report.engine import Impossible
 from diecut_report.errors import UserError
 from diecut_report.plugins.circular_knife.advice import SIZES

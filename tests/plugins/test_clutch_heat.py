@@ -7,7 +7,7 @@ import pytest
 from scipy.integrate import solve_ivp
 
 from diecut_report.expressions import Array
-from diecut_report.results import mechanism_results
+from diecut_report.results.mechanism import mechanism_results
 from tests.machines import number
 from tests.plugins.clutches import COOLED, HEATED, checks, clutch
 

@@ -13,7 +13,7 @@ from scipy.integrate import quad
 
 from diecut_report.engine import Impossible, calculate
 from diecut_report.plugins.cylinder_sizing import MECHANISM
-from diecut_report.results import mechanism_results
+from diecut_report.results.mechanism import mechanism_results
 from diecut_report.testing import check_mechanism
 from tests.machines import cylinder, inputs, number
 

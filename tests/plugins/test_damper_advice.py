@@ -13,7 +13,7 @@ from hypothesis import strategies as st
 from diecut_report.engine import calculate
 from diecut_report.expressions import Array
 from diecut_report.plugins.damper import MECHANISM
-from diecut_report.texts import outward
+from diecut_report.quantities.formatting import outward
 from tests.machines import inputs
 from tests.plugins.dampers import calculated, checks, passing, told
 from tests.validation.rows_damper import damper

@@ -15,9 +15,9 @@ from scipy.integrate import cumulative_trapezoid
 from diecut_report.api import standard_series
 from diecut_report.engine import CurveHandle, Impossible, calculate
 from diecut_report.plugins.drive_train import MECHANISM
-from diecut_report.results import mechanism_results
+from diecut_report.quantities.units import unit as parsed
+from diecut_report.results.mechanism import mechanism_results
 from diecut_report.testing import check_mechanism
-from diecut_report.units import unit as parsed
 from tests.machines import UNBALANCED, drive, inputs, number
 from tests.plugins.drive_trains import (
     EXAMPLE,

@@ -14,7 +14,7 @@ from hypothesis import strategies as st
 from diecut_report.api import standard_series_by
 from diecut_report.engine import Impossible
 from diecut_report.plugins.drive_train import MECHANISM, advice
-from diecut_report.verdicts import check_results
+from diecut_report.results.checks import check_results
 from tests.machines import number
 from tests.plugins.drive_trains import EXAMPLE, RPM, UNEVEN, WORKING, check, checked, train
 from tests.plugins.symbols import doubled

@@ -11,7 +11,7 @@ import pytest
 import yaml
 
 from diecut_report.engine import Calculation, Impossible
-from diecut_report.results import mechanism_results
+from diecut_report.results.mechanism import mechanism_results
 from tests.configs import EXAMPLES
 from tests.machines import number
 from tests.plugins.drive_trains import check, checked, train

@@ -11,19 +11,9 @@ from hypothesis import strategies as st
 from scipy.integrate import cumulative_trapezoid, solve_ivp
 
 from diecut_report.expressions import Array
-from diecut_report.results import mechanism_results
+from diecut_report.results.mechanism import mechanism_results
 from tests.machines import number
-from tests.plugins.drive_trains import (
-    RPM,
-    UNEVEN,
-    WORKING,
-    at_flywheel,
-    check,
-    checked,
-    over_a_turn,
-    sine_load,
-    train,
-)
+from tests.plugins.drive_trains import RPM, UNEVEN, WORKING, at_flywheel, check, checked, over_a_turn, sine_load, train
 
 
 def test_energy_fluctuation_is_that_of_brute_force() -> None:

@@ -18,12 +18,7 @@ from diecut_report.api import standard_series, standard_series_by, standard_tabl
 from diecut_report.engine import Calculation, Impossible
 from diecut_report.plugins.drive_train.inputs import Section
 from tests.machines import number
-from tests.plugins.drive_trains import (
-    EXAMPLE,
-    PAIRS,
-    check,
-    train,
-)
+from tests.plugins.drive_trains import EXAMPLE, PAIRS, check, train
 
 
 def hull_length(first: float, second: float, apart: float) -> float:

@@ -12,7 +12,7 @@ from scipy.interpolate import BSpline, make_interp_spline
 from diecut_report.engine import Calculation, calculate
 from diecut_report.mechanics import motion_laws
 from diecut_report.plugins.elastic_follower import MECHANISM
-from diecut_report.results import mechanism_results
+from diecut_report.results.mechanism import mechanism_results
 from diecut_report.testing import check_mechanism
 from tests.machines import inputs, number
 from tests.mechanics.closed_follower import WAVES, after, response, undamped_cycloidal

@@ -8,7 +8,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from diecut_report.engine import Calculation
-from diecut_report.engine.views import MachineView
+from diecut_report.engine.figure_views import MachineView
 from diecut_report.plugins.geneva_transport.drawing import disc_outline, wheel_outline
 from tests.machines import number
 from tests.plugins.test_geneva_transport import SHEET, SLOTS, engaged, geneva, wheel_from_middle, with_slots

@@ -12,11 +12,11 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from diecut_report import pipeline
-from diecut_report.discovery import Discovery
+from diecut_report.config.discovery import Discovery
 from diecut_report.engine import Calculation, Impossible, calculate
 from diecut_report.expressions import Array
 from diecut_report.plugins.geneva_transport import MECHANISM
-from diecut_report.results import mechanism_results
+from diecut_report.results.mechanism import mechanism_results
 from diecut_report.testing import check_mechanism
 from tests.configs import HEAD, problems, saved
 from tests.machines import inputs, number

@@ -10,7 +10,7 @@ import pytest
 
 from diecut_report.engine import Impossible
 from diecut_report.plugins.knife_drive import advice
-from diecut_report.verdicts import check_results
+from diecut_report.results.checks import check_results
 from tests.plugins.test_knife_drive import INNER, LINKAGE, OUTER, PLANETARY, SLIDER, knife
 
 LIMIT = re.compile(r"a (roller_ratio|cylinder_rate) of at (?:most|least) ([\d.e+-]+)")

@@ -9,9 +9,9 @@ import numpy as np
 import pytest
 
 from diecut_report.engine import Calculation, Impossible, calculate
-from diecut_report.engine.views import figures
+from diecut_report.engine.figure_views import figures
 from diecut_report.plugins.knife_drive import MECHANISM
-from diecut_report.verdicts import check_results
+from diecut_report.results.checks import check_results
 from tests.configs import EXAMPLES
 from tests.machines import inputs, number
 from tests.plugins.test_knife_drive import DRIVES, INNER, LINKAGE, OUTER, PLANETARY, SLIDER, at, knife

@@ -15,10 +15,10 @@ from scipy.integrate import quad
 from scipy.optimize import brentq
 
 from diecut_report import pipeline
-from diecut_report.discovery import Discovery
+from diecut_report.config.discovery import Discovery
 from diecut_report.engine import Calculation, Impossible, calculate
 from diecut_report.plugins.platen_press import MECHANISM
-from diecut_report.results import mechanism_results
+from diecut_report.results.mechanism import mechanism_results
 from diecut_report.testing import check_mechanism
 from tests.configs import EXAMPLES
 from tests.machines import inputs, number

@@ -9,11 +9,11 @@ import pytest
 from jsonschema import Draft202012Validator
 
 from diecut_report import pipeline
-from diecut_report.discovery import Discovery
+from diecut_report.config.discovery import Discovery
+from diecut_report.config.schema import kind_schema
 from diecut_report.engine import Impossible
 from diecut_report.errors import UserError
 from diecut_report.plugins.platen_press import MECHANISM
-from diecut_report.schema import kind_schema
 from tests.configs import HEAD, problems, saved
 from tests.machines import number
 from tests.plugins.platens import platen

@@ -20,7 +20,7 @@ from diecut_report.plugins.drive_train.toothed_belt import (
     TOOTHED_BELT_FIGURES,
     ToothedBelt,
 )
-from diecut_report.results import mechanism_results
+from diecut_report.results.mechanism import mechanism_results
 from diecut_report.testing import check_mechanism
 from tests.machines import inputs, number
 

@@ -12,16 +12,16 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from diecut_report import pipeline
-from diecut_report.comparing import compared, found
+from diecut_report.config.discovery import Discovery
 from diecut_report.contract.inputs import fields
 from diecut_report.contract.mechanism import Mechanism
-from diecut_report.discovery import Discovery
 from diecut_report.engine import Calculation, calculate
 from diecut_report.expressions import Array
 from diecut_report.mechanics.motion_laws import LAWS
 from diecut_report.plugins.cam_gear_transport import MECHANISM as CAM
 from diecut_report.plugins.geneva_transport import MECHANISM as GENEVA
 from diecut_report.plugins.geneva_transport.comparison import COMPARISON
+from diecut_report.results.comparisons import compared, found
 from diecut_report.testing import check_mechanism
 from tests.configs import HEAD, saved
 from tests.machines import inputs, number

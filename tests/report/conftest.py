@@ -10,7 +10,9 @@ from typing import Any
 import matplotlib as mpl
 import pytest
 
-from diecut_report.report import Rendering, figures
+from diecut_report.report import Rendering
+from diecut_report.report.figures.style import load_fonts
+from diecut_report.report.figures.style import style as style_of
 from tests.report.made_results import sample
 
 
@@ -35,8 +37,8 @@ def html(rendering: Rendering) -> str:
 @pytest.fixture
 def style() -> Iterator[None]:
     """The report's fonts and settings, for what is drawn or measured apart from a whole figure."""
-    figures.load_fonts()
-    with mpl.rc_context(figures.style("x")):  # type: ignore[arg-type]
+    load_fonts()
+    with mpl.rc_context(style_of("x")):  # type: ignore[arg-type]
         yield
 
 

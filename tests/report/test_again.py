@@ -7,7 +7,7 @@ from importlib import import_module
 from pathlib import Path
 
 from diecut_report import pipeline
-from diecut_report.discovery import Discovery
+from diecut_report.config.discovery import Discovery
 from diecut_report.report import Rendering
 
 EXAMPLE = Path(import_module("diecut_report.configs").__path__[0]) / "flat_cylinder_press.yaml"

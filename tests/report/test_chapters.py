@@ -8,9 +8,9 @@ from typing import Any
 
 import pytest
 
-from diecut_report.exports import CENTER, PITCH_CURVE, PROFILE, exports
 from diecut_report.report import Rendering, render_html
-from diecut_report.report.rows import Chapter, Item
+from diecut_report.report.model import Chapter, Item
+from diecut_report.report.profile_files import CENTER, PITCH_CURVE, PROFILE, exports
 from tests.report.made_results import SOURCE, check, export
 
 Data = dict[str, Any]

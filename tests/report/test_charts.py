@@ -10,12 +10,12 @@ from typing import Any
 import numpy as np
 import pytest
 
-from diecut_report.report.charts import _of_curves, _of_lines
-from diecut_report.report.charts_diagram import STROKES, Diagram, legend
-from diecut_report.report.charts_names import Names
-from diecut_report.report.charts_panel import Panel, framed, pieces
-from diecut_report.report.figures import overlap, text_size
-from diecut_report.report.gallery import render
+from diecut_report.report.figures.by_type import render
+from diecut_report.report.figures.charts import _of_curves, _of_lines
+from diecut_report.report.figures.diagram import STROKES, Diagram, legend
+from diecut_report.report.figures.label_layout import Names
+from diecut_report.report.figures.panel_data import Panel, framed, pieces
+from diecut_report.report.figures.style import overlap, text_size
 from diecut_report.report.i18n import Words
 from tests.report.made_figures import CHARTS, block, chart, energy, laws, line, panel, wedge
 

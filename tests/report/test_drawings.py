@@ -10,12 +10,12 @@ from typing import Any
 import numpy as np
 import pytest
 
-from diecut_report.report.drawing import Shapes
-from diecut_report.report.drawing_scale import LARGEST, PAD, PAGE, SIZES, content, filled, folded
-from diecut_report.report.figures import MM, marked, overlap, text_size
-from diecut_report.report.gallery import render
+from diecut_report.report.figures.by_type import render
+from diecut_report.report.figures.drawing import Shapes
+from diecut_report.report.figures.drawing_scale import LARGEST, PAD, PAGE, SIZES, content, filled, folded
+from diecut_report.report.figures.shapes import beyond, hatching
+from diecut_report.report.figures.style import MM, marked, overlap, text_size
 from diecut_report.report.i18n import Words
-from diecut_report.report.shapes import beyond, hatching
 from tests.report.made_figures import (
     DRAWINGS,
     arrow,

@@ -12,10 +12,10 @@ import numpy as np
 import pytest
 
 from diecut_report.report.curves import continuous, period_of, through_pole
-from diecut_report.report.figures import Labels, marked
-from diecut_report.report.gallery import render
+from diecut_report.report.figures.by_type import render
+from diecut_report.report.figures.shapes import hatching
+from diecut_report.report.figures.style import Labels, marked
 from diecut_report.report.i18n import Words
-from diecut_report.report.shapes import hatching
 
 WORDS = Words("en")
 

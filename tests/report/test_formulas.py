@@ -13,8 +13,8 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from diecut_report.report.equations import WIDTH, Equations
-from diecut_report.report.formulas import Latex, Linear, unit_latex
 from diecut_report.report.i18n import Words
+from diecut_report.report.latex import Latex, Linear, unit_latex
 from diecut_report.report.typeset import Typesetter
 
 Tree = list[Any]

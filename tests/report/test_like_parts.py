@@ -6,7 +6,7 @@ from typing import Any
 
 import pytest
 
-from diecut_report.report.like_parts import counted, gathered, place
+from diecut_report.report.repeated_parts import counted, gathered, place
 from tests.report.made_results import inputs, outputs, quantity
 
 Data = dict[str, Any]

@@ -5,7 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 from types import ModuleType
 
-from diecut_report.texts import number_text
+from diecut_report.quantities.formatting import number_text
 from tests.validation.rows import Row, modules
 
 PAGE = Path(__file__).parents[2] / "docs" / "validation.md"

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from diecut_report.results import mechanism_results
+from diecut_report.results.mechanism import mechanism_results
 from tests.validation.rows_damper import damper
 
 

@@ -1,0 +1,263 @@
+"""The command line: commands, exit codes, and all that is printed.
+
+Exit codes: 0 all checks pass, 1 a check fails, 2 bad input or usage (nothing is written), 3 a plugin broke.
+"""
+
+from __future__ import annotations
+
+import gc
+import json
+import os
+import sys
+import traceback
+from collections.abc import Sequence
+from contextlib import redirect_stdout, suppress
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, NoReturn
+
+import click
+
+from diecut_report import __version__
+from diecut_report.cli.output import (
+    BAD_INPUT,
+    CHECK_FAILED,
+    FAULT,
+    INTERRUPTED,
+    PASSED,
+    PLUGIN_BROKE,
+    coloured,
+    common,
+    emit,
+    tell,
+)
+from diecut_report.cli.progress import Progress
+from diecut_report.cli.study import batch, variant_files, variants
+from diecut_report.config.discovery import Discovery, DuplicateKind, UnknownKind
+from diecut_report.errors import PluginError, Problem, UserError, nearest
+
+if TYPE_CHECKING:
+    from diecut_report.pipeline import Outcome
+
+
+def run() -> NoReturn:
+    """The program: ``main``, and then out at once, for to tear the interpreter down costs a fifth of a short run.
+
+    Nothing is left to do then: files are closed, output is flushed, no thread has work.
+    """
+    code = main()
+    for stream in filter(None, (sys.stdout, sys.stderr)):  # a stream may be closed from outside
+        with suppress(OSError):  # whoever read it has gone
+            stream.flush()
+    os._exit(code)
+
+
+def main(arguments: Sequence[str] | None = None) -> int:
+    """Run a command; its exit code. What a user can mend is told on standard error."""
+    # starting makes many lasting objects; to look for garbage among them costs a tenth of a run
+    gc.set_threshold(1_000_000)
+    try:
+        return int(program.main(arguments, prog_name="diecut-report", standalone_mode=False) or PASSED)
+    except click.Abort:
+        return INTERRUPTED
+    except click.ClickException as error:
+        error.show()
+        return BAD_INPUT
+    except UserError as error:
+        tell(str(problem) for problem in error.problems)
+        return BAD_INPUT
+    except Exception:
+        traceback.print_exc()
+        tell(["This is a fault of diecut-report itself. Please report it with the lines above and the configuration."])
+        return FAULT
+
+
+# --- options ---------------------------------------------------------------------------------------------------------
+
+
+def _formats(_: click.Context, __: click.Parameter, given: str) -> list[str]:
+    from diecut_report.pipeline import FORMATS
+
+    asked = list(dict.fromkeys(part.strip().lower() for part in given.split(",") if part.strip()))
+    unknown = [part for part in asked if part not in FORMATS]
+    if unknown or not asked:
+        words = f"{unknown[0]!r} is no format{nearest(unknown[0], FORMATS)}" if unknown else "no format is named"
+        raise click.BadParameter(f"{words}; known: {', '.join(FORMATS)}.")
+    return asked
+
+
+def _language(_: click.Context, __: click.Parameter, given: str | None) -> str | None:
+    from diecut_report.config.model import complete_language
+
+    try:
+        return None if given is None else complete_language(given)
+    except ValueError as error:
+        raise click.BadParameter(f"{error}") from None
+
+
+@click.group(context_settings={"help_option_names": ["-h", "--help"]})
+@click.version_option(__version__, prog_name="diecut-report")
+def program() -> None:
+    """Design reports for die-cutting presses, from a YAML description to a checked calculation document."""
+
+
+config_argument = click.argument("config", type=click.Path(path_type=Path))
+
+
+# --- commands --------------------------------------------------------------------------------------------------------
+
+
+@program.command()
+@config_argument
+@click.option(
+    "-o", "folder", metavar="DIR", default=".", type=click.Path(path_type=Path), help="Where to write (default: here)."
+)
+@click.option(
+    "--format",
+    "formats",
+    metavar="LIST",
+    default="html,pdf,json",
+    callback=_formats,
+    help="html,pdf,json or some of them.",
+)
+@click.option(
+    "--language", metavar="LANGUAGE", callback=_language, help="Language of the report, in place of the project's."
+)
+@common
+def report(
+    config: Path, folder: Path, formats: list[str], language: str | None, folders: tuple[Path, ...], quiet: bool
+) -> int:
+    """Calculate and write NAME.html, NAME.pdf and NAME.json."""
+    from diecut_report import pipeline
+
+    with Progress(quiet) as progress, redirect_stdout(sys.stderr), variant_files(config) as file:
+        outcome = pipeline.report(file, Discovery(folders), progress, folder, formats, language)
+    if not quiet:
+        tell(f"written: {path}" for path in outcome.written)
+    return _verdict(outcome, quiet)
+
+
+@program.command()
+@config_argument
+@click.option(
+    "-o", "target", metavar="FILE", type=click.Path(path_type=Path), help="Write to a file, not to standard output."
+)
+@common
+def calc(config: Path, target: Path | None, folders: tuple[Path, ...], quiet: bool) -> int:
+    """Calculate, and give the results file alone."""
+    from diecut_report import pipeline
+
+    to_file = None if target == Path("-") else target
+    # a plugin that prints does not spoil the JSON
+    with Progress(quiet) as progress, redirect_stdout(sys.stderr), variant_files(config) as file:
+        outcome, text = pipeline.calc(file, Discovery(folders), progress, to_file)
+    if to_file is None:
+        emit(text)
+    return _verdict(outcome, quiet or to_file is None)
+
+
+@program.command()
+@click.argument("configs", metavar="CONFIG…", nargs=-1, required=True, type=click.Path(path_type=Path))
+@common
+def check(configs: tuple[Path, ...], folders: tuple[Path, ...], quiet: bool) -> int:
+    """Validate without calculating; all problems of all files are told."""
+    from diecut_report import pipeline
+
+    discovery, codes = Discovery(folders), []
+    for config in configs:
+        try:
+            with redirect_stdout(sys.stderr):
+                broken = pipeline.check(config, discovery)
+            tell(str(error) if len(configs) == 1 else f"{config}: {error}" for error in broken)
+            codes.append(PLUGIN_BROKE if broken else PASSED)
+        except UserError as error:
+            tell(str(problem) for problem in error.problems)
+            codes.append(BAD_INPUT)
+        if codes[-1] == PASSED and not quiet:
+            tell([f"{config}: valid"])
+    return BAD_INPUT if BAD_INPUT in codes else max(codes)
+
+
+@program.command()
+@common
+def plugins(folders: tuple[Path, ...], quiet: bool) -> int:
+    """List the kinds, their sources and where each comes from."""
+    discovery, codes, lines = Discovery(folders), [PASSED], []
+    for kind, origins in discovery.origins.items():
+        try:
+            with redirect_stdout(sys.stderr):
+                mechanism = discovery.mechanism(kind)
+            lines += [f"{kind} {mechanism.version}: {mechanism.title}", f"    from {origins[0].told}"]
+            lines += [f"    source {source.id}: {source.citation}" for source in mechanism.sources]
+        except DuplicateKind as fault:
+            tell([str(fault)])
+            codes.append(BAD_INPUT)
+        except PluginError as error:
+            tell([str(error)])
+            codes.append(PLUGIN_BROKE)
+    emit("".join(f"{line}\n" for line in lines))
+    return BAD_INPUT if BAD_INPUT in codes else max(codes)
+
+
+@program.command()
+@click.argument("kind", required=False)
+@common
+def schema(kind: str | None, folders: tuple[Path, ...], quiet: bool) -> int:
+    """JSON Schema of the config, of one KIND's block, or of a study file (KIND study), for editors."""
+    from diecut_report.config.schema import config_schema, kind_schema
+
+    if kind == "study":
+        from diecut_report.study.definition.schema import study_schema
+
+        emit(json.dumps(study_schema(), indent=2, ensure_ascii=False) + "\n")
+        return PASSED
+    discovery = Discovery(folders)
+    found, broken = {}, {}
+    for name in [kind] if kind else discovery.origins:
+        try:
+            with redirect_stdout(sys.stderr):
+                found[name] = discovery.mechanism(name)
+        except (UnknownKind, DuplicateKind) as fault:
+            raise UserError(Problem(str(fault))) from None
+        except PluginError as error:
+            tell([str(error)])
+            broken[name] = error.message
+    if kind is None or kind in found:
+        whole = kind_schema(found[kind]) if kind else config_schema(found, broken)
+        emit(json.dumps(whole, indent=2, ensure_ascii=False) + "\n")
+    return PLUGIN_BROKE if broken else PASSED
+
+
+program.add_command(batch)
+program.add_command(variants)
+
+
+# --- verdict ---------------------------------------------------------------------------------------------------------
+
+
+def _verdict(outcome: Outcome, quiet: bool) -> int:
+    tell(str(error) for error in outcome.broken)
+    if not quiet:
+        tell(_summary(outcome.results))
+    return {"error": PLUGIN_BROKE, "fail": CHECK_FAILED}.get(outcome.results["status"], PASSED)
+
+
+def _summary(results: dict[str, Any]) -> list[str]:
+    """The checks that do not pass, in words, the worst first; or that all pass."""
+    lines = []
+    for name, data in results["mechanisms"].items():
+        if data["status"] == "skipped":
+            lines.append((2, f"{coloured('skipped', 'skipped')} {name}: {data['error']}"))
+        for made in data["checks"]:
+            if made["status"] != "pass":
+                rank = ("fail", "warn").index(made["status"])
+                lines.append(
+                    (rank, f"{coloured(made['status'], made['status'])} {name}: {made['title']}. {made['message']}")
+                )
+    count = sum(len(data["checks"]) for data in results["mechanisms"].values())
+    failed = sum(rank == 0 for rank, _ in lines)
+    calculated = [*results["mechanisms"].values(), *results.get("comparisons", {}).values()]
+    lost = sum("error" in data for data in calculated)
+    told = "mechanisms and comparisons" if "comparisons" in results else "mechanisms"
+    passed = f"{lost} of {len(calculated)} {told} were not calculated." if lost else coloured("No check fails.", "pass")
+    verdict = f"{failed} of {count} checks fail." if failed else passed
+    return [line for _, line in sorted(lines, key=lambda pair: pair[0])] + [verdict]

@@ -1,0 +1,149 @@
+"""The commands of studies: run one, ask its results, and take one of its variants for a configuration."""
+
+from __future__ import annotations
+
+import sys
+import tempfile
+from collections.abc import Iterator
+from contextlib import closing, contextmanager, redirect_stdout
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import click
+
+from diecut_report.cli.output import CHECK_FAILED, INTERRUPTED, PASSED, coloured, common, emit, tell
+from diecut_report.errors import nearest
+
+if TYPE_CHECKING:
+    from diecut_report.study.execution.study_run import Outcome
+
+EXPORTS = ("csv", "xlsx")
+RESULTS = "study.json"  # what makes a folder one of a study's results
+
+
+def _exports(_: click.Context, __: click.Parameter, given: str) -> list[str]:
+    asked = list(dict.fromkeys(part.strip().lower() for part in given.split(",") if part.strip()))
+    unknown = [part for part in asked if part not in EXPORTS]
+    if unknown:
+        raise click.BadParameter(
+            f"{unknown[0]!r} is no format{nearest(unknown[0], EXPORTS)}; known: {', '.join(EXPORTS)}."
+        )
+    return asked
+
+
+path_of = click.Path(path_type=Path)
+
+
+@click.command()
+@click.argument("study", required=False, type=path_of)
+@click.option("-o", "folder", metavar="DIR", type=path_of, help="Where to write (default: the study's name, here).")
+@click.option(
+    "--resume", metavar="DIR", type=path_of, help="Continue the run of a folder; what is finished there is kept."
+)
+@click.option("--jobs", metavar="N", type=click.IntRange(1), help="Processes (default: one for each core).")
+@click.option(
+    "--dask", metavar="ADDRESS", help="Calculate on the cluster of this Dask scheduler, such as tcp://host:8786."
+)
+@click.option(
+    "--format", "formats", metavar="LIST", default="", callback=_exports, help="Also write all variants as csv,xlsx."
+)
+@click.option("--yes", is_flag=True, help="Calculate also a very large sample without being asked.")
+@common
+def batch(study: Path | None, folder: Path | None, resume: Path | None, jobs: int | None, dask: str | None, formats: list[str],
+          yes: bool, folders: tuple[Path, ...], quiet: bool) -> int:  # fmt: skip
+    """Calculate all variants of a STUDY, and write them with a summary and full reports of some."""
+    from diecut_report.study import command
+
+    target = _target(study, folder, resume)
+    where = command.Where(jobs, dask, tuple(str(path.absolute()) for path in folders))
+    try:
+        with redirect_stdout(sys.stderr), command.Shown(quiet) as shown:
+            outcome = command.run(
+                study, target, where, resume=resume is not None, agreed=yes, formats=formats, shown=shown
+            )
+    except KeyboardInterrupt:
+        tell([f"stopped; what is finished is kept. Continue with: diecut-report batch --resume {target}"])
+        return INTERRUPTED
+    if not quiet:
+        tell(_told(outcome, target))
+    return CHECK_FAILED if outcome.is_failed else PASSED
+
+
+def _target(study: Path | None, folder: Path | None, resume: Path | None) -> Path:
+    """The folder of the results."""
+    if resume is not None and folder is not None:
+        raise click.UsageError("--resume names the folder; leave -o out.")
+    if study is None and resume is None:
+        raise click.UsageError("Name a study file, or a folder to continue with --resume DIR.")
+    return resume or folder or Path(Path(str(study)).stem)
+
+
+def _told(outcome: Outcome, target: Path) -> Iterator[str]:
+    counts = outcome.counts
+    yield f"written: {target}, with summary.html and summary.pdf" + _reports(target)
+    named = [
+        f"{counts[status]} {coloured(status, status)}"
+        for status in ("pass", "warn", "fail", "error")
+        if counts.get(status)
+    ]
+    dropped = f"; the constraints drop {counts['dropped']} more of the sample" if counts.get("dropped") else ""
+    yield f"{counts.get('variants', 0)} variants: {', '.join(named) or 'none'}{dropped}."
+    yield from (
+        f"{kind} cannot take arrays and was calculated machine by machine, which is slow: {why}"
+        for kind, why in outcome.slow.items()
+    )
+    yield from outcome.notes
+
+
+def _reports(target: Path) -> str:
+    made = len(list((target / "reports").glob("*.pdf")))
+    return f", and {made} full report{'s' if made > 1 else ''} in reports/" if made else ""
+
+
+@click.command()
+@click.argument("folder", metavar="DIR", type=path_of)
+@click.option(
+    "--where", metavar="CONDITION", help="Such as \"drive.crank_torque_peak < '40 N*m' and status = 'pass'\"."
+)
+@click.option("--sort", metavar="COLUMN", help="Sort by a column, -COLUMN downwards.")
+@click.option("--top", metavar="N", type=click.IntRange(1), help="So many variants (default: 20 in a table, else all).")
+@click.option(
+    "--format", "form", default="table", type=click.Choice(["table", "csv", "json"]), help="table, csv or json."
+)
+@common
+def variants(
+    folder: Path,
+    where: str | None,
+    sort: str | None,
+    top: int | None,
+    form: Any,
+    folders: tuple[Path, ...],
+    quiet: bool,
+) -> int:
+    """Ask the stored variants of a study."""
+    from diecut_report.study.analysis.query import unfinished
+    from diecut_report.study.analysis.query import variants as asked
+
+    if not quiet:
+        tell(unfinished(folder))
+    with closing(asked(folder, where=where, sort=sort, top=top, format=form)) as pieces:
+        for piece in pieces:
+            if not emit(piece):  # the reader has seen enough
+                break
+    return PASSED
+
+
+@contextmanager
+def variant_files(config: Path) -> Iterator[Path]:
+    """The configuration file that a command names: itself, or for DIR#ID one of a stored variant, ``DIR-ID.yaml``."""
+    folder, _, number = str(config).rpartition("#")
+    if not folder or not number.isdigit() or config.exists() or not (Path(folder) / RESULTS).exists():
+        yield config
+        return
+    from diecut_report.study.analysis.variant_config import variant_config
+
+    text = variant_config(Path(folder), int(number))
+    with tempfile.TemporaryDirectory() as place:
+        file = Path(place) / f"{Path(folder).resolve().name}-{number}.yaml"
+        file.write_text(text, encoding="utf-8")
+        yield file

@@ -1,0 +1,1 @@
+"""From the text of a press configuration to checked, linked inputs."""

@@ -1,0 +1,38 @@
+"""The order in which the values and calculations of a config follow from each other, and the loops in it."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from graphlib import CycleError, TopologicalSorter
+
+from diecut_report.config.instances import Instance
+from diecut_report.config.references import Node, Target
+from diecut_report.errors import Problem
+
+
+def ordered(instances: Mapping[str, Instance | None], links: Mapping[Node, Target]) -> tuple[list[Node], list[Problem]]:
+    """The nodes in the order in which they can be known; or, for each loop, a problem that shows the whole of it."""
+    kept, problems = dict(links), list[Problem]()
+    while True:
+        sorter: TopologicalSorter[Node] = TopologicalSorter({(name,): () for name in instances})
+        for node, target in kept.items():
+            sorter.add(node, target.node)
+            sorter.add(node[:1], node)
+        try:
+            return list(sorter.static_order()), problems
+        except CycleError as error:
+            loop: list[Node] = error.args[1][:0:-1]  # each refers to the next
+            first = next(index for index, node in enumerate(loop) if node in kept)
+            loop = loop[first:] + loop[:first]
+            problems.append(_loop_problem(instances, kept, loop))
+            del kept[loop[0]]
+
+
+def _loop_problem(instances: Mapping[str, Instance | None], links: Mapping[Node, Target], loop: list[Node]) -> Problem:
+    shown = [".".join(map(str, node)) if len(node) > 1 else links[before].path
+             for before, node in zip([loop[-1], *loop], loop, strict=False)]  # fmt: skip
+    instance = instances[str(loop[0][0])]
+    assert instance is not None, "a mechanism without a model has no links"
+    told = [text for before, text in zip(["", *shown], [*shown, shown[0]], strict=True) if text != before]
+    message = f"refers to itself: {' → '.join(told if len(told) > 1 else 2 * told)}. Give one of these inputs a value of its own."
+    return instance.place.problem(loop[0][1:], message)

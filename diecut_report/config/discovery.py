@@ -1,0 +1,218 @@
+"""Finds the kinds of mechanisms and loads a kind when it is asked for, so that a broken plugin hurts only its users.
+
+Kinds come from three places: the program's own folder of plugins, the entry points (group "diecut_report.plugins",
+the name is the kind) of installed packages, and local folders. A folder of plugins may hold a list ``kinds.yaml``
+(``KIND: FILE.py`` or ``KIND: FILE.py:ATTRIBUTE``); without it each ``NAME.py`` and each folder ``NAME`` with an
+``__init__.py`` is the kind NAME. The attribute that holds the mechanism is MECHANISM unless it is named.
+
+A file ``extend_NAME.py`` of a local folder, or an entry point of the group "diecut_report.extensions", is no kind: it is run
+before a configuration is read, to add to a registry (such as the motion laws).
+"""
+
+from __future__ import annotations
+
+import hashlib
+import re
+import sys
+import traceback
+from collections.abc import Callable, Iterable, Iterator
+from dataclasses import dataclass
+from functools import cached_property, partial
+from importlib import import_module, util
+from importlib.metadata import entry_points
+from pathlib import Path
+from types import ModuleType
+from typing import Any
+
+from diecut_report.config import yaml_tree
+from diecut_report.contract.mechanism import Mechanism
+from diecut_report.errors import PluginError, Problem, UserError, nearest
+
+GROUP = "diecut_report.plugins"
+EXTENSIONS = "diecut_report.extensions"
+EXTENSION = "extend_"
+ATTRIBUTE = "MECHANISM"
+LIST = "kinds.yaml"
+
+
+class UnknownKind(LookupError):
+    """No plugin gives this kind; the text says so, with the nearest known kind."""
+
+
+class DuplicateKind(LookupError):
+    """Two plugins give one kind; the text names both origins."""
+
+
+@dataclass(frozen=True)
+class Origin:
+    """Where a kind comes from, in words, and how its mechanism is loaded from there."""
+
+    kind: str
+    told: str
+    load: Callable[[], Any]
+
+
+class Discovery:
+    """The kinds that are known here: built in, installed, and in the given folders."""
+
+    def __init__(self, folders: Iterable[Path] = ()) -> None:
+        self._folders = tuple({folder.resolve(): folder for folder in folders}.values())
+        self._loaded: dict[str, Mechanism | PluginError] = {}
+
+    @cached_property
+    def origins(self) -> dict[str, list[Origin]]:
+        """Each kind with all places that give it; more than one is a fault that shows when the kind is used."""
+        found: dict[str, list[Origin]] = {}
+        for origin in [*_built_in(), *_installed(), *(o for folder in self._folders for o in _local(folder))]:
+            found.setdefault(origin.kind, []).append(origin)
+        return dict(sorted(found.items()))
+
+    @cached_property
+    def _extensions(self) -> list[Origin]:
+        return [*_installed_extensions(), *(origin for folder in self._folders for origin in _extensions(folder))]
+
+    def extend(self) -> None:
+        """Run what adds to the registries, once; UserError where it cannot be run."""
+        while self._extensions:
+            origin = self._extensions.pop()
+            try:
+                origin.load()
+            except (Exception, SystemExit) as cause:
+                raise UserError(Problem(f"This extension cannot be loaded: {said(cause)}.", origin.told)) from cause
+
+    def mechanism(self, kind: str) -> Mechanism:
+        """The mechanism of a kind.
+
+        Raises UnknownKind or DuplicateKind with the words for the user, PluginError where the plugin is broken.
+        """
+        origin = self._only_origin(kind)
+        if kind not in self._loaded:
+            self._loaded[kind] = _loaded(origin)
+        found = self._loaded[kind]
+        if isinstance(found, PluginError):
+            raise found
+        return found
+
+    def _only_origin(self, kind: str) -> Origin:
+        origins = self.origins.get(kind)
+        if not origins:
+            raise UnknownKind(
+                f"{kind!r} is no known kind{nearest(kind, self.origins)}. Known: {', '.join(self.origins)}."
+            )
+        if len(origins) > 1:
+            places = " and from ".join(origin.told for origin in origins)
+            raise DuplicateKind(f"The kind {kind!r} comes from {places}. Remove or rename one of them.")
+        return origins[0]
+
+
+def _loaded(origin: Origin) -> Mechanism | PluginError:
+    try:
+        found = origin.load()
+    except (Exception, SystemExit) as cause:
+        error = PluginError(f"it cannot be loaded from {origin.told}: {said(cause)}", origin.kind)
+        error.__cause__ = cause
+        return error
+    if not isinstance(found, Mechanism):
+        return PluginError(f"{origin.told} gives a {type(found).__name__}, where a Mechanism is needed", origin.kind)
+    if found.kind != origin.kind:
+        return PluginError(f"{origin.told} gives the kind {found.kind!r}; name it {origin.kind!r} there", origin.kind)
+    return found
+
+
+def said(cause: BaseException) -> str:
+    """An exception of a plugin in one line: its type, its text, and the file and line that raised it."""
+    frames = [f for f in traceback.extract_tb(cause.__traceback__) if not f.filename.startswith("<")]
+    own = frames and not isinstance(cause, SyntaxError)  # a syntax error tells its own place
+    place = f" ({Path(frames[-1].filename).name}:{frames[-1].lineno})" if own else ""
+    return f"{type(cause).__name__}: {' '.join(str(cause).split())}{place}"
+
+
+# --- the three places ------------------------------------------------------------------------------------------------
+
+
+def _built_in() -> Iterator[Origin]:
+    package = import_module(GROUP)
+    for kind in _names_in(Path(package.__path__[0])):
+        yield Origin(kind, "the program itself", partial(_of_module, f"{GROUP}.{kind}"))
+
+
+def _installed() -> Iterator[Origin]:
+    for entry in entry_points(group=GROUP):
+        package = f"the package {entry.dist.name} {entry.dist.version}" if entry.dist else "an installed package"
+        yield Origin(entry.name, package, entry.load if entry.attr else partial(_of_module, entry.module))
+
+
+def _installed_extensions() -> Iterator[Origin]:
+    for entry in entry_points(group=EXTENSIONS):
+        yield Origin(entry.name, f"{entry.name} of an installed package", entry.load)
+
+
+def _extensions(folder: Path) -> Iterator[Origin]:
+    for file in sorted(folder.glob(f"{EXTENSION}*.py")):
+        yield Origin(file.stem, str(file), partial(_module_of, file))
+
+
+def _local(folder: Path) -> Iterator[Origin]:
+    if not folder.is_dir():
+        raise UserError(
+            Problem("There is no such folder of plugins. Check the name given with --plugins.", str(folder))
+        )
+    listed = _listed(folder) if (folder / LIST).is_file() else {name: (name, ATTRIBUTE) for name in _names_in(folder)}
+    for kind, (name, attribute) in listed.items():
+        file = _file_of(folder, name)
+        yield Origin(kind, str(file), partial(_of_file, file, attribute))
+
+
+def _names_in(folder: Path) -> list[str]:
+    files = [path for path in folder.iterdir() if path.suffix == ".py" or (path / "__init__.py").is_file()]
+    return sorted(path.stem for path in files if not path.name.startswith(("_", ".", EXTENSION)))
+
+
+def _listed(folder: Path) -> dict[str, tuple[str, str]]:
+    tree = yaml_tree.load(folder / LIST)
+    if not isinstance(tree.data, dict) or not all(isinstance(value, str) for value in tree.data.values()):
+        raise UserError(
+            Problem("A list of kinds is needed, each as KIND: FILE.py or KIND: FILE.py:ATTRIBUTE.", tree.file)
+        )
+    found = {}
+    for kind, place in tree.data.items():
+        name, _, attribute = place.partition(":")
+        found[kind] = name.removesuffix(".py"), attribute or ATTRIBUTE
+    return found
+
+
+def _file_of(folder: Path, name: str) -> Path:
+    package = folder / name / "__init__.py"
+    return package if package.is_file() else folder / f"{name}.py"
+
+
+def _module_of(file: Path) -> ModuleType:
+    """The module of a local file; it stands in sys.modules while it runs, or postponed annotations would not resolve."""
+    digest = hashlib.sha256(str(file.resolve()).encode()).hexdigest()[:16]
+    name = f"diecut_report_local_{digest}_{re.sub(r'[^A-Za-z0-9]', '_', file.stem)}"
+    if name in sys.modules:
+        return sys.modules[name]
+    folder = [str(file.parent)] if file.name == "__init__.py" else None
+    spec = util.spec_from_file_location(name, file, submodule_search_locations=folder)
+    assert spec is not None and spec.loader is not None, file
+    module = sys.modules[name] = util.module_from_spec(spec)
+    try:
+        spec.loader.exec_module(module)
+    except BaseException:
+        del sys.modules[name]
+        raise
+    return module
+
+
+def _of_module(name: str) -> Any:
+    return _attribute(import_module(name), ATTRIBUTE)
+
+
+def _of_file(file: Path, attribute: str) -> Any:
+    return _attribute(_module_of(file), attribute)
+
+
+def _attribute(module: ModuleType, name: str) -> Any:
+    if not hasattr(module, name):
+        raise AttributeError(f"there is no {name} in it")
+    return getattr(module, name)

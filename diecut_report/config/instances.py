@@ -1,0 +1,111 @@
+"""The mechanisms of a config (and its press): which inputs have a value, and what their results are called."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator, Mapping
+from dataclasses import dataclass
+from functools import cached_property
+from typing import Any
+
+from diecut_report.config.validation import Place, keys_of
+from diecut_report.config.yaml_tree import KeyPath
+from diecut_report.contract.inputs import (
+    Block,
+    CurveInput,
+    FromPress,
+    Meta,
+    Quantity,
+    Text,
+    flatten,
+    list_inputs,
+    texts_given,
+)
+from diecut_report.contract.mechanism import Mechanism
+from diecut_report.contract.sections import Section
+from diecut_report.contract.steps import Step
+
+
+@dataclass(frozen=True)
+class Slot:
+    """A declared input in a block that is there: its key, its declaration, and its value in the file or its default."""
+
+    key: KeyPath
+    meta: Meta | None
+    value: Any
+    is_given: bool
+    is_required: bool
+
+
+def slots(model: type[Block], data: Mapping[str, Any], key: KeyPath = ()) -> Iterator[Slot]:
+    """All inputs of a block and of the blocks and lists given in it."""
+    for name, (field, meta, block, _) in keys_of(model).items():
+        given, own = data.get(name), (*key, name)
+        default = None if given is not None or field.is_required() else field.get_default(call_default_factory=True)
+        yield Slot(own, meta, default if given is None else given, given is not None, field.is_required())
+        parts = list(enumerate(given)) if isinstance(given, list) else [(None, given)]
+        for index, part in parts if block else []:
+            if block and isinstance(part, dict):
+                yield from slots(block, part, own if index is None else (*own, index))
+
+
+class Instance:
+    """A mechanism of the config, or the press (which has no calculation)."""
+
+    def __init__(
+        self, name: str, model: type[Block], data: dict[str, Any], place: Place, mechanism: Mechanism | None
+    ) -> None:
+        self.name, self.model, self.data, self.place, self.mechanism = name, model, data, place, mechanism
+        self.without: frozenset[KeyPath] = frozenset()
+
+    def leave_out(self, keys: Iterable[KeyPath]) -> None:
+        """Inputs that keep no value, as the press does not give their optional default."""
+        self.without = frozenset(keys)
+        for known in ("given", "results"):
+            self.__dict__.pop(known, None)
+
+    @cached_property
+    def given(self) -> frozenset[str]:
+        """The ids of the inputs that have a value: given, by default, or from the press."""
+        found: set[str] = set()
+        for slot in slots(self.model, self.data):
+            name = ".".join(part for part in slot.key if isinstance(part, str))
+            if isinstance(slot.value, Block):
+                found |= set(flatten(slot.value, f"{name}."))
+            from_press = default_of(slot) is not None and slot.key not in self.without
+            if slot.value not in (None, []) or slot.is_required or from_press:
+                found.add(name)
+            if isinstance(slot.meta, Text):
+                found |= texts_given({name: slot.value})
+        return frozenset(found)
+
+    @cached_property
+    def results(self) -> dict[str, tuple[str | None, bool]]:
+        """What the calculation gives with these inputs: the SI unit (None for a text), and whether it is a curve or row."""
+        return self.mechanism.results_of(self.given) if self.mechanism else {}
+
+    @cached_property
+    def rows(self) -> dict[str, str]:
+        """The results that have a value for each part of a list, with that list."""
+        if self.mechanism is None:
+            return {}
+        lists = set(list_inputs(self.model).values())
+        return {name: home for name, home in self.mechanism.axes(self.given).items() if home in lists}
+
+    def value(self, key: KeyPath) -> Any:
+        """The value of an input that is no reference: an SI number, a text, true or false, values of a curve, or None."""
+        slot = max((s for s in slots(self.model, self.data) if s.key == key[: len(s.key)]), key=lambda s: len(s.key))
+        value = slot.value
+        for part in key[len(slot.key) :]:  # within a block that is there by default
+            value = getattr(value, part) if isinstance(part, str) else value[part]
+        is_own = slot.key == key and isinstance(slot.meta, Quantity | CurveInput)
+        return slot.meta.validate(value) if is_own and value is not None and slot.meta else value
+
+    @cached_property
+    def declared_steps(self) -> dict[str, tuple[Section, Step]]:
+        """Every step of the mechanism by its id, whether it takes part or not."""
+        return {step.id: (section, step) for section, step in self.mechanism.steps} if self.mechanism else {}
+
+
+def default_of(slot: Slot) -> FromPress | None:
+    """The press's default that stands in for an input without a value."""
+    return slot.meta.press if isinstance(slot.meta, Quantity) and slot.value is None else None

@@ -1,0 +1,219 @@
+"""A configuration file read, validated and linked, with all that is wrong told at once."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Any, get_args
+
+from diecut_report.config import yaml_tree
+from diecut_report.config.dependency_order import ordered
+from diecut_report.config.discovery import Discovery, DuplicateKind, UnknownKind, said
+from diecut_report.config.instances import Instance
+from diecut_report.config.model import Document, Press, Project
+from diecut_report.config.references import PRESS, Linker, Node, Target, texts
+from diecut_report.config.validation import Place, declared, keys_of, spread_out, told, validate
+from diecut_report.config.yaml_tree import KeyPath, Tree
+from diecut_report.contract.inputs import Block, CurveInput, Pending, Text
+from diecut_report.contract.unit_variants import in_form
+from diecut_report.errors import PluginError, Problem, UserError
+
+NAME = re.compile(r"[A-Za-z][A-Za-z0-9_-]*")
+RESERVED = (PRESS, "project")
+
+
+@dataclass(frozen=True)
+class Config:
+    """A valid configuration: the press and the mechanisms with what their references stand for.
+
+    ``instances`` holds the press and, in the order of the file, the mechanisms; None stands for one whose plugin cannot
+    be loaded (``broken`` tells why). ``order`` is the order in which inputs and calculations can be known.
+    """
+
+    tree: Tree
+    project: Project
+    instances: Mapping[str, Instance | None]
+    kinds: Mapping[str, str]
+    links: Mapping[Node, Target]
+    order: tuple[Node, ...]
+    broken: Mapping[str, PluginError]
+
+
+def load_config(path: Path, discovery: Discovery) -> Config:
+    """Read and validate a configuration; UserError with all its problems. A broken plugin is kept in ``broken``."""
+    tree = yaml_tree.load(path)
+    _refuse_study(tree)
+    discovery.extend()
+    reader = _Reader(tree, discovery)
+    linker = Linker(reader.instances)
+    order, loops = ordered(reader.instances, linker.links)
+    problems = [*reader.problems, *linker.problems, *_wrong_values(reader.instances, linker), *loops]
+    if problems:
+        problems += [
+            reader.place.problem(("mechanisms", name, "kind"), str(error)) for name, error in reader.broken.items()
+        ]
+        raise UserError(sorted(dict.fromkeys(problems), key=lambda p: (p.line or 0, p.column or 0)))
+    assert reader.project is not None
+    return Config(tree, reader.project, reader.instances, reader.kinds, linker.links, tuple(order), reader.broken)
+
+
+def _refuse_study(tree: Tree) -> None:
+    if isinstance(tree.data, dict) and {"base", "sample"} <= tree.data.keys() and "mechanisms" not in tree.data:
+        raise UserError(Problem(f"This is a study: calculate it with diecut-report batch {tree.file}", tree.file))
+
+
+@dataclass
+class _Reader:
+    """Reads the fixed part and finds the model of each mechanism."""
+
+    tree: Tree
+    discovery: Discovery
+    instances: dict[str, Instance | None] = field(default_factory=dict)
+    kinds: dict[str, str] = field(default_factory=dict)
+    broken: dict[str, PluginError] = field(default_factory=dict)
+    problems: list[Problem] = field(default_factory=list)
+    project: Project | None = None
+
+    def __post_init__(self) -> None:
+        self.place = Place(self.tree)
+        whole = as_typed(Document, self.tree.data, self.place)
+        document, self.problems = validate(Document, whole, self.place)
+        self.project = document.project if document else None
+        data = whole if isinstance(whole, dict) else {}
+        self.instances[PRESS] = None
+        if isinstance(data.get(PRESS), dict):
+            self._add(PRESS, Press, data[PRESS], Place(self.tree, (PRESS,)))
+        mechanisms = data.get("mechanisms")
+        for name, body in mechanisms.items() if isinstance(mechanisms, dict) else []:
+            self.instances.setdefault(name, None)
+            self._mechanism(name, body, Place(self.tree, ("mechanisms", name)))
+
+    def _add(self, name: str, model: type[Block], data: dict[str, Any], place: Place, mechanism: Any = None) -> None:
+        data, place, problems = spread_out(model, data, place)
+        self.problems += problems
+        form = in_form(model, [key for key, value in data.items() if value is not None])
+        self.instances[name] = Instance(name, form, as_typed(form, data, place), place, mechanism)
+
+    def _mechanism(self, name: str, body: Any, place: Place) -> None:
+        fault = _name_fault(name)
+        if fault:
+            self.problems.append(place.problem((), fault, at_key=True))
+        elif not isinstance(body, dict):
+            self.problems.append(place.problem((), f"is {told(body)}; a block of keys with its kind is needed"))
+        elif not isinstance(body.get("kind"), str):
+            words = f"is missing. Give one of: {', '.join(self.discovery.origins)}."
+            given = f"is {told(body.get('kind'))}; the name of a kind is needed"
+            self.problems.append(place.problem(("kind",), given) if "kind" in body else place.absent(("kind",), words))
+        else:
+            self._of_kind(name, body["kind"], {key: value for key, value in body.items() if key != "kind"}, place)
+
+    def _of_kind(self, name: str, kind: str, data: dict[str, Any], place: Place) -> None:
+        self.kinds[name] = kind
+        try:
+            mechanism = self.discovery.mechanism(kind)
+            self._add(name, mechanism.inputs, data, place, mechanism)
+            self._probe(name, kind)
+        except (UnknownKind, DuplicateKind) as fault:
+            self.problems.append(place.problem(("kind",), str(fault)))
+        except PluginError as error:
+            self.instances[name] = None
+            self.broken[name] = _of_instance(error, name)
+
+    def _probe(self, name: str, kind: str) -> None:
+        """Ask the plugin once what it gives with these inputs, so that what is wrong with it shows here."""
+        instance = self.instances[name]
+        try:
+            assert instance is not None
+            _ = instance.given, instance.results
+        except Exception as cause:
+            raise PluginError(f"it declares what cannot be: {said(cause)}", kind) from cause
+
+
+def _of_instance(error: PluginError, name: str) -> PluginError:
+    named = PluginError(error.message, error.kind, name)
+    named.__cause__ = error.__cause__ or error
+    return named
+
+
+def _name_fault(name: str) -> str:
+    if name in RESERVED:
+        return f"the name {name!r} is reserved. Choose another one."
+    if not NAME.fullmatch(name):
+        return f"{told(name)} is no name: a letter, then letters, digits, _ and - are allowed."
+    return ""
+
+
+def as_typed(model: type[Block], data: Any, place: Place, key: KeyPath = ()) -> Any:
+    """The data with its texts as they were typed: a document number 0012 or a date stays as it is."""
+    if not isinstance(data, dict):
+        return data
+    typed = dict(data)
+    for name, given in data.items():
+        known = keys_of(model).get(name)
+        if known is None or given is None:
+            continue
+        annotation, own = known.field.annotation, (*key, name)
+        if known.block and isinstance(given, list):
+            typed[name] = [as_typed(known.block, part, place, (*own, index)) for index, part in enumerate(given)]
+        elif known.block:
+            typed[name] = as_typed(known.block, given, place, own)
+        elif str in (annotation, *get_args(annotation)) and not isinstance(given, dict | list):
+            typed[name] = place.typed(own)
+    return typed
+
+
+def substituted(
+    instance: Instance, links: Mapping[Node, Target], value: Callable[[Node, Target], Any]
+) -> dict[str, Any]:
+    """The data of an instance with what stands in for its references; defaults of the press are left to ``value`` too."""
+    data: dict[str, Any] = _copied(instance.data)
+    for node, target in links.items():
+        if node[0] != instance.name:
+            continue
+        home: Any = data
+        for part in node[1:-1]:
+            home = home[part]
+        home[node[-1]] = value(node, target)
+    return data
+
+
+def _copied(data: Any) -> Any:
+    if isinstance(data, dict):
+        return {key: _copied(part) for key, part in data.items()}
+    return [_copied(part) for part in data] if isinstance(data, list) else data
+
+
+def _wrong_values(instances: Mapping[str, Instance | None], linker: Linker) -> list[Problem]:
+    """What is wrong with the values of the press and the mechanisms, as far as it can be known without calculating."""
+    problems: list[Problem] = []
+    unresolved = dict.fromkeys(linker.unresolved, Target("", "", is_broken=True))
+    for instance in instances.values():
+        if instance is None:
+            continue
+        written = {node: target for node, target in linker.links.items() if not target.is_default} | unresolved
+        data = substituted(instance, written, lambda node, target, own=instance: _pending(own, node, target))  # type: ignore[misc]
+        left_open = {
+            node[1:]
+            for node, target in written.items()
+            if node[0] == instance.name and _is_open(instance, node, target)
+        }
+        problems += validate(instance.model, data, instance.place, left_open)[1]
+    return problems
+
+
+def _is_open(instance: Instance, node: Node, target: Target) -> bool:
+    """Whether a value can be judged only when it is known: a text, or what a broken plugin would give."""
+    is_text = isinstance(declared(instance.model, node[1:]), Text) and target.unit is None
+    return target.is_broken or is_text
+
+
+def _pending(instance: Instance, node: Node, target: Target) -> Any:
+    curve = declared(instance.model, node[1:-1]) if len(node) > 2 else None
+    if isinstance(curve, CurveInput):
+        return f"0 {curve.unit}"  # one value of a list, whose kind the linker has judged
+    return Pending(target.path, target.unit, target.is_curve)
+
+
+__all__ = ["NAME", "RESERVED", "Config", "load_config", "substituted", "texts"]

@@ -1,0 +1,88 @@
+"""The fixed part of the press configuration: title block, press, sheet; and the file as a whole, before its mechanisms are known."""
+
+from __future__ import annotations
+
+from typing import Any, Literal
+
+from pydantic import AfterValidator, Field, field_validator
+
+from diecut_report.contract.inputs import Annotated, Block, Quantity, Text
+
+LANGUAGES = ("en",)  # whose catalogues are complete
+
+
+def complete_language(language: str) -> str:
+    """The language, if reports can be written in it; ValueError in words if not."""
+    if language not in LANGUAGES:
+        raise ValueError(
+            f"is {language}; reports in this language wait for its catalogue, which is not complete. Give en."
+        )
+    return language
+
+
+class Revision(Block):
+    """A line of the revision table."""
+
+    revision: Annotated[str, Text("Mark of the revision")]
+    date: Annotated[str | None, Text("Date, as it is to be printed")] = None
+    description: Annotated[str | None, Text("What was changed")] = None
+    by: Annotated[str | None, Text("Who made the revision")] = None
+
+
+class Project(Block):
+    """What the title block prints."""
+
+    title: Annotated[str, Text("Title of the document"), Field(min_length=1)]
+    document_number: Annotated[str | None, Text("Number of the document")] = None
+    revision: Annotated[str | None, Text("Mark of this revision")] = None
+    date: Annotated[str | None, Text("Date, as it is to be printed; without it none is printed")] = None
+    organisation: Annotated[str | None, Text("Organisation")] = None
+    prepared_by: Annotated[str | None, Text("Who prepared the document")] = None
+    checked_by: Annotated[str | None, Text("Who checked it")] = None
+    approved_by: Annotated[str | None, Text("Who approved it")] = None
+    revisions: Annotated[list[Revision], Text("Revisions so far"), Field(default_factory=list)]
+    language: Annotated[Literal["en", "uk"], Text("Language of the report"), AfterValidator(complete_language)] = "en"
+
+    @field_validator("*")
+    @classmethod
+    def without_reference(cls, given: Any) -> Any:
+        """A text of the title block stands as it is."""
+        if isinstance(given, str) and "${" in given:
+            raise ValueError(
+                f"is “{given}”; references stand in press and mechanisms, the title block takes plain text"
+            )
+        return given
+
+
+class Sheet(Block):
+    """The sheet of board."""
+
+    length: Annotated[float | None, Quantity("L_s", "mm", "Length of the sheet", gt=0)] = None
+    width: Annotated[float | None, Quantity("B_s", "mm", "Width of the sheet", gt=0)] = None
+    thickness: Annotated[float | None, Quantity("Δ", "mm", "Thickness of the sheet", gt=0)] = None
+
+
+class Press(Block):
+    """What all mechanisms of a press share."""
+
+    name: Annotated[str, Text("Name of the press"), Field(min_length=1)]
+    productivity: Annotated[float | None, Quantity("", "1/h", "Productivity in sheets", gt=0)] = None
+    sheet: Sheet | None = None
+
+
+class Document(Block):
+    """The whole file; the press and the mechanisms are validated one by one."""
+
+    schema_version: Literal[1]
+    project: Project
+    press: dict[str, Any]
+    mechanisms: Annotated[dict[str, Any], Field(min_length=1)]
+
+    @field_validator("schema_version", mode="before")
+    @classmethod
+    def a_number(cls, given: Any) -> Any:
+        """True equals 1 in Python, but is no version."""
+        if isinstance(given, bool | str):
+            shown = f"“{given}”" if isinstance(given, str) else str(given).lower()
+            raise ValueError(f"is {shown}; the number 1 is needed, without quotes")
+        return given

@@ -1,0 +1,217 @@
+"""References ``${path}``: what each stands for, in which order the values follow, and every mistake in them.
+
+Order and loops are judged by input: the nodes of the graph are single inputs and whole calculations. An input that refers
+to another input waits for that input only; one that refers to an output waits for the calculation that gives it.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass
+from typing import Any
+
+from diecut_report.config.instances import Instance, Slot, default_of, slots
+from diecut_report.config.validation import declared
+from diecut_report.config.yaml_tree import KeyPath
+from diecut_report.contract.inputs import CurveInput, FromPress, Quantity, fields
+from diecut_report.contract.mechanism import MOST_NAMED
+from diecut_report.contract.steps import Crossings
+from diecut_report.errors import Problem, nearest
+from diecut_report.expressions import Formula
+from diecut_report.quantities.units import pretty, unit
+
+PRESS = "press"
+WHOLE = re.compile(r"\$\{([^${}]*)\}")
+
+Node = KeyPath  # (instance,) is its calculation, (instance, key, …) one of its inputs
+
+
+@dataclass(frozen=True)
+class Target:
+    """What a reference stands for: an output (``result``) or an input (``key``) of an instance."""
+
+    path: str
+    instance: str
+    key: KeyPath = ()
+    result: str | None = None
+    unit: str | None = None
+    is_curve: bool = False
+    is_default: bool = False  # not written by the user: the press's field that stands in for an absent input
+    formula: Formula | None = None
+    is_broken: bool = False  # the plugin of what it refers to cannot be loaded
+
+    @property
+    def node(self) -> Node:
+        """What must be known before."""
+        return (self.instance,) if self.result is not None or self.is_broken else (self.instance, *self.key)
+
+
+class Unresolved(LookupError):
+    """A reference that stands for nothing, in words."""
+
+
+class Linker:
+    """Finds what every reference stands for; gathers links and problems. Broken mechanisms are None."""
+
+    def __init__(self, instances: Mapping[str, Instance | None]) -> None:
+        self.instances = instances
+        self.links: dict[Node, Target] = {}
+        self.unresolved: set[Node] = set()
+        self.problems: list[Problem] = []
+        known = [instance for instance in instances.values() if instance is not None]
+        for instance in known:
+            instance.leave_out(self._not_in_press(instance))
+        for instance in known:
+            self._written(instance)
+            self._from_press(instance)
+
+    def _not_in_press(self, instance: Instance) -> Iterator[KeyPath]:
+        press = self.instances[PRESS]
+        known = press.given if press else frozenset()  # a config without a press has told so already
+        for slot in slots(instance.model, instance.data):
+            default = default_of(slot)
+            if default and default.optional and default.path.removeprefix(f"{PRESS}.") not in known:
+                yield slot.key
+
+    def _written(self, instance: Instance) -> None:
+        for key, text in texts(instance.data):
+            if "${" not in text:
+                continue
+            node = (instance.name, *key)
+            try:
+                self.links[node] = self._within_curve(instance, key, self.target(text))
+            except Unresolved as fault:
+                self.unresolved.add(node)
+                self.problems.append(instance.place.problem(key, str(fault)))
+
+    def _within_curve(self, instance: Instance, key: KeyPath, target: Target) -> Target:
+        """The values of a curve given as a list are no inputs of their own, so their kind is judged here."""
+        meta = declared(instance.model, key[:-1]) if len(key) > 1 else None
+        if isinstance(meta, CurveInput) and not target.is_broken:
+            single = target.unit is not None and not target.is_curve
+            if not single or unit(str(target.unit)).kind != unit(meta.unit).kind:
+                raise Unresolved(
+                    f"${{{target.path}}} is no single quantity in {pretty(meta.unit)}, as the other values are"
+                )
+        return target
+
+    def _from_press(self, instance: Instance) -> None:
+        for slot in slots(instance.model, instance.data):
+            default = default_of(slot)
+            if default is None or slot.key in instance.without:
+                continue
+            try:
+                target = self.target(f"${{{default.path}}}")
+            except Unresolved:
+                self.problems.append(self._no_default(instance, slot, default))
+                continue
+            found = Target(target.path, target.instance, target.key, None, target.unit, False, True, default.formula)
+            self.links[(instance.name, *slot.key)] = found
+
+    def _no_default(self, instance: Instance, slot: Slot, default: FromPress) -> Problem:
+        assert isinstance(slot.meta, Quantity)
+        field, key = default.path.removeprefix(f"{PRESS}."), slot.key[-1]
+        message = (f"{key} is not given and the press gives no {field} to derive it from; "
+                   f"give {key} ({pretty(slot.meta.unit) or 'a number'}) or {default.path}.")  # fmt: skip
+        return instance.place.absent(slot.key, message)
+
+    # --- what a path stands for --------------------------------------------------------------------------------------
+
+    def target(self, text: str) -> Target:
+        """What a reference stands for; Unresolved in words where it stands for nothing."""
+        match = WHOLE.fullmatch(text.strip())
+        if match is None:
+            raise Unresolved(
+                f"“{text}” mixes a reference with text; a reference stands for a whole value, as in ${{press.name}}."
+            )
+        path = match[1].strip()
+        name, *rest = path.split(".")
+        if name not in self.instances:
+            near = nearest(name, self.instances)
+            raise Unresolved(f"${{{path}}}: there is no mechanism {name!r}{near}. Known: {', '.join(self.instances)}.")
+        instance = self.instances[name]
+        if instance is None:
+            return Target(path, name, is_broken=True)
+        if not rest or not all(rest):
+            example = next(iter(_known(instance)), "output")
+            raise Unresolved(f"${{{path}}} names no value; add an output or input, as in ${{{name}.{example}}}.")
+        return self._result(path, instance, ".".join(rest)) or self._input(path, instance, rest)
+
+    def _result(self, path: str, instance: Instance, result: str) -> Target | None:
+        if result in instance.results:
+            si, many = instance.results[result]
+            home = instance.rows.get(result)
+            if home:
+                raise Unresolved(f"${{{path}}} has a value for each of {home}; refer to one, as in ${{{path}.0}}.")
+            return Target(path, instance.name, result=result, unit=si, is_curve=many)
+        row, _, index = result.rpartition(".")
+        if index.isdigit() and row in instance.results and instance.results[row][1]:
+            return Target(path, instance.name, result=result, unit=instance.results[row][0])
+        return None
+
+    def _input(self, path: str, instance: Instance, parts: list[str]) -> Target:
+        key: KeyPath = tuple(int(part) if part.isdigit() else part for part in parts)
+        meta = declared(instance.model, key)
+        name = ".".join(part for part in key if isinstance(part, str))
+        if isinstance(meta, type):
+            inner = ", ".join(meta.model_fields)
+            raise Unresolved(f"${{{path}}} is a block or a list; refer to one of its values ({inner}).")
+        if meta is None:
+            raise Unresolved(self._unknown(path, instance, ".".join(parts)))
+        _check_index(path, instance.data, key)
+        if name in instance.model.spread and name not in instance.data:
+            single = ", ".join(instance.model.spread[name])
+            raise Unresolved(f"${{{path}}} is a list; refer to one of its values ({single}).")
+        if name not in instance.given:
+            raise Unresolved(f"${{{path}}} is not given; it is optional. Give {path}, or write the value itself here.")
+        si = unit(meta.unit).si if isinstance(meta, Quantity | CurveInput) else None
+        return Target(path, instance.name, key, unit=si, is_curve=isinstance(meta, CurveInput))
+
+    def _unknown(self, path: str, instance: Instance, name: str) -> str:
+        if f"{name}_count" in instance.results:
+            return f"${{{path}}} has several values; refer to one of them, as in ${{{path}_1}}."
+        section, step = (
+            instance.declared_steps.get(name) or instance.declared_steps.get(name.removesuffix("_at")) or (None, None)
+        )
+        if section and step:
+            missing = [n for n in (*section.needs, *step.needs) if n not in instance.given]
+            excess = [n for n in step.lacks if n in instance.given]
+            words = (
+                f"calculated only if {' and '.join(missing)} is given"
+                if missing
+                else f"not calculated, as {', '.join(excess)} is given"
+            )
+            return f"${{{path}}} is {words} in {instance.name}."
+        known = _known(instance)
+        near = nearest(name, known)
+        return f"${{{path}}}: {instance.name} has no {name!r}{near}." + ("" if near else f" Known: {', '.join(known)}.")
+
+
+def _known(instance: Instance) -> list[str]:
+    """What may be referred to; of numbered results the first alone, for how many there are shows in calculating."""
+    later: set[str] = set()
+    for _, step in instance.declared_steps.values():
+        if step.numbered:
+            later |= {step.numbered.format(i) for i in range(step.first + 1, step.first + MOST_NAMED)}
+        if isinstance(step, Crossings):
+            later |= {f"{step.id}_{i}" for i in range(2, MOST_NAMED + 1)}
+    single = [name for name in instance.results if name not in later]
+    return list(dict.fromkeys([*single, *(name for name, _ in fields(instance.model))]))
+
+
+def _check_index(path: str, data: Any, key: KeyPath) -> None:
+    for part in key:
+        if isinstance(part, int) and isinstance(data, list) and part >= len(data):
+            raise Unresolved(f"${{{path}}}: the list has {len(data)} entries, counted from 0.")
+        known = part in data if isinstance(data, dict) else isinstance(data, list) and isinstance(part, int)
+        data = data[part] if known else None
+
+
+def texts(data: Any, key: KeyPath = ()) -> Iterator[tuple[KeyPath, str]]:
+    """Every text in plain data, with its key path."""
+    if isinstance(data, str):
+        yield key, data
+    elif isinstance(data, dict | list):
+        for name, part in data.items() if isinstance(data, dict) else enumerate(data):
+            yield from texts(part, (*key, name))

@@ -1,0 +1,154 @@
+"""JSON Schema (draft 2020-12) of the config, for editors: keys complete by kind, units and ranges stand in the descriptions."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from functools import partial
+from typing import Any, get_args
+
+from diecut_report.config.loader import NAME, RESERVED
+from diecut_report.config.model import Press, Project, Revision
+from diecut_report.config.validation import keys_of
+from diecut_report.contract.inputs import Block, CurveInput, Quantity, Text
+from diecut_report.contract.mechanism import Mechanism
+from diecut_report.contract.unit_variants import in_all_units
+from diecut_report.quantities.units import pretty
+
+Schema = dict[str, Any]
+DRAFT = "https://json-schema.org/draft/2020-12/schema"
+REFERENCE = r"^\s*\$\{[^${}]+\}\s*$"
+NUMBER = r"^\s*[-+−]?(\d+\.?\d*|\.\d+)([eE][-+]?\d+)?(\s*[^\s\d.,].*|\s+1/.*)?$"
+BOUNDS = {"gt": "exclusiveMinimum", "ge": "minimum", "lt": "exclusiveMaximum", "le": "maximum"}
+
+
+def config_schema(mechanisms: Mapping[str, Mechanism], broken: Mapping[str, str]) -> Schema:
+    """Schema of a whole config with these kinds; of broken plugins (kind: why) only the kind is known."""
+    kinds = {kind: _of_kind(mechanism) for kind, mechanism in mechanisms.items()}
+    kinds |= {kind: {"type": "object", "description": f"The plugin is broken: {why}"} for kind, why in broken.items()}
+    return {
+        "$schema": DRAFT,
+        "title": "Press configuration for diecut-report",
+        "type": "object",
+        "required": ["schema_version", "project", "press", "mechanisms"],
+        "additionalProperties": False,
+        "properties": {
+            "schema_version": {"const": 1, "description": "Version of this form of the file."},
+            "project": block_schema(Project),
+            "press": block_schema(Press),
+            "mechanisms": {
+                "type": "object",
+                "description": "The mechanisms by their names, which references use: ${NAME.output}.",
+                "minProperties": 1,
+                "propertyNames": {"pattern": f"^{NAME.pattern}$", "not": {"enum": list(RESERVED)}},
+                "additionalProperties": {"$ref": "#/$defs/mechanism"},
+            },
+        },
+        "$defs": {"mechanism": _mechanism(mechanisms, list(kinds))} | kinds,
+    }
+
+
+def kind_schema(mechanism: Mechanism) -> Schema:
+    """Schema of one mechanism's block in a config."""
+    return {"$schema": DRAFT} | _of_kind(mechanism)
+
+
+def _mechanism(mechanisms: Mapping[str, Mechanism], kinds: list[str]) -> Schema:
+    titles = "; ".join(f"{kind}: {mechanism.title}" for kind, mechanism in mechanisms.items())
+    return {
+        "type": "object",
+        "required": ["kind"],
+        "properties": {"kind": {"enum": kinds, "description": f"The plugin. {titles}."}},
+        "allOf": [
+            {"if": {"properties": {"kind": {"const": kind}}, "required": ["kind"]}, "then": {"$ref": f"#/$defs/{kind}"}}
+            for kind in kinds
+        ],
+    }
+
+
+def _of_kind(mechanism: Mechanism) -> Schema:
+    schema = block_schema(mechanism.inputs)
+    return schema | {
+        "title": mechanism.kind,
+        "description": f"{mechanism.title}. {mechanism.summary}",
+        "required": ["kind", *schema["required"]],
+        "properties": {"kind": {"const": mechanism.kind}} | schema["properties"],
+    }
+
+
+def block_schema(model: type[Block]) -> Schema:
+    """Schema of a block of keys."""
+    groups = [
+        {"anyOf": [{"required": list(group)} for group in rule.groups]} for rule in model.one_of if not rule.optional
+    ]
+    return {
+        "type": "object",
+        "required": [name for name, field in model.model_fields.items() if field.is_required()],
+        "additionalProperties": False,
+        "properties": {name: _key(model, name) for name in model.model_fields},
+    } | ({"allOf": groups} if groups else {})
+
+
+def _key(model: type[Block], name: str) -> Schema:
+    field, meta, inner, is_list = keys_of(model)[name]
+    if inner:
+        block = block_schema(inner)
+        described = {"description": meta.description if isinstance(meta, Text) else (inner.__doc__ or "")}
+        return described | ({"type": "array", "items": block} if is_list else block)
+    default = None if field.is_required() else field.get_default(call_default_factory=True)
+    shown = {} if default is None else {"default": default}
+    match meta:
+        case Quantity():
+            quantity = _quantity(meta, default) | shown
+            return quantity | _listed(quantity, len(model.spread[name])) if name in model.spread else quantity
+        case CurveInput():
+            return _curve(meta)
+    described = {"description": f"{meta.description}."} if meta else {}
+    plain = issubclass(model, Project | Revision)  # the title block takes no references
+    allowed = {"enum": list(meta.options)} if isinstance(meta, Text) and meta.options else _text(field.annotation)
+    return described | (allowed if plain else {"anyOf": [allowed, _reference()]}) | shown
+
+
+def _listed(quantity: Schema, count: int) -> Schema:
+    """A quantity, or a list of so many."""
+    values = {"type": "array", "minItems": count, "maxItems": count, "items": {"anyOf": quantity["anyOf"]}}
+    return {"anyOf": [*quantity["anyOf"], values]}
+
+
+def _reference() -> Schema:
+    return {"type": "string", "pattern": REFERENCE, "description": "A reference such as ${cylinder.radius}."}
+
+
+def _curve(meta: CurveInput) -> Schema:
+    ways = "A reference to a curve" + ("" if meta.referred else ", or its values over a turn")
+    values = {"type": "array", "minItems": 4, "items": {"type": ["number", "string"]}}
+    allowed = [_reference()] if meta.referred else [_reference(), values]
+    return {"description": f"{meta.description}. Unit: {in_all_units(meta, _unit)}. {ways}.", "anyOf": allowed}
+
+
+def _unit(meta: Quantity | CurveInput) -> str:
+    return pretty(meta.unit) or "none (a pure number)"
+
+
+def _with_unit(number: Any, meta: Quantity) -> str:
+    return f"{number} {pretty(meta.unit)}".rstrip()
+
+
+def _quantity(meta: Quantity, default: Any) -> Schema:
+    """A bare number counts in the display unit, so the bounds hold for it as they stand."""
+    limits = {BOUNDS[name]: getattr(meta, name) for name in BOUNDS if getattr(meta, name) is not None}
+    said = [meta.description, f"Unit: {in_all_units(meta, _unit)}"]
+    said += [f"Allowed: {in_all_units(meta, lambda form: form.allowed)}"] if meta.allowed else []
+    said += [f"Default: {in_all_units(meta, partial(_with_unit, default))}"] if default is not None else []
+    said += [f"Default: from {meta.press.path}"] if meta.press else []
+    number = {"type": "integer" if meta.integer else "number", **limits}
+    text = {"type": "string", "pattern": f"{REFERENCE}|{NUMBER}"}
+    return {"description": ". ".join(said) + ".", "anyOf": [number, text]}
+
+
+def _text(annotation: Any) -> Schema:
+    options = [part for part in (get_args(annotation) or (annotation,)) if part is not type(None)]
+    if options == [bool]:
+        return {"type": "boolean"}
+    if all(isinstance(option, str) for option in options):
+        return {"enum": options}
+    return {"type": ["string", "number"]}  # a number is taken as it was typed

@@ -1,0 +1,220 @@
+"""Validates a block of the config against its model, and says in words, with positions, what is wrong with it."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Container, Iterator, Mapping
+from dataclasses import dataclass, field, replace
+from functools import cache
+from typing import Any, NamedTuple
+
+from pydantic import ValidationError
+from pydantic.fields import FieldInfo
+
+from diecut_report.config.yaml_tree import KeyPath, Tree
+from diecut_report.contract.inputs import Block, CurveInput, Meta, Pending, Quantity, Text, meta_of, nested
+from diecut_report.errors import Problem, nearest
+from diecut_report.quantities.units import pretty
+
+SHOWN = 60  # characters of a given text that a message repeats
+
+
+@dataclass(frozen=True)
+class Place:
+    """Where a block stands in the file."""
+
+    tree: Tree
+    root: KeyPath = ()
+    listed: Mapping[KeyPath, KeyPath] = field(default_factory=dict)
+    """Where keys stand whose values come in the list of another key."""
+
+    def path(self, key: KeyPath) -> KeyPath:
+        """The path in the file of a key below this block."""
+        return (*self.root, *self.listed.get(key, key))
+
+    def typed(self, key: KeyPath) -> Any:
+        """What was typed there."""
+        return self.tree.typed(self.path(key))
+
+    def problem(self, key: KeyPath, message: str, *, at_key: bool = False) -> Problem:
+        """A problem of the value at ``key`` below this block (or of the key itself)."""
+        path = self.path(key)
+        line, column = self.tree.key_position(path) if at_key else self.tree.position(path)
+        return Problem(message, self.tree.file, line, column, ".".join(map(str, path)))
+
+    def absent(self, key: KeyPath, message: str) -> Problem:
+        """A problem of a key that is not there; its place is the key of the block where it belongs."""
+        path = (*self.root, *key)
+        line, column = self.tree.key_position(path[:-1])
+        return Problem(message, self.tree.file, line, column, ".".join(map(str, path)))
+
+
+def spread_out(
+    model: type[Block], data: Mapping[str, Any], place: Place
+) -> tuple[dict[str, Any], Place, list[Problem]]:
+    """The data with lists that stand for single keys under these, where these stand in the file, and what is wrong with it."""
+    found, problems = dict(data), []
+    for key, single in model.spread.items():
+        values = found.get(key)
+        if not isinstance(values, list):
+            continue
+        del found[key]
+        again = [name for name in single if found.get(name) is not None]
+        if len(values) != len(single):
+            count = {0: "no values", 1: "1 value"}.get(len(values), f"{len(values)} values")
+            problems.append(
+                place.problem((key,), f"has {count}; give one for all, or {len(single)}: for {', '.join(single)}")
+            )
+        elif again:
+            words = f"is a list for all of them, but {' and '.join(again)} is given beside it; give the list, or single keys"
+            problems.append(place.problem((key,), words))
+        else:
+            found |= dict(zip(single, values, strict=True))
+            place = replace(place, listed={**place.listed, **{(name,): (key, i) for i, name in enumerate(single)}})
+    return found, place, problems
+
+
+def validate(
+    model: type[Block], data: Any, place: Place, open_keys: Container[KeyPath] = ()
+) -> tuple[Any | None, list[Problem]]:
+    """The validated block, or None with the problems; what is wrong at ``open_keys`` cannot be judged yet and is left out."""
+    chosen = list(_choices(model, data, place))
+    try:
+        block = model.model_validate(data)
+        return (None, chosen) if chosen else (block, [])
+    except ValidationError as error:
+        faults = [_Fault(model, place, fault) for fault in error.errors(include_url=False)]
+        return None, chosen + [fault.problem() for fault in faults if fault.key not in open_keys]
+
+
+def _choices(model: type[Block], data: Any, place: Place, key: KeyPath = ()) -> Iterator[Problem]:
+    """What is wrong with inputs of which one group is needed, in a block and the blocks in it."""
+    if not isinstance(data, dict):
+        return
+    given = [name for name, value in data.items() if value is not None]
+    for fault in filter(None, (rule.fault(given) for rule in model.one_of)):
+        yield place.problem(key, fault, at_key=True)
+    for name, (_, _, block, is_list) in keys_of(model).items():
+        if block and name in data:
+            parts = enumerate(data[name]) if is_list and isinstance(data[name], list) else [(None, data[name])]
+            for index, part in parts:
+                yield from _choices(block, part, place, (*key, name) if index is None else (*key, name, index))
+
+
+class Key(NamedTuple):
+    """A key of a block: its field, what it declares, and the block that it holds (or a list of it)."""
+
+    field: FieldInfo
+    meta: Meta | None
+    block: type[Block] | None
+    is_list: bool
+
+
+@cache
+def keys_of(model: type[Block]) -> dict[str, Key]:
+    """The keys of a block by their names."""
+    found = {}
+    for name, declared_as in model.model_fields.items():
+        block, is_list = nested(declared_as.annotation) or (None, False)
+        found[name] = Key(declared_as, meta_of(model, name), block, is_list)
+    return found
+
+
+def declared(model: type[Block], key: KeyPath) -> Meta | type[Block] | None:
+    """What a key path names: an input's declaration, a block (or a list of blocks), or None where there is no such key."""
+    name, *rest = key
+    found = keys_of(model).get(name) if isinstance(name, str) else None
+    if found is None:
+        return None
+    if found.block is None:
+        return None if rest else found.meta
+    if found.is_list and rest:
+        if not isinstance(rest[0], int):
+            return None
+        rest = rest[1:]
+    return declared(found.block, tuple(rest)) if rest else found.block
+
+
+class _Fault:
+    """One fault that pydantic found, in our words."""
+
+    def __init__(self, model: type[Block], place: Place, found: Mapping[str, Any]) -> None:
+        self.model, self.place = model, place
+        self.type: str = found["type"]
+        self.key: KeyPath = found["loc"]
+        self.given, self.context = found["input"], found.get("ctx", {})
+
+    def problem(self) -> Problem:
+        if self.type == "missing":
+            return self.place.absent(self.key, self._missing())
+        return self.place.problem(self.key, self.message(), at_key=self.type == "extra_forbidden")
+
+    def message(self) -> str:
+        words: dict[str, Callable[[], str]] = {
+            "extra_forbidden": self._unknown_key,
+            "value_error": lambda: str(self.context["error"]),
+            "literal_error": self._choice,
+            "enum": self._choice,
+            "too_short": lambda: (
+                f"has {self.context['actual_length']} entries; at least {self.context['min_length']} needed"
+            ),
+            "too_long": lambda: (
+                f"has {self.context['actual_length']} entries; at most {self.context['max_length']} allowed"
+            ),
+            "string_too_short": lambda: "is empty; give a text",
+        }
+        return words.get(self.type, self._other)()
+
+    def _missing(self) -> str:
+        meta = declared(self.model, self.key)
+        if isinstance(meta, Quantity | CurveInput):
+            allowed = f" ({meta.allowed})" if isinstance(meta, Quantity) and meta.allowed else ""
+            return f"is missing. Give it in {pretty(meta.unit) or 'plain numbers'}{allowed}: {meta.description}."
+        described = f": {meta.description}" if isinstance(meta, Text) else ""
+        return f"is missing; it is required{described}."
+
+    def _unknown_key(self) -> str:
+        home = declared(self.model, self.key[:-1]) if len(self.key) > 1 else self.model
+        known = list(home.model_fields) if isinstance(home, type) else []
+        own = ["kind"] if self.place.root[:1] == ("mechanisms",) and len(self.key) == 1 else []
+        return f"is an unknown key{nearest(str(self.key[-1]), known)}. Known keys: {', '.join(own + known)}."
+
+    def _choice(self) -> str:
+        expected = str(self.context["expected"]).replace(" or ", ", ")
+        choices = [choice.strip("'") for choice in expected.split(", ")]
+        near = nearest(self.given, choices) if isinstance(self.given, str) and self.given not in choices else ""
+        return f"is {told(self.given)}{near}; allowed: {', '.join(choices)}"
+
+    def _other(self) -> str:
+        if isinstance(self.given, Pending):
+            number = f"is a {'curve' if self.given.is_curve else 'number'} in {self.given.unit}"
+            return (
+                f"${{{self.given.path}}} {number if self.given.unit else 'is a text'}; {self._needed()} is needed here"
+            )
+        if self.given is None:
+            return f"has no value; {self._needed()} is needed, or remove the key"
+        return f"is {told(self.given)}; {self._needed()} is needed"
+
+    def _needed(self) -> str:
+        kinds = {"bool": "true or false", "int": "a whole number", "float": "a number", "string": "a text", "list": "a list",
+                 "dict": "a block of keys", "model": "a block of keys"}  # fmt: skip
+        known = kinds.get(self.type.split("_")[0])
+        if known:
+            return known
+        meta = declared(self.model, self.key) if self.key else None
+        return f"another value ({meta.description})" if isinstance(meta, Text) else "another value"
+
+
+def told(given: Any) -> str:
+    """A given value in a message: texts in quotes and cut where they are long, lists and blocks named only."""
+    match given:
+        case None:
+            return "empty"
+        case bool():
+            return str(given).lower()
+        case str():
+            return f"“{given}”" if len(given) <= SHOWN else f"“{given[: SHOWN - 1]}…”"
+        case list():
+            return "a list"
+        case dict():
+            return "a block of keys"
+    return f"{given}"

@@ -1,0 +1,114 @@
+"""Chapters of steps, and what can be done with declared steps: name them anew, settle texts, ask what they take."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+from functools import cache
+from typing import Any
+
+from diecut_report.contract.binding import Bound, ByText, bind
+from diecut_report.contract.steps import Case, Step
+from diecut_report.contract.unit_variants import in_unit
+from diecut_report.expressions import Formula
+
+NAMING = ("formula", "cases", "of", "among", "takes", "given", "by", "points", "period", "abscissa", "places", "every", "start", "lasts", "shown_at",
+          "equation", "low", "high", "left", "right", "condition", "exists")  # fmt: skip
+"""Fields of steps that name quantities."""
+
+Rename = Callable[[str | float], str | float]
+
+
+@dataclass(frozen=True, eq=False)
+class Section:
+    """A chapter of the calculation: steps under a title; ``absent`` says in words what is missing when its needs are."""
+
+    title: str
+    steps: tuple[Step, ...]
+    text: str = ""
+    needs: tuple[str, ...] = ()
+    absent: str = ""
+
+
+def prefixed(
+    prefix: str, steps: tuple[Step, ...], shared: tuple[str, ...], symbol_suffix: str = ""
+) -> tuple[Step, ...]:
+    """One family of steps for another variant: each id gets the prefix, except what is ``shared`` by all variants."""
+    own = {step.id for step in steps} - set(shared)
+
+    def rename(name: str | float) -> str | float:
+        known = isinstance(name, str) and (name in own or name.removesuffix("_at") in own)
+        return f"{prefix}{name}" if known else name
+
+    return tuple(
+        replace(step, id=str(rename(step.id)), symbol=step.symbol + symbol_suffix, **_renamed(step, rename))
+        for step in steps
+    )
+
+
+def settled(step: Step, given: frozenset[str]) -> Step:
+    """The step with the formulas that a text chooses, where the text is known, and with the unit that holds then."""
+    step = in_unit(step, given)
+
+    def settle(part: Any) -> Any:
+        match part:
+            case ByText(key=key, formulas=formulas):
+                chosen = [text for text in formulas if f"{key}={text}" in given]
+                return part.of(chosen[0]) if chosen else part
+            case Case():
+                return replace(part, value=settle(part.value), condition=settle(part.condition))
+            case tuple():
+                return tuple(map(settle, part))
+        return part
+
+    chosen_by_text = {name: getattr(step, name) for name in _declared(step) if _holds_text(getattr(step, name))}
+    return replace(step, **{name: settle(part) for name, part in chosen_by_text.items()}) if chosen_by_text else step
+
+
+def _holds_text(part: Any) -> bool:
+    match part:
+        case ByText():
+            return True
+        case Case(value=value, condition=condition):
+            return _holds_text(value) or _holds_text(condition)
+        case tuple():
+            return any(map(_holds_text, part))
+    return False
+
+
+def _declared(step: Step) -> list[str]:
+    return [name for name in NAMING if name in step.__dataclass_fields__]
+
+
+@cache
+def taken(step: Step) -> frozenset[str]:
+    """The ids that a step names: inputs, and what earlier steps gave."""
+    names: set[str] = set()
+
+    def note(name: str | float) -> str | float:
+        if isinstance(name, str) and name:
+            names.add(name)
+        return name
+
+    _renamed(step, note)
+    return frozenset(names)
+
+
+def _renamed(step: Step, rename: Rename) -> dict[str, Any]:
+    def walk(part: Any) -> Any:
+        match part:
+            case str():
+                return rename(part)
+            case Bound(formula=formula, names=names):
+                return Bound(formula, {parameter: rename(name) for parameter, name in names.items()})
+            case Formula():
+                return walk(bind(part))
+            case ByText():
+                return part.renamed(rename)
+            case Case(value=value, words=words, condition=condition):
+                return Case(value if isinstance(value, str) else walk(value), words, walk(condition))
+            case tuple():
+                return tuple(map(walk, part))
+        return part
+
+    return {name: walk(getattr(step, name)) for name in _declared(step)}

@@ -1,0 +1,108 @@
+"""Figures as plain data: ids replaced by values, drawings built from the calculated machine."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Any
+
+import numpy as np
+
+from diecut_report.contract.figures import Bars, Chart, Drawing, Figure, Plot, Polar, plain
+from diecut_report.engine.calculation import Calculation
+from diecut_report.engine.printing.substitution import printed
+from diecut_report.engine.steps.rerun import varied, varied_curves
+from diecut_report.expressions import Array
+
+
+class MachineView:
+    """What a drawing may ask of the calculated machine (the first variant)."""
+
+    def __init__(self, calc: Calculation) -> None:
+        self.calc = calc
+
+    def __getitem__(self, name: str) -> float:
+        """A number by its id, SI."""
+        return float(self.calc[name][0, 0])
+
+    def __contains__(self, name: str) -> bool:
+        """Whether there is a number of this id."""
+        return name in self.calc.values or name in self.calc.inputs
+
+    def get(self, name: str, default: float) -> float:
+        """A number by its id, or the default where there is none."""
+        known = name in self
+        return self[name] if known else default
+
+    def at(self, curve: str, place: float) -> float:
+        """A curve's value at a place of its abscissa, SI."""
+        x = np.array([[place]])
+        rows = np.zeros(1, dtype=int)
+        middle = self.calc.domains[self.calc.axis[curve]].middle_of(x, rows)
+        return float(self.calc.sample(curve, x, middle, rows)[0, 0])
+
+    def text(self, name: str) -> str:
+        """A quantity as it is printed: ``h = 40 mm``."""
+        return f"{self.calc.step_or_input(name).symbol} = {printed(self.calc, name)}"
+
+    def word(self, name: str) -> str:
+        """A text by its id: an input, or what a choice gave."""
+        return printed(self.calc, name)
+
+    def row(self, name: str) -> list[float]:
+        """The values of all like parts, SI."""
+        return [float(value) for value in self.calc[name][0]]
+
+    def words(self, name: str) -> list[str]:
+        """A text input of all like parts."""
+        return [str(text) for text in self.calc.inputs[name]]
+
+    def curve(self, name: str) -> list[float]:
+        """A curve (or an abscissa) at the samples of the results, SI."""
+        samples = self.calc.domains[name].samples if name in self.calc.domains else self.calc.curve_samples(name)
+        return [float(value) for value in samples[0]]
+
+    def varied(self, inputs: Mapping[str, Any], *names: str) -> dict[str, Array]:
+        """Numbers of the machine calculated again with other inputs; NaN where it is then impossible."""
+        return varied(self.calc, inputs, names)
+
+    def varied_curves(
+        self, inputs: Mapping[str, Any], *names: str, points: int = 361
+    ) -> tuple[Array, dict[str, Array]]:
+        """Abscissa and values of curves of the machine calculated again with other inputs."""
+        return varied_curves(self.calc, inputs, names, points)
+
+
+def figures(calc: Calculation) -> list[dict[str, Any]]:
+    """The figures whose needs are given."""
+    return [_figure(calc, figure) for figure in calc.mechanism.figures if calc.given.issuperset(figure.needs)]
+
+
+def _figure(calc: Calculation, figure: Figure) -> dict[str, Any]:
+    view = MachineView(calc)
+    head = {"id": figure.id, "title": figure.title, "caption": figure.caption}
+    match figure:
+        case Plot(abscissa=abscissa, panels=panels):
+            return head | {"type": "plot", "abscissa": abscissa, "panels": [_panel(p, view) for p in panels]}
+        case Polar(abscissa=abscissa, unit=unit, series=series):
+            return head | {"type": "polar", "abscissa": abscissa, "unit": unit, "series": [vars(s) for s in series]}
+        case Bars(groups=groups):
+            return head | {"type": "bars", "groups": [_group(g, view) for g in groups]}
+        case Drawing(build=build, unit=unit, scaled_by=scale, schematic=schematic):
+            relative = schematic or (scale and scale not in calc.given)
+            drawn = {"type": "drawing", "unit": "1" if relative else unit, "shapes": build(view)}
+            return head | drawn | ({"schematic": True} if schematic else {})
+        case Chart(build=build):
+            return head | {"type": "chart", "panels": build(view)}
+    raise TypeError(f"{figure.id} is no known figure")
+
+
+def _panel(panel: Any, view: MachineView) -> dict[str, Any]:
+    named = {"levels": panel.levels, "marks": panel.marks, "spans": panel.spans}
+    return {"title": panel.title, "unit": panel.unit, "series": [vars(s) for s in panel.series]} | {
+        key: [plain(part, view) for part in parts] for key, parts in named.items()
+    }
+
+
+def _group(group: Any, view: MachineView) -> dict[str, Any]:
+    bars = [{"label": label, "value": -view[name[1:]] if name[0] == "-" else view[name]} for label, name in group.bars]
+    return {"label": group.label, "unit": group.unit, "bars": bars}

@@ -1,0 +1,37 @@
+"""Running integrals and derivatives of curves, as Chebyshev series of their smooth pieces."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import numpy as np
+
+from diecut_report.engine.numerics.domain import piece_of
+from diecut_report.expressions import Array
+
+
+@dataclass(frozen=True)
+class PieceSeries:
+    """A curve as Chebyshev series: for each variant and smooth piece one over [-1, 1]."""
+
+    edges: Array  # (variants, pieces + 1)
+    series: Array  # (order, variants, pieces)
+
+    def values(self, x: Array, middle: Array, rows: Array | None) -> Array:
+        """Values at x (rows, points), each in the piece that its middle lies in; rows are variants (default all)."""
+        known = np.arange(len(self.edges)) if rows is None else rows
+        edges = self.edges if len(self.edges) == 1 else self.edges[known]
+        piece = piece_of(edges, np.broadcast_to(middle, (len(x), np.shape(middle)[-1])))  # one a row, or one a place
+        variant = np.broadcast_to(known[:, None] if len(self.edges) > 1 else 0, piece.shape)
+        start, end = self.edges[variant, piece], self.edges[variant, piece + 1]
+        place = (2 * x - start - end) / np.where(end > start, end - start, 1)
+        return _clenshaw(place, lambda k: self.series[k, variant, piece], len(self.series))
+
+
+def _clenshaw(x: Array, coefficient: Callable[[int], Array], order: int) -> Array:
+    later = last = np.zeros_like(x)
+    for k in range(order - 1, 0, -1):
+        last, later = coefficient(k) + 2 * x * last - later, last
+    total: Array = coefficient(0) + x * last - later
+    return total

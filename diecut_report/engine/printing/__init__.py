@@ -1,0 +1,1 @@
+"""The calculation as it is printed: formulas with numbers in, tables, items."""

@@ -1,0 +1,276 @@
+"""The calculation as it is printed: for each step an item with its formula, the numbers in it and the result."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+
+from diecut_report.contract.binding import Binding, Bound, bound
+from diecut_report.contract.part_steps import Lookup, Neighbour, Part, Pick, Running, Total
+from diecut_report.contract.steps import (
+    Abscissa,
+    Accumulated,
+    Choice,
+    Computed,
+    Crossings,
+    CurvePeriod,
+    Derivative,
+    Reduction,
+    Root,
+    Step,
+    Value,
+    Words,
+)
+from diecut_report.engine.calculation import Calculation
+from diecut_report.engine.printing import tables
+from diecut_report.engine.printing.substitution import Substitution, printed
+from diecut_report.expressions import Array, Node
+from diecut_report.quantities.formatting import number_text, shown, with_unit
+from diecut_report.quantities.units import unit
+
+Item = dict[str, Any]
+FIRST = np.zeros(1, dtype=int)  # the variant that is printed
+
+METHODS = {
+    "max": "bounded search on the curve within each smooth piece, one-sided limits at the breakpoints included",
+    "mean": "Gauss–Legendre between the breakpoints, repeated with the doubled order",
+    "derivative": "Chebyshev series between the breakpoints, differentiated; the series is compared with the curve at other places",
+    "accumulated": "Chebyshev series between the breakpoints, integrated; its end compared with Gauss–Legendre",
+}
+
+
+def section_items(calc: Calculation) -> list[dict[str, Any]]:
+    """The chapters of the calculation with their items, for the first (only) machine."""
+    chapters: dict[str, dict[str, Any]] = {}
+    for section, step in calc.mechanism.active(calc.given):
+        chapter = chapters.setdefault(section.title, {"title": section.title, "text": section.text, "items": []})
+        chapter["items"] += items(calc, step)
+    return [chapter for chapter in chapters.values() if chapter["items"]]
+
+
+def items(calc: Calculation, step: Step) -> list[Item]:
+    """What is printed of a step (nothing of breakpoints and requirements)."""
+    if step.exists is not None and step.id in calc.values and calc.values[step.id][0, 0] != calc.values[step.id][0, 0]:
+        return [_head(step) | {"type": "note", "text": f"{step.description}: does not apply to this machine."}]
+    match step:
+        case Value(formula=part):
+            return _value(calc, step, bound(part))
+        case Choice():
+            listed = step.id in calc.axis and calc.axis[step.id] not in calc.domains
+            return [_choice(calc, step), *([tables.table(calc, step, [step.id])] if listed else [])]
+        case Root():
+            return [_root(calc, step)]
+        case Reduction():
+            return [_reduction(calc, step)]
+        case Crossings():
+            return [_crossings(calc, step)]
+        case Accumulated() | Derivative():
+            return [_of_curve(calc, step)]
+        case Computed() | CurvePeriod():
+            return [_computed(calc, step)]
+        case Lookup() if step.id in calc.axis:
+            return [tables.looked_up(calc, step)]
+        case Total() | Pick() | Lookup() | Part():
+            return [_head(step) | tables.number(calc, step)]
+        case Running():
+            return [tables.table(calc, step, [step.of, step.id])]
+        case Neighbour() | Words():  # a neighbour stands beside its part in the table of what takes it
+            return []
+        case Abscissa(points=points):
+            text = f"{step.description}; curves are sampled at {printed(calc, points)} places of it."
+            return [
+                _head(step)
+                | {
+                    "type": "note",
+                    "text": f"{text} Formulas over it are shown with their numbers at {_at(calc, step)}.",
+                }
+            ]
+    return []
+
+
+def _head(step: Step) -> Item:
+    return {"id": step.id, "symbol": step.symbol, "description": step.description, "source": step.source}
+
+
+def shown_place(calc: Calculation, axis: str) -> tuple[Array, Array]:
+    """The place of an abscissa at which formulas are shown, and the middle of its smooth piece, each of shape (1, 1)."""
+    step = calc.steps[axis]
+    assert isinstance(step, Abscissa)
+    if step.shown_at:
+        return calc[step.shown_at][:1], calc.middle[step.shown_at][:1]
+    place = calc.domains[axis].samples[:1, calc.domains[axis].samples.shape[1] // 8][:, None]
+    return place, calc.domains[axis].middle_of(place, rows=FIRST)
+
+
+def value_at(calc: Calculation, name: str, axis: str | None, *, flag: bool = False) -> float:
+    """A number, or a curve's value where formulas are shown, or the first of a row over like parts.
+
+    What goes into a flag of smooth pieces is taken at the middle of the piece.
+    """
+    if axis in calc.domains and calc.axis.get(name) == axis:
+        place, middle = shown_place(calc, str(axis))
+        sampler = calc.kept(f"shown {flag}", str(axis), lambda _: (middle if flag else place, middle), FIRST)
+        return float(np.ravel(sampler[name])[0])  # a constant is a curve too
+    return float(calc[name][0, 0])
+
+
+def _at(calc: Calculation, axis: Step) -> str:
+    place = shown_place(calc, axis.id)[0][0, 0]
+    return f"{axis.symbol} = {with_unit(number_text(place / unit(axis.unit).factor, 6), axis.unit)}"
+
+
+def _value(calc: Calculation, step: Value, part: Bound) -> list[Item]:
+    axis = calc.axis.get(step.id)
+    if step.id in calc.values and calc.values[step.id].dtype == bool:
+        return [_yes_or_no(calc, step, part)]
+    item = _head(step) | {"type": "formula"} | _formula(calc, part, step, axis)
+    if axis in calc.domains:
+        item["at"] = _symbolled(calc, str(axis), step.per_piece)
+    elif axis is not None:
+        return [
+            item,
+            tables.table(calc, step, [name for name in part.names.values() if isinstance(name, str)] + [step.id]),
+        ]
+    return [item]
+
+
+def _yes_or_no(calc: Calculation, step: Value, part: Bound) -> Item:
+    """Whether a condition holds, with the one that does: itself or its opposite."""
+    held = bool(calc[step.id][0, 0])
+    substitution = Substitution(calc, part, lambda name: value_at(calc, name, None))
+    symbolic, numeric = _sides(substitution, held)
+    answer = "yes" if held else "no"
+    return _head(step) | {"type": "choice", "words": "", "condition": symbolic, "condition_substituted": numeric,
+                          "equation": None, "substituted": None, "result": {"text": answer, "unit": "1"}}  # fmt: skip
+
+
+def _sides(substitution: Substitution, held: bool) -> tuple[Any, Any]:
+    """The condition that holds (this one or its opposite) in symbols, and with numbers where these show it."""
+    sides = substitution.symbolic(), substitution.comparison(held)
+    symbolic, numeric = (side and (side if held else negated(side)).to_json() for side in sides)
+    return symbolic, numeric
+
+
+def _symbolled(calc: Calculation, axis: str, flag: bool) -> Item:
+    return _place(calc, axis, float(shown_place(calc, axis)[flag][0, 0]))
+
+
+def _place(calc: Calculation, axis: str, place: float) -> Item:
+    step = calc.steps[axis]
+    return {"symbol": step.symbol} | shown(place, step.unit, 6)
+
+
+def _formula(calc: Calculation, part: Bound, step: Step, axis: str | None) -> Item:
+    target = value_at(calc, step.id, axis)
+    flag = isinstance(step, Value | Choice) and step.per_piece
+    substitution = Substitution(calc, part, lambda name: value_at(calc, name, axis, flag=flag))
+    takes = [name for name in part.names.values() if isinstance(name, str)]
+    numeric = substitution.numeric(target, step.unit, step.digits) if takes else None
+    item: Item = {"equation": substitution.symbolic().to_json(), "substituted": numeric and numeric.to_json()}
+    if takes and numeric is None:
+        item["note"] = (
+            "the terms are equal up to the rounding of the computer, or so nearly that printed numbers do not show it"
+        )
+    return item | {"result": shown(target, step.unit, step.digits)}
+
+
+OPPOSITE = {"<": ">=", "<=": ">", ">": "<=", ">=": "<", "==": "!=", "!=": "=="}
+
+
+def negated(condition: Node) -> Node:
+    """The condition that holds where this one does not."""
+    if condition.op != "cmp":
+        return Node("not", (condition,))
+    sign, *sides = condition.args
+    return Node("cmp", (OPPOSITE[sign], *sides))
+
+
+def _choice(calc: Calculation, step: Choice) -> Item:
+    axis = calc.axis.get(step.id)
+    index = _case_taken(calc, step, axis)
+    case = step.cases[index]
+    item = _head(step) | {"type": "choice", "words": case.words}
+    held = case.condition if case.condition is not None else step.cases[index - 1].condition
+    if held is not None:
+        substitution = Substitution(calc, bound(held), lambda name: value_at(calc, name, axis, flag=step.per_piece))
+        symbolic, numeric = _sides(substitution, case.condition is not None)
+        item |= {"condition": symbolic, "condition_substituted": numeric}
+    if axis in calc.domains:
+        item["at"] = _symbolled(calc, str(axis), step.per_piece)
+    if isinstance(case.value, Binding):
+        return item | _formula(calc, bound(case.value), step, axis)
+    return item | {"equation": None, "substituted": None, "result": {"text": str(case.value), "unit": "1"}}
+
+
+def _case_taken(calc: Calculation, step: Choice, axis: str | None) -> int:
+    if axis is None:
+        return int(calc.branch[step.id][0, 0])
+    for index, case in enumerate(step.cases):
+        if case.condition is None:
+            return index
+        link = bound(case.condition)
+        taken = (value_at(calc, n, axis, flag=step.per_piece) if isinstance(n, str) else n for n in link.names.values())
+        if link.formula(*taken):
+            return index
+    return len(step.cases) - 1
+
+
+def _root(calc: Calculation, step: Root) -> Item:
+    sides = [
+        Substitution(calc, bound(side), lambda name: value_at(calc, name, None)).symbolic()
+        for side in (step.left, step.right)
+    ]
+    residual = number_text(calc.proof[step.id], 2)
+    method = "bracketed root search, proved by the relation shown, which was not used to find it"
+    return _head(step) | {
+        "type": "found",
+        "relation": Node("cmp", ("==", *sides)).to_json(),
+        "method": method,
+        "result": shown(value_at(calc, step.id, None), step.unit, step.digits),
+        "residual": {"text": residual, "unit": "1"},
+    }
+
+
+def _reduced(calc: Calculation, step: Step, of: str) -> Item:
+    result = shown(value_at(calc, step.id, None), step.unit, step.digits)
+    return {"type": "reduction", "of": calc.step_or_input(of).symbol, "result": result}
+
+
+def _reduction(calc: Calculation, step: Reduction) -> Item:
+    integrated = step.operation in ("mean", "rms", "integral")
+    item = _head(step) | _reduced(calc, step, step.of) | {"operation": step.operation}
+    item["method"] = METHODS["mean" if integrated else "max"]
+    item["residual"] = {"text": number_text(calc.proof[step.id], 2), "unit": "1"}
+    if f"{step.id}_at" in calc.values:
+        item["at"] = _place(calc, calc.axis[step.of], float(calc[f"{step.id}_at"][0, 0]))
+    return item
+
+
+def _computed(calc: Calculation, step: Computed | CurvePeriod) -> Item:
+    method = step.method if isinstance(step, Computed) else f"the period of {calc.meta[step.given].symbol}"
+    result = shown(value_at(calc, step.id, None), step.unit, step.digits)
+    return _head(step) | {"type": "found", "relation": None, "method": method, "result": result}
+
+
+def _of_curve(calc: Calculation, step: Accumulated | Derivative) -> Item:
+    operation = "accumulated" if isinstance(step, Accumulated) else "derivative"
+    axis = calc.axis[step.id]
+    result = shown(value_at(calc, step.id, axis), step.unit, step.digits)
+    return _head(step) | {
+        "type": "reduction", "operation": operation, "of": calc.step_or_input(step.of).symbol, "result": result,
+        "at": _symbolled(calc, axis, False), "method": METHODS[operation],
+        "residual": {"text": number_text(calc.proof[step.id], 2), "unit": "1"},
+    }  # fmt: skip
+
+
+def _crossings(calc: Calculation, step: Crossings) -> Item:
+    places = [float(x) for x in calc[step.id][0] if x == x]
+    if not places:
+        return _head(step) | {"type": "note", "text": f"{step.description}: there is none."}
+    tables = [[str(i), number_text(x / unit(step.unit).factor, 6)] for i, x in enumerate(places, 1)]
+    columns = [
+        {"title": "No.", "symbol": "", "unit": "1"},
+        {"title": step.description, "symbol": step.symbol, "unit": step.unit},
+    ]
+    return {"type": "table", "id": step.id, "title": step.description, "columns": columns, "rows": tables}

@@ -1,0 +1,89 @@
+"""Rows over like parts, and what was taken from tables and standard series, as they are printed."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from diecut_report.contract.part_steps import Lookup, Part, Pick, Total
+from diecut_report.contract.steps import Step
+from diecut_report.engine.calculation import Calculation
+from diecut_report.engine.printing.substitution import printed
+from diecut_report.engine.steps.part_rows import series_of
+from diecut_report.quantities.formatting import number_text, shown, with_unit
+from diecut_report.quantities.units import unit
+from diecut_report.standards import StandardSeries, StandardTable
+
+Item = dict[str, Any]
+SERIES_WORDS = {
+    "above": "the next standard value at or above",
+    "below": "the next standard value at or below",
+    "nearest": "the nearest standard value to",
+}
+
+
+def table(calc: Calculation, step: Step, names: list[str]) -> Item:
+    """A row over like parts with what it is made of: a line for each part, numbered."""
+    declared = [calc.step_or_input(name) for name in names]
+    columns = [{"title": "No.", "symbol": "", "unit": "1"}]
+    columns += [{"title": d.description, "symbol": d.symbol, "unit": d.unit} for d in declared]
+    count = calc[step.id].shape[1]
+    lines = [[str(i + 1), *(_cell(calc, name, i) for name in names)] for i in range(count)]
+    return {"type": "table", "title": step.description, "columns": columns, "rows": lines}
+
+
+def _cell(calc: Calculation, name: str, part: int) -> str:
+    row = calc[name]
+    value = row[0, min(part, row.shape[1] - 1)]
+    return (
+        str(value) if isinstance(value, str) else number_text(float(value) / unit(calc.step_or_input(name).unit).factor)
+    )
+
+
+def number(calc: Calculation, step: Total | Pick | Lookup | Part) -> Item:
+    """A number taken from rows, from a table, from a series."""
+    result = shown(float(calc[step.id][0, 0]), step.unit, step.digits)
+    match step:
+        case Lookup():
+            return _lookup(calc, step) | {"result": result}
+        case Pick():
+            values = _pick(calc, step)
+        case Total(operation=operation, among=among):
+            counted = f"over the parts with {calc.step_or_input(among).symbol} > 0" if among else ""
+            values = {"operation": operation, "method": counted}
+        case Part(index=index):
+            values = {"operation": "last" if index < 0 else "first", "method": ""}
+    return {"type": "reduction", "of": calc.step_or_input(step.of).symbol, "result": result} | values
+
+
+def looked_up(calc: Calculation, step: Lookup) -> Item:
+    """A row taken from a table, beside the texts by which it was taken."""
+    found = table(calc, step, [step.id])
+    found["columns"].insert(1, {"title": calc.meta[step.by].description, "symbol": "", "unit": "1"})
+    for line, text in zip(found["rows"], calc.inputs[step.by], strict=True):
+        line.insert(1, str(text))
+    return found
+
+
+def _lookup(calc: Calculation, step: Lookup) -> Item:
+    return {
+        "type": "lookup",
+        "by": calc.meta[step.by].description,
+        "key": calc.inputs[step.by],
+        "table": step.table.title if isinstance(step.table, StandardTable) else "",
+        **_tables(step.table),
+    }
+
+
+def _pick(calc: Calculation, step: Pick) -> Item:
+    values, display, standard = series_of(calc, step)
+    index = int(calc.branch[step.id][0, 0])
+    beside = [with_unit(f"{values[i]:g}", display) for i in (index - 1, index + 1) if 0 <= i < len(values)]
+    words = f"{SERIES_WORDS[step.rule]} {printed(calc, step.of)}; neighbours not taken: {', '.join(beside)}"
+    return {"operation": "pick", "method": words} | ({"series": standard.title} if standard else {}) | _tables(standard)
+
+
+def _tables(taken_from: object) -> Item:
+    """The published tables that agree on a standard value."""
+    if isinstance(taken_from, StandardTable | StandardSeries):
+        return {"note": f"{taken_from.title}: {'; '.join(taken_from.sources)}"}
+    return {}

@@ -1,0 +1,273 @@
+"""Runs the steps of a mechanism in their order, for one machine or for an array of variants."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Container, Mapping
+from typing import Any
+
+import numpy as np
+
+from diecut_report.contract.mechanism import Mechanism
+from diecut_report.contract.part_steps import Lookup, Neighbour, Part, Pick, Running, Total
+from diecut_report.contract.steps import (
+    Abscissa,
+    Accumulated,
+    Breakpoints,
+    Choice,
+    Clash,
+    Computed,
+    Crossings,
+    CurvePeriod,
+    Derivative,
+    FromCurve,
+    Reduction,
+    Require,
+    Root,
+    Step,
+    Value,
+    Words,
+)
+from diecut_report.engine.calculation import Calculation, Impossible, SampledCurve, Unproven
+from diecut_report.engine.numerics import extrema, roots_integrals
+from diecut_report.engine.numerics.domain import Domain
+from diecut_report.engine.steps import feasibility, part_rows, prefetch
+from diecut_report.expressions import Array
+from diecut_report.quantities.units import pretty, unit
+
+
+def calculate(
+    mechanism: Mechanism, values: Mapping[str, Any], variants: int = 1, only: Container[str] | None = None
+) -> Calculation:
+    """Calculate a mechanism, or only those of its steps that are named.
+
+    ``values`` holds the inputs by id in SI: numbers, or arrays of shape (variants,); tuples for the parts of a list;
+    texts, flags, ``CurveHandle``. Optional inputs that are not given are left out.
+    Raises ``Impossible`` when a single machine cannot exist (among several it is marked in ``flaws``), ``Unproven`` when a
+    result does not meet what proves it.
+    """
+    curves = {
+        n: SampledCurve(v) if n in mechanism.curve_inputs and isinstance(v, tuple) else v for n, v in values.items()
+    }
+    calc = Calculation(mechanism, curves, variants)
+    calc.is_partial = only is not None
+    with np.errstate(all="ignore"):
+        steps = [step for _, step in mechanism.active(calc.given) if only is None or step.id in only]
+        for i, step in enumerate(steps):
+            prefetch.look(calc, steps[i:])
+            if isinstance(step, Words):
+                continue
+            try:
+                RUN[type(step)](calc, step)
+            except Impossible as first:
+                raise Impossible([*first.reasons, *feasibility.reasons(calc, steps[i + 1 :])]) from None
+            _finite(calc, step)
+            _name_parts(calc, step)
+    return calc
+
+
+def _name_parts(calc: Calculation, step: Step) -> None:
+    """The parts of a row under names of their own."""
+    if step.numbered:
+        names = [step.numbered.format(step.first + i) for i in range(calc[step.id].shape[1])]
+        calc.values |= {name: calc[step.id][:, [i]] for i, name in enumerate(names)}
+        calc.named |= dict.fromkeys(names, step)
+
+
+def _possible(calc: Calculation) -> Array:
+    feasibility = np.ones(calc.count, dtype=bool)
+    feasibility[list(calc.flaws)] = False
+    return feasibility
+
+
+def _prove(calc: Calculation, step: Step, residual: Array, tolerance: float) -> None:
+    """A result that is not proved is refused for a single machine, and marks the variant among several."""
+    unproved = ~(residual[:, 0] <= tolerance) & _possible(calc)
+    calc.proof[step.id] = float(np.max(residual[_possible(calc) & ~unproved], initial=0.0))
+    if unproved.any():
+        _mark(
+            calc,
+            step,
+            unproved,
+            f"{step.description}: the proof leaves {np.max(residual[unproved]):.1e}, not {tolerance:.0e}",
+        )
+
+
+def _mark(calc: Calculation, step: Step, bad: Array, words: str) -> None:
+    if calc.count == 1:
+        raise Unproven(words)
+    calc.flaws |= {int(variant): (step.id, words) for variant in np.flatnonzero(bad)}
+
+
+def _value(calc: Calculation, step: Value) -> None:
+    if step.id in calc.axis and calc.axis[step.id] in calc.domains:
+        calc.curves[step.id] = step
+    else:
+        calc.values[step.id] = calc.existing(step, calc.apply(step.formula))
+
+
+def _choice(calc: Calculation, step: Choice) -> None:
+    if step.id in calc.axis and calc.axis[step.id] in calc.domains:
+        calc.curves[step.id] = step
+        return
+    held = [calc.apply(c.condition).astype(bool) for c in step.cases if c.condition is not None]
+    last = np.full((calc.count, 1), len(held))
+    calc.branch[step.id] = np.select(held, [np.full_like(last, i) for i in range(len(held))], last)
+    taken = [
+        np.full((calc.count, 1), c.value, dtype=object) if isinstance(c.value, str) else calc.apply(c.value)
+        for c in step.cases
+    ]
+    calc.values[step.id] = calc.existing(step, np.choose(calc.branch[step.id], taken))
+
+
+def _root(calc: Calculation, step: Root) -> None:
+    _, residual = roots_integrals.root(calc, step)
+    _prove(calc, step, residual, step.tolerance)
+
+
+def _abscissa(calc: Calculation, step: Abscissa) -> None:
+    points = int(calc[step.points][0, 0])
+    whole = calc[step.period] if isinstance(step.period, str) else np.full((calc.count, 1), step.period)
+    _above_zero(calc, step, whole)
+    calc.domains[step.id] = Domain(whole, np.arange(points) * (whole / points), step.intervals)
+
+
+def _above_zero(calc: Calculation, step: Step, length: Array) -> None:
+    """A length that curves are laid over must be there."""
+    empty = ~(length > 0)[:, 0] & _possible(calc)
+    if empty.any():
+        _mark(calc, step, empty, f"{step.description} ({step.id}) has no length to run over with these inputs")
+
+
+def _breakpoints(calc: Calculation, step: Breakpoints) -> None:
+    domain = calc.domains[step.abscissa]
+    for place in step.places:
+        domain.cut(calc[place])
+    if step.every:
+        domain.cut_every(np.where(_possible(calc)[:, None], calc[step.every], np.nan))
+
+
+def _all_crossings(calc: Calculation, curve: str) -> tuple[Array, Array]:
+    """Crossings, searched again between those found until no more appear: two may lie between two points of the first grid."""
+    domain = calc.domains[calc.axis[curve]]
+    edges, joints = domain.edges, domain.joints
+    domain.cut(roots_integrals.dips(calc, curve))
+    found = roots_integrals.crossings(calc, curve)
+    for _ in range(SEARCHES):
+        before = domain.edges
+        domain.cut(found[0])
+        last = found
+        if domain.edges is before:
+            break
+        found = roots_integrals.crossings(calc, curve)
+        if np.array_equal(np.isfinite(last[0]).sum(axis=1), np.isfinite(found[0]).sum(axis=1)):
+            break
+    domain.edges, domain.joints = edges, joints
+    return last
+
+
+def _crossings(calc: Calculation, step: Crossings) -> None:
+    calc.values[step.id], residual = _all_crossings(calc, step.of)
+    calc.values[f"{step.id}_count"] = np.isfinite(calc.values[step.id]).sum(axis=1, keepdims=True)
+    places = {f"{step.id}_{i}": place[:, None] for i, place in enumerate(calc.values[step.id].T, 1)}
+    calc.values |= places
+    calc.named |= dict.fromkeys(places, step)
+    _prove(calc, step, residual, roots_integrals.SAMPLE_TOLERANCE)
+
+
+SEARCHES = 5  # for crossings, each on a finer grid
+
+
+def _reduction(calc: Calculation, step: Reduction) -> None:
+    if step.operation in ("mean", "rms", "integral"):
+        _integrated(calc, step)
+        return
+    signs = prefetch.SIGNS[step.operation]
+    ends = [extrema.extreme(calc, step.of, sign) for sign in signs]
+    residual = np.maximum.reduce(
+        [extrema.outruns(calc, step.of, end[0], sign) for end, sign in zip(ends, signs, strict=True)]
+    )
+    _prove(calc, step, residual, roots_integrals.SAMPLE_TOLERANCE)
+    if step.operation == "range":
+        calc.values[step.id] = ends[0][0] - ends[1][0]
+        return
+    upper = np.abs(ends[0][0]) >= np.abs(ends[-1][0]) * (1 - extrema.SAME_HEIGHT)  # of two alike the upper one
+    value, place, middle = (np.where(upper, top, bottom) for top, bottom in zip(ends[0], ends[-1], strict=True))
+    calc.values[step.id] = np.maximum(*(np.abs(end[0]) for end in ends)) if step.operation == "abs_max" else value
+    calc.values[f"{step.id}_at"], calc.middle[f"{step.id}_at"] = place, middle
+
+
+def _integrated(calc: Calculation, step: Reduction) -> None:
+    whole, residual = roots_integrals.integral(calc, step.of, 2 if step.operation == "rms" else 1)
+    _prove(calc, step, residual, roots_integrals.SAMPLE_TOLERANCE)
+    mean = whole / calc.domains[calc.axis[step.of]].period
+    calc.values[step.id] = {"integral": whole, "mean": mean, "rms": np.sqrt(np.abs(mean))}[step.operation]
+
+
+def _accumulated(calc: Calculation, step: Accumulated) -> None:
+    _prove(calc, step, roots_integrals.accumulate(calc, step), roots_integrals.SAMPLE_TOLERANCE)
+
+
+def _derivative(calc: Calculation, step: Derivative) -> None:
+    _prove(calc, step, roots_integrals.differentiate(calc, step), roots_integrals.SAMPLE_TOLERANCE)
+
+
+def _from_curve(calc: Calculation, step: FromCurve) -> None:
+    calc.curves[step.id] = step
+    domain, curve = calc.domains[step.abscissa], calc.inputs[step.given]
+    if step.lasts:
+        _above_zero(calc, step, calc[step.lasts])
+    domain.cut(_laid_out(calc, step, curve.joints))
+    domain.cut_finer(_laid_out(calc, step, curve.breakpoints))
+
+
+def _laid_out(calc: Calculation, step: FromCurve, shares: Array) -> Array:
+    """Shares of a curve's period as places on the abscissa that it is laid over, NaN where they are not on it."""
+    period = calc.domains[step.abscissa].period
+    lasts = calc[step.lasts] if step.lasts else period
+    if step.start or step.lasts:
+        shares = np.concatenate([shares, np.zeros((len(shares), 1))], axis=1)  # where a period of the curve begins anew
+    shares = np.mod(shares - (calc[step.start] if step.start else 0), 1)
+    turns = np.where(_possible(calc)[:, None], np.ceil(period / lasts), 1)
+    places = [(shares + turn) * lasts for turn in range(int(turns.max()))]
+    return np.concatenate([np.where(place < period, place, np.nan) for place in places], axis=1)
+
+
+def _curve_period(calc: Calculation, step: CurvePeriod) -> None:
+    curve = calc.inputs[step.given]
+    if isinstance(curve, SampledCurve):
+        raise Impossible([(step.given, f"is a list of values, which tells no period; {step.otherwise}")])
+    declared = curve.abscissa
+    if unit(declared.unit).kind != unit(step.unit).kind:
+        raise Impossible([(step.given, f"runs over {declared.id}, in {pretty(declared.unit)}; {step.otherwise}")])
+    calc.values[step.id] = np.broadcast_to(curve.domain.period, (calc.count, 1))
+
+
+def _computed(calc: Calculation, step: Computed) -> None:
+    taken = [calc[name] for name in step.takes]
+    found = step.function(*taken)
+    if calc.count > 1 and np.shape(found)[:1] != (calc.count,) and any(isinstance(each, np.ndarray) for each in taken):
+        raise TypeError(f"{step.id} was given {calc.count} machines and has one value for all")
+    calc.values[step.id] = calc.existing(step, np.broadcast_to(found, (calc.count, 1)))
+
+
+def _finite(calc: Calculation, step: Step) -> None:
+    """No number of a possible machine may be NaN or infinite, but for an absent output and the padding of crossings."""
+    values = calc.values.get(step.id)
+    if values is None or values.dtype == object or step.exists is not None or isinstance(step, Crossings):
+        return
+    is_finite = np.isfinite(values)
+    if is_finite.all():
+        return
+    bad = ~is_finite.all(axis=1) & _possible(calc)
+    if bad.any():
+        _mark(calc, step, bad, f"{step.description} ({step.id}) has no value with these inputs")
+
+
+RUN: dict[type[Step], Callable[[Calculation, Any], None]] = {
+    Value: _value, Choice: _choice, Root: _root, Abscissa: _abscissa, Breakpoints: _breakpoints, Crossings: _crossings,
+    Reduction: _reduction, Accumulated: _accumulated, Derivative: _derivative, FromCurve: _from_curve,
+    CurvePeriod: _curve_period, Computed: _computed,
+    Require: feasibility.require, Clash: feasibility.clash,
+    Total: part_rows.total, Neighbour: part_rows.neighbour, Running: part_rows.running, Part: part_rows.part, Lookup: part_rows.lookup,
+    Pick: part_rows.pick,
+}  # fmt: skip

@@ -1,0 +1,219 @@
+"""The order of operations in print: which part of an expression stands in brackets, and what stands between factors.
+
+A tree is the nested lists of the results: ``["+", a, b]``, ``["sym", "R_b"]``, ``["qty", "40", "mm"]`` … Both printed forms
+(``formulas.Latex``, ``formulas.Linear``) put brackets by these rules; they differ in how a fraction or a root looks.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Any, NamedTuple
+
+from diecut_report.quantities.units import pretty
+from diecut_report.report.number_format import parts
+
+Tree = list[Any]
+OR, AND, COMPARE, SUM, PRODUCT, CALL, POWER, ATOM = range(8)  # how tightly a piece holds together
+WORDS: Mapping[str, str] = {"if": "if", "otherwise": "otherwise", "and": "and", "or": "or", "not": "not"}
+NAMES = {
+    "log": "ln", "sign": "sgn", "minimum": "min", "maximum": "max",
+    "ceil": "ceil", "floor": "floor", "round": "round", "arctan2": "arctan2",
+}  # fmt: skip
+SIGNS = {"<": "<", "<=": "≤", ">": ">", ">=": "≥", "==": "=", "!=": "≠"}
+BRACKETS = {"abs": ("|", "|"), "ceil": ("⌈", "⌉"), "floor": ("⌊", "⌋")}
+
+
+class Piece(NamedTuple):
+    """A printed part: its text, how tightly it holds together, and what its ends are."""
+
+    text: str
+    level: int
+    negative: bool = False  # begins with a minus
+    digit: bool = False  # begins with a digit
+    quantity: bool = False  # ends with a value put in for a symbol, or its unit
+    number: bool = False  # ends with a number of the formula itself
+    fraction: bool = False
+
+
+class Printer:
+    """What both forms have in common: the order of operations and its brackets."""
+
+    def __init__(self, words: Mapping[str, str] = WORDS, decimal: str = ".") -> None:
+        self.words = words
+        self.decimal = decimal
+
+    # what a form must say
+    def number(self, text: str) -> str:
+        """A number's text."""
+        raise NotImplementedError
+
+    def quantity(self, text: str, unit: str) -> str:
+        """A number with its unit."""
+        raise NotImplementedError
+
+    def symbol(self, name: str) -> str:
+        """A symbol with its subscript."""
+        raise NotImplementedError
+
+    def bracket(self, text: str, left: str = "(", right: str = ")") -> str:
+        """A text in brackets."""
+        raise NotImplementedError
+
+    def name(self, function: str) -> str:
+        """A function's name."""
+        raise NotImplementedError
+
+    def word(self, text: str, before: str = " ", behind: str = " ") -> str:
+        """A word between formulas, with its spaces."""
+        raise NotImplementedError
+
+    def root(self, inner: Piece) -> Piece:
+        """A square root."""
+        raise NotImplementedError
+
+    def fraction(self, over: Piece, under: Piece) -> Piece:
+        """A fraction."""
+        raise NotImplementedError
+
+    def power(self, base: str, exponent: Tree) -> str:
+        """A base, brackets included, with its exponent."""
+        raise NotImplementedError
+
+    def cases(self, rows: list[tuple[str, str]]) -> str:
+        """Values, each with its condition."""
+        raise NotImplementedError
+
+    times = dot = comma = ""
+    signs: Mapping[str, str] = SIGNS
+    minus = "-"
+
+    # what is the same in both
+    def __call__(self, tree: Tree) -> str:
+        """The whole tree as text."""
+        return self.piece(tree).text
+
+    def piece(self, tree: Tree) -> Piece:
+        """A tree as a printed part."""
+        match tree:
+            case ["num", text]:
+                return self._numeric(text, self.number(text), "1")._replace(quantity=False, number=True)
+            case ["qty", text, unit]:
+                return self._numeric(text, self.quantity(text, unit), unit)
+            case ["sym", name]:
+                return Piece(self.symbol(name), ATOM)
+            case ["neg", inner]:
+                return Piece(f"{self.minus}{self._held(inner, PRODUCT, first=False)}", SUM, negative=True)
+            case ["+" | "-", *_]:
+                return self._sum(tree)
+            case ["*", *_]:
+                return self._product(factors(tree))
+            case ["/", over, under]:
+                return self.fraction(self.piece(over), self.piece(under))
+            case ["^", base, exponent]:
+                return self._power(base, exponent)
+            case ["call", name, *args]:
+                return self._call(name, [self.piece(a) for a in args])
+        return self._logic(tree)
+
+    def _logic(self, tree: Tree) -> Piece:
+        match tree:
+            case ["cmp", sign, left, right]:
+                return Piece(f"{self._held(left, COMPARE)} {self.signs[sign]} {self._held(right, SUM)}", COMPARE)
+            case ["and" | "or" as word, left, right]:
+                level = AND if word == "and" else OR
+                return Piece(f"{self._held(left, level)}{self.word(self.words[word])}{self._held(right, level)}", level)
+            case ["not", inner]:
+                return Piece(f"{self.word(self.words['not'], before='')}{self.bracket(self(inner))}", POWER)
+            case ["cases", *branches]:
+                return Piece(self.cases([self._branch(branch) for branch in branches]), OR)
+        raise ValueError(f"no expression: {tree!r}")
+
+    def _branch(self, branch: Tree) -> tuple[str, str]:
+        value = self(branch[0])
+        if len(branch) == 1:
+            return value, self.word(self.words["otherwise"], before="", behind="")
+        return value, f"{self.word(self.words['if'], before='')}{self(branch[1])}"
+
+    def _numeric(self, text: str, printed: str, unit: str) -> Piece:
+        found = parts(text)
+        if found is None:
+            return Piece(printed, ATOM)
+        negative, scaled = found[0] == "-", found[3] != 0
+        level = SUM if negative else PRODUCT if scaled or pretty(unit) else ATOM
+        return Piece(printed, level, negative, not negative, quantity=True)
+
+    def _held(self, tree: Tree, level: int, *, first: bool = True) -> str:
+        """A part inside another: in brackets where it holds less tightly, or begins with a minus and is not first."""
+        piece = self.piece(tree)
+        loose = piece.level < level or (piece.negative and not first)
+        return self.bracket(piece.text) if loose else piece.text
+
+    def _sum(self, tree: Tree) -> Piece:
+        pieces = [(sign, self.piece(term)) for sign, term in terms(tree)]
+        text = pieces[0][1].text if pieces[0][1].level >= SUM else self.bracket(pieces[0][1].text)
+        for sign, piece in pieces[1:]:
+            loose = piece.negative or piece.level < SUM or (sign == "-" and piece.level == SUM)
+            text += f" {self.minus if sign == '-' else '+'} {self.bracket(piece.text) if loose else piece.text}"
+        return Piece(text, SUM, pieces[0][1].negative)
+
+    def _product(self, trees: list[Tree]) -> Piece:
+        pieces = [self._factor(tree, index, trees) for index, tree in enumerate(trees)]
+        text, last = pieces[0].text, pieces[0]
+        for piece in pieces[1:]:
+            text += (self.dot if dotted(last, piece) else self.times) + piece.text
+            last = piece
+        return Piece(text, PRODUCT, pieces[0].negative, pieces[0].digit, last.quantity)
+
+    def _factor(self, tree: Tree, index: int, trees: list[Tree]) -> Piece:
+        piece = self.piece(tree)
+        follows = trees[index + 1] if index + 1 < len(trees) else None
+        bare = tree[0] == "call" and piece.level == CALL
+        if bare and follows is not None and follows[0] != "call":
+            return self._closed_call(tree)
+        if piece.level < PRODUCT and (not piece.negative or index > 0 or tree[0] in "+-"):
+            return Piece(
+                self.bracket(piece.text),
+                ATOM,
+                quantity=piece.quantity or tree[0] == "num",
+                digit=tree[0] in ("num", "qty"),
+            )
+        return piece
+
+    def _closed_call(self, tree: Tree) -> Piece:
+        return Piece(self.name(tree[1]) + self.bracket(self(tree[2])), POWER)
+
+    def _power(self, base: Tree, exponent: Tree) -> Piece:
+        piece = self.piece(base)
+        numeric = base[0] in ("num", "qty")
+        text = piece.text if piece.level == ATOM else self.bracket(piece.text)
+        return Piece(self.power(text, exponent), POWER, digit=numeric, quantity=numeric)
+
+    def _call(self, name: str, args: list[Piece]) -> Piece:
+        if name == "sqrt":
+            return self.root(args[0])
+        if name in BRACKETS:
+            return Piece(self.bracket(args[0].text, *BRACKETS[name]), ATOM)
+        if len(args) == 1 and args[0].level == ATOM and not args[0].digit:
+            return Piece(f"{self.name(name)} {args[0].text}", CALL)
+        return Piece(self.name(name) + self.bracket(self.comma.join(a.text for a in args)), POWER)
+
+
+def dotted(left: Piece, right: Piece) -> bool:
+    """Whether two factors need a dot between them: before a digit, after a value, or where a mixed number would be read."""
+    return right.digit or left.quantity or (left.number and right.fraction)
+
+
+def terms(tree: Tree) -> list[tuple[str, Tree]]:
+    """The top-level terms of a sum with their signs; a lone tree is one term."""
+    match tree:
+        case ["+" | "-" as sign, left, right]:
+            return [*terms(left), (sign, right)]
+    return [("+", tree)]
+
+
+def factors(tree: Tree) -> list[Tree]:
+    """The factors of a chain of products."""
+    match tree:
+        case ["*", left, right]:
+            return [*factors(left), *factors(right)]
+    return [tree]

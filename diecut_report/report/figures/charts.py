@@ -1,0 +1,125 @@
+"""Charts of the results: diagrams one below the other, of curves or of lines of their own."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from itertools import pairwise
+from typing import Any
+
+import numpy as np
+from matplotlib.figure import Figure
+from numpy.typing import NDArray
+
+from diecut_report.quantities.units import pretty, to_display, unit
+from diecut_report.report.curves import continuous, period_of
+from diecut_report.report.figures.diagram import HEAD, WIDTH, Diagram
+from diecut_report.report.figures.panel_data import Across, Line, Note, Panel, Span, range_of
+from diecut_report.report.figures.style import canvas, marked, plain
+from diecut_report.report.i18n import Words
+from diecut_report.report.number_format import displayed, joined
+
+Data = Mapping[str, Any]
+Array = NDArray[Any]
+LEFT, RIGHT, TOP = 46.0, 10.0, 6.0  # points
+FOOT, NAMED_FOOT = 8.0, 34.0  # below a diagram: without and with its numbers and their title
+HEIGHTS = {1: 205.0, 2: 150.0}  # of a diagram, by the number of diagrams; more share a page
+PAGE = 650.0  # no chart is higher
+
+
+def plot(figure: Data, curves: Data, words: Words) -> Figure:
+    """Curves of the results, over a common abscissa."""
+    return _sheet([_of_curves(panel, curves, curves[figure["abscissa"]], words) for panel in figure["panels"]], words)
+
+
+def chart(figure: Data, _curves: Data, words: Words) -> Figure:
+    """Lines that the figure brings itself, each diagram over what it likes."""
+    return _sheet([_of_lines(panel, words) for panel in figure["panels"]], words)
+
+
+def _sheet(panels: list[Panel], words: Words) -> Figure:
+    """All diagrams; numbers stand below a diagram where the next one runs over something else."""
+    feet = [NAMED_FOOT if one.across != two.across else FOOT for one, two in pairwise(panels)]
+    feet.append(NAMED_FOOT)
+    room = (PAGE - TOP - sum(feet) - HEAD * len(panels)) / len(panels)
+    height = min(HEIGHTS.get(len(panels), 118.0), room)
+    wide = WIDTH - LEFT - RIGHT
+    diagrams = [Diagram(panel, wide, height) for panel in panels]
+    for diagram in diagrams[1:]:
+        diagram.follow(diagrams[0])
+    total = TOP + sum(diagram.head for diagram in diagrams) + height * len(panels) + sum(feet)
+    sheet, bottom = canvas(WIDTH, total), total - TOP
+    for diagram, foot in zip(diagrams, feet, strict=True):
+        bottom -= diagram.head + height
+        axes = sheet.add_axes((LEFT / WIDTH, bottom / total, wide / WIDTH, height / total))
+        diagram.draw(axes, words, named=foot == NAMED_FOOT)
+        bottom -= foot
+    return sheet
+
+
+def _of_curves(panel: Data, curves: Data, over: Data, words: Words) -> Panel:
+    """A panel of curves, over a whole turn where the abscissa is one."""
+    shown, across = panel["unit"], over["display_unit"]
+    period = period_of(over)
+    end = over["values"][0] + period if period else over["values"][-1]
+    lines = []
+    for series in panel["series"]:
+        x, y = continuous(curves[series["curve"]], over, period)
+        lines.append(Line(x / unit(across).factor, y / unit(shown).factor, series["label"]))
+    factor = unit(across).factor
+    return Panel(
+        title=panel["title"],
+        unit=shown,
+        across=Across(over["description"], over["symbol"], across, *(to_display(v, across) for v in (over["values"][0], end))),
+        lines=lines,
+        marks=[_mark(mark, across, shown, words) for mark in panel["marks"]],
+        levels=[_level(level, shown, words) for level in panel["levels"]],
+        spans=[Span(span["from"] / factor, span["to"] / factor, span["label"]) for span in panel["spans"]],
+        zero=True,
+    )  # fmt: skip
+
+
+def _of_lines(panel: Data, words: Words) -> Panel:
+    """A panel of lines of its own, as far across as they reach."""
+    shown, over = panel["unit"], panel["x"]
+    across = over["unit"]
+    lines, fills = ([_line(line, across, shown) for line in panel[key]] for key in ("lines", "fills"))
+    marks = [_mark(mark, across, shown, words) for mark in panel["marks"]]
+    factor = unit(across).factor
+    verticals = [Note(line["x"] / factor, 0.0, _phase(line["label"])) for line in panel["verticals"]]
+    low, high = range_of([*(line.x for line in (*lines, *fills)), [note.x for note in (*marks, *verticals)]])
+    return Panel(
+        title=panel["title"],
+        unit=shown,
+        across=Across(over["title"], over["symbol"], across, low, high if high > low else low + 1),
+        lines=lines,
+        fills=fills,
+        marks=marks,
+        levels=[_level(level, shown, words) for level in panel["levels"]],
+        verticals=verticals,
+    )
+
+
+def _line(line: Data, across: str, shown: str) -> Line:
+    x, y = (np.array([np.nan if v is None else v for v in line[key]], dtype=float) for key in ("x", "y"))
+    return Line(x / unit(across).factor, y / unit(shown).factor, line["label"])
+
+
+def _mark(mark: Data, across: str, shown: str, words: Words) -> Note:
+    """A marked point: its name, its value, and its place."""
+    text = f"{marked(mark['label'])} {_value(mark['y'], shown, words)} ({_value(mark['x'], across, words)})"
+    return Note(mark["x"] / unit(across).factor, mark["y"] / unit(shown).factor, text if mark["label"] else "")
+
+
+def _phase(name: str) -> str:
+    """The name of a vertical line: a numbered phase, or words and symbols."""
+    return name if name and not set(name) - set("IVX") else marked(name)
+
+
+def _level(level: Data, shown: str, words: Words) -> Note:
+    """A level: its name and its value."""
+    text = f"{marked(level['label'])} {_value(level['value'], shown, words)}"
+    return Note(0.0, level["value"] / unit(shown).factor, text)
+
+
+def _value(value: float, shown: str, words: Words) -> str:
+    return plain(joined(displayed(value, shown, 4, words["decimal"]), pretty(shown)))

@@ -1,0 +1,194 @@
+"""One diagram on paper: its axes, lines, areas, marks, names and legend."""
+
+from __future__ import annotations
+
+from typing import Any, NamedTuple
+
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.lines import Line2D
+from matplotlib.patches import Patch
+from matplotlib.ticker import FuncFormatter, MaxNLocator, MultipleLocator
+
+from diecut_report.quantities.units import pretty
+from diecut_report.report.figures.label_layout import SIZE, Names
+from diecut_report.report.figures.panel_data import Across, Panel, framed, pieces
+from diecut_report.report.figures.shapes import hatching
+from diecut_report.report.figures.style import ACCENT, INK, MM, PALE, SOFT, marked, plain, symbol, text_size
+from diecut_report.report.i18n import Words
+from diecut_report.report.number_format import number
+
+WIDTH = 172 * MM
+STROKES: tuple[tuple[str, Any, float], ...] = (  # more lines than there are here are named at the lines
+    (ACCENT, "-", 1.4),
+    (INK, (0, (5, 2)), 1.1),
+    (SOFT, (0, (6, 1.5, 1.2, 1.5)), 1.1),
+    (INK, (0, (1.2, 1.4)), 1.1),
+    (INK, "-", 0.6),
+    (ACCENT, (0, (10, 2.5)), 1.3),
+    (SOFT, (0, (6, 1.4, 1.2, 1.4, 1.2, 1.4)), 1.1),
+    (ACCENT, (0, (2.6, 1.6)), 1.4),
+)
+LEVELS: tuple[Any, ...] = ((0, (8, 3)), (0, (2, 2)), (0, (8, 2, 1.5, 2)))
+UPRIGHT = (0, (4, 2.5))
+MARKS = "os^Dv"
+HEAD, TITLE, ROW = 20.0, 17.0, 12.6  # points above a diagram: its head, in it the title, each row of a legend above it
+HANDLE, BESIDE, BETWEEN = (
+    2.6,
+    0.8,
+    1.6,
+)  # of a legend, in font sizes: its strokes, the room behind them, between columns
+
+
+class Legend(NamedTuple):
+    """How the legend above a diagram is set: beside the title, or in rows below it."""
+
+    columns: int
+    rows: int
+    beside: bool
+
+
+class Diagram:
+    """A panel whose names have found their places."""
+
+    def __init__(self, panel: Panel, width: float, height: float) -> None:
+        self.panel = panel
+        self.frame = framed(panel, width, height)
+        self.names = Names(panel, self.frame)
+        self.tags = self.names.tags if len(panel.lines) > 1 else []
+        areas = [marked(panel.fills[index].label) for index in self.names.outside]
+        self.told = [tag for tag in self.tags if tag] + areas
+        self.legend = legend(self.told, width, text_size(self._title())[0])
+
+    @property
+    def head(self) -> float:
+        """The room that it needs above."""
+        return HEAD + (0.0 if self.legend is None or self.legend.beside else self.legend.rows * ROW)
+
+    def follow(self, first: Diagram) -> None:
+        """Leave a legend in rows away that the first diagram has already."""
+        if self.told == first.told and self.legend and not self.legend.beside:
+            self.legend = None
+
+    def draw(self, axes: Axes, words: Words, *, named: bool) -> None:
+        """Draw into axes; ``named`` puts numbers and a title below."""
+        axes.set_xlim(self.frame.across)
+        axes.set_ylim(self.frame.upwards)
+        handles = [*self._lines(axes), *self._areas(axes)]
+        self._notes(axes)
+        _ticks(axes, self.panel.across, words)
+        axes.tick_params(labelbottom=named)
+        if named:
+            axes.set_xlabel(titled(*self.panel.across[:3]), labelpad=2)
+        self._head(axes, handles)
+        for text in self.names.texts:
+            halo = {
+                "facecolor": PALE if text.soft else "white",
+                "edgecolor": "none",
+                "alpha": 1.0 if text.solid else 0.8,
+                "pad": 0.6,
+            }
+            place = text.x / self.frame.width, text.y / self.frame.height
+            axes.text(*place, text.text, transform=axes.transAxes, ha="center", va="center", size=text.size,
+                      color=SOFT if text.soft else INK, zorder=6, bbox=halo)  # fmt: skip
+
+    def _title(self) -> str:
+        """What stands upwards, and its unit; with its symbol where there is one curve."""
+        lines = self.panel.lines
+        label = marked(lines[0].label) if len(lines) == 1 else ""
+        parts = [plain(self.panel.title)] + ([label] if "$" in label else [])
+        shown = pretty(self.panel.unit)
+        return " ".join(parts) + (f", {shown}" if shown else "")
+
+    def _head(self, axes: Axes, handles: list[Any]) -> None:
+        axes.set_title(self._title(), pad=4)
+        if self.legend is None:
+            return
+        above = 1 + TITLE / self.frame.height
+        beside = self.legend.beside
+        axes.legend(
+            handles, [str(handle.get_label()) for handle in handles], loc="lower right" if beside else "lower left",
+            bbox_to_anchor=(1.01, 1.0) if beside else (-0.01, above), ncols=self.legend.columns, borderaxespad=0,
+            borderpad=0.25, columnspacing=BETWEEN, handletextpad=BESIDE, handlelength=HANDLE, labelspacing=0.25, fontsize=SIZE,
+        )  # fmt: skip
+
+    def _lines(self, axes: Axes) -> list[Line2D]:
+        """The lines, the first one on top; those that the legend names."""
+        handles = []
+        for index, line in enumerate(self.panel.lines):
+            colour, dashes, width = STROKES[index % len(STROKES)]
+            handles += axes.plot(
+                line.x, line.y, color=colour, linestyle=dashes, linewidth=width, zorder=3 - 0.1 * index
+            )
+        for handle, tag in zip(handles, self.tags, strict=False):
+            handle.set_label(tag)
+        return [handle for handle, tag in zip(handles, self.tags, strict=False) if tag]
+
+    def _areas(self, axes: Axes) -> list[Patch]:
+        """The areas, pale and hatched, each in its direction; those that the legend names."""
+        for index, area in enumerate(self.panel.fills):
+            axes.fill_between(area.x, area.y, 0, facecolor=PALE, linewidth=0, zorder=0.6)
+            zero = self.frame.points(0, 0)[1]
+            loops = [
+                np.vstack([edge, [edge[-1, 0], zero], [edge[0, 0], zero], edge[:1]])
+                for edge in pieces(self.frame.points(area.x, area.y))
+            ]
+            if loops:
+                starts, ends = hatching(loops, falling=bool(index % 2))
+                strokes = np.stack([starts, ends, np.full_like(starts, np.nan)], axis=1).reshape(-1, 2)
+                axes.plot(*self.frame.numbers(strokes), color=SOFT, linewidth=0.35, zorder=0.7)
+        return [
+            Patch(facecolor=PALE, edgecolor=SOFT, linewidth=0.5, hatch=("////", "\\\\\\\\")[index % 2],
+                  label=marked(self.panel.fills[index].label)) for index in self.names.outside
+        ]  # fmt: skip
+
+    def _notes(self, axes: Axes) -> None:
+        """The zero line, levels, vertical lines, marked points and ranges, without their texts."""
+        panel = self.panel
+        axes.axhline(0, color=INK, linewidth=0.6, zorder=1)
+        for index, level in enumerate(panel.levels):
+            axes.axhline(level.y, color=INK, linewidth=0.7, linestyle=LEVELS[index % len(LEVELS)], zorder=2)
+        for upright in panel.verticals:
+            axes.axvline(upright.x, color=INK, linewidth=0.6, linestyle=UPRIGHT, zorder=2)
+        for index, mark in enumerate(panel.marks):
+            axes.plot([mark.x], [mark.y], MARKS[index % len(MARKS)], markersize=4.5, markerfacecolor="white",
+                      markeredgecolor=INK, zorder=5, clip_on=False)  # fmt: skip
+        for span in panel.spans:
+            axes.axvspan(span.start, span.end, color=PALE, linewidth=0, zorder=0)
+
+
+def legend(told: list[str], width: float, title: float) -> Legend | None:
+    """How a legend of these texts is set over a diagram of a width with a title of another; None where there is nothing."""
+    if not told:
+        return None
+    wide = [HANDLE * SIZE + BESIDE * SIZE + text_size(text, SIZE)[0] for text in told]
+    for columns in range(len(wide), 0, -1):
+        groups = np.array_split(np.array(wide), columns)  # column by column, as matplotlib fills them
+        total = sum(float(group.max()) for group in groups) + BETWEEN * SIZE * (columns - 1) + 6
+        if columns == len(wide) and total + title + 12 <= width:
+            return Legend(columns, 1, beside=True)
+        if total <= width:
+            break
+    return Legend(columns, -(-len(wide) // columns), beside=False)
+
+
+def titled(words: str, sign: str, shown: str) -> str:
+    """Quantity, symbol and unit as the title of an axis: ``Crank angle φ, °``."""
+    parts = [plain(words)] + ([symbol(sign)] if sign else [])
+    return " ".join(parts) + (f", {pretty(shown)}" if pretty(shown) else "")
+
+
+def _ticks(axes: Axes, across: Across, words: Words) -> None:
+    """Round numbers at both axes: angles in steps that divide a turn."""
+    span = across.high - across.low
+    if across.unit == "deg" and span > 60:
+        axes.xaxis.set_major_locator(MultipleLocator(60 if span > 200 else 30))
+        axes.xaxis.set_minor_locator(MultipleLocator(30 if span > 200 else 10))
+    else:
+        axes.xaxis.set_major_locator(
+            MaxNLocator(9, steps=[1, 1.5, 3, 5, 10] if across.unit == "deg" else [1, 2, 2.5, 5, 10])
+        )
+    axes.yaxis.set_major_locator(MaxNLocator(6, steps=[1, 2, 2.5, 5, 10]))
+    printed = FuncFormatter(lambda value, _: number(f"{value:.10g}", words["decimal"]))
+    axes.xaxis.set_major_formatter(printed)
+    axes.yaxis.set_major_formatter(printed)

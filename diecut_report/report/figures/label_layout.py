@@ -1,0 +1,152 @@
+"""What is written into a diagram, and where: clear of the lines and of each other. In points from its lower left corner."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import Any, NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from diecut_report.report.figures.label_places import around, beside_level, beside_vertical
+from diecut_report.report.figures.panel_data import Frame, Line, Panel, pieces
+from diecut_report.report.figures.style import Labels, marked, overlap, plain, sampled, text_size
+
+Array = NDArray[Any]
+SIZE, SMALL = 8.0, 7.0
+DASHES_DIFFER = 4  # so many lines are told apart by their dashes alone; more are named at the lines
+AIR = 1.0
+WIDE_ENOUGH = 4.0  # between a line's name and the other lines, points
+MARGIN = 8.0  # between a line's name and the frame
+
+
+class Text(NamedTuple):
+    """A text with its place; nothing shows through a solid one."""
+
+    x: float
+    y: float
+    text: str
+    size: float = SIZE
+    soft: bool = False
+    solid: bool = False
+
+
+class Names:
+    """The texts of a panel; ``tags`` are the names of its lines as the legend gives them, none where they stand at the lines."""
+
+    def __init__(self, panel: Panel, frame: Frame) -> None:
+        self.panel, self.frame = panel, frame
+        self.texts: list[Text] = []
+        self.lines = [sampled(frame.points(line.x, line.y)) for line in panel.lines]
+        self.notes = self._noted()
+        self.labels = Labels(np.concatenate([*self.lines, self.notes]), (2, 2, frame.width - 2, frame.height - 2))
+        self._spans()
+        self.tags = self._tags()
+        self.outside = [index for index, area in enumerate(panel.fills) if area.label and not self._inside(area)]
+        self._notes()
+
+    def _noted(self) -> Array:
+        """Points of levels, vertical lines, marks and edges of areas."""
+        frame, panel = self.frame, self.panel
+        levels = [np.array([[0, y], [frame.width, y]]) for y in (frame.points(0, note.y)[1] for note in panel.levels)]
+        uprights = [
+            np.array([[x, 0], [x, frame.height]]) for x in (frame.points(note.x, 0)[0] for note in panel.verticals)
+        ]
+        marks = [frame.points(note.x, note.y) + np.array([[-3, -3], [3, 3]]) for note in panel.marks]
+        edges = [frame.points(area.x, area.y) for area in panel.fills]
+        return np.concatenate([np.empty((0, 2)), *map(sampled, [*levels, *uprights, *marks, *edges])])
+
+    def _write(self, text: str, places: Iterator[tuple[float, float]]) -> None:
+        x, y = self.labels.place(text_size(text, SIZE), places)
+        self.texts.append(Text(x, y, text))
+
+    def _spans(self) -> None:
+        """The names of ranges, at the bottom edge."""
+        for span in self.panel.spans:
+            text = plain(span.text)
+            width, height = text_size(text, SMALL)
+            x = float(self.frame.points((span.start + span.end) / 2, 0)[0])
+            self.labels.take((x, height / 2 + 2), (width, height))
+            self.texts.append(Text(x, height / 2 + 2, text, SMALL, soft=True))
+
+    def _notes(self) -> None:
+        """Marks, levels and vertical lines."""
+        frame, panel = self.frame, self.panel
+        for note in panel.marks:
+            if note.text:
+                self._write(note.text, around(*frame.points(note.x, note.y)))
+        for note in panel.levels:
+            if note.text:
+                height = float(frame.points(0, note.y)[1])
+                self._write(note.text, beside_level(height, frame.width, text_size(note.text, SIZE)))
+        for note in panel.verticals:
+            if note.text:
+                place = float(frame.points(note.x, 0)[0])
+                self._write(note.text, beside_vertical(place, frame.height, text_size(note.text, SIZE)))
+
+    # areas
+    def _inside(self, area: Line) -> bool:
+        """Writes an area's name into it, where it has room for it; whether it had."""
+        text = marked(area.label)
+        size = text_size(text, SIZE)
+        edges = pieces(self.frame.points(area.x, area.y))
+        zero = float(self.frame.points(0, 0)[1])
+        rooms = sorted((room for edge in edges for room in _rooms(edge, zero, size)), reverse=True)
+        places = [(x, y) for room, _, x, y in rooms if room >= size[1] + 4]
+        if places:
+            self._write(text, iter(places))
+        return bool(places)
+
+    # names of lines
+    def _tags(self) -> list[str]:
+        """The lines' names as the legend gives them: with numbers that stand at the lines, where dashes alone do not do."""
+        labels = [marked(line.label) for line in self.panel.lines]
+        if len(labels) <= DASHES_DIFFER:
+            return labels
+        if self._tagged(labels, least=AIR):
+            return ["" for _ in labels]
+        numbers = [str(index) if label else "" for index, label in enumerate(labels, 1)]
+        self._tagged(numbers)
+        return [f"{number}  {label}" if label else "" for number, label in zip(numbers, labels, strict=True)]
+
+    def _tagged(self, names: list[str], least: float = -np.inf) -> bool:
+        """Writes each line's name on the line, all of them or, where one comes nearer to another line than ``least``, none."""
+        before = len(self.texts), len(self.labels.taken)
+        for index, name in enumerate(names):
+            if not name or not len(self.lines[index]):
+                continue
+            size = text_size(name, SIZE)
+            gap, x, y = max(self._on_line(index, size))
+            if gap < least:
+                del self.texts[before[0] :], self.labels.taken[before[1] :]
+                return False
+            self.labels.take((x, y), size)
+            self.texts.append(Text(x, y, name, solid=True))
+        return True
+
+    def _on_line(self, index: int, size: tuple[float, float]) -> Iterator[tuple[float, float, float]]:
+        """Places on a line with the gap to all other lines, texts and the frame."""
+        wide, high = size[0] / 2, size[1] / 2
+        others = np.concatenate([self.notes, *(line for place, line in enumerate(self.lines) if place != index)])
+        own = self.lines[index]
+        for x, y in own[:: max(1, len(own) // 80)]:
+            inside = min(x - wide, self.frame.width - x - wide, y - high, self.frame.height - y - high) - MARGIN
+            aside, up = np.abs(others - [x, y]).T
+            gap = min(float(np.maximum(aside - wide, up - high).min(initial=WIDE_ENOUGH)), WIDE_ENOUGH)
+            if gap <= 0:  # over other lines, the farther from the nearest one the better
+                gap = float(np.hypot(aside, up).min()) / (wide + high) - 1
+            box = (x - wide - AIR, y - high - AIR, x + wide + AIR, y + high + AIR)
+            covered = sum(overlap(box, other) for other in self.labels.taken) + max(-100 * inside, 0)
+            yield gap - covered, float(x), float(y)
+
+
+def _rooms(edge: Array, zero: float, size: tuple[float, float]) -> Iterator[tuple[float, float, float, float]]:
+    """Between an edge and the zero line: the height free over a text's width, how near the middle, and the place."""
+    half, enough = size[0] / 2 + 2, 4 * size[1]
+    left, right = edge[0, 0] + half, edge[-1, 0] - half
+    for x in np.linspace(left, right, 40) if right > left else ():
+        heights = np.interp([x - half, x, x + half], edge[:, 0], edge[:, 1]) - zero
+        heights = np.append(heights, edge[np.abs(edge[:, 0] - x) <= half, 1] - zero)
+        if (heights > 0).all() or (heights < 0).all():
+            room = float(heights[np.abs(heights).argmin()])
+            yield min(abs(room), enough), -abs(float(x - (left + right) / 2)), float(x), zero + room / 2

@@ -1,0 +1,212 @@
+"""Figures of the results as SVG: what charts and drawings have in common (fonts, inks, labels, and how they are written)."""
+
+from __future__ import annotations
+
+import io
+import re
+from collections.abc import Callable, Iterable
+from importlib import import_module
+from pathlib import Path
+from typing import Any, NamedTuple
+
+import matplotlib as mpl
+import numpy as np
+from matplotlib.backends.backend_svg import FigureCanvasSVG
+from matplotlib.figure import Figure
+from matplotlib.font_manager import FontProperties, fontManager
+from matplotlib.textpath import text_to_path
+from numpy.typing import NDArray
+
+from diecut_report.report.number_format import tidy
+from diecut_report.report.symbols import SYMBOL
+
+INK, SOFT, PALE, ACCENT = "#1b232c", "#66717d", "#e9edf1", "#0b5c8f"
+MM = 72 / 25.4  # points
+FONT_SIZE = 8.5  # points
+LINE = 1.25  # from line to line of a text, in font sizes
+Box = tuple[float, float, float, float]  # left, bottom, right, top
+
+
+class Svg(NamedTuple):
+    """A figure: SVG text without a prologue, and its natural size in points."""
+
+    text: str
+    width: float
+    height: float
+
+
+def drawn(build: Callable[[], Figure], title: str, key: str) -> Svg:
+    """What ``build`` draws, in the report's style; ``key`` keeps its ids apart from those of the report's other figures."""
+    load_fonts()
+    with mpl.rc_context(style(key)):  # type: ignore[arg-type]  # a plain dictionary is one too
+        return written(build(), title)
+
+
+def style(key: str) -> dict[str, Any]:
+    """The settings of all figures."""
+    return {
+        "svg.fonttype": "none", "svg.hashsalt": key, "font.family": "Report Sans", "font.size": FONT_SIZE,
+        "mathtext.fontset": "custom", "mathtext.rm": "Report Sans", "mathtext.it": "Report Symbols",
+        "mathtext.cal": "Report Sans", "mathtext.sf": "Report Sans", "mathtext.tt": "Report Sans", "mathtext.bf": "Report Sans",
+        "mathtext.bfit": "Report Symbols",
+        "axes.edgecolor": INK, "axes.labelcolor": INK, "axes.linewidth": 0.6, "axes.unicode_minus": True,
+        "axes.titlesize": FONT_SIZE, "axes.titlelocation": "left", "axes.grid": True, "grid.color": "#d5dbe1",
+        "grid.linewidth": 0.4, "xtick.color": INK, "ytick.color": INK, "xtick.labelsize": 8, "ytick.labelsize": 8,
+        "xtick.major.width": 0.6, "ytick.major.width": 0.6, "xtick.major.size": 3, "ytick.major.size": 3,
+        "xtick.minor.width": 0.4, "xtick.minor.size": 1.8, "text.color": INK, "legend.frameon": False, "legend.fontsize": 8,
+        "lines.linewidth": 1.2, "path.simplify": True, "path.simplify_threshold": 0.2, "legend.handlelength": 2.6,
+    }  # fmt: skip
+
+
+def load_fonts() -> None:
+    """Make the report's fonts known to matplotlib, which measures texts by them."""
+    if not any(entry.name == "Report Sans" for entry in fontManager.ttflist):
+        folder = Path(import_module("diecut_report.templates").__path__[0]) / "fonts"
+        for name in ("report-sans-regular", "report-symbols"):
+            fontManager.addfont(folder / f"{name}.ttf")
+
+
+def canvas(width: float, height: float) -> Figure:
+    """An empty figure of a size in points."""
+    figure = Figure(figsize=(width / 72, height / 72))
+    FigureCanvasSVG(figure)
+    return figure
+
+
+def written(figure: Figure, title: str) -> Svg:
+    """A drawn figure as SVG, without what would leak into the page that it stands in."""
+    buffer = io.StringIO()
+    figure.savefig(
+        buffer, format="svg", metadata={"Date": None, "Creator": None, "Format": None, "Type": None}, transparent=True
+    )
+    body = buffer.getvalue().split("</metadata>")[-1] if "</metadata>" in buffer.getvalue() else buffer.getvalue()
+    body = body[body.index("<defs>") if "<defs>" in body[:400] else 0 :]
+    body = re.sub(r"<style[^>]*>.*?</style>", "", body, count=1, flags=re.DOTALL)
+    body = re.sub(r'<g id="[^"]*"', "<g", body)
+    body = re.sub(r"<!--.*?-->\s*", "", body, flags=re.DOTALL)
+    body = re.sub(r'="[^"]*\d\.\d{3}[^"]*"', lambda found: re.sub(r"-?\d+\.\d{3,}", _shorter, found[0]), body)
+    body = re.sub(r"\n\s*", "\n", body[: body.rindex("</svg>")]).strip()
+    width, height = (float(side) * 72 for side in figure.get_size_inches())
+    head = (
+        f'<svg xmlns="http://www.w3.org/2000/svg" xmlns:xlink="http://www.w3.org/1999/xlink" viewBox="0 0 {width:.2f} {height:.2f}" '
+        f'width="{width:.2f}pt" height="{height:.2f}pt" stroke-linejoin="round" role="img">'
+    )
+    return Svg(f"{head}<title>{_escaped(title)}</title>{body}</svg>", width, height)
+
+
+def _shorter(found: re.Match[str]) -> str:
+    return f"{float(found[0]):.2f}".rstrip("0").rstrip(".")
+
+
+def _escaped(text: str) -> str:
+    return text.replace("&", "&amp;").replace("<", "&lt;").replace(">", "&gt;")
+
+
+_SYMBOL = re.compile(
+    r"(?<!\w)([^\W\d_]{1,2}[′']?)(?:_(\w+))?(?= =)|^(?!(?:II|IV|VI|IX|XI)$)([^\W\d_]{1,2}[′']?)(?:_(\w+))?$"
+)
+
+
+def marked(text: str) -> str:
+    """A text whose symbols (``R_b = 70 mm``, ``S``) are set as symbols, for matplotlib."""
+    parts, start = [], 0
+    said = tidy(text)
+    for found in _SYMBOL.finditer(said):
+        base, below = found[1] or found[3], found[2] or found[4]
+        parts += [plain(said[start : found.start()]), f"${base.replace('′', chr(39))}"]
+        parts.append(rf"_{{\mathrm{{{below}}}}}$" if below else "$")
+        start = found.end()
+    return "".join([*parts, plain(said[start:])])
+
+
+def symbol(name: str) -> str:
+    """A symbol for matplotlib: ``φ_22``, ``[σ]``; bars and brackets stand upright."""
+    found = SYMBOL.fullmatch(name)
+    if found is None:
+        return plain(name)
+    below = rf"_{{\mathrm{{{found['below'].replace('_', ' ')}}}}}" if found["below"] else ""
+    letters = found["base"].replace("′", "'")
+    return f"{plain(found['before'])}${letters}{below}${plain(found['after'])}"
+
+
+def plain(text: str) -> str:
+    """A text that matplotlib takes letter by letter."""
+    return text.replace("$", r"\$")
+
+
+def text_size(text: str, size: float = FONT_SIZE) -> tuple[float, float]:
+    """Width and height of a text in points, a little air included; it may have several lines."""
+    lines = text.split("\n")
+    sizes = [_line_size(line, size) for line in lines]
+    return max(wide for wide, _ in sizes), max(high for _, high in sizes) + (len(lines) - 1) * LINE * size
+
+
+def _line_size(text: str, size: float) -> tuple[float, float]:
+    math = text.count("$") - text.count(r"\$") >= 2
+    width, height, _ = text_to_path.get_text_width_height_descent(
+        text, FontProperties(family="Report Sans", size=size), ismath=math
+    )
+    return float(width), max(float(height), 1.08 * size)
+
+
+def overlap(one: Box, other: Box) -> float:
+    """The area that two boxes share."""
+    wide = min(one[2], other[2]) - max(one[0], other[0])
+    high = min(one[3], other[3]) - max(one[1], other[1])
+    return max(wide, 0) * max(high, 0)
+
+
+class Labels:
+    """Finds places for texts, clear of each other and of lines (all in points)."""
+
+    def __init__(self, lines: NDArray[Any], limits: Box | None = None, weights: NDArray[Any] | None = None) -> None:
+        self.lines = lines
+        self.weights = np.full(len(lines), 8.0) if weights is None else weights
+        self.limits = limits
+        self.taken: list[Box] = []
+
+    def place(self, size: tuple[float, float], centers: Iterable[tuple[float, float]]) -> tuple[float, float]:
+        """The best of the proposed centres for a text of a size; earlier ones are liked better."""
+        best, _ = self.best(size, centers)
+        self.take(best, size)
+        return best
+
+    def best(
+        self, size: tuple[float, float], centers: Iterable[tuple[float, float]]
+    ) -> tuple[tuple[float, float], float]:
+        """The best of the proposed centres, and how much stands in the way there."""
+        found, lowest, least = (0.0, 0.0), 0.0, float("inf")
+        for order, (x, y) in enumerate(centers):
+            cost = self._cost((x - size[0] / 2, y - size[1] / 2, x + size[0] / 2, y + size[1] / 2))
+            if cost + 0.4 * order < least:
+                found, lowest, least = (x, y), cost, cost + 0.4 * order
+        return found, lowest
+
+    def take(self, center: tuple[float, float], size: tuple[float, float]) -> None:
+        """Keep a box free of further texts."""
+        x, y = center
+        self.taken.append((x - size[0] / 2, y - size[1] / 2, x + size[0] / 2, y + size[1] / 2))
+
+    def _cost(self, box: Box) -> float:
+        air = 2.5
+        inside = (
+            (self.lines[:, 0] > box[0] - air) & (self.lines[:, 0] < box[2] + air)
+            & (self.lines[:, 1] > box[1] - air) & (self.lines[:, 1] < box[3] + air)
+        )  # fmt: skip
+        cost = min(float(self.weights[inside].sum()), 96.0) + 5.0 * sum(overlap(box, other) for other in self.taken)
+        if self.limits:
+            x0, y0, x1, y1 = self.limits
+            cost += 50 * (max(x0 - box[0], 0) + max(box[2] - x1, 0) + max(y0 - box[1], 0) + max(box[3] - y1, 0))
+        return cost
+
+
+def sampled(points: NDArray[Any], step: float = 2.0) -> NDArray[Any]:
+    """Points along a line of straight pieces, about ``step`` apart; pieces without end points are left out."""
+    whole = np.isfinite(points).all(axis=1)
+    clear = whole[:-1] & whole[1:]
+    starts, reach = points[:-1][clear], (points[1:] - points[:-1])[clear]
+    counts = np.maximum(2, (np.hypot(*reach.T) / step).astype(int) + 1)
+    piece = np.repeat(np.arange(len(counts)), counts)
+    order = np.arange(len(piece)) - (np.cumsum(counts) - counts)[piece]
+    found: NDArray[Any] = starts[piece] + (order / (counts - 1)[piece])[:, None] * reach[piece]
+    return found

@@ -1,0 +1,76 @@
+"""Numbers and units for print: the one place that gives the neutral texts of the results their printed form."""
+
+from __future__ import annotations
+
+import math
+import re
+
+from diecut_report.quantities.units import pretty, to_display
+
+MINUS = "\u2212"
+THIN = "\u202f"  # narrow, and never broken
+_RAISED = str.maketrans("0123456789-", "⁰¹²³⁴⁵⁶⁷⁸⁹⁻")
+_NUMBER = re.compile(r"([+-]?)(\d+)(?:\.(\d+))?(?:[eE]([+-]?\d+))?")
+_SPACED_FROM = 5  # digits: 10 000, but 1200
+
+
+def parts(text: str) -> tuple[str, str, str, int] | None:
+    """Sign, whole digits, decimals and power of ten of a number as results hold it ("-1.2e-05"); None of other texts."""
+    found = _NUMBER.fullmatch(text)
+    return (found[1], found[2], found[3] or "", int(found[4] or 0)) if found else None
+
+
+def grouped(whole: str, separator: str = THIN) -> str:
+    """Whole digits in threes from 10 000 up."""
+    if len(whole) < _SPACED_FROM:
+        return whole
+    first = len(whole) % 3
+    groups = [whole[:first]] if first else []
+    return separator.join(groups + [whole[i : i + 3] for i in range(first, len(whole), 3)])
+
+
+def number(text: str, decimal: str = ".") -> str:
+    """A number of the results as it is printed: ``-1.2e-05`` → ``−1.2 × 10⁻⁵``; a text that is no number stands as it is."""
+    found = parts(text)
+    if found is None:
+        return text
+    sign, whole, decimals, power = found
+    body = grouped(whole) + (decimal + decimals if decimals else "")
+    return (MINUS if sign == "-" else "") + body + (power_of_ten(power) if power else "")
+
+
+def power_of_ten(exponent: int) -> str:
+    """A power of ten behind a number."""
+    return f"\u2009×\u200910{str(exponent).translate(_RAISED)}"
+
+
+def quantity(text: str, unit: str, decimal: str = ".") -> str:
+    """A number with its unit: ``21000``, ``N*m`` → ``21 000 N·m``; degrees stand close to the number."""
+    return joined(number(text, decimal), pretty(unit))
+
+
+def joined(printed: str, unit: str) -> str:
+    """A printed number and a printed unit, not to be broken apart."""
+    space = "" if not unit or unit.startswith(("°", "′", "″")) else "\u00a0"
+    return f"{printed}{space}{unit}"
+
+
+def significant(value: float, digits: int = 4) -> str:
+    """A value as a neutral text with so many significant digits."""
+    if value == 0:
+        return "0"
+    exponent = math.floor(math.log10(abs(float(f"{value:.{digits - 1}e}"))))
+    if -4 <= exponent < 6:
+        return f"{value:.{max(digits - 1 - exponent, 0)}f}"
+    return f"{value:.{digits - 1}e}"
+
+
+def displayed(value: float, unit: str, digits: int = 4, decimal: str = ".") -> str:
+    """An SI value as it is printed in a display unit, without the unit."""
+    return number(significant(to_display(value, unit), digits), decimal)
+
+
+def tidy(text: str) -> str:
+    """A sentence with real minus signs, powers of ten written out, and degrees close to their number."""
+    powers = re.sub(r"(?<=\d)[eE]([+-]?\d+)(?!\w)", lambda found: power_of_ten(int(found[1])), text.replace(" °", "°"))
+    return re.sub(r"(?<![\w.)])-(?=\d)", MINUS, powers)

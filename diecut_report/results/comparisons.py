@@ -1,0 +1,69 @@
+"""Comparisons over the results of named kinds, calculated when all mechanisms are known."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass
+from itertools import product
+from typing import Any
+
+import numpy as np
+
+from diecut_report.contract.inputs import SI, flatten
+from diecut_report.contract.mechanism import Comparison
+from diecut_report.contract.unit_variants import in_form
+from diecut_report.engine import Calculation, CurveHandle, calculate
+from diecut_report.quantities.units import unit
+from diecut_report.results.mechanism import Provenance, mechanism_results
+
+Data = dict[str, Any]
+
+
+@dataclass(frozen=True)
+class Found:
+    """A comparison with the instances that it is between, by their kinds."""
+
+    comparison: Comparison
+    between: Mapping[str, str]
+
+    @property
+    def name(self) -> str:
+        """What the results know it by: its kind and the instances."""
+        return "-".join([self.comparison.mechanism.kind, *self.between.values()])
+
+
+def found(calculations: Mapping[str, Calculation]) -> Iterator[Found]:
+    """The comparisons that the calculated mechanisms declare, for each choice of one instance of each kind."""
+    by_kind: dict[str, list[str]] = {}
+    for name, calc in calculations.items():
+        by_kind.setdefault(calc.mechanism.kind, []).append(name)
+    declared = {c.mechanism.kind: c for calc in calculations.values() for c in calc.mechanism.comparisons}
+    for comparison in declared.values():
+        for names in product(*(by_kind.get(kind, []) for kind in comparison.kinds)):
+            yield Found(comparison, dict(zip(comparison.kinds, names, strict=True)))
+
+
+def compared(case: Found, calculations: Mapping[str, Calculation]) -> Data:
+    """The results of a comparison, in the form of a mechanism's, and between which instances it is."""
+    values, origins = {}, {}
+    for key, (kind, name) in case.comparison.takes.items():
+        instance = case.between[kind]
+        value = _taken(calculations[instance], name)
+        if value is not None:
+            values[key], origins[key] = value, Provenance("reference", f"{instance}.{name}")
+    block = in_form(case.comparison.mechanism.inputs, values).model_validate(values)
+    calculation = calculate(case.comparison.mechanism, flatten(block))
+    return mechanism_results(calculation, origins) | {"between": list(case.between.values())}
+
+
+def _taken(calc: Calculation, name: str) -> Any:
+    """A number with its SI unit, a text, a curve; None where there is none."""
+    if calc.axis.get(name) in calc.domains:
+        return CurveHandle(calc, name)
+    values = calc.values.get(name, calc.inputs.get(name))
+    if not isinstance(values, np.ndarray):
+        return values
+    value = values[0, 0]
+    if isinstance(value, str):
+        return value
+    return None if np.isnan(value) else SI(float(value), unit(calc.step_or_input(name).unit).si, name)

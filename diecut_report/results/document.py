@@ -1,0 +1,146 @@
+"""The results document: what a run gave, as plain data."""
+
+from __future__ import annotations
+
+import math
+from typing import Any
+
+from diecut_report import __version__
+from diecut_report.config.instances import Instance
+from diecut_report.config.model import Press
+from diecut_report.config.references import PRESS
+from diecut_report.config.validation import declared, keys_of
+from diecut_report.contract.inputs import Block, CurveInput, Quantity, flatten
+from diecut_report.contract.mechanism import Mechanism
+from diecut_report.engine import CurveHandle
+from diecut_report.quantities.formatting import shortest
+from diecut_report.quantities.units import unit
+from diecut_report.results.comparisons import Found
+from diecut_report.results.mechanism import RANK, worst
+from diecut_report.results.press_run import Run
+
+Data = dict[str, Any]
+
+
+def document(run: Run) -> Data:
+    """All results as plain data; the same config gives the same document, byte for byte."""
+    config, tree = run.config, run.config.tree
+    mechanisms = {name: _mechanism_data(run, name) for name in config.instances if name != PRESS}
+    comparisons = {case.name: _comparison_data(run, case) for case in run.cases}
+    status = worst(data["status"] for data in mechanisms.values())
+    return {
+        "schema_version": 1,
+        "program": {"name": "diecut-report", "version": __version__},
+        "config": {
+            "file": tree.file.replace("\\", "/").rsplit("/", 1)[-1],
+            "sha256": tree.sha256,
+            "resolved": resolved(run),
+            "source_text": tree.text,
+        },
+        "project": _project(config.project.model_dump()),
+        "press": _press(run),
+        "status": "error" if run.errors else status,
+        "governing": governing(mechanisms),
+        "mechanisms": mechanisms,
+    } | ({"comparisons": comparisons} if comparisons else {})
+
+
+EMPTY: Data = {
+    "summary": "", "assumptions": [], "sources": [], "inputs": {}, "lists": {}, "outputs": {}, "values": {}, "curves": {}, "checks": [],
+    "warnings": [], "sections": [], "absent": [], "figures": [], "exports": [],
+    "errata": [],
+}  # fmt: skip
+
+
+def _mechanism_data(run: Run, name: str) -> Data:
+    if name in run.results and name not in run.errors:
+        return run.results[name]
+    instance = run.config.instances[name]
+    mechanism = instance.mechanism if instance else None
+    kind = run.config.kinds[name]
+    status, text = ("error", str(run.errors[name])) if name in run.errors else ("skipped", run.skipped[name])
+    return _head(kind, mechanism) | {"status": status, "error": text} | EMPTY
+
+
+def _comparison_data(run: Run, case: Found) -> Data:
+    if case.name in run.comparisons:
+        return run.comparisons[case.name]
+    mechanism = case.comparison.mechanism
+    failed = {"status": "error", "error": str(run.errors[case.name]), "between": list(case.between.values())}
+    return _head(mechanism.kind, mechanism) | failed | EMPTY
+
+
+def _head(kind: str, mechanism: Mechanism | None) -> Data:
+    """What is known of a mechanism that gives no results."""
+    return {
+        "kind": kind,
+        "title": mechanism.title if mechanism else kind,
+        "plugin_version": mechanism.version if mechanism else "",
+    }
+
+
+def governing(mechanisms: Data) -> Data | None:
+    """The check that governs: fail before warn before pass, then the greatest utilisation; a failing null is the greatest."""
+
+    def weight(check: Data) -> tuple[int, float]:
+        unknown = math.inf if check["status"] != "pass" else -math.inf
+        return RANK[check["status"]], unknown if check["utilisation"] is None else check["utilisation"]
+
+    checks = [(name, check) for name, data in mechanisms.items() for check in data["checks"]]
+    if not checks:
+        return None
+    name, check = max(checks, key=lambda pair: weight(pair[1]))
+    return {"mechanism": name, "check": check["id"]}
+
+
+def _project(fields: Data) -> Data:
+    """The title block's texts; what is not given is empty, a date null."""
+    told: Data = {name: "" if value is None and name != "date" else value for name, value in fields.items()}
+    return told | ({"revisions": [_project(line) for line in told["revisions"]]} if "revisions" in told else {})
+
+
+def _press(run: Run) -> Data:
+    press = run.blocks[PRESS]
+    assert isinstance(press, Press)
+    found = []
+    for name, value in flatten(press).items():
+        meta = declared(Press, tuple(name.split(".")))
+        if isinstance(meta, Quantity):
+            shown = {"text": shortest(meta.parsed_unit.from_si(value)), "unit": meta.unit}
+            said_of = {"path": f"{PRESS}.{name}", "description": meta.description, "symbol": meta.symbol}
+            found.append(said_of | {"value": value, "unit": meta.parsed_unit.si, "display": shown})
+    return {"name": press.name, "fields": found}
+
+
+def resolved(run: Run) -> Data:
+    """The config with every reference and default put in: SI values as texts that read back exactly."""
+    config = run.config
+    mechanisms = {}
+    for name, kind in config.kinds.items():
+        block, instance = run.blocks.get(name), config.instances[name]
+        mechanisms[name] = {"kind": kind} | (_plain(block, instance) if block and instance else {})
+    press = config.instances[PRESS]
+    assert press is not None
+    return {"schema_version": 1, "project": config.project.model_dump(exclude_none=True),
+            PRESS: _plain(run.blocks[PRESS], press), "mechanisms": mechanisms}  # fmt: skip
+
+
+def _plain(block: Block, instance: Instance) -> Data:
+    values = {name: getattr(block, name) for name in type(block).model_fields}
+    return {name: _plain_value(block, name, value, instance) for name, value in values.items() if value is not None}
+
+
+def _plain_value(block: Block, name: str, value: Any, instance: Instance) -> Any:
+    meta = keys_of(type(block))[name].meta
+    match value:
+        case Block():
+            return _plain(value, instance)
+        case [Block(), *_]:
+            return [_plain(part, instance) for part in value]
+        case CurveHandle(calculation=_):
+            return instance.data[name]
+        case tuple() if isinstance(meta, CurveInput):
+            return [f"{part!r} {unit(meta.unit).si}" for part in value]
+        case float() if isinstance(meta, Quantity) and meta.parsed_unit.si != "1":
+            return f"{value!r} {meta.parsed_unit.si}"
+    return value

@@ -1,0 +1,253 @@
+"""From a calculation to plain data: what the results file holds, and all that the report prints."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass
+from typing import Any, Literal
+
+import numpy as np
+
+from diecut_report.contract.inputs import CurveInput, Quantity, list_titles
+from diecut_report.contract.spectra import Spectrum, SpectrumLine
+from diecut_report.contract.steps import SILENT, Crossings, Step
+from diecut_report.engine import Calculation
+from diecut_report.engine.figure_views import figures
+from diecut_report.engine.printing.items import section_items
+from diecut_report.quantities.formatting import shortest, shown
+from diecut_report.quantities.units import unit
+from diecut_report.results.checks import applies, check_results
+
+Data = dict[str, Any]
+RANK = {"pass": 0, "warn": 1, "fail": 2, "error": 3, "skipped": 3}
+
+
+@dataclass(frozen=True)
+class Provenance:
+    """Where an input comes from, the path it refers to, and its text as typed."""
+
+    origin: Literal["given", "default", "reference"]
+    path: str = ""
+    text: str | None = None
+
+
+def mechanism_results(calc: Calculation, provenance: Mapping[str, Provenance]) -> Data:
+    """The results of one machine's mechanism, as the contract names them."""
+    mechanism = calc.mechanism
+    checks = check_results(calc)
+    return {
+        "kind": mechanism.kind,
+        "title": mechanism.title,
+        "plugin_version": mechanism.version,
+        "status": worst(check["status"] for check in checks),
+        "summary": mechanism.summary,
+        "assumptions": list(mechanism.assumptions),
+        "sources": [{"id": s.id, "citation": s.citation} for s in mechanism.sources],
+        "inputs": inputs(calc, provenance),
+        "lists": list_titles(mechanism.inputs),
+        **numbers(calc),
+        "curves": curves(calc),
+        "checks": checks,
+        "warnings": [c["message"] for c in checks if c["status"] == "warn"],
+        "sections": section_items(calc),
+        "absent": absent(calc, provenance),
+        "figures": figures(calc),
+        "exports": exports(calc),
+        "errata": list(errata(calc)),
+    }
+
+
+def errata(calc: Calculation) -> Iterator[Data]:
+    """The mistakes of the sources that touch this machine: those whose quantities are all absent are left out."""
+    for erratum in calc.mechanism.errata:
+        touched = [calc.step_or_input(name).description for name in erratum.touches if _is_there(calc, name)]
+        if touched or not erratum.touches:
+            yield {"source": erratum.source, "text": erratum.text, "touches": touched}
+
+
+def _is_there(calc: Calculation, name: str) -> bool:
+    """Whether this machine has a quantity: a curve, an input, or a number that applies to it."""
+    if name not in calc.values:
+        return name in calc.curves or name in calc.domains or name in calc.inputs
+    return any(isinstance(value, str) or not np.isnan(value) for value in calc.values[name][0])
+
+
+GIVEN = Provenance("given")
+
+
+def absent(calc: Calculation, provenance: Mapping[str, Provenance]) -> list[Data]:
+    """What is not calculated, and checks for which a limit is given that nothing can be held against, in words."""
+    left_out = [
+        {"title": s.title, "text": s.absent}
+        for s in calc.mechanism.sections
+        if s.absent and not calc.given.issuperset(s.needs)
+    ]
+    made = {check.id for check in calc.mechanism.checks if applies(calc, check)}
+    unmade = [
+        {"title": c.title, "text": f"not checked, though {c.limit} is given: what it limits is not calculated"}
+        for c in calc.mechanism.checks
+        if _is_limit_given(calc, str(c.limit), provenance) and c.id not in made
+    ]
+    return left_out + unmade
+
+
+def _is_limit_given(calc: Calculation, name: str, provenance: Mapping[str, Provenance]) -> bool:
+    """Whether a limit is an input that is there, and not by its default alone."""
+    return name in calc.inputs and name not in calc.values and provenance.get(name, GIVEN).origin != "default"
+
+
+def worst(statuses: Any) -> str:
+    """The worst of statuses; pass where there are none."""
+    return max(statuses, key=RANK.__getitem__, default="pass")
+
+
+def inputs(calc: Calculation, provenance: Mapping[str, Provenance]) -> Data:
+    """Each input with value, unit, origin and typed text; the parts of a list as ``gears.0.driver_teeth``."""
+    found: Data = {}
+    for name, meta in calc.meta.items():
+        if name not in calc.inputs:
+            continue
+        row = calc.inputs[name]
+        parted = name in calc.axis
+        parts = row[0] if parted and isinstance(row, np.ndarray) else row if parted else [row]
+        for index, part in enumerate(parts):
+            home = calc.axis[name] if parted else ""
+            path = f"{home}.{index}{name.removeprefix(home)}" if parted else name
+            found[path] = _input(meta, part) | _origin(provenance.get(path))
+    return found
+
+
+def _origin(provenance: Provenance | None) -> Data:
+    known = provenance or Provenance("default")
+    return (
+        {"origin": known.origin}
+        | ({"path": known.path} if known.path else {})
+        | ({"text": known.text} if known.text else {})
+    )
+
+
+def _input(meta: Any, value: Any) -> Data:
+    if not isinstance(meta, Quantity):
+        is_curve = isinstance(meta, CurveInput)
+        text = "a curve" if is_curve else str(value)
+        return {"value": text if is_curve else value, "unit": unit(meta.unit).si if is_curve else "1", "symbol": meta.symbol,
+                "description": meta.description, "display": {"text": text, "unit": "1"}}  # fmt: skip
+    number = float(np.ravel(value)[0])
+    return {
+        "value": int(number) if meta.integer else number,
+        "unit": meta.parsed_unit.si,
+        "symbol": meta.symbol,
+        "description": meta.description,
+        "display": {"text": shortest(number / meta.parsed_unit.factor), "unit": meta.unit},
+    }
+
+
+def numbers(calc: Calculation) -> Data:
+    """Outputs and intermediate values: each step's number, with the place where an extreme occurs."""
+    groups: dict[bool, Data] = {True: {}, False: {}}
+    for step in calc.steps.values():
+        if step.id in calc.values and not isinstance(step, SILENT):
+            groups[step.output] |= _listed(calc, step) if isinstance(step, Crossings) else _rowed(calc, step)
+    for name in calc.mechanism.key_results:
+        if name in groups[True]:
+            groups[True][name]["key"] = True
+    return {"outputs": groups[True], "values": groups[False]}
+
+
+def _rowed(calc: Calculation, step: Step) -> Data:
+    row = calc[step.id][0]
+    if step.id in calc.axis:
+        names = step.numbered.format if step.numbered else f"{step.id}.{{}}".format
+        start = step.first if step.numbered else 0
+        home = {} if step.numbered else {"list": calc.axis[step.id]}
+        return {names(start + i): _number(step, value) | home for i, value in enumerate(row)}
+    if not isinstance(row[0], str) and math.isnan(row[0]):
+        return {}
+    found = _number(step, row[0])
+    place = f"{step.id}_at"
+    if place in calc.values:
+        axis = calc.steps[calc.axis[step.of]]  # type: ignore[attr-defined]
+        found["at"] = {"symbol": axis.symbol} | shown(float(calc[place][0, 0]), axis.unit, 6)
+    return {step.id: found}
+
+
+def _listed(calc: Calculation, step: Crossings) -> Data:
+    places = [x for x in calc[step.id][0] if not math.isnan(x)]
+    count = {"value": len(places), "unit": "1", "symbol": "", "description": f"{step.description}: how many",
+             "source": step.source, "display": {"text": str(len(places)), "unit": "1"}}  # fmt: skip
+    return {f"{step.id}_count": count} | {f"{step.id}_{i}": _number(step, x) for i, x in enumerate(places, 1)}
+
+
+def _number(step: Step, value: Any) -> Data:
+    said = {"symbol": step.symbol, "description": step.description, "source": step.source}
+    if isinstance(value, str):
+        return {"value": value, "unit": "1"} | said | {"display": {"text": value, "unit": "1"}}
+    if isinstance(value, bool | np.bool_):
+        return {"value": bool(value), "unit": "1"} | said | {"display": {"text": "yes" if value else "no", "unit": "1"}}
+    return (
+        {"value": round(value) if step.whole else float(value), "unit": unit(step.unit).si}
+        | said
+        | {"display": shown(float(value), step.unit, step.digits)}
+    )
+
+
+def curves(calc: Calculation) -> Data:
+    """Each curve at the samples of its abscissa, with its one-sided values at the breakpoints."""
+    found: Data = {}
+    for name, domain in calc.domains.items():
+        step = calc.steps[name]
+        found[name] = _curve(step, domain.samples[0])
+        edges = np.unique(domain.joints[0])[1:-1]
+        if len(edges):
+            found[name]["breakpoints"] = edges.tolist()
+    for name, curve in calc.curves.items():
+        if curve.output:
+            found[name] = _curve(curve, calc.curve_samples(name)[0]) | _limits(calc, name)
+    for spectrum in calc.mechanism.spectra:
+        found |= _spectrum(spectrum)
+    return found
+
+
+def _spectrum(spectrum: Spectrum) -> Data:
+    common = {"is_spectrum": True}
+    lines = {line.id: _curve(line, line.values) | {"abscissa": spectrum.id} | common for line in spectrum.lines()}
+    return {spectrum.id: _curve(spectrum, spectrum.values) | common} | lines
+
+
+def _curve(step: Step | SpectrumLine, values: Any) -> Data:
+    return {"unit": unit(step.unit).si, "values": np.asarray(values, dtype=float).tolist(), "symbol": step.symbol,
+            "description": step.description, "display_unit": step.unit, "source": step.source}  # fmt: skip
+
+
+def _limits(calc: Calculation, name: str) -> Data:
+    axis = calc.axis[name]
+    domain = calc.domains[axis]
+    wide = domain.widths[0] > 1e-12 * domain.period[0, 0]
+    starts, ends, middles = domain.edges[:1, :-1][:, wide], domain.edges[:1, 1:][:, wide], domain.middles[:1, wide]
+    first = np.zeros(1, dtype=int)
+    after = calc.kept("starts", axis, lambda _: (starts, middles), first)[name]
+    before = calc.kept("ends", axis, lambda _: (ends, middles), first)[name]
+    after, before = (np.broadcast_to(limits, starts.shape)[0] for limits in (after, before))
+    joint = (domain.is_joint(starts[:, 1:]) | domain.is_joint(ends[:, :-1]))[0]
+    return {
+        "abscissa": calc.axis[name],
+        "breakpoints": starts[0, 1:][joint].tolist(),
+        "left": before[:-1][joint].tolist(),
+        "right": after[1:][joint].tolist(),
+    }
+
+
+def exports(calc: Calculation) -> list[Data]:
+    """The profiles that are written beside the report."""
+    return [
+        {
+            "id": p.id,
+            "title": p.title,
+            "type": "profile",
+            "abscissa": calc.axis[p.columns[0]],
+            "columns": list(p.columns),
+        }
+        for p in calc.mechanism.exports
+        if calc.given.issuperset(p.needs)
+    ]

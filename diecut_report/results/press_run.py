@@ -1,0 +1,217 @@
+"""Runs the mechanisms of a config in the order of their references."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from typing import Any
+
+from diecut_report.config.discovery import said
+from diecut_report.config.instances import Instance, slots
+from diecut_report.config.loader import Config, substituted
+from diecut_report.config.references import PRESS, Node, Target
+from diecut_report.config.validation import declared, validate
+from diecut_report.contract.inputs import SI, Block, Quantity, flatten
+from diecut_report.engine import Calculation, CurveHandle, Impossible, calculate
+from diecut_report.errors import PluginError, Problem, UserError
+from diecut_report.results.comparisons import Found, compared, found
+from diecut_report.results.mechanism import Provenance, mechanism_results
+
+Data = dict[str, Any]
+Tell = Callable[[str], None]
+
+
+class Unavailable(LookupError):
+    """A value that a broken or skipped mechanism would have given."""
+
+
+class Absent(LookupError):
+    """A value that this machine does not have; the text says so."""
+
+
+def compute(config: Config, tell: Tell) -> Run:
+    """Calculate all mechanisms of a config; UserError where a machine is impossible. What broke is in ``errors``.
+
+    ``tell`` is called with the name of each mechanism before it is calculated.
+    """
+    run = Run(config, tell)
+    if run.problems:
+        raise UserError([*run.problems, *(Problem(str(error), config.tree.file) for error in run.errors.values())])
+    return run
+
+
+class Run:
+    """One way through the config's graph: every value that is referred to, every calculation."""
+
+    def __init__(self, config: Config, tell: Tell) -> None:
+        self.config, self.tell = config, tell
+        self.values: dict[Node, Any] = {}
+        self.blocks: dict[str, Block] = {}
+        self.calculations: dict[str, Calculation] = {}
+        self.results: dict[str, Data] = {}
+        self.errors: dict[str, PluginError] = dict(config.broken)
+        self.skipped: dict[str, str] = {}
+        self.problems: list[Problem] = []
+        self.comparisons: dict[str, Data] = {}
+        self.cases: list[Found] = []
+        for node in config.order:
+            if len(node) == 1:
+                self._mechanism(str(node[0]))
+            elif node in config.links:
+                self._value(node, config.links[node])
+        self._comparisons()
+
+    def _comparisons(self) -> None:
+        for case in found(self.calculations) if not self.problems else ():
+            self._compare(case)
+
+    # --- values that are referred to ---------------------------------------------------------------------------------
+
+    def _value(self, node: Node, target: Target) -> None:
+        instance = self.config.instances[str(node[0])]
+        assert instance is not None, "a mechanism without a plugin has no links"
+        try:
+            value = self._referred(target)
+            self.values[node] = self._derived(instance, node, target, value) if target.formula else value
+        except Unavailable:
+            return  # the mechanism that needs it is skipped
+        except Absent as absent:
+            self.problems.append(instance.place.problem(node[1:], f"${{{target.path}}} {absent}"))
+
+    def _derived(self, instance: Instance, node: Node, target: Target, value: SI) -> SI:
+        """A default of the press that is not the press's field itself."""
+        meta = declared(instance.model, node[1:])
+        assert isinstance(meta, Quantity) and target.formula is not None
+        try:
+            return SI(self._number(target.formula(value.value)), meta.parsed_unit.si, target.path)
+        except Exception as cause:
+            self._broke(instance, cause)
+            raise Unavailable(target.path) from cause
+
+    def _referred(self, target: Target) -> Any:
+        if target.result is not None or target.is_broken:
+            if target.instance not in self.calculations:
+                raise Unavailable(target.instance)
+            return self._output(self.calculations[target.instance], str(target.result), target)
+        node = (target.instance, *target.key)
+        if node in self.config.links and node not in self.values:
+            raise Unavailable(target.instance)
+        instance = self.config.instances[target.instance]
+        assert instance is not None, "a broken mechanism's links are marked as broken"
+        return self._input(instance, target, self.values.get(node))
+
+    _number: Callable[[Any], Any] = staticmethod(float)
+
+    def _output(self, calculation: Calculation, name: str, target: Target) -> Any:
+        return output(calculation, name, target)
+
+    def _input(self, instance: Instance, target: Target, followed: Any) -> Any:
+        value = instance.value(target.key) if followed is None else followed
+        if isinstance(value, SI):
+            value = value.value
+        if isinstance(value, tuple):
+            return [f"{part!r} {target.unit}" for part in value]
+        if value is None:
+            raise Absent("is not given there.")
+        return value if target.unit is None or target.is_curve else SI(value, target.unit, target.path)
+
+    def _stand_in(self, instance: Instance, node: Node) -> Any:
+        """What is put in the place of a reference or of a default of the press."""
+        value = self.values[node]
+        is_listed = declared(instance.model, node[1:]) is None  # one value of a curve given as a list
+        return f"{value.value!r} {value.unit}" if is_listed else value
+
+    # --- mechanisms --------------------------------------------------------------------------------------------------
+
+    def _mechanism(self, name: str) -> None:
+        instance, links = self.config.instances[name], self.config.links
+        own = {node: target for node, target in links.items() if node[0] == name}
+        unusable = [t.instance for t in own.values() if t.instance in self.errors or t.instance in self.skipped]
+        if instance is None or name in self.errors:
+            return
+        missing = [node for node in own if node not in self.values]
+        if instance.mechanism is None:
+            self._press(instance, {node: own[node] for node in own if node not in missing}, missing)
+            return
+        if unusable or missing:
+            self.skipped[name] = (
+                f"It refers to {' and '.join(sorted(set(unusable)) or ['what is not there'])}, which gives no results."
+            )
+            return
+        if self._validated(name, instance, self._with_values(instance, own)):
+            self._calculate(name, instance, self.blocks[name])
+
+    def _press(self, instance: Instance, own: dict[Node, Target], missing: list[Node]) -> None:
+        """The press, without the fields that a broken mechanism would have given."""
+        data = self._with_values(instance, own)
+        for _, *home, last in missing:
+            part: Any = data
+            for key in home:
+                part = part[key]
+            del part[last]
+        self._validated(PRESS, instance, {"name": "?"} | data)
+
+    def _with_values(self, instance: Instance, own: dict[Node, Target]) -> Data:
+        return substituted(instance, own, lambda node, target: self._stand_in(instance, node))
+
+    def _validated(self, name: str, instance: Instance, data: Data) -> bool:
+        block, problems = validate(instance.model, data, instance.place)
+        self.problems += problems
+        if block is not None:
+            self.blocks[name] = block
+        return block is not None
+
+    def _calculate(self, name: str, instance: Instance, block: Block) -> None:
+        assert instance.mechanism is not None
+        self.tell(name)
+        try:
+            self.calculations[name] = calculate(instance.mechanism, flatten(block))
+            self.results[name] = mechanism_results(self.calculations[name], self._provenance(instance))
+        except Impossible as fault:
+            for path, message in fault.reasons:
+                key = tuple(int(part) if part.isdigit() else part for part in path.split("."))
+                self.problems.append(instance.place.problem(key, message))
+        except Exception as cause:
+            self._broke(instance, cause)
+
+    def _compare(self, case: Found) -> None:
+        self.tell(case.name)
+        self.cases.append(case)
+        try:
+            self.comparisons[case.name] = compared(case, self.calculations)
+        except Exception as cause:
+            error = PluginError(said(cause), case.comparison.mechanism.kind, case.name)
+            error.__cause__ = cause
+            self.errors[case.name] = error
+
+    def _broke(self, instance: Instance, cause: Exception) -> None:
+        self.calculations.pop(instance.name, None)
+        error = PluginError(said(cause), self.config.kinds[instance.name], instance.name)
+        error.__cause__ = cause
+        self.errors[instance.name] = error
+
+    def _provenance(self, instance: Instance) -> dict[str, Provenance]:
+        found = {}
+        for slot in slots(instance.model, instance.data):
+            typed = instance.place.typed(slot.key) if slot.is_given else None
+            target = self.config.links.get((instance.name, *slot.key))
+            origin = "default" if not slot.is_given else "reference" if target else "given"
+            found[".".join(map(str, slot.key))] = Provenance(origin, target.path if target else "", typed)  # type: ignore[arg-type]
+        return found
+
+
+def output(calc: Calculation, name: str, target: Target) -> Any:
+    """A result as a reference takes it over: a curve, a number with its SI unit, or a text. Absent where there is none."""
+    if calc.axis.get(name) in calc.domains:
+        return CurveHandle(calc, name)
+    row, _, index = name.rpartition(".")
+    base, place = (row, int(index)) if index.isdigit() else (name, 0)
+    numbers = calc.values[base][0] if base in calc.values else []
+    if place >= len(numbers):
+        raise Absent("does not exist for this machine.")
+    value = numbers[place]
+    if isinstance(value, str):
+        return value
+    if math.isnan(value):
+        raise Absent("does not apply to this machine.")
+    return SI(float(value), str(target.unit), target.path)

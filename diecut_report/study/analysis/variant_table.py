@@ -1,0 +1,81 @@
+"""Stored variants as a table for people: in the units that they read, as many columns as the line holds."""
+
+from __future__ import annotations
+
+import io
+import re
+from collections.abc import Sequence
+from typing import Any, Literal
+
+from diecut_report.quantities.formatting import number_text
+from diecut_report.quantities.units import pretty, unit
+from diecut_report.report.number_format import number
+from diecut_report.study.analysis.stored_variants import Column
+
+FREE = 10_000  # letters of a line that no terminal breaks
+HEAD = 14  # letters of a line of a heading
+BETWEEN, REASON = 3, 40  # letters between columns; on a line of a reason, at least
+FEWEST = 3  # columns that stand whatever the line holds
+
+
+def table_text(columns: Sequence[Column], rows: Sequence[Sequence[Any]], width: int | None) -> tuple[str, list[Column]]:
+    """The table, and the columns that the line has no room for."""
+    heads = [_head(column) for column in columns]
+    texts = [[shown(value, column) for value, column in zip(row, columns, strict=True)] for row in rows]
+    wide = [max(map(len, (*head.split("\n"), *column))) for head, *column in zip(heads, *texts, strict=True)]
+    kept = _kept(columns, wide, width or FREE)
+    return _drawn(columns, heads, texts, kept, width or FREE), [c for i, c in enumerate(columns) if i not in kept]
+
+
+def _kept(columns: Sequence[Column], wide: Sequence[int], room: int) -> list[int]:
+    """The columns that fit, by index: the first ones, the reason of an error (on several lines, if need be), then what fits."""
+    reason = [index for index, column in enumerate(columns) if column.name == "error"]
+    kept: list[int] = []
+    used = 0
+    for index in dict.fromkeys([*range(min(FEWEST, len(wide))), *reason, *range(len(wide))]):
+        own = BETWEEN + (min(wide[index], REASON) if index in reason else wide[index])
+        if used + own <= room or len(kept) < FEWEST:
+            kept.append(index)
+            used += own
+    return sorted(kept)
+
+
+def _drawn(
+    columns: Sequence[Column], heads: Sequence[str], texts: Sequence[Sequence[str]], kept: Sequence[int], width: int
+) -> str:
+    from rich import box
+    from rich.console import Console
+    from rich.table import Table
+    from rich.text import Text
+
+    table = Table(box=box.SIMPLE_HEAD, pad_edge=False)
+    for index in kept:
+        justify: Literal["left", "right"] = "right" if columns[index].is_number else "left"
+        table.add_column(Text(heads[index]), justify=justify, overflow="fold")
+    for row in texts:
+        table.add_row(*(Text(row[index]) for index in kept))
+    target = io.StringIO()
+    Console(file=target, width=width, color_system=None, soft_wrap=False, legacy_windows=False).print(table)
+    return "\n".join(line.rstrip() for line in target.getvalue().splitlines())
+
+
+def _head(column: Column) -> str:
+    """The name on short lines, and the unit below it."""
+    lines = [""]
+    for part in re.findall(r"[^._]*[._]|[^._]+", column.name.removeprefix("mechanisms.")):
+        if lines[-1] and (lines[-1].endswith(".") or len(lines[-1] + part) > HEAD):
+            lines.append("")
+        lines[-1] += part
+    sign = pretty(column.display)
+    return "\n".join([*lines, sign] if sign else lines)
+
+
+def shown(value: Any, column: Column) -> str:
+    """A stored value as people read it, in the column's display unit, without the unit."""
+    if value is None:
+        return "–"
+    if isinstance(value, bool):
+        return "yes" if value else "no"
+    if isinstance(value, float):
+        return number(number_text(unit(column.display).from_si(value), 5)) if value else "0"
+    return number(str(value)) if isinstance(value, int) and column.name != "variant" else str(value)

@@ -1,0 +1,116 @@
+"""The command ``batch``: a study from its file to its folder, with progress, reports of some variants, and the summary."""
+
+from __future__ import annotations
+
+import sys
+from collections.abc import Sequence
+from dataclasses import replace
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from diecut_report.config.discovery import Discovery
+from diecut_report.study.definition.study_file import Study, load_study
+from diecut_report.study.execution.refusals import refuse_empty, refuse_huge
+from diecut_report.study.execution.study_run import Counts, Outcome, Where, engine_for, run_study
+from diecut_report.study.execution.variant_reports import write_reports
+from diecut_report.study.storage import state
+from diecut_report.study.storage.spreadsheets import export
+from diecut_report.study.summary import summarise
+
+if TYPE_CHECKING:
+    from rich.progress import Progress
+
+__all__ = ["Shown", "Where", "run"]
+
+
+class Shown:
+    """How far a run is, on a terminal: done and all, rate, time left, failures so far; silent in pipes."""
+
+    def __init__(self, quiet: bool) -> None:
+        self.is_quiet = quiet or not sys.stderr.isatty()
+        self.bar: Progress | None = None
+        self.task: Any = None
+        self.after: Any = None
+
+    def __enter__(self) -> Shown:
+        if not self.is_quiet:
+            self.bar = _bar()
+            self.bar.start()
+            self.task = self.bar.add_task("variants", total=None, told="")
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        if self.bar is not None:
+            self.bar.stop()
+
+    def __call__(self, counts: Counts) -> None:
+        if self.bar is not None:
+            told = f"{counts.failed:,} of {counts.variants:,} fail" + (
+                f", {counts.errors:,} in error" if counts.errors else ""
+            )
+            self.bar.update(self.task, total=counts.rows, completed=counts.before + counts.done, told=told)
+
+    def doing(self, what: str) -> None:
+        """What is done after the variants, on a line below."""
+        if self.bar is None:
+            return
+        if self.after is None:
+            self.after = self.bar.add_task(what, total=None, told="")
+        self.bar.update(self.after, description=what)
+
+
+def _bar() -> Progress:
+    from rich.console import Console
+    from rich.progress import (
+        BarColumn,
+        MofNCompleteColumn,
+        Progress,
+        ProgressColumn,
+        Task,
+        TextColumn,
+        TimeRemainingColumn,
+    )
+    from rich.text import Text
+
+    class Rate(ProgressColumn):
+        """Variants a second."""
+
+        def render(self, task: Task) -> Text:
+            return Text(f"{task.speed:.0f}/s" if task.speed else "")
+
+    columns = (TextColumn("{task.description}"), BarColumn(), MofNCompleteColumn(), Rate(), TimeRemainingColumn())
+    return Progress(*columns, TextColumn("{task.fields[told]}"), console=Console(stderr=True))
+
+
+def run(
+    study: Path | None,
+    directory: Path,
+    where: Where,
+    *,
+    resume: bool,
+    agreed: bool,
+    formats: Sequence[str],
+    shown: Shown,
+) -> Outcome:
+    """Run a study, or continue the one of a folder; then reports, summary and the other formats."""
+    known = _loaded(study, directory, where)
+    refuse_huge(known, agreed)
+    refuse_empty(known)
+    if where.dask:
+        with engine_for(known, where, 1):  # before anything is written: whether it can be reached
+            pass
+    outcome = run_study(known, directory, where, resume=resume, tell=shown)
+    with outcome.store.lock():
+        told = write_reports(known, outcome.store, where, agreed=agreed, tell=shown.doing)
+        shown.doing("summary")
+        told += export(outcome.store, formats)
+        summarise(directory)
+    return replace(outcome, notes=(*filter(None, [known.sample.note]), *told))
+
+
+def _loaded(study: Path | None, directory: Path, where: Where) -> Study:
+    """The study of a file, or as it was when the run of the folder was begun."""
+    discovery = Discovery([Path(folder) for folder in where.plugins])
+    if study is not None:
+        return load_study(study, discovery)
+    return load_study(directory / state.STUDY, discovery, state.kept(directory))

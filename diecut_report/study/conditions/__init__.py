@@ -1,0 +1,1 @@
+"""Conditions between quantities: constraints of a study, questions to its results."""

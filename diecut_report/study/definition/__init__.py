@@ -1,0 +1,1 @@
+"""A study file: read and judged as a whole, against its base."""

@@ -1,0 +1,199 @@
+"""The inputs of a base config by their paths: what a study may vary, and the base with other values in their place."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass, replace
+from typing import Annotated, Any
+
+from diecut_report.config.dependency_order import ordered
+from diecut_report.config.instances import Instance
+from diecut_report.config.loader import Config, substituted
+from diecut_report.config.model import Press
+from diecut_report.config.references import PRESS, Linker, Target
+from diecut_report.config.validation import declared, keys_of, validate
+from diecut_report.config.yaml_tree import KeyPath
+from diecut_report.contract.inputs import Block, CurveInput, Pending, Quantity, Text, fields, list_inputs
+from diecut_report.contract.unit_variants import in_form
+from diecut_report.errors import Problem, nearest
+
+MECHANISMS = "mechanisms"
+
+
+class UnknownPath(LookupError):
+    """A path that names no input that can be varied, in words."""
+
+
+@dataclass(frozen=True, eq=False)
+class Input:
+    """An input of the base: its path in the file, where it is, and what it declares."""
+
+    path: str
+    instance: str
+    key: KeyPath
+    meta: Quantity | Text
+    annotation: Any
+    metadata: tuple[Any, ...]
+
+    @property
+    def unit(self) -> str | None:
+        """Its SI unit; None for a text, a choice or a yes/no."""
+        return self.meta.parsed_unit.si if isinstance(self.meta, Quantity) else None
+
+    @property
+    def is_integer(self) -> bool:
+        return isinstance(self.meta, Quantity) and self.meta.integer
+
+    @property
+    def declared_as(self) -> Any:
+        """The annotation of a field that takes the same values, with the same bounds and messages."""
+        return Annotated[self.annotation, *self.metadata]
+
+
+def find_input(base: Config, path: str) -> Input:
+    """The input that a path names; UnknownPath in words, with the nearest known one, where it names none."""
+    instance, keys = _instance(base, path)
+    key: KeyPath = tuple(int(part) if part.isdigit() else part for part in keys)
+    meta = declared(instance.model, key) if key else None
+    if isinstance(meta, type):
+        raise UnknownPath(
+            f"is a block or a list; vary one of its values, such as {path}.{_first(meta, instance, key)}."
+        )
+    if isinstance(meta, CurveInput):
+        raise UnknownPath("is a curve; curves cannot be varied, only numbers, texts and choices.")
+    if meta is None:
+        raise UnknownPath(_no_input(base, instance, keys))
+    _check_list(instance.data, key)
+    single = instance.model.spread.get(str(key[0]), ()) if len(key) == 1 else ()
+    if any(name in instance.data for name in single):
+        raise UnknownPath(f"is given in the base by its single values; vary one of these: {', '.join(single)}.")
+    model = _home(instance.model, key)
+    field = keys_of(model)[str(key[-1])].field
+    return Input(path, instance.name, key, meta, field.annotation, tuple(field.metadata))
+
+
+def _instance(base: Config, path: str) -> tuple[Instance, list[str]]:
+    first, *rest = path.split(".")
+    name, *keys = rest if first == MECHANISMS and rest else [first, *rest]
+    if name not in base.instances or (name == PRESS) != (first == PRESS) or (first not in (MECHANISMS, PRESS)):
+        raise UnknownPath(_no_instance(base, path))
+    instance = base.instances[name]
+    if instance is None:
+        raise UnknownPath(f"cannot be varied, as its plugin is broken: {base.broken.get(name, 'unknown')}")
+    return instance, keys
+
+
+def _no_instance(base: Config, path: str) -> str:
+    first, *rest = path.split(".")
+    names = [name for name in base.instances if name != PRESS]
+    if first in names:
+        return f"is no path of an input; write {MECHANISMS}.{path}."
+    if first == MECHANISMS and rest:
+        return f"there is no mechanism {rest[0]!r}{nearest(rest[0], names)}. Known: {', '.join(names)}."
+    if first == "project":
+        return f"is in the title block, which cannot be varied; vary fields of {PRESS} and inputs of {MECHANISMS}."
+    known = [found for name in base.instances for found in known_paths(base, name)]
+    alike = next((found for found in known if found.endswith(f".{rest[-1] if rest else first}")), None)
+    near = f" (did you mean {alike!r}?)" if alike else nearest(path, known)
+    return f"is no path of an input{near}; paths are {MECHANISMS}.NAME.KEY and {PRESS}.KEY. Mechanisms: {', '.join(names)}."
+
+
+def _no_input(base: Config, instance: Instance, keys: list[str]) -> str:
+    name, told = ".".join(keys), f"of {instance.name}"
+    if not keys:
+        return f"names no input; known {told}: {', '.join(_known(instance))}."
+    if name == "kind":
+        return "cannot be varied; a mechanism keeps its kind in all variants."
+    if name in instance.results:
+        return f"is an output {told}; only inputs can be varied{nearest(name, _known(instance))}."
+    near = nearest(name, _known(instance))
+    return f"{name!r} is no input {told}{near}. Known: {', '.join(_known(instance))}."
+
+
+def known_paths(base: Config, name: str) -> list[str]:
+    """The paths of all inputs of a mechanism, or of the press; of lists those of the first part."""
+    instance = base.instances[name]
+    prefix = PRESS if name == PRESS else f"{MECHANISMS}.{name}"
+    return [f"{prefix}.{key}" for key in _known(instance)] if instance else []
+
+
+def _known(instance: Instance) -> list[str]:
+    lists = list_inputs(instance.model)
+    return [f"{lists[name]}.0{name.removeprefix(lists[name])}" if name in lists else name
+            for name, meta in fields(instance.model) if not isinstance(meta, CurveInput)]  # fmt: skip
+
+
+def _first(block: type[Block], instance: Instance, key: KeyPath) -> str:
+    is_list = ".".join(map(str, key)) in list_inputs(instance.model).values()
+    return ("0." if is_list else "") + next(iter(block.model_fields))
+
+
+def _home(model: type[Block], key: KeyPath) -> type[Block]:
+    """The block that the last key stands in."""
+    home = declared(model, key[:-1]) if len(key) > 1 else model
+    assert isinstance(home, type)
+    return home
+
+
+def _check_list(data: Any, key: KeyPath) -> None:
+    for part in key:
+        if isinstance(part, int) and part >= len(data or ()):
+            raise UnknownPath(f"the list has {len(data or ())} entries in the base, counted from 0.")
+        known = part in data if isinstance(data, dict) else isinstance(data, list)
+        data = data[part] if known else None
+
+
+# --- other values in the base ----------------------------------------------------------------------------------------
+
+
+def with_values(base: Config, values: Mapping[Input, Any]) -> tuple[Config, list[Problem]]:
+    """The base with values of these inputs in the place of what stands there (references too), linked anew.
+
+    Also what is wrong with that beside the values themselves: keys that cannot be given together, a block that lacks some.
+    """
+    instances = {name: _changed(instance, values) for name, instance in base.instances.items()}
+    linker = Linker(instances)
+    order, loops = ordered(instances, linker.links)
+    changed = replace(base, instances=instances, links=linker.links, order=tuple(order))
+    return changed, [*linker.problems, *loops, *_not_together(changed, values)]
+
+
+def _changed(instance: Instance | None, values: Mapping[Input, Any]) -> Instance | None:
+    if instance is None:
+        return None
+    data = substituted(instance, {}, lambda _, __: None)
+    for key, value in ((asked.key, value) for asked, value in values.items() if asked.instance == instance.name):
+        _put(data, key, value)
+    declared_as = instance.mechanism.inputs if instance.mechanism else Press
+    model = in_form(declared_as, [key for key, value in data.items() if value is not None])
+    return Instance(instance.name, model, data, instance.place, instance.mechanism)
+
+
+def _put(data: Any, key: KeyPath, value: Any) -> None:
+    for part in key[:-1]:
+        if isinstance(data, dict) and data.get(part) is None:  # an optional block that the base does not give
+            data[part] = {}
+        data = data[part]
+    data[key[-1]] = value
+
+
+def _not_together(base: Config, values: Mapping[Input, Any]) -> Iterator[Problem]:
+    """What is wrong with the keys that are given, whatever their values are."""
+    for name in dict.fromkeys(asked.instance for asked in values):
+        instance = base.instances[name]
+        assert instance is not None, "an input of a broken plugin is not found"
+        known = {node[1:]: _stand_in(instance, node[1:], target)
+                 for node, target in base.links.items() if node[0] == name and not target.is_default}  # fmt: skip
+        known |= {
+            asked.key: Pending(asked.path, asked.unit) for asked in values if asked.instance == name and asked.unit
+        }
+        data = substituted(instance, {}, lambda _, __: None)
+        for key, pending in known.items():
+            _put(data, key, pending)
+        yield from validate(instance.model, data, instance.place, list(known))[1]
+
+
+def _stand_in(instance: Instance, key: KeyPath, target: Target) -> Any:
+    """What stands for a reference where only the keys are judged; the values of a listed curve must be numbers."""
+    is_listed = declared(instance.model, key) is None
+    return f"0 {target.unit}" if is_listed else Pending(target.path, target.unit, target.is_curve)

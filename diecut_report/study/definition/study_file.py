@@ -1,0 +1,158 @@
+"""A study file: read and judged as a whole, against its base, with all that is wrong told at once."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Any
+
+from diecut_report.config import yaml_tree
+from diecut_report.config.discovery import Discovery
+from diecut_report.config.loader import Config, as_typed, load_config
+from diecut_report.config.validation import Place, validate
+from diecut_report.config.yaml_tree import Tree
+from diecut_report.errors import Problem, UserError
+from diecut_report.study.conditions.constraint_parts import ConstraintError
+from diecut_report.study.conditions.constraints import Constraint, parse
+from diecut_report.study.conditions.terms import term
+from diecut_report.study.definition.base_inputs import Input
+from diecut_report.study.definition.form import Document, SampleForm
+from diecut_report.study.definition.sample import Sampled, SampleReader, misused
+from diecut_report.study.definition.wanted_results import Objective, Reports, ResultReader
+from diecut_report.study.sampling.methods import Sample
+
+
+@dataclass(frozen=True)
+class Study:
+    """A valid study. ``inputs`` has each varied path's input, ``units`` its SI unit (None for a text, a choice, a yes/no).
+
+    ``base`` is the config as it stands in its file; ``bases`` are the base with stand-ins for the varied numbers and, one at
+    a time, each varied text, so that all of them have the columns of all variants; ``tables`` holds the
+    SHA-256 of each table that the sample reads, by its name in the study; ``files`` where base and tables were found.
+    """
+
+    file: Path
+    data: dict[str, Any]
+    text: str
+    sha256: str
+    base: Config
+    bases: tuple[Config, ...]
+    sample: Sample
+    inputs: Mapping[str, Input]
+    units: Mapping[str, str | None]
+    constraints: tuple[Constraint, ...]
+    outputs: tuple[str, ...] | None
+    curves: tuple[str, ...]
+    objectives: tuple[Objective, ...]
+    reports: Reports
+    tables: Mapping[str, str]
+    files: Mapping[str, Path]
+
+
+def load_study(path: Path, discovery: Discovery, places: Mapping[str, Path] | None = None) -> Study:
+    """Read a study and its base; UserError with all problems of both, each with its file, line, column and key.
+
+    ``places``: where the files are that the study names, where they are not sought from its folder.
+    """
+    reader = _Reader(path, yaml_tree.load(path), discovery, places or {})
+    study = reader.study()
+    if study is None or reader.problems:
+        raise UserError(_in_order(reader.problems, str(path)))
+    return study
+
+
+def _in_order(problems: list[Problem], file: str) -> list[Problem]:
+    """Those of the study first, then those of its base and its tables."""
+    return sorted(dict.fromkeys(problems), key=lambda p: (p.file != file, p.file, p.line or 0, p.column or 0))
+
+
+@dataclass
+class _Reader:
+    """Reads the parts of a study one by one, each as far as what it needs is sound."""
+
+    path: Path
+    tree: Tree
+    discovery: Discovery
+    places: Mapping[str, Path]
+    problems: list[Problem] = field(default_factory=list)
+
+    def __post_init__(self) -> None:
+        self.place = Place(self.tree)
+        data = as_typed(Document, self.tree.data, self.place)
+        self.problems += validate(Document, data, self.place)[1]
+        self.wrong = {problem.path.split(".")[0] for problem in self.problems}
+        known = data if isinstance(data, dict) else {}
+        self.data: dict[str, Any] = {
+            key: value for key, value in known.items() if key not in self.wrong and value is not None
+        }
+
+    def study(self) -> Study | None:
+        """The study, or None where there are problems."""
+        base, form = self._base(), self._form()
+        if base is None:
+            return None
+        reader = SampleReader(self.place, self._find, base)
+        sampled = reader.sampled(form, self.data.get("vary", {}))
+        self.problems += reader.problems
+        constraints = tuple(self._constraints(sampled))
+        outputs, curves, objectives, reports = self._results(sampled)
+        if sampled.sample is None or self.problems:
+            return None
+        files = {name: self._find(name) for name in (self.data["base"], *sampled.tables)}
+        units = {path: asked.unit for path, asked in sampled.inputs.items()}
+        return Study(self.path, self.tree.data, self.tree.text, self.tree.sha256, base, tuple(sampled.bases), sampled.sample, sampled.inputs, units,
+                     constraints, outputs, curves, objectives, reports, sampled.tables, files)  # fmt: skip
+
+    def _find(self, name: str) -> Path:
+        """Where a file is that the study names."""
+        return self.places.get(name, self.path.parent / name)
+
+    def _form(self) -> SampleForm | None:
+        """The key sample, or None where it, or what it needs, is wrong."""
+        if "sample" not in self.data or "vary" in self.wrong:
+            return None
+        form = SampleForm.model_validate(self.data["sample"])
+        problems = list(misused(form, bool(self.data.get("vary")), self.place))
+        self.problems += problems
+        return None if problems else form
+
+    def _base(self) -> Config | None:
+        """The base, or None with its problems; these name its own file."""
+        if "base" not in self.data:
+            return None
+        path = self._find(self.data["base"])
+        if not path.exists():
+            words = f"there is no file {path}. The base is sought from the study's folder; check its name."
+            self.problems.append(self.place.problem(("base",), words))
+            return None
+        try:
+            base = load_config(path, self.discovery)
+        except UserError as error:
+            words = "the base has problems, which are told with its own name; what is varied in it is judged when they are mended."
+            self.problems += [self.place.problem(("base",), words), *error.problems]
+            return None
+        self.problems += [
+            self.place.problem(("base",), f"a plugin of the base is broken: {error}") for error in base.broken.values()
+        ]
+        return base
+
+    def _constraints(self, sampled: Sampled) -> Iterator[Constraint]:
+        for index, text in enumerate(self.data.get("constraints", [])):
+            try:
+                yield parse(text, lambda path: term(sampled.bases[0], sampled.inputs, path))
+            except ConstraintError as fault:
+                self.problems.append(self.place.problem(("constraints", index), str(fault)))
+
+    def _results(
+        self, sampled: Sampled
+    ) -> tuple[tuple[str, ...] | None, tuple[str, ...], tuple[Objective, ...], Reports]:
+        """What is kept of the results; the outputs of objectives are kept in any case."""
+        reader = ResultReader(self.place, sampled.bases)
+        outputs, curves = reader.outputs(self.data.get("outputs")), reader.curves(self.data.get("curves", []))
+        objectives = reader.objectives(self.data.get("objectives", []))
+        count = sampled.sample.count if sampled.sample else None
+        reports = reader.reports(self.data.get("reports"), count, bool(self.data.get("objectives")))
+        self.problems += reader.problems
+        wanted = [made.output for made in objectives if ".checks." not in made.output]
+        return None if outputs is None else tuple(dict.fromkeys([*outputs, *wanted])), curves, objectives, reports

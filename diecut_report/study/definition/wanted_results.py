@@ -1,0 +1,203 @@
+"""What a study asks of the results: outputs and curves to keep, objectives, and which variants get a full report."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Sequence
+from dataclasses import dataclass
+from functools import cached_property
+from typing import Any, Literal
+
+from diecut_report.config.loader import Config
+from diecut_report.config.references import PRESS
+from diecut_report.config.validation import Place, told
+from diecut_report.errors import Problem, nearest
+from diecut_report.study.execution.result_columns import columns_of
+from diecut_report.study.storage.description import Column
+
+SHOWN = 12  # known names that a message lists
+
+
+@dataclass(frozen=True)
+class Objective:
+    """A quantity that is to be small or great: an output (``cylinder.mass``) or ``NAME.checks.ID.utilisation``."""
+
+    output: str
+    minimise: bool
+
+
+@dataclass(frozen=True)
+class Reports:
+    """Which variants get a full report: none, the failed ones, the best by the objectives, all, or those with these numbers."""
+
+    which: Literal["none", "failed", "best", "all", "ids"] = "none"
+    best: int = 0
+    ids: tuple[int, ...] = ()
+
+
+@dataclass(frozen=True)
+class _Known:
+    """What a mechanism gives, in any of the bases that a study's texts make."""
+
+    numbers: frozenset[str]
+    others: frozenset[str]
+    curves: frozenset[str]
+    rows: frozenset[str]
+    checks: frozenset[str]
+    utilisations: frozenset[str]
+
+    def nearest(self, name: str, among: frozenset[str]) -> str:
+        near = nearest(name, sorted(among))
+        names = sorted(among)
+        listed = ", ".join(names[:SHOWN]) + (f" and {len(names) - SHOWN} more" if len(names) > SHOWN else "")
+        return f"{near}." if near else f". Known: {listed or 'none'}."
+
+
+class ResultReader:
+    """Reads what is asked of the results; gathers ``problems``."""
+
+    def __init__(self, place: Place, bases: Sequence[Config]) -> None:
+        self.place, self.bases = place, bases
+        self.problems: list[Problem] = []
+
+    def outputs(self, given: list[str] | None) -> tuple[str, ...] | None:
+        """The outputs to keep; None for all."""
+        if given is None:
+            return None
+        kept = [name for i, name in enumerate(given) if self._is_number_or_text(("outputs", i), name)]
+        return tuple(dict.fromkeys(kept))
+
+    def curves(self, given: list[str]) -> tuple[str, ...]:
+        """The curves to keep."""
+        return tuple(dict.fromkeys(name for i, name in enumerate(given) if self._is_curve(("curves", i), name)))
+
+    def objectives(self, given: list[dict[str, Any]]) -> tuple[Objective, ...]:
+        """The objectives in their order."""
+        return tuple(made for i, entry in enumerate(given) if (made := self._objective(("objectives", i), entry)))
+
+    def reports(self, given: Any, count: int | None, has_objectives: bool) -> Reports:
+        """Which variants get a full report; ``count`` is that of the sample, None where it is not known."""
+        if isinstance(given, list):
+            wrong = [number for number in given if number < 0 or (count is not None and number >= count)]
+            for number in wrong:
+                self._report(("reports", given.index(number)), _no_variant(number, count))
+            return Reports("ids", ids=tuple(dict.fromkeys(given)))
+        match str("none" if given is None else given).split():
+            case [("none" | "failed" | "all") as which]:
+                return Reports(which)
+            case ["best", number] if re.fullmatch(r"[1-9]\d{0,8}", number):
+                if not has_objectives:
+                    self._report(
+                        ("reports",), "best needs objectives, such as objectives: [{minimise: cylinder.mass}]."
+                    )
+                return Reports("best", int(number))
+        words = f"is {told(given)}{nearest(str(given), ('none', 'failed', 'all'))}; allowed: none, failed, best N (best 10), all, or a list"
+        self._report(("reports",), f"{words} of variants' numbers, as in [0, 17].")
+        return Reports()
+
+    # --- one name ----------------------------------------------------------------------------------------------------
+
+    def _objective(self, key: tuple[str | int, ...], entry: dict[str, Any]) -> Objective | None:
+        given = {name: value for name, value in entry.items() if value is not None}
+        if len(given) != 1:
+            self._report(
+                key, f"names {len(given) or 'no'} outputs; give minimise or maximise with one, and an entry for each."
+            )
+            return None
+        (way, name), = given.items()  # fmt: skip
+        is_known = self._is_objective((*key, way), name)
+        return Objective(name, way == "minimise") if is_known else None
+
+    def _is_objective(self, key: tuple[str | int, ...], name: str) -> bool:
+        found = self._split(key, name)
+        if found is None:
+            return False
+        known, inner = found
+        if inner in known.utilisations:
+            return True
+        if inner in known.others:
+            self._report(key, f"{name} is a text or a yes/no, which is neither small nor great; name a number.")
+            return False
+        return self._is_output(key, name, known, inner)
+
+    def _is_number_or_text(self, key: tuple[str | int, ...], name: str) -> bool:
+        found = self._split(key, name)
+        if found is None:
+            return False
+        known, inner = found
+        if inner in known.checks:
+            self._report(key, f"{name}: checks are kept in any case; remove it.")
+            return False
+        return inner in known.others or self._is_output(key, name, known, inner)
+
+    def _is_output(self, key: tuple[str | int, ...], name: str, known: _Known, inner: str) -> bool:
+        if inner in known.numbers:
+            return True
+        among = known.utilisations if inner.startswith("checks.") else known.numbers | known.others
+        words = f"{name} is no output{known.nearest(inner, among)}"
+        if inner in known.rows:
+            words = f"{name} has a value for each part of a list; name one, as in {name}.0."
+        elif inner in known.curves:
+            words = f"{name} is a curve; only single values are kept here, curves by the key curves."
+        self._report(key, words)
+        return False
+
+    def _is_curve(self, key: tuple[str | int, ...], name: str) -> bool:
+        found = self._split(key, name)
+        if found is None:
+            return False
+        known, inner = found
+        if inner not in known.curves:
+            is_single = inner in known.numbers | known.others | known.rows
+            words = (
+                " is a single value; name it in outputs."
+                if is_single
+                else f" is no curve{known.nearest(inner, known.curves)}"
+            )
+            self._report(key, f"{name}{words}")
+        return inner in known.curves
+
+    def _split(self, key: tuple[str | int, ...], name: str) -> tuple[_Known, str] | None:
+        """What the mechanism of an output gives, and the output's name there."""
+        first, _, inner = str(name).partition(".")
+        names = [instance for instance in self.bases[0].instances if instance != PRESS]
+        if first in names and inner:
+            return self._all[first], inner
+        if first in names:
+            example = next(iter(sorted(self._all[first].numbers)), "output")
+            words = f"{name} names no output; add one, as in {first}.{example}."
+        elif first == "mechanisms":
+            words = f"{name}: outputs are named without mechanisms., as in {inner or 'drive.crank_torque_peak'}."
+        else:
+            words = f"{name}: there is no mechanism {first!r}{nearest(first, names)}. Known: {', '.join(names)}."
+        self._report(key, words)
+        return None
+
+    @cached_property
+    def _all(self) -> dict[str, _Known]:
+        """What each mechanism gives, by its name."""
+        columns = {column.name: column for base in self.bases for column in columns_of(base)}
+        names = [name for name in self.bases[0].instances if name != PRESS]
+        return {name: self._of(name, [c for c in columns.values() if c.name.startswith(f"{name}.")]) for name in names}
+
+    def _of(self, name: str, columns: list[Column]) -> _Known:
+        inner = {column.name.removeprefix(f"{name}."): column for column in columns}
+        checks = {key for key in inner if key.startswith("checks.")}
+        instances = [instance for base in self.bases if (instance := base.instances[name])]
+        many = {key: key in i.rows for i in instances for key, (_, is_many) in i.results.items() if is_many}
+        return _Known(
+            numbers=frozenset(key for key, column in inner.items() if column.kind in ("float", "int")) - checks,
+            others=frozenset(key for key, column in inner.items() if column.kind in ("text", "bool")) - checks,
+            curves=frozenset(key for key, is_row in many.items() if not is_row),
+            rows=frozenset(key for key, is_row in many.items() if is_row),
+            checks=frozenset(checks),
+            utilisations=frozenset(key for key in checks if key.endswith(".utilisation")),
+        )
+
+    def _report(self, key: tuple[str | int, ...], message: str) -> None:
+        self.problems.append(self.place.problem(key, message))
+
+
+def _no_variant(number: int, count: int | None) -> str:
+    last = "" if count is None else f" to {count - 1}"
+    return f"there is no variant {number}; variants are numbered from 0{last}."

@@ -1,0 +1,1 @@
+"""Running a study: chunks of variants through an engine to rows of results."""

@@ -1,0 +1,165 @@
+"""All mechanisms of a config calculated for many machines at once: the same way through the graph, with arrays for numbers."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, field
+from typing import Any
+
+import numpy as np
+
+from diecut_report.config.discovery import said
+from diecut_report.config.instances import Instance
+from diecut_report.config.loader import Config
+from diecut_report.config.references import Target
+from diecut_report.config.validation import declared, validate
+from diecut_report.config.yaml_tree import KeyPath
+from diecut_report.contract.inputs import SI, Quantity, flatten
+from diecut_report.engine import Calculation, CurveHandle, Impossible, Unproven, calculate
+from diecut_report.errors import Problem
+from diecut_report.expressions import Array
+from diecut_report.results.press_run import Absent, Run
+from diecut_report.study.definition.base_inputs import Input, with_values
+
+Values = Mapping[Input, Array | str]
+
+
+class NotOnArrays(Exception):
+    """A plugin that cannot calculate many machines at once; the text says what went wrong."""
+
+
+@dataclass
+class Machines:
+    """What was calculated of a number of machines; ``reasons`` has a text for each that cannot exist."""
+
+    count: int
+    calculations: dict[str, Calculation]
+    reasons: dict[int, str] = field(default_factory=dict)
+
+    def release(self) -> None:
+        """Free the memory of the curves at once, and not when garbage is collected."""
+        for calculation in self.calculations.values():
+            calculation.release()
+
+
+def calculated(base: Config, values: Values, count: int) -> Machines:
+    """All mechanisms of the base for so many machines: numbers as arrays of shape (count,), SI; texts the same for all.
+
+    Raises ``NotOnArrays`` where a plugin cannot take arrays.
+    """
+    data = {asked: SI(given, asked.unit, asked.path) if asked.unit else given for asked, given in values.items()}
+    config, problems = with_values(base, data)
+    machines = Machines(count, {})
+    if problems:
+        machines.reasons = dict.fromkeys(range(count), _words(problems[0]))
+        return machines
+    run = _Rows(config, machines)
+    machines.calculations = run.calculations
+    return machines
+
+
+class _Rows(Run):
+    """One way through the graph for many machines; what is wrong with one of them is kept as its reason."""
+
+    _number = staticmethod(np.asarray)
+
+    def __init__(self, config: Config, machines: Machines) -> None:
+        self.machines = machines
+        super().__init__(config, lambda _: None)
+        self._all_wrong(self.problems)
+
+    def _comparisons(self) -> None:
+        """A study compares variants, not mechanisms."""
+
+    def _output(self, calculation: Calculation, name: str, target: Target) -> Any:
+        """A result of all machines; where it is absent that is the machine's reason."""
+        if calculation.axis.get(name) in calculation.domains:
+            return CurveHandle(calculation, name)
+        row, _, index = name.rpartition(".")
+        base, place = (row, int(index)) if index.isdigit() else (name, 0)
+        numbers = calculation.values.get(base)
+        if numbers is None or place >= numbers.shape[1]:
+            raise Absent("does not exist for these machines.")
+        column = numbers[:, place]
+        if column.dtype == object:
+            raise NotOnArrays(f"the text {name} is referred to")
+        return SI(column.astype(float), str(target.unit), target.path)
+
+    def _validated(self, name: str, instance: Instance, data: dict[str, Any]) -> bool:
+        """Judge the columns by the bounds of their keys; the block then holds arrays that are sound."""
+        sound = _mended(data, lambda key, value: self._sound(instance, key, value))
+        block, problems = validate(instance.model, sound, instance.place)
+        self._all_wrong(problems)
+        if block is not None:
+            self.blocks[name] = block
+        return block is not None
+
+    def _all_wrong(self, problems: list[Any]) -> None:
+        for problem in problems[:1]:
+            self._reason(range(self.machines.count), _words(problem))
+
+    def _sound(self, instance: Instance, key: KeyPath, value: SI) -> Any:
+        """A column without the values that its key refuses: these machines get a reason, and the value of another one."""
+        meta = declared(instance.model, key)
+        if not isinstance(meta, Quantity) or not isinstance(value.value, np.ndarray) or value.value.ndim == 0:
+            return value if not isinstance(value.value, np.ndarray) else SI(value.value[()], value.unit, value.told)
+        column = np.broadcast_to(value.value, (self.machines.count,)).astype(float)
+        bad = np.flatnonzero(~meta.holds(column))
+        for row in bad:
+            self._refused(instance, key, meta, SI(float(column[row]), value.unit, value.told), int(row))
+        good = np.setdiff1d(np.arange(len(column)), [*bad, *self.machines.reasons])
+        column[bad] = column[good[0]] if len(good) else np.nan
+        return SI(column, value.unit, value.told)
+
+    def _refused(self, instance: Instance, key: KeyPath, meta: Quantity, value: SI, row: int) -> None:
+        try:
+            words = "has no value" if np.isnan(value.value) else meta.validate(value)
+        except ValueError as fault:
+            words = str(fault)
+        self._reason([row], _words(instance.place.problem(key, str(words))))
+
+    def _reason(self, rows: Any, words: str) -> None:
+        for row in rows:
+            self.machines.reasons.setdefault(int(row), words)
+
+    def _calculate(self, name: str, instance: Instance, block: Any) -> None:
+        assert instance.mechanism is not None
+        if len(self.machines.reasons) == self.machines.count:
+            return
+        try:
+            found = calculate(instance.mechanism, flatten(block), self.machines.count)
+        except (Impossible, Unproven) as fault:
+            self._alone(name, instance, fault)
+            return
+        except Exception as cause:
+            raise NotOnArrays(f"{instance.mechanism.kind}: {said(cause)}") from cause
+        self.calculations[name] = found
+        for row, (key, message) in found.flaws.items():
+            self._reason([row], _told(instance, key, message))
+
+    def _alone(self, name: str, instance: Instance, fault: Impossible | Unproven) -> None:
+        """A single machine that cannot exist."""
+        key, message = fault.reasons[0] if isinstance(fault, Impossible) else ("", str(fault))
+        self._reason(range(self.machines.count), _told(instance, key, message))
+
+
+def _told(instance: Instance, path: str, message: str) -> str:
+    key = tuple(int(part) if part.isdigit() else part for part in path.split(".") if part)
+    return _words(instance.place.problem(key, message))
+
+
+def _words(problem: Problem) -> str:
+    """Path and message: where the base stands in its file is the same for all machines."""
+    return ": ".join(part for part in (problem.path, problem.message) if part)
+
+
+def _mended(data: Any, mend: Callable[[KeyPath, SI], Any], key: KeyPath = ()) -> Any:
+    """The data with each number that is known already mended."""
+    match data:
+        case SI():
+            return mend(key, data)
+        case dict():
+            return {name: _mended(part, mend, (*key, name)) for name, part in data.items()}
+        case list():
+            return [_mended(part, mend, (*key, index)) for index, part in enumerate(data)]
+    return data

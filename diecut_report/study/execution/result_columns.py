@@ -1,0 +1,191 @@
+"""Columns of results: what is known of each before anything is calculated, and its values for many machines."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator, Mapping
+from dataclasses import dataclass, replace
+from typing import Any
+
+import numpy as np
+
+from diecut_report.config.instances import Instance
+from diecut_report.config.loader import Config
+from diecut_report.config.references import PRESS
+from diecut_report.contract.checks import Check
+from diecut_report.contract.inputs import list_inputs
+from diecut_report.contract.steps import SILENT, Choice, Crossings, Step, Value
+from diecut_report.engine import Calculation
+from diecut_report.expressions import Array
+from diecut_report.quantities.units import unit
+from diecut_report.results.checks import sides, verdict
+from diecut_report.study.storage.description import Column, Kind
+
+CROSSINGS = 8  # of a curve's changes of sign that have columns of their own
+STATUS = np.array([None, "pass", "warn", "fail", "error"], dtype=object)
+PASS, WARN, FAIL, ERROR = 1, 2, 3, 4
+
+
+def columns_of(config: Config) -> list[Column]:
+    """The columns of all outputs and checks of a config's mechanisms."""
+    found: list[Column] = []
+    for name, instance in config.instances.items():
+        if instance is not None and instance.mechanism is not None and name != PRESS:
+            found += _outputs(name, instance)
+            found += _checks(name, instance)
+    return found
+
+
+def curve_columns(config: Config, names: Iterable[str]) -> Iterator[Column]:
+    """The columns of curves, such as ``drive.crank_torque``: a list of numbers for each machine."""
+    for name in names:
+        home, _, curve = name.partition(".")
+        instance = config.instances[home]
+        if instance is not None and curve in instance.declared_steps:
+            _, step = instance.declared_steps[curve]
+            yield _column(name, "curve", step.unit, step)
+
+
+def _column(name: str, kind: Kind, display: str, step: Step) -> Column:
+    """A column of what a step gives: SI, and the unit that the report prints it in."""
+    si = unit(display).si
+    return Column(name, kind, si, display if display != si else "", step.symbol, step.description)
+
+
+def _outputs(name: str, instance: Instance) -> Iterator[Column]:
+    assert instance.mechanism is not None
+    axes = instance.mechanism.axes(instance.given)
+    lists = set(list_inputs(instance.model).values())
+    for _, step in instance.mechanism.active(instance.given):
+        home = axes.get(step.id)
+        if not step.output or isinstance(step, SILENT) or (home is not None and home not in lists):
+            continue
+        parts = _names(step, len(_at(instance.data, home)) if home else None)
+        for index, part in enumerate(parts):
+            count = isinstance(step, Crossings) and part.endswith("_count")
+            kind: Kind = "int" if count else _kind(step)
+            one = _column(f"{name}.{part}", kind, "1" if count else step.unit, step)
+            yield one if len(parts) == 1 else replace(one, description=_numbered(step, index))
+
+
+def _numbered(step: Step, index: int) -> str:
+    """What one of several results of a step is, counted as its name counts it."""
+    if isinstance(step, Crossings):
+        return f"{step.description}: no. {index}" if index else f"{step.description}: how many in a turn"
+    return f"{step.description}: no. {step.first + index}"
+
+
+def _at(data: Any, path: str) -> Any:
+    for part in path.split("."):
+        data = data[part]
+    return data
+
+
+def _names(step: Step, parts: int | None) -> list[str]:
+    """The results of a step by name, as in the results file."""
+    if isinstance(step, Crossings):
+        return [f"{step.id}_count", *(f"{step.id}_{i}" for i in range(1, CROSSINGS + 1))]
+    if parts is None:
+        return [step.id]
+    return [step.numbered.format(step.first + i) if step.numbered else f"{step.id}.{i}" for i in range(parts)]
+
+
+def _kind(step: Step) -> Kind:
+    if isinstance(step, Choice) and isinstance(step.cases[0].value, str):
+        return "text"
+    if isinstance(step, Value) and step.is_condition:
+        return "bool"
+    return "int" if step.whole else "float"
+
+
+def _checks(name: str, instance: Instance) -> Iterator[Column]:
+    for check in _made(instance.mechanism.checks if instance.mechanism else (), instance.given):
+        yield Column(f"{name}.checks.{check.id}.utilisation", "float", description=f"{check.title}: utilisation")
+        yield Column(f"{name}.checks.{check.id}.status", "text", description=f"{check.title}: verdict")
+
+
+def _made(checks: tuple[Check, ...], given: frozenset[str]) -> dict[Check, None]:
+    """The checks whose needs are given, each id once."""
+    found = {check.id: check for check in checks if given.issuperset(check.needs)}
+    return dict.fromkeys(found.values())
+
+
+def output_values(name: str, calc: Calculation) -> dict[str, Array]:
+    """The outputs of many machines by column; NaN (None for texts and flags) where there is none."""
+    found: dict[str, Array] = {}
+    for step in calc.steps.values():
+        if not step.output or isinstance(step, SILENT) or step.id not in calc.values:
+            continue
+        values = calc.values[step.id]
+        if isinstance(step, Crossings):
+            values = np.concatenate([calc.values[f"{step.id}_count"], _wide(values)], axis=1)
+        parts = None if isinstance(step, Crossings) or step.id not in calc.axis else values.shape[1]
+        names = _names(step, parts)
+        found |= {f"{name}.{part}": values[:, index] for index, part in enumerate(names)}
+    return found
+
+
+def curve_values(calculations: Mapping[str, Calculation], names: Iterable[str]) -> dict[str, list[Array]]:
+    """Curves of many machines by column, each at the samples of its abscissa; those that these machines have."""
+    found = {}
+    for name in names:
+        home, _, curve = name.partition(".")
+        calc = calculations.get(home)
+        if calc is not None and curve in calc.domains:
+            samples = calc.domains[curve].samples
+            found[name] = list(np.broadcast_to(samples, (calc.count, samples.shape[1])))
+        elif calc is not None and curve in calc.curves:
+            found[name] = list(calc.curve_samples(curve))
+    return found
+
+
+def _wide(places: Array) -> Array:
+    """Crossings in as many columns as there are for them, NaN where there are fewer."""
+    room = np.full((len(places), CROSSINGS), np.nan)
+    shown = places[:, :CROSSINGS]
+    room[:, : shown.shape[1]] = shown
+    return room
+
+
+@dataclass
+class Verdicts:
+    """Of each check the status codes and utilisations of many machines, shape (checks, machines)."""
+
+    names: list[str]
+    codes: Array
+    ratios: Array
+
+
+def verdicts(calculations: Mapping[str, Calculation], count: int) -> Verdicts:
+    """All checks of all mechanisms; code 0 where a check does not apply."""
+    names, codes, ratios = [], [], []
+    for name, calc in calculations.items():
+        for check in calc.mechanism.checks:
+            if not _can_be_made(calc, check):
+                continue
+            demand, limit = (np.broadcast_to(side, (count, 1))[:, 0] for side in sides(calc, check))
+            held, ratio = verdict(check, demand, limit)
+            there = np.isfinite(demand) & np.isfinite(limit)
+            names.append(f"{name}.checks.{check.id}")
+            codes.append(np.where(there, np.where(held, PASS, FAIL if check.severity == "fail" else WARN), 0))
+            ratios.append(np.where(there, ratio, np.nan))
+    shape = (len(names), count)
+    return Verdicts(names, np.reshape(codes, shape).astype(int), np.reshape(ratios, shape).astype(float))
+
+
+def _can_be_made(calc: Calculation, check: Check) -> bool:
+    named = [side for side in (check.demand, check.limit) if isinstance(side, str)]
+    return calc.given.issuperset(check.needs) and all(side in calc.values or side in calc.inputs for side in named)
+
+
+def governing(found: Verdicts) -> Array:
+    """For each machine the check that governs: fail before warn before pass, then the greatest utilisation; None without checks."""
+    if not found.names:
+        return np.full(found.codes.shape[1], None, dtype=object)
+    unknown = np.where(found.codes == PASS, -np.inf, np.inf)
+    ratios = np.where(np.isnan(found.ratios), unknown, found.ratios)
+    worst = found.codes.max(axis=0)
+    among = np.where(found.codes == worst, ratios, -np.inf)
+    first = np.argmax(np.where(found.codes == worst, np.nextafter(among, np.inf), -np.inf), axis=0)
+    names: Array = np.array(found.names, dtype=object)[first]
+    names[worst == 0] = None
+    return names

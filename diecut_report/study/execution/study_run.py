@@ -1,0 +1,195 @@
+"""A run of a study: chunks of its sample to an engine, results to the folder, then reports and summary."""
+
+from __future__ import annotations
+
+import os
+import time
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from dataclasses import dataclass, field
+from hashlib import sha256
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from diecut_report.config.references import PRESS
+from diecut_report.contract.inputs import Quantity
+from diecut_report.study.definition.base_inputs import Input
+from diecut_report.study.definition.study_file import Study
+from diecut_report.study.execution import worker
+from diecut_report.study.execution.engines import Engine, InProcess, Pool, Warm, dask_cluster, results
+from diecut_report.study.execution.result_columns import columns_of, curve_columns
+from diecut_report.study.storage.description import Column, Description, Source
+from diecut_report.study.storage.store import Store
+
+SMALL = 1024  # variants up to which a pool of processes costs more time than it saves
+PARTS = 16  # at least as many part files in a study that is large enough, so that all processes have work to the end
+PART = (512, 8192)  # least and most variants of a part file
+VALUES = 8_000_000  # numbers of a part file at most, for curves are long
+
+
+@dataclass
+class Counts:
+    """How far a run is."""
+
+    rows: int
+    done: int = 0
+    variants: int = 0  # that the constraints leave
+    failed: int = 0
+    errors: int = 0
+    before: int = 0  # rows that an earlier run has done
+
+
+Tell = Callable[[Counts], None]
+
+
+@dataclass(frozen=True)
+class Where:
+    """Where a study is calculated: so many processes here, or a Dask scheduler's address."""
+
+    jobs: int | None = None
+    dask: str | None = None
+    plugins: Sequence[str] = ()
+
+
+@dataclass
+class Outcome:
+    """What a run left in its folder."""
+
+    store: Store
+    counts: dict[str, int]
+    slow: dict[str, str] = field(default_factory=dict)
+    notes: tuple[str, ...] = ()  # what else the user should know
+
+    @property
+    def is_failed(self) -> bool:
+        """Whether a variant fails a check; variants that cannot exist do not count."""
+        return self.counts.get("fail", 0) > 0
+
+
+def run_study(study: Study, directory: Path, where: Where, *, resume: bool, tell: Tell) -> Outcome:
+    """Calculate all variants of a study that are not in the folder yet; each part file is whole or absent, whatever happens."""
+    store = Store.open(directory, described(study)) if resume else Store.create(directory, described(study))
+    with store.lock():
+        store.start(facts(study))
+        began, before = time.monotonic(), float(store.state.get("seconds") or 0)
+        slow = dict(store.state.get("slow") or {})
+        try:
+            for done in _calculated(study, store, where, tell):
+                slow |= done.slow  # noted with each part: a run that is killed later has told it
+                store.note({"slow": slow, "seconds": before + time.monotonic() - began})
+        finally:  # an interrupted run has spent its time too
+            store.note({"slow": slow, "seconds": before + time.monotonic() - began})
+        store.finish({})
+    return Outcome(store, store.state["counts"], slow)
+
+
+def _calculated(study: Study, store: Store, where: Where, tell: Tell) -> Iterator[worker.Done]:
+    """Write each part as soon as it is calculated."""
+    there = store.done_parts()
+    for path in (path for index, path in store.parts().items() if index not in there):
+        path.unlink(missing_ok=True)  # a damaged part is calculated again
+    known = store.counts()
+    counts = Counts(
+        study.sample.count, variants=known["variants"], failed=known.get("fail", 0), errors=known.get("error", 0)
+    )
+    counts.before = sum(len(store.rows(index)) for index in there)
+    tell(counts)
+    missing = store.description.parts - len(there)
+    if not missing:
+        return
+    chunks = (worker.Chunk(index, store.rows(index).start, store.rows(index).stop)
+              for index in range(store.description.parts) if index not in there)  # fmt: skip
+    with engine_for(study, where, missing) as engine:
+        for chunk, done in results(engine, worker.calculate, chunks):
+            store.write_part(chunk.part, done.columns)
+            counts.done += chunk.stop - chunk.start
+            counts.variants += len(done.columns["status"])
+            counts.failed += int(np.sum(done.columns["status"] == "fail"))
+            counts.errors += int(np.sum(done.columns["status"] == "error"))
+            tell(counts)
+            yield done
+
+
+def engine_for(study: Study, where: Where, chunks: int) -> Engine:
+    """A Dask cluster where one is named, a pool of processes for a large study, this process for a small one."""
+    warm = Warm(_key(study, where), worker.load, (study.file.read_bytes(), contents(study), tuple(where.plugins)))
+    if where.dask:
+        return dask_cluster(where.dask, warm)
+    jobs = min(where.jobs or os.cpu_count() or 1, chunks)
+    return Pool(jobs, warm) if jobs > 1 and (where.jobs or study.sample.count > SMALL) else InProcess(warm)
+
+
+def _key(study: Study, where: Where) -> str:
+    known = [study.sha256, study.base.tree.sha256, *study.tables.values(), *where.plugins]
+    return sha256("\n".join(known).encode()).hexdigest()
+
+
+def contents(study: Study) -> dict[str, bytes]:
+    """The base and the tables of a study, by their names as it names them."""
+    return {name: path.read_bytes() for name, path in study.files.items()}
+
+
+def described(study: Study) -> Description:
+    """The study as its folder keeps it."""
+    files = contents(study)
+    base = str(study.data["base"])
+    columns = [*varied_columns(study), *result_columns(study)]
+    chunk = min(int(np.clip(study.sample.count // PARTS, *PART)), max(1, VALUES // _width(study, columns)))
+    return Description(
+        study=Source(study.file.name, study.sha256, study.file.read_bytes()),
+        base=Source(base, study.base.tree.sha256, files[base]),
+        columns=tuple(columns),
+        rows=study.sample.count,
+        chunk=chunk,
+        tables=tuple(Source(name, digest, files[name]) for name, digest in study.tables.items()),
+        plugins=_versions(study),
+    )
+
+
+def _width(study: Study, columns: Sequence[Column]) -> int:
+    """How many numbers a variant has, curves with as many points as the longest of the base."""
+    models = [instance for instance in study.base.instances.values() if instance is not None]
+    points = [instance.data.get("n_points", field.default) for instance in models
+              if (field := instance.model.model_fields.get("n_points"))]  # fmt: skip
+    most = max((int(number) for number in points if isinstance(number, int)), default=1)
+    return sum(most if column.kind == "curve" else 1 for column in columns)
+
+
+def _versions(study: Study) -> dict[str, str]:
+    made = [instance.mechanism for name, instance in study.base.instances.items() if instance and name != PRESS]
+    return {mechanism.kind: mechanism.version for mechanism in made if mechanism}
+
+
+def varied_columns(study: Study) -> list[Column]:
+    """A column for each varied path."""
+    return [_varied(path, asked) for path, asked in study.inputs.items()]
+
+
+def _varied(path: str, asked: Input) -> Column:
+    meta = asked.meta
+    if not isinstance(meta, Quantity):
+        return Column(path, "text", description=meta.description)
+    si = meta.parsed_unit.si
+    return Column(path, "float", si, meta.unit if meta.unit != si else "", meta.symbol, meta.description)
+
+
+def result_columns(study: Study) -> list[Column]:
+    """The outputs that are kept, and all checks, of all texts that the study varies."""
+    found: dict[str, Column] = {}
+    curves: dict[str, Column] = {}
+    for base in study.bases:
+        found |= {column.name: column for column in columns_of(base)}
+        curves |= {column.name: column for column in curve_columns(base, study.curves)}
+    kept = [
+        column for name, column in found.items() if study.outputs is None or ".checks." in name or name in study.outputs
+    ]
+    return [*kept, *curves.values()]
+
+
+def facts(study: Study) -> Mapping[str, Any]:
+    """What else the summary and questions need to know of the study."""
+    objectives = [{"minimise" if each.minimise else "maximise": each.output} for each in study.objectives]
+    known: dict[str, Any] = {"varied": list(study.inputs), "objectives": objectives}
+    design = getattr(study.sample, "design", None)
+    return known | ({"design": "saltelli", "n": design.points} if design else {})

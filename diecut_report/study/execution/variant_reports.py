@@ -1,0 +1,137 @@
+"""Full reports of some variants of a study."""
+
+from __future__ import annotations
+
+import os
+import tempfile
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from diecut_report import pipeline
+from diecut_report.config.discovery import Discovery
+from diecut_report.expressions import Array
+from diecut_report.study.analysis.near_equality import rounded
+from diecut_report.study.analysis.variant_config import variant_config
+from diecut_report.study.definition.study_file import Study
+from diecut_report.study.execution.engines import Engine, InProcess, Pool, Warm, results
+from diecut_report.study.execution.study_run import Where
+from diecut_report.study.storage.store import Store
+
+FOLDER = "reports"
+FORMATS = ("html", "pdf", "json")
+MANY = 200  # reports that are made without being asked for twice; each takes some seconds
+Tell = Callable[[str], None]
+
+
+@dataclass(frozen=True)
+class Chosen:
+    """The variants that are to have a full report, ascending, and in words what stands against others that were asked for."""
+
+    variants: tuple[int, ...]
+    notes: tuple[str, ...] = ()
+
+
+@dataclass(frozen=True)
+class Place:
+    """What a process needs to make reports: the folder of the study, and folders of plugins."""
+
+    directory: Path
+    plugins: tuple[str, ...]
+
+
+@dataclass(frozen=True)
+class Report:
+    """One full report."""
+
+    variant: int
+
+    def __str__(self) -> str:
+        return f"the full report of variant {self.variant}"
+
+
+def write_reports(study: Study, store: Store, where: Where, *, agreed: bool, tell: Tell) -> tuple[str, ...]:
+    """The full reports that the study asks for, as ``reports/ID.html`` and so on; those that are there already are kept.
+
+    Returns what was not done, in words. ``tell`` hears how far it is. They are made side by side in processes of this machine.
+    """
+    chosen = wanted(study, store)
+    folder = store.directory / FOLDER
+    missing = [v for v in chosen.variants if not all((folder / f"{v}.{ending}").exists() for ending in FORMATS)]
+    if len(missing) > MANY and not agreed:
+        words = (
+            f"{len(missing):,} variants are to get a full report, each of which takes some seconds; none was made. "
+            f"Make them all with: batch --resume {store.directory} --yes; or one: report {store.directory}#{missing[0]}"
+        )
+        return (*chosen.notes, words)
+    if missing:
+        with _engine(store, where, len(missing)) as engine:
+            tell(f"full reports: 0 of {len(missing)}")
+            for done, _ in enumerate(results(engine, _write, map(Report, missing)), 1):
+                tell(f"full reports: {done} of {len(missing)}")
+    return chosen.notes
+
+
+def _engine(store: Store, where: Where, reports: int) -> Engine:
+    plugins = tuple(where.plugins)
+    warm = Warm("\n".join(["reports", str(store.directory), *plugins]), Place, (store.directory, plugins))
+    jobs = min(where.jobs or os.cpu_count() or 1, reports)
+    return Pool(jobs, warm) if jobs > 1 else InProcess(warm)
+
+
+def _write(place: Place, report: Report) -> None:
+    with tempfile.TemporaryDirectory() as folder:
+        file = Path(folder) / f"{report.variant}.yaml"
+        file.write_text(variant_config(place.directory, report.variant), encoding="utf-8")
+        discovery = Discovery([Path(plugin) for plugin in place.plugins])
+        pipeline.report(file, discovery, lambda _: None, place.directory / FOLDER, list(FORMATS), None)
+
+
+def wanted(study: Study, store: Store) -> Chosen:
+    """Which variants get a full report; those that cannot exist get none."""
+    asked = study.reports
+    if asked.which == "none":
+        return Chosen(())
+    objectives = [(each.output, each.minimise) for each in study.objectives] if asked.which == "best" else []
+    columns = _columns(store, ["variant", "status", *(name for name, _ in objectives)])
+    status, variant = columns["status"], columns["variant"].astype(int)
+    if asked.which == "ids":
+        possible = set(variant[status != "error"].tolist())
+        return Chosen(tuple(sorted(possible & set(asked.ids))), tuple(_refused(asked.ids, possible, variant)))
+    rows = np.flatnonzero(status == "fail" if asked.which == "failed" else status != "error")
+    if asked.which == "best":
+        rows = best(columns, objectives, asked.best)
+    return Chosen(tuple(sorted(variant[rows].tolist())))
+
+
+def _refused(ids: Sequence[int], possible: set[int], stored: Array) -> Iterator[str]:
+    known = set(stored.tolist())
+    for number in sorted(set(ids) - possible):
+        why = "it cannot exist; its reason stands in the column error" if number in known else "a constraint drops it"
+        yield f"variant {number} gets no full report: {why}."
+
+
+def best(columns: dict[str, Array], objectives: Sequence[tuple[str, bool]], count: int) -> Array:
+    """Rows of the best variants: of those that pass (of all that exist where none does) the least sums of ranks.
+
+    What is alike to ten digits has one rank, so none of them is worse than another in all objectives.
+    """
+    from scipy.stats import rankdata
+
+    status = columns["status"]
+    sound = np.isin(status, ("pass", "warn"))
+    among = np.flatnonzero(sound if sound.any() else status != "error")
+    total = np.zeros(len(among))
+    for name, minimise in objectives:
+        values = np.nan_to_num(columns[name][among].astype(float) * (1 if minimise else -1), nan=np.inf)
+        total += rankdata(rounded(values), method="min")
+    found: Array = among[np.argsort(total, kind="stable")[:count]]
+    return found
+
+
+def _columns(store: Store, names: Sequence[str]) -> dict[str, Array]:
+    table: Any = store.read(list(dict.fromkeys(names))).to_table()
+    return {name: table.column(name).to_numpy(zero_copy_only=False) for name in names}

@@ -1,0 +1,85 @@
+"""What a worker does: it loads the study once, then calculates chunks of its sample into columns."""
+
+from __future__ import annotations
+
+import tempfile
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
+from pathlib import Path, PurePath
+from typing import Any
+
+import numpy as np
+
+from diecut_report.config.discovery import Discovery
+from diecut_report.expressions import Array
+from diecut_report.study.definition.study_file import Study, load_study
+from diecut_report.study.execution.process_settings import settle
+from diecut_report.study.execution.variant_rows import calculate_rows
+
+Values = Array | list[str]
+
+
+@dataclass(frozen=True)
+class Chunk:
+    """A piece of the sample: the part file that it makes, and its rows."""
+
+    part: int
+    start: int
+    stop: int
+
+
+@dataclass
+class Done:
+    """A chunk's columns by name, ready for its part file; ``slow`` names kinds that were calculated one by one, and why."""
+
+    columns: dict[str, Array]
+    slow: dict[str, str] = field(default_factory=dict)
+
+
+def load(study: bytes, files: Mapping[str, bytes], plugins: Sequence[str]) -> Study:
+    """The study from the contents of its files, which a worker on another machine does not have; cluster-wide plugin folders.
+
+    ``files``: the base and the tables by their names in the study, which may be paths to anywhere.
+    """
+    settle()
+    with tempfile.TemporaryDirectory() as folder:
+        places = {name: Path(folder) / f"{n}-{PurePath(name).name}" for n, name in enumerate(files)}
+        for name, content in files.items():
+            places[name].write_bytes(content)
+        file = Path(folder) / "study.yaml"
+        file.write_bytes(study)
+        return load_study(file, Discovery([Path(plugin) for plugin in plugins]), places)
+
+
+def calculate(study: Study, chunk: Chunk) -> Done:
+    """The variants of a chunk that the constraints leave: their inputs, outputs, verdicts and reasons."""
+    given = study.sample.rows(chunk.start, chunk.stop)
+    kept = np.flatnonzero(allowed(study, given, chunk.stop - chunk.start))
+    given = {path: _taken(values, kept) for path, values in given.items()}
+    columns: dict[str, Array] = {"variant": chunk.start + kept}
+    columns |= {path: np.asarray(values, dtype=_kind(values)) for path, values in given.items()}
+    inputs = {study.inputs[path]: values for path, values in given.items()}
+    rows = calculate_rows(study.base, inputs, len(kept), study.curves)
+    columns |= {name: values for name, values in rows.columns.items() if _is_kept(study, name)}
+    verdicts = {"status": rows.status, "governing": rows.governing, "error": rows.errors}
+    return Done(columns | verdicts, rows.slow)
+
+
+def allowed(study: Study, given: Mapping[str, Values], count: int) -> Array:
+    """Which rows keep all constraints."""
+    held = np.ones(count, dtype=bool)
+    for constraint in study.constraints:
+        held &= constraint.holds(given)
+    return held
+
+
+def _taken(values: Values, rows: Array) -> Values:
+    return values[rows] if isinstance(values, np.ndarray) else [values[row] for row in rows]
+
+
+def _kind(values: Values) -> Any:
+    return float if isinstance(values, np.ndarray) else object
+
+
+def _is_kept(study: Study, name: str) -> bool:
+    return study.outputs is None or ".checks." in name or name in study.outputs or name in study.curves

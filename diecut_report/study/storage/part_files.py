@@ -1,0 +1,151 @@
+"""Columns of values to tables with schema, units and provenance (pyarrow)."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from contextlib import contextmanager
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pyarrow as pa
+import pyarrow.parquet as pq
+from numpy.typing import NDArray
+
+from diecut_report.errors import Problem, UserError
+from diecut_report.study.storage.description import SCHEMA_VERSION, VARIANT, VERDICT, Description, Kind
+from diecut_report.study.storage.durable_files import write
+
+Values = NDArray[Any] | Sequence[Any]
+TYPES: dict[Kind, Any] = {
+    "float": pa.float64(),
+    "int": pa.int64(),
+    "bool": pa.bool_(),
+    "text": pa.dictionary(pa.int32(), pa.string()),
+    "curve": pa.list_(pa.field("element", pa.float64())),  # the name that Parquet gives
+}
+COMPRESSION = "zstd"
+DAMAGED = "This part of the results is damaged or not of this study. Calculate it again with --resume."
+
+
+def schema_of(description: Description) -> pa.Schema:
+    """Types of the columns, with unit, symbol and description of each, and where the results come from."""
+    fields = []
+    for column in description.all_columns:
+        about = {"unit": column.unit, "symbol": column.symbol, "description": column.description}
+        fields.append(pa.field(column.name, TYPES[column.kind], column.name != VARIANT.name, about))
+    return pa.schema(fields, provenance(description))
+
+
+def provenance(description: Description) -> dict[str, str]:
+    """What the schema of each part says of its origin."""
+    return {
+        "program": "diecut-report",
+        "version": description.program,
+        "study": description.study.sha256,
+        "base": description.base.sha256,
+        "schema_version": str(SCHEMA_VERSION),
+    }
+
+
+def table_of(schema: pa.Schema, columns: Mapping[str, Values], variants: NDArray[np.int64]) -> pa.Table:
+    """The columns as a table; one that is not given holds nulls, for an output that applies to none of the variants."""
+    names = [field.name for field in schema]
+    strange = [name for name in columns if name not in names]
+    if strange or VERDICT[0].name not in columns:
+        raise ValueError(f"a part needs its status and no columns without description: {', '.join(strange)}")
+    arrays = [array_of(field, columns.get(field.name), len(variants)) for field in schema if field.name != VARIANT.name]
+    return pa.Table.from_arrays([pa.array(variants), *arrays], schema=schema)
+
+
+def array_of(field: pa.Field, values: Values | None, count: int) -> pa.Array:
+    """The values of a column in its type; what is missing, not a number or infinite is null."""
+    if values is None:
+        return pa.nulls(count, field.type)
+    if len(values) != count:
+        raise ValueError(f"the column {field.name} has {len(values)} values for {count} variants")
+    try:
+        return _array(field.type, values)
+    except (pa.ArrowException, TypeError, ValueError) as error:
+        raise ValueError(f"the column {field.name} cannot hold its values as {field.type}: {error}") from error
+
+
+def _array(kind: Any, values: Values) -> pa.Array:
+    if pa.types.is_dictionary(kind):
+        return pa.array(list(values), pa.string()).dictionary_encode()
+    if pa.types.is_list(kind):
+        return _lists(kind, values)
+    if pa.types.is_floating(kind) and not isinstance(values, np.ndarray):
+        values = np.array(values, float)  # None is not a number
+    if isinstance(values, np.ndarray) and values.dtype.kind == "f":
+        missing = ~np.isfinite(values)
+        return pa.array(np.where(missing, 0.0, values), mask=missing).cast(kind)  # refuses 0.5 as an integer
+    return pa.array(values, kind)
+
+
+def _lists(kind: Any, values: Values) -> pa.Array:
+    """Curves, one after the other in one array; None where there is none."""
+    missing = np.array([one is None for one in values], bool)
+    given = [np.asarray(one, float) for one in values if one is not None]
+    ends = np.cumsum([0 if one is None else len(one) for one in values])
+    numbers = _array(kind.value_type, np.concatenate([*given, np.empty(0)]))
+    return pa.ListArray.from_arrays(np.append(0, ends).astype(np.int32), numbers, kind, mask=pa.array(missing))
+
+
+def write_part(path: Path, table: pa.Table) -> None:
+    """The table as a Parquet file, whole and on the disk, with a checksum for each page."""
+    texts = [field.name for field in table.schema if pa.types.is_dictionary(field.type)]
+    sink = pa.BufferOutputStream()
+    # numbers that seldom repeat only grow by a dictionary
+    pq.write_table(table, sink, compression=COMPRESSION, use_dictionary=texts, row_group_size=max(len(table), 1),
+                   write_page_checksum=True)  # fmt: skip
+    write(path, memoryview(sink.getvalue()))
+
+
+@contextmanager
+def readable(path: Path) -> Iterator[None]:
+    """What goes wrong in reading a part becomes a UserError that says what to do."""
+    try:
+        yield
+    except pa.ArrowInvalid as error:
+        raise UserError(Problem(DAMAGED, str(path))) from error
+    except OSError as error:
+        words = (
+            f"This part cannot be read: {error.strerror}." if error.errno else DAMAGED
+        )  # Parquet's own has no number
+        raise UserError(Problem(words, str(path))) from error
+
+
+def has_schema(path: Path, schema: pa.Schema) -> bool:
+    """Whether a part is of this study, as far as its end tells: its origin and columns are the same."""
+    return _is_sound(path, lambda: bool(pq.read_schema(path).equals(schema, check_metadata=True)))
+
+
+def is_whole(path: Path, schema: pa.Schema) -> bool:
+    """Whether a part is of this study and all of it is as it was written, by its checksums."""
+    return has_schema(path, schema) and _is_sound(path, lambda: _is_read(path))
+
+
+def is_within(path: Path, rows: range) -> bool:
+    """Whether a part's variants are of these rows of the sample: a copy of another part is not."""
+    with pq.ParquetFile(path) as file:
+        groups = [file.metadata.row_group(index) for index in range(file.metadata.num_row_groups)]
+        known = [group.column(0).statistics for group in groups if group.num_rows]
+    return all(rows.start <= told.min and told.max < rows.stop for told in known)
+
+
+def _is_read(path: Path) -> bool:
+    with pq.ParquetFile(path, page_checksum_verification=True) as file:
+        found: int = sum(batch.num_rows for batch in file.iter_batches())
+        return found == int(file.metadata.num_rows)
+
+
+def _is_sound(path: Path, look: Callable[[], bool]) -> bool:
+    try:
+        return look()
+    except pa.ArrowInvalid:
+        return False
+    except OSError as error:
+        if error.errno is None:  # Parquet says so too of a damaged file
+            return False
+        raise UserError(Problem(f"This part cannot be read: {error.strerror}.", str(path))) from error

@@ -1,0 +1,144 @@
+"""study.json, the copies of the study's files, and the lock of the folder that a run writes into."""
+
+from __future__ import annotations
+
+import json
+import os
+import socket
+from collections.abc import Iterator, Mapping
+from contextlib import contextmanager
+from dataclasses import replace
+from hashlib import sha256
+from pathlib import Path, PurePath
+from typing import Any
+
+from filelock import FileLock, Timeout
+
+from diecut_report.errors import Problem, UserError
+from diecut_report.study.storage.description import Description, Source, as_data, changes, from_data, libraries
+from diecut_report.study.storage.durable_files import in_words, write
+
+STATE, STUDY, BASE, TABLES = "study.json", "study.yaml", "base.yaml", "tables"
+LOCK, HOLDER = ".lock", ".lock.json"
+Data = dict[str, Any]
+
+
+def read_state(folder: Path) -> Data:
+    """study.json of the folder; UserError where there is none or it cannot be read."""
+    path = folder / STATE
+    try:
+        return dict(json.loads(path.read_text("utf-8")))
+    except FileNotFoundError:
+        words = "There are no results of a study here: study.json is missing. Give a folder that batch wrote, or begin one with -o."
+        raise UserError(Problem(words, str(folder))) from None
+    except (OSError, ValueError, TypeError) as error:
+        raise UserError(Problem(f"The state of the study cannot be read: {error}", str(path))) from error
+
+
+def write_state(folder: Path, state: Mapping[str, Any]) -> None:
+    """Put study.json into the folder, whole; other programs may read it at any time."""
+    write(folder / STATE, (json.dumps(state, indent=1, ensure_ascii=False, allow_nan=False) + "\n").encode())
+
+
+def read_description(folder: Path) -> Description:
+    """The study that the folder holds results of, with the copies of its files where they are as they were."""
+    try:
+        found = from_data(read_state(folder))
+    except (KeyError, TypeError, ValueError, AttributeError) as error:
+        raise UserError(Problem(f"This is no state of a study: {error}", str(folder / STATE))) from error
+    study, base, *tables = (_with_copy(source, path) for path, source in copies(folder, found).items())
+    return replace(found, study=study, base=base, tables=tuple(tables))
+
+
+def copies(folder: Path, description: Description) -> dict[Path, Source]:
+    """Where the copies of the study's files are: the study, its base, its tables; numbered, as names may be paths."""
+    tables = {f"{TABLES}/{n}-{PurePath(table.file).name}": table for n, table in enumerate(description.tables, 1)}
+    files = {STUDY: description.study, BASE: description.base, **tables}
+    return {folder / name: source for name, source in files.items()}
+
+
+def kept(folder: Path) -> dict[str, Path]:
+    """The copies of the base and the tables by their names in the study; UserError where a copy is not as it was."""
+    description = read_description(folder)
+    found = copies(folder, description)
+    for path, source in found.items():
+        if source.content is None:
+            continued = f"diecut-report batch STUDY --resume {folder}"
+            words = f"This copy of {source.file} is missing or has changed. Continue with the study itself: {continued}"
+            raise UserError(Problem(words, str(path)))
+    return {source.file: path for path, source in found.items() if source is not description.study}
+
+
+def _with_copy(source: Source, path: Path) -> Source:
+    try:
+        content = path.read_bytes() if path.is_file() else b""
+    except OSError as error:
+        words = f"This copy of {source.file} cannot be read: {error.strerror or error}. Check its permissions."
+        raise UserError(Problem(words, str(path))) from error
+    return replace(source, content=content) if sha256(content).hexdigest() == source.sha256 else source
+
+
+def write_copies(folder: Path, description: Description) -> None:
+    """Keep the files of the study beside the results, where they are not there yet."""
+    for path, source in copies(folder, description).items():
+        if source.content is not None and not path.exists():
+            with in_words(path):
+                path.parent.mkdir(exist_ok=True)
+            write(path, source.content)
+
+
+def begin(folder: Path, description: Description) -> None:
+    """Make a folder the place of a study's results; it must hold nothing yet."""
+    refuse_used(folder)
+    write_state(folder, as_data(description) | {"state": "running"})
+    write_copies(folder, description)
+
+
+def refuse_used(folder: Path) -> None:
+    """A folder that holds anything is not written into."""
+    others = sorted(path.name for path in folder.iterdir() if path.name not in (LOCK, HOLDER))
+    if STATE in others:
+        words = "Results of a study are here already. Continue them with --resume, or choose another folder with -o."
+        raise UserError(Problem(words, str(folder)))
+    if others:
+        words = f"This folder is not empty ({others[0]} is in it). Choose a new one with -o, so that nothing is lost."
+        raise UserError(Problem(words, str(folder)))
+
+
+def with_libraries(state: Data) -> Data:
+    """The state with the versions of the libraries of this run; where a run continues with others, with both."""
+    before = state.get("libraries", {})
+    now = {name: [*before.get(name, ()), version] for name, version in libraries().items()}
+    return state | {"libraries": {name: list(dict.fromkeys(versions)) for name, versions in now.items()}}
+
+
+def same_study(folder: Path, before: Description, now: Description) -> None:
+    """Refuse to continue the results with another study."""
+    if found := list(changes(before, now)):
+        words = "These results belong to another study; put it back as it was, or choose a new folder with -o."
+        raise UserError([Problem(words, str(folder)), *found])
+
+
+@contextmanager
+def held(lock: FileLock, folder: Path) -> Iterator[None]:
+    """Hold the folder for this run alone; a run that was killed holds nothing. Told in words: who holds it."""
+    with in_words(folder):
+        try:
+            lock.acquire(timeout=0)
+        except Timeout:
+            raise UserError(Problem(f"Another run uses this folder{_holder(folder)}.", str(folder))) from None
+    try:
+        write(folder / HOLDER, json.dumps({"process": os.getpid(), "host": socket.gethostname()}).encode())
+        yield
+    finally:
+        (folder / HOLDER).unlink(missing_ok=True)
+        lock.release()
+
+
+def _holder(folder: Path) -> str:
+    """Who holds it, as far as that is known: the run may just be writing or removing its name."""
+    try:
+        found = json.loads((folder / HOLDER).read_text("utf-8"))
+        return f": process {found['process']} on {found['host']}. Wait for its end, or choose another folder with -o"
+    except (OSError, ValueError, KeyError, TypeError):
+        return ", and has not told its name. Wait for its end, or choose another folder with -o"

@@ -1,0 +1,28 @@
+"""The summary of a batch run: what the variants say as a whole, on one page and on paper."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from pathlib import Path
+
+from diecut_report.study.analysis.stored_variants import opened
+
+FORMATS = ("html", "pdf")
+
+
+def summarise(directory: Path, formats: Sequence[str] = FORMATS) -> list[Path]:
+    """Writes ``summary.html`` and ``summary.pdf`` into the folder of a run, from what is stored there; gives the files.
+
+    UserError in words where nothing is stored or the files cannot be written; OSError where the system has no pango (PDF).
+    """
+    from diecut_report.files import write_all
+    from diecut_report.study.summary.content import content  # with matplotlib
+
+    with opened(directory) as stored:
+        found = content(stored)
+    from diecut_report.study.summary.pages import page, sheets  # with WeasyPrint
+
+    contents = {"html": lambda: page(found).encode(), "pdf": lambda: sheets(found)}
+    files = {directory / f"summary.{ending}": contents[ending]() for ending in formats}
+    write_all(files, keep=directory / "study.json")
+    return list(files)

@@ -1,0 +1,202 @@
+"""What the summary says, in its order: texts, tables and charts, ready for the template."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any
+
+from diecut_report.config import yaml_tree
+from diecut_report.study.analysis.stored_variants import Column, Stored
+from diecut_report.study.summary import best, data, influence, matrix, pareto, passing_values, questions, verdict_counts
+from diecut_report.study.summary.data import Reason, Spread, Utilisation
+from diecut_report.study.summary.figures import Figure, Figures
+from diecut_report.study.summary.influence_table import Ranked, ranked
+from diecut_report.study.summary.quantity_names import WORST, counted, titled, utilised
+from diecut_report.study.summary.verdict_counts import Failure
+
+SAMPLED = 1_500  # variants in the charts of points
+NUMBERS, FEWEST = 200_000, 400  # that the page carries for the chart of any two quantities; variants of them at least
+TARGETS = 5  # quantities that influence is told of
+PANELS, CHECKS, RANGES, POINTS = (
+    12,
+    4,
+    36,
+    30,
+)  # histograms, checks of them, rows of ranges, quantities of the charts on paper
+
+
+@dataclass
+class Summary:
+    """The whole page."""
+
+    title: str
+    folder: str
+    study: Any
+    files: list[tuple[str, str]]
+    checks: dict[str, str]
+    total: int
+    statuses: dict[str, int]
+    facts: list[tuple[str, str]]
+    asked: questions.Asked | None
+    failures: list[Failure]
+    governing: list[verdict_counts.Governing]
+    passing: list[passing_values.Values]
+    utilisations: list[Utilisation]
+    unmade: list[str]
+    idle: int
+    matrices: list[matrix.Matrix]
+    is_whole: bool
+    spreads: list[Spread]
+    more_spreads: int
+    reasons: list[Reason]
+    reports: list[best.Report]
+    more_reports: int
+    front: pareto.Front | None
+    best_head: list[str]
+    best: list[best.Best]
+    is_sobol: bool
+    ranked: Ranked | None
+    slow: dict[str, str]
+    figures: dict[str, Figure]
+    any_two: data.Sample
+    varied: list[Column]
+    choices: list[Column]
+
+    @property
+    def example(self) -> int:
+        """A variant to name in a command: the best, else the first of the matrix."""
+        rows = self.matrices[0].rows if self.matrices else []
+        return self.best[0].variant if self.best else rows[0].variant if rows else 0
+
+    @property
+    def calculated(self) -> int:
+        """How many variants can exist."""
+        return self.total - self.statuses["error"]
+
+    @property
+    def sound(self) -> int:
+        """How many variants do not fail."""
+        return self.statuses["pass"] + self.statuses["warn"]
+
+    @property
+    def status(self) -> str:
+        """What the whole looks like: pass where some variant passes."""
+        return "pass" if self.statuses["pass"] else "warn" if self.statuses["warn"] else "fail"
+
+
+def content(stored: Stored) -> Summary:
+    """The summary of the stored variants."""
+    data.prepare(stored)
+    states = data.statuses(stored)
+    total = sum(states.values())
+    spreads = _spreads(stored, total)
+    goals = pareto.objectives(stored)
+    front = pareto.front(stored, goals, states["pass"] + states["warn"])
+    varying = [spread.column for spread in spreads.values() if _is_telling(spread)]
+    used = data.utilisations(stored)
+    main = _main(stored, goals, varying, [row.check for row in used if row.failing or row.warning])
+    found = influence.influences(stored, main[:TARGETS])
+    choices = _choices(stored, varying, main)
+    sample = data.sample(stored, choices[:POINTS], SAMPLED)
+    drawn = min(SAMPLED, max(FEWEST, NUMBERS // max(1, len(choices))))
+    made, failures = [row for row in used if row.is_made], verdict_counts.failures(stored, used)
+    governing = verdict_counts.governing(stored)
+    figures = Figures(stored, states, sample, front, main, spreads)
+    first, reports = [int(variant) for variant in front.variants] if front else [], matrix.reported(stored.folder)
+    ranges = [spreads[c.name] for c in (*stored.varied, *main) if c in varying and ".checks." not in c.name]
+    panels = _panels(stored, goals, [*(row.check for row in failures), *(row.check for row in governing)], varying)
+    groups = matrix.chosen(stored, total, first)
+    shown = best.columns(stored, goals)
+    return Summary(
+        title=_title(stored), folder=stored.folder.resolve().name, study=stored.study, files=_files(stored),
+        checks={check: stored.check_told(check) for check in stored.checks},
+        total=total, statuses=states, facts=_facts(stored, total), asked=questions.asked(stored),
+        failures=failures, governing=governing, passing=passing_values.values(stored),
+        utilisations=made, unmade=[row.check for row in used if not row.is_made],
+        idle=len(made) - len(matrix.telling(made)),
+        matrices=list(matrix.matrices(stored, groups, [row.check for row in matrix.telling(made)])),
+        is_whole=total <= matrix.ALL,
+        spreads=ranges[:RANGES], more_spreads=max(0, len(ranges) - RANGES),
+        reasons=data.reasons(stored) if states["error"] else [],
+        reports=best.reports(stored, reports[: matrix.LISTED]), more_reports=max(0, len(reports) - matrix.LISTED),
+        front=front, best_head=[titled(column) for column in shown], best=best.best(stored, first[: matrix.BEST], shown),
+        is_sobol=influence.is_saltelli(stored), ranked=ranked(found, figures) if found else None,
+        slow=dict(stored.study.get("slow") or {}),
+        figures=figures.all(failures, [spreads[column.name] for column in panels][:PANELS], found),
+        any_two=data.sample(stored, choices, drawn), varied=stored.varied, choices=choices,
+    )  # fmt: skip
+
+
+def _panels(
+    stored: Stored, goals: tuple[pareto.Objective, ...], checks: list[str], varying: list[Column]
+) -> list[Column]:
+    """The quantities of histograms: objectives, utilisations of failing and governing checks, inputs, then the others."""
+    limits = [stored.checks[check][0] for check in dict.fromkeys(checks) if check in stored.checks]
+    wanted = [*(goal.column for goal in goals), WORST, *limits[:CHECKS], *stored.varied, *limits, *varying]
+    return [column for column in dict.fromkeys(wanted) if column in varying]
+
+
+def _is_telling(spread: Spread) -> bool:
+    """Whether a quantity varies; a utilisation that is next to nothing tells nothing."""
+    return spread.varies and (".checks." not in spread.column.name or spread.values[-1] > matrix.IDLE)
+
+
+def _spreads(stored: Stored, total: int) -> dict[str, Spread]:
+    """The ranges of inputs and outputs, and of the greatest utilisation."""
+    goals = [goal.column for goal in pareto.objectives(stored)]
+    used = [value for value, _ in stored.checks.values()]
+    columns = [*stored.varied, *([WORST] if stored.checks else []), *stored.outputs, *goals, *used]
+    return data.spreads(stored, list(dict.fromkeys(columns)), total)
+
+
+def _main(
+    stored: Stored, goals: tuple[pareto.Objective, ...], varying: list[Column], failing: list[str]
+) -> list[Column]:
+    """What matters, the first most: objectives, utilisations of all checks and of those that fail most, other outputs."""
+    inputs = {column.name for column in stored.varied}
+    aims = [goal.column for goal in goals if goal.column in varying]
+    worst = [WORST] if WORST in varying else []
+    failed = [stored.checks[check][0] for check in failing if stored.checks[check][0] in varying]
+    return list(dict.fromkeys([*aims, *worst, *failed, *(column for column in varying if column.name not in inputs)]))
+
+
+def _choices(stored: Stored, varying: list[Column], main: list[Column]) -> list[Column]:
+    """The quantities of the charts of points and lines: inputs, outputs, utilisations; what matters most first."""
+    inputs = [column for column in stored.varied if column in varying or column.kind in ("text", "bool")]
+    return list(dict.fromkeys([*inputs, *main]))
+
+
+def _facts(stored: Stored, total: int) -> list[tuple[str, str]]:
+    """The run in a few numbers."""
+    study, counts = stored.study, stored.study.get("counts") or {}
+    facts = [("Variants calculated", counted(total, "variant")), ("Varied", counted(len(stored.varied), "input"))]
+    if counts.get("dropped"):
+        facts.append(("Left out by constraints", counted(int(counts["dropped"]), "variant")))
+    facts += _margin(stored)
+    seconds = float(study.get("seconds") or 0)
+    if seconds > 0:
+        facts.append(("Calculated in", f"{seconds:.3g} s"))
+    return facts
+
+
+def _title(stored: Stored) -> str:
+    """The title of the base's project, else the study's file."""
+    content = stored.description.base.content
+    project = yaml_tree.parse(content.decode(), "base").data.get("project") if content else None
+    return str((project or {}).get("title") or stored.description.study.file)
+
+
+def _margin(stored: Stored) -> list[tuple[str, str]]:
+    """Which of the variants that do not fail keeps most from its limits."""
+    found = verdict_counts.margin(stored) if stored.checks else None
+    if found is None:
+        return []
+    whose = f"utilisation {utilised(found.utilisation)} at most, by “{stored.check_told(found.check)}”"
+    more = f", and {counted(found.shared - 1, 'other variant')} with the same" if found.shared > 1 else ""
+    return [("Most margin", f"variant {found.variant}{more}: {whose}")]
+
+
+def _files(stored: Stored) -> list[tuple[str, str]]:
+    """The files that the study was made from, with their SHA-256."""
+    made = stored.description
+    return [(source.file, source.sha256) for source in (made.study, made.base, *made.tables)]

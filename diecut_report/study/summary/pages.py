@@ -1,0 +1,89 @@
+"""The summary as HTML (one file, no network) and as PDF."""
+
+from __future__ import annotations
+
+import base64
+import json
+import math
+from functools import partial
+from typing import Any
+
+from markupsafe import Markup
+from weasyprint import HTML
+from weasyprint.urls import URLFetcher
+
+from diecut_report import __version__
+from diecut_report.quantities.units import pretty, unit
+from diecut_report.report import html, pdf
+from diecut_report.report.i18n import Words
+from diecut_report.report.number_format import number
+from diecut_report.study.analysis.stored_variants import Column
+from diecut_report.study.summary.content import Summary
+from diecut_report.study.summary.quantity_names import counted, display, named, percent, titled, utilised
+
+DIGITS = 4  # of the numbers that a browser draws
+
+
+def page(summary: Summary) -> str:
+    """The summary as one self-contained HTML page."""
+    return _filled(summary, "screen")
+
+
+def sheets(summary: Summary) -> bytes:
+    """The summary as PDF (A4, PDF/UA-1)."""
+    fetcher = URLFetcher(allowed_protocols={"data"}, allow_redirects=False, fail_on_errors=True)
+    source = _filled(summary, "print")
+    with pdf._without_collection():
+        content: bytes = HTML(string=source, url_fetcher=fetcher).write_pdf(pdf_variant="pdf/ua-1")
+    return content
+
+
+def _filled(summary: Summary, kind: str) -> str:
+    style = "\n".join(
+        [
+            html._font_faces(tuple(html.FACES.items())),
+            *(html._read(f"{name}.css") for name in ("report", kind, "summary")),
+        ]
+    )
+    return html._environment().get_template("summary.html.j2").render(
+        s=summary, t=Words("en"), kind=kind, style=Markup(style), version=__version__, figure=partial(_figure, summary, kind),
+        points=Markup(_points(summary)) if kind == "screen" else "", named=named, titled=titled, display=display, counted=counted,
+        percent=percent, utilised=utilised, number=number, pretty=pretty,
+    )  # fmt: skip
+
+
+def _figure(summary: Summary, kind: str, key: str | Any) -> Markup:
+    """A chart inline on the screen, as an image with its alternative on paper."""
+    figure = summary.figures[key] if isinstance(key, str) else key
+    if kind == "screen":
+        return Markup(figure.svg.text)  # matplotlib escapes the texts within the drawing
+    content = base64.b64encode(figure.svg.text.encode()).decode()
+    return Markup('<img src="data:image/svg+xml;base64,{}" alt="{}">').format(content, figure.alternative)
+
+
+def _points(summary: Summary) -> str:
+    """The sample for the page's own chart of any two quantities, in display units, as JSON that cannot end a script."""
+    sample = summary.any_two
+    columns = [
+        {
+            "title": titled(column),
+            "words": sample.words.get(column.name),
+            "values": [_short(v, column) for v in sample.values[column.name]],
+        }
+        for column in summary.choices
+    ]
+    upwards = next(
+        (index for index, column in enumerate(summary.choices) if column not in summary.varied), len(columns) - 1
+    )
+    data = {
+        "upwards": upwards,
+        "variants": sample.variants.tolist(),
+        "status": sample.status.tolist(),
+        "columns": columns,
+    }
+    text = json.dumps(data, ensure_ascii=False, allow_nan=False)
+    return text.replace("<", "\\u003c")
+
+
+def _short(value: float, column: Column) -> float | None:
+    return float(f"{value / unit(column.display).factor:.{DIGITS}g}") if math.isfinite(value) else None

@@ -1,0 +1,105 @@
+"""How the summary calls quantities and prints their sizes."""
+
+from __future__ import annotations
+
+import math
+import re
+from collections.abc import Iterator
+
+from diecut_report.quantities.formatting import number_text
+from diecut_report.quantities.units import pretty, unit
+from diecut_report.report.figures.style import plain, text_size
+from diecut_report.report.number_format import joined, number
+from diecut_report.study.analysis.stored_variants import Column
+from diecut_report.study.analysis.titles import UTILISATION
+
+DIGITS = 4
+WORST = Column("greatest utilisation", "float", title="Greatest utilisation of all checks (where each has one)")
+
+
+def named(column: Column) -> str:
+    """A quantity as people call it: ``Radius of the bore (cylinder)``."""
+    return column.told
+
+
+def titled(column: Column) -> str:
+    """A quantity with the unit that people read."""
+    sign = pretty(column.display)
+    return named(column) + (f", {sign}" if sign else "")
+
+
+def wrapped(words: str, wide: float, size: float, most: int) -> str:
+    """A name for matplotlib on lines of a width, broken at its spaces; a word that is too long behind dots and underscores.
+
+    Of what does not fit on so many lines the last line stays, with the mechanism and the unit.
+    """
+    lines = [""]
+    for part in _pieces(words, wide, size):
+        if lines[-1] and text_size(plain((lines[-1] + part).rstrip()), size)[0] > wide:
+            lines.append("")
+        lines[-1] += part
+    if len(lines) > most:
+        kept = [line.rstrip() for line in lines[: most - 1]]
+        lines = [*kept, _shortened(" ".join(line.strip() for line in lines[most - 1 :]), wide, size)]
+    return plain("\n".join(line.rstrip() for line in lines))
+
+
+def _pieces(words: str, wide: float, size: float) -> Iterator[str]:
+    for word in re.findall(r"[^ ]+ ?| ", words):
+        fits = text_size(plain(word), size)[0] <= wide
+        yield from [word] if fits else re.findall(r"[^._]*[._]|[^._]+", word)
+
+
+def _shortened(words: str, wide: float, size: float) -> str:
+    """As much of the beginning of a name as fits on a line before its end in brackets."""
+    head, bracket, tail = words.rpartition(" (")
+    head, tail = (head, f"… ({tail}") if bracket else (words, "…")
+    while head and text_size(plain(head.rstrip() + tail), size)[0] > wide:
+        head = head[:-1]
+    return head.rstrip() + tail
+
+
+def factor(column: Column) -> float:
+    """Display units in an SI unit."""
+    return 1.0 / unit(column.display).factor
+
+
+def display(value: float, column: Column) -> str:
+    """An SI value in the unit that people read, without the unit."""
+    if not math.isfinite(value):
+        return "–"
+    if is_utilisation(column):
+        return utilised(value)
+    return number(number_text(unit(column.display).from_si(value), DIGITS)) if value else "0"
+
+
+def quantity(value: float, column: Column) -> str:
+    """An SI value with the unit that people read."""
+    return joined(display(value, column), pretty(column.display))
+
+
+def is_utilisation(column: Column) -> bool:
+    """Whether 1 is the limit of a quantity."""
+    return column.name == WORST.name or (".checks." in column.name and column.name.endswith(UTILISATION))
+
+
+def utilised(value: float) -> str:
+    """A utilisation; one that is next to 1 shows on which side it is, and a small one that is not none does not print as 0."""
+    text = f"{value:.2f}"
+    if text == "1.00" and value != 1:
+        near = f"{value:.4f}"
+        return near if near != "1.0000" else "< 1" if value < 1 else "> 1"
+    if value >= 99.995:
+        return number(f"{value:.3g}" if value >= 1e6 else f"{value:.0f}")
+    return "< 0.01" if text == "0.00" and value > 0 else text
+
+
+def counted(count: int, one: str, many: str = "") -> str:
+    """A number with its noun."""
+    return f"{number(str(count))} {one if count == 1 else many or one + 's'}"
+
+
+def percent(part: float, whole: float) -> str:
+    """A share; a small one that is not none does not print as 0."""
+    share = 100.0 * part / whole if whole else 0.0
+    return "< 0.1 %" if 0 < share < 0.1 else f"{share:.3g} %" if share < 99.95 or part == whole else "> 99.9 %"

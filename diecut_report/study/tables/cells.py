@@ -1,0 +1,140 @@
+"""The cells of a table's column: to SI numbers or texts, each fault with its cell."""
+
+from __future__ import annotations
+
+import re
+from bisect import bisect_right
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from diecut_report.expressions import Array
+from diecut_report.quantities.units import UnitError, parse_quantity, unit
+
+EMPTY = "the cell is empty (or a formula without a stored value); every row needs a value"
+_NUMBER = re.compile(r"\s*[-+−]?[0-9.]+(?:[eE][-+−]?[0-9]+)?\s*\*?\s*(.*?)\s*", re.DOTALL)
+
+Faults = list[tuple[int, str]]
+"""Places of cells, counted from 0, and what is wrong with them."""
+
+
+@dataclass(frozen=True, eq=False)
+class Cells:
+    """The cells of a column as a file holds them: an Arrow array of numbers or texts, or a list of Python values.
+
+    `first` is the file's row of the first cell; `skipped` are rows of the file without cells, ascending.
+    """
+
+    raw: Any
+    first: int = 2
+    skipped: tuple[int, ...] = ()
+
+    def __len__(self) -> int:
+        return len(self.raw)
+
+    def row(self, place: int) -> int:
+        """The row of the file, counted from 1, in which a cell stands."""
+        behind = [skipped - count for count, skipped in enumerate(self.skipped)]
+        return place + self.first + bisect_right(behind, place + self.first)
+
+    def floats(self) -> Array | None:
+        """The cells as floats, NaN where a number is missing; None unless all are plain numbers."""
+        if isinstance(self.raw, list):
+            plain = all(isinstance(value, int | float) and not isinstance(value, bool) for value in self.raw)
+            return np.array(self.raw, dtype=float) if plain else None
+        return _arrow_floats(self.raw)
+
+    def items(self) -> list[Any]:
+        """The cells as Python values; None where there is nothing."""
+        return self.raw if isinstance(self.raw, list) else list(self.raw.to_pylist())
+
+    def texts(self) -> list[str]:
+        """The cells as texts without blanks around them, "" where there is nothing; whole numbers without a point."""
+        return [_text(value) for value in self.items()]
+
+
+def _arrow_floats(raw: Any) -> Array | None:
+    import pyarrow
+    import pyarrow.compute as compute
+
+    is_text = pyarrow.types.is_string(raw.type) or pyarrow.types.is_large_string(raw.type)
+    trimmed = compute.utf8_trim_whitespace(raw) if is_text else raw
+    try:
+        return np.array(compute.cast(trimmed, pyarrow.float64(), safe=False).to_numpy(), dtype=float)
+    except pyarrow.ArrowInvalid:  # a text that is no plain number: the cells are read one by one
+        return None
+
+
+def _text(value: Any) -> str:
+    if isinstance(value, float) and value.is_integer():
+        return f"{int(value)}"
+    return "" if value is None else str(value).strip()
+
+
+def si_numbers(cells: Cells, unit_text: str, *, own: bool) -> tuple[Array, Faults]:
+    """SI values of cells; bare numbers are in `unit_text`, which is the header's where `own`.
+
+    Cells with a unit must all have the same one, and that of the header where it has one.
+    """
+    floats = cells.floats()
+    if floats is None:
+        return _one_by_one(cells, unit_text, own)
+    wrong = np.flatnonzero(~np.isfinite(floats))
+    return _to_si(floats, unit_text), [(int(place), _not_finite(floats[place])) for place in wrong]
+
+
+def _to_si(values: Array, unit_text: str) -> Array:
+    # Each number by the same rounding as in a config (2.1 mm are 0.0021 m, not 2.1 / 1000), each different one once.
+    given = unit(unit_text)
+    if given.factor == 1:
+        return values
+    different, places = np.unique(values, return_inverse=True)
+    finite = np.isfinite(different)
+    different[finite] = [given.to_si(value) for value in different[finite].tolist()]
+    return np.asarray(different[places])
+
+
+def _not_finite(value: float) -> str:
+    return EMPTY if np.isnan(value) else "the number is infinite; a finite one is needed"
+
+
+def _one_by_one(cells: Cells, unit_text: str, own: bool) -> tuple[Array, Faults]:
+    values, faults = np.full(len(cells), np.nan), Faults()
+    known: dict[Any, tuple[float, str] | str] = {}
+    agreed = (unit(unit_text).text, "the header") if own else None
+    for place, item in enumerate(cells.items()):
+        key = (type(item), item)
+        read = known.get(key)
+        if read is None:
+            read = known[key] = _read(item, unit_text)
+        if isinstance(read, str):
+            faults.append((place, read))
+            continue
+        values[place], given = read
+        if agreed is None:
+            agreed = (given, f"row {cells.row(place)}")
+        elif given != agreed[0] and not (own and not given):
+            faults.append((place, _unlike(given, *agreed)))
+    return values, faults
+
+
+def _unlike(given: str, agreed: str, where: str) -> str:
+    mine, other = (f"is in {text}" if text else "has no unit" for text in (given, agreed))
+    return f"the cell {mine}, but {where} {other}; a column has one unit"
+
+
+def _read(item: Any, unit_text: str) -> tuple[float, str] | str:
+    """The SI value of a cell and its own unit ("" where it is bare), or what is wrong with it."""
+    if item is None or (isinstance(item, str) and not item.strip()):
+        return EMPTY
+    if isinstance(item, str) and item.strip().lower() in ("nan", "null", "na", "n/a", "#n/a"):
+        return f"{item.strip()!r} is no value; every row needs a number"
+    if not isinstance(item, str | int | float):
+        return f"{item} is no number (the cell holds a {type(item).__name__}); format the cell as a number"
+    try:
+        value = parse_quantity(item, unit_text)
+        matched = _NUMBER.fullmatch(item) if isinstance(item, str) else None
+        return value, unit(matched[1]).text if matched and matched[1] else ""
+    except UnitError as error:
+        return str(error)

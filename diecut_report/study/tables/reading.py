@@ -1,0 +1,135 @@
+"""Tables of variants: CSV, Parquet or XLSX into columns of SI floats or texts, with every fault told by its row.
+
+A column is headed by its name, with the unit in brackets where the cells have none: ``mechanisms.drive.crank_speed
+[rpm]``. All cells of a column are in one unit: that of the header, of the cells themselves, or the display unit.
+Rows count as a spreadsheet shows them, the header being row 1; in Parquet from 1.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterable, Iterator
+from dataclasses import dataclass
+from pathlib import Path
+
+from diecut_report.errors import Problem, UserError, nearest
+from diecut_report.expressions import Array
+from diecut_report.quantities.units import UnitError, unit
+from diecut_report.study.tables.cells import EMPTY, Cells, si_numbers
+from diecut_report.study.tables.file_formats import NO_ROWS, UnreadableTable, read_cells
+
+TOLD = 5  # faulty cells of a column that are told one by one
+_HEADER = re.compile(r"\s*(.*?)\s*(?:\[\s*([^\[\]]*?)\s*\])?\s*", re.DOTALL)
+
+
+@dataclass(frozen=True, eq=False)
+class Column:
+    """A column of a table as it stands in the file: `unit` is that of its header, `number` its place from 1."""
+
+    file: str
+    name: str
+    unit: str | None
+    number: int
+    cells: Cells
+
+    def problem(self, message: str, row: int | None = None) -> Problem:
+        """A problem of this column, or of its cell in a row of the file."""
+        where = f"row {row}: " if row is not None else ""
+        return Problem(where + message, self.file, row or 1, self.number, self.name)
+
+    def si(self, display: str) -> Array:
+        """The column's SI values; bare numbers without a unit in the header are in the unit `display`.
+
+        Raises UserError with the cells that are no number, empty, of another dimension or in another unit.
+        """
+        values, faults = si_numbers(self.cells, self._unit(display), own=self.unit is not None)
+        self._refuse(faults)
+        return values
+
+    def texts(self) -> list[str]:
+        """The column's texts, without blanks around them; UserError with the cells that are empty."""
+        if self.unit is not None:
+            words = f"the header has the unit [{self.unit}], but {self.name} is a text; remove the unit"
+            raise UserError(self.problem(words))
+        found = self.cells.texts()
+        self._refuse((place, EMPTY) for place, text in enumerate(found) if not text)
+        return found
+
+    def _unit(self, display: str) -> str:
+        if self.unit is None:
+            return display
+        try:
+            given, wanted = unit(self.unit), unit(display)
+        except UnitError as error:
+            raise UserError(self.problem(f"the header's unit: {error}")) from None
+        if given.kind != wanted.kind:
+            words = f"the header's unit [{self.unit}] is of another kind; give one such as [{wanted.text}]"
+            raise UserError(self.problem(words))
+        return self.unit
+
+    def _refuse(self, faults: Iterable[tuple[int, str]]) -> None:
+        found = list(faults)
+        if found:
+            told = [self.problem(message, self.cells.row(place)) for place, message in found[:TOLD]]
+            more = f"{len(found) - TOLD} more cells of this column are wrong"
+            last = [self.problem(more, self.cells.row(found[TOLD][0]))] if len(found) > TOLD else []
+            raise UserError(told + last)
+
+
+@dataclass(frozen=True, eq=False)
+class TableFile:
+    """A table that was read: its columns by their names, in the file's order, all with `count` cells."""
+
+    file: str
+    columns: dict[str, Column]
+    count: int
+
+    def column(self, name: str) -> Column:
+        """A column by its name; UserError where there is none."""
+        if name not in self.columns:
+            raise UserError(self._missing(name))
+        return self.columns[name]
+
+    def _missing(self, name: str) -> Problem:
+        there = ", ".join(self.columns)
+        return Problem(
+            f"the table has no column {name}{nearest(name, self.columns)}. Its columns: {there}", self.file, 1
+        )
+
+
+def read_table(path: Path, sheet: str | None = None) -> TableFile:
+    """Reads a table by its file name's ending (.csv, .parquet, .xlsx); `sheet` is of a workbook, else its first one.
+
+    Raises UserError for a file that cannot be read, columns without or with equal names, and a table without rows.
+    """
+    try:
+        headers, cells = read_cells(path, sheet)
+    except UnreadableTable as error:
+        raise UserError([Problem(message, str(path), row) for message, row in error.faults]) from None
+    numbered = enumerate(zip(headers, cells, strict=True), 1)
+    columns = [_column(str(path), number, header, under) for number, (header, under) in numbered]
+    problems = list(_wrong_headers(columns))
+    count = len(cells[0]) if cells else 0
+    if not problems and count == 0:
+        problems.append(Problem(NO_ROWS, str(path)))
+    if problems:
+        raise UserError(problems)
+    return TableFile(str(path), {column.name: column for column in columns}, count)
+
+
+def _column(file: str, number: int, header: tuple[str, str | None], cells: Cells) -> Column:
+    text, stored_unit = header
+    matched = _HEADER.fullmatch(text)
+    name, own = (matched[1], matched[2]) if matched else (text, None)
+    return Column(file, name, own or stored_unit, number, cells)
+
+
+def _wrong_headers(columns: list[Column]) -> Iterator[Problem]:
+    seen: dict[str, int] = {}
+    for column in columns:
+        if not column.name:
+            yield column.problem(f"column {column.number} has no name in the header; give it a path, or remove it")
+        elif column.name in seen:
+            words = f"columns {seen[column.name]} and {column.number} have the same name; keep one of them"
+            yield column.problem(words)
+        seen.setdefault(column.name, column.number)
