@@ -3,6 +3,7 @@
 from typing import Annotated
 
 from diecut_report.contract.binding import Binding, Bound, ByText, bind
+from diecut_report.contract.chapters import Chapter, Steps
 from diecut_report.contract.charts import chart_panel, fill, level, line, mark, vertical
 from diecut_report.contract.checks import Check
 from diecut_report.contract.figures import (
@@ -35,7 +36,7 @@ from diecut_report.contract.inputs import POINTS, Block, CurveInput, FromPress, 
 from diecut_report.contract.mechanism import Comparison, Erratum, Mechanism, Profile, Source
 from diecut_report.contract.part_steps import Lookup, Neighbour, Part, Pick, Running, Total
 from diecut_report.contract.placeholders import Curve
-from diecut_report.contract.sections import Section, prefixed
+from diecut_report.contract.sections import prefixed
 from diecut_report.contract.spectra import Spectrum, SpectrumLine
 from diecut_report.contract.steps import (
     Abscissa,
@@ -62,10 +63,10 @@ from diecut_report.standards import StandardSeries, StandardTable, standard_seri
 
 __all__ = [
     "GRAVITY", "POINTS", "Abscissa", "Accumulated", "Annotated", "BarGroup", "Bars", "Binding", "Block", "Bound", "Breakpoints", "ByText",
-    "Case", "Chart", "Check", "Choice", "Clash", "Comparison", "Computed", "Constant", "Crossings", "Curve", "CurveInput", "CurvePeriod",
+    "Case", "Chapter", "Chart", "Check", "Choice", "Clash", "Comparison", "Computed", "Constant", "Crossings", "Curve", "CurveInput", "CurvePeriod",
     "Derivative", "Drawing", "Erratum", "Formula", "FromCurve", "FromPress", "Inputs", "Level", "Lookup", "Mark", "Mechanism",
     "Neighbour", "OneOf", "Panel", "Part", "Pick", "Plot", "Point", "Polar", "Profile", "Quantity", "Reduction", "Require", "Root",
-    "Running", "Section", "Series", "Shape", "Source", "Span", "Spectrum", "SpectrumLine", "StandardSeries", "StandardTable", "Step",
+    "Running", "Series", "Shape", "Source", "Span", "Spectrum", "SpectrumLine", "StandardSeries", "StandardTable", "Step", "Steps",
     "Text", "Total", "Value", "View", "Words", "arc", "arccos", "arrow", "below", "bind", "box", "chart_panel", "circle", "dimension",
     "fill", "formula", "label", "level", "line", "mark", "outward", "point", "polyline", "prefixed", "radius_dimension", "region", "si",
     "standard_series", "standard_series_by", "standard_table", "told", "vertical",

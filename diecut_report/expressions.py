@@ -9,17 +9,17 @@ from __future__ import annotations
 
 import ast
 import inspect
-import linecache
 import math
 import operator
 from collections.abc import Callable, Mapping
 from functools import cached_property, reduce
-from textwrap import dedent
-from types import CodeType
 from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
+
+from diecut_report import formula_source as source
+from diecut_report.formula_source import LAMBDA as LAMBDA
 
 Array = NDArray[Any]
 
@@ -90,9 +90,9 @@ class FormulaError(TypeError):
 class Formula:
     """A function that computes and prints; see the module's text."""
 
-    def __init__(self, function: Callable[..., Any]) -> None:
+    def __init__(self, function: Callable[..., Any], name: str = "") -> None:
         self.function = function
-        self.__name__ = function.__name__
+        self.__name__ = name or function.__name__
         self.__doc__ = function.__doc__
         self.__module__ = function.__module__
 
@@ -126,21 +126,6 @@ def formula(function: Callable[..., Any]) -> Formula:
     return Formula(function)
 
 
-def _definition(code: CodeType) -> ast.FunctionDef:
-    """The definition of a function, read from its own lines alone: to parse whole files costs more than a short run may."""
-    lines = linecache.getlines(code.co_filename)
-    first, last = code.co_firstlineno, max(line for *_, line in code.co_lines() if line)
-    for end in range(last, len(lines) + 1):  # brackets may close below the last line that does something
-        try:
-            found = ast.parse("\n" * (first - 1) + dedent("".join(lines[first - 1 : end])))
-        except SyntaxError:
-            continue
-        definition = found.body[0]
-        if isinstance(definition, ast.FunctionDef):
-            return definition
-    raise FormulaError(f"{code.co_filename}:{first}: the source of formula {code.co_name} cannot be read")
-
-
 class _Reader:
     """Reads one formula's body into a tree."""
 
@@ -150,7 +135,7 @@ class _Reader:
         self.locals: dict[str, Node] = {name: Node("sym", (name,)) for name in owner.parameters}
 
     def read(self) -> Node:
-        for statement in _definition(self.owner.function.__code__).body:
+        for statement in self._statements():
             match statement:
                 case ast.Return(value=ast.expr() as value):
                     return self._node(value)
@@ -161,6 +146,14 @@ class _Reader:
                 case _:
                     raise self._refuse(statement)
         raise FormulaError(f"formula {self.owner.__name__} returns nothing")
+
+    def _statements(self) -> list[ast.stmt]:
+        code = self.owner.function.__code__
+        try:
+            return source.body(code)
+        except source.Unreadable as error:
+            words = f"{code.co_filename}:{code.co_firstlineno}: the source of formula {self.owner.__name__} cannot be read: {error}"
+            raise FormulaError(words) from None
 
     def _node(self, expression: ast.expr) -> Node:
         match expression:

@@ -340,7 +340,7 @@ def test_colours_only_on_a_terminal_that_wants_them(tmp_path: Path) -> None:
 
 
 SLOW = "import time\nfrom diecut_report.api import Inputs, Mechanism\ntime.sleep(2)\n" + (
-    "MECHANISM = Mechanism(kind='slow', version='1', title='Slow', summary='', inputs=Inputs, sections=())\n"
+    "MECHANISM = Mechanism(kind='slow', version='1', title='Slow', summary='', inputs=Inputs, chapters=())\n"
 )
 
 

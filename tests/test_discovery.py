@@ -54,7 +54,7 @@ def test_a_folder_with_an_init_is_a_kind_with_modules_of_its_own(tmp_path: Path)
     (package / "words.py").write_text("TITLE = 'A gadget'\n")
     (package / "__init__.py").write_text(
         "from diecut_report.api import Inputs, Mechanism\nfrom .words import TITLE\n"
-        "MECHANISM = Mechanism(kind='gadget', version='1', title=TITLE, summary='', inputs=Inputs, sections=())\n"
+        "MECHANISM = Mechanism(kind='gadget', version='1', title=TITLE, summary='', inputs=Inputs, chapters=())\n"
     )
     assert Discovery([tmp_path]).mechanism("gadget").title == "A gadget"
 

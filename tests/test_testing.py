@@ -7,7 +7,7 @@ from typing import Any
 
 import pytest
 
-from diecut_report.api import Check, Formula, Mechanism, Section, Step, Value, bind, formula
+from diecut_report.api import Chapter, Check, Formula, Mechanism, Step, Value, bind, formula
 from diecut_report.testing import check_mechanism
 from tests.engine.toy import MECHANISM, ROOTED, Toy, same
 
@@ -24,7 +24,7 @@ def moment(force: Any, arm: Any) -> Any:
 
 def mechanism(*steps: Step, checks: tuple[Check, ...] = ()) -> Mechanism:
     """A mechanism of these steps on the toy's inputs."""
-    return replace(MECHANISM, inputs=Toy, sections=(Section("Steps", steps),), checks=checks, figures=())
+    return replace(MECHANISM, inputs=Toy, chapters=(Chapter("Steps", steps=steps),), checks=checks, figures=())
 
 
 def value(**changes: Any) -> Value:
@@ -54,8 +54,8 @@ def test_a_sound_mechanism_passes(sound: Mechanism) -> None:
 
 def rooted(**changes: Any) -> Mechanism:
     """The mechanism with a root, its step changed."""
-    step = replace(ROOTED.sections[0].steps[0], **changes)
-    return replace(ROOTED, sections=(Section("Root", (step,)),))
+    step = replace(ROOTED.chapters[0].steps[0], **changes)
+    return replace(ROOTED, chapters=(Chapter("Root", steps=(step,)),))
 
 
 class Lying(Formula):

@@ -9,6 +9,7 @@ from typing import Any
 
 from diecut_report.config.validation import Place, keys_of
 from diecut_report.config.yaml_tree import KeyPath
+from diecut_report.contract.chapters import Chapter
 from diecut_report.contract.inputs import (
     Block,
     CurveInput,
@@ -21,7 +22,6 @@ from diecut_report.contract.inputs import (
     texts_given,
 )
 from diecut_report.contract.mechanism import Mechanism
-from diecut_report.contract.sections import Section
 from diecut_report.contract.steps import Step
 
 
@@ -101,7 +101,7 @@ class Instance:
         return slot.meta.validate(value) if is_own and value is not None and slot.meta else value
 
     @cached_property
-    def declared_steps(self) -> dict[str, tuple[Section, Step]]:
+    def declared_steps(self) -> dict[str, tuple[Chapter, Step]]:
         """Every step of the mechanism by its id, whether it takes part or not."""
         return {step.id: (section, step) for section, step in self.mechanism.steps} if self.mechanism else {}
 

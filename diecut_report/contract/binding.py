@@ -5,8 +5,9 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from functools import cache, cached_property
+from typing import Any
 
-from diecut_report.expressions import Formula
+from diecut_report.expressions import LAMBDA, Formula
 
 
 @dataclass(frozen=True, eq=False)
@@ -22,8 +23,9 @@ class Bound:
         return tuple(name if isinstance(name, str) else float(name) for name in self.names.values())
 
 
-def bind(formula: Formula, **names: str | float) -> Bound:
-    """Bind a formula to quantities; a parameter that is not named takes the quantity of its own name."""
+def bind(formula: Formula | Callable[..., Any], **names: str | float) -> Bound:
+    """Bind a formula (or a lambda) to quantities; a parameter that is not named takes the quantity of its own name."""
+    formula = formula if isinstance(formula, Formula) else Formula(formula)
     unknown = set(names) - set(formula.parameters)
     if unknown:
         raise TypeError(f"formula {formula.__name__} has no parameter {', '.join(sorted(unknown))}")
@@ -54,6 +56,13 @@ class ByText:
 
 
 Binding = Bound | Formula | ByText
+
+
+def as_binding(part: Binding | Callable[..., Any], name: str) -> Binding:
+    """Return what an author wrote as a formula of the engine; a lambda is called ``name`` in messages."""
+    if isinstance(part, Bound) and part.formula.__name__ == LAMBDA:
+        part.formula.__name__ = name
+    return part if isinstance(part, Binding) else Formula(part, name)
 
 
 def bound(part: Binding) -> Bound:

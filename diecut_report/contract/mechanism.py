@@ -6,11 +6,12 @@ from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from functools import cached_property
 
+from diecut_report.contract.chapters import Chapter
 from diecut_report.contract.checks import Check
 from diecut_report.contract.figures import Figure
 from diecut_report.contract.inputs import CurveInput, Inputs, fields, list_inputs
 from diecut_report.contract.part_steps import Lookup, Neighbour, Running
-from diecut_report.contract.sections import Section, settled
+from diecut_report.contract.sections import settled
 from diecut_report.contract.spectra import Spectrum
 from diecut_report.contract.steps import (
     SILENT,
@@ -112,7 +113,7 @@ class Mechanism:
     title: str
     summary: str
     inputs: type[Inputs]
-    sections: tuple[Section, ...]
+    chapters: tuple[Chapter, ...]
     key_results: tuple[str, ...] = ()
     checks: tuple[Check, ...] = ()
     figures: tuple[Figure, ...] = ()
@@ -124,23 +125,23 @@ class Mechanism:
     spectra: tuple[Spectrum, ...] = ()
 
     @cached_property
-    def steps(self) -> tuple[tuple[Section, Step], ...]:
-        """All steps in the order in which they are calculated, each with its section."""
-        return tuple((section, step) for section in self.sections for step in section.steps)
+    def steps(self) -> tuple[tuple[Chapter, Step], ...]:
+        """All steps in the order in which they are calculated, each with its chapter."""
+        return tuple((chapter, step) for chapter in self.chapters for step in chapter.steps)
 
-    def active(self, given: frozenset[str]) -> tuple[tuple[Section, Step], ...]:
+    def active(self, given: frozenset[str]) -> tuple[tuple[Chapter, Step], ...]:
         """The steps that take part when these optional inputs (and texts, as ``key=value``) are given."""
         if given not in self._active:
             self._active[given] = tuple(self._settled(given))
         return self._active[given]
 
-    def _settled(self, given: frozenset[str]) -> Iterator[tuple[Section, Step]]:
-        for section, step in self.steps:
-            if given.issuperset(section.needs + step.needs) and given.isdisjoint(step.lacks):
-                yield section, settled(step, given)
+    def _settled(self, given: frozenset[str]) -> Iterator[tuple[Chapter, Step]]:
+        for chapter, step in self.steps:
+            if given.issuperset(chapter.needs + step.needs) and given.isdisjoint(step.lacks):
+                yield chapter, settled(step, given)
 
     @cached_property
-    def _active(self) -> dict[frozenset[str], tuple[tuple[Section, Step], ...]]:
+    def _active(self) -> dict[frozenset[str], tuple[tuple[Chapter, Step], ...]]:
         return {}
 
     def results_of(self, given: frozenset[str]) -> dict[str, tuple[str | None, bool]]:

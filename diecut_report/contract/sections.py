@@ -1,9 +1,9 @@
-"""Chapters of steps, and what can be done with declared steps: name them anew, settle texts, ask what they take."""
+"""What can be done with declared steps: name them anew, settle texts, ask what they take."""
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from dataclasses import dataclass, replace
+from collections.abc import Callable, Sequence
+from dataclasses import replace
 from functools import cache
 from typing import Any
 
@@ -19,20 +19,7 @@ NAMING = ("formula", "cases", "of", "among", "takes", "given", "by", "points", "
 Rename = Callable[[str | float], str | float]
 
 
-@dataclass(frozen=True, eq=False)
-class Section:
-    """A chapter of the calculation: steps under a title; ``absent`` says in words what is missing when its needs are."""
-
-    title: str
-    steps: tuple[Step, ...]
-    text: str = ""
-    needs: tuple[str, ...] = ()
-    absent: str = ""
-
-
-def prefixed(
-    prefix: str, steps: tuple[Step, ...], shared: tuple[str, ...], symbol_suffix: str = ""
-) -> tuple[Step, ...]:
+def prefixed(prefix: str, steps: Sequence[Step], shared: tuple[str, ...], symbol_suffix: str = "") -> tuple[Step, ...]:
     """One family of steps for another variant: each id gets the prefix, except what is ``shared`` by all variants."""
     own = {step.id for step in steps} - set(shared)
 

@@ -80,7 +80,7 @@ def absent(calc: Calculation, provenance: Mapping[str, Provenance]) -> list[Data
     """What is not calculated, and checks for which a limit is given that nothing can be held against, in words."""
     left_out = [
         {"title": s.title, "text": s.absent}
-        for s in calc.mechanism.sections
+        for s in calc.mechanism.chapters
         if s.absent and not calc.given.issuperset(s.needs)
     ]
     made = {check.id for check in calc.mechanism.checks if applies(calc, check)}

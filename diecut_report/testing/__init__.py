@@ -14,9 +14,10 @@ from typing import cast
 
 import numpy as np
 
+from diecut_report.contract.chapters import Chapter
 from diecut_report.contract.inputs import Block, Inputs, Quantity, Text, fields, meta_of, nested
 from diecut_report.contract.mechanism import Mechanism, axes
-from diecut_report.contract.sections import Section, taken
+from diecut_report.contract.sections import taken
 from diecut_report.contract.steps import SILENT, Step
 from diecut_report.contract.unit_variants import form_keys, in_form, in_unit
 from diecut_report.expressions import evaluate
@@ -43,8 +44,8 @@ def forms(mechanism: Mechanism) -> Iterator[Mechanism]:
     for count in range(len(keys) + 1):
         for given in map(frozenset, combinations(sorted(keys), count)):
             absent = (keys - given) | _excluded(mechanism.inputs, given)
-            sections = tuple(replace(s, steps=_in_form(s, given, absent)) for s in mechanism.sections)
-            yield replace(mechanism, inputs=cast(type[Inputs], in_form(mechanism.inputs, given)), sections=sections)
+            chapters = tuple(replace(c, steps=_in_form(c, given, absent)) for c in mechanism.chapters)
+            yield replace(mechanism, inputs=cast(type[Inputs], in_form(mechanism.inputs, given)), chapters=chapters)
 
 
 def _excluded(model: type[Block], given: frozenset[str]) -> frozenset[str]:
@@ -53,9 +54,9 @@ def _excluded(model: type[Block], given: frozenset[str]) -> frozenset[str]:
     return frozenset(key for groups in rules for group in groups if given.isdisjoint(group) for key in group)
 
 
-def _in_form(section: Section, given: frozenset[str], absent: frozenset[str]) -> tuple[Step, ...]:
-    """The steps of a section that may be made with some of the keys on which units depend, in their units."""
-    made = [s for s in section.steps if absent.isdisjoint(section.needs + s.needs) and given.isdisjoint(s.lacks)]
+def _in_form(chapter: Chapter, given: frozenset[str], absent: frozenset[str]) -> tuple[Step, ...]:
+    """The steps of a chapter that may be made with some of the keys on which units depend, in their units."""
+    made = [s for s in chapter.steps if absent.isdisjoint(chapter.needs + s.needs) and given.isdisjoint(s.lacks)]
     return tuple(in_unit(step, given) for step in made)
 
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from diecut_report.api import Formula, Reduction, Require, Section, Step, Value, Words, bind
+from diecut_report.api import Chapter, Formula, Reduction, Require, Step, Value, Words, bind
 from diecut_report.mechanics import cam, common, contact
 from diecut_report.plugins.cam_gear_transport import advice, arms, loads
 from diecut_report.plugins.cam_gear_transport.inputs import CAMS, TORQUE
@@ -37,7 +37,7 @@ def _swing(number: str) -> tuple[Step, ...]:
     )  # fmt: skip
 
 
-ROCKER = Section(
+ROCKER = Chapter(
     "Rocker on the cams",
     needs=CAMS,
     absent=NO_CAMS,
@@ -131,8 +131,8 @@ def _extremes(number: str) -> tuple[Step, ...]:
     )  # fmt: skip
 
 
-def _cam(number: str) -> Section:
-    return Section(
+def _cam(number: str) -> Chapter:
+    return Chapter(
         f"Cam {number}",
         needs=CAMS,
         absent=NO_CAMS,
@@ -143,7 +143,7 @@ def _cam(number: str) -> Section:
     )
 
 
-BOTH = Section(
+BOTH = Chapter(
     "Both cams",
     needs=CAMS,
     absent=NO_CAMS,
@@ -188,7 +188,7 @@ def _loaded(number: str) -> tuple[Step, ...]:
     )  # fmt: skip
 
 
-LOADS = Section(
+LOADS = Chapter(
     "Forces on the rollers",
     needs=(*CAMS, *TORQUE),
     absent="not calculated: the cams and conveyor_mass with sprocket_teeth and chain_pitch are not all given",

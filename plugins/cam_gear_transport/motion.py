@@ -10,10 +10,10 @@ from diecut_report.api import (
     Breakpoints,
     ByText,
     Case,
+    Chapter,
     Choice,
     Crossings,
     Reduction,
-    Section,
     Value,
     bind,
 )
@@ -40,7 +40,7 @@ def by_phase(dwell: Binding, stopping: Binding, returning: Binding, starting: Bi
 RISE = {"sweep": "sector_stop_sweep", "time": "time_stop"}
 FALL = {"sweep": "sector_sweep", "time": "time_return"}
 
-SECTOR = Section(
+SECTOR = Chapter(
     "Motion of the sector",
     text="The disc angle counts from the start of the dwell. γ is the sector's angle relative to the disc, counter-clockwise, 0 at the "
     "start of the dwell; k is the share of the rise or return that has passed, in the dwell that of the rise's middle, where it is as fast. "
@@ -87,7 +87,7 @@ SECTOR = Section(
     ),
 )  # fmt: skip
 
-GEAR = Section(
+GEAR = Chapter(
     "Motion of the gear",
     text="The disc carries the gear along; what the sector rolls off is taken away. The gear's angle counts from where it dwells. Over a "
     "cycle the sector comes back to where it was, so the gear makes one turn.",

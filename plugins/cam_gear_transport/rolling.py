@@ -2,14 +2,14 @@
 
 from __future__ import annotations
 
-from diecut_report.api import ByText, Lookup, Require, Section, Value, Words, bind
+from diecut_report.api import ByText, Chapter, Lookup, Require, Value, Words, bind
 from diecut_report.mechanics import common
 from diecut_report.mechanics.motion_laws import MIDDLE_POSITION, MIDDLE_VELOCITY, PEAK_ACCELERATION, PEAK_VELOCITY
 from diecut_report.plugins.cam_gear_transport import advice, formulas
 
 LEAST_RETURN = 1e-9  # share of a turn: below it what is left for the return is rounding
 
-ROLLING = Section(
+ROLLING = Chapter(
     "Rolling of the sector on the gear",
     text="While the disc turns by φ_22, the sector turns on its pin by γ_32 and rolls off the same arc of the gear: φ_22·R_1 = γ_32·R_3. "
     "So the gear, whose axis is that of the disc, stands still.",
@@ -47,7 +47,7 @@ ROLLING = Section(
     ),
 )  # fmt: skip
 
-PHASES = Section(
+PHASES = Chapter(
     "Phases of the cycle",
     text="Times are shares of a turn of the disc, speeds are in rad for each turn of the disc. Phase II is the dwell; in III the sector "
     "stops, in IV it returns, in I it starts again. III and I are the two halves of one rise by the law of motion, whose greatest speed "

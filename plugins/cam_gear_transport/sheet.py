@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-from diecut_report.api import Reduction, Section, Value, Words, bind
+from diecut_report.api import Chapter, Reduction, Value, Words, bind
 from diecut_report.mechanics import common
 from diecut_report.plugins.cam_gear_transport import advice, formulas, loads
 from diecut_report.plugins.cam_gear_transport.inputs import SHEET, TORQUE
 
-CONVEYOR = Section(
+CONVEYOR = Chapter(
     "Motion of the sheet",
     needs=SHEET,
     absent="not calculated: sprocket_teeth and chain_pitch are not both given",
@@ -31,7 +31,7 @@ CONVEYOR = Section(
     ),
 )  # fmt: skip
 
-TORQUES = Section(
+TORQUES = Chapter(
     "Torque",
     needs=TORQUE,
     absent="not calculated: sprocket_teeth, chain_pitch and conveyor_mass are not all given",

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from diecut_report.api import Abscissa, Binding, Breakpoints, Case, Choice, Reduction, Section, Value, bind
+from diecut_report.api import Abscissa, Binding, Breakpoints, Case, Chapter, Choice, Reduction, Value, bind
 from diecut_report.mechanics import circular_segment, common
 from diecut_report.plugins.circular_knife import formulas as f
 from diecut_report.plugins.circular_knife.geometry import OWN
@@ -21,7 +21,7 @@ def _in_cut(
                   cases=(Case(formula, INSIDE, CUTTING), Case(common.zero, OUTSIDE)))  # fmt: skip
 
 
-MOTION = Section(
+MOTION = Chapter(
     "Motion over a turn of the knife",
     text="The curves run over a full turn, so that a drive can take them over. Outside the cut, cutting point and shear angle stay as they are at "
     "its start; speed, sliding, force and torque are zero. At the cutting point the edge's normal and its centre's direction include the angle φ "
@@ -57,7 +57,7 @@ MOTION = Section(
     ),
 )  # fmt: skip
 
-FORCES = Section(
+FORCES = Chapter(
     "Force and torque",
     text="Over the length a of the working front the board is partly cut through; the edge bows out of its chord by the area A_b. Each millimetre "
     "of the edge in the board carries σ times the thickness that it has still to cut, square to the edge: σ·h where it enters, nothing where the "
@@ -98,7 +98,7 @@ FORCES = Section(
     ),
 )  # fmt: skip
 
-GUILLOTINE = Section(
+GUILLOTINE = Chapter(
     "Compared with a guillotine",
     text="A straight blade parallel to the counter-knife cuts the same length at once. Its work is not quite the work of cutting W_u: at φ_1 a part "
     "of the board is cut into already, and at φ_2 the edge has cut into it beyond the end.",

@@ -2,14 +2,14 @@
 
 from __future__ import annotations
 
-from diecut_report.api import Case, Choice, Require, Root, Section, Value, Words, bind
+from diecut_report.api import Case, Chapter, Choice, Require, Root, Value, Words, bind
 from diecut_report.mechanics import common
 from diecut_report.plugins.circular_knife import advice
 from diecut_report.plugins.circular_knife import formulas as f
 
 OWN = "this method"
 
-REACH = Section(
+REACH = Chapter(
     "What the edge reaches",
     text="The formulas of this calculation are its own. Of the source (001, third paper) only the first page survives: it gives the arrangement "
     "and its parameters r, R, δ, b and h, not its formulas; these are derived here from that geometry. The shaft's axis is the origin; x runs "
@@ -81,7 +81,7 @@ def _at_distance(name: str, symbol: str, description: str, distance: str) -> Roo
     )
 
 
-RANGE = Section(
+RANGE = Chapter(
     "Range of the cut",
     text="From φ_0, where the edge touches the counter-knife, to φ_r, where the line from the axis through the edge's centre passes the cutting "
     "point, this point runs forward only; the cut lies in between. The shear angle grows all the way, as cos τ = (H − r·sin φ)/R falls there.",
@@ -119,7 +119,7 @@ RANGE = Section(
     ),
 )  # fmt: skip
 
-EDGE = Section(
+EDGE = Chapter(
     "Edge",
     text="The edge meets the board first at its upper front edge, at φ_e, a little before the cutting point gets to the front edge. Places on the "
     "edge are counted from the line shaft–centre, as seen from the edge's centre. The arc between ψ_1 and ψ_2 must be sharp; it is longer than the "

@@ -18,7 +18,7 @@ MECHANISM = Mechanism(
     "shoes and presses them against a drum. From the torque follow the pressing force, the engagement force, the release and the width "
     "of the shoes; with the driven inertia the heat, slip time and temperature of an engagement, with the gap the travel of the cone.",
     inputs=Clutch,
-    sections=SECTIONS,
+    chapters=SECTIONS,
     key_results=("design_torque", "pressing_force", "engagement_force", "release_force", "self_locking", "shoe_width", "axial_travel",
                  "engagement_energy", "slip_time", "lining_temperature_rise"),
     checks=(

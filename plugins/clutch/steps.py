@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-from diecut_report.api import Case, Choice, Require, Section, Value, Words, bind
+from diecut_report.api import Case, Chapter, Choice, Require, Value, Words, bind
 from diecut_report.mechanics import common
 from diecut_report.plugins.clutch import advice
 from diecut_report.plugins.clutch import formulas as f
 
-TORQUE = Section(
+TORQUE = Chapter(
     "Torque",
     steps=(
         Value(id="torque", symbol="M", unit="N*m", description="Torque that the clutch is to carry", source="002 eq. 16", lacks=("torque",),
@@ -19,7 +19,7 @@ TORQUE = Section(
     ),
 )  # fmt: skip
 
-WEDGE = Section(
+WEDGE = Chapter(
     "Wedge",
     text="The cone's force square to its face, N_2, and the friction f·N_2 on it hold the balance of P_1 along the axis and of the shoes' "
     "pressing force P along the radius: P_1 = P·tan(α + ρ) with the angle of friction ρ. All forces are those of the whole ring of shoes.",
@@ -55,7 +55,7 @@ WEDGE = Section(
     ),
 )  # fmt: skip
 
-RELEASE = Section(
+RELEASE = Chapter(
     "Release",
     text="When P_1 is taken away, the shoes still press on the cone and friction turns round: it now holds the cone in. F_r is the axial "
     "force that then has to pull at the cone to release it. A negative F_r means that nothing has to pull: the shoes push the cone out "
@@ -78,7 +78,7 @@ RELEASE = Section(
     ),
 )  # fmt: skip
 
-LINING = Section(
+LINING = Chapter(
     "Lining",
     text="The shoes are cylindrical and press evenly on their share of the circumference.",
     steps=(
@@ -111,7 +111,7 @@ LINING = Section(
     ),
 )  # fmt: skip
 
-TRAVEL = Section(
+TRAVEL = Chapter(
     "Travel of the cone",
     text="Along the cone's face the shoes rise by tan α for each length that the cone travels.",
     needs=("radial_gap",),
@@ -129,7 +129,7 @@ TRAVEL = Section(
     ),
 )  # fmt: skip
 
-SLIDING = Section(
+SLIDING = Chapter(
     "Sliding at engagement",
     needs=("speed",),
     absent="sliding speed and q·v are not calculated: speed is not given",
@@ -146,7 +146,7 @@ SLIDING = Section(
     ),
 )  # fmt: skip
 
-HEAT = Section(
+HEAT = Chapter(
     "Heat of the engagement",
     text="The driving shaft keeps its speed; the driven side starts from rest and is run up by M_a. The clutch slips the slower "
     "the faster the driven side runs, and all friction work becomes heat.",
@@ -173,7 +173,7 @@ HEAT = Section(
 
 DRUM = {"conductivity": "drum_conductivity", "density": "drum_density", "specific_heat": "drum_specific_heat"}
 
-TEMPERATURE = Section(
+TEMPERATURE = Chapter(
     "Temperature of the lining",
     text="The lining leads heat badly: its rubbing surface takes the temperature of the drum's surface, into which all heat is taken to go. "
     "While the clutch slips the drum is a thick body whose surface takes a heat flux that falls evenly to zero; the surface is hottest at "
@@ -200,7 +200,7 @@ TEMPERATURE = Section(
     ),
 )  # fmt: skip
 
-WARMING = Section(
+WARMING = Chapter(
     "Mean temperature",
     needs=("driven_inertia", "speed", "cooling"),
     absent="the mean temperature over many engagements is not calculated: it needs driven_inertia, speed and the block cooling",

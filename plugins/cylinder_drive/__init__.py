@@ -15,7 +15,7 @@ MECHANISM = Mechanism(
     "back. One turn of the crank gives two working strokes with a pause at each end, so two sheets. Calculated are the motion "
     "of the cylinder, the moments on it, and torque, power and forces over a turn of the crank.",
     inputs=CylinderDrive,
-    sections=(linkage.LINKAGE, linkage.STROKE, linkage.CUTTING, linkage.KINEMATICS, forces.MOMENTS, forces.TORQUE, forces.ENERGY,
+    chapters=(linkage.LINKAGE, linkage.STROKE, linkage.CUTTING, linkage.KINEMATICS, forces.MOMENTS, forces.TORQUE, forces.ENERGY,
               forces.CLEARANCE, forces.TEETH, forces.JOINTS),
     key_results=("swing_angle", "sector_ratio", "stroke", "velocity_max", "acceleration_max", "cutting_moment", "crank_torque_peak",
                  "crank_torque_mean", "crank_torque_rms", "power_mean", "power_peak", "clearance_outer_time", "clearance_inner_time",

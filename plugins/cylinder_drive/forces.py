@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-from diecut_report.api import Breakpoints, Case, Choice, Crossings, Reduction, Require, Section, Value, bind
+from diecut_report.api import Breakpoints, Case, Chapter, Choice, Crossings, Reduction, Require, Value, bind
 from diecut_report.mechanics import circular_segment, common, four_bar
 from diecut_report.plugins.cylinder_drive import loads
 from diecut_report.plugins.cylinder_drive.linkage import TECHNOLOGICAL
 
-MOMENTS = Section(
+MOMENTS = Chapter(
     "Moments on the cylinder",
     text="The flat is down at θ = 0; the technological moment always resists the motion.",
     steps=(
@@ -31,7 +31,7 @@ MOMENTS = Section(
     ),
 )  # fmt: skip
 
-TORQUE = Section(
+TORQUE = Chapter(
     "Torque at the crank",
     text="Carried back to the crank, the efficiency follows the direction of power: the losses add where the crank drives "
     "and take away where the cylinder drives back.",
@@ -64,7 +64,7 @@ TORQUE = Section(
     ),
 )  # fmt: skip
 
-ENERGY = Section(
+ENERGY = Chapter(
     "Energy balance",
     text="Without losses a turn of the crank takes the work of the technological moment; inertia and weight return all theirs.",
     steps=(
@@ -79,7 +79,7 @@ ENERGY = Section(
     ),
 )  # fmt: skip
 
-CLEARANCE = Section(
+CLEARANCE = Chapter(
     "Window of the carriages",
     needs=("carriage_clearance", "segment_height"),
     absent="not calculated: carriage_clearance and segment_height are not both given",
@@ -128,7 +128,7 @@ CLEARANCE = Section(
     ),
 )  # fmt: skip
 
-TEETH = Section(
+TEETH = Chapter(
     "Tooth force of the sector",
     needs=("pinion_radius",),
     absent="not calculated: pinion_radius is not given",
@@ -148,7 +148,7 @@ TEETH = Section(
     ),
 )  # fmt: skip
 
-JOINTS = Section(
+JOINTS = Chapter(
     "Forces in the joints",
     needs=("crank_length",),
     absent="not calculated: crank_length is not given",

@@ -9,11 +9,11 @@ from diecut_report.api import (
     Bound,
     Breakpoints,
     Case,
+    Chapter,
     Choice,
     Formula,
     Reduction,
     Require,
-    Section,
     Value,
     bind,
 )
@@ -32,7 +32,7 @@ def _cutting_edge(name: str, symbol: str, description: str, dead_center: Bound, 
     return Choice(id=name, symbol=symbol, unit="deg", description=description, cases=cases)
 
 
-LINKAGE = Section(
+LINKAGE = Chapter(
     "Linkage and its dead centres",
     text="Lengths are relative to the crank. The crank angle is counted from the frame line O₁O₃, counter-clockwise.",
     steps=(
@@ -63,7 +63,7 @@ LINKAGE = Section(
     ),
 )  # fmt: skip
 
-STROKE = Section(
+STROKE = Chapter(
     "Sector ratio and stroke",
     steps=(
         Value(id="sector_ratio", symbol="u", description="Ratio of sector to pinion: as given", source="input", needs=("sector_ratio",),
@@ -77,7 +77,7 @@ STROKE = Section(
     ),
 )  # fmt: skip
 
-CUTTING = Section(
+CUTTING = Chapter(
     "Cutting",
     steps=(
         Require(id="board_below_radius", condition=bind(common.is_below, smaller="material_thickness", greater="cylinder_radius"),
@@ -114,7 +114,7 @@ CUTTING = Section(
     ),
 )  # fmt: skip
 
-KINEMATICS = Section(
+KINEMATICS = Chapter(
     "Kinematics over a turn of the crank",
     steps=(
         Abscissa(id="crank_angle", symbol="φ", unit="deg", description="Crank angle from the frame line", period=2 * np.pi, intervals=32,

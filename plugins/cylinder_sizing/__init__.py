@@ -15,7 +15,7 @@ MECHANISM = Mechanism(
     "the sheet conveyor pass under the flat while the cylinder dwells. From the sheet and the segment follow the radius, the "
     "mass, the inertia and the unbalance; the wall that is left at the flat is checked.",
     inputs=CylinderSizing,
-    sections=SECTIONS,
+    chapters=SECTIONS,
     key_results=("radius", "mass", "inertia", "static_unbalance", "center_of_mass_offset", "wall_at_flat", "cutting_arc_fraction",
                  "deflection"),
     checks=(

@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-from diecut_report.api import Case, Choice, Require, Root, Section, Value, bind
+from diecut_report.api import Case, Chapter, Choice, Require, Root, Value, bind
 from diecut_report.mechanics import circular_segment as segment
 from diecut_report.mechanics import common
 from diecut_report.plugins.cylinder_sizing import formulas as f
 
-SIZE = Section(
+SIZE = Chapter(
     "Radius",
     text="The unrolled circumference is the working length and the arc of the segment: 2πR = l_1 + l_2 (002 eq. 1). "
     "The closed form takes Huygens' arc; the adopted radius is judged by the exact one.",
@@ -40,7 +40,7 @@ SIZE = Section(
     ),
 )  # fmt: skip
 
-FLAT = Section(
+FLAT = Chapter(
     "Segment and flat",
     text="All geometry uses the adopted radius.",
     steps=(
@@ -74,7 +74,7 @@ FLAT = Section(
     ),
 )  # fmt: skip
 
-OVERLAP = Section(
+OVERLAP = Chapter(
     "Overlap of bore and segment",
     text="Where the bore reaches beyond the flat, bore and segment share a smaller segment of the bore's circle; "
     "it is taken away once only.",
@@ -90,7 +90,7 @@ OVERLAP = Section(
     ),
 )  # fmt: skip
 
-MASS = Section(
+MASS = Chapter(
     "Masses",
     steps=(
         Value(id="solid_mass", symbol="m′", unit="kg", description="Mass of the full cylinder", source="000 eq. 13, 17",
@@ -106,7 +106,7 @@ MASS = Section(
     ),
 )  # fmt: skip
 
-INERTIA = Section(
+INERTIA = Chapter(
     "Moment of inertia and unbalance",
     text="The moment of inertia about the cylinder's axis is exact; the source's formula stands beside it for comparison.",
     steps=(
@@ -138,7 +138,7 @@ INERTIA = Section(
     ),
 )  # fmt: skip
 
-BENDING = Section(
+BENDING = Chapter(
     "Bending under the line load",
     needs=("bearing_span",),
     absent="not calculated: bearing_span is not given",

@@ -5,12 +5,12 @@ from __future__ import annotations
 from collections.abc import Iterator
 from itertools import combinations
 
-from diecut_report.api import Case, Choice, Require, Section, Value, Words, bind
+from diecut_report.api import Case, Chapter, Choice, Require, Value, Words, bind
 from diecut_report.mechanics import common
 from diecut_report.plugins.damper import advice
 from diecut_report.plugins.damper import formulas as f
 
-ENERGY = Section(
+ENERGY = Chapter(
     "Energy and rubber",
     steps=(
         Value(id="kinetic_energy", symbol="W_k", unit="J", description="Kinetic energy at contact: as given", source="input",
@@ -24,7 +24,7 @@ ENERGY = Section(
     ),
 )  # fmt: skip
 
-LENGTH = Section(
+LENGTH = Chapter(
     "Length",
     text="The n dampers that act at once take up the energy as linear springs: W_k = n·P·h/2 (002 eq. 18–22). At the allowed stress "
     "this gives the length.",
@@ -40,7 +40,7 @@ LENGTH = Section(
     ),
 )  # fmt: skip
 
-LOAD = Section(
+LOAD = Chapter(
     "Load at the adopted length",
     steps=(
         Value(id="stress", symbol="σ", unit="MPa", description="Greatest compression stress", source="002 eq. 22", formula=f.stress),
@@ -50,7 +50,7 @@ LOAD = Section(
     ),
 )  # fmt: skip
 
-LOSS = Section(
+LOSS = Chapter(
     "Loss of an impact",
     steps=(
         Require(id="one_loss", needs=("loss_fraction", "loss_tangent"), key="loss_tangent",
@@ -66,7 +66,7 @@ LOSS = Section(
     ),
 )  # fmt: skip
 
-STOP = Section(
+STOP = Chapter(
     "Stop and rebound",
     needs=("velocity",),
     absent="not calculated: velocity is not given",
@@ -83,7 +83,7 @@ STOP = Section(
     ),
 )  # fmt: skip
 
-HEAT = Section(
+HEAT = Chapter(
     "Heat",
     needs=("impacts_per_hour",),
     absent="not calculated: neither impacts_per_hour nor the press's productivity is given",
@@ -93,7 +93,7 @@ HEAT = Section(
     ),
 )  # fmt: skip
 
-BUCKLING = Section(
+BUCKLING = Chapter(
     "Buckling",
     text="A block with clamped ends stays straight up to a length of three times its smaller side. Beside the slenderness stand the "
     "changes with which it does, each by itself; a wider pad or more dampers need a shorter length for the same energy.",
@@ -118,7 +118,7 @@ BUCKLING = Section(
     ),
 )  # fmt: skip
 
-DRIVE = Section(
+DRIVE = Chapter(
     "Drive still pushing",
     needs=("drive",),
     absent="not calculated: drive is not given",
@@ -177,6 +177,6 @@ def advice_steps() -> Iterator[Words]:
             yield Words(id="advice", output=False, needs=given, lacks=lacks, function=advice.advice(takes), takes=takes)
 
 
-ADVICE = Section("Changes", steps=tuple(advice_steps()))
+ADVICE = Chapter("Changes", steps=tuple(advice_steps()))
 
 SECTIONS = (ENERGY, LENGTH, LOAD, LOSS, STOP, HEAT, BUCKLING, DRIVE, ADVICE)

@@ -8,11 +8,11 @@ import numpy as np
 
 from diecut_report.api import (
     ByText,
+    Chapter,
     Check,
     Clash,
     Lookup,
     Part,
-    Section,
     Total,
     Value,
     Words,
@@ -88,7 +88,7 @@ def pitch_advice(pitch: float, fewest: float) -> str:
 
 IS_MARKED = bind(common.is_positive, quantity="cylinder_pulley_there")
 
-LISTED = Section(
+LISTED = Chapter(
     "Toothed belt: pulleys of the list",
     needs=("toothed_belt", PULLEYS),
     absent=f"not calculated: {PULLEYS} is not given",

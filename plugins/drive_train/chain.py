@@ -8,6 +8,7 @@ from diecut_report.api import (
     Abscissa,
     Breakpoints,
     Case,
+    Chapter,
     Choice,
     Crossings,
     FromCurve,
@@ -16,7 +17,6 @@ from diecut_report.api import (
     Reduction,
     Require,
     Running,
-    Section,
     Total,
     Value,
     Words,
@@ -25,7 +25,7 @@ from diecut_report.api import (
 from diecut_report.mechanics import common
 from diecut_report.plugins.drive_train import advice, motor_advice, shafts
 
-SPEEDS = Section(
+SPEEDS = Chapter(
     "Ratios and speeds",
     text="Shafts are numbered from the motor: 1 the motor's, 2 the flywheel's, 3 and on behind each pair of gears. The V-belt covers "
     "what the gears leave of the ratio, without slip; its driven pulley is of a standard diameter, so the speeds are those of the "
@@ -75,7 +75,7 @@ SPEEDS = Section(
     ),
 )  # fmt: skip
 
-TURN = Section(
+TURN = Chapter(
     "Torque over a turn of the output shaft",
     text="Carried to the flywheel's shaft, the efficiency follows the direction of power: the losses add where the motor drives and "
     "take away where the load drives.",
@@ -119,7 +119,7 @@ TURN = Section(
     ),
 )  # fmt: skip
 
-EFFICIENCY = Section(
+EFFICIENCY = Chapter(
     "Efficiency",
     steps=(
         Total(id="gears_efficiency", symbol="η_g", description="Efficiency of all gears", source="mechanics", needs=("gears",),
@@ -131,7 +131,7 @@ EFFICIENCY = Section(
     ),
 )  # fmt: skip
 
-POWERS = Section(
+POWERS = Chapter(
     "Torque and power at each shaft",
     text="Means over a turn. What drives the load is divided by the efficiencies behind the shaft, what flows back multiplied.",
     steps=(
@@ -162,7 +162,7 @@ POWERS = Section(
     ),
 )  # fmt: skip
 
-BALANCE = Section(
+BALANCE = Chapter(
     "Power balance",
     text="Power in less the losses of belt and gears is the power out; the losses are taken from the two directions of power, not from "
     "the shafts' torques.",

@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-from diecut_report.api import Accumulated, Lookup, Pick, Reduction, Section, Value, Words, bind
+from diecut_report.api import Accumulated, Chapter, Lookup, Pick, Reduction, Value, Words, bind
 from diecut_report.mechanics import common
 from diecut_report.plugins.drive_train import belts, inertia, motor_advice
 
-MOTOR = Section(
+MOTOR = Chapter(
     "Motor",
     steps=(
         Value(id="power_required", symbol="P_req", unit="kW", description="Required power of the motor, with the reserve",
@@ -28,7 +28,7 @@ MOTOR = Section(
     ),
 )  # fmt: skip
 
-FLYWHEEL = Section(
+FLYWHEEL = Chapter(
     "Flywheel",
     text="The motor gives the mean torque; what the load takes beyond it comes from the flywheel and returns to it. The wheel turns "
     "i_g times as far as the output shaft. It is counted as a disc of steel or cast iron, a fifth as wide as its diameter, "
@@ -71,7 +71,7 @@ FOR_RUN_UP = ("allowable_run_up_time", "shaft_1_speed", "shaft_1_power", "run_up
               "shaft_1_torque", "run_up_inertia", "load_inertia", "gear_ratio_total", "gears_efficiency", "vbelt_ratio_actual",
               "vbelt.efficiency")  # fmt: skip
 
-RUN_UP = Section(
+RUN_UP = Chapter(
     "Run-up of the motor",
     text="From rest the motor brings rotor, flywheel and load to their speeds with its mean run-up torque, less what the load takes. "
     "Without torque_curve there is no flywheel; the time is then calculated where motor_inertia or load_inertia is above 0.",

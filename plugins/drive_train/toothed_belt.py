@@ -10,13 +10,13 @@ from diecut_report.api import (
     Annotated,
     Block,
     ByText,
+    Chapter,
     Clash,
     Erratum,
     Lookup,
     Neighbour,
     Quantity,
     Require,
-    Section,
     Text,
     Total,
     Value,
@@ -168,7 +168,7 @@ PLACES = {"x": f"{PULLEYS}.x", "y": f"{PULLEYS}.y", "next_x": "next_pulley_x", "
 RADII = {"radius": "signed_radius", "next_radius": "next_signed_radius"}
 LAYOUT = (f"{PULLEYS}.x", f"{PULLEYS}.y", "signed_radius")
 
-SPEED = Section(
+SPEED = Chapter(
     "Toothed belt: speed and driving pulley",
     needs=("toothed_belt",),
     absent="not calculated: toothed_belt is not given",
@@ -195,7 +195,7 @@ SPEED = Section(
     ),
 )  # fmt: skip
 
-PATH = Section(
+PATH = Chapter(
     "Toothed belt: path over the pulleys",
     needs=("toothed_belt", PULLEYS),
     absent=f"not calculated: {PULLEYS} is not given",
@@ -252,7 +252,7 @@ PATH = Section(
     ),
 )  # fmt: skip
 
-LENGTH = Section(
+LENGTH = Chapter(
     "Toothed belt: length and teeth in mesh",
     needs=("toothed_belt", PULLEYS),
     absent=f"not calculated: {PULLEYS} is not given",

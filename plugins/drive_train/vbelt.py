@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from diecut_report.api import Lookup, Pick, Require, Root, Section, Value, Words, bind, standard_table
+from diecut_report.api import Chapter, Lookup, Pick, Require, Root, Value, Words, bind, standard_table
 from diecut_report.mechanics import belt_path, common, triangle
 from diecut_report.plugins.drive_train import advice, belts
 
@@ -21,7 +21,7 @@ RATIO_TOO_GREAT = (
 FOR_PULLEYS = ("vbelt_ratio", "vbelt.driver_diameter", "least_driver_diameter", "vbelt.center_distance", "shortest_belt", "longest_belt",
                "shaft_1_speed")  # fmt: skip
 
-VBELT = Section(
+VBELT = Chapter(
     "V-belt",
     text="The belt's length follows exactly from its two runs and two arcs. The nearest standard length corrects the distance of the "
     "shafts. Radii are those of the datum line.",
@@ -85,7 +85,7 @@ VBELT = Section(
     ),
 )  # fmt: skip
 
-COUNT = Section(
+COUNT = Chapter(
     "Number of belts",
     needs=("power_per_belt",),
     absent="not calculated: power_per_belt is not given",
@@ -95,7 +95,7 @@ COUNT = Section(
     ),
 )  # fmt: skip
 
-TENSIONS = Section(
+TENSIONS = Chapter(
     "Pull of the belts and load on the shafts",
     text="The belts pull with the required power. They are tensioned as the friction in their grooves asks for, so the tensions of both "
     "sides are in the ratio of Euler's formula; the centrifugal force stretches the belts but does not load the shafts.",

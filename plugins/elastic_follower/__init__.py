@@ -17,7 +17,7 @@ MECHANISM = Mechanism(
     "moves from rest to rest, the link swings about it. Calculated are its motion, the peaks of its acceleration in the motion and after it, "
     "related to those of a rigid drive, its overshoot, and the torque of the drive; and which law of motion loads this link least.",
     inputs=ElasticFollower,
-    sections=(motion.DRIVE, motion.TIMES, motion.BY_LAW, motion.BY_CURVE, response.RESPONSE, response.PEAKS, response.COMPARED, ADVICE),
+    chapters=(motion.DRIVE, motion.TIMES, motion.BY_LAW, motion.BY_CURVE, response.RESPONSE, response.PEAKS, response.COMPARED, ADVICE),
     key_results=("natural_frequency", "tuning_ratio", "peak_ratio", "residual_ratio", "acceleration_peak", "acceleration_rigid", "overshoot",
                  "torque_peak", "recommended_law"),
     checks=CHECKS,

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from diecut_report.api import Check, Section, Value, Words, bind
+from diecut_report.api import Chapter, Check, Value, Words, bind
 from diecut_report.plugins.elastic_follower import formulas
 from diecut_report.plugins.elastic_follower.advice import passing
 from diecut_report.plugins.elastic_follower.motion import CURVE, LAW, RATE
@@ -20,7 +20,7 @@ TAKEN = (
 )
 
 
-ADVICE = Section(
+ADVICE = Chapter(
     "Tuning",
     steps=(
         Value(id="wanted_stiffness", symbol="K_5", unit="kN*m/rad", units=(("mass", "N/mm"),), source="this method", output=False,

@@ -9,6 +9,7 @@ from diecut_report.api import (
     Breakpoints,
     ByText,
     Case,
+    Chapter,
     Choice,
     Computed,
     Crossings,
@@ -18,7 +19,6 @@ from diecut_report.api import (
     FromCurve,
     Reduction,
     Require,
-    Section,
     Value,
     bind,
 )
@@ -39,7 +39,7 @@ def of_each_body(formula: Formula, **declared: Any) -> tuple[Value, Value]:
     return Value(formula=turning, needs=("inertia",), **declared), Value(formula=sliding, needs=("mass",), **declared)
 
 
-DRIVE = Section(
+DRIVE = Chapter(
     "Elastic drive",
     steps=(
         *of_each_body(linear_follower.natural_angular_frequency, id="angular_frequency", symbol="ω", unit="rad/s", source="001, first paper",
@@ -55,7 +55,7 @@ DRIVE = Section(
     ),
 )  # fmt: skip
 
-TIMES = Section(
+TIMES = Chapter(
     "Duration of the motion",
     text="The motion lasts from one rest to the next; where a curve is given, from the end of its longest rest to its start.",
     steps=(
@@ -113,7 +113,7 @@ TIMES = Section(
 
 MOVING = bind(common.is_below, smaller="piece_middle", greater="rise_duration")
 
-BY_LAW = Section(
+BY_LAW = Chapter(
     "Motion of the input",
     needs=LAW,
     text="One rise by a law of motion; k is the share of the rise's time that has passed.",
@@ -147,7 +147,7 @@ BY_LAW = Section(
     ),
 )  # fmt: skip
 
-BY_CURVE = Section(
+BY_CURVE = Chapter(
     "Motion of the input",
     needs=CURVE,
     text="y is the referred curve, from the start s_0 of its motion on (t = 0); one cycle of it lasts T. Its speed and acceleration follow "

@@ -7,7 +7,7 @@ from typing import Any
 
 import numpy as np
 
-from diecut_report.api import Accumulated, Binding, Breakpoints, Case, Choice, Computed, Reduction, Section, Value, bind
+from diecut_report.api import Accumulated, Binding, Breakpoints, Case, Chapter, Choice, Computed, Reduction, Value, bind
 from diecut_report.mechanics import common, linear_follower
 from diecut_report.mechanics.follower_peaks import peaks
 from diecut_report.mechanics.motion_laws import LAWS, MotionLaw
@@ -23,7 +23,7 @@ from diecut_report.plugins.elastic_follower.motion import (
 
 FORCE = (("mass", "N"),)
 
-RESPONSE = Section(
+RESPONSE = Chapter(
     "Motion of the driven link",
     text="I·ẍ = K·(y − x) + C·(ẏ − ẋ), from rest. The deflection z = x − y follows exactly from two running integrals over the input's "
     "acceleration (Duhamel's integral taken apart), which are taken piece by piece.",
@@ -68,7 +68,7 @@ def _while(rising: bool, symbol: str, words: str) -> Choice:
     )  # fmt: skip
 
 
-PEAKS = Section(
+PEAKS = Chapter(
     "Peaks",
     steps=(
         _while(True, "a_1", "during"),
@@ -128,7 +128,7 @@ def recommended(needs: tuple[str, ...], exists: Binding | None) -> Choice:
     )  # fmt: skip
 
 
-COMPARED = Section(
+COMPARED = Chapter(
     "Laws of motion compared",
     text="For a single rise of the same height and duration on the same drive: the greatest acceleration of the driven link with each law, "
     "during the rise or after it.",

@@ -12,6 +12,7 @@ from diecut_report.api import (
     Annotated,
     Breakpoints,
     Case,
+    Chapter,
     Choice,
     Comparison,
     CurveInput,
@@ -20,7 +21,6 @@ from diecut_report.api import (
     Mechanism,
     Quantity,
     Reduction,
-    Section,
     Step,
     Text,
     Value,
@@ -56,7 +56,7 @@ class TransportComparison(Inputs):
     n_points: Annotated[int, POINTS] = 720
 
 
-BASIS = Section(
+BASIS = Chapter(
     "What is compared",
     text="Both drives make the same step S in the same time T, each with its own dwell. Velocities are related to the mean velocity S/T, "
     "accelerations to S/T²; so they hold for any step and any productivity.",
@@ -75,7 +75,7 @@ BASIS = Section(
     ),
 )  # fmt: skip
 
-DWELL = Section(
+DWELL = Chapter(
     "Dwell",
     steps=(
         Value(id="geneva_dwell", symbol="κ_d", description="Geneva: share of the dwell", source="geometry", formula=formulas.dwell_fraction),
@@ -96,7 +96,7 @@ def _ratio(what: str, symbol: str, title: str) -> Value:
 
 IN_SLOT = bind(formulas.holds, flag="engaged")
 
-MOTION = Section(
+MOTION = Chapter(
     "Motion of the sheet over a cycle",
     text="The cycle begins with the cam-gear's dwell; the motions of both drives have the same middle. "
     "k and s hold for a whole piece of the cycle and are shown in its middle, all other curves at the one φ that is named.",
@@ -176,13 +176,13 @@ def _in_units(step: str, needs: tuple[str, ...], lacks: tuple[str, ...]) -> tupl
     )  # fmt: skip
 
 
-SHEET = Section(
+SHEET = Chapter(
     "Velocity, acceleration and torque",
     text="With the step of the cam-gear, or of the Geneva drive where the cam-gear has none, and the conveyor's mass of the cam-gear.",
     steps=(*_in_units("cam_step", ("cam_step",), ()), *_in_units("geneva_step", ("geneva_step",), ("cam_step",))),
 )
 
-SAME_DWELL = Section(
+SAME_DWELL = Chapter(
     "Cam-gear with the Geneva drive's dwell",
     text="A cam-gear stepper with this dwell has little time to stop, return and start. What its stop and start take, its return lacks: a "
     "wide sweep hurries the return, a narrow one makes the stop hard. In between one sweep asks for the same acceleration in both.",
@@ -214,7 +214,7 @@ GENEVA_HAS = "the Geneva drive has"
 JUMPS = "its acceleration jumps at entry and exit"
 ACCELERATIONS = {"geneva": "geneva_acceleration_peak", "cam": "cam_acceleration_peak"}
 
-VERDICT = Section(
+VERDICT = Chapter(
     "Verdict",
     text="Beside the peaks counts that the Geneva drive's acceleration jumps at entry and exit, which shakes chain and sheet; the cam-gear "
     "does without a jump where its law of motion has no acceleration in the middle of its time.",
@@ -256,7 +256,7 @@ COMPARISON = Mechanism(
     summary="Both drives of the sheet conveyor on the same step and cycle time, each with its own dwell: velocity and acceleration of the sheet, "
     "torque for the same mass, dwell, and what the cam-gear would need for the Geneva drive's dwell.",
     inputs=TransportComparison,
-    sections=(BASIS, DWELL, MOTION, SHEET, SAME_DWELL, VERDICT),
+    chapters=(BASIS, DWELL, MOTION, SHEET, SAME_DWELL, VERDICT),
     key_results=("verdict", "peaks_verdict", "dwell_verdict", "dwell_ratio", "velocity_ratio", "acceleration_ratio", "torque_ratio",
                  "stop_sweep_limit", "stop_sweep_best"),
     figures=FIGURES,

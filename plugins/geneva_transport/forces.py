@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from diecut_report.api import Case, Choice, Reduction, Require, Section, Value, Words, bind
+from diecut_report.api import Case, Chapter, Choice, Reduction, Require, Value, Words, bind
 from diecut_report.mechanics import common, contact, triangle
 from diecut_report.plugins.geneva_transport import advice, formulas, loads
 from diecut_report.plugins.geneva_transport.motion import CONVEYOR_NEEDS
@@ -11,7 +11,7 @@ GEOMETRY = ("slots", "center_distance", "locking_clearance", "roller_radius")
 
 REACHES = bind(common.is_below, smaller="rim_distance", greater="disc_radius")
 
-TORQUE = Section(
+TORQUE = Chapter(
     "Torque at the crank and roller force",
     needs=("driven_inertia",),
     absent="not calculated: driven_inertia is not given",
@@ -37,7 +37,7 @@ TORQUE = Section(
     ),
 )  # fmt: skip
 
-CONTACT = Section(
+CONTACT = Chapter(
     "Contact of roller and slot",
     needs=("driven_inertia", "roller_width"),
     absent="not calculated: driven_inertia and roller_width are not both given",
@@ -56,7 +56,7 @@ CONTACT = Section(
     ),
 )  # fmt: skip
 
-LOCKING = Section(
+LOCKING = Chapter(
     "Locking arc",
     text="In the dwell the disc on the crank's shaft runs in an arc of the wheel. Its cut-out takes the engagement's angle, so that the "
     "disc's edge stands on the line of centres at the instant of entry: up to then it holds, from then on the wheel is free to turn.",

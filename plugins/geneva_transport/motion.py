@@ -4,13 +4,13 @@ from __future__ import annotations
 
 import numpy as np
 
-from diecut_report.api import Abscissa, Breakpoints, Case, Choice, Reduction, Require, Section, Value, Words, bind
+from diecut_report.api import Abscissa, Breakpoints, Case, Chapter, Choice, Reduction, Require, Value, Words, bind
 from diecut_report.mechanics import common
 from diecut_report.plugins.geneva_transport import advice, formulas
 
 CONVEYOR_NEEDS = ("sprocket_teeth", "chain_pitch")
 
-GEOMETRY = Section(
+GEOMETRY = Chapter(
     "Wheel, crank and slots",
     text="The roller enters and leaves the slots along their direction, so without a blow: crank and slot then stand square to each other.",
     steps=(
@@ -44,7 +44,7 @@ GEOMETRY = Section(
     ),
 )  # fmt: skip
 
-DWELL = Section(
+DWELL = Chapter(
     "Motion and dwell",
     steps=(
         Value(id="engagement_half_angle", symbol="α_e", unit="deg", description="Crank angle from the middle of the motion to the roller's exit",
@@ -82,7 +82,7 @@ def _moving(name: str, symbol: str, unit: str, description: str, moving: Case, r
 IN_SLOT = bind(formulas.holds, flag="engaged")
 MOVING, RESTING = "the roller is in a slot", "the locking disc holds the wheel"
 
-MOTION = Section(
+MOTION = Chapter(
     "Motion over a turn of the crank",
     text="The crank angle is counted from the middle of the motion, so that the turn begins and ends within an engagement; α′ counts from "
     "the middle of the present engagement. The wheel turns against the crank; its angle is counted in its own direction. "
@@ -121,7 +121,7 @@ MOTION = Section(
     ),
 )  # fmt: skip
 
-CONVEYOR = Section(
+CONVEYOR = Chapter(
     "Motion of the sheet",
     needs=CONVEYOR_NEEDS,
     absent="not calculated: sprocket_teeth and chain_pitch are not both given",

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Any
 
-from diecut_report.api import Binding, Case, Choice, Section, Step, Value, bind
+from diecut_report.api import Binding, Case, Chapter, Choice, Step, Value, bind
 from diecut_report.mechanics import common
 from diecut_report.plugins.knife_drive import formulas
 from diecut_report.plugins.knife_drive.advice import ADVICE
@@ -122,7 +122,7 @@ def _alone(drive: Drive) -> tuple[Step, ...]:
 
 SEVERAL = groups(least=2)
 
-BEST = Section(
+BEST = Chapter(
     "Comparison",
     text="The best drive is the one with the least greatest acceleration in the working stroke; ratios are to its numbers.",
     steps=(
@@ -178,7 +178,7 @@ def _of_planetary(lacks: tuple[str, ...], *pair: str) -> tuple[Step, ...]:
     )  # fmt: skip
 
 
-WHY = Section(
+WHY = Chapter(
     "Why the drives differ",
     text="At the lowest point the acceleration is W₀ = k·H·ω₁²/2: stroke H times a factor k of the drive, which is 1 for the planetary drive and "
     "1 + r/l for the crank-slider. With usual links the factors are near 1, so at equal stroke the drives differ little; a shorter stroke at the "
@@ -202,7 +202,7 @@ def _grip(drives: Drives) -> Choice:
     )  # fmt: skip
 
 
-GRIP = Section(
+GRIP = Chapter(
     "Knife and rollers",
     text="No drive spares the signature the jump from the knife's speed, which falls to nothing at the lowest point, to that of the rollers.",
     steps=tuple(_grip(drives) for drives in SEVERAL),

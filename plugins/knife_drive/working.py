@@ -12,10 +12,10 @@ from diecut_report.api import (
     Abscissa,
     Breakpoints,
     Case,
+    Chapter,
     Choice,
     Reduction,
     Require,
-    Section,
     Step,
     Value,
     bind,
@@ -58,7 +58,7 @@ def lacking(drives: Drives) -> tuple[str, ...]:
     return tuple(drive.key for drive in ALL if drive not in drives)
 
 
-SPEEDS = Section(
+SPEEDS = Chapter(
     "Knife's shaft and folding rollers",
     text="The crank angle of each drive has its own origin. Displacement, velocity and acceleration of the knife's edge count upwards.",
     steps=(
@@ -137,10 +137,10 @@ def grips(drive: Drive) -> Require:
     )  # fmt: skip
 
 
-def of_drive(drive: Drive, own: tuple[Step, ...]) -> Section:
+def of_drive(drive: Drive, own: tuple[Step, ...]) -> Chapter:
     """The chapter of a drive: its own motion, then the working stroke."""
     family = (*own, *WORKING)
-    return Section(
+    return Chapter(
         f"{drive.name[0].upper()}{drive.name[1:]}",
         needs=(drive.key,),
         absent=f"The {drive.name}: there is no block {drive.key}.",

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from diecut_report.api import Abscissa, Bound, Breakpoints, Case, Choice, Reduction, Require, Section, Value, bind
+from diecut_report.api import Abscissa, Bound, Breakpoints, Case, Chapter, Choice, Reduction, Require, Value, bind
 from diecut_report.mechanics import common, slider_crank
 from diecut_report.plugins.platen_press import formulas
 
@@ -38,7 +38,7 @@ def _frictions() -> tuple[Value, ...]:
     return tuple(step for pair in zip(own, shared, strict=True) for step in pair)
 
 
-MACHINE = Section(
+MACHINE = Chapter(
     "Machine",
     text="The crank angle φ is counted from the inner dead centre, where crank and rods are folded and the platen stands nearest to the shaft.",
     steps=(
@@ -72,7 +72,7 @@ MACHINE = Section(
     ),
 )  # fmt: skip
 
-CONTACT = Section(
+CONTACT = Chapter(
     "Contact, dead centre and dwell",
     text="The drive covers the thickness of the board and its own stretch together. After the dead centre the platen stands on the die "
     "until the rods have their own length again.",
@@ -101,7 +101,7 @@ CONTACT = Section(
     ),
 )  # fmt: skip
 
-MOTION = Section(
+MOTION = Chapter(
     "Motion over a turn of the crank",
     text="The ideal displacement is that of a drive which does not stretch. Beside the exact speed stands the first-order form of the source; "
     "the calculation uses the exact one.",

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from diecut_report.api import Breakpoints, Case, Choice, Crossings, Reduction, Section, Value, Words, bind
+from diecut_report.api import Breakpoints, Case, Chapter, Choice, Crossings, Reduction, Value, Words, bind
 from diecut_report.mechanics import common, slider_crank
 from diecut_report.plugins.platen_press import advice, formulas
 from diecut_report.plugins.platen_press.motion import ADOPTED, by_phase, in_phase
@@ -17,7 +17,7 @@ LOAD = (
     "crank_radius",
 )
 
-FORCES = Section(
+FORCES = Chapter(
     "Force of the rods",
     text="Both rods together, along the guides, tension positive. The force of the rods' stretch is that of cutting, until the dead centre; "
     "after it the platen stands and the rods relax.",
@@ -46,7 +46,7 @@ FORCES = Section(
     ),
 )  # fmt: skip
 
-FRICTION = Section(
+FRICTION = Chapter(
     "Friction of the joints",
     text="Each joint turns under the force of the rods; its friction acts on the joint's radius with the speed at which the two parts turn "
     "in each other. While the rods relax the crank stands near its dead centre, and X of the dead centre is taken.",
@@ -66,7 +66,7 @@ FRICTION = Section(
     ),
 )  # fmt: skip
 
-GUIDES = Section(
+GUIDES = Chapter(
     "Friction of the guides",
     needs=("guide_length",),
     absent="not calculated: guide_length is not given, and no force is offset from the axis of the guides",
@@ -90,7 +90,7 @@ GUIDES = Section(
     ),
 )  # fmt: skip
 
-TORQUE = Section(
+TORQUE = Chapter(
     "Torque at the main shaft",
     text="The arm of the rods' force follows from the crank and rods alone: V/ω with the ideal speed. What the rods store while they stretch the "
     "crank has to give too; they give it back after the dead centre.",
@@ -124,7 +124,7 @@ TORQUE = Section(
     ),
 )  # fmt: skip
 
-RETURN = Section(
+RETURN = Chapter(
     "Relaxing rods",
     text="The stretched rods help the crank over an arm that grows until they have relaxed; friction resists over X.",
     steps=(
@@ -144,7 +144,7 @@ RETURN = Section(
     ),
 )  # fmt: skip
 
-WORK = Section(
+WORK = Chapter(
     "Work and power",
     text="The model sets the platen moving in no time when the rods have relaxed; the energy of that is no part of the torque over the "
     "turn and is added to it. What the rods take up before the dead centre they give back after it.",
@@ -174,7 +174,7 @@ WORK = Section(
 )  # fmt: skip
 
 
-def _pressure(key: str, name: str, symbol: str, pins: str, radius: str) -> Section:
+def _pressure(key: str, name: str, symbol: str, pins: str, radius: str) -> Chapter:
     """The pressure of one kind of pins."""
     steps = (
         Value(id=name, symbol=symbol, unit="MPa", description=f"Pressure of the {pins} on their projected area", source="statics",
@@ -182,12 +182,12 @@ def _pressure(key: str, name: str, symbol: str, pins: str, radius: str) -> Secti
         Value(id=f"{key}_least", symbol=f"b_{symbol[-1]},min", unit="mm", description=f"Length of one of the {pins} at the allowed pressure",
               source="statics", output=False, needs=("allowable_pin_pressure",), formula=bind(formulas.pin_length, radius=radius)),
     )  # fmt: skip
-    return Section(
+    return Chapter(
         f"Pressure of the {pins}",
-        steps,
-        "Two of them share the force of the rods.",
-        (key,),
-        f"not calculated: {key} is not given",
+        steps=steps,
+        text="Two of them share the force of the rods.",
+        needs=(key,),
+        absent=f"not calculated: {key} is not given",
     )
 
 

@@ -12,6 +12,7 @@ from diecut_report.api import (
     Annotated,
     Block,
     ByText,
+    Chapter,
     Chart,
     Clash,
     Comparison,
@@ -30,7 +31,6 @@ from diecut_report.api import (
     Reduction,
     Require,
     Running,
-    Section,
     StandardSeries,
     StandardTable,
     Text,
@@ -123,7 +123,7 @@ def sweep(view: View) -> list[dict[str, Any]]:
             chart_panel("Height", "m", "Turn", "φ", "deg", lines=[line(turn, curves["height"], "chain")])]  # fmt: skip
 
 
-POSTS = Section(
+POSTS = Chapter(
     "Posts",
     needs=("fence",),
     absent="no fence is given",
@@ -147,7 +147,7 @@ POSTS = Section(
     ),
 )  # fmt: skip
 
-ROPE = Section(
+ROPE = Chapter(
     "Rope",
     steps=(
         Lookup(id="weight", symbol="m_1", unit="g", description="Weight of the stuff", by="material", table=WEIGHTS),
@@ -174,7 +174,7 @@ class Two(Inputs):
 
 COMPARED = Mechanism(
     kind="loop_comparison", version="1", title="Comparison of loops", summary="Which is longer.", inputs=Two,
-    sections=(Section("Both", steps=(
+    chapters=(Chapter("Both", steps=(
         Value(id="ratio", symbol="r", description="Ratio", needs=("one",), formula=bind(gap, x="one", x_next="other"), unit="m"),
         Value(id="height", symbol="h", unit="m", description="Height", formula=bind(common.same, quantity="other")))),),
 )  # fmt: skip
@@ -185,7 +185,7 @@ MECHANISM = Mechanism(
     title="Loop",
     summary="A rope around posts.",
     inputs=Loop,
-    sections=(POSTS, ROPE),
+    chapters=(POSTS, ROPE),
     figures=(Chart(id="sweep", title="Sweep", caption="Height over the swing.", build=sweep),),
     exports=(Profile(id="rope", title="Rope", columns=("height", "area")),),
     comparisons=(

@@ -12,6 +12,7 @@ from diecut_report.api import (
     Annotated,
     Breakpoints,
     Case,
+    Chapter,
     Choice,
     Computed,
     Crossings,
@@ -26,7 +27,6 @@ from diecut_report.api import (
     Quantity,
     Reduction,
     Require,
-    Section,
     Spectrum,
     SpectrumLine,
     Text,
@@ -119,7 +119,7 @@ def lines() -> list[SpectrumLine]:
             for k in (1, 2)]  # fmt: skip
 
 
-OWN = Section(
+OWN = Chapter(
     "Motion by a law",
     needs=("lift",),
     steps=(
@@ -141,7 +141,7 @@ OWN = Section(
     ),
 )  # fmt: skip
 
-TAKEN = Section(
+TAKEN = Chapter(
     "Motion by a curve",
     needs=("motion",),
     steps=(
@@ -161,7 +161,7 @@ TAKEN = Section(
     ),
 )  # fmt: skip
 
-BOTH = Section(
+BOTH = Chapter(
     "What follows from the motion",
     steps=(
         Derivative(id="speed", symbol="v", unit="rad/s", units=SPEED, description="Speed", source="kinematics", of="position"),
@@ -180,5 +180,5 @@ SPECTRUM = Spectrum(
 )
 
 MECHANISM = Mechanism(
-    kind="swing", version="1", title="Swing", summary="A link that swings.", inputs=Swing, sections=(OWN, TAKEN, BOTH), spectra=(SPECTRUM,)
+    kind="swing", version="1", title="Swing", summary="A link that swings.", inputs=Swing, chapters=(OWN, TAKEN, BOTH), spectra=(SPECTRUM,)
 )  # fmt: skip

@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from diecut_report.api import Annotated, CurveInput, Inputs, Mechanism, Require, Section, Value, bind, formula
+from diecut_report.api import Annotated, Chapter, CurveInput, Inputs, Mechanism, Require, Value, bind, formula
 from diecut_report.contract.steps import Root
 from diecut_report.engine import Calculation, CurveHandle, Impossible, Unproven, calculate
 from diecut_report.mechanics import common
@@ -131,7 +131,7 @@ def test_a_list_of_values_is_a_curve_that_runs_straight_between_them() -> None:
 
 def root_step() -> Root:
     """The only step of the mechanism with a root."""
-    step = ROOTED.sections[0].steps[0]
+    step = ROOTED.chapters[0].steps[0]
     assert isinstance(step, Root)
     return step
 
@@ -143,13 +143,13 @@ def test_a_root_is_found_and_proved() -> None:
 def test_a_root_that_its_relation_does_not_confirm_is_refused() -> None:
     wrong = replace(root_step(), right=plus_one)
     with pytest.raises(Unproven, match="Cube root"):
-        calculate(replace(ROOTED, sections=(Section("Root", (wrong,)),)), inputs(ROOTED, {}))
+        calculate(replace(ROOTED, chapters=(Chapter("Root", steps=(wrong,)),)), inputs(ROOTED, {}))
 
 
 def test_a_bracket_without_a_root_is_no_silent_nan() -> None:
     empty = replace(root_step(), high=zero, low=zero, equation=cube)
     with pytest.raises(Unproven):
-        calculate(replace(ROOTED, sections=(Section("Root", (empty,)),)), inputs(ROOTED, {}))
+        calculate(replace(ROOTED, chapters=(Chapter("Root", steps=(empty,)),)), inputs(ROOTED, {}))
 
 
 def test_an_impossible_machine_is_refused_in_the_users_words() -> None:
@@ -183,7 +183,7 @@ def test_what_follows_from_an_impossible_number_makes_no_message() -> None:
         Require(id="long", condition=is_between, key="arm", message="has a root of {root}"),
     )
     mechanism = Mechanism(
-        kind="m", version="1", title="M", summary="M.", inputs=MECHANISM.inputs, sections=(Section("S", steps),)
+        kind="m", version="1", title="M", summary="M.", inputs=MECHANISM.inputs, chapters=(Chapter("S", steps=steps),)
     )
     calc = calculate(mechanism, inputs(MECHANISM, {}) | {"arm": np.array([0.04, -1.0])}, 2)
     assert calc.flaws[0][1] == "has a root of 0.2000 m" and calc.flaws[1][1] == "is -1000 mm"

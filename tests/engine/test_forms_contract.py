@@ -36,7 +36,7 @@ def with_step(name: str, **changes: Any) -> Mechanism:
     def changed(step: Step) -> Step:
         return replace(step, **changes) if step.id == name else step
 
-    return replace(MECHANISM, sections=tuple(replace(s, steps=tuple(map(changed, s.steps))) for s in MECHANISM.sections))  # fmt: skip
+    return replace(MECHANISM, chapters=tuple(replace(s, steps=tuple(map(changed, s.steps))) for s in MECHANISM.chapters))  # fmt: skip
 
 
 def test_a_sound_mechanism_of_two_forms_passes() -> None:

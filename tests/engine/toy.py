@@ -12,6 +12,7 @@ from diecut_report.api import (
     Block,
     Breakpoints,
     Case,
+    Chapter,
     Check,
     Choice,
     Constant,
@@ -25,7 +26,6 @@ from diecut_report.api import (
     Reduction,
     Require,
     Root,
-    Section,
     Text,
     Total,
     Value,
@@ -148,8 +148,8 @@ MECHANISM = Mechanism(
     title="Toy",
     summary="Everything that can be said.",
     inputs=Toy,
-    sections=(
-        Section(
+    chapters=(
+        Chapter(
             "Numbers",
             steps=(
                 Value(id="moment", symbol="M_0", unit="N*m", description="Moment", formula=moment),
@@ -162,7 +162,7 @@ MECHANISM = Mechanism(
                 *prefixed("second_", FAMILY, shared=()),
             ),
         ),
-        Section(
+        Chapter(
             "Gears",
             needs=("gears",),
             absent="no gears are given",
@@ -173,9 +173,9 @@ MECHANISM = Mechanism(
                 Total(id="total_teeth", symbol="z_Σ", description="Teeth of all drivers", of="gears.driver_teeth", operation="sum"),
             ),
         ),
-        Section("Spring", needs=("spring",), absent="no spring is given",
+        Chapter("Spring", needs=("spring",), absent="no spring is given",
                 steps=(Value(id="sag", symbol="f", unit="mm", description="Sag", formula=bind(sag, stiffness="spring.stiffness")),)),
-        Section(
+        Chapter(
             "Curve",
             steps=(
                 Abscissa(id="place", symbol="φ", unit="deg", description="Place", period=2 * np.pi),
@@ -192,7 +192,7 @@ MECHANISM = Mechanism(
                 Crossings(id="turns", symbol="φ_0", unit="deg", description="Changes of sign", of="torque"),
             ),
         ),
-        Section("Taken over", needs=("torque_curve",),
+        Chapter("Taken over", needs=("torque_curve",),
                 steps=(FromCurve(id="taken", symbol="M_t", unit="N*m", description="Torque taken over", given="torque_curve", abscissa="place"),
                        Reduction(id="taken_max", symbol="M_tmax", unit="N*m", description="Its greatest value", of="taken", operation="max"),
                        Reduction(id="taken_mean", symbol="M_tm", unit="N*m", description="Its mean", of="taken", operation="mean"))),
@@ -210,8 +210,8 @@ ROOTED = Mechanism(
     title="A root",
     summary="A number found.",
     inputs=Toy,
-    sections=(
-        Section(
+    chapters=(
+        Chapter(
             "Root",
             steps=(
                 Root(id="x", symbol="x", description="Cube root", equation=cube, unknown="x", low=bind(zero), high=plus_one,

@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 
-from diecut_report.api import Abscissa, Annotated, Inputs, Mechanism, Quantity, Section, Value, formula
+from diecut_report.api import Abscissa, Annotated, Chapter, Inputs, Mechanism, Quantity, Value, formula
 from diecut_report.engine import Calculation, CurveHandle, calculate
 from diecut_report.expressions import Array
 from diecut_report.plugins.drive_train import MECHANISM
@@ -57,8 +57,8 @@ LOAD = Mechanism(
     title="Load",
     summary="A torque that swings once a turn.",
     inputs=SineLoad,
-    sections=(
-        Section(
+    chapters=(
+        Chapter(
             "Torque",
             steps=(
                 Abscissa(id="place", symbol="φ", unit="deg", description="Angle", period=2 * pi),

@@ -500,7 +500,7 @@ def test_the_drawn_sector_touches_the_gear_and_the_drawn_cams_are_closed() -> No
 def test_each_law_can_be_printed(law: str) -> None:
     results = mechanism_results(stepper(**LOADED, motion_law=law), {})
     assert results["status"] in ("pass", "fail")
-    assert [s["title"] for s in results["sections"]][:4] == [s.title for s in MECHANISM.sections[:4]]
+    assert [s["title"] for s in results["sections"]][:4] == [s.title for s in MECHANISM.chapters[:4]]
 
 
 def test_all_that_the_method_promises_is_in_the_results() -> None:

@@ -7,7 +7,7 @@ from typing import Annotated, Any
 import numpy as np
 import pytest
 
-from diecut_report.api import Abscissa, Breakpoints, Inputs, Mechanism, Quantity, Section, Value, bind, formula
+from diecut_report.api import Abscissa, Breakpoints, Chapter, Inputs, Mechanism, Quantity, Value, bind, formula
 from diecut_report.engine import Calculation, CurveHandle, calculate
 from diecut_report.expressions import Array
 from diecut_report.plugins.elastic_follower import MECHANISM
@@ -174,7 +174,7 @@ def moved(angle: Any, middle: Any, begin: Any, lasts: Any) -> Any:
 
 
 TOY = Mechanism(
-    kind="moved", version="1", title="Moved", summary="A rise in a turn.", inputs=Moved, sections=(Section("Motion", steps=(
+    kind="moved", version="1", title="Moved", summary="A rise in a turn.", inputs=Moved, chapters=(Chapter("Motion", steps=(
         Value(id="start", symbol="s", unit="rad", description="Start", formula=begins),
         Value(id="stop", symbol="e", unit="rad", description="End", formula=ends),
         Abscissa(id="angle", symbol="φ", unit="rad", description="Angle", period=2 * np.pi),

@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 from diecut_report import pipeline
-from diecut_report.api import Abscissa, Breakpoints, Inputs, Mechanism, Quantity, Section, Value, bind, formula
+from diecut_report.api import Abscissa, Breakpoints, Chapter, Inputs, Mechanism, Quantity, Value, bind, formula
 from diecut_report.cli import main
 from diecut_report.config.discovery import Discovery
 from diecut_report.engine import Calculation, Impossible, calculate
@@ -225,7 +225,7 @@ def shaped(shape: Any) -> Calculation:
         Value(id="place", symbol="y", unit="rad", description="Place", formula=shape),
     )  # fmt: skip
     toy = Mechanism(
-        kind="shaped", version="1", title="Shaped", summary="A place.", inputs=Turn, sections=(Section("Motion", steps=steps),)
+        kind="shaped", version="1", title="Shaped", summary="A place.", inputs=Turn, chapters=(Chapter("Motion", steps=steps),)
     )  # fmt: skip
     return calculate(toy, {"n_points": 90})
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Any
 
-from diecut_report.api import Annotated, Inputs, Mechanism, Quantity, Section, Value, formula
+from diecut_report.api import Annotated, Chapter, Inputs, Mechanism, Quantity, Value, formula
 
 
 class Fragile(Inputs):
@@ -22,5 +22,5 @@ MECHANISM = Mechanism(
     title="Fragile",
     summary="",
     inputs=Fragile,
-    sections=(Section("Only", steps=(Value(id="result", unit="mm", description="Result", formula=breaking),)),),
+    chapters=(Chapter("Only", steps=(Value(id="result", unit="mm", description="Result", formula=breaking),)),),
 )

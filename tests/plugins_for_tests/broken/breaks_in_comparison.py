@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Any
 
-from diecut_report.api import Annotated, Comparison, Inputs, Mechanism, Quantity, Section, Value, bind, formula
+from diecut_report.api import Annotated, Chapter, Comparison, Inputs, Mechanism, Quantity, Value, bind, formula
 
 
 class Rod(Inputs):
@@ -31,7 +31,7 @@ COMPARISON = Mechanism(
     title="Lever and rod compared",
     summary="",
     inputs=Both,
-    sections=(Section("Only", steps=(Value(id="ratio", unit="mm", description="Ratio", formula=breaking),)),),
+    chapters=(Chapter("Only", steps=(Value(id="ratio", unit="mm", description="Ratio", formula=breaking),)),),
 )
 LENGTH = Value(id="result", unit="mm", description="Result", formula=bind(same, length="length"))
 MECHANISM = Mechanism(
@@ -40,7 +40,7 @@ MECHANISM = Mechanism(
     title="Rod",
     summary="",
     inputs=Rod,
-    sections=(Section("Only", steps=(LENGTH,)),),
+    chapters=(Chapter("Only", steps=(LENGTH,)),),
     comparisons=(
         Comparison(kinds=("lever", "breaks_in_comparison"), mechanism=COMPARISON, takes={"arm": ("lever", "arm")}),
     ),

@@ -12,6 +12,7 @@ from diecut_report.api import (
     Annotated,
     Block,
     Case,
+    Chapter,
     Check,
     Choice,
     CurveInput,
@@ -22,7 +23,6 @@ from diecut_report.api import (
     Quantity,
     Reduction,
     Require,
-    Section,
     Text,
     Total,
     Value,
@@ -99,8 +99,8 @@ MECHANISM = Mechanism(
     title="Lever",
     summary="A force on an arm.",
     inputs=Lever,
-    sections=(
-        Section(
+    chapters=(
+        Chapter(
             "Lever",
             steps=(
                 Require(
@@ -121,7 +121,7 @@ MECHANISM = Mechanism(
                 ),
             ),
         ),
-        Section(
+        Chapter(
             "Turn",
             steps=(
                 Abscissa(id="angle", symbol="φ", unit="deg", description="Angle", period=2 * np.pi),
@@ -131,7 +131,7 @@ MECHANISM = Mechanism(
                 ),
             ),
         ),
-        Section(
+        Chapter(
             "Parts",
             needs=("parts",),
             steps=(
@@ -145,7 +145,7 @@ MECHANISM = Mechanism(
                 ),
             ),
         ),
-        Section(
+        Chapter(
             "Load",
             needs=("load",),
             steps=(

@@ -7,7 +7,7 @@ from typing import Any
 
 from scipy.optimize import brentq
 
-from diecut_report.api import Annotated, Check, Computed, Inputs, Mechanism, Quantity, Section
+from diecut_report.api import Annotated, Chapter, Check, Computed, Inputs, Mechanism, Quantity
 
 
 class Ladder(Inputs):
@@ -33,8 +33,8 @@ MECHANISM = Mechanism(
     title="Crossing ladders",
     summary="Width of an alley in which two ladders cross.",
     inputs=Ladder,
-    sections=(
-        Section(
+    chapters=(
+        Chapter(
             "Alley",
             steps=(
                 Computed(

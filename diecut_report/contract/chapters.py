@@ -1,0 +1,298 @@
+"""The author's form: a chapter of the calculation, written quantity by quantity in the order in which they are calculated.
+
+Each method declares one step: its id, symbol, unit and description, then what gives it. A formula is a lambda whose parameters
+are named for the quantities that it takes (``lambda radius, height: radius - height``), or ``bind(formula, parameter="id")``.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from dataclasses import dataclass, field, replace
+from typing import Any, Literal, TypedDict, Unpack
+
+from diecut_report.contract.binding import Binding, ByText, as_binding
+from diecut_report.contract.part_steps import Lookup, Neighbour, Part, Pick, Running, Total
+from diecut_report.contract.steps import (
+    Abscissa,
+    Accumulated,
+    Breakpoints,
+    Case,
+    Choice,
+    Clash,
+    Computed,
+    Crossings,
+    CurvePeriod,
+    Derivative,
+    FromCurve,
+    Operation,
+    Reduction,
+    Require,
+    Root,
+    Step,
+    Value,
+    Words,
+)
+from diecut_report.expressions import Array
+from diecut_report.standards import StandardSeries, StandardTable
+
+Written = Binding | ByText | Callable[..., Any]
+"""A formula as an author writes it: a lambda, a ``@formula``, one that is bound, one chosen by a text."""
+
+
+class Options(TypedDict, total=False):
+    """What any step may say besides; see ``Step``."""
+
+    source: str
+    digits: int
+    output: bool
+    needs: tuple[str, ...]
+    lacks: tuple[str, ...]
+    exists: Written
+    numbered: str
+    first: int
+    whole: bool
+    units: tuple[tuple[str, str], ...]
+
+
+class Condition(TypedDict, total=False):
+    """With which optional inputs a step takes part that gives no quantity."""
+
+    needs: tuple[str, ...]
+    lacks: tuple[str, ...]
+
+
+@dataclass(eq=False)
+class Steps:
+    """Declared steps in the order in which they are calculated; a family of them may be added to several chapters."""
+
+    steps: Sequence[Step] = field(default=(), kw_only=True)
+
+    def add(self, *steps: Step | Iterable[Step]) -> None:
+        """Add steps that are declared elsewhere: a family, or what several chapters share."""
+        for step in steps:
+            self.steps = (*self.steps, step) if isinstance(step, Step) else (*self.steps, *step)
+
+    def value(
+        self,
+        id: str,
+        symbol: str,
+        unit: str,
+        description: str,
+        formula: Written,
+        *,
+        per_piece: bool = False,
+        **options: Unpack[Options],
+    ) -> None:
+        """Declare a closed formula: a number, a curve where it takes a curve or an abscissa, a row over repeated parts.
+
+        ``per_piece`` marks a flag of a curve's smooth pieces (direction of motion, cutting), taken at the middle of the piece.
+        """
+        self._give(Value, id, symbol, unit, description, options, formula=as_binding(formula, id), per_piece=per_piece)
+
+    def choice(
+        self,
+        id: str,
+        symbol: str,
+        unit: str,
+        description: str,
+        *cases: Case,
+        per_piece: bool = False,
+        **options: Unpack[Options],
+    ) -> None:
+        """Declare a value (number or text) chosen by conditions; the last case has none. The branch taken is printed."""
+        self._give(
+            Choice,
+            id,
+            symbol,
+            unit,
+            description,
+            options,
+            cases=tuple(_bound(case, id) for case in cases),
+            per_piece=per_piece,
+        )
+
+    def root(
+        self, id: str, symbol: str, unit: str, description: str, equation: Written, *, low: Written, high: Written, left: Written,
+        right: Written, unknown: str = "", tolerance: float = 1e-9, **options: Unpack[Options],
+    ) -> None:  # fmt: skip
+        """Declare a root in [low, high] of ``equation``, zero there; ``left`` = ``right`` is printed and proves it.
+
+        The equation names the unknown by this step's id, or by ``unknown``.
+        """
+        parts = {"equation": equation, "low": low, "high": high, "left": left, "right": right}
+        bound = {name: as_binding(part, f"{id} ({name})") for name, part in parts.items()}
+        self._give(Root, id, symbol, unit, description, options, unknown=unknown or id, tolerance=tolerance, **bound)
+
+    def abscissa(
+        self, id: str, symbol: str, unit: str, description: str, period: float | str, *, points: str = "n_points", shown_at: str = "",
+        intervals: int = 64, **options: Unpack[Options],
+    ) -> None:  # fmt: skip
+        """Declare what curves run over, [0, period): see ``Abscissa``."""
+        own = {"period": period, "points": points, "shown_at": shown_at, "intervals": intervals}
+        self._give(Abscissa, id, symbol, unit, description, options, **own)
+
+    def breakpoints(self, id: str, abscissa: str, *places: str, every: str = "", **when: Unpack[Condition]) -> None:
+        """Declare places of an abscissa where a curve jumps or has a corner: see ``Breakpoints``."""
+        self.add(Breakpoints(id=id, abscissa=abscissa, places=places, every=every, **when))
+
+    def crossings(self, id: str, symbol: str, unit: str, description: str, of: str, **options: Unpack[Options]) -> None:
+        """Declare all places where the curve ``of`` changes its sign: outputs ``ID_count``, ``ID_1``, ``ID_2`` …"""
+        self._give(Crossings, id, symbol, unit, description, options, of=of)
+
+    def reduction(
+        self,
+        id: str,
+        symbol: str,
+        unit: str,
+        description: str,
+        operation: Operation,
+        of: str,
+        **options: Unpack[Options],
+    ) -> None:
+        """Declare one number of the curve ``of`` over its abscissa; extremes also give their place, the quantity ``ID_at``."""
+        self._give(Reduction, id, symbol, unit, description, options, operation=operation, of=of)
+
+    def accumulated(
+        self, id: str, symbol: str, unit: str, description: str, of: str, **options: Unpack[Options]
+    ) -> None:
+        """Declare the running integral of the curve ``of`` over its abscissa, a curve."""
+        self._give(Accumulated, id, symbol, unit, description, options, of=of)
+
+    def derivative(
+        self, id: str, symbol: str, unit: str, description: str, of: str, **options: Unpack[Options]
+    ) -> None:
+        """Declare the derivative of the curve ``of`` by its abscissa, a curve."""
+        self._give(Derivative, id, symbol, unit, description, options, of=of)
+
+    def computed(
+        self, id: str, symbol: str, unit: str, description: str, function: Callable[..., Any], takes: tuple[str, ...], method: str,
+        **options: Unpack[Options],
+    ) -> None:  # fmt: skip
+        """Declare a number that plain code finds, where no closed formula tells it: see ``Computed``."""
+        self._give(Computed, id, symbol, unit, description, options, function=function, takes=takes, method=method)
+
+    def curve_period(
+        self, id: str, symbol: str, unit: str, description: str, given: str, otherwise: str, **options: Unpack[Options]
+    ) -> None:
+        """Declare the period of what the curve input ``given`` refers to: see ``CurvePeriod``."""
+        self._give(CurvePeriod, id, symbol, unit, description, options, given=given, otherwise=otherwise)
+
+    def from_curve(
+        self, id: str, symbol: str, unit: str, description: str, given: str, abscissa: str, *, start: str = "", lasts: str = "",
+        gains: bool = False, **options: Unpack[Options],
+    ) -> None:  # fmt: skip
+        """Declare a curve input taken over as a curve of this mechanism: see ``FromCurve``."""
+        own = {"given": given, "abscissa": abscissa, "start": start, "lasts": lasts, "gains": gains}
+        self._give(FromCurve, id, symbol, unit, description, options, **own)
+
+    def require(self, id: str, condition: Written, key: str, message: str, **when: Unpack[Condition]) -> None:
+        """Declare what must hold for the machine to be possible, the key to change, and what is said where it does not."""
+        self.add(Require(id=id, condition=as_binding(condition, id), key=key, message=message, **when))
+
+    def clash(
+        self,
+        id: str,
+        function: Callable[..., Array],
+        takes: tuple[str, ...],
+        key: str,
+        message: str,
+        **when: Unpack[Condition],
+    ) -> None:
+        """Declare which of repeated parts stand in each other's way: see ``Clash``."""
+        self.add(Clash(id=id, function=function, takes=takes, key=key, message=message, **when))
+
+    def words(
+        self,
+        id: str,
+        function: Callable[..., str],
+        takes: tuple[str, ...],
+        *,
+        output: bool = True,
+        **when: Unpack[Condition],
+    ) -> None:
+        """Declare a text that plain code makes of numbers, for messages: see ``Words``."""
+        self.add(Words(id=id, function=function, takes=takes, output=output, **when))
+
+    def total(
+        self, id: str, symbol: str, unit: str, description: str, operation: Literal["sum", "product", "min", "max"], of: str, *,
+        among: str = "", **options: Unpack[Options],
+    ) -> None:  # fmt: skip
+        """Declare the sum, product, least or greatest of a row, or of its parts where the row ``among`` is above zero."""
+        self._give(Total, id, symbol, unit, description, options, operation=operation, of=of, among=among)
+
+    def neighbour(
+        self,
+        id: str,
+        symbol: str,
+        unit: str,
+        description: str,
+        of: str,
+        shift: Literal[1, -1] = 1,
+        **options: Unpack[Options],
+    ) -> None:
+        """Declare a row: the value of the next part (1) or of the one before (-1), the parts standing in a closed loop."""
+        self._give(Neighbour, id, symbol, unit, description, options, of=of, shift=shift)
+
+    def running(
+        self,
+        id: str,
+        symbol: str,
+        unit: str,
+        description: str,
+        operation: Literal["sum", "product"],
+        of: str,
+        **options: Unpack[Options],
+    ) -> None:
+        """Declare a row: the sum or product of a row's parts from the first one up to each."""
+        self._give(Running, id, symbol, unit, description, options, operation=operation, of=of)
+
+    def part(
+        self, id: str, symbol: str, unit: str, description: str, of: str, index: int, **options: Unpack[Options]
+    ) -> None:
+        """Declare the value of one part of a row: the first (``index`` = 0), the last (-1)."""
+        self._give(Part, id, symbol, unit, description, options, of=of, index=index)
+
+    def lookup(
+        self,
+        id: str,
+        symbol: str,
+        unit: str,
+        description: str,
+        table: Mapping[str, float] | StandardTable,
+        by: str,
+        **options: Unpack[Options],
+    ) -> None:
+        """Declare a number from a table by the text input ``by``; a row where the text is one of repeated parts."""
+        self._give(Lookup, id, symbol, unit, description, options, table=table, by=by)
+
+    def pick(
+        self, id: str, symbol: str, unit: str, description: str, rule: Literal["above", "below", "nearest"], of: str,
+        series: tuple[float, ...] | StandardSeries | Mapping[str, StandardSeries], *, by: str = "", **options: Unpack[Options],
+    ) -> None:  # fmt: skip
+        """Declare a value of a standard series, taken by the quantity ``of``; its neighbours are printed: see ``Pick``."""
+        self._give(Pick, id, symbol, unit, description, options, rule=rule, of=of, series=series, by=by)
+
+    def _give(
+        self, kind: type[Step], id: str, symbol: str, unit: str, description: str, options: Options, **own: Any
+    ) -> None:
+        """Declare a step that gives a quantity."""
+        given: dict[str, Any] = {"symbol": symbol, "unit": unit, "description": description, **options, **own}
+        if "exists" in options:
+            given["exists"] = as_binding(options["exists"], f"{id} (exists)")
+        self.add(kind(id=id, **given))
+
+
+@dataclass(eq=False)
+class Chapter(Steps):
+    """A chapter of the calculation: steps under a title; ``absent`` says in words what is missing when its needs are."""
+
+    title: str
+    text: str = field(default="", kw_only=True)
+    needs: tuple[str, ...] = field(default=(), kw_only=True)
+    absent: str = field(default="", kw_only=True)
+
+
+def _bound(case: Case, id: str) -> Case:
+    value = case.value if isinstance(case.value, str) else as_binding(case.value, id)
+    condition = None if case.condition is None else as_binding(case.condition, f"{id} (condition)")
+    return replace(case, value=value, condition=condition)
