@@ -3,7 +3,7 @@
 from typing import Annotated
 
 from diecut_report.contract.binding import Binding, Bound, ByText, bind
-from diecut_report.contract.chapters import Chapter, Steps
+from diecut_report.contract.chapters import Chapter, Steps, case
 from diecut_report.contract.charts import chart_panel, fill, level, line, mark, vertical
 from diecut_report.contract.checks import Check
 from diecut_report.contract.figures import (
@@ -67,7 +67,7 @@ __all__ = [
     "Derivative", "Drawing", "Erratum", "Formula", "FromCurve", "FromPress", "Inputs", "Level", "Lookup", "Mark", "Mechanism",
     "Neighbour", "OneOf", "Panel", "Part", "Pick", "Plot", "Point", "Polar", "Profile", "Quantity", "Reduction", "Require", "Root",
     "Running", "Series", "Shape", "Source", "Span", "Spectrum", "SpectrumLine", "StandardSeries", "StandardTable", "Step", "Steps",
-    "Text", "Total", "Value", "View", "Words", "arc", "arccos", "arrow", "below", "bind", "box", "chart_panel", "circle", "dimension",
+    "Text", "Total", "Value", "View", "Words", "arc", "arccos", "arrow", "below", "bind", "box", "case", "chart_panel", "circle", "dimension",
     "fill", "formula", "label", "level", "line", "mark", "outward", "point", "polyline", "prefixed", "radius_dimension", "region", "si",
     "standard_series", "standard_series_by", "standard_table", "told", "vertical",
 ]  # fmt: skip

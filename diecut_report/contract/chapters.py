@@ -7,7 +7,7 @@ are named for the quantities that it takes (``lambda radius, height: radius - he
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Mapping, Sequence
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field
 from typing import Any, Literal, TypedDict, Unpack
 
 from diecut_report.contract.binding import Binding, ByText, as_binding
@@ -107,7 +107,7 @@ class Steps:
             unit,
             description,
             options,
-            cases=tuple(_bound(case, id) for case in cases),
+            cases=cases,
             per_piece=per_piece,
         )
 
@@ -292,7 +292,7 @@ class Chapter(Steps):
     absent: str = field(default="", kw_only=True)
 
 
-def _bound(case: Case, id: str) -> Case:
-    value = case.value if isinstance(case.value, str) else as_binding(case.value, id)
-    condition = None if case.condition is None else as_binding(case.condition, f"{id} (condition)")
-    return replace(case, value=value, condition=condition)
+def case(value: Written | str, words: str, condition: Written | None = None) -> Case:
+    """Return one branch of a choice: its value (formula or text), why in words, and when it is taken; the last one has no condition."""
+    taken = value if isinstance(value, str) else as_binding(value, words)
+    return Case(taken, words, None if condition is None else as_binding(condition, words))
