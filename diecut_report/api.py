@@ -56,7 +56,7 @@ from diecut_report.contract.steps import (
     Value,
     Words,
 )
-from diecut_report.expressions import GRAVITY, Constant, Formula, arccos, formula
+from diecut_report.expressions import GRAVITY, Constant, Formula, arccos, as_angle, as_number, formula
 from diecut_report.standards import (
     StandardSeries,
     StandardTable,
@@ -72,7 +72,7 @@ __all__ = [
     "Derivative", "Drawing", "Erratum", "Formula", "FromCurve", "FromPress", "Inputs", "Level", "Lookup", "Mark", "Mechanism",
     "Neighbour", "OneOf", "Panel", "Part", "Pick", "Plot", "Point", "Polar", "Profile", "Quantity", "Reduction", "Require", "Root",
     "Running", "Section", "Series", "Shape", "Source", "Span", "Spectrum", "SpectrumLine", "StandardSeries", "StandardTable", "Step",
-    "Text", "Total", "Value", "View", "Words", "arc", "arccos", "arrow", "below", "bind", "box", "chart_panel", "circle", "dimension",
+    "Text", "Total", "Value", "View", "Words", "arc", "arccos", "arrow", "as_angle", "as_number", "below", "bind", "box", "chart_panel", "circle", "dimension",
     "fill", "formula", "label", "level", "line", "mark", "outward", "point", "polyline", "prefixed", "radius_dimension", "region", "si",
     "standard_series", "standard_series_by", "standard_table", "told", "vertical",
 ]  # fmt: skip

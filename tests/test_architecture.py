@@ -36,7 +36,7 @@ LAYERS = [
     {"engine"},
     {"verdicts"},
     {"results"},
-    {"comparing", "dimensions", "testing"},
+    {"comparing", "kinds", "dimensions", "testing"},
     {"compute"},
     {"assembly"},
     {"report", "exports"},

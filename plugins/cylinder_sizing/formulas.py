@@ -6,7 +6,7 @@ from typing import Any
 
 import numpy as np
 
-from diecut_report.api import arccos, formula
+from diecut_report.api import arccos, as_angle, as_number, formula
 from diecut_report.mechanics.circular_segment import first_moment
 
 
@@ -32,7 +32,7 @@ def least_radius(working_length: Any, segment_height: Any) -> Any:
 @formula
 def height_mismatch(radius: Any, working_length: Any, segment_height: Any) -> Any:
     """Height of the segment that the working length leaves on the circumference, less the given height."""
-    return radius * (1 - np.cos(np.pi - working_length / (2 * radius))) - segment_height
+    return radius * (1 - np.cos(np.pi - as_angle(working_length / (2 * radius)))) - segment_height
 
 
 @formula
@@ -74,7 +74,7 @@ def overlap_half_angle(flat_distance: Any, bore_radius: Any) -> Any:
 @formula
 def disc_mass(radius: Any, length: Any, density: Any) -> Any:
     """Mass of a full cylinder."""
-    return np.pi * radius**2 * length * density
+    return as_number(np.pi) * radius**2 * length * density
 
 
 @formula
