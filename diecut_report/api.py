@@ -69,10 +69,10 @@ from diecut_report.texts import below, outward, si, told
 __all__ = [
     "GRAVITY", "POINTS", "Abscissa", "Accumulated", "Annotated", "BarGroup", "Bars", "Binding", "Block", "Bound", "Breakpoints", "ByText",
     "Case", "Chart", "Check", "Choice", "Clash", "Comparison", "Computed", "Constant", "Crossings", "Curve", "CurveInput", "CurvePeriod",
-    "Derivative", "Drawing", "Erratum", "Formula", "FromCurve", "FromPress", "Inputs", "Level", "Lookup", "Mark", "Mechanism",
-    "Neighbour", "OneOf", "Panel", "Part", "Pick", "Plot", "Point", "Polar", "Profile", "Quantity", "Reduction", "Require", "Root",
-    "Running", "Section", "Series", "Shape", "Source", "Span", "Spectrum", "SpectrumLine", "StandardSeries", "StandardTable", "Step",
-    "Text", "Total", "Value", "View", "Words", "arc", "arccos", "arrow", "as_angle", "as_number", "below", "bind", "box", "chart_panel", "circle", "dimension",
+    "Derivative", "Drawing", "Erratum", "Formula", "FromCurve", "FromPress", "Inputs", "Level", "Lookup", "Mark", "Mechanism", "Neighbour",
+    "OneOf", "Panel", "Part", "Pick", "Plot", "Point", "Polar", "Profile", "Quantity", "Reduction", "Require", "Root", "Running", "Section",
+    "Series", "Shape", "Source", "Span", "Spectrum", "SpectrumLine", "StandardSeries", "StandardTable", "Step", "Text", "Total", "Value",
+    "View", "Words", "arc", "arccos", "arrow", "as_angle", "as_number", "below", "bind", "box", "chart_panel", "circle", "dimension",
     "fill", "formula", "label", "level", "line", "mark", "outward", "point", "polyline", "prefixed", "radius_dimension", "region", "si",
     "standard_series", "standard_series_by", "standard_table", "told", "vertical",
 ]  # fmt: skip

@@ -26,6 +26,7 @@ from diecut_report.contract.steps import (
 from diecut_report.kinds import NUMBER, Found, KindError, alike, kind_given, kind_text, times
 from diecut_report.units import Kind, unit
 
+
 def formulas(mechanism: Mechanism) -> Iterator[tuple[Step, str, Bound]]:
     """Every bound formula with its step and its part in it."""
     for _, step in mechanism.steps:
