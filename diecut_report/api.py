@@ -57,17 +57,17 @@ from diecut_report.contract.steps import (
     Value,
     Words,
 )
-from diecut_report.expressions import GRAVITY, Constant, Formula, arccos, formula
+from diecut_report.expressions import GRAVITY, Constant, Formula, arccos, as_angle, as_number, formula
 from diecut_report.quantities.formatting import below, outward, si, told
 from diecut_report.standards import StandardSeries, StandardTable, standard_series, standard_series_by, standard_table
 
 __all__ = [
     "GRAVITY", "POINTS", "Abscissa", "Accumulated", "Annotated", "BarGroup", "Bars", "Binding", "Block", "Bound", "Breakpoints", "ByText",
-    "Case", "Chapter", "Chart", "Check", "Choice", "Clash", "Comparison", "Computed", "Constant", "Crossings", "Curve", "CurveInput", "CurvePeriod",
-    "Derivative", "Drawing", "Erratum", "Formula", "FromCurve", "FromPress", "Inputs", "Level", "Lookup", "Mark", "Mechanism",
-    "Neighbour", "OneOf", "Panel", "Part", "Pick", "Plot", "Point", "Polar", "Profile", "Quantity", "Reduction", "Require", "Root",
-    "Running", "Series", "Shape", "Source", "Span", "Spectrum", "SpectrumLine", "StandardSeries", "StandardTable", "Step", "Steps",
-    "Text", "Total", "Value", "View", "Words", "arc", "arccos", "arrow", "below", "bind", "box", "case", "chart_panel", "circle", "dimension",
-    "fill", "formula", "label", "level", "line", "mark", "outward", "point", "polyline", "prefixed", "radius_dimension", "region", "si",
-    "standard_series", "standard_series_by", "standard_table", "told", "vertical",
+    "Case", "Chapter", "Chart", "Check", "Choice", "Clash", "Comparison", "Computed", "Constant", "Crossings", "Curve", "CurveInput",
+    "CurvePeriod", "Derivative", "Drawing", "Erratum", "Formula", "FromCurve", "FromPress", "Inputs", "Level", "Lookup", "Mark",
+    "Mechanism", "Neighbour", "OneOf", "Panel", "Part", "Pick", "Plot", "Point", "Polar", "Profile", "Quantity", "Reduction", "Require",
+    "Root", "Running", "Series", "Shape", "Source", "Span", "Spectrum", "SpectrumLine", "StandardSeries", "StandardTable", "Step", "Steps",
+    "Text", "Total", "Value", "View", "Words", "arc", "arccos", "arrow", "as_angle", "as_number", "below", "bind", "box", "case",
+    "chart_panel", "circle", "dimension", "fill", "formula", "label", "level", "line", "mark", "outward", "point", "polyline", "prefixed",
+    "radius_dimension", "region", "si", "standard_series", "standard_series_by", "standard_table", "told", "vertical",
 ]  # fmt: skip

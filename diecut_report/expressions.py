@@ -63,12 +63,30 @@ def arccos(cosine: Any) -> Any:
     return np.arccos(np.where(beyond, np.sign(cosine), cosine))
 
 
+def as_number(angle: Any) -> Any:
+    """Say to the check of dimensions that the radian drops: the number of radians stands as a plain number.
+
+    It gives back what it takes and is not printed.
+    """
+    return angle
+
+
+def as_angle(number: Any) -> Any:
+    """Say to the check of dimensions that what it takes stands as an angle in radians (1/s as rad/s, rad²/s² as rad/s²).
+
+    It gives back what it takes and is not printed.
+    """
+    return number
+
+
 FUNCTIONS: dict[Any, str] = {
     np.sqrt: "sqrt", np.sin: "sin", np.cos: "cos", np.tan: "tan", np.arcsin: "arcsin", np.arccos: "arccos",
     arccos: "arccos", np.arctan: "arctan", np.arctan2: "arctan2", np.exp: "exp", np.log: "log", np.abs: "abs", abs: "abs",
     np.sign: "sign", np.minimum: "minimum", np.maximum: "maximum", np.ceil: "ceil", np.floor: "floor", np.round: "round",
 }  # fmt: skip
 NUMERIC: dict[str, Callable[..., Any]] = {name: function for function, name in FUNCTIONS.items()}
+AS_NUMBER, AS_ANGLE = "as_number", "as_angle"
+SAID: dict[Any, str] = {as_number: AS_NUMBER, as_angle: AS_ANGLE}
 BINARY: dict[type[ast.operator], str] = {
     ast.Add: "+", ast.Sub: "-", ast.Mult: "*", ast.Div: "/", ast.Pow: "^", ast.BitAnd: "and", ast.BitOr: "or",
 }  # fmt: skip
@@ -111,6 +129,11 @@ class Formula:
         return _Reader(self).read()
 
     @cached_property
+    def full_tree(self) -> Node:
+        """The expression with all that is said by ``as_number`` and ``as_angle``, which is checked but not printed."""
+        return _Reader(self, full=True).read()
+
+    @cached_property
     def constants(self) -> dict[str, Constant]:
         """The physical constants that the body names, by the symbol they print with."""
         names = self.function.__code__.co_names
@@ -129,8 +152,8 @@ def formula(function: Callable[..., Any]) -> Formula:
 class _Reader:
     """Reads one formula's body into a tree."""
 
-    def __init__(self, owner: Formula) -> None:
-        self.owner = owner
+    def __init__(self, owner: Formula, full: bool = False) -> None:
+        self.owner, self.full = owner, full
         self.globals = owner.function.__globals__
         self.locals: dict[str, Node] = {name: Node("sym", (name,)) for name in owner.parameters}
 
@@ -180,9 +203,12 @@ class _Reader:
             otherwise = args[2].args if args[2].op == "cases" else ((args[2],),)
             return Node("cases", ((args[1], args[0]), *otherwise))
         if isinstance(callee, Formula):
-            return substitute(callee.tree, dict(zip(callee.parameters, args, strict=True)))
+            tree = callee.full_tree if self.full else callee.tree
+            return substitute(tree, dict(zip(callee.parameters, args, strict=True)))
         if callee in FUNCTIONS:
             return Node("call", (FUNCTIONS[callee], *args))
+        if callee in SAID and len(args) == 1:
+            return Node("call", (SAID[callee], *args)) if self.full else args[0]
         raise self._refuse(at)
 
     def _constant(self, expression: ast.expr) -> Node:

@@ -66,7 +66,7 @@ class Lying(Formula):
 
 
 FLAWS = {
-    "a length added to a force": (mechanism(value(formula=force_and_arm)), "Cannot convert"),
+    "a length added to a force": (mechanism(value(formula=force_and_arm)), "brings together N .force. and m .arm."),
     "another unit than declared": (mechanism(value(unit="N")), "declared is N"),
     "an id that nothing gives": (
         mechanism(value(formula=bind(moment, arm="lever"))),

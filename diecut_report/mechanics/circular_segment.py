@@ -9,7 +9,7 @@ from typing import Any
 
 import numpy as np
 
-from diecut_report.expressions import arccos, formula
+from diecut_report.expressions import arccos, as_number, formula
 
 
 @formula
@@ -45,7 +45,7 @@ def arc_length_huygens(radius: Any, height: Any) -> Any:
 @formula
 def area(radius: Any, half_angle: Any) -> Any:
     """Area of the segment."""
-    return radius**2 * (half_angle - np.sin(half_angle) * np.cos(half_angle))
+    return radius**2 * (as_number(half_angle) - np.sin(half_angle) * np.cos(half_angle))
 
 
 @formula
@@ -70,4 +70,4 @@ def polar_second_moment(radius: Any, distance: Any, half_angle: Any) -> Any:
 @formula
 def second_moment_along_chord(radius: Any, half_angle: Any) -> Any:
     """Second moment of the segment about the circle's diameter parallel to the chord."""
-    return radius**4 / 4 * (half_angle - np.sin(4 * half_angle) / 4)
+    return radius**4 / 4 * (as_number(half_angle) - np.sin(4 * half_angle) / 4)

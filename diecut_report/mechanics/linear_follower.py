@@ -14,13 +14,13 @@ from typing import Any
 
 import numpy as np
 
-from diecut_report.expressions import formula
+from diecut_report.expressions import as_angle, as_number, formula
 
 
 @formula
 def natural_angular_frequency(stiffness: Any, inertia: Any) -> Any:
     """ω, angular frequency at which the link would swing without damping."""
-    return np.sqrt(stiffness / inertia)
+    return as_angle(np.sqrt(stiffness / inertia))
 
 
 @formula
@@ -32,7 +32,7 @@ def damped_angular_frequency(angular_frequency: Any, damping_ratio: Any) -> Any:
 @formula
 def damping_constant(damping_ratio: Any, inertia: Any, angular_frequency: Any) -> Any:
     """C, torque of the damping for each unit of the speed of deflection."""
-    return 2 * damping_ratio * inertia * angular_frequency
+    return 2 * damping_ratio * inertia * as_number(angular_frequency)
 
 
 @formula
@@ -44,7 +44,7 @@ def tuning_ratio(angular_frequency: Any, rise_time: Any) -> Any:
 @formula
 def decay(time: Any, angular_frequency: Any, damping_ratio: Any) -> Any:
     """E, share of a vibration that is left after a time."""
-    return np.exp(-damping_ratio * angular_frequency * time)
+    return np.exp(-damping_ratio * as_number(angular_frequency) * time)
 
 
 @formula
@@ -68,7 +68,7 @@ def quadrature_part(decay: Any, phase: Any, input_acceleration: Any) -> Any:
 @formula
 def deflection(decay: Any, phase: Any, damped_frequency: Any, in_phase: Any, quadrature: Any) -> Any:
     """z = x − y, by which the link is ahead of the input."""
-    return decay / damped_frequency * (np.cos(phase) * quadrature - np.sin(phase) * in_phase)
+    return decay / as_number(damped_frequency) * (np.cos(phase) * quadrature - np.sin(phase) * in_phase)
 
 
 @formula
@@ -80,13 +80,14 @@ def swing_speed(decay: Any, phase: Any, in_phase: Any, quadrature: Any) -> Any:
 @formula
 def deflection_velocity(swing_speed: Any, angular_frequency: Any, damping_ratio: Any, deflection: Any) -> Any:
     """ż, speed at which the deflection grows."""
-    return swing_speed - damping_ratio * angular_frequency * deflection
+    return swing_speed - damping_ratio * as_number(angular_frequency) * deflection
 
 
 @formula
 def response_acceleration(angular_frequency: Any, damping_ratio: Any, deflection: Any, deflection_velocity: Any) -> Any:
     """ẍ, acceleration of the driven link."""
-    return -2 * damping_ratio * angular_frequency * deflection_velocity - angular_frequency**2 * deflection
+    omega = as_number(angular_frequency)
+    return -2 * damping_ratio * omega * deflection_velocity - omega**2 * deflection
 
 
 @formula

@@ -16,7 +16,7 @@ from typing import Any, TypeVar
 
 import numpy as np
 
-from diecut_report.expressions import Formula, formula
+from diecut_report.expressions import Formula, as_number, formula
 from diecut_report.mechanics import modified_laws as modified
 from diecut_report.mechanics import polynomial_laws as polynomial
 
@@ -32,7 +32,7 @@ def smooth(k: Any) -> Any:
 @formula
 def cycloidal_position(k: Any) -> Any:
     """Position: straight line less one sine wave."""
-    return k - np.sin(2 * np.pi * k) / (2 * np.pi)
+    return k - np.sin(2 * np.pi * k) / as_number(2 * np.pi)
 
 
 @formula
@@ -44,13 +44,13 @@ def cycloidal_velocity(k: Any) -> Any:
 @formula
 def cycloidal_acceleration(k: Any) -> Any:
     """Acceleration: one sine wave."""
-    return 2 * np.pi * np.sin(2 * np.pi * k)
+    return as_number(2 * np.pi) * np.sin(2 * np.pi * k)
 
 
 @formula
 def cycloidal_jerk(k: Any) -> Any:
     """Jerk."""
-    return 4 * np.pi**2 * np.cos(2 * np.pi * k)
+    return as_number(4 * np.pi**2) * np.cos(2 * np.pi * k)
 
 
 @formula
@@ -62,7 +62,7 @@ def cycloidal_peak_velocity() -> Any:
 @formula
 def cycloidal_peak_acceleration() -> Any:
     """Peak acceleration, at a quarter."""
-    return 2 * np.pi
+    return as_number(2 * np.pi)
 
 
 @formula
@@ -74,31 +74,31 @@ def harmonic_position(k: Any) -> Any:
 @formula
 def harmonic_velocity(k: Any) -> Any:
     """Velocity."""
-    return np.pi / 2 * np.sin(np.pi * k)
+    return as_number(np.pi / 2) * np.sin(np.pi * k)
 
 
 @formula
 def harmonic_acceleration(k: Any) -> Any:
     """Acceleration: half a cosine wave, which jumps at both ends."""
-    return np.pi**2 / 2 * np.cos(np.pi * k)
+    return as_number(np.pi**2 / 2) * np.cos(np.pi * k)
 
 
 @formula
 def harmonic_jerk(k: Any) -> Any:
     """Jerk, without its impulses at both ends."""
-    return -(np.pi**3) / 2 * np.sin(np.pi * k)
+    return as_number(-(np.pi**3) / 2) * np.sin(np.pi * k)
 
 
 @formula
 def harmonic_peak_velocity() -> Any:
     """Peak velocity, in the middle."""
-    return np.pi / 2
+    return as_number(np.pi / 2)
 
 
 @formula
 def harmonic_peak_acceleration() -> Any:
     """Peak acceleration, at both ends."""
-    return np.pi**2 / 2
+    return as_number(np.pi**2 / 2)
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)

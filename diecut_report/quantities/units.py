@@ -132,8 +132,7 @@ def _read_with_pint(canonical: str, typed: str) -> Unit:
     if measured is None:
         raise UnitError(f"{_shortened(typed)} is not a known unit.{_suggestion(canonical)}")
     factor, kind = measured
-    family = _family(kind)
-    return Unit(canonical, factor, family["si"] if family else _si_text(kind), kind)
+    return Unit(canonical, factor, si_text(kind), kind)
 
 
 def _suggestion(text: str) -> str:
@@ -154,6 +153,12 @@ def _family(kind: Kind, si: str = "") -> dict[str, Any] | None:
     alike = [family for family in _table()["families"] if tuple(family["kind"]) == kind]
     exact = [family for family in alike if family["si"] == si]
     return next(iter(exact or alike), None)
+
+
+def si_text(kind: Kind) -> str:
+    """The coherent SI unit of a kind, made of base units where it has no name of its own."""
+    family = _family(kind)
+    return str(family["si"]) if family else _si_text(kind)
 
 
 def _si_text(kind: Kind) -> str:

@@ -1,7 +1,7 @@
 """The contract test for a mechanism plugin: ``check_mechanism(MECHANISM)`` raises AssertionError with all that is wrong.
 
-It feeds every declared formula with quantities that carry units (pint) and refuses where dimensions do not balance, in each
-of the units that a mechanism may have, computes every printed expression against the function it was read from, and looks for
+It goes through every declared formula with the units of what it takes and refuses where dimensions do not balance (the angle is one), in
+each of the units that a mechanism may have, computes every printed expression against the function it was read from, and looks for
 ids that nothing gives.
 """
 

@@ -1,13 +1,9 @@
-"""Dimensions of what a mechanism declares: its formulas are fed with quantities that carry units (pint)."""
+"""Dimensions of what a mechanism declares: its formulas are gone through with the kinds of what they take."""
 
 from __future__ import annotations
 
-import types
 from collections.abc import Iterator
 from typing import Any
-
-import numpy as np
-import pint
 
 from diecut_report.contract.binding import Binding, Bound, ByText, bound
 from diecut_report.contract.checks import Check
@@ -27,10 +23,16 @@ from diecut_report.contract.steps import (
     Step,
     Value,
 )
-from diecut_report.expressions import Constant, Formula
-from diecut_report.quantities.units import unit
-
-REGISTRY: pint.UnitRegistry[float] = pint.UnitRegistry()
+from diecut_report.quantities.units import Kind, unit
+from diecut_report.testing.kinds import (
+    NUMBER,
+    Found,
+    KindError,
+    alike,
+    kind_given,
+    kind_text,
+    times,
+)
 
 
 def formulas(mechanism: Mechanism) -> Iterator[tuple[Step, str, Bound]]:
@@ -75,16 +77,13 @@ def dimensions(mechanism: Mechanism) -> Iterator[str]:
     units = units_of(mechanism)
     for step, part, link in formulas(mechanism):
         try:
-            with np.errstate(all="ignore"):
-                result = _dimensioned(link.formula)(*_quantities(link, units))
-        except (pint.DimensionalityError, pint.OffsetUnitCalculusError, ValueError) as error:
+            given = _given(link, units)
+        except KindError as error:
             yield f"{step.id}: {link.formula.__name__}: {error}"
             continue
         wanted = _wanted(step, part, units)
-        if wanted is None or (not isinstance(result, pint.Quantity) and result == 0):
-            continue
-        if not _like(result, REGISTRY.Quantity(1, wanted)):
-            yield f"{step.id}: {link.formula.__name__} gives {REGISTRY.Quantity(result).units}, declared is {wanted}"
+        if wanted is not None and not alike(given, unit(wanted).kind):
+            yield f"{step.id}: {link.formula.__name__} gives {kind_text(given)}, declared is {wanted}"
 
 
 def curve_units(mechanism: Mechanism) -> Iterator[str]:
@@ -93,22 +92,22 @@ def curve_units(mechanism: Mechanism) -> Iterator[str]:
     axis_of = axes(tuple(step for _, step in mechanism.steps), mechanism.inputs)
     for _, step in mechanism.steps:
         for name, made, wanted in _made_of(step, units, axis_of):
-            if not _like(made, wanted):
-                yield f"{step.id}: {name} gives {made.units}, declared is {wanted.units}"
+            if not alike(made, wanted):
+                yield f"{step.id}: {name} gives {kind_text(made)}, declared is {kind_text(wanted)}"
 
 
-def _made_of(step: Step, units: dict[str, str], axis_of: dict[str, str]) -> Iterator[tuple[str, Any, Any]]:
-    """What a step takes of a curve or an abscissa: in words, the quantity, and one as it is wanted."""
+def _made_of(step: Step, units: dict[str, str], axis_of: dict[str, str]) -> Iterator[tuple[str, Found, Found]]:
+    """What a step takes of a curve or an abscissa: in words, its kind, and the kind as it is wanted."""
 
-    def of(name: str) -> Any:
-        return REGISTRY.Quantity(1.0, units[name])
+    def of(name: str) -> Kind:
+        return unit(units[name]).kind
 
     own = of(step.id) if step.id in units else None
     match step:
         case Derivative(of=curve):
-            yield f"the derivative of {curve}", of(curve) / of(axis_of[curve]), own
+            yield f"the derivative of {curve}", times(of(curve), of(axis_of[curve]), -1), own
         case Accumulated(of=curve) | Reduction(of=curve, operation="integral"):
-            yield f"the integral of {curve}", of(curve) * of(axis_of[curve]), own
+            yield f"the integral of {curve}", times(of(curve), of(axis_of[curve])), own
         case Reduction(of=curve):
             yield curve, of(curve), own
         case Abscissa(period=str() as period):
@@ -116,7 +115,7 @@ def _made_of(step: Step, units: dict[str, str], axis_of: dict[str, str]) -> Iter
         case FromCurve():
             yield step.given, of(step.given), own
             yield from ((name, of(name), of(step.abscissa)) for name in (step.lasts,) if name)
-            yield from ((name, of(name), REGISTRY.Quantity(1.0)) for name in (step.start,) if name)
+            yield from ((name, of(name), NUMBER) for name in (step.start,) if name)
         case Breakpoints():
             yield from ((name, of(name), of(step.abscissa)) for name in (*step.places, step.every) if name)
 
@@ -124,17 +123,12 @@ def _made_of(step: Step, units: dict[str, str], axis_of: dict[str, str]) -> Iter
 def relations(mechanism: Mechanism) -> Iterator[str]:
     """Roots that are proved by a relation between quantities of unlike dimensions."""
     units = units_of(mechanism)
-    sides: dict[str, list[Any]] = {}
+    sides: dict[str, list[Found]] = {}
     for step, part, link in formulas(mechanism):
         if part in ("left", "right"):
-            with np.errstate(all="ignore"):
-                result = _dimensioned(link.formula)(*_quantities(link, units))
-            sides.setdefault(step.id, []).append(result)
-    yield from (f"{name}: the relation equals {a} with {b}" for name, (a, b) in sides.items() if not _like(a, b))
-
-
-def _like(one: Any, other: Any) -> bool:
-    return bool(REGISTRY.Quantity(one).dimensionality == REGISTRY.Quantity(other).dimensionality)
+            sides.setdefault(step.id, []).append(_given(link, units))
+    yield from (f"{name}: the relation equals {kind_text(a)} with {kind_text(b)}" for name, (a, b) in sides.items()
+                if not alike(a, b))  # fmt: skip
 
 
 def _wanted(step: Step, part: str, units: dict[str, str]) -> str | None:
@@ -146,23 +140,11 @@ def _wanted(step: Step, part: str, units: dict[str, str]) -> str | None:
     return None
 
 
-def _quantities(link: Bound, units: dict[str, str]) -> list[Any]:
-    """What a formula takes, as quantities of unlike sizes: equal ones would make a difference in a denominator zero."""
-    return [REGISTRY.Quantity(np.float64(0.6 + 0.01 * i), units[name]) if isinstance(name, str) else name
-            for i, name in enumerate(link.names.values())]  # fmt: skip
-
-
-def _dimensioned(formula: Formula) -> Any:
-    """The formula's function with its constants, and those of the formulas it calls, as quantities with units."""
-
-    def carried(value: Any) -> Any:
-        if isinstance(value, Constant):
-            return REGISTRY.Quantity(float(value), value.unit)
-        return _dimensioned(value) if isinstance(value, Formula) else value
-
-    function = formula.function
-    named = {n: carried(function.__globals__[n]) for n in function.__code__.co_names if n in function.__globals__}
-    return types.FunctionType(function.__code__, {**function.__globals__, **named})
+def _given(link: Bound, units: dict[str, str]) -> Found:
+    """The kind of what a bound formula gives; KindError where it has none."""
+    taken = zip(link.names, link.takes, strict=True)
+    kinds = {parameter: unit(units[name]).kind if isinstance(name, str) else name for parameter, name in taken}
+    return kind_given(link.formula, kinds)
 
 
 def check_units(mechanism: Mechanism) -> Iterator[str]:

@@ -6,7 +6,7 @@ from typing import Any
 
 import numpy as np
 
-from diecut_report.api import formula
+from diecut_report.api import as_number, formula
 
 
 @formula
@@ -246,7 +246,7 @@ def gear_acceleration(sector_acceleration: Any, sector_radius: Any, gear_radius:
 @formula
 def gear_power(gear_speed: Any, gear_acceleration: Any, cycles_per_hour: Any) -> Any:
     """Power that a unit of inertia on the gear's shaft asks for."""
-    return gear_speed * cycles_per_hour * gear_acceleration
+    return as_number(gear_speed * cycles_per_hour * gear_acceleration)
 
 
 @formula

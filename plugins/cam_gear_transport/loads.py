@@ -6,7 +6,7 @@ from typing import Any
 
 import numpy as np
 
-from diecut_report.api import formula
+from diecut_report.api import as_number, formula
 
 
 @formula
@@ -18,7 +18,7 @@ def gear_torque(conveyor_mass: Any, sheet_acceleration: Any, sheet_step: Any) ->
 @formula
 def sector_rate_change(sector_acceleration: Any, cycles_per_hour: Any) -> Any:
     """Angular acceleration of the sector to the square of the disc's speed."""
-    return sector_acceleration / (2 * np.pi * cycles_per_hour) ** 2
+    return as_number(sector_acceleration / (2 * np.pi * cycles_per_hour) ** 2)
 
 
 @formula

@@ -6,7 +6,7 @@ from typing import Any
 
 import numpy as np
 
-from diecut_report.api import formula
+from diecut_report.api import as_number, formula
 
 
 @formula
@@ -120,7 +120,7 @@ def angle_of_travel(radial_gap: Any, wear_allowance: Any, available_travel: Any)
 @formula
 def slip_time(driven_inertia: Any, speed: Any, accelerating_torque: Any) -> Any:
     """Time until the driven side runs with the driving shaft."""
-    return driven_inertia * speed / accelerating_torque
+    return driven_inertia * as_number(speed) / accelerating_torque
 
 
 @formula
@@ -138,7 +138,7 @@ def heat_flux(design_torque: Any, speed: Any, shoe_radius: Any, lining_width: An
 @formula
 def surface_rise(heat_flux: Any, slip_time: Any, conductivity: Any, density: Any, specific_heat: Any) -> Any:
     """Greatest rise of a thick body's surface under a flux that falls evenly to zero; it is reached at half the time."""
-    return 4 / 3 * heat_flux * np.sqrt(slip_time / (2 * np.pi * conductivity * density * specific_heat))
+    return 4 / 3 * heat_flux * np.sqrt(slip_time / (2 * as_number(np.pi) * conductivity * density * specific_heat))
 
 
 @formula

@@ -6,7 +6,7 @@ from typing import Any
 
 import numpy as np
 
-from diecut_report.api import formula
+from diecut_report.api import as_angle, formula
 
 
 @formula
@@ -66,7 +66,7 @@ def cylinder_rate(ratio: Any, crank_speed: Any, sector_ratio: Any) -> Any:
 @formula
 def cylinder_acceleration(ratio: Any, crank_speed: Any, sector_ratio: Any) -> Any:
     """Angular acceleration of the cylinder."""
-    return ratio * crank_speed**2 * sector_ratio
+    return as_angle(ratio * crank_speed**2) * sector_ratio
 
 
 @formula

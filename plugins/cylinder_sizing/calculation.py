@@ -6,7 +6,7 @@ from typing import Any
 
 import numpy as np
 
-from diecut_report.api import Chapter, arccos, bind, case, formula
+from diecut_report.api import Chapter, arccos, as_angle, as_number, bind, case, formula
 from diecut_report.mechanics import circular_segment as segment
 from diecut_report.mechanics import common
 
@@ -32,7 +32,7 @@ size.require("radius_exists", lambda segment_height, segment_height_limit: segme
 size.value("radius_closed_form", "R_cf", "mm", "Radius by the closed form", radius_by_huygens, source="002 eq. 6", digits=6)
 size.root("radius_exact", "R_ex", "mm", "Exact radius",
           lambda radius_exact, working_length, segment_height:
-              radius_exact * (1 - np.cos(np.pi - working_length / (2 * radius_exact))) - segment_height,
+              radius_exact * (1 - np.cos(np.pi - as_angle(working_length / (2 * radius_exact)))) - segment_height,
           low=lambda working_length, segment_height: np.maximum(segment_height, working_length / (2 * np.pi)),
           high=lambda working_length: working_length / np.pi,
           left=lambda radius_exact, working_length: 2 * np.pi * radius_exact - working_length,
@@ -86,11 +86,11 @@ overlap.value("overlap_area", "A_b", "mm**2", "Area of the overlap",
 
 masses = Chapter("Masses")
 masses.value("solid_mass", "m′", "kg", "Mass of the full cylinder",
-             lambda radius, generatrix_length, density: np.pi * radius**2 * generatrix_length * density, source="000 eq. 13, 17")
+             lambda radius, generatrix_length, density: as_number(np.pi) * radius**2 * generatrix_length * density, source="000 eq. 13, 17")
 masses.value("segment_mass", "m_1", "kg", "Mass of the segment",
              lambda segment_area, generatrix_length, density: segment_area * generatrix_length * density, source="000 eq. 14")
 masses.value("bore_mass", "m_2", "kg", "Mass that the bore takes away",
-             lambda bore_radius, generatrix_length, density: np.pi * bore_radius**2 * generatrix_length * density,
+             lambda bore_radius, generatrix_length, density: as_number(np.pi) * bore_radius**2 * generatrix_length * density,
              source="000, after eq. 16")
 masses.value("overlap_mass", "m_12", "kg", "Mass of the overlap",
              lambda overlap_area, generatrix_length, density: overlap_area * generatrix_length * density, source="this method")

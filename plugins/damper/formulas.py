@@ -6,7 +6,7 @@ from typing import Any
 
 import numpy as np
 
-from diecut_report.api import Constant, formula
+from diecut_report.api import Constant, as_number, formula
 from diecut_report.mechanics.common import rounded_up
 
 GENT = Constant(98_100.0, "p_G", "Pa")
@@ -77,7 +77,7 @@ def reduced_mass(kinetic_energy: Any, velocity: Any) -> Any:
 @formula
 def stop_time(deflection: Any, velocity: Any) -> Any:
     """A quarter of the period of mass and spring."""
-    return np.pi * deflection / (2 * velocity)
+    return as_number(np.pi) * deflection / (2 * velocity)
 
 
 @formula
@@ -95,7 +95,7 @@ def is_missing(share: Any) -> Any:
 @formula
 def loss_of_half_cycle(loss_tangent: Any) -> Any:
     """Share of the energy that half a cycle with this loss tangent takes."""
-    return 1 - np.exp(-np.pi * loss_tangent)
+    return 1 - np.exp(-as_number(np.pi) * loss_tangent)
 
 
 @formula
@@ -204,7 +204,7 @@ def driven_deceleration(damper_count: Any, driven_peak_force: Any, driving_force
 def driven_stop_time(reduced_mass: Any, stiffness: Any, driving_force: Any, velocity: Any) -> Any:
     """Time from contact to rest of a mass on a spring with a constant force behind it."""
     late = np.arctan(driving_force / (velocity * np.sqrt(stiffness * reduced_mass)))
-    return np.sqrt(reduced_mass / stiffness) * (np.pi / 2 + late)
+    return np.sqrt(reduced_mass / stiffness) * as_number(np.pi / 2 + late)
 
 
 @formula

@@ -17,6 +17,7 @@ from diecut_report.api import (
     Value,
     Words,
     arccos,
+    as_number,
     bind,
     formula,
     told,
@@ -32,19 +33,19 @@ FEWEST_IN_MESH = 6.0
 @formula
 def teeth_around(radius: Any, pitch: Any) -> Any:
     """Teeth that the circumference of a pulley has room for."""
-    return 2 * np.pi * radius / pitch
+    return as_number(2 * np.pi) * radius / pitch
 
 
 @formula
 def whole_radius(radius: Any, pitch: Any) -> Any:
     """Pitch radius of the nearest whole number of teeth, one at least."""
-    return np.maximum(1, np.round(2 * np.pi * radius / pitch)) * pitch / (2 * np.pi)
+    return np.maximum(1, np.round(as_number(2 * np.pi) * radius / pitch)) * pitch / (2 * np.pi)
 
 
 @formula
 def teeth_apart(radius: Any, other: Any, pitch: Any) -> Any:
     """How far two pitch radii are apart, in teeth."""
-    return 2 * np.pi * abs(radius - other) / pitch
+    return as_number(2 * np.pi) * abs(radius - other) / pitch
 
 
 @formula

@@ -6,7 +6,7 @@ from typing import Any
 
 import numpy as np
 
-from diecut_report.api import formula
+from diecut_report.api import as_number, formula
 from diecut_report.mechanics import belt_path
 
 
@@ -73,7 +73,7 @@ def count(power: Any, power_per_belt: Any) -> Any:
 @formula
 def tension_ratio(groove_friction: Any, wrap: Any) -> Any:
     """Ratio of the tensions of the tight and the slack side (Euler, with the friction of the groove)."""
-    return np.exp(groove_friction * wrap)
+    return np.exp(groove_friction * as_number(wrap))
 
 
 @formula

@@ -6,7 +6,7 @@ from typing import Any
 
 import numpy as np
 
-from diecut_report.api import formula
+from diecut_report.api import as_number, formula
 
 
 @formula
@@ -36,7 +36,7 @@ def disc_width(diameter: Any) -> Any:
 @formula
 def disc_mass(density: Any, diameter: Any, width: Any) -> Any:
     """Mass of the disc."""
-    return density * np.pi * diameter**2 / 4 * width
+    return density * as_number(np.pi) * diameter**2 / 4 * width
 
 
 @formula
@@ -54,7 +54,7 @@ def referred(behind: Any, ratio: Any, efficiency: Any) -> Any:
 @formula
 def run_up_time(inertia: Any, speed: Any, accelerating_torque: Any) -> Any:
     """Time in which a constant torque brings the inertia to its speed."""
-    return inertia * speed / accelerating_torque
+    return inertia * as_number(speed) / accelerating_torque
 
 
 @formula

@@ -20,6 +20,7 @@ from diecut_report.api import (
     Text,
     Total,
     Value,
+    as_number,
     bind,
     formula,
 )
@@ -108,7 +109,7 @@ def pulley_radius(belt_speed: Any, shaft_speed: Any) -> Any:
 @formula
 def pulley_teeth(radius: Any, pitch: Any) -> Any:
     """Whole number of teeth nearest to a pitch radius."""
-    return np.round(2 * np.pi * radius / pitch)
+    return np.round(as_number(2 * np.pi) * radius / pitch)
 
 
 @formula
@@ -144,7 +145,7 @@ def take_up(teeth: Any, pitch: Any, length: Any) -> Any:
 @formula
 def teeth_in_mesh(radius: Any, wrap: Any, pitch: Any) -> Any:
     """Teeth along the wrap of a pulley."""
-    return radius * wrap / pitch
+    return radius * as_number(wrap) / pitch
 
 
 @formula

@@ -9,7 +9,7 @@ from typing import Any
 
 import numpy as np
 
-from diecut_report.api import formula
+from diecut_report.api import as_number, formula
 from diecut_report.plugins.geneva_transport import formulas
 
 
@@ -70,13 +70,13 @@ def geneva_velocity(slots: Any, angle: Any, crank_ratio: Any) -> Any:
 @formula
 def geneva_acceleration(slots: Any, angle: Any, crank_ratio: Any) -> Any:
     """Acceleration by the wheel's, one slot of which is a step."""
-    return 2 * np.pi * slots * formulas.acceleration_ratio(angle, crank_ratio)
+    return as_number(2 * np.pi) * slots * formulas.acceleration_ratio(angle, crank_ratio)
 
 
 @formula
 def geneva_jump(slots: Any) -> Any:
     """Jump of the acceleration at entry and exit."""
-    return 2 * np.pi * slots * np.tan(np.pi / slots)
+    return as_number(2 * np.pi) * slots * np.tan(np.pi / slots)
 
 
 @formula

@@ -6,7 +6,7 @@ from typing import Any
 
 import numpy as np
 
-from diecut_report.api import formula
+from diecut_report.api import as_angle, formula
 
 
 @formula
@@ -176,7 +176,7 @@ def rate(ratio: Any, crank_speed: Any) -> Any:
 @formula
 def rate_of_rate(ratio: Any, crank_speed: Any) -> Any:
     """Angular acceleration of the wheel."""
-    return ratio * crank_speed**2
+    return as_angle(ratio * crank_speed**2)
 
 
 @formula

@@ -6,7 +6,7 @@ from typing import Any
 
 import numpy as np
 
-from diecut_report.api import arccos, formula
+from diecut_report.api import arccos, as_angle, formula
 
 
 @formula
@@ -85,7 +85,7 @@ def scaled(length: Any, disc_radius: Any, crank_radius: Any) -> Any:
 @formula
 def play(clearance: Any, center_distance: Any, hold_half_angle: Any) -> Any:
     """Angle by which the wheel can turn either way in the dwell."""
-    return clearance / (center_distance * np.sin(hold_half_angle))
+    return as_angle(clearance / (center_distance * np.sin(hold_half_angle)))
 
 
 @formula

@@ -6,7 +6,7 @@ from typing import Any
 
 import numpy as np
 
-from diecut_report.api import formula
+from diecut_report.api import as_angle, as_number, formula
 
 
 @formula
@@ -102,13 +102,13 @@ def slider_end_acceleration(crank_radius: Any, rod_ratio: Any, crank_speed: Any)
 @formula
 def raised_direction(outer_direction: Any, working_depth: Any, knife_arm: Any) -> Any:
     """Direction of the rocker with the edge at the table, the lowest point being at the outer dead centre."""
-    return outer_direction + working_depth / knife_arm
+    return outer_direction + as_angle(working_depth / knife_arm)
 
 
 @formula
 def lowered_direction(outer_direction: Any, swing_angle: Any, working_depth: Any, knife_arm: Any) -> Any:
     """Direction of the rocker with the edge at the table, the lowest point being at the inner dead centre."""
-    return outer_direction + swing_angle - working_depth / knife_arm
+    return outer_direction + swing_angle - as_angle(working_depth / knife_arm)
 
 
 @formula
@@ -184,7 +184,7 @@ def holds(flag: Any) -> Any:
 @formula
 def end_factor(acceleration_end: Any, stroke: Any, crank_speed: Any) -> Any:
     """Acceleration at the lowest point to that of a harmonic motion of the same stroke."""
-    return 2 * acceleration_end / (stroke * crank_speed**2)
+    return 2 * acceleration_end / (stroke * as_number(crank_speed) ** 2)
 
 
 @formula

@@ -50,13 +50,13 @@ def test_a_sound_mechanism_of_two_forms_passes() -> None:
         ("force", {"units": (("mass", "N*m"),)}, "declared is N*m"),
         ("force", {"units": ()}, "force: force gives"),
         ("position", {"units": ()}, "position: rising gives"),
-        ("speed", {"unit": "rad"}, "speed: the derivative of position gives 1.0"),
-        ("speed", {"units": (("mass", "m"),)}, "speed: the derivative of position gives meter / second, declared is meter"),
-        ("area", {"units": (("mass", "m"),)}, "area: the integral of position gives meter * second"),
+        ("speed", {"unit": "rad"}, "speed: the derivative of position gives rad/s"),
+        ("speed", {"units": (("mass", "m"),)}, "speed: the derivative of position gives m/s, declared is m"),
+        ("area", {"units": (("mass", "m"),)}, "area: the integral of position gives m*s"),
         ("speed_top", {"units": (("mass", "m"),)}, "speed_top: speed gives"),
-        ("grown", {"units": ()}, "grown: motion gives meter, declared is radian"),
+        ("grown", {"units": ()}, "grown: motion gives m, declared is rad"),
         ("grown", {"lasts": "share"}, "grown: share gives"),
-        ("grown", {"start": "cycle"}, "grown: cycle gives second"),
+        ("grown", {"start": "cycle"}, "grown: cycle gives s,"),
         ("time", {"period": "share"}, "time: share gives"),
         ("joints", {"every": "stiffness"}, "joints: stiffness gives"),
         ("joints", {"places": ("passed",)}, "joints: passed gives"),
@@ -68,10 +68,9 @@ def test_a_sound_mechanism_of_two_forms_passes() -> None:
     ],
 )  # fmt: skip
 def test_the_contract_test_finds_what_is_wrong_in_either_form(name: str, changes: Any, words: str) -> None:
-    expected = words.replace("1.0", "radian / second") if words.endswith("1.0") else words
     with pytest.raises(AssertionError) as refused:
         check_mechanism(with_step(name, **changes))
-    assert expected in str(refused.value)
+    assert words in str(refused.value)
 
 
 class Part(Block):

@@ -1,0 +1,179 @@
+"""The kind of what a formula gives, found from the kinds of what it takes: its expression is gone through, nothing is computed.
+
+A kind is the exponents of ``units.DIMENSIONS``, and the plane angle is one of them: rad/s is no 1/s. π is an angle, half a turn.
+Sine, cosine and tangent take angles, their inverses give them. The radian drops by itself in one place, **beside a length**: an arc is
+radius times angle, a speed radius times angular speed, N·m the same as kg·m²·rad/s². Two kinds that differ by the angle alone are
+alike where they have a length. Everywhere else the formula says it, by ``as_number`` or ``as_angle``.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+
+from diecut_report.expressions import AS_ANGLE, AS_NUMBER, Formula, Node, evaluate, symbols
+from diecut_report.quantities.units import (
+    DIMENSIONS,
+    Kind,
+    si_text,
+    unit,
+)
+
+ANY = None  # the kind of zero, which is alike to all
+NUMBER: Kind = unit("1").kind
+ANGLE: Kind = unit("rad").kind
+Found = Kind | None
+LENGTH_AT, ANGLE_AT = DIMENSIONS.index("length"), DIMENSIONS.index("angle")
+TEXT_LENGTH = 60
+LOOSE = ("+", "-", "cmp", "*", "/", "neg")  # operations that stand in brackets within another one
+
+
+class KindError(ValueError):
+    """A formula that equals, adds or takes quantities of unlike kinds; the text says which, where in the formula."""
+
+
+def alike(one: Found, other: Found) -> bool:
+    """Whether two kinds may be equalled: they are the same, or differ by the angle alone beside a length."""
+    if one is None or other is None or one == other:
+        return True
+    return bool(one[LENGTH_AT]) and _turned(one, 0) == _turned(other, 0)
+
+
+def times(one: Found, other: Found, power: float = 1) -> Found:
+    """The kind of a product with a power of the other factor."""
+    if one is None or other is None:
+        return ANY
+    return tuple(round(a + power * b, 9) for a, b in zip(one, other, strict=True))
+
+
+def kind_text(kind: Found) -> str:
+    """The coherent SI unit of a kind, in words for the pure number."""
+    return "zero" if kind is None else "a pure number" if kind == NUMBER else si_text(kind)
+
+
+def kind_given(formula: Formula, taken: Mapping[str, Found | float]) -> Found:
+    """The kind of what a formula gives for the kinds (or plain numbers) that its parameters take; KindError where it has none."""
+    numbers = {name: _plain(value) for name, value in taken.items() if isinstance(value, float)}
+    constants = {symbol: unit(constant.unit).kind for symbol, constant in formula.constants.items()}
+    kinds = {name: value for name, value in taken.items() if not isinstance(value, float)}
+    return _Walk(constants | kinds | numbers).kind(formula.full_tree)
+
+
+def _plain(value: float) -> Found:
+    return NUMBER if value and math.isfinite(value) else ANY
+
+
+def _turned(kind: Kind, power: float) -> Kind:
+    """A kind with another power of the angle."""
+    return (*kind[:ANGLE_AT], power, *kind[ANGLE_AT + 1 :])
+
+
+class _Walk:
+    """Goes through one expression with what its symbols stand for."""
+
+    def __init__(self, known: Mapping[str, Found]) -> None:
+        self.known = known
+
+    def kind(self, node: Node) -> Found:
+        match node:
+            case Node("num", (text,)):
+                return _plain(float(text))
+            case Node("sym", (name,)):
+                return ANGLE if name == "π" else self.known[name]
+            case Node("call", (name, *args)):
+                return self._call(node, str(name), *args)
+            case Node("cmp", (_, left, right)):
+                self._common(node, left, right)
+                return NUMBER
+            case Node("cases", branches):
+                for _, condition in (branch for branch in branches if len(branch) == 2):
+                    self.kind(condition)
+                return self._common(node, *(branch[0] for branch in branches))
+        return self._operation(node)
+
+    def _operation(self, node: Node) -> Found:
+        match node:
+            case Node("+" | "-", (left, right)):
+                return self._common(node, left, right)
+            case Node("*" | "/" as sign, (left, right)):
+                return times(self.kind(left), self.kind(right), 1 if sign == "*" else -1)
+            case Node("^", (base, exponent)):
+                return self._power(base, exponent)
+            case Node("neg", (inner,)):
+                return self.kind(inner)
+        for part in node.args:  # and, or, not
+            self.kind(part)
+        return NUMBER
+
+    def _power(self, base: Node, exponent: Node) -> Found:
+        if symbols(exponent):
+            return self._needed(NUMBER, base) and self._needed(NUMBER, exponent)
+        return times(NUMBER, self.kind(base), float(evaluate(exponent, dict[Node, float]().__getitem__)))
+
+    def _call(self, node: Node, name: str, *args: Node) -> Found:
+        match name:
+            case "sin" | "cos" | "tan":
+                return self._needed(ANGLE, *args) and NUMBER
+            case "arcsin" | "arccos" | "arctan":
+                return self._needed(NUMBER, *args) and ANGLE
+            case "exp" | "log" | "ceil" | "floor" | "round":
+                return self._needed(NUMBER, *args)
+            case "arctan2":
+                self._common(node, *args)
+                return ANGLE
+            case "minimum" | "maximum":
+                return self._common(node, *args)
+            case "sqrt":
+                return times(NUMBER, self.kind(args[0]), 0.5)
+        inner = self.kind(args[0])
+        return NUMBER if name == "sign" else self._said(node, inner, SAID[name]) if name in SAID else inner
+
+    def _said(self, node: Node, inner: Found, power: int) -> Found:
+        """What is said to be a number or an angle; KindError where it is that already."""
+        if inner is None or inner[ANGLE_AT] == power:
+            raise KindError(f"{_shortened(node)} says that rad {'comes in' if power else 'drops'}, but "
+                            f"{_shortened(node.args[1])} is {kind_text(inner)} already")  # fmt: skip
+        return _turned(inner, power)
+
+    def _needed(self, kind: Kind, argument: Node) -> Kind:
+        found = self.kind(argument)
+        if found not in (ANY, kind):
+            raise KindError(f"{_shortened(argument)} is {kind_text(found)}, {kind_text(kind)} is needed")
+        return kind
+
+    def _common(self, node: Node, *parts: Node) -> Found:
+        """The kind of what is added, compared or chosen from; beside a length without the radian where one has none."""
+        first, *others = parts
+        common = self.kind(first)
+        for part in others:
+            found = self.kind(part)
+            if not alike(common, found):
+                raise KindError(f"{_shortened(node)} brings together {kind_text(common)} ({_shortened(first)}) and "
+                                f"{kind_text(found)} ({_shortened(part)})")  # fmt: skip
+            common = found if common is None else common if found in (ANY, common) else _turned(common, 0)
+        return common
+
+
+SAID = {AS_NUMBER: 0, AS_ANGLE: 1}
+
+
+def _written(node: Node) -> str:
+    """An expression as a line of text, to show the author where in the formula."""
+    match node:
+        case Node("num" | "sym", (text,)):
+            return str(text)
+        case Node("call", (name, *args)):
+            return f"{name}({', '.join(map(_written, args))})"
+        case Node("cases", branches):
+            return f"where({', '.join(_written(part) for branch in branches for part in reversed(branch))})"
+        case Node("cmp", (sign, left, right)):
+            return f"{_written(left)} {sign} {_written(right)}"
+        case Node("neg" | "not", (inner,)):
+            return f"-{_written(inner)}" if node.op == "neg" else f"not {_written(inner)}"
+    left, right = (f"({_written(part)})" if part.op in LOOSE else _written(part) for part in node.args)
+    return f"{left} {node.op} {right}"
+
+
+def _shortened(node: Node) -> str:
+    text = _written(node)
+    return text if len(text) <= TEXT_LENGTH else text[: TEXT_LENGTH - 1] + "…"
