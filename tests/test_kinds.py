@@ -258,7 +258,7 @@ def test_an_angle_is_no_number_elsewhere(name: str) -> None:
 
 TURN = Abscissa(id="place", symbol="φ", unit="deg", description="Place", period=2 * np.pi)
 RISE = value(bind(product, first="share", second="place"), "deg")
-REST = {"symbol": "y", "description": "Quantity"}
+REST: dict[str, Any] = {"symbol": "y", "description": "Quantity"}
 
 
 @pytest.mark.parametrize(
@@ -374,7 +374,8 @@ def by_pint(link: Bound, units: dict[str, str]) -> tuple[float, ...] | None:
         result = with_units(link.formula)(*given)
     if not isinstance(result, pint.Quantity):
         return None if result == 0 else (0.0,) * ANGLE_AT
-    return tuple(float(result.dimensionality.get(f"[{name}]", 0)) for name in DIMENSIONS[:ANGLE_AT])
+    found: Any = result.dimensionality
+    return tuple(float(found.get(f"[{name}]", 0)) for name in DIMENSIONS[:ANGLE_AT])
 
 
 def of_formulas(mechanism: Mechanism) -> Iterator[tuple[str, Bound, Found]]:
