@@ -6,7 +6,7 @@ are named for the quantities that it takes (``lambda radius, height: radius - he
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import Any, Literal, TypedDict, Unpack
 
@@ -47,7 +47,7 @@ class Options(TypedDict, total=False):
     output: bool
     needs: tuple[str, ...]
     lacks: tuple[str, ...]
-    exists: Written
+    exists: Written | None
     numbered: str
     first: int
     whole: bool
@@ -67,10 +67,16 @@ class Steps:
 
     steps: Sequence[Step] = field(default=(), kw_only=True)
 
-    def add(self, *steps: Step | Iterable[Step]) -> None:
-        """Add steps that are declared elsewhere: a family, or what several chapters share."""
+    def __iter__(self) -> Iterator[Step]:
+        return iter(self.steps)
+
+    def add(self, *steps: Step | Iterable[Any]) -> None:
+        """Add steps that are declared elsewhere: a family, several of them, or what several chapters share."""
         for step in steps:
-            self.steps = (*self.steps, step) if isinstance(step, Step) else (*self.steps, *step)
+            if isinstance(step, Step):
+                self.steps = (*self.steps, step)
+            else:
+                self.add(*step)
 
     def value(
         self,
@@ -277,8 +283,8 @@ class Steps:
     ) -> None:
         """Declare a step that gives a quantity."""
         given: dict[str, Any] = {"symbol": symbol, "unit": unit, "description": description, **options, **own}
-        if "exists" in options:
-            given["exists"] = as_binding(options["exists"], f"{id} (exists)")
+        exists = options.get("exists")
+        given["exists"] = None if exists is None else as_binding(exists, f"{id} (exists)")
         self.add(kind(id=id, **given))
 
 

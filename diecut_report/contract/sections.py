@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterable
 from dataclasses import replace
 from functools import cache
 from typing import Any
@@ -19,8 +19,9 @@ NAMING = ("formula", "cases", "of", "among", "takes", "given", "by", "points", "
 Rename = Callable[[str | float], str | float]
 
 
-def prefixed(prefix: str, steps: Sequence[Step], shared: tuple[str, ...], symbol_suffix: str = "") -> tuple[Step, ...]:
+def prefixed(prefix: str, steps: Iterable[Step], shared: tuple[str, ...], symbol_suffix: str = "") -> tuple[Step, ...]:
     """One family of steps for another variant: each id gets the prefix, except what is ``shared`` by all variants."""
+    steps = tuple(steps)
     own = {step.id for step in steps} - set(shared)
 
     def rename(name: str | float) -> str | float:

@@ -6,19 +6,13 @@ from typing import Any
 
 import numpy as np
 
-from diecut_report.api import as_number, formula
+from diecut_report.api import formula
 
 
 @formula
 def teeth_together(center_distance: Any, module: Any) -> Any:
     """Teeth of gear and sector together, the sector counted as a full wheel."""
     return 2 * center_distance / module
-
-
-@formula
-def nearest_distance(teeth_together: Any, module: Any) -> Any:
-    """Centre distance with the nearest whole number of teeth."""
-    return np.maximum(np.round(teeth_together), 2) * module / 2
 
 
 @formula
@@ -37,12 +31,6 @@ def gear_teeth(teeth_together: Any, sweep: Any, dwell_angle: Any) -> Any:
 def other_teeth(teeth_together: Any, gear_teeth: Any) -> Any:
     """Teeth of the sector, counted as a full wheel."""
     return np.round(teeth_together) - gear_teeth
-
-
-@formula
-def both_have_teeth(gear_teeth: Any, sector_wheel_teeth: Any) -> Any:
-    """Whether gear and sector have a tooth at all."""
-    return np.minimum(gear_teeth, sector_wheel_teeth) >= 1
 
 
 @formula
@@ -70,12 +58,6 @@ def sector_radius(center_distance: Any, gear_radius: Any) -> Any:
 
 
 @formula
-def sector_teeth(sector_wheel_teeth: Any, sector_sweep: Any) -> Any:
-    """Teeth of the swept arc, and one on each side."""
-    return np.ceil(sector_wheel_teeth * sector_sweep / (2 * np.pi)) + 2
-
-
-@formula
 def share_of_turn(angle: Any) -> Any:
     """Share of a turn."""
     return angle / (2 * np.pi)
@@ -100,57 +82,9 @@ def time_return(time_dwell: Any, time_stop: Any) -> Any:
 
 
 @formula
-def dwell_limit(sweep: Any, sector_stop_sweep: Any, peak_velocity: Any) -> Any:
-    """Dwell with which stop and start take the rest of the turn."""
-    return 2 * np.pi * sweep / (sweep + peak_velocity * sector_stop_sweep)
-
-
-@formula
-def dwell_recommended(dwell_angle_limit: Any, min_return_time: Any) -> Any:
-    """Dwell that leaves the return its time, the sweeps being as they are."""
-    return (1 - min_return_time) * dwell_angle_limit
-
-
-@formula
-def dwell_limit_of_teeth(time_stop: Any) -> Any:
-    """Dwell with which stop and start take the rest of the turn, the teeth being as they are."""
-    return 2 * np.pi * (1 - time_stop)
-
-
-@formula
-def dwell_recommended_of_teeth(dwell_angle_limit: Any, min_return_time: Any) -> Any:
-    """Dwell that leaves the return its time, the teeth being as they are."""
-    return dwell_angle_limit - 2 * np.pi * min_return_time
-
-
-@formula
-def stop_sweep_limit(time_dwell: Any, sector_speed_dwell: Any, peak_velocity: Any) -> Any:
-    """Sweep of stop and start that takes the rest of the turn."""
-    return (1 - time_dwell) * sector_speed_dwell / peak_velocity
-
-
-@formula
-def stop_sweep_recommended(time_dwell: Any, sector_speed_dwell: Any, peak_velocity: Any, min_return_time: Any) -> Any:
-    """Sweep of stop and start that leaves the return its time."""
-    return (1 - min_return_time - time_dwell) * sector_speed_dwell / peak_velocity
-
-
-@formula
 def is_symmetric(middle_position: Any, middle_velocity: Any, peak_velocity: Any) -> Any:
     """Whether a law is half way, and fastest, in the middle of its time."""
     return (abs(middle_position - 1 / 2) <= 1e-9) & (abs(middle_velocity - peak_velocity) <= 1e-9 * peak_velocity)
-
-
-@formula
-def angle_stop(dwell_angle: Any, time_stop: Any) -> Any:
-    """Disc angle where the sector stops."""
-    return dwell_angle + np.pi * time_stop
-
-
-@formula
-def angle_start(time_stop: Any) -> Any:
-    """Disc angle where the sector starts again."""
-    return 2 * np.pi - np.pi * time_stop
 
 
 @formula
@@ -220,18 +154,6 @@ def fall_acceleration(sweep: Any, time: Any, law_acceleration: Any, cycles_per_h
 
 
 @formula
-def rocker_turn(sector_speed: Any) -> Any:
-    """Angular speed of sector and rocker, to that of the disc."""
-    return 1 + sector_speed / (2 * np.pi)
-
-
-@formula
-def gear_angle(disc_angle: Any, sector_angle: Any, sector_radius: Any, gear_radius: Any) -> Any:
-    """Angle of the gear: it is carried along with the disc, less what the sector rolls off."""
-    return disc_angle - sector_radius / gear_radius * sector_angle
-
-
-@formula
 def gear_speed(sector_speed: Any, sector_radius: Any, gear_radius: Any) -> Any:
     """Speed of the gear in rad for each turn of the disc."""
     return 2 * np.pi - sector_radius / gear_radius * sector_speed
@@ -244,24 +166,6 @@ def gear_acceleration(sector_acceleration: Any, sector_radius: Any, gear_radius:
 
 
 @formula
-def gear_power(gear_speed: Any, gear_acceleration: Any, cycles_per_hour: Any) -> Any:
-    """Power that a unit of inertia on the gear's shaft asks for."""
-    return as_number(gear_speed * cycles_per_hour * gear_acceleration)
-
-
-@formula
-def referred(gear_speed_peak: Any, gear_radius: Any, sector_radius: Any) -> Any:
-    """Speed of the gear as rolled by the sector."""
-    return gear_speed_peak * gear_radius / sector_radius
-
-
-@formula
-def off_one_turn(rotation: Any) -> Any:
-    """How far a rotation is off a full turn."""
-    return abs(rotation - 2 * np.pi)
-
-
-@formula
 def sheet_step(sprocket_teeth: Any, chain_pitch: Any, sprocket_ratio: Any) -> Any:
     """Step of the conveyor in a cycle."""
     return sprocket_teeth * chain_pitch * sprocket_ratio
@@ -271,9 +175,3 @@ def sheet_step(sprocket_teeth: Any, chain_pitch: Any, sprocket_ratio: Any) -> An
 def travel(angle: Any, sheet_step: Any) -> Any:
     """Way, velocity or acceleration of the sheet from that of the gear, a turn of which makes a step."""
     return sheet_step * angle / (2 * np.pi)
-
-
-@formula
-def sheet_velocity(gear_speed: Any, sheet_step: Any, cycles_per_hour: Any) -> Any:
-    """Velocity of the sheet."""
-    return sheet_step * cycles_per_hour * gear_speed / (2 * np.pi)

@@ -6,7 +6,7 @@ from typing import Any
 
 import numpy as np
 
-from diecut_report.api import as_number, formula
+from diecut_report.api import formula
 
 
 @formula
@@ -16,29 +16,9 @@ def gear_torque(conveyor_mass: Any, sheet_acceleration: Any, sheet_step: Any) ->
 
 
 @formula
-def sector_rate_change(sector_acceleration: Any, cycles_per_hour: Any) -> Any:
-    """Angular acceleration of the sector to the square of the disc's speed."""
-    return as_number(sector_acceleration / (2 * np.pi * cycles_per_hour) ** 2)
-
-
-@formula
-def drive_torque(
-    gear_torque: Any, gear_speed: Any, sector_inertia: Any, sector_acceleration: Any, rocker_turn: Any
-) -> Any:
-    """Torque at the disc: its power is that of gear and sector, for the fixed cams do no work."""
-    return gear_torque * gear_speed / (2 * np.pi) + sector_inertia * sector_acceleration * rocker_turn
-
-
-@formula
 def tooth_force(gear_torque: Any, gear_radius: Any) -> Any:
     """Tangential force between the teeth of sector and gear."""
     return gear_torque / gear_radius
-
-
-@formula
-def kinetic_energy(conveyor_mass: Any, velocity: Any) -> Any:
-    """Kinetic energy of the conveyor."""
-    return conveyor_mass * velocity**2 / 2
 
 
 @formula
@@ -79,30 +59,6 @@ def highest_direction(lowest: Any, sector_sweep: Any) -> Any:
 
 
 @formula
-def least_arm_angle(sector_stop_sweep: Any) -> Any:
-    """Least angle of an arm that stays on the left of the line O₁O₃."""
-    return sector_stop_sweep / 2
-
-
-@formula
-def greatest_arm_angle(sector_sweep: Any, sector_stop_sweep: Any) -> Any:
-    """Greatest angle of an arm that stays on the left of the line O₁O₃."""
-    return np.pi - sector_sweep + sector_stop_sweep / 2
-
-
-@formula
-def leaves_arms(sector_sweep: Any) -> Any:
-    """Whether an arm can stay on one side of the line O₁O₃ over the whole sweep."""
-    return sector_sweep < np.pi
-
-
-@formula
 def stays_on_one_side(lowest: Any, highest: Any) -> Any:
     """Whether an arm stays on one side of the line O₁O₃ (its sweep is below half a turn)."""
     return np.sin(lowest) * np.sin(highest) > 1e-12  # on the line itself the cams could not move the arm
-
-
-@formula
-def lie_on_both_sides(lowest: Any, highest: Any, other_lowest: Any, other_highest: Any) -> Any:
-    """Whether two arms lie, at one end of the swing at least, on both sides of the line O₁O₃."""
-    return (np.sin(lowest) * np.sin(other_lowest) < 0) | (np.sin(highest) * np.sin(other_highest) < 0)

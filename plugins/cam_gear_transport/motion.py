@@ -4,22 +4,12 @@ from __future__ import annotations
 
 import numpy as np
 
-from diecut_report.api import (
-    Abscissa,
-    Binding,
-    Breakpoints,
-    ByText,
-    Case,
-    Chapter,
-    Choice,
-    Crossings,
-    Reduction,
-    Value,
-    bind,
-)
+from diecut_report.api import Binding, ByText, Case, Chapter, as_number, bind, case
 from diecut_report.mechanics import common
 from diecut_report.mechanics.motion_laws import ACCELERATION, JOINT, POSITION, VELOCITY
 from diecut_report.plugins.cam_gear_transport import formulas
+
+# fmt: off
 
 
 def _before(place: str) -> Binding:
@@ -30,89 +20,78 @@ def _before(place: str) -> Binding:
 def by_phase(dwell: Binding, stopping: Binding, returning: Binding, starting: Binding) -> tuple[Case, ...]:
     """What holds in the phases II, III, IV and I."""
     return (
-        Case(dwell, "the disc is in phase II, the gear dwells", _before("dwell_angle")),
-        Case(stopping, "the disc is in phase III, the sector stops", _before("angle_stop")),
-        Case(returning, "the disc is in phase IV, the sector returns", _before("angle_start")),
-        Case(starting, "the disc is in phase I, the sector starts"),
+        case(dwell, "the disc is in phase II, the gear dwells", _before("dwell_angle")),
+        case(stopping, "the disc is in phase III, the sector stops", _before("angle_stop")),
+        case(returning, "the disc is in phase IV, the sector returns", _before("angle_start")),
+        case(starting, "the disc is in phase I, the sector starts"),
     )
 
 
 RISE = {"sweep": "sector_stop_sweep", "time": "time_stop"}
 FALL = {"sweep": "sector_sweep", "time": "time_return"}
 
-SECTOR = Chapter(
-    "Motion of the sector",
-    text="The disc angle counts from the start of the dwell. γ is the sector's angle relative to the disc, counter-clockwise, 0 at the "
-    "start of the dwell; k is the share of the rise or return that has passed, in the dwell that of the rise's middle, where it is as fast. "
-    "φ_m and k_m hold for a whole phase and are shown in its middle, all other quantities at the one φ that is named.",
-    steps=(
-        Abscissa(id="disc_angle", symbol="φ", unit="deg", description="Disc angle from the start of the dwell", period=2 * np.pi,
-                 shown_at="gear_power_peak_at"),
-        Breakpoints(id="phases", abscissa="disc_angle", places=("dwell_angle", "angle_stop", "angle_start")),
-        Value(id="piece_middle", symbol="φ_m", unit="deg", description="Disc angle in the middle of the present phase (or part of it)",
-              source="this method", output=False, per_piece=True, formula=bind(common.same, quantity="disc_angle")),
-        Choice(id="law_share", symbol="k", description="Share of the rise or return that has passed", source="003 eq. 2", output=False,
-               cases=by_phase(bind(common.same, quantity=0.5), formulas.stopping_share,
-                              bind(formulas.share_since, start="angle_stop", time="time_return"),
-                              bind(formulas.share_since, start="angle_start", time="time_stop"))),
-        Value(id="law_joint", symbol="j", description="Joint of the law: changes its sign where the law's formula changes", output=False,
-              source="motion laws", formula=ByText("motion_law", JOINT, k="law_share")),
-        Crossings(id="law_break", symbol="φ_j", unit="deg", description="Disc angle at which the law's formula changes, or a phase begins",
-                  output=False, of="law_joint"),
-        Breakpoints(id="law_breaks", abscissa="disc_angle", places=("law_break",)),
-        Value(id="law_position", symbol="f", description="Law of motion: position at k", source="motion laws", output=False,
-              formula=ByText("motion_law", POSITION, k="law_share")),
-        Value(id="law_velocity", symbol="f′", description="Law of motion: velocity at k", source="motion laws", output=False,
-              formula=ByText("motion_law", VELOCITY, k="law_share")),
-        Value(id="law_middle", symbol="k_m", description="Share k in the middle of the present phase (or part of it)", source="this method",
-              output=False, per_piece=True, formula=bind(common.same, quantity="law_share")),
-        Value(id="law_side", symbol="k_i", output=False, source="this method",
-              description="Share k just inside its piece: where the law's acceleration jumps, this tells the side",
-              formula=bind(common.just_inside, share="law_share", middle="law_middle")),
-        Value(id="law_acceleration", symbol="f″", description="Law of motion: acceleration at k", source="motion laws", output=False,
-              formula=ByText("motion_law", ACCELERATION, k="law_side")),
-        Choice(id="sector_angle", symbol="γ", unit="deg", description="Angle of the sector relative to the disc", source="003, Fig. 4",
-               cases=by_phase(bind(formulas.rolled_angle), bind(formulas.stopping_angle), bind(formulas.returning_angle),
-                              bind(formulas.starting_angle))),
-        Choice(id="sector_speed", symbol="ω_3", unit="rad", description="Speed of the sector relative to the disc, per turn of the disc",
-               source="003 eq. 1, 2, Fig. 6",
-               cases=by_phase(bind(common.same, quantity="sector_speed_dwell"), bind(formulas.rise_speed, **RISE),
-                              bind(formulas.fall_speed, **FALL), bind(formulas.rise_speed, **RISE))),
-        Choice(id="sector_acceleration", symbol="ε_3", unit="rad/s**2", description="Angular acceleration of the sector",
-               source="kinematics",
-               cases=by_phase(common.zero, bind(formulas.rise_acceleration, **RISE), bind(formulas.fall_acceleration, **FALL),
-                              bind(formulas.rise_acceleration, **RISE))),
-        Value(id="rocker_turn", symbol="w", description="Angular speed of sector and rocker, to that of the disc", source="kinematics",
-              output=False, formula=formulas.rocker_turn),
-    ),
-)  # fmt: skip
+sector = Chapter("Motion of the sector",
+                 text="The disc angle counts from the start of the dwell. γ is the sector's angle relative to the disc, counter-clockwise, 0 at "
+                      "the start of the dwell; k is the share of the rise or return that has passed, in the dwell that of the rise's middle, where "
+                      "it is as fast. φ_m and k_m hold for a whole phase and are shown in its middle, all other quantities at the one φ that is "
+                      "named.")
+sector.abscissa("disc_angle", "φ", "deg", "Disc angle from the start of the dwell", 2 * np.pi, shown_at="gear_power_peak_at")
+sector.breakpoints("phases", "disc_angle", "dwell_angle", "angle_stop", "angle_start")
+sector.value("piece_middle", "φ_m", "deg", "Disc angle in the middle of the present phase (or part of it)", lambda disc_angle: disc_angle,
+             source="this method", output=False, per_piece=True)
+sector.choice("law_share", "k", "1", "Share of the rise or return that has passed",
+              *by_phase(bind(common.same, quantity=0.5), formulas.stopping_share,
+              bind(formulas.share_since, start="angle_stop", time="time_return"),
+              bind(formulas.share_since, start="angle_start", time="time_stop")), source="003 eq. 2", output=False)
+sector.value("law_joint", "j", "1", "Joint of the law: changes its sign where the law's formula changes", ByText("motion_law", JOINT, k="law_share"),
+             output=False, source="motion laws")
+sector.crossings("law_break", "φ_j", "deg", "Disc angle at which the law's formula changes, or a phase begins", of="law_joint", output=False)
+sector.breakpoints("law_breaks", "disc_angle", "law_break")
+sector.value("law_position", "f", "1", "Law of motion: position at k", ByText("motion_law", POSITION, k="law_share"), source="motion laws",
+             output=False)
+sector.value("law_velocity", "f′", "1", "Law of motion: velocity at k", ByText("motion_law", VELOCITY, k="law_share"), source="motion laws",
+             output=False)
+sector.value("law_middle", "k_m", "1", "Share k in the middle of the present phase (or part of it)", lambda law_share: law_share,
+             source="this method", output=False, per_piece=True)
+sector.value("law_side", "k_i", "1", "Share k just inside its piece: where the law's acceleration jumps, this tells the side",
+             lambda law_share, law_middle: law_share + 1e-12 * (law_middle - law_share), output=False, source="this method")
+sector.value("law_acceleration", "f″", "1", "Law of motion: acceleration at k", ByText("motion_law", ACCELERATION, k="law_side"),
+             source="motion laws", output=False)
+sector.choice("sector_angle", "γ", "deg", "Angle of the sector relative to the disc",
+              *by_phase(bind(formulas.rolled_angle), bind(formulas.stopping_angle), bind(formulas.returning_angle),
+              bind(formulas.starting_angle)), source="003, Fig. 4")
+sector.choice("sector_speed", "ω_3", "rad", "Speed of the sector relative to the disc, per turn of the disc",
+              *by_phase(bind(common.same, quantity="sector_speed_dwell"), bind(formulas.rise_speed, **RISE),
+              bind(formulas.fall_speed, **FALL), bind(formulas.rise_speed, **RISE)), source="003 eq. 1, 2, Fig. 6")
+sector.choice("sector_acceleration", "ε_3", "rad/s**2", "Angular acceleration of the sector",
+              *by_phase(common.zero, bind(formulas.rise_acceleration, **RISE), bind(formulas.fall_acceleration, **FALL),
+              bind(formulas.rise_acceleration, **RISE)), source="kinematics")
+sector.value("rocker_turn", "w", "1", "Angular speed of sector and rocker, to that of the disc", lambda sector_speed: 1 + sector_speed / (2 * np.pi),
+             source="kinematics", output=False)
 
-GEAR = Chapter(
-    "Motion of the gear",
-    text="The disc carries the gear along; what the sector rolls off is taken away. The gear's angle counts from where it dwells. Over a "
-    "cycle the sector comes back to where it was, so the gear makes one turn.",
-    steps=(
-        Value(id="gear_angle", symbol="φ_1", unit="deg", description="Angle of the gear from its dwell", source="003, Fig. 3",
-              formula=formulas.gear_angle),
-        Value(id="gear_speed", symbol="ω_1", unit="rad", description="Speed of the gear, per turn of the disc", source="003, Fig. 7, corrected",
-              formula=formulas.gear_speed),
-        Value(id="gear_acceleration", symbol="ε_1", unit="rad/s**2", description="Angular acceleration of the gear", source="kinematics",
-              formula=formulas.gear_acceleration),
-        Value(id="gear_power", symbol="P_J", unit="W/(kg*m**2)", description="Power for each unit of inertia on the gear's shaft",
-              source="energy", output=False, formula=formulas.gear_power),
-        Reduction(id="gear_speed_peak", symbol="ω_1,max", unit="rad", description="Greatest speed of the gear, per turn of the disc",
-                  source="003, Fig. 7, corrected", digits=5, of="gear_speed", operation="max"),
-        Reduction(id="gear_acceleration_peak", symbol="ε_1,max", unit="rad/s**2", description="Greatest angular acceleration of the gear",
-                  source="kinematics", of="gear_acceleration", operation="abs_max"),
-        Reduction(id="gear_power_peak", symbol="P_J,max", unit="W/(kg*m**2)", source="energy",
-                  description="Greatest power for each unit of inertia on the gear's shaft", of="gear_power", operation="max"),
-        Value(id="gear_speed_ratio_peak", symbol="i_max", description="Greatest speed of the gear to that of the disc", source="this method",
-              digits=5, formula=bind(formulas.share_of_turn, angle="gear_speed_peak")),
-        Value(id="gear_speed_peak_sector_referred", symbol="ω_31", unit="rad", digits=6, source="003, Fig. 7, the source's unit",
-              description="Greatest speed of the gear referred to the sector (times R_1/R_3), per turn of the disc", formula=formulas.referred),
-        Reduction(id="gear_rotation_per_cycle", symbol="φ_1,Σ", unit="deg", description="Rotation of the gear in a cycle (mean of its speed)",
-                  source="kinematics", of="gear_speed", operation="mean"),
-        Value(id="gear_rotation_error", symbol="Δφ_1", unit="deg", description="What that is off a full turn", source="kinematics", output=False,
-              formula=bind(formulas.off_one_turn, rotation="gear_rotation_per_cycle")),
-    ),
-)  # fmt: skip
+gear = Chapter("Motion of the gear",
+               text="The disc carries the gear along; what the sector rolls off is taken away. The gear's angle counts from where it dwells. Over "
+                    "a cycle the sector comes back to where it was, so the gear makes one turn.")
+gear.value("gear_angle", "φ_1", "deg", "Angle of the gear from its dwell",
+           lambda disc_angle, sector_angle, sector_radius, gear_radius: disc_angle - sector_radius / gear_radius * sector_angle, source="003, Fig. 3")
+gear.value("gear_speed", "ω_1", "rad", "Speed of the gear, per turn of the disc", formulas.gear_speed, source="003, Fig. 7, corrected")
+gear.value("gear_acceleration", "ε_1", "rad/s**2", "Angular acceleration of the gear", formulas.gear_acceleration, source="kinematics")
+gear.value("gear_power", "P_J", "W/(kg*m**2)", "Power for each unit of inertia on the gear's shaft",
+           lambda gear_speed, gear_acceleration, cycles_per_hour: as_number(gear_speed * cycles_per_hour * gear_acceleration), source="energy",
+           output=False)
+gear.reduction("gear_speed_peak", "ω_1,max", "rad", "Greatest speed of the gear, per turn of the disc", "max", of="gear_speed",
+               source="003, Fig. 7, corrected", digits=5)
+gear.reduction("gear_acceleration_peak", "ε_1,max", "rad/s**2", "Greatest angular acceleration of the gear", "abs_max", of="gear_acceleration",
+               source="kinematics")
+gear.reduction("gear_power_peak", "P_J,max", "W/(kg*m**2)", "Greatest power for each unit of inertia on the gear's shaft", "max", of="gear_power",
+               source="energy")
+gear.value("gear_speed_ratio_peak", "i_max", "1", "Greatest speed of the gear to that of the disc",
+           bind(formulas.share_of_turn, angle="gear_speed_peak"), source="this method", digits=5)
+gear.value("gear_speed_peak_sector_referred", "ω_31", "rad",
+           "Greatest speed of the gear referred to the sector (times R_1/R_3), per turn of the disc",
+           lambda gear_speed_peak, gear_radius, sector_radius: gear_speed_peak * gear_radius / sector_radius, digits=6,
+           source="003, Fig. 7, the source's unit")
+gear.reduction("gear_rotation_per_cycle", "φ_1,Σ", "deg", "Rotation of the gear in a cycle (mean of its speed)", "mean", of="gear_speed",
+               source="kinematics")
+gear.value("gear_rotation_error", "Δφ_1", "deg", "What that is off a full turn",
+           lambda gear_rotation_per_cycle: abs(gear_rotation_per_cycle - 2 * np.pi), source="kinematics", output=False)

@@ -2,113 +2,102 @@
 
 from __future__ import annotations
 
-from diecut_report.api import ByText, Chapter, Lookup, Require, Value, Words, bind
+import numpy as np
+
+from diecut_report.api import ByText, Chapter, bind
 from diecut_report.mechanics import common
 from diecut_report.mechanics.motion_laws import MIDDLE_POSITION, MIDDLE_VELOCITY, PEAK_ACCELERATION, PEAK_VELOCITY
 from diecut_report.plugins.cam_gear_transport import advice, formulas
 
+# fmt: off
+
 LEAST_RETURN = 1e-9  # share of a turn: below it what is left for the return is rounding
 
-ROLLING = Chapter(
-    "Rolling of the sector on the gear",
-    text="While the disc turns by φ_22, the sector turns on its pin by γ_32 and rolls off the same arc of the gear: φ_22·R_1 = γ_32·R_3. "
-    "So the gear, whose axis is that of the disc, stands still.",
-    steps=(
-        Value(id="teeth_together", symbol="z_Σ", description="Teeth of gear and sector together, the sector counted as a full wheel",
-              source="geometry", output=False, needs=("module",), digits=6, formula=formulas.teeth_together),
-        Value(id="center_distance_nearest", symbol="R_2′", unit="mm", description="Nearest radius of the pin with whole teeth", output=False,
-              source="geometry", needs=("module",), digits=10, formula=formulas.nearest_distance),
-        Require(id="whole_teeth", needs=("module",), key="center_distance", condition=bind(formulas.is_whole, number="teeth_together"),
-                message="is {center_distance}, but with a module of {module} gear and sector would have 2·R₂/m = {teeth_together} teeth "
-                "together, which must be a whole number; the nearest center_distance is {center_distance_nearest}"),
-        Value(id="gear_teeth", whole=True, symbol="z_1", description="Teeth of the gear", source="this method", needs=("module",),
-              formula=bind(formulas.gear_teeth, sweep="inputs.sector_dwell_sweep")),
-        Value(id="sector_wheel_teeth", whole=True, symbol="z_3", description="Teeth of the sector, counted as a full wheel", source="this method",
-              needs=("module",), formula=formulas.other_teeth),
-        Words(id="module_finer", function=advice.finer_teeth, takes=("center_distance", "inputs.sector_dwell_sweep", "dwell_angle"),
-              needs=("module",)),
-        Require(id="some_teeth", needs=("module",), key="module", condition=formulas.both_have_teeth,
-                message="is {module}, with which the gear would have {gear_teeth} and the sector {sector_wheel_teeth} teeth; take "
-                "{module_finer}, or change sector_dwell_sweep or dwell_angle"),
-        Value(id="sector_dwell_sweep", symbol="γ_32", unit="deg", source="003 eq. 1, for whole teeth", needs=("module",), digits=6,
-              description="Sweep of the sector during the dwell: as the whole teeth ask for", formula=formulas.sweep_of_teeth),
-        Value(id="sector_dwell_sweep", symbol="γ_32", unit="deg", description="Sweep of the sector during the dwell: as given",
-              source="input", lacks=("module",), digits=6, formula=bind(common.same, quantity="inputs.sector_dwell_sweep")),
-        Value(id="radius_ratio", symbol="R_12", description="Radius of the gear to that of the pin, R_1/R_2", source="003 eq. 1",
-              formula=bind(formulas.radius_ratio, sweep="sector_dwell_sweep")),
-        Value(id="gear_radius", symbol="R_1", unit="mm", description="Pitch radius of the gear", source="003 eq. 1",
-              formula=formulas.gear_radius),
-        Value(id="sector_radius", symbol="R_3", unit="mm", description="Pitch radius of the sector", source="003 eq. 1",
-              formula=formulas.sector_radius),
-        Value(id="sector_sweep", symbol="γ_Σ", unit="deg", description="Whole sweep of the sector", source="003, Fig. 4",
-              formula=bind(common.sum_of, first="sector_dwell_sweep", second="sector_stop_sweep")),
-        Value(id="sector_teeth", whole=True, symbol="z_3′", description="Teeth of the sector: of the swept arc, and one on each side",
-              source="this method", needs=("module",), formula=formulas.sector_teeth),
-    ),
-)  # fmt: skip
+rolling_chapter = Chapter("Rolling of the sector on the gear",
+                          text="While the disc turns by φ_22, the sector turns on its pin by γ_32 and rolls off the same arc of the gear: φ_22·R_1 "
+                               "= γ_32·R_3. So the gear, whose axis is that of the disc, stands still.")
+rolling_chapter.value("teeth_together", "z_Σ", "1", "Teeth of gear and sector together, the sector counted as a full wheel", formulas.teeth_together,
+                      source="geometry", output=False, needs=("module",), digits=6)
+rolling_chapter.value("center_distance_nearest", "R_2′", "mm", "Nearest radius of the pin with whole teeth",
+                      lambda teeth_together, module: np.maximum(np.round(teeth_together), 2) * module / 2, output=False, source="geometry",
+                      needs=("module",), digits=10)
+rolling_chapter.require("whole_teeth", bind(formulas.is_whole, number="teeth_together"), key="center_distance",
+                        message="is {center_distance}, but with a module of {module} gear and sector would have 2·R₂/m = {teeth_together} teeth "
+                                "together, which must be a whole number; the nearest center_distance is {center_distance_nearest}", needs=("module",))
+rolling_chapter.value("gear_teeth", "z_1", "1", "Teeth of the gear", bind(formulas.gear_teeth, sweep="inputs.sector_dwell_sweep"), whole=True,
+                      source="this method", needs=("module",))
+rolling_chapter.value("sector_wheel_teeth", "z_3", "1", "Teeth of the sector, counted as a full wheel", formulas.other_teeth, whole=True,
+                      source="this method", needs=("module",))
+rolling_chapter.words("module_finer", advice.finer_teeth, ("center_distance", "inputs.sector_dwell_sweep", "dwell_angle"), needs=("module",))
+rolling_chapter.require("some_teeth", lambda gear_teeth, sector_wheel_teeth: np.minimum(gear_teeth, sector_wheel_teeth) >= 1, key="module",
+                        message="is {module}, with which the gear would have {gear_teeth} and the sector {sector_wheel_teeth} teeth; take "
+                                "{module_finer}, or change sector_dwell_sweep or dwell_angle", needs=("module",))
+rolling_chapter.value("sector_dwell_sweep", "γ_32", "deg", "Sweep of the sector during the dwell: as the whole teeth ask for",
+                      formulas.sweep_of_teeth, source="003 eq. 1, for whole teeth", needs=("module",), digits=6)
+rolling_chapter.value("sector_dwell_sweep", "γ_32", "deg", "Sweep of the sector during the dwell: as given",
+                      bind(lambda sector_dwell_sweep: sector_dwell_sweep, sector_dwell_sweep="inputs.sector_dwell_sweep"), source="input",
+                      lacks=("module",), digits=6)
+rolling_chapter.value("radius_ratio", "R_12", "1", "Radius of the gear to that of the pin, R_1/R_2",
+                      bind(formulas.radius_ratio, sweep="sector_dwell_sweep"), source="003 eq. 1")
+rolling_chapter.value("gear_radius", "R_1", "mm", "Pitch radius of the gear", formulas.gear_radius, source="003 eq. 1")
+rolling_chapter.value("sector_radius", "R_3", "mm", "Pitch radius of the sector", formulas.sector_radius, source="003 eq. 1")
+rolling_chapter.value("sector_sweep", "γ_Σ", "deg", "Whole sweep of the sector",
+                      lambda sector_dwell_sweep, sector_stop_sweep: sector_dwell_sweep + sector_stop_sweep, source="003, Fig. 4")
+rolling_chapter.value("sector_teeth", "z_3′", "1", "Teeth of the sector: of the swept arc, and one on each side",
+                      lambda sector_wheel_teeth, sector_sweep: np.ceil(sector_wheel_teeth * sector_sweep / (2 * np.pi)) + 2, whole=True,
+                      source="this method", needs=("module",))
 
-PHASES = Chapter(
-    "Phases of the cycle",
-    text="Times are shares of a turn of the disc, speeds are in rad for each turn of the disc. Phase II is the dwell; in III the sector "
-    "stops, in IV it returns, in I it starts again. III and I are the two halves of one rise by the law of motion, whose greatest speed "
-    "is that of the dwell.",
-    steps=(
-        Value(id="law_peak_velocity", symbol="B", description="Peak velocity of the law of motion", source="003, after eq. 3",
-              formula=ByText("motion_law", PEAK_VELOCITY)),
-        Value(id="law_peak_acceleration", symbol="A", description="Peak acceleration of the law of motion", source="motion laws",
-              formula=ByText("motion_law", PEAK_ACCELERATION)),
-        Lookup(id="law_middle_position", symbol="f_m", description="Position of the law in the middle of its time", source="motion laws",
-               output=False, by="motion_law", table=MIDDLE_POSITION),
-        Lookup(id="law_middle_velocity", symbol="f′_m", description="Velocity of the law in the middle of its time", source="motion laws",
-               output=False, by="motion_law", table=MIDDLE_VELOCITY),
-        Require(id="law_symmetric", key="motion_law",
-                condition=bind(formulas.is_symmetric, middle_position="law_middle_position", middle_velocity="law_middle_velocity",
-                               peak_velocity="law_peak_velocity"),
-                message="is {motion_law}, which is not half way and fastest in the middle of its time; the phases III and I ask for that, "
-                "take another law"),
-        Value(id="time_dwell", symbol="T_2", description="Share of the dwell, phase II", source="003, second eq. 1",
-              formula=bind(formulas.share_of_turn, angle="dwell_angle")),
-        Value(id="sector_speed_dwell", symbol="ω_3,2", unit="rad", description="Speed of the sector in the dwell, per turn of the disc",
-              source="003, second eq. 1", digits=5, formula=bind(formulas.constant_speed, sweep="sector_dwell_sweep", time="time_dwell")),
-        Value(id="time_stop", symbol="T_(3+1)", description="Share of the phases III and I together", source="003 eq. 3",
-              formula=bind(formulas.time_stop, peak_velocity="law_peak_velocity")),
-        Value(id="time_return", symbol="T_4", description="Share of the return, phase IV", source="003 eq. 4",
-              formula=formulas.time_return),
-        Value(id="dwell_angle_limit", symbol="φ_22,lim", unit="deg", description="Dwell that leaves no time for the return, with these sweeps",
-              source="003 eq. 4, solved", lacks=("module",),
-              formula=bind(formulas.dwell_limit, sweep="sector_dwell_sweep", peak_velocity="law_peak_velocity")),
-        Value(id="dwell_angle_limit", symbol="φ_22,lim", unit="deg", description="Dwell that leaves no time for the return, with these teeth",
-              source="003 eq. 4, solved", needs=("module",), formula=formulas.dwell_limit_of_teeth),
-        Value(id="dwell_angle_recommended", symbol="φ_22,rec", unit="deg", description="Dwell that leaves the return its time",
-              source="003 eq. 4, solved", lacks=("module",), formula=formulas.dwell_recommended),
-        Value(id="dwell_angle_recommended", symbol="φ_22,rec", unit="deg", description="Dwell that leaves the return its time",
-              source="003 eq. 4, solved", needs=("module",), formula=formulas.dwell_recommended_of_teeth),
-        Value(id="stop_sweep_limit", symbol="γ_lim", unit="deg", source="003 eq. 4, solved",
-              description="Sweep of stop and start that leaves no time for the return, with this dwell",
-              formula=bind(formulas.stop_sweep_limit, peak_velocity="law_peak_velocity")),
-        Value(id="stop_sweep_recommended", symbol="γ_rec", unit="deg", source="003 eq. 4, solved",
-              description="Sweep of stop and start that leaves the return its time, with this dwell",
-              formula=bind(formulas.stop_sweep_recommended, peak_velocity="law_peak_velocity")),
-        Words(id="return_recommended", function=advice.leaves_return, takes=("dwell_angle_recommended", "stop_sweep_recommended"),
-              lacks=("module",)),
-        Words(id="return_recommended", function=advice.leaves_return_with_teeth, takes=("dwell_angle_recommended", "stop_sweep_recommended"),
-              needs=("module",)),
-        Words(id="return_limit", function=advice.leaves_return, takes=("dwell_angle_limit", "stop_sweep_limit"),
-              lacks=("module",)),
-        Words(id="return_limit", function=advice.leaves_return_with_teeth, takes=("dwell_angle_limit", "stop_sweep_limit"),
-              needs=("module",)),
-        Require(id="return_exists", key="dwell_angle", condition=bind(common.is_below, smaller=LEAST_RETURN, greater="time_return"),
-                message="is {dwell_angle}; with a sector_stop_sweep of {sector_stop_sweep} dwell, stop and start take the whole turn and leave "
-                "T₄ = 1 − T₂ − T₍₃₊₁₎ = {time_return} for the sector's return; take {return_recommended}, which leaves it {min_return_time} of "
-                "the turn. The bare limit, which leaves next to nothing, is {return_limit}"),
-        Value(id="angle_dwell", symbol="φ_II", unit="deg", description="Disc angle where the dwell begins, phase II", source="this method",
-              output=False, formula=common.zero),
-        Value(id="angle_stop", symbol="φ_IV", unit="deg", description="Disc angle where the sector stops: end of phase III",
-              source="003, after eq. 3", digits=6, formula=formulas.angle_stop),
-        Value(id="angle_start", symbol="φ_I", unit="deg", description="Disc angle where the sector starts again: beginning of phase I",
-              source="003, after eq. 4", digits=6, formula=formulas.angle_start),
-        Value(id="sector_speed_return_peak", symbol="ω_3,4", unit="rad", description="Greatest speed of the sector's return, per turn of the disc",
-              source="003, after eq. 4, corrected", digits=5,
-              formula=bind(formulas.return_peak, peak_velocity="law_peak_velocity")),
-    ),
-)  # fmt: skip
+phases = Chapter("Phases of the cycle",
+                 text="Times are shares of a turn of the disc, speeds are in rad for each turn of the disc. Phase II is the dwell; in III the "
+                      "sector stops, in IV it returns, in I it starts again. III and I are the two halves of one rise by the law of motion, whose "
+                      "greatest speed is that of the dwell.")
+phases.value("law_peak_velocity", "B", "1", "Peak velocity of the law of motion", ByText("motion_law", PEAK_VELOCITY), source="003, after eq. 3")
+phases.value("law_peak_acceleration", "A", "1", "Peak acceleration of the law of motion", ByText("motion_law", PEAK_ACCELERATION),
+             source="motion laws")
+phases.lookup("law_middle_position", "f_m", "1", "Position of the law in the middle of its time", MIDDLE_POSITION, by="motion_law",
+              source="motion laws", output=False)
+phases.lookup("law_middle_velocity", "f′_m", "1", "Velocity of the law in the middle of its time", MIDDLE_VELOCITY, by="motion_law",
+              source="motion laws", output=False)
+phases.require("law_symmetric",
+               bind(formulas.is_symmetric, middle_position="law_middle_position", middle_velocity="law_middle_velocity",
+               peak_velocity="law_peak_velocity"), key="motion_law",
+               message="is {motion_law}, which is not half way and fastest in the middle of its time; the phases III and I ask for that, take "
+                       "another law")
+phases.value("time_dwell", "T_2", "1", "Share of the dwell, phase II", bind(formulas.share_of_turn, angle="dwell_angle"), source="003, second eq. 1")
+phases.value("sector_speed_dwell", "ω_3,2", "rad", "Speed of the sector in the dwell, per turn of the disc",
+             bind(formulas.constant_speed, sweep="sector_dwell_sweep", time="time_dwell"), source="003, second eq. 1", digits=5)
+phases.value("time_stop", "T_(3+1)", "1", "Share of the phases III and I together", bind(formulas.time_stop, peak_velocity="law_peak_velocity"),
+             source="003 eq. 3")
+phases.value("time_return", "T_4", "1", "Share of the return, phase IV", formulas.time_return, source="003 eq. 4")
+phases.value("dwell_angle_limit", "φ_22,lim", "deg", "Dwell that leaves no time for the return, with these sweeps",
+             lambda sector_dwell_sweep, sector_stop_sweep, law_peak_velocity:
+                 2 * np.pi * sector_dwell_sweep / (sector_dwell_sweep + law_peak_velocity * sector_stop_sweep), source="003 eq. 4, solved",
+             lacks=("module",))
+phases.value("dwell_angle_limit", "φ_22,lim", "deg", "Dwell that leaves no time for the return, with these teeth",
+             lambda time_stop: 2 * np.pi * (1 - time_stop), source="003 eq. 4, solved", needs=("module",))
+phases.value("dwell_angle_recommended", "φ_22,rec", "deg", "Dwell that leaves the return its time",
+             lambda dwell_angle_limit, min_return_time: (1 - min_return_time) * dwell_angle_limit, source="003 eq. 4, solved", lacks=("module",))
+phases.value("dwell_angle_recommended", "φ_22,rec", "deg", "Dwell that leaves the return its time",
+             lambda dwell_angle_limit, min_return_time: dwell_angle_limit - 2 * np.pi * min_return_time, source="003 eq. 4, solved",
+             needs=("module",))
+phases.value("stop_sweep_limit", "γ_lim", "deg", "Sweep of stop and start that leaves no time for the return, with this dwell",
+             lambda time_dwell, sector_speed_dwell, law_peak_velocity: (1 - time_dwell) * sector_speed_dwell / law_peak_velocity,
+             source="003 eq. 4, solved")
+phases.value("stop_sweep_recommended", "γ_rec", "deg", "Sweep of stop and start that leaves the return its time, with this dwell",
+             lambda time_dwell, sector_speed_dwell, law_peak_velocity, min_return_time:
+                 (1 - min_return_time - time_dwell) * sector_speed_dwell / law_peak_velocity, source="003 eq. 4, solved")
+phases.words("return_recommended", advice.leaves_return, ("dwell_angle_recommended", "stop_sweep_recommended"), lacks=("module",))
+phases.words("return_recommended", advice.leaves_return_with_teeth, ("dwell_angle_recommended", "stop_sweep_recommended"), needs=("module",))
+phases.words("return_limit", advice.leaves_return, ("dwell_angle_limit", "stop_sweep_limit"), lacks=("module",))
+phases.words("return_limit", advice.leaves_return_with_teeth, ("dwell_angle_limit", "stop_sweep_limit"), needs=("module",))
+phases.require("return_exists", bind(common.is_below, smaller=LEAST_RETURN, greater="time_return"), key="dwell_angle",
+               message="is {dwell_angle}; with a sector_stop_sweep of {sector_stop_sweep} dwell, stop and start take the whole turn and leave T₄ = "
+                       "1 − T₂ − T₍₃₊₁₎ = {time_return} for the sector's return; take {return_recommended}, which leaves it {min_return_time} of "
+                       "the turn. The bare limit, which leaves next to nothing, is {return_limit}")
+phases.value("angle_dwell", "φ_II", "deg", "Disc angle where the dwell begins, phase II", lambda: 0, source="this method", output=False)
+phases.value("angle_stop", "φ_IV", "deg", "Disc angle where the sector stops: end of phase III",
+             lambda dwell_angle, time_stop: dwell_angle + np.pi * time_stop, source="003, after eq. 3", digits=6)
+phases.value("angle_start", "φ_I", "deg", "Disc angle where the sector starts again: beginning of phase I",
+             lambda time_stop: 2 * np.pi - np.pi * time_stop, source="003, after eq. 4", digits=6)
+phases.value("sector_speed_return_peak", "ω_3,4", "rad", "Greatest speed of the sector's return, per turn of the disc",
+             bind(formulas.return_peak, peak_velocity="law_peak_velocity"), source="003, after eq. 4, corrected", digits=5)

@@ -17,7 +17,7 @@ MECHANISM = Mechanism(
     "sliding of the edge, force, torque and work. The formulas are this project's own: only the first page of the source survives, with the "
     "geometry alone.",
     inputs=CircularKnife,
-    chapters=(geometry.REACH, geometry.RANGE, geometry.EDGE, cutting.MOTION, cutting.FORCES, cutting.GUILLOTINE),
+    chapters=(geometry.reach, geometry.shear_range, geometry.edge, cutting.motion, cutting.forces, cutting.guillotine),
     key_results=("angle_start", "angle_end", "cut_time", "shear_angle_min", "shear_angle_max", "cut_speed_max", "sliding_ratio_max",
                  "effective_sharpening_angle_min", "force_max", "torque_max", "work", "guillotine_force_ratio"),
     checks=CHECKS,

@@ -22,24 +22,6 @@ def lowest_passes(eccentricity: Any, depth: Any, edge_radius: Any) -> Any:
 
 
 @formula
-def is_thick_enough(thickness: Any, edge_radius: Any) -> Any:
-    """Whether the thickness is at least a millionth of the edge's radius."""
-    return thickness >= 1e-6 * edge_radius
-
-
-@formula
-def touching_angle(depth: Any, edge_radius: Any, eccentricity: Any) -> Any:
-    """Knife angle at which the edge's lowest point comes to a depth."""
-    return np.arcsin((depth - edge_radius) / eccentricity)
-
-
-@formula
-def distance_of(along: Any, down: Any) -> Any:
-    """Distance from the axis of a point beside and below it."""
-    return np.sqrt(along**2 + down**2)
-
-
-@formula
 def meeting_angle(eccentricity: Any, edge_radius: Any, corner: Any, front_distance: Any, face_depth: Any) -> Any:
     """Knife angle at which the edge meets a point: its direction less the angle at the axis, by the law of cosines."""
     cosine = (eccentricity**2 + corner**2 - edge_radius**2) / (2 * eccentricity * corner)
@@ -73,33 +55,9 @@ def from_centre_squared(angle: Any, distance: Any, eccentricity: Any, depth: Any
 
 
 @formula
-def squared(length: Any) -> Any:
-    """Square of a length."""
-    return length**2
-
-
-@formula
 def is_clear_of(smaller: Any, greater: Any, edge_radius: Any) -> Any:
     """Whether one distance is below another by more than a millionth of the edge's radius, or there is no other one at all."""
     return (smaller + 1e-6 * edge_radius < greater) | (greater != greater)
-
-
-@formula
-def reaches_end(cut_end: Any, front_distance: Any, reach_greatest: Any, edge_radius: Any) -> Any:
-    """Whether the edge reaches the end of the cut, or not even its beginning."""
-    return is_clear_of(cut_end, reach_greatest, edge_radius) | ~is_clear_of(front_distance, reach_greatest, edge_radius)
-
-
-@formula
-def enters_counter(lowest_at_counter: Any, lowest_at_face: Any, front_distance: Any, edge_radius: Any) -> Any:
-    """Whether the edge meets the counter-knife before the board, or comes down on the board from above anyway."""
-    return is_clear_of(lowest_at_counter, front_distance, edge_radius) | (front_distance < lowest_at_face)
-
-
-@formula
-def parting_angle(angle_start: Any, angle_end: Any, touch_angle: Any) -> Any:
-    """Knife angle that parts the cut where curves begin steeply: the geometric mean from the touching angle."""
-    return touch_angle + np.sqrt((angle_start - touch_angle) * (angle_end - touch_angle))
 
 
 @formula
@@ -114,24 +72,6 @@ def edge_slope(angle: Any, depth: Any, eccentricity: Any, edge_radius: Any) -> A
     """Angle between edge and counter-knife where the edge crosses a depth."""
     down = depth - eccentricity * np.sin(angle)
     return np.arctan2(np.sqrt(edge_radius**2 - down**2), down)
-
-
-@formula
-def elapsed(angle: Any, speed: Any) -> Any:
-    """Time of a turn by an angle."""
-    return angle / speed
-
-
-@formula
-def middle_of(first: Any, second: Any) -> Any:
-    """Middle of two angles."""
-    return (first + second) / 2
-
-
-@formula
-def is_within(angle: Any, middle: Any, sweep: Any) -> Any:
-    """Whether an angle is within a sweep about its middle, whatever the turn."""
-    return np.cos(angle - middle) >= np.cos(sweep / 2)
 
 
 @formula
@@ -151,12 +91,6 @@ def sliding_ratio(edge_radius: Any, eccentricity: Any, angle: Any, shear_angle: 
     """Tangential to normal speed of the edge at the cutting point."""
     direction = angle + shear_angle
     return (edge_radius + eccentricity * np.sin(direction)) / (eccentricity * np.cos(direction))
-
-
-@formula
-def effective_angle(sharpening_angle: Any, sliding_ratio: Any) -> Any:
-    """Sharpening angle in the direction in which the edge moves through the board."""
-    return np.arctan(np.tan(sharpening_angle) * np.cos(np.arctan(sliding_ratio)))
 
 
 @formula
@@ -181,12 +115,6 @@ def greatest_shear_angle() -> Any:
 def upper_side_governs(greatest: Any, upper: Any, lower: Any, least: Any) -> Any:
     """Whether a range comes nearer to its upper limit than to its lower one."""
     return greatest / upper >= lower / least
-
-
-@formula
-def half_between(first: Any, second: Any) -> Any:
-    """Half the difference of two angles."""
-    return (second - first) / 2
 
 
 @formula
@@ -232,27 +160,3 @@ def friction_torque(
 def guillotine_force(shear_resistance: Any, thickness: Any, cut_length: Any) -> Any:
     """Force of a straight blade that cuts the whole length at once."""
     return shear_resistance * thickness * cut_length
-
-
-@formula
-def guillotine_work(guillotine_force: Any, thickness: Any) -> Any:
-    """Work of that blade: its force falls to zero over the thickness."""
-    return guillotine_force * thickness / 2
-
-
-@formula
-def mean_power(work: Any, speed: Any) -> Any:
-    """Mean power over a turn with one cut."""
-    return work * speed / (2 * np.pi)
-
-
-@formula
-def place_on_edge(angle: Any, edge_slope: Any) -> Any:
-    """Place on the edge, seen from its centre, from the line shaft–centre."""
-    return np.pi / 2 - angle - edge_slope
-
-
-@formula
-def arc_between(edge_radius: Any, first: Any, last: Any) -> Any:
-    """Length of the edge between two places on it."""
-    return edge_radius * (first - last)

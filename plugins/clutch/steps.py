@@ -2,223 +2,173 @@
 
 from __future__ import annotations
 
-from diecut_report.api import Case, Chapter, Choice, Require, Value, Words, bind
-from diecut_report.mechanics import common
+import numpy as np
+
+from diecut_report.api import Chapter, bind, case
 from diecut_report.plugins.clutch import advice
 from diecut_report.plugins.clutch import formulas as f
 
-TORQUE = Chapter(
-    "Torque",
-    steps=(
-        Value(id="torque", symbol="M", unit="N*m", description="Torque that the clutch is to carry", source="002 eq. 16", lacks=("torque",),
-              formula=bind(common.quotient, quantity="power", by="speed")),
-        Value(id="power", symbol="W", unit="kW", description="Power at this torque", source="002 eq. 16", needs=("torque", "speed"),
-              formula=bind(common.product, first="torque", second="speed")),
-        Value(id="design_torque", symbol="M_c", unit="N*m", description="Torque that the clutch is designed for", source="this method",
-              formula=bind(common.product, first="service_factor", second="torque")),
-    ),
-)  # fmt: skip
+# fmt: off
 
-WEDGE = Chapter(
-    "Wedge",
-    text="The cone's force square to its face, N_2, and the friction f·N_2 on it hold the balance of P_1 along the axis and of the shoes' "
-    "pressing force P along the radius: P_1 = P·tan(α + ρ) with the angle of friction ρ. All forces are those of the whole ring of shoes.",
-    steps=(
-        Value(id="radial_share", symbol="c_α", description="Share of N_2 that presses the shoes", source="002 eq. 13", output=False,
-              formula=bind(f.cosine, angle="wedge_angle")),
-        Value(id="held_share", symbol="c_f", description="Share of N_2 that friction keeps from them", source="002 eq. 13", output=False,
-              formula=f.held_by_friction),
-        Value(id="wedge_angle_limit", symbol="α_lim", unit="deg", description="Wedge angle from which friction keeps all of it",
-              source="002 eq. 13", formula=f.widest_wedge, output=False),
-        Value(id="wedge_friction_limit", symbol="f_lim", description="Friction that does so at the given angle", source="002 eq. 13",
-              formula=f.greatest_friction, output=False),
-        Words(id="wedge_advice", description="What to change where the wedge jams", function=advice.against_jamming,
-              takes=("wedge_angle_limit", "wedge_friction_limit")),
-        Require(id="wedge_lifts", key="wedge_angle",
-                condition=bind(common.is_below, smaller="held_share", greater="radial_share"),
-                message="is {wedge_angle}, but with a wedge friction of {wedge_friction} no force on the cone presses the shoes outwards: "
-                "cos α > f·sin α is needed; {wedge_advice}"),
-        Require(id="load_below_capacity", key="load_torque_at_engagement",
-                condition=bind(common.is_below, smaller="load_torque_at_engagement", greater="design_torque"),
-                message="is {load_torque_at_engagement}, but the slipping clutch carries {design_torque} only, so that the driven side "
-                "never comes up to speed: M_l < M_c = k_s·M is needed; lower the load while engaging or raise torque or service_factor"),
-        Value(id="pressing_force", symbol="P", unit="N", description="Radial force that presses the shoes, for the torque",
-              source="002 eq. 16", formula=bind(common.over_product, quantity="design_torque", first="shoe_friction", second="shoe_radius")),
-        Value(id="wedge_normal_force", symbol="N_2", unit="N", description="Force square to the cone's face", source="002 eq. 14",
-              formula=f.wedge_normal_force),
-        Value(id="wedge_friction_force", symbol="F_f", unit="N", description="Friction on the cone's face", source="002 eq. 12",
-              formula=bind(common.product, first="wedge_friction", second="wedge_normal_force")),
-        Value(id="engagement_force", symbol="P_1", unit="N", description="Axial force that engages the clutch", source="002 eq. 12, 15",
-              formula=f.engagement_force),
-        Value(id="force_amplification", symbol="k_P", description="Amplification of the force by the wedge", source="002 eq. 15",
-              formula=bind(common.quotient, quantity="pressing_force", by="engagement_force")),
-    ),
-)  # fmt: skip
+torque = Chapter("Torque")
+torque.value("torque", "M", "N*m", "Torque that the clutch is to carry", lambda power, speed: power / speed, source="002 eq. 16", lacks=("torque",))
+torque.value("power", "W", "kW", "Power at this torque", lambda torque, speed: torque * speed, source="002 eq. 16", needs=("torque", "speed"))
+torque.value("design_torque", "M_c", "N*m", "Torque that the clutch is designed for", lambda service_factor, torque: service_factor * torque,
+             source="this method")
 
-RELEASE = Chapter(
-    "Release",
-    text="When P_1 is taken away, the shoes still press on the cone and friction turns round: it now holds the cone in. F_r is the axial "
-    "force that then has to pull at the cone to release it. A negative F_r means that nothing has to pull: the shoes push the cone out "
-    "with this force and the clutch opens by itself; as long as it is to stay engaged, the actuator has to hold the cone with at least "
-    "as much. A positive or zero F_r means that the wedge locks itself: the clutch stays engaged without P_1 until the cone is pulled out.",
-    steps=(
-        Value(id="friction_angle", symbol="ρ", unit="deg", description="Angle of friction: up to this wedge angle the wedge locks itself",
-              source="statics", formula=f.friction_angle),
-        Value(id="wedge_slope", symbol="t_α", description="Slope of the cone's face: friction from this on locks it", source="statics",
-              output=False, formula=f.slope),
-        Value(id="release_force", symbol="F_r", unit="N", description="Force that releases the cone; negative: it opens by itself",
-              source="statics", formula=f.release_force),
-        Choice(id="release_behaviour", symbol="B_r", description="Without the engagement force the clutch", source="statics",
-               cases=(Case("opens by itself", "friction is less than the slope of the cone's face",
-                           bind(common.is_below, smaller="wedge_friction", greater="wedge_slope")),
-                      Case("stays engaged until the cone is pulled out", "friction is not less than the slope of the cone's face"))),
-        Value(id="self_locking", symbol="L_s", description="Whether the wedge locks itself", source="statics", formula=f.locks_itself),
-        Words(id="release_advice", description="What to change where the wedge locks itself", function=advice.against_locking,
-              takes=("friction_angle", "wedge_slope")),
-    ),
-)  # fmt: skip
+wedge = Chapter("Wedge",
+                text="The cone's force square to its face, N_2, and the friction f·N_2 on it hold the balance of P_1 along the axis and of the "
+                     "shoes' pressing force P along the radius: P_1 = P·tan(α + ρ) with the angle of friction ρ. All forces are those of the whole "
+                     "ring of shoes.")
+wedge.value("radial_share", "c_α", "1", "Share of N_2 that presses the shoes", lambda wedge_angle: np.cos(wedge_angle), source="002 eq. 13",
+            output=False)
+wedge.value("held_share", "c_f", "1", "Share of N_2 that friction keeps from them",
+            lambda wedge_friction, wedge_angle: wedge_friction * np.sin(wedge_angle), source="002 eq. 13", output=False)
+wedge.value("wedge_angle_limit", "α_lim", "deg", "Wedge angle from which friction keeps all of it",
+            lambda wedge_friction: np.pi / 2 - np.arctan(wedge_friction), source="002 eq. 13", output=False)
+wedge.value("wedge_friction_limit", "f_lim", "1", "Friction that does so at the given angle", lambda wedge_angle: 1 / np.tan(wedge_angle),
+            source="002 eq. 13", output=False)
+wedge.words("wedge_advice", advice.against_jamming, ("wedge_angle_limit", "wedge_friction_limit"))
+wedge.require("wedge_lifts", lambda held_share, radial_share: held_share < radial_share, key="wedge_angle",
+              message="is {wedge_angle}, but with a wedge friction of {wedge_friction} no force on the cone presses the shoes outwards: cos α > "
+                      "f·sin α is needed; {wedge_advice}")
+wedge.require("load_below_capacity", lambda load_torque_at_engagement, design_torque: load_torque_at_engagement < design_torque,
+              key="load_torque_at_engagement",
+              message="is {load_torque_at_engagement}, but the slipping clutch carries {design_torque} only, so that the driven side never comes "
+                      "up to speed: M_l < M_c = k_s·M is needed; lower the load while engaging or raise torque or service_factor")
+wedge.value("pressing_force", "P", "N", "Radial force that presses the shoes, for the torque",
+            lambda design_torque, shoe_friction, shoe_radius: design_torque / (shoe_friction * shoe_radius), source="002 eq. 16")
+wedge.value("wedge_normal_force", "N_2", "N", "Force square to the cone's face", f.wedge_normal_force, source="002 eq. 14")
+wedge.value("wedge_friction_force", "F_f", "N", "Friction on the cone's face",
+            lambda wedge_friction, wedge_normal_force: wedge_friction * wedge_normal_force, source="002 eq. 12")
+wedge.value("engagement_force", "P_1", "N", "Axial force that engages the clutch",
+            lambda wedge_normal_force, wedge_angle, wedge_friction: wedge_normal_force * (np.sin(wedge_angle) + wedge_friction * np.cos(wedge_angle)),
+            source="002 eq. 12, 15")
+wedge.value("force_amplification", "k_P", "1", "Amplification of the force by the wedge",
+            lambda pressing_force, engagement_force: pressing_force / engagement_force, source="002 eq. 15")
 
-LINING = Chapter(
-    "Lining",
-    text="The shoes are cylindrical and press evenly on their share of the circumference.",
-    steps=(
-        Value(id="shoe_width", symbol="b", unit="mm", description="Width of the shoes that the allowed pressure asks for",
-              source="002 eq. 17", formula=f.width_at_pressure),
-        Value(id="lining_width", symbol="b_L", unit="mm", description="Width of the lining: as given", source="input", needs=("shoe_width",),
-              formula=bind(common.same, quantity="inputs.shoe_width")),
-        Value(id="lining_width", symbol="b_L", unit="mm", description="Width of the lining: as sized", lacks=("shoe_width",),
-              formula=bind(common.same, quantity="shoe_width")),
-        Value(id="lining_area", symbol="A", unit="cm**2", description="Area of the lining", source="geometry", formula=f.lining_area),
-        Value(id="pressure", symbol="q", unit="MPa", description="Pressure of the lining", source="002 eq. 17",
-              formula=bind(common.quotient, quantity="pressing_force", by="lining_area")),
-        Value(id="width_ratio", symbol="k_b", description="Width of the lining to the drum's diameter", source="this method",
-              formula=f.width_ratio),
-        Value(id="least_radius", symbol="r_min", unit="mm", description="Radius from which this ratio is at most a half", source="002 eq. 17",
-              lacks=("shoe_width",), output=False, formula=f.radius_of_square_shoes),
-        Value(id="least_radius", symbol="r_min", unit="mm", description="Radius from which this ratio is at most a half, and the pressure "
-              "allowed", source="002 eq. 17", needs=("shoe_width",), output=False, formula=f.radius_of_given_shoes),
-        Words(id="pressure_advice", description="What to change against the pressure", needs=("shoe_width",),
-              function=advice.against_pressure, takes=("shoe_width", "lining_width", "shoe_radius", "least_radius", "shoe_coverage")),
-        Words(id="width_advice", description="What to change where the shoes are too wide", lacks=("shoe_width", "allowable_pv"),
-              function=advice.against_width, takes=("shoe_radius", "lining_width")),
-        Words(id="width_advice", description="What to change where the shoes are too wide", lacks=("shoe_width", "speed"),
-              needs=("allowable_pv",), function=advice.against_width, takes=("shoe_radius", "lining_width")),
-        Words(id="width_advice", description="What to change where the shoes are too wide", lacks=("shoe_width",),
-              needs=("speed", "allowable_pv"), function=advice.against_width,
-              takes=("shoe_radius", "lining_width", "pv", "allowable_pv")),
-        Words(id="width_advice", description="What to change where the shoes are too wide", needs=("shoe_width",),
-              function=advice.against_given_width, takes=("least_radius",)),
-    ),
-)  # fmt: skip
+release = Chapter("Release",
+                  text="When P_1 is taken away, the shoes still press on the cone and friction turns round: it now holds the cone in. F_r is the "
+                       "axial force that then has to pull at the cone to release it. A negative F_r means that nothing has to pull: the shoes push "
+                       "the cone out with this force and the clutch opens by itself; as long as it is to stay engaged, the actuator has to hold "
+                       "the cone with at least as much. A positive or zero F_r means that the wedge locks itself: the clutch stays engaged without "
+                       "P_1 until the cone is pulled out.")
+release.value("friction_angle", "ρ", "deg", "Angle of friction: up to this wedge angle the wedge locks itself", f.friction_angle, source="statics")
+release.value("wedge_slope", "t_α", "1", "Slope of the cone's face: friction from this on locks it", lambda wedge_angle: np.tan(wedge_angle),
+              source="statics", output=False)
+release.value("release_force", "F_r", "N", "Force that releases the cone; negative: it opens by itself",
+              lambda pressing_force, friction_angle, wedge_angle: pressing_force * np.tan(friction_angle - wedge_angle), source="statics")
+release.choice("release_behaviour", "B_r", "1", "Without the engagement force the clutch",
+               case("opens by itself", "friction is less than the slope of the cone's face",
+                    lambda wedge_friction, wedge_slope: wedge_friction < wedge_slope),
+               case("stays engaged until the cone is pulled out", "friction is not less than the slope of the cone's face"), source="statics")
+release.value("self_locking", "L_s", "1", "Whether the wedge locks itself", lambda wedge_angle, wedge_friction: np.tan(wedge_angle) <= wedge_friction,
+              source="statics")
+release.words("release_advice", advice.against_locking, ("friction_angle", "wedge_slope"))
 
-TRAVEL = Chapter(
-    "Travel of the cone",
-    text="Along the cone's face the shoes rise by tan α for each length that the cone travels.",
-    needs=("radial_gap",),
-    absent="the travel of the cone is not calculated: radial_gap is not given",
-    steps=(
-        Value(id="engagement_travel", symbol="s_1", unit="mm", description="Axial travel that closes the gap, lining new", source="geometry",
-              formula=bind(f.travel, lift="radial_gap")),
-        Value(id="axial_travel", symbol="s", unit="mm", description="Axial travel until the permitted wear is used up", source="geometry",
-              formula=f.travel_with_wear),
-        Value(id="travel_angle", symbol="α_s", unit="deg", description="Wedge angle that does with the available travel", source="geometry",
-              needs=("available_travel",), output=False, formula=f.angle_of_travel),
-        Words(id="travel_advice", description="What to change where the travel is too small", needs=("available_travel",),
-              function=advice.against_travel,
-              takes=("wedge_angle", "wedge_angle_limit", "travel_angle", "axial_travel", "available_travel", "radial_gap")),
-    ),
-)  # fmt: skip
+lining = Chapter("Lining", text="The shoes are cylindrical and press evenly on their share of the circumference.")
+lining.value("shoe_width", "b", "mm", "Width of the shoes that the allowed pressure asks for",
+             lambda pressing_force, shoe_radius, shoe_coverage, allowable_pressure:
+                 pressing_force / (2 * np.pi * shoe_radius * shoe_coverage * allowable_pressure), source="002 eq. 17")
+lining.value("lining_width", "b_L", "mm", "Width of the lining: as given", bind(lambda shoe_width: shoe_width, shoe_width="inputs.shoe_width"),
+             source="input", needs=("shoe_width",))
+lining.value("lining_width", "b_L", "mm", "Width of the lining: as sized", lambda shoe_width: shoe_width, lacks=("shoe_width",))
+lining.value("lining_area", "A", "cm**2", "Area of the lining", f.lining_area, source="geometry")
+lining.value("pressure", "q", "MPa", "Pressure of the lining", lambda pressing_force, lining_area: pressing_force / lining_area, source="002 eq. 17")
+lining.value("width_ratio", "k_b", "1", "Width of the lining to the drum's diameter",
+             lambda lining_width, shoe_radius: lining_width / (2 * shoe_radius), source="this method")
+lining.value("least_radius", "r_min", "mm", "Radius from which this ratio is at most a half",
+             lambda design_torque, shoe_friction, shoe_coverage, allowable_pressure:
+                 (design_torque / (2 * np.pi * shoe_friction * shoe_coverage * allowable_pressure)) ** (1 / 3), source="002 eq. 17",
+             lacks=("shoe_width",), output=False)
+lining.value("least_radius", "r_min", "mm",
+             "Radius from which this ratio is at most a half, and the pressure allowed",
+             lambda lining_width, shoe_radius, shoe_width: np.maximum(lining_width, shoe_radius * np.sqrt(shoe_width / lining_width)),
+             source="002 eq. 17", needs=("shoe_width",), output=False)
+lining.words("pressure_advice", advice.against_pressure, ("shoe_width", "lining_width", "shoe_radius", "least_radius", "shoe_coverage"),
+             needs=("shoe_width",))
+lining.words("width_advice", advice.against_width, ("shoe_radius", "lining_width"), lacks=("shoe_width", "allowable_pv"))
+lining.words("width_advice", advice.against_width, ("shoe_radius", "lining_width"), lacks=("shoe_width", "speed"), needs=("allowable_pv",))
+lining.words("width_advice", advice.against_width, ("shoe_radius", "lining_width", "pv", "allowable_pv"), lacks=("shoe_width",),
+             needs=("speed", "allowable_pv"))
+lining.words("width_advice", advice.against_given_width, ("least_radius",), needs=("shoe_width",))
 
-SLIDING = Chapter(
-    "Sliding at engagement",
-    needs=("speed",),
-    absent="sliding speed and q·v are not calculated: speed is not given",
-    steps=(
-        Value(id="sliding_speed", symbol="v", unit="m/s", description="Sliding speed as the shoes touch the drum", source="kinematics",
-              formula=bind(common.product, first="speed", second="shoe_radius")),
-        Value(id="pv", symbol="qv", unit="MPa*m/s", description="Pressure times sliding speed", source="this method",
-              formula=bind(common.product, first="pressure", second="sliding_speed")),
-        Words(id="pv_advice", description="What to change where the lining glazes", needs=("allowable_pv", "torque"),
-              function=advice.against_glazing_of_torque,
-              takes=("shoe_radius", "shoe_width", "lining_width", "pv", "allowable_pv", "speed")),
-        Words(id="pv_advice", description="What to change where the lining glazes", needs=("allowable_pv",), lacks=("torque",),
-              function=advice.against_glazing, takes=("shoe_radius", "shoe_width", "lining_width", "pv", "allowable_pv")),
-    ),
-)  # fmt: skip
+travel = Chapter("Travel of the cone", text="Along the cone's face the shoes rise by tan α for each length that the cone travels.",
+                 needs=("radial_gap",), absent="the travel of the cone is not calculated: radial_gap is not given")
+travel.value("engagement_travel", "s_1", "mm", "Axial travel that closes the gap, lining new",
+             lambda radial_gap, wedge_angle: radial_gap / np.tan(wedge_angle), source="geometry")
+travel.value("axial_travel", "s", "mm", "Axial travel until the permitted wear is used up",
+             lambda radial_gap, wear_allowance, wedge_angle: (radial_gap + wear_allowance) / np.tan(wedge_angle), source="geometry")
+travel.value("travel_angle", "α_s", "deg", "Wedge angle that does with the available travel",
+             lambda radial_gap, wear_allowance, available_travel: np.arctan((radial_gap + wear_allowance) / available_travel), source="geometry",
+             needs=("available_travel",), output=False)
+travel.words("travel_advice", advice.against_travel,
+             ("wedge_angle", "wedge_angle_limit", "travel_angle", "axial_travel", "available_travel", "radial_gap"), needs=("available_travel",))
 
-HEAT = Chapter(
-    "Heat of the engagement",
-    text="The driving shaft keeps its speed; the driven side starts from rest and is run up by M_a. The clutch slips the slower "
-    "the faster the driven side runs, and all friction work becomes heat.",
-    needs=("driven_inertia", "speed"),
-    absent="heat, slip time and temperature are not calculated: they need driven_inertia and speed",
-    steps=(
-        Value(id="accelerating_torque", symbol="M_a", unit="N*m", description="Torque that runs up the driven side", source="statics",
-              formula=bind(common.difference, greater="design_torque", smaller="load_torque_at_engagement")),
-        Value(id="slip_time", symbol="t_s", unit="s", description="Time in which the clutch slips", source="energy",
-              formula=f.slip_time),
-        Value(id="engagement_energy", symbol="Q", unit="J", description="Heat of one engagement", source="energy",
-              formula=f.engagement_energy),
-        Value(id="slip_share", symbol="ε", description="Share of the time in which it slips", source="kinematics",
-              formula=bind(common.product, first="engagements_per_hour", second="slip_time")),
-        Value(id="lining_power", symbol="W_m", unit="W", description="Mean friction power", source="energy",
-              formula=bind(common.product, first="engagement_energy", second="engagements_per_hour")),
-        Value(id="lining_power_density", symbol="p_A", unit="W/cm**2", description="Mean friction power for each area of lining",
-              source="energy", formula=bind(common.quotient, quantity="lining_power", by="lining_area")),
-        Value(id="engagements_limit", symbol="z_lim", unit="1/h", description="Engagements an hour that the lining allows",
-              source="energy", needs=("allowable_power_density",), output=False,
-              formula=bind(f.engagements_limit, power_density="allowable_power_density")),
-    ),
-)  # fmt: skip
+sliding = Chapter("Sliding at engagement", needs=("speed",), absent="sliding speed and q·v are not calculated: speed is not given")
+sliding.value("sliding_speed", "v", "m/s", "Sliding speed as the shoes touch the drum", lambda speed, shoe_radius: speed * shoe_radius,
+              source="kinematics")
+sliding.value("pv", "qv", "MPa*m/s", "Pressure times sliding speed", lambda pressure, sliding_speed: pressure * sliding_speed, source="this method")
+sliding.words("pv_advice", advice.against_glazing_of_torque, ("shoe_radius", "shoe_width", "lining_width", "pv", "allowable_pv", "speed"),
+              needs=("allowable_pv", "torque"))
+sliding.words("pv_advice", advice.against_glazing, ("shoe_radius", "shoe_width", "lining_width", "pv", "allowable_pv"), needs=("allowable_pv",),
+              lacks=("torque",))
+
+heat = Chapter("Heat of the engagement",
+               text="The driving shaft keeps its speed; the driven side starts from rest and is run up by M_a. The clutch slips the slower the "
+                    "faster the driven side runs, and all friction work becomes heat.", needs=("driven_inertia", "speed"),
+               absent="heat, slip time and temperature are not calculated: they need driven_inertia and speed")
+heat.value("accelerating_torque", "M_a", "N*m", "Torque that runs up the driven side",
+           lambda design_torque, load_torque_at_engagement: design_torque - load_torque_at_engagement, source="statics")
+heat.value("slip_time", "t_s", "s", "Time in which the clutch slips", f.slip_time, source="energy")
+heat.value("engagement_energy", "Q", "J", "Heat of one engagement", f.engagement_energy, source="energy")
+heat.value("slip_share", "ε", "1", "Share of the time in which it slips", lambda engagements_per_hour, slip_time: engagements_per_hour * slip_time,
+           source="kinematics")
+heat.value("lining_power", "W_m", "W", "Mean friction power",
+           lambda engagement_energy, engagements_per_hour: engagement_energy * engagements_per_hour, source="energy")
+heat.value("lining_power_density", "p_A", "W/cm**2", "Mean friction power for each area of lining",
+           lambda lining_power, lining_area: lining_power / lining_area, source="energy")
+heat.value("engagements_limit", "z_lim", "1/h", "Engagements an hour that the lining allows",
+           lambda allowable_power_density, lining_area, engagement_energy: allowable_power_density * lining_area / engagement_energy, source="energy",
+           needs=("allowable_power_density",), output=False)
 
 DRUM = {"conductivity": "drum_conductivity", "density": "drum_density", "specific_heat": "drum_specific_heat"}
 
-TEMPERATURE = Chapter(
-    "Temperature of the lining",
-    text="The lining leads heat badly: its rubbing surface takes the temperature of the drum's surface, into which all heat is taken to go. "
-    "While the clutch slips the drum is a thick body whose surface takes a heat flux that falls evenly to zero; the surface is hottest at "
-    "half the slip time. A drum thinner than the depth of the heat gets hotter; with drum_mass its own rise counts where it is greater. "
-    "Over many engagements the drum warms up until its cooled surface gives off the mean friction power.",
-    needs=("driven_inertia", "speed"),
-    steps=(
-        Value(id="heat_flux", symbol="p_0", unit="W/cm**2", description="Heat flux into the drum as slipping begins", source="energy",
-              formula=f.heat_flux),
-        Value(id="heat_depth", symbol="x_h", unit="mm", description="Depth of drum that takes up the heat meanwhile",
-              source="heat conduction", formula=bind(f.penetration_depth, **DRUM)),
-        Value(id="surface_temperature_rise", symbol="ΔT_s", unit="K", description="Rise of the rubbing surface in one engagement",
-              source="heat conduction", formula=bind(f.surface_rise, **DRUM)),
-        Value(id="drum_temperature_rise", symbol="ΔT_d", unit="K", description="Rise of the drum in one engagement, evened out",
-              source="energy", needs=("drum_mass",),
-              formula=bind(common.over_product, quantity="engagement_energy", first="drum_mass", second="drum_specific_heat")),
-        Value(id="engagement_temperature_rise", symbol="ΔT_1", unit="K", description="Rise of the lining in one engagement",
-              source="this method", needs=("drum_mass",),
-              formula=bind(common.greater_of, first="surface_temperature_rise", second="drum_temperature_rise")),
-        Value(id="engagement_temperature_rise", symbol="ΔT_1", unit="K", description="Rise of the lining in one engagement",
-              source="this method", lacks=("drum_mass",), formula=bind(common.same, quantity="surface_temperature_rise")),
-        Value(id="lining_temperature_rise", symbol="ΔT", unit="K", lacks=("cooling",), source="this method",
-              description="Greatest rise of the lining, of one engagement alone", formula=bind(common.same, quantity="engagement_temperature_rise")),
-    ),
-)  # fmt: skip
+temperature = Chapter("Temperature of the lining",
+                      text="The lining leads heat badly: its rubbing surface takes the temperature of the drum's surface, into which all heat is "
+                           "taken to go. While the clutch slips the drum is a thick body whose surface takes a heat flux that falls evenly to "
+                           "zero; the surface is hottest at half the slip time. A drum thinner than the depth of the heat gets hotter; with "
+                           "drum_mass its own rise counts where it is greater. Over many engagements the drum warms up until its cooled surface "
+                           "gives off the mean friction power.", needs=("driven_inertia", "speed"))
+temperature.value("heat_flux", "p_0", "W/cm**2", "Heat flux into the drum as slipping begins", f.heat_flux, source="energy")
+temperature.value("heat_depth", "x_h", "mm", "Depth of drum that takes up the heat meanwhile", bind(f.penetration_depth, **DRUM),
+                  source="heat conduction")
+temperature.value("surface_temperature_rise", "ΔT_s", "K", "Rise of the rubbing surface in one engagement", bind(f.surface_rise, **DRUM),
+                  source="heat conduction")
+temperature.value("drum_temperature_rise", "ΔT_d", "K", "Rise of the drum in one engagement, evened out",
+                  lambda engagement_energy, drum_mass, drum_specific_heat: engagement_energy / (drum_mass * drum_specific_heat), source="energy",
+                  needs=("drum_mass",))
+temperature.value("engagement_temperature_rise", "ΔT_1", "K", "Rise of the lining in one engagement",
+                  lambda surface_temperature_rise, drum_temperature_rise: np.maximum(surface_temperature_rise, drum_temperature_rise),
+                  source="this method", needs=("drum_mass",))
+temperature.value("engagement_temperature_rise", "ΔT_1", "K", "Rise of the lining in one engagement",
+                  lambda surface_temperature_rise: surface_temperature_rise, source="this method", lacks=("drum_mass",))
+temperature.value("lining_temperature_rise", "ΔT", "K", "Greatest rise of the lining, of one engagement alone",
+                  lambda engagement_temperature_rise: engagement_temperature_rise, lacks=("cooling",), source="this method")
 
-WARMING = Chapter(
-    "Mean temperature",
-    needs=("driven_inertia", "speed", "cooling"),
-    absent="the mean temperature over many engagements is not calculated: it needs driven_inertia, speed and the block cooling",
-    steps=(
-        Value(id="mean_temperature_rise", symbol="ΔT_m", unit="K", description="Mean rise of the drum above the surroundings", source="energy",
-              formula=bind(common.over_product, quantity="lining_power", first="cooling.heat_transfer_coefficient", second="cooling.area")),
-        Value(id="lining_temperature_rise", symbol="ΔT", unit="K", description="Greatest rise of the lining above the surroundings",
-              source="this method",
-              formula=bind(common.sum_of, first="mean_temperature_rise", second="engagement_temperature_rise")),
-        Value(id="cooling_time", symbol="τ", unit="min", description="Time constant with which the drum cools", source="energy",
-              needs=("drum_mass",),
-              formula=bind(f.time_constant, mass="drum_mass", specific_heat="drum_specific_heat", area="cooling.area",
-                           heat_transfer_coefficient="cooling.heat_transfer_coefficient")),
-        Value(id="drum_temperature_rise_warm", symbol="ΔT_w", unit="K", source="energy", needs=("drum_mass",),
-              description="Rise of the warmed-up drum right after an engagement",
-              exists=bind(common.is_below, smaller=0, greater="engagements_per_hour"),
-              formula=bind(f.rise_after_engagement, mass_rise="drum_temperature_rise", time_constant="cooling_time")),
-    ),
-)  # fmt: skip
+warming = Chapter("Mean temperature", needs=("driven_inertia", "speed", "cooling"),
+                  absent="the mean temperature over many engagements is not calculated: it needs driven_inertia, speed and the block cooling")
+warming.value("mean_temperature_rise", "ΔT_m", "K", "Mean rise of the drum above the surroundings",
+              bind(lambda lining_power, heat_transfer_coefficient, area: lining_power / (heat_transfer_coefficient * area),
+                   heat_transfer_coefficient="cooling.heat_transfer_coefficient", area="cooling.area"), source="energy")
+warming.value("lining_temperature_rise", "ΔT", "K", "Greatest rise of the lining above the surroundings",
+              lambda mean_temperature_rise, engagement_temperature_rise: mean_temperature_rise + engagement_temperature_rise, source="this method")
+warming.value("cooling_time", "τ", "min", "Time constant with which the drum cools",
+              bind(f.time_constant, mass="drum_mass", specific_heat="drum_specific_heat", area="cooling.area",
+              heat_transfer_coefficient="cooling.heat_transfer_coefficient"), source="energy", needs=("drum_mass",))
+warming.value("drum_temperature_rise_warm", "ΔT_w", "K", "Rise of the warmed-up drum right after an engagement",
+              lambda drum_temperature_rise, engagements_per_hour, cooling_time:
+                  drum_temperature_rise / (1 - np.exp(-1 / (engagements_per_hour * cooling_time))), source="energy", needs=("drum_mass",),
+              exists=lambda engagements_per_hour: engagements_per_hour > 0)
 
-SECTIONS = (TORQUE, WEDGE, RELEASE, LINING, TRAVEL, SLIDING, HEAT, TEMPERATURE, WARMING)
+SECTIONS = (torque, wedge, release, lining, travel, sliding, heat, temperature, warming)

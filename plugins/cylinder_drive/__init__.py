@@ -15,8 +15,8 @@ MECHANISM = Mechanism(
     "back. One turn of the crank gives two working strokes with a pause at each end, so two sheets. Calculated are the motion "
     "of the cylinder, the moments on it, and torque, power and forces over a turn of the crank.",
     inputs=CylinderDrive,
-    chapters=(linkage.LINKAGE, linkage.STROKE, linkage.CUTTING, linkage.KINEMATICS, forces.MOMENTS, forces.TORQUE, forces.ENERGY,
-              forces.CLEARANCE, forces.TEETH, forces.JOINTS),
+    chapters=(linkage.linkage_chapter, linkage.stroke, linkage.cutting, linkage.kinematics, forces.moments, forces.torque, forces.energy,
+              forces.clearance, forces.teeth, forces.joints),
     key_results=("swing_angle", "sector_ratio", "stroke", "velocity_max", "acceleration_max", "cutting_moment", "crank_torque_peak",
                  "crank_torque_mean", "crank_torque_rms", "power_mean", "power_peak", "clearance_outer_time", "clearance_inner_time",
                  "tooth_force_max", "joint_force_max"),

@@ -2,191 +2,144 @@
 
 from __future__ import annotations
 
-from diecut_report.api import Breakpoints, Case, Chapter, Choice, Crossings, Reduction, Require, Value, bind
-from diecut_report.mechanics import circular_segment, common, four_bar
+import numpy as np
+
+from diecut_report.api import Chapter, bind, case
+from diecut_report.mechanics import circular_segment, four_bar
 from diecut_report.plugins.cylinder_drive import loads
 from diecut_report.plugins.cylinder_drive.linkage import TECHNOLOGICAL
 
-MOMENTS = Chapter(
-    "Moments on the cylinder",
-    text="The flat is down at θ = 0; the technological moment always resists the motion.",
-    steps=(
-        Value(id="reduced_inertia", symbol="I_r", unit="kg*m**2", description="Inertia of the rolling cylinder, translation included",
-              source="000 eq. 12", formula=loads.reduced_inertia),
-        Value(id="greatest_unbalance", symbol="me_max", unit="kg*m", output=False,
-              description="Unbalance with the centre of mass at the cylinder's surface",
-              formula=bind(common.moment, force="cylinder_mass", arm="cylinder_radius")),
-        Value(id="inertia_moment", symbol="M_in", unit="N*m", description="Moment of inertia forces and unbalance",
-              source="000 eq. 12, with the unbalance", formula=loads.inertia_moment),
-        *TECHNOLOGICAL,
-        Value(id="total_moment", symbol="M_Σ", unit="N*m", description="Moment on the cylinder's axis",
-              source="000 eq. 11, 20, corrected", formula=loads.total_moment),
-        Crossings(id="flank_change", symbol="φ_f", unit="deg", of="total_moment",
-                  description="Crank angle at which the teeth of sector and pinion change flanks"),
-        Breakpoints(id="losses", abscissa="crank_angle", places=("flank_change",)),
-        Reduction(id="inertia_moment_max", symbol="M_in,max", unit="N*m", description="Greatest moment of inertia forces",
-                  of="inertia_moment", operation="max"),
-        Reduction(id="inertia_moment_min", symbol="M_in,min", unit="N*m", description="Least moment of inertia forces",
-                  of="inertia_moment", operation="min"),
-    ),
-)  # fmt: skip
+# fmt: off
 
-TORQUE = Chapter(
-    "Torque at the crank",
-    text="Carried back to the crank, the efficiency follows the direction of power: the losses add where the crank drives "
-    "and take away where the cylinder drives back.",
-    steps=(
-        Value(id="efficiency_total", symbol="η", description="Efficiency from the crank to the cylinder", source="000, after eq. 21",
-              formula=loads.efficiency_total),
-        Value(id="lossless_torque", symbol="M_0", unit="N*m", description="Torque at the crank without losses", source="000 eq. 21",
-              output=False, formula=loads.lossless_torque),
-        Choice(id="crank_torque", symbol="M_1", unit="N*m", description="Torque at the crank", source="000 eq. 21, corrected",
-               cases=(Case(bind(loads.with_losses, torque="lossless_torque", efficiency="efficiency_total"),
-                           "power flows from the crank to the cylinder: divided by η",
-                           bind(common.is_positive, quantity="lossless_torque")),
-                      Case(bind(loads.after_losses, torque="lossless_torque", efficiency="efficiency_total"),
-                           "the cylinder drives the crank: multiplied by η"))),
-        Reduction(id="crank_torque_peak", symbol="M_peak", unit="N*m", description="Greatest size of the torque", of="crank_torque",
-                  operation="abs_max"),
-        Reduction(id="crank_torque_max", symbol="M_max", unit="N*m", description="Greatest driving torque", of="crank_torque",
-                  operation="max"),
-        Reduction(id="crank_torque_min", symbol="M_min", unit="N*m", description="Greatest braking torque", of="crank_torque",
-                  operation="min"),
-        Reduction(id="crank_torque_mean", symbol="M_mean", unit="N*m", description="Mean torque", of="crank_torque", operation="mean"),
-        Reduction(id="crank_torque_rms", symbol="M_rms", unit="N*m", description="Root mean square torque", of="crank_torque",
-                  operation="rms"),
-        Value(id="power_mean", symbol="N_mean", unit="kW", description="Mean power at the crank",
-              formula=bind(loads.power, torque="crank_torque_mean")),
-        Value(id="power_peak", symbol="N_peak", unit="kW", description="Peak power at the crank",
-              formula=bind(loads.power, torque="crank_torque_peak")),
-        Crossings(id="torque_reversal", symbol="φ_r", unit="deg", of="crank_torque",
-                  description="Crank angle at which the torque reverses (backlash)"),
-    ),
-)  # fmt: skip
+moments = Chapter("Moments on the cylinder", text="The flat is down at θ = 0; the technological moment always resists the motion.")
+moments.value("reduced_inertia", "I_r", "kg*m**2", "Inertia of the rolling cylinder, translation included", loads.reduced_inertia,
+              source="000 eq. 12")
+moments.value("greatest_unbalance", "me_max", "kg*m", "Unbalance with the centre of mass at the cylinder's surface",
+              lambda cylinder_mass, cylinder_radius: cylinder_mass * cylinder_radius, output=False)
+moments.value("inertia_moment", "M_in", "N*m", "Moment of inertia forces and unbalance", loads.inertia_moment,
+              source="000 eq. 12, with the unbalance")
+moments.add(TECHNOLOGICAL)
+moments.value("total_moment", "M_Σ", "N*m", "Moment on the cylinder's axis", loads.total_moment, source="000 eq. 11, 20, corrected")
+moments.crossings("flank_change", "φ_f", "deg", "Crank angle at which the teeth of sector and pinion change flanks", of="total_moment")
+moments.breakpoints("losses", "crank_angle", "flank_change")
+moments.reduction("inertia_moment_max", "M_in,max", "N*m", "Greatest moment of inertia forces", "max", of="inertia_moment")
+moments.reduction("inertia_moment_min", "M_in,min", "N*m", "Least moment of inertia forces", "min", of="inertia_moment")
 
-ENERGY = Chapter(
-    "Energy balance",
-    text="Without losses a turn of the crank takes the work of the technological moment; inertia and weight return all theirs.",
-    steps=(
-        Reduction(id="energy_turn", symbol="E", unit="J", description="Energy over a turn without losses", of="lossless_torque",
-                  operation="integral", output=False),
-        Value(id="technological_work", symbol="E_t", unit="J", description="Work of the technological moment, two strokes",
-              formula=loads.technological_work),
-        Value(id="kinetic_energy_max", symbol="E_k", unit="J", description="Greatest kinetic energy of the cylinder, unbalance apart",
-              formula=bind(loads.kinetic_energy, velocity="velocity_max")),
-        Value(id="energy_residual", symbol="r_E", description="Difference of energy and work, relative",
-              formula=bind(loads.energy_residual, energy="energy_turn", work="technological_work", kinetic_energy="kinetic_energy_max")),
-    ),
-)  # fmt: skip
+torque = Chapter("Torque at the crank",
+                 text="Carried back to the crank, the efficiency follows the direction of power: the losses add where the crank drives and take "
+                      "away where the cylinder drives back.")
+torque.value("efficiency_total", "η", "1", "Efficiency from the crank to the cylinder",
+             lambda efficiency_four_bar, efficiency_sector, efficiency_gear, efficiency_chain, efficiency_bearings:
+                 efficiency_four_bar * loads.efficiency_behind_rocker(efficiency_sector, efficiency_gear, efficiency_chain, efficiency_bearings),
+             source="000, after eq. 21")
+torque.value("lossless_torque", "M_0", "N*m", "Torque at the crank without losses",
+             lambda sector_ratio, rocker_speed_ratio, total_moment: sector_ratio * rocker_speed_ratio * total_moment, source="000 eq. 21",
+             output=False)
+torque.choice("crank_torque", "M_1", "N*m", "Torque at the crank",
+              case(bind(loads.with_losses, torque="lossless_torque", efficiency="efficiency_total"),
+                   "power flows from the crank to the cylinder: divided by η", lambda lossless_torque: lossless_torque >= 0),
+              case(bind(loads.after_losses, torque="lossless_torque", efficiency="efficiency_total"),
+                   "the cylinder drives the crank: multiplied by η"), source="000 eq. 21, corrected")
+torque.reduction("crank_torque_peak", "M_peak", "N*m", "Greatest size of the torque", "abs_max", of="crank_torque")
+torque.reduction("crank_torque_max", "M_max", "N*m", "Greatest driving torque", "max", of="crank_torque")
+torque.reduction("crank_torque_min", "M_min", "N*m", "Greatest braking torque", "min", of="crank_torque")
+torque.reduction("crank_torque_mean", "M_mean", "N*m", "Mean torque", "mean", of="crank_torque")
+torque.reduction("crank_torque_rms", "M_rms", "N*m", "Root mean square torque", "rms", of="crank_torque")
+torque.value("power_mean", "N_mean", "kW", "Mean power at the crank", bind(loads.power, torque="crank_torque_mean"))
+torque.value("power_peak", "N_peak", "kW", "Peak power at the crank", bind(loads.power, torque="crank_torque_peak"))
+torque.crossings("torque_reversal", "φ_r", "deg", "Crank angle at which the torque reverses (backlash)", of="crank_torque")
 
-CLEARANCE = Chapter(
-    "Window of the carriages",
-    needs=("carriage_clearance", "segment_height"),
-    absent="not calculated: carriage_clearance and segment_height are not both given",
-    text="The carriages pass while the lower edge of the turned flat leaves their clearance over the die: "
-    "R(1 − cos(α − θ)) ≥ c_r on both sides of the flat's lowest position.",
-    steps=(
-        Require(id="flat_below_radius", condition=bind(common.is_below, smaller="segment_height", greater="cylinder_radius"),
-                key="segment_height", message="is {segment_height}, but the segment must be lower than the radius {cylinder_radius}"),
-        Require(id="clearance_below_flat", condition=bind(common.is_at_most, smaller="carriage_clearance", greater="segment_height"),
-                key="carriage_clearance",
-                message="is {carriage_clearance}, but the flat leaves no more than the segment's height {segment_height}"),
-        Value(id="flat_half_angle", symbol="α", unit="deg", description="Half the central angle of the flat", output=False,
-              formula=bind(circular_segment.half_angle, radius="cylinder_radius", height="segment_height")),
-        Value(id="clear_rotation", symbol="θ_c", unit="deg", description="Rotation of the cylinder up to which the clearance is left",
-              formula=bind(loads.clear_rotation, half_angle="flat_half_angle")),
-        Value(id="clear_swing_outer", symbol="δ_c", unit="deg", description="Rocker angle there", output=False,
-              formula=bind(loads.rocker_at_rotation, rotation="clear_rotation")),
-        Value(id="clear_direction_outer", symbol="β_c", unit="deg", description="Direction of the rocker there", output=False,
-              formula=bind(common.sum_of, first="outer_direction", second="clear_swing_outer")),
-        Value(id="clear_distance_outer", symbol="q_3", description="Distance of the rocker's joint from the crank's pivot there, in crank lengths",
-              output=False, formula=bind(four_bar.joint_distance, rocker_direction="clear_direction_outer")),
-        Value(id="clear_return_outer", symbol="φ_c0", unit="deg", description="Crank angle there on the return stroke", output=False,
-              exists=loads.flat_leaves, formula=bind(four_bar.crank_angle_return, rocker_direction="clear_direction_outer",
-                           joint_distance="clear_distance_outer")),
-        Value(id="clearance_outer_start", symbol="φ_c1", unit="deg", description="Window at the outer dead centre opens (a turn earlier)",
-              exists=loads.flat_leaves, formula=bind(loads.turn_less, angle="clear_return_outer")),
-        Value(id="clearance_outer_end", symbol="φ_c2", unit="deg", description="Window at the outer dead centre closes",
-              exists=loads.flat_leaves, formula=bind(four_bar.crank_angle_forward, rocker_direction="clear_direction_outer",
-                           joint_distance="clear_distance_outer")),
-        Value(id="clearance_outer_time", symbol="t_c1", unit="ms", description="Time of the window at the outer dead centre",
-              exists=loads.flat_leaves, formula=bind(loads.elapsed, start="clearance_outer_start", end="clearance_outer_end")),
-        Value(id="clear_swing_inner", symbol="δ_c′", unit="deg", description="Rocker angle from which the flat is clear again",
-              output=False, formula=bind(loads.rocker_before_turn, rotation="clear_rotation")),
-        Value(id="clear_direction_inner", symbol="β_c′", unit="deg", description="Direction of the rocker there", output=False,
-              formula=bind(common.sum_of, first="outer_direction", second="clear_swing_inner")),
-        Value(id="clear_distance_inner", symbol="q_4", description="Distance of the rocker's joint from the crank's pivot there, in crank lengths",
-              output=False, formula=bind(four_bar.joint_distance, rocker_direction="clear_direction_inner")),
-        Value(id="clearance_inner_start", symbol="φ_c3", unit="deg", description="Window at the inner dead centre opens",
-              exists=loads.flat_arrives, formula=bind(four_bar.crank_angle_forward, rocker_direction="clear_direction_inner",
-                           joint_distance="clear_distance_inner")),
-        Value(id="clearance_inner_end", symbol="φ_c4", unit="deg", description="Window at the inner dead centre closes",
-              exists=loads.flat_arrives, formula=bind(four_bar.crank_angle_return, rocker_direction="clear_direction_inner",
-                           joint_distance="clear_distance_inner")),
-        Value(id="clearance_inner_time", symbol="t_c2", unit="ms", description="Time of the window at the inner dead centre",
-              exists=loads.flat_arrives, formula=bind(loads.elapsed, start="clearance_inner_start", end="clearance_inner_end")),
-    ),
-)  # fmt: skip
+energy = Chapter("Energy balance",
+                 text="Without losses a turn of the crank takes the work of the technological moment; inertia and weight return all theirs.")
+energy.reduction("energy_turn", "E", "J", "Energy over a turn without losses", "integral", of="lossless_torque", output=False)
+energy.value("technological_work", "E_t", "J", "Work of the technological moment, two strokes",
+             lambda cutting_arc_fraction, cutting_moment, sector_ratio, swing_angle:
+                 2 * cutting_arc_fraction * cutting_moment * sector_ratio * swing_angle)
+energy.value("kinetic_energy_max", "E_k", "J", "Greatest kinetic energy of the cylinder, unbalance apart",
+             bind(loads.kinetic_energy, velocity="velocity_max"))
+energy.value("energy_residual", "r_E", "1", "Difference of energy and work, relative",
+             lambda energy_turn, technological_work, kinetic_energy_max:
+                 abs(energy_turn - technological_work) / np.maximum(technological_work, kinetic_energy_max))
 
-TEETH = Chapter(
-    "Tooth force of the sector",
-    needs=("pinion_radius",),
-    absent="not calculated: pinion_radius is not given",
-    text="The pinion sits on the cylinder's axis; losses between the teeth and the cylinder are not counted.",
-    steps=(
-        Value(id="sector_radius", symbol="r_s", unit="mm", description="Pitch radius of the sector",
-              formula=bind(loads.length_of, ratio="sector_ratio", crank_length="pinion_radius")),
-        Value(id="tooth_force", symbol="F_t", unit="kN", description="Tangential force between the teeth", formula=loads.tooth_force),
-        Value(id="tooth_normal_force", symbol="F_n", unit="kN", description="Force square to the flanks",
-              formula=bind(loads.normal_force, tangential="tooth_force")),
-        Reduction(id="tooth_force_max", symbol="F_t,max", unit="kN", description="Greatest tangential force", of="tooth_force",
-                  operation="abs_max"),
-        Reduction(id="tooth_normal_force_max", symbol="F_n,max", unit="kN", description="Greatest force square to the flanks",
-                  of="tooth_normal_force", operation="abs_max"),
-        Value(id="tooth_radial_force_max", symbol="F_r,max", unit="kN", description="Greatest force that presses sector and pinion apart",
-              formula=bind(loads.radial_force, tangential="tooth_force_max")),
-    ),
-)  # fmt: skip
+clearance = Chapter("Window of the carriages",
+                    text="The carriages pass while the lower edge of the turned flat leaves their clearance over the die: R(1 − cos(α − θ)) ≥ c_r "
+                         "on both sides of the flat's lowest position.", needs=("carriage_clearance", "segment_height"),
+                    absent="not calculated: carriage_clearance and segment_height are not both given")
+clearance.require("flat_below_radius", lambda segment_height, cylinder_radius: segment_height < cylinder_radius, key="segment_height",
+                  message="is {segment_height}, but the segment must be lower than the radius {cylinder_radius}")
+clearance.require("clearance_below_flat", lambda carriage_clearance, segment_height: carriage_clearance <= segment_height, key="carriage_clearance",
+                  message="is {carriage_clearance}, but the flat leaves no more than the segment's height {segment_height}")
+clearance.value("flat_half_angle", "α", "deg", "Half the central angle of the flat",
+                bind(circular_segment.half_angle, radius="cylinder_radius", height="segment_height"), output=False)
+clearance.value("clear_rotation", "θ_c", "deg", "Rotation of the cylinder up to which the clearance is left",
+                bind(loads.clear_rotation, half_angle="flat_half_angle"))
+clearance.value("clear_swing_outer", "δ_c", "deg", "Rocker angle there", lambda clear_rotation, sector_ratio: clear_rotation / sector_ratio,
+                output=False)
+clearance.value("clear_direction_outer", "β_c", "deg", "Direction of the rocker there",
+                lambda outer_direction, clear_swing_outer: outer_direction + clear_swing_outer, output=False)
+clearance.value("clear_distance_outer", "q_3", "1", "Distance of the rocker's joint from the crank's pivot there, in crank lengths",
+                bind(four_bar.joint_distance, rocker_direction="clear_direction_outer"), output=False)
+clearance.value("clear_return_outer", "φ_c0", "deg", "Crank angle there on the return stroke",
+                bind(four_bar.crank_angle_return, rocker_direction="clear_direction_outer",
+                joint_distance="clear_distance_outer"), output=False, exists=loads.flat_leaves)
+clearance.value("clearance_outer_start", "φ_c1", "deg", "Window at the outer dead centre opens (a turn earlier)",
+                lambda clear_return_outer: clear_return_outer - 2 * np.pi, exists=loads.flat_leaves)
+clearance.value("clearance_outer_end", "φ_c2", "deg", "Window at the outer dead centre closes",
+                bind(four_bar.crank_angle_forward, rocker_direction="clear_direction_outer",
+                joint_distance="clear_distance_outer"), exists=loads.flat_leaves)
+clearance.value("clearance_outer_time", "t_c1", "ms", "Time of the window at the outer dead centre",
+                bind(loads.elapsed, start="clearance_outer_start", end="clearance_outer_end"), exists=loads.flat_leaves)
+clearance.value("clear_swing_inner", "δ_c′", "deg", "Rocker angle from which the flat is clear again",
+                lambda clear_rotation, sector_ratio: (2 * np.pi - clear_rotation) / sector_ratio, output=False)
+clearance.value("clear_direction_inner", "β_c′", "deg", "Direction of the rocker there",
+                lambda outer_direction, clear_swing_inner: outer_direction + clear_swing_inner, output=False)
+clearance.value("clear_distance_inner", "q_4", "1", "Distance of the rocker's joint from the crank's pivot there, in crank lengths",
+                bind(four_bar.joint_distance, rocker_direction="clear_direction_inner"), output=False)
+clearance.value("clearance_inner_start", "φ_c3", "deg", "Window at the inner dead centre opens",
+                bind(four_bar.crank_angle_forward, rocker_direction="clear_direction_inner",
+                joint_distance="clear_distance_inner"), exists=loads.flat_arrives)
+clearance.value("clearance_inner_end", "φ_c4", "deg", "Window at the inner dead centre closes",
+                bind(four_bar.crank_angle_return, rocker_direction="clear_direction_inner",
+                joint_distance="clear_distance_inner"), exists=loads.flat_arrives)
+clearance.value("clearance_inner_time", "t_c2", "ms", "Time of the window at the inner dead centre",
+                bind(loads.elapsed, start="clearance_inner_start", end="clearance_inner_end"), exists=loads.flat_arrives)
 
-JOINTS = Chapter(
-    "Forces in the joints",
-    needs=("crank_length",),
-    absent="not calculated: crank_length is not given",
-    text="The links are taken without mass: the coupler carries one force along itself, which each of its joints and the crank's "
-    "bearing take. It follows from the rocker's torque, so that it stays finite at the dead centres.",
-    steps=(
-        Value(id="frame_length", symbol="d", unit="mm", description="Length of the frame",
-              formula=bind(loads.length_of, ratio="frame_ratio")),
-        Value(id="coupler_length", symbol="b_c", unit="mm", description="Length of the coupler",
-              formula=bind(loads.length_of, ratio="coupler_ratio")),
-        Value(id="rocker_length", symbol="c", unit="mm", description="Length of the rocker",
-              formula=bind(loads.length_of, ratio="rocker_ratio")),
-        Value(id="efficiency_behind_rocker", symbol="η_s", description="Efficiency from the rocker to the cylinder", output=False,
-              formula=loads.efficiency_behind_rocker),
-        Value(id="lossless_rocker_torque", symbol="M_20", unit="N*m", description="Torque at the rocker without losses", output=False,
-              formula=loads.rocker_torque),
-        Choice(id="rocker_torque", symbol="M_2", unit="N*m", description="Torque at the rocker",
-               cases=(Case(bind(loads.with_losses, torque="lossless_rocker_torque", efficiency="efficiency_behind_rocker"),
-                           "power flows from the rocker to the cylinder: divided by η_s",
-                           bind(common.is_positive, quantity="lossless_torque")),
-                      Case(bind(loads.after_losses, torque="lossless_rocker_torque", efficiency="efficiency_behind_rocker"),
-                           "the cylinder drives the rocker: multiplied by η_s"))),
-        Value(id="coupler_force", symbol="F_c", unit="kN", description="Force along the coupler, tension positive",
-              formula=loads.coupler_force),
-        Value(id="crank_bearing_force_x", symbol="F_1x", unit="kN", description="Force on the crank's bearing along the frame line",
-              formula=bind(loads.along_x, force="coupler_force", direction="coupler_direction")),
-        Value(id="crank_bearing_force_y", symbol="F_1y", unit="kN", description="Force on the crank's bearing square to the frame line",
-              formula=bind(loads.along_y, force="coupler_force", direction="coupler_direction")),
-        Reduction(id="coupler_tension_max", symbol="F_c,max", unit="kN", description="Greatest tension of the coupler",
-                  of="coupler_force", operation="max"),
-        Reduction(id="coupler_tension_min", symbol="F_c,min", unit="kN", description="Greatest compression of the coupler (negative)",
-                  of="coupler_force", operation="min"),
-        Reduction(id="joint_force_max", symbol="F_j", unit="kN", description="Greatest force in the coupler's joints and the crank's bearing",
-                  of="coupler_force", operation="abs_max"),
-        Value(id="rocker_bearing_force", symbol="F_3", unit="kN", needs=("pinion_radius",),
-              description="Force on the rocker's bearing: coupler and teeth together, whatever the place of the pinion (upper bound)",
-              formula=bind(loads.sizes_added, first="coupler_force", second="tooth_normal_force")),
-        Reduction(id="rocker_bearing_force_max", symbol="F_3,max", unit="kN", description="Greatest force on the rocker's bearing (upper bound)",
-                  needs=("pinion_radius",), of="rocker_bearing_force", operation="max"),
-    ),
-)  # fmt: skip
+teeth = Chapter("Tooth force of the sector",
+                text="The pinion sits on the cylinder's axis; losses between the teeth and the cylinder are not counted.", needs=("pinion_radius",),
+                absent="not calculated: pinion_radius is not given")
+teeth.value("sector_radius", "r_s", "mm", "Pitch radius of the sector", bind(loads.length_of, ratio="sector_ratio", crank_length="pinion_radius"))
+teeth.value("tooth_force", "F_t", "kN", "Tangential force between the teeth", lambda total_moment, pinion_radius: total_moment / pinion_radius)
+teeth.value("tooth_normal_force", "F_n", "kN", "Force square to the flanks", lambda tooth_force, pressure_angle: tooth_force / np.cos(pressure_angle))
+teeth.reduction("tooth_force_max", "F_t,max", "kN", "Greatest tangential force", "abs_max", of="tooth_force")
+teeth.reduction("tooth_normal_force_max", "F_n,max", "kN", "Greatest force square to the flanks", "abs_max", of="tooth_normal_force")
+teeth.value("tooth_radial_force_max", "F_r,max", "kN", "Greatest force that presses sector and pinion apart",
+            lambda tooth_force_max, pressure_angle: tooth_force_max * np.tan(pressure_angle))
+
+joints = Chapter("Forces in the joints",
+                 text="The links are taken without mass: the coupler carries one force along itself, which each of its joints and the crank's "
+                      "bearing take. It follows from the rocker's torque, so that it stays finite at the dead centres.", needs=("crank_length",),
+                 absent="not calculated: crank_length is not given")
+joints.value("frame_length", "d", "mm", "Length of the frame", bind(loads.length_of, ratio="frame_ratio"))
+joints.value("coupler_length", "b_c", "mm", "Length of the coupler", bind(loads.length_of, ratio="coupler_ratio"))
+joints.value("rocker_length", "c", "mm", "Length of the rocker", bind(loads.length_of, ratio="rocker_ratio"))
+joints.value("efficiency_behind_rocker", "η_s", "1", "Efficiency from the rocker to the cylinder", loads.efficiency_behind_rocker, output=False)
+joints.value("lossless_rocker_torque", "M_20", "N*m", "Torque at the rocker without losses", loads.rocker_torque, output=False)
+joints.choice("rocker_torque", "M_2", "N*m", "Torque at the rocker",
+              case(bind(loads.with_losses, torque="lossless_rocker_torque", efficiency="efficiency_behind_rocker"),
+                   "power flows from the rocker to the cylinder: divided by η_s", lambda lossless_torque: lossless_torque >= 0),
+              case(bind(loads.after_losses, torque="lossless_rocker_torque", efficiency="efficiency_behind_rocker"),
+                   "the cylinder drives the rocker: multiplied by η_s"))
+joints.value("coupler_force", "F_c", "kN", "Force along the coupler, tension positive",
+             lambda rocker_torque, rocker_length, transmission_angle: rocker_torque / (rocker_length * np.sin(transmission_angle)))
+joints.value("crank_bearing_force_x", "F_1x", "kN", "Force on the crank's bearing along the frame line",
+             lambda coupler_force, coupler_direction: coupler_force * np.cos(coupler_direction))
+joints.value("crank_bearing_force_y", "F_1y", "kN", "Force on the crank's bearing square to the frame line",
+             lambda coupler_force, coupler_direction: coupler_force * np.sin(coupler_direction))
+joints.reduction("coupler_tension_max", "F_c,max", "kN", "Greatest tension of the coupler", "max", of="coupler_force")
+joints.reduction("coupler_tension_min", "F_c,min", "kN", "Greatest compression of the coupler (negative)", "min", of="coupler_force")
+joints.reduction("joint_force_max", "F_j", "kN", "Greatest force in the coupler's joints and the crank's bearing", "abs_max", of="coupler_force")
+joints.value("rocker_bearing_force", "F_3", "kN",
+             "Force on the rocker's bearing: coupler and teeth together, whatever the place of the pinion (upper bound)",
+             lambda coupler_force, tooth_normal_force: abs(coupler_force) + abs(tooth_normal_force), needs=("pinion_radius",))
+joints.reduction("rocker_bearing_force_max", "F_3,max", "kN", "Greatest force on the rocker's bearing (upper bound)", "max",
+                 of="rocker_bearing_force", needs=("pinion_radius",))

@@ -4,168 +4,140 @@ from __future__ import annotations
 
 import numpy as np
 
-from diecut_report.api import (
-    Abscissa,
-    Bound,
-    Breakpoints,
-    Case,
-    Chapter,
-    Choice,
-    Formula,
-    Reduction,
-    Require,
-    Value,
-    bind,
-)
+from diecut_report.api import Bound, Chapter, Formula, Steps, as_angle, bind, case
 from diecut_report.mechanics import common, four_bar
 from diecut_report.plugins.cylinder_drive import motion
 
+# fmt: off
 
-def _cutting_edge(name: str, symbol: str, description: str, dead_center: Bound, inverse: Formula, edge: str) -> Choice:
+
+def _cutting_edge(name: str, symbol: str, description: str, dead_center: Bound, inverse: Formula, edge: str) -> Steps:
     """A crank angle where cutting begins or ends: a dead centre where the whole stroke cuts.
 
     There the general formula is left out, for its root turns the last digit of a cosine into 1e-8 rad beside the dead centre.
     """
     inside = bind(inverse, rocker_direction=f"cut_{edge}_direction", joint_distance=f"cut_{edge}_distance")
-    cases = (Case(dead_center, "the whole stroke cuts, from one dead centre to the other", motion.cuts_always),
-             Case(inside, "only the middle of the stroke cuts"))  # fmt: skip
-    return Choice(id=name, symbol=symbol, unit="deg", description=description, cases=cases)
+    cases = (case(dead_center, "the whole stroke cuts, from one dead centre to the other", motion.cuts_always),
+             case(inside, "only the middle of the stroke cuts"))
+    steps = Steps()
+    steps.choice(name, symbol, "deg", description, *cases)
+    return steps
 
 
-LINKAGE = Chapter(
-    "Linkage and its dead centres",
-    text="Lengths are relative to the crank. The crank angle is counted from the frame line O₁O₃, counter-clockwise.",
-    steps=(
-        Value(id="grashof_demand", symbol="Σ_1", description="Shortest and longest link together, in crank lengths", output=False,
-              formula=motion.one_and_longest),
-        Value(id="grashof_limit", symbol="Σ_2", description="The other two links together, in crank lengths", output=False,
-              formula=motion.other_two),
-        Require(id="crank_rocker", condition=four_bar.is_crank_rocker, key="rocker_ratio",
-                message="gives no crank-rocker: with frame_ratio = {frame_ratio}, coupler_ratio = {coupler_ratio} and rocker_ratio = "
-                "{rocker_ratio} the crank (1) must be the shortest link, and it and the longest one ({grashof_demand} together) "
-                "shorter than the other two together ({grashof_limit}) (Grashof); change the ratios so that both hold"),
-        Value(id="outer_direction", symbol="γ_3", unit="deg", description="Direction of the rocker at its outer dead centre",
-              source="000 eq. 5", output=False, formula=four_bar.outer_rocker_direction),
-        Value(id="swing_angle", symbol="δ_max", unit="deg", description="Swing of the rocker", source="000 eq. 5, both dead centres",
-              digits=6, formula=four_bar.swing_angle),
-        Value(id="dead_center_outer", symbol="φ_out", unit="deg", description="Crank angle of the outer dead centre",
-              source="closed form", digits=6, formula=four_bar.outer_dead_center),
-        Value(id="dead_center_inner", symbol="φ_in", unit="deg", description="Crank angle of the inner dead centre",
-              source="closed form", digits=6, formula=four_bar.inner_dead_center),
-        Value(id="time_ratio", symbol="k_t", description="Time of the forward to that of the return stroke",
-              formula=motion.time_ratio),
-        Value(id="transmission_angle_min", symbol="μ_1", unit="deg", description="Least transmission angle, at φ = 0",
-              source="000 eq. 4", formula=four_bar.least_transmission_angle),
-        Value(id="transmission_angle_max", symbol="μ_2", unit="deg", description="Greatest transmission angle, at φ = 180°",
-              source="000 eq. 4", formula=four_bar.greatest_transmission_angle),
-        Value(id="transmission_angle_worst", symbol="μ_w", unit="deg",
-              description="Worst transmission angle, an obtuse one counted by its supplement", output=False, formula=motion.folded_angle),
-    ),
-)  # fmt: skip
+linkage_chapter = Chapter("Linkage and its dead centres",
+                          text="Lengths are relative to the crank. The crank angle is counted from the frame line O₁O₃, counter-clockwise.")
+linkage_chapter.value("grashof_demand", "Σ_1", "1", "Shortest and longest link together, in crank lengths",
+                      lambda frame_ratio, coupler_ratio, rocker_ratio: 1 + np.maximum(frame_ratio, np.maximum(coupler_ratio, rocker_ratio)),
+                      output=False)
+linkage_chapter.value("grashof_limit", "Σ_2", "1", "The other two links together, in crank lengths",
+                      lambda frame_ratio, coupler_ratio, rocker_ratio:
+                          frame_ratio + coupler_ratio + rocker_ratio - np.maximum(frame_ratio, np.maximum(coupler_ratio, rocker_ratio)), output=False)
+linkage_chapter.require("crank_rocker", four_bar.is_crank_rocker, key="rocker_ratio",
+                        message="gives no crank-rocker: with frame_ratio = {frame_ratio}, coupler_ratio = {coupler_ratio} and rocker_ratio = "
+                                "{rocker_ratio} the crank (1) must be the shortest link, and it and the longest one ({grashof_demand} together) "
+                                "shorter than the other two together ({grashof_limit}) (Grashof); change the ratios so that both hold")
+linkage_chapter.value("outer_direction", "γ_3", "deg", "Direction of the rocker at its outer dead centre", four_bar.outer_rocker_direction,
+                      source="000 eq. 5", output=False)
+linkage_chapter.value("swing_angle", "δ_max", "deg", "Swing of the rocker", four_bar.swing_angle, source="000 eq. 5, both dead centres", digits=6)
+linkage_chapter.value("dead_center_outer", "φ_out", "deg", "Crank angle of the outer dead centre", four_bar.outer_dead_center, source="closed form",
+                      digits=6)
+linkage_chapter.value("dead_center_inner", "φ_in", "deg", "Crank angle of the inner dead centre", four_bar.inner_dead_center, source="closed form",
+                      digits=6)
+linkage_chapter.value("time_ratio", "k_t", "1", "Time of the forward to that of the return stroke",
+                      lambda dead_center_outer, dead_center_inner:
+                          (dead_center_inner - dead_center_outer) / (2 * np.pi - (dead_center_inner - dead_center_outer)))
+linkage_chapter.value("transmission_angle_min", "μ_1", "deg", "Least transmission angle, at φ = 0", four_bar.least_transmission_angle,
+                      source="000 eq. 4")
+linkage_chapter.value("transmission_angle_max", "μ_2", "deg", "Greatest transmission angle, at φ = 180°", four_bar.greatest_transmission_angle,
+                      source="000 eq. 4")
+linkage_chapter.value("transmission_angle_worst", "μ_w", "deg", "Worst transmission angle, an obtuse one counted by its supplement",
+                      lambda transmission_angle_min, transmission_angle_max: np.minimum(transmission_angle_min, np.pi - transmission_angle_max),
+                      output=False)
 
-STROKE = Chapter(
-    "Sector ratio and stroke",
-    steps=(
-        Value(id="sector_ratio", symbol="u", description="Ratio of sector to pinion: as given", source="input", needs=("sector_ratio",),
-              digits=6, formula=bind(common.same, quantity="inputs.sector_ratio")),
-        Value(id="sector_ratio", symbol="u", description="Ratio of sector to pinion: the full swing turns the cylinder once",
-              lacks=("sector_ratio",), digits=6, formula=motion.ratio_for_one_turn),
-        Value(id="stroke", symbol="S_max", unit="mm", description="Stroke of the cylinder's axis", source="000 eq. 8",
-              formula=bind(motion.rolled, angle="swing_angle")),
-        Value(id="stroke_error", symbol="Δθ", unit="deg", description="Rotation over the stroke off a full turn", output=False,
-              formula=motion.stroke_error),
-    ),
-)  # fmt: skip
+stroke = Chapter("Sector ratio and stroke")
+stroke.value("sector_ratio", "u", "1", "Ratio of sector to pinion: as given",
+             bind(lambda sector_ratio: sector_ratio, sector_ratio="inputs.sector_ratio"), source="input", needs=("sector_ratio",), digits=6)
+stroke.value("sector_ratio", "u", "1", "Ratio of sector to pinion: the full swing turns the cylinder once",
+             lambda swing_angle: 2 * np.pi / swing_angle, lacks=("sector_ratio",), digits=6)
+stroke.value("stroke", "S_max", "mm", "Stroke of the cylinder's axis", bind(motion.rolled, angle="swing_angle"), source="000 eq. 8")
+stroke.value("stroke_error", "Δθ", "deg", "Rotation over the stroke off a full turn",
+             lambda sector_ratio, swing_angle: abs(sector_ratio * swing_angle - 2 * np.pi), output=False)
 
-CUTTING = Chapter(
-    "Cutting",
-    steps=(
-        Require(id="board_below_radius", condition=bind(common.is_below, smaller="material_thickness", greater="cylinder_radius"),
-                key="material_thickness",
-                message="is {material_thickness}, but the board must be thinner than the cylinder's radius {cylinder_radius}"),
-        Value(id="cutting_length", symbol="b", unit="mm", description="Cutting length along the motion", source="000, after eq. 19",
-              formula=motion.cutting_length),
-        Value(id="rolling_arm", symbol="k", unit="mm", description="Arm of the rolling resistance", source="000, after eq. 19",
-              formula=motion.rolling_arm),
-        Value(id="cutting_force", symbol="P_m", unit="kN", description="Force of cutting and ejection", source="000 eq. 18",
-              formula=motion.cutting_force),
-        Value(id="cutting_moment", symbol="M_m", unit="N*m", description="Moment of the technological load", source="000 eq. 19",
-              formula=bind(common.moment, force="cutting_force", arm="rolling_arm")),
-        Value(id="cut_begin_swing", symbol="δ_1", unit="deg", description="Rocker angle where cutting begins (forward)", output=False,
-              formula=motion.cut_begins),
-        Value(id="cut_end_swing", symbol="δ_2", unit="deg", description="Rocker angle where cutting ends (forward)", output=False,
-              formula=motion.cut_ends),
-        Value(id="cut_begin_direction", symbol="β_1", unit="deg", description="Direction of the rocker there", output=False,
-              formula=bind(common.sum_of, first="outer_direction", second="cut_begin_swing")),
-        Value(id="cut_begin_distance", symbol="q_1", description="Distance of the rocker's joint from the crank's pivot there, in crank lengths",
-              output=False, formula=bind(four_bar.joint_distance, rocker_direction="cut_begin_direction")),
-        Value(id="cut_end_direction", symbol="β_2", unit="deg", description="Direction of the rocker there", output=False,
-              formula=bind(common.sum_of, first="outer_direction", second="cut_end_swing")),
-        Value(id="cut_end_distance", symbol="q_2", description="Distance of the rocker's joint from the crank's pivot there, in crank lengths",
-              output=False, formula=bind(four_bar.joint_distance, rocker_direction="cut_end_direction")),
-        _cutting_edge("cut_begin_forward", "φ_1", "Crank angle where cutting begins, forward stroke",
-                      bind(common.same, quantity="dead_center_outer"), four_bar.crank_angle_forward, "begin"),
-        _cutting_edge("cut_end_forward", "φ_2", "Crank angle where cutting ends, forward stroke",
-                      bind(common.same, quantity="dead_center_inner"), four_bar.crank_angle_forward, "end"),
-        _cutting_edge("cut_begin_return", "φ_3", "Crank angle where cutting begins, return stroke",
-                      bind(common.same, quantity="dead_center_inner"), four_bar.crank_angle_return, "end"),
-        _cutting_edge("cut_end_return", "φ_4", "Crank angle where cutting ends, return stroke (counted on)",
-                      bind(motion.turn_later, angle="dead_center_outer"), four_bar.crank_angle_return, "begin"),
-    ),
-)  # fmt: skip
+cutting = Chapter("Cutting")
+cutting.require("board_below_radius", lambda material_thickness, cylinder_radius: material_thickness < cylinder_radius, key="material_thickness",
+                message="is {material_thickness}, but the board must be thinner than the cylinder's radius {cylinder_radius}")
+cutting.value("cutting_length", "b", "mm", "Cutting length along the motion", motion.cutting_length, source="000, after eq. 19")
+cutting.value("rolling_arm", "k", "mm", "Arm of the rolling resistance",
+              lambda rolling_coefficient, cutting_length: rolling_coefficient * cutting_length, source="000, after eq. 19")
+cutting.value("cutting_force", "P_m", "kN", "Force of cutting and ejection",
+              lambda cutting_force_per_length, ejection_force_per_length, cylinder_length:
+                  (cutting_force_per_length + ejection_force_per_length) * cylinder_length, source="000 eq. 18")
+cutting.value("cutting_moment", "M_m", "N*m", "Moment of the technological load", lambda cutting_force, rolling_arm: cutting_force * rolling_arm,
+              source="000 eq. 19")
+cutting.value("cut_begin_swing", "δ_1", "deg", "Rocker angle where cutting begins (forward)",
+              lambda swing_angle, cutting_arc_fraction: swing_angle * (1 - cutting_arc_fraction) / 2, output=False)
+cutting.value("cut_end_swing", "δ_2", "deg", "Rocker angle where cutting ends (forward)",
+              lambda swing_angle, cutting_arc_fraction: swing_angle * (1 + cutting_arc_fraction) / 2, output=False)
+cutting.value("cut_begin_direction", "β_1", "deg", "Direction of the rocker there",
+              lambda outer_direction, cut_begin_swing: outer_direction + cut_begin_swing, output=False)
+cutting.value("cut_begin_distance", "q_1", "1", "Distance of the rocker's joint from the crank's pivot there, in crank lengths",
+              bind(four_bar.joint_distance, rocker_direction="cut_begin_direction"), output=False)
+cutting.value("cut_end_direction", "β_2", "deg", "Direction of the rocker there",
+              lambda outer_direction, cut_end_swing: outer_direction + cut_end_swing, output=False)
+cutting.value("cut_end_distance", "q_2", "1", "Distance of the rocker's joint from the crank's pivot there, in crank lengths",
+              bind(four_bar.joint_distance, rocker_direction="cut_end_direction"), output=False)
+cutting.add(_cutting_edge("cut_begin_forward", "φ_1", "Crank angle where cutting begins, forward stroke",
+                          bind(common.same, quantity="dead_center_outer"), four_bar.crank_angle_forward, "begin"))
+cutting.add(_cutting_edge("cut_end_forward", "φ_2", "Crank angle where cutting ends, forward stroke", bind(common.same, quantity="dead_center_inner"),
+                          four_bar.crank_angle_forward, "end"))
+cutting.add(_cutting_edge("cut_begin_return", "φ_3", "Crank angle where cutting begins, return stroke",
+                          bind(common.same, quantity="dead_center_inner"), four_bar.crank_angle_return, "end"))
+cutting.add(_cutting_edge("cut_end_return", "φ_4", "Crank angle where cutting ends, return stroke (counted on)",
+                          bind(motion.turn_later, angle="dead_center_outer"), four_bar.crank_angle_return, "begin"))
 
-KINEMATICS = Chapter(
-    "Kinematics over a turn of the crank",
-    steps=(
-        Abscissa(id="crank_angle", symbol="φ", unit="deg", description="Crank angle from the frame line", period=2 * np.pi, intervals=32,
-                 shown_at="crank_torque_peak_at"),
-        Breakpoints(id="strokes", abscissa="crank_angle", places=(
-            "dead_center_outer", "dead_center_inner", "cut_begin_forward", "cut_end_forward", "cut_begin_return", "cut_end_return")),
-        Value(id="diagonal", symbol="D", description="Distance of the crank pin from the rocker's pivot, in crank lengths",
-              source="000 eq. 3, corrected", output=False, formula=four_bar.diagonal),
-        Value(id="diagonal_direction", symbol="γ_1", unit="deg", description="Direction from the rocker's pivot to the crank pin",
-              source="000 eq. 2, over the full turn", output=False, formula=four_bar.diagonal_direction),
-        Value(id="pin_angle", symbol="γ_2", unit="deg", description="Angle at the crank pin between diagonal and coupler",
-              source="000 eq. 3, corrected", output=False, formula=four_bar.pin_angle),
-        Value(id="transmission_angle", symbol="μ", unit="deg", description="Transmission angle", source="000 eq. 4, corrected",
-              formula=four_bar.transmission_angle),
-        Value(id="coupler_direction", symbol="γ", unit="deg", description="Direction of the coupler", source="000, after eq. 6",
-              output=False, formula=four_bar.coupler_direction),
-        Value(id="rocker_direction", symbol="β", unit="deg", description="Direction of the rocker", source="000, after eq. 6",
-              output=False, formula=four_bar.rocker_direction),
-        Value(id="rocker_angle", symbol="δ", unit="deg", description="Rocker angle from its outer dead centre", source="000 eq. 1",
-              formula=bind(common.difference, greater="rocker_direction", smaller="outer_direction")),
-        Value(id="rocker_speed_ratio", symbol="ω_3i", description="Angular speed of the rocker to the crank's", source="000 eq. 6",
-              output=False, formula=four_bar.rocker_speed_ratio),
-        Value(id="coupler_speed_ratio", symbol="ω_2i", description="Angular speed of the coupler to the crank's",
-              source="000, after eq. 7", output=False, formula=four_bar.coupler_speed_ratio),
-        Value(id="rocker_acceleration_ratio", symbol="ε_3i",
-              description="Angular acceleration of the rocker to the crank's speed squared", source="000 eq. 7", output=False,
-              formula=four_bar.rocker_acceleration_ratio),
-        Value(id="displacement", symbol="S", unit="mm", description="Displacement of the cylinder", source="000 eq. 8",
-              formula=bind(motion.rolled, angle="rocker_angle")),
-        Value(id="velocity", symbol="V", unit="m/s", description="Velocity of the cylinder", source="000 eq. 9",
-              formula=bind(motion.rolled_rate, ratio="rocker_speed_ratio")),
-        Value(id="acceleration", symbol="W", unit="m/s**2", description="Acceleration of the cylinder", source="000 eq. 10",
-              formula=bind(motion.rolled_acceleration, ratio="rocker_acceleration_ratio")),
-        Value(id="cylinder_rotation", symbol="θ", unit="deg", description="Rotation of the cylinder", source="000 eq. 8", output=False,
-              formula=bind(motion.rotation)),
-        Value(id="cylinder_speed", symbol="ω_c", unit="rad/s", description="Angular speed of the cylinder", source="000, after eq. 12",
-              output=False, formula=bind(motion.cylinder_rate, ratio="rocker_speed_ratio")),
-        Value(id="cylinder_acceleration", symbol="ε_c", unit="rad/s**2", description="Angular acceleration of the cylinder",
-              source="000, after eq. 12", output=False, formula=bind(motion.cylinder_acceleration, ratio="rocker_acceleration_ratio")),
-        Reduction(id="velocity_max", symbol="V_max", unit="m/s", description="Greatest speed of the cylinder", of="velocity",
-                  operation="abs_max"),
-        Reduction(id="acceleration_max", symbol="W_max", unit="m/s**2", description="Greatest acceleration of the cylinder",
-                  of="acceleration", operation="abs_max"),
-    ),
-)  # fmt: skip
+kinematics = Chapter("Kinematics over a turn of the crank")
+kinematics.abscissa("crank_angle", "φ", "deg", "Crank angle from the frame line", 2 * np.pi, shown_at="crank_torque_peak_at", intervals=32)
+kinematics.breakpoints("strokes", "crank_angle", "dead_center_outer", "dead_center_inner", "cut_begin_forward", "cut_end_forward", "cut_begin_return",
+                       "cut_end_return")
+kinematics.value("diagonal", "D", "1", "Distance of the crank pin from the rocker's pivot, in crank lengths", four_bar.diagonal,
+                 source="000 eq. 3, corrected", output=False)
+kinematics.value("diagonal_direction", "γ_1", "deg", "Direction from the rocker's pivot to the crank pin", four_bar.diagonal_direction,
+                 source="000 eq. 2, over the full turn", output=False)
+kinematics.value("pin_angle", "γ_2", "deg", "Angle at the crank pin between diagonal and coupler", four_bar.pin_angle, source="000 eq. 3, corrected",
+                 output=False)
+kinematics.value("transmission_angle", "μ", "deg", "Transmission angle", four_bar.transmission_angle, source="000 eq. 4, corrected")
+kinematics.value("coupler_direction", "γ", "deg", "Direction of the coupler", four_bar.coupler_direction, source="000, after eq. 6", output=False)
+kinematics.value("rocker_direction", "β", "deg", "Direction of the rocker", four_bar.rocker_direction, source="000, after eq. 6", output=False)
+kinematics.value("rocker_angle", "δ", "deg", "Rocker angle from its outer dead centre",
+                 lambda rocker_direction, outer_direction: rocker_direction - outer_direction, source="000 eq. 1")
+kinematics.value("rocker_speed_ratio", "ω_3i", "1", "Angular speed of the rocker to the crank's", four_bar.rocker_speed_ratio, source="000 eq. 6",
+                 output=False)
+kinematics.value("coupler_speed_ratio", "ω_2i", "1", "Angular speed of the coupler to the crank's", four_bar.coupler_speed_ratio,
+                 source="000, after eq. 7", output=False)
+kinematics.value("rocker_acceleration_ratio", "ε_3i", "1", "Angular acceleration of the rocker to the crank's speed squared",
+                 four_bar.rocker_acceleration_ratio, source="000 eq. 7", output=False)
+kinematics.value("displacement", "S", "mm", "Displacement of the cylinder", bind(motion.rolled, angle="rocker_angle"), source="000 eq. 8")
+kinematics.value("velocity", "V", "m/s", "Velocity of the cylinder",
+                 lambda rocker_speed_ratio, crank_speed, sector_ratio, cylinder_radius:
+                     rocker_speed_ratio * crank_speed * sector_ratio * cylinder_radius, source="000 eq. 9")
+kinematics.value("acceleration", "W", "m/s**2", "Acceleration of the cylinder",
+                 lambda rocker_acceleration_ratio, crank_speed, sector_ratio, cylinder_radius:
+                     rocker_acceleration_ratio * crank_speed ** 2 * sector_ratio * cylinder_radius, source="000 eq. 10")
+kinematics.value("cylinder_rotation", "θ", "deg", "Rotation of the cylinder", lambda rocker_angle, sector_ratio: rocker_angle * sector_ratio,
+                 source="000 eq. 8", output=False)
+kinematics.value("cylinder_speed", "ω_c", "rad/s", "Angular speed of the cylinder",
+                 lambda rocker_speed_ratio, crank_speed, sector_ratio: rocker_speed_ratio * crank_speed * sector_ratio, source="000, after eq. 12",
+                 output=False)
+kinematics.value("cylinder_acceleration", "ε_c", "rad/s**2", "Angular acceleration of the cylinder",
+                 lambda rocker_acceleration_ratio, crank_speed, sector_ratio: as_angle(rocker_acceleration_ratio * crank_speed ** 2) * sector_ratio,
+                 source="000, after eq. 12", output=False)
+kinematics.reduction("velocity_max", "V_max", "m/s", "Greatest speed of the cylinder", "abs_max", of="velocity")
+kinematics.reduction("acceleration_max", "W_max", "m/s**2", "Greatest acceleration of the cylinder", "abs_max", of="acceleration")
 
-TECHNOLOGICAL = (
-    Choice(id="technological_moment", symbol="M_t", unit="N*m", description="Moment of the technological load at this crank angle",
-           output=False, per_piece=True,
-           cases=(Case(bind(common.same, quantity="cutting_moment"), "the cylinder is on the cutting part of its stroke", motion.is_cutting),
-                  Case(bind(common.zero), "the flat is over the die: nothing is cut"))),
-    Value(id="direction", symbol="s", description="Direction of motion (+1 forward, −1 back)", output=False, per_piece=True,
-          formula=bind(motion.direction, rate="cylinder_speed")),
-)  # fmt: skip
+TECHNOLOGICAL = Steps()
+TECHNOLOGICAL.choice("technological_moment", "M_t", "N*m", "Moment of the technological load at this crank angle",
+                     case(lambda cutting_moment: cutting_moment, "the cylinder is on the cutting part of its stroke",
+                          lambda displacement, stroke, cutting_arc_fraction: abs(displacement - stroke / 2) <= cutting_arc_fraction * stroke / 2),
+                     case(lambda: 0, "the flat is over the die: nothing is cut"), output=False, per_piece=True)
+TECHNOLOGICAL.value("direction", "s", "1", "Direction of motion (+1 forward, −1 back)", lambda cylinder_speed: np.sign(cylinder_speed), output=False,
+                    per_piece=True)

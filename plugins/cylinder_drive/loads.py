@@ -38,31 +38,11 @@ def total_moment(inertia_moment: Any, technological_moment: Any, direction: Any)
 
 
 @formula
-def lossless_torque(sector_ratio: Any, rocker_speed_ratio: Any, total_moment: Any) -> Any:
-    """Torque at the crank without losses."""
-    return sector_ratio * rocker_speed_ratio * total_moment
-
-
-@formula
 def efficiency_behind_rocker(
     efficiency_sector: Any, efficiency_gear: Any, efficiency_chain: Any, efficiency_bearings: Any
 ) -> Any:
     """Efficiency from the rocker to the cylinder."""
     return efficiency_sector * efficiency_gear * efficiency_chain * efficiency_bearings
-
-
-@formula
-def efficiency_total(
-    efficiency_four_bar: Any,
-    efficiency_sector: Any,
-    efficiency_gear: Any,
-    efficiency_chain: Any,
-    efficiency_bearings: Any,
-) -> Any:
-    """Efficiency from the crank to the cylinder."""
-    return efficiency_four_bar * efficiency_behind_rocker(
-        efficiency_sector, efficiency_gear, efficiency_chain, efficiency_bearings
-    )
 
 
 @formula
@@ -84,45 +64,15 @@ def power(torque: Any, crank_speed: Any) -> Any:
 
 
 @formula
-def technological_work(cutting_arc_fraction: Any, cutting_moment: Any, sector_ratio: Any, swing_angle: Any) -> Any:
-    """Work of the technological moment over a turn of the crank, two strokes."""
-    return 2 * cutting_arc_fraction * cutting_moment * sector_ratio * swing_angle
-
-
-@formula
 def kinetic_energy(reduced_inertia: Any, velocity: Any, cylinder_radius: Any) -> Any:
     """Kinetic energy of the rolling cylinder at a speed of its axis."""
     return reduced_inertia * (velocity / cylinder_radius) ** 2 / 2
 
 
 @formula
-def energy_residual(energy: Any, work: Any, kinetic_energy: Any) -> Any:
-    """What the energy over a turn differs from the work, relative to the greater of work and kinetic energy."""
-    return abs(energy - work) / np.maximum(work, kinetic_energy)
-
-
-@formula
 def clear_rotation(half_angle: Any, carriage_clearance: Any, cylinder_radius: Any) -> Any:
     """Rotation from the flat's lowest position at which its lower edge still leaves the clearance."""
     return half_angle - arccos(1 - carriage_clearance / cylinder_radius)
-
-
-@formula
-def rocker_at_rotation(rotation: Any, sector_ratio: Any) -> Any:
-    """Rocker angle at a rotation of the cylinder."""
-    return rotation / sector_ratio
-
-
-@formula
-def rocker_before_turn(rotation: Any, sector_ratio: Any) -> Any:
-    """Rocker angle at a rotation before the cylinder's full turn."""
-    return (2 * np.pi - rotation) / sector_ratio
-
-
-@formula
-def turn_less(angle: Any) -> Any:
-    """The same crank angle a turn earlier."""
-    return angle - 2 * np.pi
 
 
 @formula
@@ -141,48 +91,6 @@ def length_of(ratio: Any, crank_length: Any) -> Any:
 def rocker_torque(sector_ratio: Any, total_moment: Any) -> Any:
     """Torque at the rocker without losses."""
     return sector_ratio * total_moment
-
-
-@formula
-def coupler_force(rocker_torque: Any, rocker_length: Any, transmission_angle: Any) -> Any:
-    """Force along the coupler, tension positive."""
-    return rocker_torque / (rocker_length * np.sin(transmission_angle))
-
-
-@formula
-def along_x(force: Any, direction: Any) -> Any:
-    """Component along the frame line."""
-    return force * np.cos(direction)
-
-
-@formula
-def along_y(force: Any, direction: Any) -> Any:
-    """Component square to the frame line."""
-    return force * np.sin(direction)
-
-
-@formula
-def tooth_force(total_moment: Any, pinion_radius: Any) -> Any:
-    """Tangential force between the teeth of sector and pinion."""
-    return total_moment / pinion_radius
-
-
-@formula
-def normal_force(tangential: Any, pressure_angle: Any) -> Any:
-    """Force square to the teeth's flanks."""
-    return tangential / np.cos(pressure_angle)
-
-
-@formula
-def radial_force(tangential: Any, pressure_angle: Any) -> Any:
-    """Force that presses sector and pinion apart."""
-    return tangential * np.tan(pressure_angle)
-
-
-@formula
-def sizes_added(first: Any, second: Any) -> Any:
-    """Sizes of two forces together: their resultant is not greater."""
-    return abs(first) + abs(second)
 
 
 @formula

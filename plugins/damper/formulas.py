@@ -15,21 +15,9 @@ SLENDEREST = 3.0  # length over smaller side up to which a block with clamped en
 
 
 @formula
-def rolling_energy(mass: Any, inertia: Any, rolling_radius: Any, velocity: Any) -> Any:
-    """Kinetic energy of what rolls without slip."""
-    return (mass + inertia / rolling_radius**2) * velocity**2 / 2
-
-
-@formula
 def gent_modulus(shore_hardness: Any) -> Any:
     """Elastic modulus of rubber from its Shore A hardness."""
     return GENT * (56 + 7.62336 * shore_hardness) / (0.137505 * (254 - 2.54 * shore_hardness))
-
-
-@formula
-def pad_area(ring_width: Any, pad_height: Any) -> Any:
-    """Compressed area of one damper."""
-    return ring_width * pad_height
 
 
 @formula
@@ -51,12 +39,6 @@ def stress(kinetic_energy: Any, elastic_modulus: Any, damper_count: Any, area: A
 
 
 @formula
-def strain(stress: Any, elastic_modulus: Any) -> Any:
-    """Strain by Hooke's law."""
-    return stress / elastic_modulus
-
-
-@formula
 def force(stress: Any, area: Any) -> Any:
     """Force on one damper."""
     return stress * area
@@ -75,93 +57,15 @@ def reduced_mass(kinetic_energy: Any, velocity: Any) -> Any:
 
 
 @formula
-def stop_time(deflection: Any, velocity: Any) -> Any:
-    """A quarter of the period of mass and spring."""
-    return as_number(np.pi) * deflection / (2 * velocity)
-
-
-@formula
-def peak_deceleration(damper_count: Any, peak_force: Any, reduced_mass: Any) -> Any:
-    """Deceleration by all dampers together at the greatest deflection."""
-    return damper_count * peak_force / reduced_mass
-
-
-@formula
-def is_missing(share: Any) -> Any:
-    """Whether no share is given: one that is given is not below zero."""
-    return share < 0
-
-
-@formula
-def loss_of_half_cycle(loss_tangent: Any) -> Any:
-    """Share of the energy that half a cycle with this loss tangent takes."""
-    return 1 - np.exp(-as_number(np.pi) * loss_tangent)
-
-
-@formula
-def rebound_velocity(velocity: Any, loss_fraction: Any) -> Any:
-    """Speed with what energy the impact leaves."""
-    return velocity * np.sqrt(1 - loss_fraction)
-
-
-@formula
 def half_the_sheets(productivity: Any) -> Any:
     """Impacts at one end of the travel: there and back are two sheets."""
     return productivity / 2
 
 
 @formula
-def heat_power(loss_fraction: Any, kinetic_energy: Any, impacts_per_hour: Any) -> Any:
-    """Heat that the dampers of one end have to give off."""
-    return loss_fraction * kinetic_energy * impacts_per_hour
-
-
-@formula
 def three_sides(side: Any) -> Any:
     """Length up to which a block with clamped ends does not buckle."""
     return 3 * side
-
-
-@formula
-def whole_steps(smaller_side: Any, length_step: Any) -> Any:
-    """Greatest multiple of the step up to which a block with clamped ends does not buckle."""
-    return length_step * np.floor(three_sides(smaller_side) / length_step + 1e-9)
-
-
-@formula
-def has_room_for(length_step: Any, smaller_side: Any) -> Any:
-    """Whether a block of one step does not buckle."""
-    return length_step <= three_sides(smaller_side)
-
-
-@formula
-def side_of_square(area: Any, free_length: Any) -> Any:
-    """Side of the square pad whose length, which falls with its area, is three sides."""
-    return (area * free_length / 3) ** (1 / 3)
-
-
-@formula
-def third(adopted_length: Any) -> Any:
-    """Side of the pad that does not buckle at a given length."""
-    return adopted_length / 3
-
-
-@formula
-def steady_count(damper_count: Any, free_length: Any, length_limit: Any) -> Any:
-    """Dampers of this pad that are short enough not to buckle."""
-    return np.ceil(damper_count * free_length / length_limit - 1e-9)
-
-
-@formula
-def steady_modulus(elastic_modulus: Any, free_length: Any, length_limit: Any) -> Any:
-    """Modulus of a rubber with which the dampers are short enough not to buckle."""
-    return elastic_modulus * length_limit / free_length
-
-
-@formula
-def force_of_torque(torque: Any, rolling_radius: Any) -> Any:
-    """Force on the axis of what rolls, from the torque about that axis."""
-    return torque / rolling_radius
 
 
 @formula
@@ -177,27 +81,9 @@ def driven_deflection(driving_force: Any, stiffness: Any, kinetic_energy: Any) -
 
 
 @formula
-def driving_work(driving_force: Any, driven_deflection: Any) -> Any:
-    """Work of a constant force over the deflection."""
-    return driving_force * driven_deflection
-
-
-@formula
 def driven_strain(driven_deflection: Any, adopted_length: Any) -> Any:
     """Strain of a deflection."""
     return driven_deflection / adopted_length
-
-
-@formula
-def driven_stress(elastic_modulus: Any, driven_strain: Any) -> Any:
-    """Stress by Hooke's law."""
-    return elastic_modulus * driven_strain
-
-
-@formula
-def driven_deceleration(damper_count: Any, driven_peak_force: Any, driving_force: Any, reduced_mass: Any) -> Any:
-    """Deceleration by the dampers less the drive."""
-    return (damper_count * driven_peak_force - driving_force) / reduced_mass
 
 
 @formula

@@ -22,8 +22,8 @@ MECHANISM = Mechanism(
     "Calculated are ratios, speeds, torques and powers of all shafts, the belt with a standard length, the motor and its run-up, the "
     "flywheel from the torque over a turn, and, where there is one, the toothed belt that rolls the cylinder.",
     inputs=DriveTrain,
-    chapters=(chain.SPEEDS, vbelt.VBELT, chain.EFFICIENCY, chain.TURN, chain.POWERS, chain.BALANCE, motor.MOTOR, vbelt.COUNT,
-              vbelt.TENSIONS, motor.FLYWHEEL, motor.RUN_UP, *TOOTHED_BELT),
+    chapters=(chain.speeds, vbelt.vbelt_chapter, chain.efficiency, chain.turn, chain.powers, chain.balance, motor.motor_chapter, vbelt.count,
+              vbelt.tensions, motor.flywheel, motor.run_up, *TOOTHED_BELT),
     key_results=("output_speed", "driven_diameter", "vbelt_standard_length", "center_distance", "vbelt_count", "power_required",
                  "motor_power", "energy_fluctuation", "flywheel_inertia", "flywheel_diameter", "flywheel_mass", "run_up_time",
                  "driving_pulley_radius", "toothed_belt_length", "toothed_belt_teeth"),

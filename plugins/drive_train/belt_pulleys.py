@@ -6,23 +6,10 @@ from typing import Any
 
 import numpy as np
 
-from diecut_report.api import (
-    ByText,
-    Chapter,
-    Check,
-    Clash,
-    Lookup,
-    Part,
-    Total,
-    Value,
-    Words,
-    arccos,
-    as_number,
-    bind,
-    formula,
-    told,
-)
+from diecut_report.api import ByText, Chapter, Check, Steps, arccos, as_number, bind, formula, told
 from diecut_report.mechanics import common
+
+# fmt: off
 
 PULLEYS = "toothed_belt.pulleys"
 PITCH = "toothed_belt.pitch"
@@ -48,16 +35,8 @@ def teeth_apart(radius: Any, other: Any, pitch: Any) -> Any:
     return as_number(2 * np.pi) * abs(radius - other) / pitch
 
 
-@formula
-def farthest(toothed: Any, difference: Any, greatest: Any) -> Any:
-    """Above zero for the toothed pulleys whose difference is the greatest."""
-    return np.minimum(toothed, difference - greatest + 1e-9)
 
 
-@formula
-def height_of_wrap(side: Any, direction: Any, wrap: Any) -> Any:
-    """Height over the pulley's axis, in radii, of the middle of its wrap."""
-    return -side * np.cos(direction + side * wrap / 2)
 
 
 @formula
@@ -89,70 +68,59 @@ def pitch_advice(pitch: float, fewest: float) -> str:
 
 IS_MARKED = bind(common.is_positive, quantity="cylinder_pulley_there")
 
-LISTED = Chapter(
-    "Toothed belt: pulleys of the list",
-    needs=("toothed_belt", PULLEYS),
-    absent=f"not calculated: {PULLEYS} is not given",
-    text="The first pulley of the list is the driving one; the one with role: cylinder is fixed to the cylinder (κ = 1, else −1). Teeth "
-    "(τ = 1) have all pulleys inside the loop, and the cylinder's; any other outside pulley runs on the back of the belt and is smooth. "
-    "The y axis points up, and the die lies below the cylinder: the belt passes over the cylinder's pulley with engagement: away, below "
-    "it with engagement: die.",
-    steps=(
-        Value(id="pulley_teeth", symbol="n_z", description="Teeth of the circumference", source="geometry", digits=6, output=False,
-              formula=bind(teeth_around, radius=f"{PULLEYS}.radius", pitch=PITCH)),
-        Value(id="pulley_whole_radius", symbol="r_z", unit="mm", description="Pitch radius of the nearest whole number of teeth",
-              source="geometry", digits=6, output=False, formula=bind(whole_radius, radius=f"{PULLEYS}.radius", pitch=PITCH)),
-        Value(id="pulley_teeth_off", symbol="Δz", description="Difference in teeth", source="this method", output=False,
-              formula=bind(teeth_apart, radius=f"{PULLEYS}.radius", other="pulley_whole_radius", pitch=PITCH)),
-        Clash(id="one_cylinder_pulley", function=next_marked, takes=("is_cylinder_pulley",), key=f"{PULLEYS}",
-              message="pulleys {part} and {other} both have role: cylinder, but one is fixed to the cylinder; give the others role: other"),
-        Total(id="pulley_teeth_off_max", symbol="Δz_max", description="Greatest difference of the toothed pulleys", source="this method",
-              output=False, of="pulley_teeth_off", operation="max", among="has_teeth"),
-        Value(id="is_farthest", symbol="φ_z", description="Above 0: the pulley with this difference", output=False, source="this method",
-              formula=bind(farthest, toothed="has_teeth", difference="pulley_teeth_off", greatest="pulley_teeth_off_max")),
-        Total(id="farthest_radius", symbol="r_f", unit="mm", description="Its radius", digits=6, output=False, of=f"{PULLEYS}.radius",
-              operation="min", among="is_farthest"),
-        Total(id="farthest_teeth", symbol="n_f", description="Its teeth", digits=6, output=False, of="pulley_teeth", operation="min",
-              among="is_farthest"),
-        Total(id="farthest_whole_radius", symbol="r_zf", unit="mm", description="Its radius with whole teeth", digits=6, output=False,
-              of="pulley_whole_radius", operation="min", among="is_farthest"),
-        Part(id="first_radius", symbol="r_1st", unit="mm", description="Radius of the first pulley, which drives", digits=6, output=False,
-             of=f"{PULLEYS}.radius", index=0),
-        Value(id="driving_teeth_off", symbol="Δz_p", description="Difference of the first pulley from the driving one, in teeth",
-              source="this method", output=False,
-              formula=bind(teeth_apart, radius="first_radius", other="driving_pulley_pitch_radius", pitch=PITCH)),
-        Value(id="driven_whole_radius", symbol="r_dz", unit="mm", description="Radius r_d with the nearest whole number of teeth", digits=6,
-              source="geometry", output=False, formula=bind(whole_radius, radius="toothed_belt.driven_radius", pitch=PITCH)),
-        Total(id="cylinder_pulley_there", symbol="κ_max", description="Whether the list has the cylinder's pulley: 1, else −1",
-              output=False, of="is_cylinder_pulley", operation="max"),
-        Total(id="cylinder_pulley_radius", symbol="r_c", unit="mm", description="Radius of the cylinder's pulley in the list", digits=6,
-              output=False, of=f"{PULLEYS}.radius", operation="sum", among="is_cylinder_pulley"),
-        Value(id="cylinder_teeth_off", symbol="Δz_d", description="Difference of it from r_d, in teeth", source="this method",
-              output=False, exists=IS_MARKED,
-              formula=bind(teeth_apart, radius="cylinder_pulley_radius", other="toothed_belt.driven_radius", pitch=PITCH)),
-        Total(id="cylinder_pulley_side", symbol="σ_c", description="Side of the cylinder's pulley", output=False, of="pulley_side",
-              operation="sum", among="is_cylinder_pulley"),
-        Total(id="cylinder_direction_before", symbol="θ_c", unit="deg", description="Direction of the run before it", output=False,
-              of="direction_before", operation="sum", among="is_cylinder_pulley"),
-        Total(id="cylinder_wrap", symbol="α_c", unit="deg", description="Its wrap", output=False, of="wraps", operation="sum",
-              among="is_cylinder_pulley"),
-        Value(id="cylinder_wrap_height", symbol="h_c", description="Height of the middle of its wrap over the axis, to the radius",
-              output=False, source="geometry", exists=IS_MARKED,
-              formula=bind(height_of_wrap, side="cylinder_pulley_side", direction="cylinder_direction_before", wrap="cylinder_wrap")),
-        Value(id="engagement_angle", symbol="γ", unit="deg", description="Angle of the wrap's middle from the side of engagement",
-              source="geometry", output=False, exists=IS_MARKED,
-              formula=ByText("toothed_belt.engagement", {"away": angle_from_top, "die": angle_from_bottom}, height="cylinder_wrap_height")),
-        Words(id="pitch_advice", description="The pitch that puts enough teeth into mesh", function=pitch_advice, output=False,
-              takes=(PITCH, "teeth_in_mesh_min")),
-    ),
-)  # fmt: skip
+listed = Chapter("Toothed belt: pulleys of the list",
+                 text="The first pulley of the list is the driving one; the one with role: cylinder is fixed to the cylinder (κ = 1, else −1). "
+                      "Teeth (τ = 1) have all pulleys inside the loop, and the cylinder's; any other outside pulley runs on the back of the belt "
+                      "and is smooth. The y axis points up, and the die lies below the cylinder: the belt passes over the cylinder's pulley with "
+                      "engagement: away, below it with engagement: die.", needs=("toothed_belt", PULLEYS),
+                 absent=f"not calculated: {PULLEYS} is not given")
+listed.value("pulley_teeth", "n_z", "1", "Teeth of the circumference", bind(teeth_around, radius=f"{PULLEYS}.radius", pitch=PITCH), source="geometry",
+             digits=6, output=False)
+listed.value("pulley_whole_radius", "r_z", "mm", "Pitch radius of the nearest whole number of teeth",
+             bind(whole_radius, radius=f"{PULLEYS}.radius", pitch=PITCH), source="geometry", digits=6, output=False)
+listed.value("pulley_teeth_off", "Δz", "1", "Difference in teeth",
+             bind(teeth_apart, radius=f"{PULLEYS}.radius", other="pulley_whole_radius", pitch=PITCH), source="this method", output=False)
+listed.clash("one_cylinder_pulley", next_marked, ("is_cylinder_pulley",), key=f"{PULLEYS}",
+             message="pulleys {part} and {other} both have role: cylinder, but one is fixed to the cylinder; give the others role: other")
+listed.total("pulley_teeth_off_max", "Δz_max", "1", "Greatest difference of the toothed pulleys", "max", of="pulley_teeth_off", among="has_teeth",
+             source="this method", output=False)
+listed.value("is_farthest", "φ_z", "1", "Above 0: the pulley with this difference",
+             lambda has_teeth, pulley_teeth_off, pulley_teeth_off_max: np.minimum(has_teeth, pulley_teeth_off - pulley_teeth_off_max + 1e-09),
+             output=False, source="this method")
+listed.total("farthest_radius", "r_f", "mm", "Its radius", "min", of=f"{PULLEYS}.radius", among="is_farthest", digits=6, output=False)
+listed.total("farthest_teeth", "n_f", "1", "Its teeth", "min", of="pulley_teeth", among="is_farthest", digits=6, output=False)
+listed.total("farthest_whole_radius", "r_zf", "mm", "Its radius with whole teeth", "min", of="pulley_whole_radius", among="is_farthest", digits=6,
+             output=False)
+listed.part("first_radius", "r_1st", "mm", "Radius of the first pulley, which drives", of=f"{PULLEYS}.radius", index=0, digits=6, output=False)
+listed.value("driving_teeth_off", "Δz_p", "1", "Difference of the first pulley from the driving one, in teeth",
+             bind(teeth_apart, radius="first_radius", other="driving_pulley_pitch_radius", pitch=PITCH), source="this method", output=False)
+listed.value("driven_whole_radius", "r_dz", "mm", "Radius r_d with the nearest whole number of teeth",
+             bind(whole_radius, radius="toothed_belt.driven_radius", pitch=PITCH), digits=6, source="geometry", output=False)
+listed.total("cylinder_pulley_there", "κ_max", "1", "Whether the list has the cylinder's pulley: 1, else −1", "max", of="is_cylinder_pulley",
+             output=False)
+listed.total("cylinder_pulley_radius", "r_c", "mm", "Radius of the cylinder's pulley in the list", "sum", of=f"{PULLEYS}.radius",
+             among="is_cylinder_pulley", digits=6, output=False)
+listed.value("cylinder_teeth_off", "Δz_d", "1", "Difference of it from r_d, in teeth",
+             bind(teeth_apart, radius="cylinder_pulley_radius", other="toothed_belt.driven_radius", pitch=PITCH), source="this method", output=False,
+             exists=IS_MARKED)
+listed.total("cylinder_pulley_side", "σ_c", "1", "Side of the cylinder's pulley", "sum", of="pulley_side", among="is_cylinder_pulley", output=False)
+listed.total("cylinder_direction_before", "θ_c", "deg", "Direction of the run before it", "sum", of="direction_before", among="is_cylinder_pulley",
+             output=False)
+listed.total("cylinder_wrap", "α_c", "deg", "Its wrap", "sum", of="wraps", among="is_cylinder_pulley", output=False)
+listed.value("cylinder_wrap_height", "h_c", "1", "Height of the middle of its wrap over the axis, to the radius",
+             lambda cylinder_pulley_side, cylinder_direction_before, cylinder_wrap:
+                 -cylinder_pulley_side * np.cos(cylinder_direction_before + cylinder_pulley_side * cylinder_wrap / 2), output=False,
+             source="geometry", exists=IS_MARKED)
+listed.value("engagement_angle", "γ", "deg", "Angle of the wrap's middle from the side of engagement",
+             ByText("toothed_belt.engagement", {"away": angle_from_top, "die": angle_from_bottom}, height="cylinder_wrap_height"), source="geometry",
+             output=False, exists=IS_MARKED)
+listed.words("pitch_advice", pitch_advice, (PITCH, "teeth_in_mesh_min"), output=False)
 
-MARKS = (
-    Lookup(id="is_cylinder_pulley", symbol="κ", description="Cylinder's pulley: 1, another one: −1", source="this method", output=False,
-           by=f"{PULLEYS}.role", table={"cylinder": 1.0, "other": -1.0}),
-    Value(id="has_teeth", symbol="τ", description="Pulley with teeth: 1, smooth: −1", source="this method", output=False,
-          formula=bind(common.greater_of, first="pulley_side", second="is_cylinder_pulley")),
-)  # fmt: skip
+MARKS = Steps()
+MARKS.lookup("is_cylinder_pulley", "κ", "1", "Cylinder's pulley: 1, another one: −1", {"cylinder": 1.0, "other": -1.0}, by=f"{PULLEYS}.role",
+             source="this method", output=False)
+MARKS.value("has_teeth", "τ", "1", "Pulley with teeth: 1, smooth: −1",
+            lambda pulley_side, is_cylinder_pulley: np.maximum(pulley_side, is_cylinder_pulley), source="this method", output=False)
 
 LISTED_CHECKS = (
     Check(id="teeth_in_mesh", title="Teeth in mesh", demand=FEWEST_IN_MESH, limit="teeth_in_mesh_min", unit="1", demand_label="required",
@@ -174,4 +142,4 @@ LISTED_CHECKS = (
           severity="warn", demand_label="difference in teeth", limit_label="accepted", source="this method",
           consequence="toothed_belt.driven_radius and the radius of the pulley with role: cylinder, {cylinder_pulley_radius}, are of one "
           "pulley; give both {driven_whole_radius}."),
-)  # fmt: skip
+)

@@ -11,18 +11,6 @@ from diecut_report.mechanics import belt_path
 
 
 @formula
-def smaller_radius(driver_diameter: Any, driven_diameter: Any) -> Any:
-    """Radius of the smaller pulley."""
-    return np.minimum(driver_diameter, driven_diameter) / 2
-
-
-@formula
-def larger_radius(driver_diameter: Any, driven_diameter: Any) -> Any:
-    """Radius of the larger pulley."""
-    return np.maximum(driver_diameter, driven_diameter) / 2
-
-
-@formula
 def rim_speed(speed: Any, diameter: Any) -> Any:
     """Speed at the circumference."""
     return speed * diameter / 2
@@ -65,24 +53,6 @@ def has_belt(ratio: Any, largest: Any, shortest: Any, length: Any, longest: Any)
 
 
 @formula
-def count(power: Any, power_per_belt: Any) -> Any:
-    """Number of belts, one at least."""
-    return np.maximum(1, np.ceil(power / power_per_belt))
-
-
-@formula
 def tension_ratio(groove_friction: Any, wrap: Any) -> Any:
     """Ratio of the tensions of the tight and the slack side (Euler, with the friction of the groove)."""
     return np.exp(groove_friction * as_number(wrap))
-
-
-@formula
-def tight(pull: Any, tension_ratio: Any) -> Any:
-    """Tension of the tight side, apart from the centrifugal force."""
-    return pull * tension_ratio / (tension_ratio - 1)
-
-
-@formula
-def slack(pull: Any, tension_ratio: Any) -> Any:
-    """Tension of the slack side, apart from the centrifugal force."""
-    return pull / (tension_ratio - 1)

@@ -2,9 +2,13 @@
 
 from __future__ import annotations
 
-from diecut_report.api import Chapter, Lookup, Pick, Require, Root, Value, Words, bind, standard_table
-from diecut_report.mechanics import belt_path, common, triangle
+import numpy as np
+
+from diecut_report.api import Chapter, bind, standard_table
+from diecut_report.mechanics import belt_path, triangle
 from diecut_report.plugins.drive_train import advice, belts
+
+# fmt: off
 
 PULLEYS = {"small": "small_radius", "large": "large_radius"}
 LARGEST: dict[str, str | float] = {"ratio": "vbelt_ratio", "largest": advice.LARGEST_RATIO}
@@ -19,96 +23,78 @@ RATIO_TOO_GREAT = (
     "{motor_speed} to output_speed = {inputs.output_speed} it is {total_ratio}, of which the gears have {gear_ratio_total}; {gears_advice}"
 )
 FOR_PULLEYS = ("vbelt_ratio", "vbelt.driver_diameter", "least_driver_diameter", "vbelt.center_distance", "shortest_belt", "longest_belt",
-               "shaft_1_speed")  # fmt: skip
+               "shaft_1_speed")
 
-VBELT = Chapter(
-    "V-belt",
-    text="The belt's length follows exactly from its two runs and two arcs. The nearest standard length corrects the distance of the "
-    "shafts. Radii are those of the datum line.",
-    steps=(
-        Lookup(id="least_driver_diameter", symbol="d_min", unit="mm", description="Least datum diameter of the section's pulleys",
-               source="ISO 4183", output=False, by="vbelt.section", table=standard_table("vbelt_least_diameter")),
-        Value(id="vbelt_speed", symbol="v", unit="m/s", description="Speed of the belt", source="kinematics",
-              formula=bind(belts.rim_speed, speed="shaft_1_speed", diameter="vbelt.driver_diameter")),
-        Value(id="small_radius", symbol="r_1", unit="mm", description="Radius of the smaller pulley", output=False,
-              formula=bind(belts.smaller_radius, driver_diameter="vbelt.driver_diameter")),
-        Value(id="large_radius", symbol="r_2", unit="mm", description="Radius of the larger pulley", output=False,
-              formula=bind(belts.larger_radius, driver_diameter="vbelt.driver_diameter")),
-        Value(id="least_center_distance", symbol="a_min", unit="mm", description="Distance at which the pulleys touch", output=False,
-              formula=bind(common.sum_of, first="small_radius", second="large_radius")),
-        Lookup(id="shortest_belt", symbol="L_min", unit="mm", description="Shortest standard belt of the section", source="ISO 4184",
-               output=False, by="vbelt.section", table={name: series.values[0] for name, series in advice.LENGTHS.items()}),
-        Lookup(id="longest_belt", symbol="L_max", unit="mm", description="Longest standard belt of the section", source="ISO 4184",
-               output=False, by="vbelt.section", table={name: series.values[-1] for name, series in advice.LENGTHS.items()}),
-        Words(id="gears_advice", description="Which ratio the gears need", function=advice.gears_advice, output=False,
-              takes=("total_ratio", "vbelt.driver_diameter", "vbelt.center_distance", "shortest_belt", "longest_belt")),
-        Words(id="distance_advice", description="Which distances of the shafts suit the pulleys", function=advice.distance_advice,
-              output=False, takes=("small_radius", "large_radius", "shortest_belt", "longest_belt")),
-        Require(id="ratio_leaves_room", condition=bind(belts.ratio_leaves_room, least="least_center_distance", **RATIO), key="gears",
-                message=RATIO_TOO_GREAT),
-        Require(id="driver_large_enough",
-                condition=bind(common.is_at_most, smaller="least_driver_diameter", greater="vbelt.driver_diameter"),
-                key="vbelt.driver_diameter",
-                message="is {vbelt.driver_diameter}, but a belt of section {vbelt.section} needs pulleys of {least_driver_diameter} or more: "
-                "take a larger pulley or a smaller section"),
-        Require(id="pulleys_apart", condition=bind(belts.has_room, least="least_center_distance", **RATIO), key="vbelt.center_distance",
-                message="is {vbelt.center_distance}, but pulleys of {vbelt.driver_diameter} and {driven_diameter} overlap up to "
-                "{least_center_distance:up}: {distance_advice}"),
-        Value(id="vbelt_length", symbol="L_0", unit="mm", description="Length of the belt at the wanted distance of the shafts",
-              source="geometry", formula=bind(belt_path.open_belt_length, center_distance="vbelt.center_distance", **PULLEYS)),
-        Require(id="ratio_leaves_belt", condition=bind(belts.ratio_leaves_belt, **RANGE), key="gears", message=RATIO_TOO_GREAT),
-        Require(id="belt_exists", condition=bind(belts.has_belt, **RANGE), key="vbelt.center_distance",
-                message="is {vbelt.center_distance}; that takes a belt of {vbelt_length}, but section {vbelt.section} has standard lengths of "
-                "{shortest_belt} … {longest_belt}: {distance_advice}"),
-        Pick(id="vbelt_standard_length", symbol="L", unit="mm", description="Standard length of the belt", source="ISO 4184",
-             of="vbelt_length", series=advice.LENGTHS, by="vbelt.section", rule="nearest"),
-        Value(id="least_belt", symbol="L_t", unit="mm", description="Length of the belt with the pulleys touching", output=False,
-              formula=bind(belt_path.open_belt_length, center_distance="least_center_distance", **PULLEYS)),
-        Require(id="standard_belt_fits", condition=bind(common.is_below, smaller="least_belt", greater="vbelt_standard_length"),
-                key="vbelt.center_distance",
-                message="is {vbelt.center_distance}; the nearest standard belt, {vbelt_standard_length} long, draws the pulleys into each "
-                "other ({least_belt:up} is the least): {distance_advice}"),
-        Root(id="center_distance", symbol="a", unit="mm", description="Distance of the shafts, corrected for the standard belt",
-             source="geometry", equation=bind(belts.length_left_over, belt="vbelt_standard_length", **PULLEYS),
-             unknown="center_distance", low=bind(common.same, quantity="least_center_distance"),
-             high=bind(common.half, quantity="vbelt_standard_length"),
-             left=bind(belt_path.run_length, radius="small_radius", next_radius="large_radius"),
-             right=bind(belts.run_left_by_arcs, belt="vbelt_standard_length", **PULLEYS)),
-        Value(id="vbelt_wrap", symbol="β_1", unit="deg", description="Wrap on the smaller pulley", source="geometry",
-              formula=bind(belt_path.wrap_small, **PULLEYS)),
-        Value(id="vbelt_wrap_large", symbol="β_2", unit="deg", description="Wrap on the larger pulley", source="geometry", output=False,
-              formula=bind(belt_path.wrap_large, wrap_small="vbelt_wrap")),
-        Words(id="driver_advice", description="How the motor's pulley would meet the demanded speed", function=advice.driver_advice,
-              output=False, takes=FOR_PULLEYS),
-        Words(id="slower_belt_advice", description="How the motor's pulley would make the belt slower", function=advice.slower_belt_advice,
-              output=False, takes=FOR_PULLEYS),
-    ),
-)  # fmt: skip
+vbelt_chapter = Chapter("V-belt",
+                        text="The belt's length follows exactly from its two runs and two arcs. The nearest standard length corrects the distance "
+                             "of the shafts. Radii are those of the datum line.")
+vbelt_chapter.lookup("least_driver_diameter", "d_min", "mm", "Least datum diameter of the section's pulleys", standard_table("vbelt_least_diameter"),
+                     by="vbelt.section", source="ISO 4183", output=False)
+vbelt_chapter.value("vbelt_speed", "v", "m/s", "Speed of the belt", bind(belts.rim_speed, speed="shaft_1_speed", diameter="vbelt.driver_diameter"),
+                    source="kinematics")
+vbelt_chapter.value("small_radius", "r_1", "mm", "Radius of the smaller pulley",
+                    bind(lambda driver_diameter, driven_diameter: np.minimum(driver_diameter, driven_diameter) / 2,
+                         driver_diameter="vbelt.driver_diameter"), output=False)
+vbelt_chapter.value("large_radius", "r_2", "mm", "Radius of the larger pulley",
+                    bind(lambda driver_diameter, driven_diameter: np.maximum(driver_diameter, driven_diameter) / 2,
+                         driver_diameter="vbelt.driver_diameter"), output=False)
+vbelt_chapter.value("least_center_distance", "a_min", "mm", "Distance at which the pulleys touch",
+                    lambda small_radius, large_radius: small_radius + large_radius, output=False)
+vbelt_chapter.lookup("shortest_belt", "L_min", "mm", "Shortest standard belt of the section",
+                     {name: series.values[0] for name, series in advice.LENGTHS.items()}, by="vbelt.section", source="ISO 4184", output=False)
+vbelt_chapter.lookup("longest_belt", "L_max", "mm", "Longest standard belt of the section",
+                     {name: series.values[-1] for name, series in advice.LENGTHS.items()}, by="vbelt.section", source="ISO 4184", output=False)
+vbelt_chapter.words("gears_advice", advice.gears_advice,
+                    ("total_ratio", "vbelt.driver_diameter", "vbelt.center_distance", "shortest_belt", "longest_belt"), output=False)
+vbelt_chapter.words("distance_advice", advice.distance_advice, ("small_radius", "large_radius", "shortest_belt", "longest_belt"), output=False)
+vbelt_chapter.require("ratio_leaves_room", bind(belts.ratio_leaves_room, least="least_center_distance", **RATIO), key="gears",
+                      message=RATIO_TOO_GREAT)
+vbelt_chapter.require("driver_large_enough",
+                      bind(lambda least_driver_diameter, driver_diameter: least_driver_diameter <= driver_diameter,
+                           driver_diameter="vbelt.driver_diameter"), key="vbelt.driver_diameter",
+                      message="is {vbelt.driver_diameter}, but a belt of section {vbelt.section} needs pulleys of {least_driver_diameter} or more: "
+                              "take a larger pulley or a smaller section")
+vbelt_chapter.require("pulleys_apart", bind(belts.has_room, least="least_center_distance", **RATIO), key="vbelt.center_distance",
+                      message="is {vbelt.center_distance}, but pulleys of {vbelt.driver_diameter} and {driven_diameter} overlap up to "
+                              "{least_center_distance:up}: {distance_advice}")
+vbelt_chapter.value("vbelt_length", "L_0", "mm", "Length of the belt at the wanted distance of the shafts",
+                    bind(belt_path.open_belt_length, center_distance="vbelt.center_distance", **PULLEYS), source="geometry")
+vbelt_chapter.require("ratio_leaves_belt", bind(belts.ratio_leaves_belt, **RANGE), key="gears", message=RATIO_TOO_GREAT)
+vbelt_chapter.require("belt_exists", bind(belts.has_belt, **RANGE), key="vbelt.center_distance",
+                      message="is {vbelt.center_distance}; that takes a belt of {vbelt_length}, but section {vbelt.section} has standard lengths "
+                              "of {shortest_belt} … {longest_belt}: {distance_advice}")
+vbelt_chapter.pick("vbelt_standard_length", "L", "mm", "Standard length of the belt", "nearest", of="vbelt_length", series=advice.LENGTHS,
+                   source="ISO 4184", by="vbelt.section")
+vbelt_chapter.value("least_belt", "L_t", "mm", "Length of the belt with the pulleys touching",
+                    bind(belt_path.open_belt_length, center_distance="least_center_distance", **PULLEYS), output=False)
+vbelt_chapter.require("standard_belt_fits", lambda least_belt, vbelt_standard_length: least_belt < vbelt_standard_length, key="vbelt.center_distance",
+                      message="is {vbelt.center_distance}; the nearest standard belt, {vbelt_standard_length} long, draws the pulleys into each "
+                              "other ({least_belt:up} is the least): {distance_advice}")
+vbelt_chapter.root("center_distance", "a", "mm", "Distance of the shafts, corrected for the standard belt",
+                   bind(belts.length_left_over, belt="vbelt_standard_length", **PULLEYS), low=lambda least_center_distance: least_center_distance,
+                   high=lambda vbelt_standard_length: vbelt_standard_length / 2,
+                   left=bind(belt_path.run_length, radius="small_radius", next_radius="large_radius"),
+                   right=bind(belts.run_left_by_arcs, belt="vbelt_standard_length", **PULLEYS), source="geometry")
+vbelt_chapter.value("vbelt_wrap", "β_1", "deg", "Wrap on the smaller pulley", bind(belt_path.wrap_small, **PULLEYS), source="geometry")
+vbelt_chapter.value("vbelt_wrap_large", "β_2", "deg", "Wrap on the larger pulley", bind(belt_path.wrap_large, wrap_small="vbelt_wrap"),
+                    source="geometry", output=False)
+vbelt_chapter.words("driver_advice", advice.driver_advice, FOR_PULLEYS, output=False)
+vbelt_chapter.words("slower_belt_advice", advice.slower_belt_advice, FOR_PULLEYS, output=False)
 
-COUNT = Chapter(
-    "Number of belts",
-    needs=("power_per_belt",),
-    absent="not calculated: power_per_belt is not given",
-    steps=(
-        Value(id="vbelt_count", whole=True, symbol="z", description="Number of belts, for the required power", source="this method",
-              formula=bind(belts.count, power="power_required")),
-    ),
-)  # fmt: skip
+count = Chapter("Number of belts", needs=("power_per_belt",), absent="not calculated: power_per_belt is not given")
+count.value("vbelt_count", "z", "1", "Number of belts, for the required power",
+            lambda power_required, power_per_belt: np.maximum(1, np.ceil(power_required / power_per_belt)), whole=True, source="this method")
 
-TENSIONS = Chapter(
-    "Pull of the belts and load on the shafts",
-    text="The belts pull with the required power. They are tensioned as the friction in their grooves asks for, so the tensions of both "
-    "sides are in the ratio of Euler's formula; the centrifugal force stretches the belts but does not load the shafts.",
-    steps=(
-        Value(id="vbelt_pull", symbol="F_u", unit="N", description="Effective pull, all belts together", source="mechanics",
-              formula=bind(common.quotient, quantity="power_required", by="vbelt_speed")),
-        Value(id="tension_ratio", symbol="m", description="Tension of the tight side to that of the slack side", source="Euler",
-              formula=bind(belts.tension_ratio, groove_friction="vbelt.groove_friction", wrap="vbelt_wrap")),
-        Value(id="tight_tension", symbol="F_1", unit="N", description="Tension of the tight side", source="Euler",
-              formula=bind(belts.tight, pull="vbelt_pull")),
-        Value(id="slack_tension", symbol="F_2", unit="N", description="Tension of the slack side", source="Euler",
-              formula=bind(belts.slack, pull="vbelt_pull")),
-        Value(id="shaft_load", symbol="F_s", unit="N", description="Load of the belts on the shafts of motor and flywheel",
-              source="statics", formula=bind(triangle.third_side, one_side="tight_tension", other_side="slack_tension", enclosed="vbelt_wrap")),
-    ),
-)  # fmt: skip
+tensions = Chapter("Pull of the belts and load on the shafts",
+                   text="The belts pull with the required power. They are tensioned as the friction in their grooves asks for, so the tensions of "
+                        "both sides are in the ratio of Euler's formula; the centrifugal force stretches the belts but does not load the shafts.")
+tensions.value("vbelt_pull", "F_u", "N", "Effective pull, all belts together", lambda power_required, vbelt_speed: power_required / vbelt_speed,
+               source="mechanics")
+tensions.value("tension_ratio", "m", "1", "Tension of the tight side to that of the slack side",
+               bind(belts.tension_ratio, groove_friction="vbelt.groove_friction", wrap="vbelt_wrap"), source="Euler")
+tensions.value("tight_tension", "F_1", "N", "Tension of the tight side",
+               lambda vbelt_pull, tension_ratio: vbelt_pull * tension_ratio / (tension_ratio - 1), source="Euler")
+tensions.value("slack_tension", "F_2", "N", "Tension of the slack side", lambda vbelt_pull, tension_ratio: vbelt_pull / (tension_ratio - 1),
+               source="Euler")
+tensions.value("shaft_load", "F_s", "N", "Load of the belts on the shafts of motor and flywheel",
+               bind(triangle.third_side, one_side="tight_tension", other_side="slack_tension", enclosed="vbelt_wrap"), source="statics")

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from diecut_report.api import Erratum, Mechanism, Source
 from diecut_report.plugins.elastic_follower import motion, response
-from diecut_report.plugins.elastic_follower.checks import ADVICE, CHECKS
+from diecut_report.plugins.elastic_follower.checks import CHECKS, advice_chapter
 from diecut_report.plugins.elastic_follower.figures import FIGURES
 from diecut_report.plugins.elastic_follower.inputs import ElasticFollower
 from diecut_report.plugins.elastic_follower.spectrum import SPECTRUM
@@ -17,7 +17,8 @@ MECHANISM = Mechanism(
     "moves from rest to rest, the link swings about it. Calculated are its motion, the peaks of its acceleration in the motion and after it, "
     "related to those of a rigid drive, its overshoot, and the torque of the drive; and which law of motion loads this link least.",
     inputs=ElasticFollower,
-    chapters=(motion.DRIVE, motion.TIMES, motion.BY_LAW, motion.BY_CURVE, response.RESPONSE, response.PEAKS, response.COMPARED, ADVICE),
+    chapters=(motion.drive, motion.times, motion.by_law, motion.by_curve, response.response_chapter, response.peaks_chapter, response.compared,
+              advice_chapter),
     key_results=("natural_frequency", "tuning_ratio", "peak_ratio", "residual_ratio", "acceleration_peak", "acceleration_rigid", "overshoot",
                  "torque_peak", "recommended_law"),
     checks=CHECKS,

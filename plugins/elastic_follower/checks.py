@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
-from diecut_report.api import Chapter, Check, Value, Words, bind
+from diecut_report.api import Chapter, Check, bind
 from diecut_report.plugins.elastic_follower import formulas
 from diecut_report.plugins.elastic_follower.advice import passing
 from diecut_report.plugins.elastic_follower.motion import CURVE, LAW, RATE
 from diecut_report.plugins.elastic_follower.spectrum import FIRST, LAST
+
+# fmt: off
 
 WANTED = 5  # natural periods within the rise
 TAKEN = (
@@ -20,16 +22,12 @@ TAKEN = (
 )
 
 
-ADVICE = Chapter(
-    "Tuning",
-    steps=(
-        Value(id="wanted_stiffness", symbol="K_5", unit="kN*m/rad", units=(("mass", "N/mm"),), source="this method", output=False,
-              description=f"Stiffness with {WANTED} natural periods within the rise", formula=bind(formulas.tuned_stiffness, wanted=WANTED)),
-        *(Words(id="advice", function=passing(stiffness, time), takes=TAKEN, needs=(*LAW, body, *needs), lacks=lacks)
-          for body, stiffness in (("inertia", "kN*m/rad"), ("mass", "N/mm"))
-          for time, needs, lacks in (("ms", (), RATE), ("1", RATE, ()))),
-    ),
-)  # fmt: skip
+advice_chapter = Chapter("Tuning")
+advice_chapter.value("wanted_stiffness", "K_5", "kN*m/rad", f"Stiffness with {WANTED} natural periods within the rise",
+                     bind(formulas.tuned_stiffness, wanted=WANTED), units=(("mass", "N/mm"),), source="this method", output=False)
+for body, stiffness in (("inertia", "kN*m/rad"), ("mass", "N/mm")):
+    for time, needs, lacks in (("ms", (), RATE), ("1", RATE, ())):
+        advice_chapter.words("advice", passing(stiffness, time), TAKEN, needs=(*LAW, body, *needs), lacks=lacks)
 
 
 def _of_peak(id: str, title: str, demand: str, label: str, consequence: str) -> tuple[Check, Check]:
@@ -37,7 +35,7 @@ def _of_peak(id: str, title: str, demand: str, label: str, consequence: str) -> 
 
     def check(needs: tuple[str, ...], words: str) -> Check:
         return Check(id=id, title=title, demand=demand, limit=limit, unit="1", demand_label=label, limit_label="allowed",
-                     source="001, first paper", consequence=f"{consequence}; {words}", needs=needs)  # fmt: skip
+                     source="001, first paper", consequence=f"{consequence}; {words}", needs=needs)
 
     by_curve = (
         "a stiffer drive or a lighter link has more natural periods within the motion (see the figure of this motion)"
@@ -60,4 +58,4 @@ CHECKS = (
           demand_label="natural periods within the motion", limit_label="the spectrum ends at", source="001, first paper",
           consequence="the link follows almost as if it were rigid: nothing is wrong, but the spectrum does not show this drive; its "
           "own ratios stand in the table of results."),
-)  # fmt: skip
+)

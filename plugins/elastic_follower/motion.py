@@ -4,27 +4,14 @@ from __future__ import annotations
 
 from typing import Any
 
-from diecut_report.api import (
-    Abscissa,
-    Breakpoints,
-    ByText,
-    Case,
-    Chapter,
-    Choice,
-    Computed,
-    Crossings,
-    CurvePeriod,
-    Derivative,
-    Formula,
-    FromCurve,
-    Reduction,
-    Require,
-    Value,
-    bind,
-)
+import numpy as np
+
+from diecut_report.api import ByText, Chapter, Formula, Steps, bind, case
 from diecut_report.mechanics import common, linear_follower
 from diecut_report.mechanics.motion_laws import ACCELERATION, JOINT, PEAK_ACCELERATION, POSITION
 from diecut_report.plugins.elastic_follower import formulas, rests
+
+# fmt: off
 
 STRAIGHT = (("mass", "mm"),)
 STRAIGHT_SPEED = (("mass", "m/s"),)
@@ -33,138 +20,108 @@ LAW, CURVE, RATE = ("rise",), ("motion_curve",), ("cycles_per_hour",)
 STIFFEST, SOFTEST = 50, 0.1  # natural periods within the rise, between which the drive is calculated
 
 
-def of_each_body(formula: Formula, **declared: Any) -> tuple[Value, Value]:
-    """A step that takes the inertia of a turning link, or the mass of a sliding one."""
-    turning, sliding = (bind(formula, inertia=body) for body in ("inertia", "mass"))
-    return Value(formula=turning, needs=("inertia",), **declared), Value(formula=sliding, needs=("mass",), **declared)
+def of_each_body(id: str, symbol: str, unit: str, description: str, formula: Formula, **options: Any) -> Steps:
+    """A quantity that takes the inertia of a turning link, or the mass of a sliding one."""
+    steps = Steps()
+    for body in ("inertia", "mass"):
+        steps.value(id, symbol, unit, description, bind(formula, inertia=body), needs=(body,), **options)
+    return steps
 
 
-DRIVE = Chapter(
-    "Elastic drive",
-    steps=(
-        *of_each_body(linear_follower.natural_angular_frequency, id="angular_frequency", symbol="ω", unit="rad/s", source="001, first paper",
-                      description="Natural angular frequency"),
-        Value(id="natural_frequency", symbol="f_n", unit="Hz", description="Natural frequency", source="001, first paper",
-              formula=formulas.cycles_a_second),
-        Value(id="natural_period", symbol="T_n", unit="ms", description="Natural period", source="vibration", output=False,
-              formula=bind(formulas.inverse, frequency="natural_frequency")),
-        Value(id="damped_frequency", symbol="ω_d", unit="rad/s", description="Angular frequency of the damped vibration", source="vibration",
-              output=False, formula=linear_follower.damped_angular_frequency),
-        *of_each_body(linear_follower.damping_constant, id="damping_constant", symbol="C", unit="N*m*s/rad", units=(("mass", "N*s/m"),),
-                      source="vibration", description="Damping of the drive"),
-    ),
-)  # fmt: skip
+drive = Chapter("Elastic drive")
+drive.add(of_each_body("angular_frequency", "ω", "rad/s", "Natural angular frequency", linear_follower.natural_angular_frequency,
+                       source="001, first paper"))
+drive.value("natural_frequency", "f_n", "Hz", "Natural frequency", lambda angular_frequency: angular_frequency / (2 * np.pi),
+            source="001, first paper")
+drive.value("natural_period", "T_n", "ms", "Natural period", bind(formulas.inverse, frequency="natural_frequency"), source="vibration", output=False)
+drive.value("damped_frequency", "ω_d", "rad/s", "Angular frequency of the damped vibration", linear_follower.damped_angular_frequency,
+            source="vibration", output=False)
+drive.add(of_each_body("damping_constant", "C", "N*m*s/rad", "Damping of the drive", linear_follower.damping_constant,
+                       units=(("mass", "N*s/m"),), source="vibration"))
 
-TIMES = Chapter(
-    "Duration of the motion",
-    text="The motion lasts from one rest to the next; where a curve is given, from the end of its longest rest to its start.",
-    steps=(
-        Value(id="cycle_time", symbol="T", unit="ms", description="Duration of a cycle", needs=RATE,
-              formula=bind(formulas.inverse, frequency="cycles_per_hour")),
-        CurvePeriod(id="cycle_time", symbol="T", unit="ms", description="Duration of a cycle", needs=CURVE, lacks=RATE, given="motion_curve",
-                    otherwise="give cycles_per_hour, with which it runs through once a cycle"),
-        Computed(id="motion_start", symbol="s_0", description="Share of the cycle at which the motion begins", needs=CURVE, output=False,
-                 source="this method", function=rests.start, takes=CURVE, method="the end of the longest rest among the curve's smooth pieces"),
-        Computed(id="motion_share", symbol="s_m", description="Share of the cycle that the motion takes", needs=CURVE, output=False,
-                 source="this method", function=rests.share, takes=CURVE, method="what the longest rest leaves of the cycle"),
-        Require(id="moves", condition=bind(common.is_below, smaller=0, greater="motion_share"), key="motion_curve", needs=CURVE,
-                message="does not move; give a curve that rises between two rests"),
-        Require(id="rests", condition=bind(common.is_below, smaller="motion_share", greater=1), key="motion_curve", needs=CURVE,
-                message="never rests within its period; give a curve that moves between two rests"),
-        Computed(id="speed_jump", symbol="δ_v", description="Greatest jump of position or speed in the motion, to its range and greatest speed",
-                 needs=CURVE, output=False, source="this method", function=rests.jump, takes=CURVE,
-                 method="position and speed at the end of each smooth piece, compared with those at the start of the next"),
-        Require(id="no_jump", condition=bind(common.is_at_most, smaller="speed_jump", greater=1e-6), key="motion_curve", needs=CURVE,
-                message="jumps in its position or speed, for which no drive is strong enough; give a motion without such jumps"),
-        Value(id="rise_duration", symbol="t_r", unit="ms", description="Duration of the rise", needs=("rise_time",), lacks=RATE,
-              formula=bind(common.same, quantity="rise_time")),
-        Require(id="share_of_cycle", condition=bind(common.is_at_most, smaller="rise_time", greater=1), key="rise_time",
-                needs=("rise_time", *RATE), message="is {rise_time}, more than the cycle: with cycles_per_hour it is the share of the cycle that "
-                "the rise takes; give a share up to 1, or seconds without cycles_per_hour"),
-        Value(id="rise_duration", symbol="t_r", unit="ms", description="Duration of the rise", needs=("rise_time", *RATE),
-              formula=bind(common.product, first="rise_time", second="cycle_time")),
-        Value(id="rise_duration", symbol="t_r", unit="ms", description="Duration of the motion", needs=CURVE,
-              formula=bind(common.product, first="motion_share", second="cycle_time")),
-        Value(id="tuning_ratio", symbol="λ", description="Natural periods within the rise", source="001, first paper",
-              formula=bind(linear_follower.tuning_ratio, rise_time="rise_duration")),
-        Require(id="not_too_soft", condition=bind(common.is_at_least, greater="tuning_ratio", smaller=SOFTEST), key="stiffness",
-                message=f"leaves {{tuning_ratio}} natural periods within the rise; at least {SOFTEST} are needed for this calculation "
-                "(the spectrum covers 0.5 to 10): give a stiffer drive or a longer rise"),
-        Require(id="not_too_stiff", condition=bind(common.is_at_most, smaller="tuning_ratio", greater=STIFFEST), key="stiffness",
-                message=f"leaves {{tuning_ratio}} natural periods within the rise; with more than {STIFFEST} the link follows as if it were "
-                "rigid, and needs no such calculation (the spectrum covers 0.5 to 10)"),
-        Value(id="follow_time", symbol="t_f", unit="ms", description="Time after the motion for which the vibration is followed", needs=LAW,
-              output=False, formula=bind(common.product, first="dwell_cycles", second="natural_period")),
-        Value(id="rest_time", symbol="t_0", unit="ms", description="Rest after the motion", needs=CURVE,
-              formula=bind(common.difference, greater="cycle_time", smaller="rise_duration")),
-        Value(id="wanted_time", symbol="t_w", unit="ms", description="Time for which the vibration is to be followed", needs=CURVE,
-              output=False, formula=bind(common.product, first="dwell_cycles", second="natural_period")),
-        Value(id="follow_time", symbol="t_f", unit="ms", description="Time after the motion for which the vibration is followed, no longer "
-              "than the rest", needs=CURVE, output=False, formula=bind(common.smaller_of, first="wanted_time", second="rest_time")),
-        Value(id="duration", symbol="t_e", unit="ms", description="Time from the start of the motion that is calculated", output=False,
-              formula=bind(common.sum_of, first="rise_duration", second="follow_time")),
-        Abscissa(id="time", symbol="t", unit="ms", description="Time from the start of the motion", period="duration",
-                 shown_at="acceleration_peak_at"),
-        Breakpoints(id="end_of_rise", abscissa="time", places=("rise_duration",)),
-        Value(id="piece_middle", symbol="t_m", unit="ms", description="Time in the middle of the present piece", source="this method",
-              output=False, per_piece=True, formula=bind(common.same, quantity="time")),
-    ),
-)  # fmt: skip
+times = Chapter("Duration of the motion",
+                text="The motion lasts from one rest to the next; where a curve is given, from the end of its longest rest to its start.")
+times.value("cycle_time", "T", "ms", "Duration of a cycle", bind(formulas.inverse, frequency="cycles_per_hour"), needs=RATE)
+times.curve_period("cycle_time", "T", "ms", "Duration of a cycle", given="motion_curve",
+                   otherwise="give cycles_per_hour, with which it runs through once a cycle", needs=CURVE, lacks=RATE)
+times.computed("motion_start", "s_0", "1", "Share of the cycle at which the motion begins", function=rests.start, takes=CURVE,
+               method="the end of the longest rest among the curve's smooth pieces", needs=CURVE, output=False, source="this method")
+times.computed("motion_share", "s_m", "1", "Share of the cycle that the motion takes", function=rests.share, takes=CURVE,
+               method="what the longest rest leaves of the cycle", needs=CURVE, output=False, source="this method")
+times.require("moves", lambda motion_share: motion_share > 0, key="motion_curve", message="does not move; give a curve that rises between two rests",
+              needs=CURVE)
+times.require("rests", lambda motion_share: motion_share < 1, key="motion_curve",
+              message="never rests within its period; give a curve that moves between two rests", needs=CURVE)
+times.computed("speed_jump", "δ_v", "1", "Greatest jump of position or speed in the motion, to its range and greatest speed", function=rests.jump,
+               takes=CURVE, method="position and speed at the end of each smooth piece, compared with those at the start of the next", needs=CURVE,
+               output=False, source="this method")
+times.require("no_jump", lambda speed_jump: speed_jump <= 1e-06, key="motion_curve",
+              message="jumps in its position or speed, for which no drive is strong enough; give a motion without such jumps", needs=CURVE)
+times.value("rise_duration", "t_r", "ms", "Duration of the rise", lambda rise_time: rise_time, needs=("rise_time",), lacks=RATE)
+times.require("share_of_cycle", lambda rise_time: rise_time <= 1, key="rise_time",
+              message="is {rise_time}, more than the cycle: with cycles_per_hour it is the share of the cycle that the rise takes; give a share up "
+                      "to 1, or seconds without cycles_per_hour", needs=("rise_time", *RATE))
+times.value("rise_duration", "t_r", "ms", "Duration of the rise", lambda rise_time, cycle_time: rise_time * cycle_time, needs=("rise_time", *RATE))
+times.value("rise_duration", "t_r", "ms", "Duration of the motion", lambda motion_share, cycle_time: motion_share * cycle_time, needs=CURVE)
+times.value("tuning_ratio", "λ", "1", "Natural periods within the rise", bind(linear_follower.tuning_ratio, rise_time="rise_duration"),
+            source="001, first paper")
+times.require("not_too_soft", bind(common.is_at_least, greater="tuning_ratio", smaller=SOFTEST), key="stiffness",
+              message=f"leaves {{tuning_ratio}} natural periods within the rise; at least {SOFTEST} are needed for this calculation "
+                      "(the spectrum covers 0.5 to 10): give a stiffer drive or a longer rise")
+times.require("not_too_stiff", bind(common.is_at_most, smaller="tuning_ratio", greater=STIFFEST), key="stiffness",
+              message=f"leaves {{tuning_ratio}} natural periods within the rise; with more than {STIFFEST} the link follows as if it were "
+                      "rigid, and needs no such calculation (the spectrum covers 0.5 to 10)")
+times.value("follow_time", "t_f", "ms", "Time after the motion for which the vibration is followed",
+            lambda dwell_cycles, natural_period: dwell_cycles * natural_period, needs=LAW, output=False)
+times.value("rest_time", "t_0", "ms", "Rest after the motion", lambda cycle_time, rise_duration: cycle_time - rise_duration, needs=CURVE)
+times.value("wanted_time", "t_w", "ms", "Time for which the vibration is to be followed",
+            lambda dwell_cycles, natural_period: dwell_cycles * natural_period, needs=CURVE, output=False)
+times.value("follow_time", "t_f", "ms",
+            "Time after the motion for which the vibration is followed, no longer than the rest",
+            lambda wanted_time, rest_time: np.minimum(wanted_time, rest_time), needs=CURVE, output=False)
+times.value("duration", "t_e", "ms", "Time from the start of the motion that is calculated",
+            lambda rise_duration, follow_time: rise_duration + follow_time, output=False)
+times.abscissa("time", "t", "ms", "Time from the start of the motion", "duration", shown_at="acceleration_peak_at")
+times.breakpoints("end_of_rise", "time", "rise_duration")
+times.value("piece_middle", "t_m", "ms", "Time in the middle of the present piece", lambda time: time, source="this method", output=False,
+            per_piece=True)
 
 MOVING = bind(common.is_below, smaller="piece_middle", greater="rise_duration")
 
-BY_LAW = Chapter(
-    "Motion of the input",
-    needs=LAW,
-    text="One rise by a law of motion; k is the share of the rise's time that has passed.",
-    steps=(
-        Value(id="law_share", symbol="k", description="Share of the rise's time that has passed", source="motion laws", output=False,
-              formula=formulas.passed_share),
-        Value(id="law_joint", symbol="j", description="Joint of the law: changes its sign where the law's formula changes", output=False,
-              source="motion laws", formula=ByText("motion_law", JOINT, k="law_share")),
-        Crossings(id="law_break", symbol="t_j", unit="ms", description="Time at which the law's formula changes", output=False, of="law_joint"),
-        Breakpoints(id="law_breaks", abscissa="time", places=("law_break",)),
-        Value(id="law_middle", symbol="k_m", description="Share k in the middle of the present piece", source="this method", output=False,
-              per_piece=True, formula=bind(common.same, quantity="law_share")),
-        Value(id="law_side", symbol="k_i", output=False, source="this method",
-              description="Share k just inside its piece: where the law's acceleration jumps, this tells the side",
-              formula=bind(common.just_inside, share="law_share", middle="law_middle")),
-        Value(id="law_position", symbol="s", description="Law of motion: position at k", source="motion laws", output=False,
-              formula=ByText("motion_law", POSITION, k="law_share")),
-        Value(id="law_acceleration", symbol="s″", description="Law of motion: acceleration at k", source="motion laws", output=False,
-              formula=ByText("motion_law", ACCELERATION, k="law_side")),
-        Value(id="law_peak", symbol="A", description="Law of motion: greatest acceleration", source="motion laws", output=False,
-              formula=ByText("motion_law", PEAK_ACCELERATION)),
-        Value(id="input", symbol="y", unit="deg", units=STRAIGHT, description="Position of the input", source="motion laws",
-              formula=bind(common.product, first="rise", second="law_position")),
-        Choice(id="rigid_acceleration", symbol="a_y", unit="rad/s**2", units=STRAIGHT_ACCELERATION, source="motion laws",
-               description="Acceleration of the input, which a rigidly driven link would have",
-               cases=(Case(bind(formulas.law_acceleration, acceleration="law_acceleration"), "the input rises", MOVING),
-                      Case(common.zero, "the input rests"))),
-        Value(id="acceleration_rigid", symbol="a_r", unit="rad/s**2", units=STRAIGHT_ACCELERATION, source="motion laws",
-              description="Peak acceleration of the input, and of a link that were driven rigidly",
-              formula=bind(formulas.law_acceleration, acceleration="law_peak")),
-    ),
-)  # fmt: skip
+by_law = Chapter("Motion of the input", text="One rise by a law of motion; k is the share of the rise's time that has passed.", needs=LAW)
+by_law.value("law_share", "k", "1", "Share of the rise's time that has passed", lambda time, rise_duration: np.minimum(time / rise_duration, 1),
+             source="motion laws", output=False)
+by_law.value("law_joint", "j", "1", "Joint of the law: changes its sign where the law's formula changes", ByText("motion_law", JOINT, k="law_share"),
+             output=False, source="motion laws")
+by_law.crossings("law_break", "t_j", "ms", "Time at which the law's formula changes", of="law_joint", output=False)
+by_law.breakpoints("law_breaks", "time", "law_break")
+by_law.value("law_middle", "k_m", "1", "Share k in the middle of the present piece", lambda law_share: law_share, source="this method", output=False,
+             per_piece=True)
+by_law.value("law_side", "k_i", "1", "Share k just inside its piece: where the law's acceleration jumps, this tells the side",
+             lambda law_share, law_middle: law_share + 1e-12 * (law_middle - law_share), output=False, source="this method")
+by_law.value("law_position", "s", "1", "Law of motion: position at k", ByText("motion_law", POSITION, k="law_share"), source="motion laws",
+             output=False)
+by_law.value("law_acceleration", "s″", "1", "Law of motion: acceleration at k", ByText("motion_law", ACCELERATION, k="law_side"),
+             source="motion laws", output=False)
+by_law.value("law_peak", "A", "1", "Law of motion: greatest acceleration", ByText("motion_law", PEAK_ACCELERATION), source="motion laws",
+             output=False)
+by_law.value("input", "y", "deg", "Position of the input", lambda rise, law_position: rise * law_position, units=STRAIGHT, source="motion laws")
+by_law.choice("rigid_acceleration", "a_y", "rad/s**2", "Acceleration of the input, which a rigidly driven link would have",
+              case(bind(formulas.law_acceleration, acceleration="law_acceleration"), "the input rises", MOVING), case(lambda: 0, "the input rests"),
+              units=STRAIGHT_ACCELERATION, source="motion laws")
+by_law.value("acceleration_rigid", "a_r", "rad/s**2", "Peak acceleration of the input, and of a link that were driven rigidly",
+             bind(formulas.law_acceleration, acceleration="law_peak"), units=STRAIGHT_ACCELERATION, source="motion laws")
 
-BY_CURVE = Chapter(
-    "Motion of the input",
-    needs=CURVE,
-    text="y is the referred curve, from the start s_0 of its motion on (t = 0); one cycle of it lasts T. Its speed and acceleration follow "
-    "from the position within the smooth pieces.",
-    steps=(
-        FromCurve(id="input", symbol="y", unit="deg", units=STRAIGHT, description="Position of the input", source="reference",
-                  given="motion_curve", abscissa="time", start="motion_start", lasts="cycle_time", gains=True),
-        Derivative(id="input_speed", symbol="v_y", unit="rad/s", units=STRAIGHT_SPEED, description="Speed of the input", source="kinematics",
-                   of="input"),
-        Derivative(id="rigid_acceleration", symbol="a_y", unit="rad/s**2", units=STRAIGHT_ACCELERATION, source="kinematics",
-                   description="Acceleration of the input, which a rigidly driven link would have", of="input_speed"),
-        Reduction(id="rise", symbol="h", unit="deg", units=STRAIGHT, description="Range of the motion", of="input", operation="range"),
-        Reduction(id="input_max", symbol="y_max", unit="deg", units=STRAIGHT, description="Upper end of the motion", output=False, of="input",
-                  operation="max"),
-        Reduction(id="input_min", symbol="y_min", unit="deg", units=STRAIGHT, description="Lower end of the motion", output=False, of="input",
-                  operation="min"),
-        Reduction(id="acceleration_rigid", symbol="a_r", unit="rad/s**2", units=STRAIGHT_ACCELERATION, of="rigid_acceleration",
-                  description="Peak acceleration of the input, and of a link that were driven rigidly", operation="abs_max"),
-    ),
-)  # fmt: skip
+by_curve = Chapter("Motion of the input",
+                   text="y is the referred curve, from the start s_0 of its motion on (t = 0); one cycle of it lasts T. Its speed and acceleration "
+                        "follow from the position within the smooth pieces.", needs=CURVE)
+by_curve.from_curve("input", "y", "deg", "Position of the input", given="motion_curve", abscissa="time", start="motion_start", lasts="cycle_time",
+                    gains=True, units=STRAIGHT, source="reference")
+by_curve.derivative("input_speed", "v_y", "rad/s", "Speed of the input", of="input", units=STRAIGHT_SPEED, source="kinematics")
+by_curve.derivative("rigid_acceleration", "a_y", "rad/s**2", "Acceleration of the input, which a rigidly driven link would have", of="input_speed",
+                    units=STRAIGHT_ACCELERATION, source="kinematics")
+by_curve.reduction("rise", "h", "deg", "Range of the motion", "range", of="input", units=STRAIGHT)
+by_curve.reduction("input_max", "y_max", "deg", "Upper end of the motion", "max", of="input", units=STRAIGHT, output=False)
+by_curve.reduction("input_min", "y_min", "deg", "Lower end of the motion", "min", of="input", units=STRAIGHT, output=False)
+by_curve.reduction("acceleration_rigid", "a_r", "rad/s**2", "Peak acceleration of the input, and of a link that were driven rigidly", "abs_max",
+                   of="rigid_acceleration", units=STRAIGHT_ACCELERATION)

@@ -7,7 +7,7 @@ from typing import Any
 
 import numpy as np
 
-from diecut_report.api import Accumulated, Binding, Breakpoints, Case, Chapter, Choice, Computed, Reduction, Value, bind
+from diecut_report.api import Binding, Case, Chapter, Steps, bind, case
 from diecut_report.mechanics import common, linear_follower
 from diecut_report.mechanics.follower_peaks import peaks
 from diecut_report.mechanics.motion_laws import LAWS, MotionLaw
@@ -21,80 +21,73 @@ from diecut_report.plugins.elastic_follower.motion import (
     STRAIGHT_SPEED,
 )
 
+# fmt: off
+
 FORCE = (("mass", "N"),)
 
-RESPONSE = Chapter(
-    "Motion of the driven link",
-    text="I·ẍ = K·(y − x) + C·(ẏ − ẋ), from rest. The deflection z = x − y follows exactly from two running integrals over the input's "
-    "acceleration (Duhamel's integral taken apart), which are taken piece by piece.",
-    steps=(
-        Breakpoints(id="natural_periods", abscissa="time", every="natural_period"),
-        Value(id="decay", symbol="E", source="vibration", output=False, description="Share of a vibration that is left after the time t",
-              formula=linear_follower.decay),
-        Value(id="phase", symbol="ψ", unit="deg", source="vibration", output=False, description="Phase of the damped vibration",
-              formula=linear_follower.phase),
-        Value(id="in_phase_part", symbol="c", unit="rad/s**2", units=STRAIGHT_ACCELERATION, source="Duhamel's integral", output=False,
-              description="What the first integral adds up", formula=bind(linear_follower.in_phase_part, input_acceleration="rigid_acceleration")),
-        Value(id="quadrature_part", symbol="s_q", unit="rad/s**2", units=STRAIGHT_ACCELERATION, source="Duhamel's integral", output=False,
-              description="What the second integral adds up",
-              formula=bind(linear_follower.quadrature_part, input_acceleration="rigid_acceleration")),
-        Accumulated(id="in_phase", symbol="C_t", unit="rad/s", units=STRAIGHT_SPEED, description="First integral up to the time t",
-                    source="Duhamel's integral", output=False, of="in_phase_part"),
-        Accumulated(id="quadrature", symbol="S_t", unit="rad/s", units=STRAIGHT_SPEED, description="Second integral up to the time t",
-                    source="Duhamel's integral", output=False, of="quadrature_part"),
-        Value(id="deflection", symbol="z", unit="deg", units=STRAIGHT, description="Deflection of the drive: link ahead of the input",
-              source="Duhamel's integral", formula=linear_follower.deflection),
-        Value(id="swing_speed", symbol="v_ψ", unit="rad/s", units=STRAIGHT_SPEED, source="Duhamel's integral", output=False,
-              description="What the phase's growth gives of the deflection's speed", formula=linear_follower.swing_speed),
-        Value(id="deflection_speed", symbol="v_z", unit="rad/s", units=STRAIGHT_SPEED, description="Speed of the deflection",
-              source="Duhamel's integral", output=False, formula=linear_follower.deflection_velocity),
-        Value(id="response", symbol="x", unit="deg", units=STRAIGHT, description="Position of the driven link", source="kinematics",
-              formula=bind(common.sum_of, first="input", second="deflection")),
-        Value(id="acceleration", symbol="a", unit="rad/s**2", units=STRAIGHT_ACCELERATION, description="Acceleration of the driven link",
-              source="001, first paper",
-              formula=bind(linear_follower.response_acceleration, deflection_velocity="deflection_speed")),
-        Value(id="torque", symbol="M", unit="N*m", units=FORCE, description="Torque (or force) of the drive on the link", source="statics",
-              formula=bind(linear_follower.drive_torque, deflection_velocity="deflection_speed")),
-    ),
-)  # fmt: skip
+response_chapter = Chapter("Motion of the driven link",
+                           text="I·ẍ = K·(y − x) + C·(ẏ − ẋ), from rest. The deflection z = x − y follows exactly from two running integrals over "
+                                "the input's acceleration (Duhamel's integral taken apart), which are taken piece by piece.")
+response_chapter.breakpoints("natural_periods", "time", every="natural_period")
+response_chapter.value("decay", "E", "1", "Share of a vibration that is left after the time t", linear_follower.decay, source="vibration",
+                       output=False)
+response_chapter.value("phase", "ψ", "deg", "Phase of the damped vibration", linear_follower.phase, source="vibration", output=False)
+response_chapter.value("in_phase_part", "c", "rad/s**2", "What the first integral adds up",
+                       bind(linear_follower.in_phase_part, input_acceleration="rigid_acceleration"), units=STRAIGHT_ACCELERATION,
+                       source="Duhamel's integral", output=False)
+response_chapter.value("quadrature_part", "s_q", "rad/s**2", "What the second integral adds up",
+                       bind(linear_follower.quadrature_part, input_acceleration="rigid_acceleration"), units=STRAIGHT_ACCELERATION,
+                       source="Duhamel's integral", output=False)
+response_chapter.accumulated("in_phase", "C_t", "rad/s", "First integral up to the time t", of="in_phase_part", units=STRAIGHT_SPEED,
+                             source="Duhamel's integral", output=False)
+response_chapter.accumulated("quadrature", "S_t", "rad/s", "Second integral up to the time t", of="quadrature_part", units=STRAIGHT_SPEED,
+                             source="Duhamel's integral", output=False)
+response_chapter.value("deflection", "z", "deg", "Deflection of the drive: link ahead of the input", linear_follower.deflection, units=STRAIGHT,
+                       source="Duhamel's integral")
+response_chapter.value("swing_speed", "v_ψ", "rad/s", "What the phase's growth gives of the deflection's speed", linear_follower.swing_speed,
+                       units=STRAIGHT_SPEED, source="Duhamel's integral", output=False)
+response_chapter.value("deflection_speed", "v_z", "rad/s", "Speed of the deflection", linear_follower.deflection_velocity, units=STRAIGHT_SPEED,
+                       source="Duhamel's integral", output=False)
+response_chapter.value("response", "x", "deg", "Position of the driven link", lambda input, deflection: input + deflection, units=STRAIGHT,
+                       source="kinematics")
+response_chapter.value("acceleration", "a", "rad/s**2", "Acceleration of the driven link",
+                       bind(linear_follower.response_acceleration, deflection_velocity="deflection_speed"), units=STRAIGHT_ACCELERATION,
+                       source="001, first paper")
+response_chapter.value("torque", "M", "N*m", "Torque (or force) of the drive on the link",
+                       bind(linear_follower.drive_torque, deflection_velocity="deflection_speed"), units=FORCE, source="statics")
 
 
-def _while(rising: bool, symbol: str, words: str) -> Choice:
+def _while(rising: bool, symbol: str, words: str) -> Steps:
     there = bind(common.same, quantity="acceleration")
-    return Choice(
-        id=f"acceleration_{'rising' if rising else 'resting'}", symbol=symbol, unit="rad/s**2", units=STRAIGHT_ACCELERATION, output=False,
-        description=f"Acceleration of the driven link {words} the motion, else zero", source="this method",
-        cases=(Case(there if rising else common.zero, "the input moves", MOVING), Case(common.zero if rising else there, "the input rests")),
-    )  # fmt: skip
+    steps = Steps()
+    steps.choice(f"acceleration_{'rising' if rising else 'resting'}", symbol, "rad/s**2",
+                 f"Acceleration of the driven link {words} the motion, else zero", case(there if rising else common.zero, "the input moves", MOVING),
+                 case(common.zero if rising else there, "the input rests"), units=STRAIGHT_ACCELERATION, output=False, source="this method")
+    return steps
 
 
-PEAKS = Chapter(
-    "Peaks",
-    steps=(
-        _while(True, "a_1", "during"),
-        _while(False, "a_2", "after"),
-        Reduction(id="acceleration_during", symbol="a_1,max", unit="rad/s**2", units=STRAIGHT_ACCELERATION, of="acceleration_rising",
-                  description="Peak acceleration of the driven link during the motion", operation="abs_max"),
-        Reduction(id="acceleration_after", symbol="a_2,max", unit="rad/s**2", units=STRAIGHT_ACCELERATION, of="acceleration_resting",
-                  description="Peak acceleration of the driven link after the motion", operation="abs_max"),
-        Reduction(id="acceleration_peak", symbol="a_max", unit="rad/s**2", units=STRAIGHT_ACCELERATION, of="acceleration",
-                  description="Peak acceleration of the driven link, during or after the motion", operation="abs_max"),
-        Value(id="peak_ratio", symbol="q", description="Peak acceleration during the motion, to the rigid one", source="001, first paper",
-              formula=bind(common.quotient, quantity="acceleration_during", by="acceleration_rigid")),
-        Value(id="residual_ratio", symbol="q_2", description="Peak acceleration after the motion, to the rigid one", source="001, first paper",
-              formula=bind(common.quotient, quantity="acceleration_after", by="acceleration_rigid")),
-        Reduction(id="response_max", symbol="x_max", unit="deg", units=STRAIGHT, description="Farthest position of the driven link", output=False,
-                  of="response", operation="max"),
-        Reduction(id="response_min", symbol="x_min", unit="deg", units=STRAIGHT, description="Lowest position of the driven link", output=False,
-                  needs=CURVE, of="response", operation="min"),
-        Value(id="overshoot", symbol="ε", description="What the link goes beyond the rise, to the rise", needs=LAW,
-              formula=formulas.overshoot_of_rise),
-        Value(id="overshoot", symbol="ε", description="What the link goes beyond the ends of the motion, to its range", needs=CURVE,
-              formula=formulas.overshoot_of_curve),
-        Reduction(id="torque_peak", symbol="M_max", unit="N*m", units=FORCE, description="Greatest torque (or force) of the drive", of="torque",
-                  operation="abs_max"),
-    ),
-)  # fmt: skip
+peaks_chapter = Chapter("Peaks")
+peaks_chapter.add(_while(True, "a_1", "during"))
+peaks_chapter.add(_while(False, "a_2", "after"))
+peaks_chapter.reduction("acceleration_during", "a_1,max", "rad/s**2", "Peak acceleration of the driven link during the motion", "abs_max",
+                        of="acceleration_rising", units=STRAIGHT_ACCELERATION)
+peaks_chapter.reduction("acceleration_after", "a_2,max", "rad/s**2", "Peak acceleration of the driven link after the motion", "abs_max",
+                        of="acceleration_resting", units=STRAIGHT_ACCELERATION)
+peaks_chapter.reduction("acceleration_peak", "a_max", "rad/s**2", "Peak acceleration of the driven link, during or after the motion", "abs_max",
+                        of="acceleration", units=STRAIGHT_ACCELERATION)
+peaks_chapter.value("peak_ratio", "q", "1", "Peak acceleration during the motion, to the rigid one",
+                    lambda acceleration_during, acceleration_rigid: acceleration_during / acceleration_rigid, source="001, first paper")
+peaks_chapter.value("residual_ratio", "q_2", "1", "Peak acceleration after the motion, to the rigid one",
+                    lambda acceleration_after, acceleration_rigid: acceleration_after / acceleration_rigid, source="001, first paper")
+peaks_chapter.reduction("response_max", "x_max", "deg", "Farthest position of the driven link", "max", of="response", units=STRAIGHT, output=False)
+peaks_chapter.reduction("response_min", "x_min", "deg", "Lowest position of the driven link", "min", of="response", units=STRAIGHT, output=False,
+                        needs=CURVE)
+peaks_chapter.value("overshoot", "ε", "1", "What the link goes beyond the rise, to the rise", lambda response_max, rise: (response_max - rise) / rise,
+                    needs=LAW)
+peaks_chapter.value("overshoot", "ε", "1", "What the link goes beyond the ends of the motion, to its range",
+                    lambda response_max, response_min, input_max, input_min, rise:
+                        np.maximum(response_max - input_max, input_min - response_min) / rise, needs=CURVE)
+peaks_chapter.reduction("torque_peak", "M_max", "N*m", "Greatest torque (or force) of the drive", "abs_max", of="torque", units=FORCE)
 
 
 def greatest(law: MotionLaw) -> Callable[..., Any]:
@@ -117,32 +110,29 @@ OF_LAWS = {name: f"{name}_acceleration" for name in LAWS}
 
 def _least(name: str, *, is_last: bool = False) -> Case:
     held = None if is_last else bind(common.is_at_most, smaller=OF_LAWS[name], greater="least_acceleration")
-    return Case(name, f"{LAWS[name].title} has the least", held)
+    return case(name, f"{LAWS[name].title} has the least", held)
 
 
-def recommended(needs: tuple[str, ...], exists: Binding | None) -> Choice:
+def recommended(needs: tuple[str, ...], exists: Binding | None) -> Steps:
     """The law to take; it has a meaning for a motion in one direction only."""
-    return Choice(
-        id="recommended_law", symbol="L", description="Law of motion with the least peak acceleration of the driven link", source="this method",
-        needs=needs, exists=exists, cases=(*(_least(name) for name in list(LAWS)[:-1]), _least(list(LAWS)[-1], is_last=True)),
-    )  # fmt: skip
+    steps = Steps()
+    steps.choice("recommended_law", "L", "1", "Law of motion with the least peak acceleration of the driven link",
+                 *(_least(name) for name in list(LAWS)[:-1]), _least(list(LAWS)[-1], is_last=True), source="this method", needs=needs, exists=exists)
+    return steps
 
 
-COMPARED = Chapter(
-    "Laws of motion compared",
-    text="For a single rise of the same height and duration on the same drive: the greatest acceleration of the driven link with each law, "
-    "during the rise or after it.",
-    steps=(
-        *(Computed(id=OF_LAWS[name], symbol=f"a_{number}L", unit="rad/s**2", units=STRAIGHT_ACCELERATION, source="this method",
-                   description=f"Peak acceleration of the driven link: {law.title[0].lower()}{law.title[1:]}", function=greatest(law),
-                   takes=("tuning_ratio", "damping_ratio", "rise", "rise_duration"),
-                   method="exact propagation of the drive's vibration through the law's smooth pieces")
-          for number, (name, law) in enumerate(LAWS.items(), 1)),
-        Computed(id="least_acceleration", symbol="a_L", unit="rad/s**2", units=STRAIGHT_ACCELERATION, source="this method", output=False,
-                 description="Least of these", function=least, takes=tuple(OF_LAWS.values()), method="comparison"),
-        Computed(id="one_way", symbol="g", description="What the motion gains in a cycle, to its range", source="this method", output=False,
-                 needs=CURVE, function=rests.gained, takes=CURVE, method="positions at both ends of the cycle"),
-        recommended(LAW, None),
-        recommended(CURVE, bind(common.is_at_least, greater="one_way", smaller=0.999)),
-    ),
-)  # fmt: skip
+compared = Chapter("Laws of motion compared",
+                   text="For a single rise of the same height and duration on the same drive: the greatest acceleration of the driven link with "
+                        "each law, during the rise or after it.")
+for number, (name, law) in enumerate(LAWS.items(), 1):
+    compared.computed(OF_LAWS[name], f"a_{number}L", "rad/s**2",
+                      f"Peak acceleration of the driven link: {law.title[0].lower()}{law.title[1:]}", greatest(law),
+                      takes=("tuning_ratio", "damping_ratio", "rise", "rise_duration"),
+                      method="exact propagation of the drive's vibration through the law's smooth pieces",
+                      units=STRAIGHT_ACCELERATION, source="this method")
+compared.computed("least_acceleration", "a_L", "rad/s**2", "Least of these", function=least, takes=tuple(OF_LAWS.values()), method="comparison",
+                  units=STRAIGHT_ACCELERATION, source="this method", output=False)
+compared.computed("one_way", "g", "1", "What the motion gains in a cycle, to its range", function=rests.gained, takes=CURVE,
+                  method="positions at both ends of the cycle", source="this method", output=False, needs=CURVE)
+compared.add(recommended(LAW, None))
+compared.add(recommended(CURVE, bind(common.is_at_least, greater="one_way", smaller=0.999)))

@@ -8,28 +8,25 @@ import numpy as np
 
 from diecut_report.api import (
     POINTS,
-    Abscissa,
     Annotated,
-    Breakpoints,
-    Case,
     Chapter,
-    Choice,
     Comparison,
     CurveInput,
-    FromCurve,
     Inputs,
     Mechanism,
     Quantity,
-    Reduction,
-    Step,
+    Steps,
     Text,
-    Value,
+    as_number,
     bind,
+    case,
 )
 from diecut_report.mechanics import common
 from diecut_report.plugins.geneva_transport import comparison_formulas as related
 from diecut_report.plugins.geneva_transport import formulas
 from diecut_report.plugins.geneva_transport.comparison_figures import FIGURES
+
+# fmt: off
 
 LEAST_RETURN = 0.1  # share of the cycle that the cam-gear's sector needs at least for its return
 
@@ -56,198 +53,171 @@ class TransportComparison(Inputs):
     n_points: Annotated[int, POINTS] = 720
 
 
-BASIS = Chapter(
-    "What is compared",
-    text="Both drives make the same step S in the same time T, each with its own dwell. Velocities are related to the mean velocity S/T, "
-    "accelerations to S/T²; so they hold for any step and any productivity.",
-    steps=(
-        Value(id="cycle_time", symbol="T", unit="ms", description="Time of a cycle, as the cam-gear has it", source="kinematics",
-              formula=bind(related.time_of_cycle, cycles="cycles_per_hour")),
-        Value(id="geneva_cycle_time", symbol="T_g", unit="ms", description="Time of a turn of the Geneva drive's crank, as given there",
-              source="kinematics", formula=formulas.cycle_time),
-        Choice(id="cycle_basis", symbol="→", description="Cycle time that is compared",
-               cases=(Case("both drives have it", "the cycle times are the same",
-                           bind(related.are_alike, one="cycle_time", other="geneva_cycle_time")),
-                      Case("the cam-gear's, for both drives", "the Geneva drive has another one"))),
-        Choice(id="step_basis", symbol="→", description="Step that is compared", needs=("cam_step", "geneva_step"),
-               cases=(Case("both drives have it", "the steps are the same", bind(related.are_alike, one="cam_step", other="geneva_step")),
-                      Case("the cam-gear's, for both drives", "the Geneva drive has another one"))),
-    ),
-)  # fmt: skip
+basis = Chapter("What is compared",
+                text="Both drives make the same step S in the same time T, each with its own dwell. Velocities are related to the mean velocity "
+                     "S/T, accelerations to S/T²; so they hold for any step and any productivity.")
+basis.value("cycle_time", "T", "ms", "Time of a cycle, as the cam-gear has it", lambda cycles_per_hour: 1 / cycles_per_hour, source="kinematics")
+basis.value("geneva_cycle_time", "T_g", "ms", "Time of a turn of the Geneva drive's crank, as given there", formulas.cycle_time, source="kinematics")
+basis.choice("cycle_basis", "→", "1", "Cycle time that is compared",
+             case("both drives have it", "the cycle times are the same", bind(related.are_alike, one="cycle_time", other="geneva_cycle_time")),
+             case("the cam-gear's, for both drives", "the Geneva drive has another one"))
+basis.choice("step_basis", "→", "1", "Step that is compared",
+             case("both drives have it", "the steps are the same", bind(related.are_alike, one="cam_step", other="geneva_step")),
+             case("the cam-gear's, for both drives", "the Geneva drive has another one"), needs=("cam_step", "geneva_step"))
 
-DWELL = Chapter(
-    "Dwell",
-    steps=(
-        Value(id="geneva_dwell", symbol="κ_d", description="Geneva: share of the dwell", source="geometry", formula=formulas.dwell_fraction),
-        Value(id="cam_time_dwell", symbol="t_c", unit="ms", description="Cam-gear: time of the dwell", source="kinematics",
-              formula=bind(common.product, first="dwell_share", second="cycle_time")),
-        Value(id="geneva_time_dwell", symbol="t_g", unit="ms", description="Geneva: time of the dwell", source="kinematics",
-              formula=bind(common.product, first="geneva_dwell", second="cycle_time")),
-        Value(id="dwell_ratio", symbol="q_d", description="Dwell, Geneva to cam-gear", source="kinematics",
-              formula=bind(common.quotient, quantity="geneva_dwell", by="dwell_share")),
-    ),
-)  # fmt: skip
+dwell = Chapter("Dwell")
+dwell.value("geneva_dwell", "κ_d", "1", "Geneva: share of the dwell", formulas.dwell_fraction, source="geometry")
+dwell.value("cam_time_dwell", "t_c", "ms", "Cam-gear: time of the dwell", lambda dwell_share, cycle_time: dwell_share * cycle_time,
+            source="kinematics")
+dwell.value("geneva_time_dwell", "t_g", "ms", "Geneva: time of the dwell", lambda geneva_dwell, cycle_time: geneva_dwell * cycle_time,
+            source="kinematics")
+dwell.value("dwell_ratio", "q_d", "1", "Dwell, Geneva to cam-gear", lambda geneva_dwell, dwell_share: geneva_dwell / dwell_share, source="kinematics")
 
 
-def _ratio(what: str, symbol: str, title: str) -> Value:
-    return Value(id=f"{what}_ratio", symbol=symbol, description=f"{title}, Geneva to cam-gear", source="kinematics",
-                 formula=bind(common.quotient, quantity=f"geneva_{what}_peak", by=f"cam_{what}_peak"))  # fmt: skip
+def _ratio(what: str, symbol: str, title: str) -> Steps:
+    steps = Steps()
+    steps.value(f"{what}_ratio", symbol, "1", f"{title}, Geneva to cam-gear",
+                bind(common.quotient, quantity=f"geneva_{what}_peak", by=f"cam_{what}_peak"), source="kinematics")
+    return steps
 
 
 IN_SLOT = bind(formulas.holds, flag="engaged")
 
-MOTION = Chapter(
-    "Motion of the sheet over a cycle",
-    text="The cycle begins with the cam-gear's dwell; the motions of both drives have the same middle. "
-    "k and s hold for a whole piece of the cycle and are shown in its middle, all other curves at the one φ that is named.",
-    steps=(
-        Value(id="crank_ratio", symbol="λ", description="Geneva: crank radius to centre distance", source="geometry", output=False,
-              formula=formulas.crank_ratio),
-        Value(id="engagement_half_angle", symbol="α_e", unit="deg", description="Geneva: half the angle of the engagement", source="geometry",
-              output=False, formula=formulas.engagement_half_angle),
-        Value(id="middle", symbol="φ_m", unit="deg", description="Angle of the cycle in the middle of both motions", source="kinematics",
-              output=False, formula=related.middle_of_motion),
-        Value(id="geneva_entry", symbol="φ_g1", unit="deg", description="Angle of the cycle at the Geneva drive's entry", source="kinematics",
-              output=False, formula=bind(common.difference, greater="middle", smaller="engagement_half_angle")),
-        Value(id="geneva_exit", symbol="φ_g2", unit="deg", description="Angle of the cycle at the Geneva drive's exit", source="kinematics",
-              output=False, formula=bind(common.sum_of, first="middle", second="engagement_half_angle")),
-        Abscissa(id="cycle_angle", symbol="φ", unit="deg", description="Angle of the cycle, one turn, from the beginning of the cam-gear's dwell",
-                 period=2 * np.pi, shown_at="geneva_acceleration_peak_at"),
-        Breakpoints(id="engagement", abscissa="cycle_angle", places=("geneva_entry", "geneva_exit")),
-        Choice(id="turns", symbol="k", description="Motion of the Geneva drive that is nearest", output=False, per_piece=True,
-               cases=(Case(common.one, "the end of the motion before", bind(related.comes_before, angle="cycle_angle")),
-                      Case(common.zero, "the motion of this cycle"))),
-        Value(id="geneva_angle", symbol="α", unit="deg", description="Geneva: crank angle from the middle of the motion", source="kinematics",
-              output=False, formula=bind(related.from_middle, angle="cycle_angle")),
-        Choice(id="engaged", symbol="s", description="Whether the Geneva drive's roller is in a slot (1) or not (0)", output=False, per_piece=True,
-               cases=(Case(common.one, "the roller is in a slot",
-                           bind(related.is_within, angle="geneva_angle", half="engagement_half_angle")),
-                      Case(common.zero, "the locking disc holds the wheel"))),
-        FromCurve(id="cam_gear_speed", symbol="ω_1", unit="rad", description="Cam-gear: speed of the gear, for each turn of the disc",
-                  output=False, given="gear_speed", abscissa="cycle_angle"),
-        FromCurve(id="cam_gear_acceleration", symbol="ε_1", unit="rad/s**2", description="Cam-gear: acceleration of the gear", output=False,
-                  given="gear_acceleration", abscissa="cycle_angle"),
-        Value(id="cam_velocity", symbol="v_c", description="Cam-gear: velocity of the sheet to the mean velocity S/T", source="kinematics",
-              formula=bind(related.cam_velocity, gear_speed="cam_gear_speed")),
-        Value(id="cam_acceleration", symbol="a_c", description="Cam-gear: acceleration of the sheet to S/T²", source="kinematics",
-              formula=bind(related.cam_acceleration, gear_acceleration="cam_gear_acceleration")),
-        Choice(id="geneva_velocity", symbol="v_g", description="Geneva: velocity of the sheet to the mean velocity S/T", source="kinematics",
-               cases=(Case(bind(related.geneva_velocity, angle="geneva_angle"), "the roller is in a slot", IN_SLOT),
-                      Case(common.zero, "the locking disc holds the wheel"))),
-        Choice(id="geneva_acceleration", symbol="a_g", description="Geneva: acceleration of the sheet to S/T²", source="kinematics",
-               cases=(Case(bind(related.geneva_acceleration, angle="geneva_angle"), "the roller is in a slot", IN_SLOT),
-                      Case(common.zero, "the locking disc holds the wheel"))),
-        Value(id="cam_power", symbol="P_c", description="Cam-gear: power to m·S²/T³", source="energy", output=False,
-              formula=bind(common.product, first="cam_velocity", second="cam_acceleration")),
-        Value(id="geneva_power", symbol="P_g", description="Geneva: power to m·S²/T³", source="energy", output=False,
-              formula=bind(common.product, first="geneva_velocity", second="geneva_acceleration")),
-        *(Reduction(id=f"{drive}_{what}_peak", symbol=f"{letter}_{drive[0]},max", of=f"{drive}_{what}", operation="abs_max", source="kinematics",
-                    description=f"{name}: greatest {told}")
-          for what, letter, told in (("velocity", "v", "velocity to S/T"), ("acceleration", "a", "acceleration to S/T²"),
-                                     ("power", "P", "power to m·S²/T³, and so torque"))
-          for drive, name in (("cam", "Cam-gear"), ("geneva", "Geneva"))),
-        Value(id="geneva_jump", symbol="a_g,e", description="Geneva: jump of the acceleration to S/T² at entry and exit", source="kinematics",
-              formula=related.geneva_jump),
-        _ratio("velocity", "q_v", "Greatest velocity"),
-        _ratio("acceleration", "q_a", "Greatest acceleration"),
-        Value(id="torque_ratio", symbol="q_M", description="Greatest torque for the same mass, Geneva to cam-gear", source="energy",
-              formula=bind(common.quotient, quantity="geneva_power_peak", by="cam_power_peak")),
-    ),
-)  # fmt: skip
+motion_chapter = Chapter("Motion of the sheet over a cycle",
+                         text="The cycle begins with the cam-gear's dwell; the motions of both drives have the same middle. k and s hold for a "
+                              "whole piece of the cycle and are shown in its middle, all other curves at the one φ that is named.")
+motion_chapter.value("crank_ratio", "λ", "1", "Geneva: crank radius to centre distance", formulas.crank_ratio, source="geometry", output=False)
+motion_chapter.value("engagement_half_angle", "α_e", "deg", "Geneva: half the angle of the engagement", formulas.engagement_half_angle,
+                     source="geometry", output=False)
+motion_chapter.value("middle", "φ_m", "deg", "Angle of the cycle in the middle of both motions", lambda dwell_share: np.pi * (1 + dwell_share),
+                     source="kinematics", output=False)
+motion_chapter.value("geneva_entry", "φ_g1", "deg", "Angle of the cycle at the Geneva drive's entry",
+                     lambda middle, engagement_half_angle: middle - engagement_half_angle, source="kinematics", output=False)
+motion_chapter.value("geneva_exit", "φ_g2", "deg", "Angle of the cycle at the Geneva drive's exit",
+                     lambda middle, engagement_half_angle: middle + engagement_half_angle, source="kinematics", output=False)
+motion_chapter.abscissa("cycle_angle", "φ", "deg", "Angle of the cycle, one turn, from the beginning of the cam-gear's dwell", 2 * np.pi,
+                        shown_at="geneva_acceleration_peak_at")
+motion_chapter.breakpoints("engagement", "cycle_angle", "geneva_entry", "geneva_exit")
+motion_chapter.choice("turns", "k", "1", "Motion of the Geneva drive that is nearest",
+                      case(lambda: 1, "the end of the motion before", lambda cycle_angle, middle: cycle_angle < middle - np.pi),
+                      case(lambda: 0, "the motion of this cycle"), output=False, per_piece=True)
+motion_chapter.value("geneva_angle", "α", "deg", "Geneva: crank angle from the middle of the motion",
+                     lambda cycle_angle, middle, turns: cycle_angle - middle + 2 * np.pi * turns, source="kinematics", output=False)
+motion_chapter.choice("engaged", "s", "1", "Whether the Geneva drive's roller is in a slot (1) or not (0)",
+                      case(lambda: 1, "the roller is in a slot",
+                           lambda geneva_angle, engagement_half_angle: abs(geneva_angle) <= engagement_half_angle),
+                      case(lambda: 0, "the locking disc holds the wheel"), output=False, per_piece=True)
+motion_chapter.from_curve("cam_gear_speed", "ω_1", "rad", "Cam-gear: speed of the gear, for each turn of the disc", given="gear_speed",
+                          abscissa="cycle_angle", output=False)
+motion_chapter.from_curve("cam_gear_acceleration", "ε_1", "rad/s**2", "Cam-gear: acceleration of the gear", given="gear_acceleration",
+                          abscissa="cycle_angle", output=False)
+motion_chapter.value("cam_velocity", "v_c", "1", "Cam-gear: velocity of the sheet to the mean velocity S/T",
+                     lambda cam_gear_speed: cam_gear_speed / (2 * np.pi), source="kinematics")
+motion_chapter.value("cam_acceleration", "a_c", "1", "Cam-gear: acceleration of the sheet to S/T²",
+                     lambda cam_gear_acceleration, cycle_time: cam_gear_acceleration * cycle_time ** 2 / (2 * np.pi), source="kinematics")
+motion_chapter.choice("geneva_velocity", "v_g", "1", "Geneva: velocity of the sheet to the mean velocity S/T",
+                      case(lambda slots, geneva_angle, crank_ratio: slots * formulas.speed_ratio(geneva_angle, crank_ratio),
+                           "the roller is in a slot", IN_SLOT), case(lambda: 0, "the locking disc holds the wheel"), source="kinematics")
+motion_chapter.choice("geneva_acceleration", "a_g", "1", "Geneva: acceleration of the sheet to S/T²",
+                      case(lambda slots, geneva_angle, crank_ratio:
+                               as_number(2 * np.pi) * slots * formulas.acceleration_ratio(geneva_angle, crank_ratio), "the roller is in a slot",
+                           IN_SLOT), case(lambda: 0, "the locking disc holds the wheel"), source="kinematics")
+motion_chapter.value("cam_power", "P_c", "1", "Cam-gear: power to m·S²/T³", lambda cam_velocity, cam_acceleration: cam_velocity * cam_acceleration,
+                     source="energy", output=False)
+motion_chapter.value("geneva_power", "P_g", "1", "Geneva: power to m·S²/T³",
+                     lambda geneva_velocity, geneva_acceleration: geneva_velocity * geneva_acceleration, source="energy", output=False)
+for what, letter, told in (("velocity", "v", "velocity to S/T"), ("acceleration", "a", "acceleration to S/T²"),
+                           ("power", "P", "power to m·S²/T³, and so torque")):
+    for drive, name in (("cam", "Cam-gear"), ("geneva", "Geneva")):
+        motion_chapter.reduction(f"{drive}_{what}_peak", f"{letter}_{drive[0]},max", "1", f"{name}: greatest {told}", "abs_max", of=f"{drive}_{what}",
+                                 source="kinematics")
+motion_chapter.value("geneva_jump", "a_g,e", "1", "Geneva: jump of the acceleration to S/T² at entry and exit",
+                     lambda slots: as_number(2 * np.pi) * slots * np.tan(np.pi / slots), source="kinematics")
+motion_chapter.add(_ratio("velocity", "q_v", "Greatest velocity"))
+motion_chapter.add(_ratio("acceleration", "q_a", "Greatest acceleration"))
+motion_chapter.value("torque_ratio", "q_M", "1", "Greatest torque for the same mass, Geneva to cam-gear",
+                     lambda geneva_power_peak, cam_power_peak: geneva_power_peak / cam_power_peak, source="energy")
 
 
-def _in_units(step: str, needs: tuple[str, ...], lacks: tuple[str, ...]) -> tuple[Step, ...]:
+def _in_units(step: str, needs: tuple[str, ...], lacks: tuple[str, ...]) -> Steps:
     """Peaks of both drives with the step of one of them."""
-    own: dict[str, Any] = {"needs": needs, "lacks": lacks}
-    heavy: dict[str, Any] = {"needs": (*needs, "conveyor_mass"), "lacks": lacks}
     drives = (("cam", "Cam-gear"), ("geneva", "Geneva"))
-    return (
-        *(Value(id=f"{drive}_sheet_velocity_max", symbol=f"V_{drive[0]}", unit="m/s", source="kinematics", **own,
-                description=f"{name}: greatest velocity of the sheet", formula=bind(related.in_metres, relative=f"{drive}_velocity_peak", step=step))
-          for drive, name in drives),
-        *(Value(id=f"{drive}_sheet_acceleration_max", symbol=f"W_{drive[0]}", unit="m/s**2", source="kinematics", **own,
-                description=f"{name}: greatest acceleration of the sheet",
-                formula=bind(related.in_metres_squared, relative=f"{drive}_acceleration_peak", step=step))
-          for drive, name in drives),
-        *(Value(id=f"{drive}_torque_peak", symbol=f"M_{drive[0]}", unit="N*m", source="energy", **heavy,
-                description=f"{name}: greatest torque for the conveyor's mass alone",
-                formula=bind(related.in_newton_metres, relative=f"{drive}_power_peak", mass="conveyor_mass", step=step))
-          for drive, name in drives),
-    )  # fmt: skip
+    steps = Steps()
+    for drive, name in drives:
+        steps.value(f"{drive}_sheet_velocity_max", f"V_{drive[0]}", "m/s", f"{name}: greatest velocity of the sheet",
+                    bind(related.in_metres, relative=f"{drive}_velocity_peak", step=step), source="kinematics", needs=needs, lacks=lacks)
+    for drive, name in drives:
+        steps.value(f"{drive}_sheet_acceleration_max", f"W_{drive[0]}", "m/s**2", f"{name}: greatest acceleration of the sheet",
+                    bind(related.in_metres_squared, relative=f"{drive}_acceleration_peak", step=step), source="kinematics", needs=needs, lacks=lacks)
+    for drive, name in drives:
+        steps.value(f"{drive}_torque_peak", f"M_{drive[0]}", "N*m", f"{name}: greatest torque for the conveyor's mass alone",
+                    bind(related.in_newton_metres, relative=f"{drive}_power_peak", mass="conveyor_mass", step=step), source="energy",
+                    needs=(*needs, "conveyor_mass"), lacks=lacks)
+    return steps
 
 
-SHEET = Chapter(
-    "Velocity, acceleration and torque",
-    text="With the step of the cam-gear, or of the Geneva drive where the cam-gear has none, and the conveyor's mass of the cam-gear.",
-    steps=(*_in_units("cam_step", ("cam_step",), ()), *_in_units("geneva_step", ("geneva_step",), ("cam_step",))),
-)
+sheet = Chapter("Velocity, acceleration and torque",
+                text="With the step of the cam-gear, or of the Geneva drive where the cam-gear has none, and the conveyor's mass of the cam-gear.")
+sheet.add(_in_units("cam_step", ("cam_step",), ()))
+sheet.add(_in_units("geneva_step", ("geneva_step",), ("cam_step",)))
 
-SAME_DWELL = Chapter(
-    "Cam-gear with the Geneva drive's dwell",
-    text="A cam-gear stepper with this dwell has little time to stop, return and start. What its stop and start take, its return lacks: a "
-    "wide sweep hurries the return, a narrow one makes the stop hard. In between one sweep asks for the same acceleration in both.",
-    steps=(
-        Value(id="stop_sweep_limit", symbol="γ_lim", unit="deg", source="003 eq. 1–4",
-              description="Sweep of stop and start that leaves a tenth of the cycle for the return",
-              formula=bind(related.stop_sweep_limit, dwell_sweep="sector_dwell_sweep", peak_velocity="law_peak_velocity",
-                           least_return=LEAST_RETURN)),
-        Value(id="stop_sweep_best", symbol="γ_b", unit="deg", source="003 eq. 1–4",
-              description="Sweep of stop and start with the least acceleration of the sheet",
-              formula=bind(related.stop_sweep_best, dwell_sweep="sector_dwell_sweep", peak_velocity="law_peak_velocity")),
-        Value(id="best_stop_time", symbol="T_s", description="Share of stop and start with it", source="003 eq. 3",
-              formula=bind(related.time_of_stop, stop_sweep="stop_sweep_best", dwell_sweep="sector_dwell_sweep",
-                           peak_velocity="law_peak_velocity")),
-        Value(id="best_return_time", symbol="T_r", description="Share of the return with it", source="003 eq. 4",
-              formula=bind(related.time_of_return, time_of_stop="best_stop_time")),
-        Value(id="best_velocity", symbol="v_b", description="Greatest velocity to S/T with it", source="003, after eq. 4",
-              formula=bind(related.velocity_of_return, stop_sweep="stop_sweep_best", dwell_sweep="sector_dwell_sweep",
-                           peak_velocity="law_peak_velocity", return_time="best_return_time")),
-        Value(id="best_acceleration", symbol="a_b", description="Greatest acceleration to S/T² with it", source="motion laws",
-              formula=bind(related.acceleration_of_return, stop_sweep="stop_sweep_best", dwell_sweep="sector_dwell_sweep",
-                           peak_acceleration="law_peak_acceleration", return_time="best_return_time")),
-        Value(id="best_acceleration_ratio", symbol="q_b", description="Acceleration of the Geneva drive to that", source="kinematics",
-              formula=bind(common.quotient, quantity="geneva_acceleration_peak", by="best_acceleration")),
-    ),
-)  # fmt: skip
+same_dwell = Chapter("Cam-gear with the Geneva drive's dwell",
+                     text="A cam-gear stepper with this dwell has little time to stop, return and start. What its stop and start take, its return "
+                          "lacks: a wide sweep hurries the return, a narrow one makes the stop hard. In between one sweep asks for the same "
+                          "acceleration in both.")
+same_dwell.value("stop_sweep_limit", "γ_lim", "deg", "Sweep of stop and start that leaves a tenth of the cycle for the return",
+                 bind(related.stop_sweep_limit, dwell_sweep="sector_dwell_sweep", peak_velocity="law_peak_velocity",
+                 least_return=LEAST_RETURN), source="003 eq. 1–4")
+same_dwell.value("stop_sweep_best", "γ_b", "deg", "Sweep of stop and start with the least acceleration of the sheet",
+                 bind(related.stop_sweep_best, dwell_sweep="sector_dwell_sweep", peak_velocity="law_peak_velocity"), source="003 eq. 1–4")
+same_dwell.value("best_stop_time", "T_s", "1", "Share of stop and start with it",
+                 bind(related.time_of_stop, stop_sweep="stop_sweep_best", dwell_sweep="sector_dwell_sweep",
+                 peak_velocity="law_peak_velocity"), source="003 eq. 3")
+same_dwell.value("best_return_time", "T_r", "1", "Share of the return with it", bind(related.time_of_return, time_of_stop="best_stop_time"),
+                 source="003 eq. 4")
+same_dwell.value("best_velocity", "v_b", "1", "Greatest velocity to S/T with it",
+                 bind(related.velocity_of_return, stop_sweep="stop_sweep_best", dwell_sweep="sector_dwell_sweep",
+                 peak_velocity="law_peak_velocity", return_time="best_return_time"), source="003, after eq. 4")
+same_dwell.value("best_acceleration", "a_b", "1", "Greatest acceleration to S/T² with it",
+                 bind(related.acceleration_of_return, stop_sweep="stop_sweep_best", dwell_sweep="sector_dwell_sweep",
+                 peak_acceleration="law_peak_acceleration", return_time="best_return_time"), source="motion laws")
+same_dwell.value("best_acceleration_ratio", "q_b", "1", "Acceleration of the Geneva drive to that",
+                 lambda geneva_acceleration_peak, best_acceleration: geneva_acceleration_peak / best_acceleration, source="kinematics")
 
 GENEVA_HAS = "the Geneva drive has"
 JUMPS = "its acceleration jumps at entry and exit"
 ACCELERATIONS = {"geneva": "geneva_acceleration_peak", "cam": "cam_acceleration_peak"}
 
-VERDICT = Chapter(
-    "Verdict",
-    text="Beside the peaks counts that the Geneva drive's acceleration jumps at entry and exit, which shakes chain and sheet; the cam-gear "
-    "does without a jump where its law of motion has no acceleration in the middle of its time.",
-    steps=(
-        Choice(id="verdict", symbol="→", description="Peak acceleration and dwell",
-               cases=(Case(f"{GENEVA_HAS} lower peak acceleration and the same dwell, but {JUMPS}", "it accelerates the sheet less",
-                           bind(related.is_gentle_and_alike, **ACCELERATIONS)),
-                      Case(f"{GENEVA_HAS} lower peak acceleration and a longer dwell, but {JUMPS}", "it accelerates the sheet less",
-                           bind(related.is_gentle_and_long, **ACCELERATIONS)),
-                      Case(f"{GENEVA_HAS} lower peak acceleration, but a shorter dwell, and {JUMPS}", "it accelerates the sheet less",
-                           bind(common.is_below, smaller="geneva_acceleration_peak", greater="cam_acceleration_peak")),
-                      Case(f"{GENEVA_HAS} no lower peak acceleration and the same dwell, and {JUMPS}", "it does not accelerate the sheet less",
-                           bind(related.are_alike, one="geneva_dwell", other="dwell_share")),
-                      Case(f"{GENEVA_HAS} a longer dwell, but no lower peak acceleration, and {JUMPS}", "it does not accelerate the sheet less",
-                           bind(common.is_at_least, greater="geneva_dwell", smaller="dwell_share")),
-                      Case(f"{GENEVA_HAS} no lower peak acceleration and a shorter dwell, and {JUMPS}", "the cam-gear is ahead in both"))),
-        Choice(id="peaks_verdict", symbol="→", description="Peak velocity and torque",
-               cases=(Case(f"{GENEVA_HAS} lower peak velocity and torque", "both are below the cam-gear's",
-                           bind(related.are_both_below_one, first="velocity_ratio", second="torque_ratio")),
-                      Case(f"{GENEVA_HAS} lower peak velocity, but no lower torque", "its velocity is below the cam-gear's",
-                           bind(common.is_below, smaller="velocity_ratio", greater=1)),
-                      Case(f"{GENEVA_HAS} lower peak torque, but no lower velocity", "its torque is below the cam-gear's",
-                           bind(common.is_below, smaller="torque_ratio", greater=1)),
-                      Case(f"{GENEVA_HAS} no lower peak velocity and torque", "neither is below the cam-gear's"))),
-        Choice(id="dwell_verdict", symbol="→", description="Can the cam-gear dwell as long as the Geneva drive",
-               cases=(Case("it does already", "its dwell is not shorter",
-                           bind(common.is_at_most, smaller="geneva_dwell", greater="dwell_share")),
-                      Case("yes, with its sweep of stop and start", "the sweep leaves a tenth of the cycle for the return",
-                           bind(common.is_at_most, smaller="sector_stop_sweep", greater="stop_sweep_limit")),
-                      Case("only with a smaller sweep of stop and start", "the sweep as it is leaves less than a tenth of the cycle for the "
-                           "return; γ_lim is the most that leaves it, and γ_b asks for the least acceleration"))),
-    ),
-)  # fmt: skip
+verdict = Chapter("Verdict",
+                  text="Beside the peaks counts that the Geneva drive's acceleration jumps at entry and exit, which shakes chain and sheet; the "
+                       "cam-gear does without a jump where its law of motion has no acceleration in the middle of its time.")
+verdict.choice("verdict", "→", "1", "Peak acceleration and dwell",
+               case(f"{GENEVA_HAS} lower peak acceleration and the same dwell, but {JUMPS}", "it accelerates the sheet less",
+                    bind(related.is_gentle_and_alike, **ACCELERATIONS)),
+               case(f"{GENEVA_HAS} lower peak acceleration and a longer dwell, but {JUMPS}", "it accelerates the sheet less",
+                    bind(related.is_gentle_and_long, **ACCELERATIONS)),
+               case(f"{GENEVA_HAS} lower peak acceleration, but a shorter dwell, and {JUMPS}", "it accelerates the sheet less",
+                    lambda geneva_acceleration_peak, cam_acceleration_peak: geneva_acceleration_peak < cam_acceleration_peak),
+               case(f"{GENEVA_HAS} no lower peak acceleration and the same dwell, and {JUMPS}", "it does not accelerate the sheet less",
+                    bind(related.are_alike, one="geneva_dwell", other="dwell_share")),
+               case(f"{GENEVA_HAS} a longer dwell, but no lower peak acceleration, and {JUMPS}", "it does not accelerate the sheet less",
+                    lambda geneva_dwell, dwell_share: geneva_dwell >= dwell_share),
+               case(f"{GENEVA_HAS} no lower peak acceleration and a shorter dwell, and {JUMPS}", "the cam-gear is ahead in both"))
+verdict.choice("peaks_verdict", "→", "1", "Peak velocity and torque",
+               case(f"{GENEVA_HAS} lower peak velocity and torque", "both are below the cam-gear's",
+                    lambda velocity_ratio, torque_ratio: (velocity_ratio < 1) & (torque_ratio < 1)),
+               case(f"{GENEVA_HAS} lower peak velocity, but no lower torque", "its velocity is below the cam-gear's",
+                    lambda velocity_ratio: velocity_ratio < 1),
+               case(f"{GENEVA_HAS} lower peak torque, but no lower velocity", "its torque is below the cam-gear's",
+                    lambda torque_ratio: torque_ratio < 1),
+               case(f"{GENEVA_HAS} no lower peak velocity and torque", "neither is below the cam-gear's"))
+verdict.choice("dwell_verdict", "→", "1", "Can the cam-gear dwell as long as the Geneva drive",
+               case("it does already", "its dwell is not shorter", lambda geneva_dwell, dwell_share: geneva_dwell <= dwell_share),
+               case("yes, with its sweep of stop and start", "the sweep leaves a tenth of the cycle for the return",
+                    lambda sector_stop_sweep, stop_sweep_limit: sector_stop_sweep <= stop_sweep_limit),
+               case("only with a smaller sweep of stop and start",
+                    "the sweep as it is leaves less than a tenth of the cycle for the return; γ_lim is the most that leaves it, and γ_b asks for "
+                    "the least acceleration"))
 
 COMPARISON = Mechanism(
     kind="transport_comparison",
@@ -256,7 +226,7 @@ COMPARISON = Mechanism(
     summary="Both drives of the sheet conveyor on the same step and cycle time, each with its own dwell: velocity and acceleration of the sheet, "
     "torque for the same mass, dwell, and what the cam-gear would need for the Geneva drive's dwell.",
     inputs=TransportComparison,
-    chapters=(BASIS, DWELL, MOTION, SHEET, SAME_DWELL, VERDICT),
+    chapters=(basis, dwell, motion_chapter, sheet, same_dwell, verdict),
     key_results=("verdict", "peaks_verdict", "dwell_verdict", "dwell_ratio", "velocity_ratio", "acceleration_ratio", "torque_ratio",
                  "stop_sweep_limit", "stop_sweep_best"),
     figures=FIGURES,
@@ -264,7 +234,7 @@ COMPARISON = Mechanism(
         "Both drives move the same conveyor without losses; torque is that of the conveyor's mass alone, at the shaft that makes a turn a cycle.",
         "For the Geneva drive's dwell the cam-gear keeps its law of motion and its sweep in the dwell; its cams are to be checked again.",
     ),
-)  # fmt: skip
+)
 
 CAM, GENEVA = "cam_gear_transport", "geneva_transport"
 

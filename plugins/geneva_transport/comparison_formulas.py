@@ -9,74 +9,13 @@ from typing import Any
 
 import numpy as np
 
-from diecut_report.api import as_number, formula
-from diecut_report.plugins.geneva_transport import formulas
-
-
-@formula
-def time_of_cycle(cycles: Any) -> Any:
-    """Time of a cycle."""
-    return 1 / cycles
+from diecut_report.api import formula
 
 
 @formula
 def are_alike(one: Any, other: Any) -> Any:
     """Whether two quantities are the same, rounding apart."""
     return abs(one - other) <= 1e-6 * abs(one)
-
-
-@formula
-def middle_of_motion(dwell_share: Any) -> Any:
-    """Disc angle in the middle of the cam-gear's motion."""
-    return np.pi * (1 + dwell_share)
-
-
-@formula
-def comes_before(angle: Any, middle: Any) -> Any:
-    """Whether an angle is nearer to the middle of the motion before."""
-    return angle < middle - np.pi
-
-
-@formula
-def from_middle(angle: Any, middle: Any, turns: Any) -> Any:
-    """Crank angle of the Geneva drive, whose motion has the same middle as the cam-gear's."""
-    return angle - middle + 2 * np.pi * turns
-
-
-@formula
-def is_within(angle: Any, half: Any) -> Any:
-    """Whether the Geneva drive's roller is in a slot."""
-    return abs(angle) <= half
-
-
-@formula
-def cam_velocity(gear_speed: Any) -> Any:
-    """Velocity by the gear's speed, one turn of which is a step."""
-    return gear_speed / (2 * np.pi)
-
-
-@formula
-def cam_acceleration(gear_acceleration: Any, cycle_time: Any) -> Any:
-    """Acceleration by the gear's, one turn of which is a step."""
-    return gear_acceleration * cycle_time**2 / (2 * np.pi)
-
-
-@formula
-def geneva_velocity(slots: Any, angle: Any, crank_ratio: Any) -> Any:
-    """Velocity by the wheel's speed, one slot of which is a step."""
-    return slots * formulas.speed_ratio(angle, crank_ratio)
-
-
-@formula
-def geneva_acceleration(slots: Any, angle: Any, crank_ratio: Any) -> Any:
-    """Acceleration by the wheel's, one slot of which is a step."""
-    return as_number(2 * np.pi) * slots * formulas.acceleration_ratio(angle, crank_ratio)
-
-
-@formula
-def geneva_jump(slots: Any) -> Any:
-    """Jump of the acceleration at entry and exit."""
-    return as_number(2 * np.pi) * slots * np.tan(np.pi / slots)
 
 
 @formula
@@ -157,9 +96,3 @@ def is_gentle_and_long(geneva: Any, cam: Any, geneva_dwell: Any, dwell_share: An
 def is_gentle_and_alike(geneva: Any, cam: Any, geneva_dwell: Any, dwell_share: Any) -> Any:
     """Whether the Geneva drive has the lower acceleration in the same dwell."""
     return (geneva < cam) & are_alike(geneva_dwell, dwell_share)
-
-
-@formula
-def are_both_below_one(first: Any, second: Any) -> Any:
-    """Whether two ratios are below one."""
-    return (first < 1) & (second < 1)

@@ -40,12 +40,6 @@ def rim_radius(wheel_radius: Any, roller_radius: Any) -> Any:
 
 
 @formula
-def slot_length(slots: Any, center_distance: Any, crank_ratio: Any, roller_radius: Any) -> Any:
-    """Length of a slot from the wheel's radius to its bottom."""
-    return center_distance * (crank_ratio + np.cos(np.pi / slots) - 1) + roller_radius
-
-
-@formula
 def nearest_roller(center_distance: Any, crank_ratio: Any) -> Any:
     """Distance of the roller from the wheel's axis in the middle of the motion."""
     return center_distance * (1 - crank_ratio)
@@ -64,21 +58,9 @@ def engagement_half_angle(slots: Any) -> Any:
 
 
 @formula
-def entry_angle(slots: Any) -> Any:
-    """Crank angle from the middle of the motion to the roller's entry into the next slot."""
-    return 2 * np.pi - engagement_half_angle(slots)
-
-
-@formula
 def cutout_angle(slots: Any) -> Any:
     """Crank angle of the whole engagement, which the locking disc's cut-out takes."""
     return 2 * engagement_half_angle(slots)
-
-
-@formula
-def arc_angle(slots: Any) -> Any:
-    """What the cut-out leaves of a turn."""
-    return 2 * np.pi - cutout_angle(slots)
 
 
 @formula
@@ -100,30 +82,6 @@ def cycle_time(crank_speed: Any) -> Any:
 
 
 @formula
-def time_motion(slots: Any, cycle_time: Any) -> Any:
-    """Time in which the wheel turns."""
-    return motion_fraction(slots) * cycle_time
-
-
-@formula
-def time_dwell(slots: Any, cycle_time: Any) -> Any:
-    """Time in which it dwells."""
-    return dwell_fraction(slots) * cycle_time
-
-
-@formula
-def speed_ratio_peak(crank_ratio: Any) -> Any:
-    """Speed of the wheel to the crank's in the middle of the motion."""
-    return crank_ratio / (1 - crank_ratio)
-
-
-@formula
-def acceleration_entry(slots: Any) -> Any:
-    """Acceleration of the wheel at entry to the square of the crank's speed."""
-    return np.tan(np.pi / slots)
-
-
-@formula
 def acceleration_peak_angle(crank_ratio: Any) -> Any:
     """Crank angle from the middle of the motion at which the wheel's acceleration is greatest."""
     term = (1 + crank_ratio**2) / (4 * crank_ratio)
@@ -131,21 +89,9 @@ def acceleration_peak_angle(crank_ratio: Any) -> Any:
 
 
 @formula
-def is_inside(angle: Any, start: Any, end: Any) -> Any:
-    """Whether the roller is in a slot: before its exit, or after its next entry."""
-    return (angle <= end) | (angle >= start)
-
-
-@formula
 def holds(flag: Any) -> Any:
     """Whether a flag is set."""
     return flag == 1
-
-
-@formula
-def from_middle(crank_angle: Any, turns: Any) -> Any:
-    """Crank angle from the middle of this motion or of the next one."""
-    return crank_angle - 2 * np.pi * turns
 
 
 @formula
@@ -183,12 +129,6 @@ def rate_of_rate(ratio: Any, crank_speed: Any) -> Any:
 def travel_radius(sprocket_teeth: Any, chain_pitch: Any, gear_ratio: Any) -> Any:
     """Way of the conveyor for each radian of the wheel."""
     return sprocket_teeth * chain_pitch * gear_ratio / (2 * np.pi)
-
-
-@formula
-def sheet_step(sprocket_teeth: Any, chain_pitch: Any, gear_ratio: Any, slots: Any) -> Any:
-    """Way of the conveyor for each turn of the crank."""
-    return sprocket_teeth * chain_pitch * gear_ratio / slots
 
 
 @formula

@@ -6,7 +6,7 @@ from typing import Any
 
 import numpy as np
 
-from diecut_report.api import arccos, as_angle, formula
+from diecut_report.api import arccos, formula
 
 
 @formula
@@ -25,12 +25,6 @@ def roller_distance(crank_angle: Any, center_distance: Any, crank_ratio: Any) ->
 def roller_force(driven_inertia: Any, wheel_acceleration: Any, roller_distance: Any) -> Any:
     """Force of the roller on the slot's flank, square to the slot."""
     return driven_inertia * wheel_acceleration / roller_distance
-
-
-@formula
-def kinetic_energy(driven_inertia: Any, speed_ratio: Any, crank_speed: Any) -> Any:
-    """Energy of the wheel's inertia at a speed."""
-    return driven_inertia * (speed_ratio * crank_speed) ** 2 / 2
 
 
 @formula
@@ -80,18 +74,6 @@ def is_deep_enough(crank_radius: Any, flank_distance: Any, rim_distance: Any) ->
 def scaled(length: Any, disc_radius: Any, crank_radius: Any) -> Any:
     """A length of the position at entry, scaled from the crank's radius to the disc's."""
     return length * disc_radius / crank_radius
-
-
-@formula
-def play(clearance: Any, center_distance: Any, hold_half_angle: Any) -> Any:
-    """Angle by which the wheel can turn either way in the dwell."""
-    return as_angle(clearance / (center_distance * np.sin(hold_half_angle)))
-
-
-@formula
-def neck(slots: Any, center_distance: Any, locking_radius: Any, roller_radius: Any) -> Any:
-    """Width of an arm between its slots where the locking arc is deepest."""
-    return 2 * ((center_distance - locking_radius) * np.sin(np.pi / slots) - roller_radius)
 
 
 @formula

@@ -16,9 +16,9 @@ MECHANISM = Mechanism(
     "rollers, which carry it off. Up to three drives of the knife are compared at one speed of the machine and one working depth: duration of "
     "the working stroke, speed at contact, acceleration of the paper by the knife and in the grip of the rollers, time on the table.",
     inputs=KnifeDrive,
-    chapters=(working.SPEEDS, working.of_drive(working.PLANETARY, drives.PLANETARY),
+    chapters=(working.speeds, working.of_drive(working.PLANETARY, drives.PLANETARY),
               working.of_drive(working.CRANK_SLIDER, drives.CRANK_SLIDER), working.of_drive(working.CRANK_ROCKER, rocker.CRANK_ROCKER),
-              comparison.BEST, comparison.WHY, comparison.GRIP),
+              comparison.best, comparison.why, comparison.grip),
     key_results=("verdict", "acceleration_ratio_planetary", "stroke_ratio_planetary", "factor_ratio_planetary", "reason", "grip_verdict",
                  "planetary_acceleration_peak", "crank_slider_acceleration_peak", "crank_rocker_acceleration_peak", "cycle_time",
                  "roller_velocity"),

@@ -6,7 +6,7 @@ from functools import partial
 from math import inf, sqrt
 from typing import NamedTuple
 
-from diecut_report.api import Step, Words, outward, told
+from diecut_report.api import Steps, outward, told
 from diecut_report.plugins.knife_drive.working import ALL, Drives, groups, keys, lacking
 
 ENOUGH = 1e-9  # share by which a limit itself is kept clear of
@@ -127,23 +127,31 @@ def _time_words(group: Drives, own: int, *numbers: float) -> str:
     return time_on_table(own, _of(group, True, numbers))
 
 
-def _in_group(group: Drives, own: int) -> list[Step]:
+def _in_group(group: Drives, own: int) -> Steps:
     """The advice on one drive's grip and time in a group of drives, for what may be given besides."""
     drive, length, speed = group[own].key, ("signature_length",), ("grip_speed",)
-    found: list[Step] = [
-        Words(id=f"{drive}_grip_advice", takes=_takes(group, timed),
-              needs=(*keys(group), *(length if timed else ()), *(() if scales else speed)),
-              lacks=(*lacking(group), *(() if timed else length), *(speed if scales else ())),
-              function=partial(_grip_words, group, own, timed, scales))
-        for timed in (False, True) for scales in (False, True)
-    ]  # fmt: skip
-    found.append(Words(id=f"{drive}_time_advice", takes=_takes(group, True), needs=(*keys(group), *length),
-                       lacks=lacking(group), function=partial(_time_words, group, own)))  # fmt: skip
-    return found
+    steps = Steps()
+    for timed in (False, True):
+        for scales in (False, True):
+            steps.words(
+                f"{drive}_grip_advice",
+                partial(_grip_words, group, own, timed, scales),
+                _takes(group, timed),
+                needs=(*keys(group), *(length if timed else ()), *(() if scales else speed)),
+                lacks=(*lacking(group), *(() if timed else length), *(speed if scales else ())),
+            )
+    steps.words(
+        f"{drive}_time_advice",
+        partial(_time_words, group, own),
+        _takes(group, True),
+        needs=(*keys(group), *length),
+        lacks=lacking(group),
+    )
+    return steps
 
 
-ADVICE: tuple[Step, ...] = (
-    *(Words(id=f"{drive.key}_paper_advice", needs=(drive.key,), function=paper,
-            takes=("cylinder_rate", f"{drive.key}_acceleration_peak", "allowable_paper_acceleration")) for drive in ALL),
-    *(words for group in groups() for own in range(len(group)) for words in _in_group(group, own)),
-)  # fmt: skip
+ADVICE = Steps()
+for drive in ALL:
+    takes = ("cylinder_rate", f"{drive.key}_acceleration_peak", "allowable_paper_acceleration")
+    ADVICE.words(f"{drive.key}_paper_advice", paper, takes, needs=(drive.key,))
+ADVICE.add(_in_group(group, own) for group in groups() for own in range(len(group)))

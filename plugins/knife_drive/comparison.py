@@ -4,7 +4,9 @@ from __future__ import annotations
 
 from typing import Any
 
-from diecut_report.api import Binding, Case, Chapter, Choice, Step, Value, bind
+import numpy as np
+
+from diecut_report.api import Binding, Chapter, Steps, bind, case
 from diecut_report.mechanics import common
 from diecut_report.plugins.knife_drive import formulas
 from diecut_report.plugins.knife_drive.advice import ADVICE
@@ -21,6 +23,8 @@ from diecut_report.plugins.knife_drive.working import (
     keys,
     lacking,
 )
+
+# fmt: off
 
 COMPARED = (
     ("stroke", "H", "Stroke", "mm"),
@@ -55,36 +59,34 @@ def _least(drives: Drives) -> Binding:
     return bind(formulas.least_of_three, first=peaks[0], second=peaks[1], third=peaks[2])
 
 
-def _best(drives: Drives) -> tuple[Step, ...]:
+def _best(drives: Drives) -> Steps:
     """The best of several drives, and its numbers."""
     given: dict[str, Any] = {"needs": keys(drives), "lacks": lacking(drives)}
     *first, last = drives
     words = {drive: f"the {drive.name} has the least acceleration" for drive in drives}
-    cases = [Case(d.key, words[d], _is_best(d)) for d in first]
-    least = Value(id=f"best_{PEAK}", symbol="W_m,best", unit="m/s**2", output=False, formula=_least(drives), **given,
-                  description="Least of the greatest accelerations in the working stroke")  # fmt: skip
-    best = Choice(id="best_drive", symbol="→", description="Drive that is gentlest on the paper", **given,
-                  cases=(*cases, Case(last.key, words[last])))  # fmt: skip
-    numbers = (
-        Choice(id=f"best_{name}", symbol=_indexed(symbol, "best"), unit=unit, description=f"{title}, best drive",
-               output=False, **given,
-               cases=(*(Case(bind(common.same, quantity=f"{d.key}_{name}"), words[d], _is_best(d)) for d in first),
-                      Case(bind(common.same, quantity=f"{last.key}_{name}"), words[last])))
-        for name, symbol, title, unit in COMPARED if name != PEAK
-    )  # fmt: skip
-    return least, best, *numbers
+    steps = Steps()
+    steps.value(f"best_{PEAK}", "W_m,best", "m/s**2", "Least of the greatest accelerations in the working stroke", _least(drives), output=False,
+                **given)
+    steps.choice("best_drive", "→", "1", "Drive that is gentlest on the paper", *(case(d.key, words[d], _is_best(d)) for d in first),
+                 case(last.key, words[last]), **given)
+    for name, symbol, title, unit in COMPARED:
+        if name != PEAK:
+            steps.choice(f"best_{name}", _indexed(symbol, "best"), unit, f"{title}, best drive",
+                         *(case(bind(common.same, quantity=f"{d.key}_{name}"), words[d], _is_best(d)) for d in first),
+                         case(bind(common.same, quantity=f"{last.key}_{name}"), words[last]), output=False, **given)
+    return steps
 
 
-def _ratios(drive: Drive) -> tuple[Step, ...]:
+def _ratios(drive: Drive) -> Steps:
     """A drive's numbers to those of the best one, where there is another to compare it with."""
-    return tuple(
-        Value(id=f"{drive.key}_{name}_ratio", symbol=f"q_{symbol[0]}{symbol[2:]},{drive.letter}", source="this method",
-              description=f"{title}: {drive.name} to best drive", needs=keys(pair), lacks=lacks,
-              exists=bind(formulas.holds, flag=f"best_{name}") if name in MAY_VANISH else None,
-              formula=bind(common.quotient, quantity=f"{drive.key}_{name}", by=f"best_{name}"))
-        for name, symbol, title, _ in COMPARED
-        for pair, lacks in _with_another(drive)
-    )  # fmt: skip
+    steps = Steps()
+    for name, symbol, title, _ in COMPARED:
+        for pair, lacks in _with_another(drive):
+            steps.value(f"{drive.key}_{name}_ratio", f"q_{symbol[0]}{symbol[2:]},{drive.letter}", "1", f"{title}: {drive.name} to best drive",
+                        bind(common.quotient, quantity=f"{drive.key}_{name}", by=f"best_{name}"),
+                        exists=bind(formulas.holds, flag=f"best_{name}") if name in MAY_VANISH else None,
+                        source="this method", needs=keys(pair), lacks=lacks)
+    return steps
 
 
 def _with_another(drive: Drive) -> list[tuple[Drives, tuple[str, ...]]]:
@@ -93,117 +95,108 @@ def _with_another(drive: Drive) -> list[tuple[Drives, tuple[str, ...]]]:
     return [((drive, one), ()), ((drive, two), (one.key,))]
 
 
-def _verdict(drives: Drives) -> Choice:
+def _verdict(drives: Drives) -> Steps:
     """In words: which drive, and whether the paper stands it."""
-    kept = [Case(f"the {d.name} is gentlest on the paper, and its acceleration is allowed",
+    kept = [case(f"the {d.name} is gentlest on the paper, and its acceleration is allowed",
                  f"the {d.name} has the least acceleration, and it is allowed", _is_best(d, allowed=True)) for d in drives]  # fmt: skip
     broken = [(f"the {d.name} is gentlest on the paper, but its acceleration, too, is above the allowed one",
                f"the {d.name} has the least acceleration, but it is above the allowed one", d) for d in drives]  # fmt: skip
     text, words, _ = broken[-1]
-    cases = (*kept, *(Case(text, words, _is_best(d)) for text, words, d in broken[:-1]), Case(text, words))
-    return Choice(
-        id="verdict", symbol="→", description="Verdict", needs=keys(drives), lacks=lacking(drives), cases=cases
-    )
+    cases = (*kept, *(case(text, words, _is_best(d)) for text, words, d in broken[:-1]), case(text, words))
+    steps = Steps()
+    steps.choice("verdict", "→", "1", "Verdict", *cases, needs=keys(drives), lacks=lacking(drives))
+    return steps
 
 
-def _alone(drive: Drive) -> tuple[Step, ...]:
+def _alone(drive: Drive) -> Steps:
     """A drive that is given alone is the best one."""
     given: dict[str, Any] = {"needs": (drive.key,), "lacks": lacking((drive,))}
     stands = bind(common.is_at_most, smaller=f"{drive.key}_{PEAK}", greater=ALLOWED)
-    return (
-        Choice(id="best_drive", symbol="→", description="Drive that is gentlest on the paper", **given,
-               cases=(Case(drive.key, "the only drive that is given, and its acceleration is allowed", stands),
-                      Case(drive.key, "the only drive that is given, though its acceleration is above the allowed one"))),
-        Choice(id="verdict", symbol="→", description="Verdict", **given,
-               cases=(Case(f"only the {drive.name} is given; its acceleration is allowed", "its acceleration is allowed", stands),
-                      Case(f"only the {drive.name} is given; its acceleration is above the allowed one", "it is not allowed"))),
-    )  # fmt: skip
+    steps = Steps()
+    steps.choice("best_drive", "→", "1", "Drive that is gentlest on the paper",
+                 case(drive.key, "the only drive that is given, and its acceleration is allowed", stands),
+                 case(drive.key, "the only drive that is given, though its acceleration is above the allowed one"), **given)
+    steps.choice("verdict", "→", "1", "Verdict",
+                 case(f"only the {drive.name} is given; its acceleration is allowed", "its acceleration is allowed", stands),
+                 case(f"only the {drive.name} is given; its acceleration is above the allowed one", "it is not allowed"), **given)
+    return steps
 
 
 SEVERAL = groups(least=2)
 
-BEST = Chapter(
-    "Comparison",
-    text="The best drive is the one with the least greatest acceleration in the working stroke; ratios are to its numbers.",
-    steps=(
-        SIGNATURE_BEYOND_DEPTH,
-        *(grips(drive) for drive in ALL),
-        *ADVICE,
-        *(step for drive in ALL for step in _alone(drive)),
-        *(step for drives in SEVERAL for step in _best(drives)),
-        *(step for drive in ALL for step in _ratios(drive)),
-        *(_verdict(drives) for drives in SEVERAL),
-    ),
-)
+best = Chapter("Comparison", text="The best drive is the one with the least greatest acceleration in the working stroke; ratios are to its numbers.")
+best.add(SIGNATURE_BEYOND_DEPTH)
+best.add(grips(drive) for drive in ALL)
+best.add(ADVICE)
+best.add(_alone(drive) for drive in ALL)
+best.add(_best(drives) for drives in SEVERAL)
+best.add(_ratios(drive) for drive in ALL)
+best.add(_verdict(drives) for drives in SEVERAL)
 
 OTHERS = (("acceleration_peak", "W_m", "Greatest acceleration in the working stroke", "m/s**2"), ("stroke", "H", "Stroke", "mm"),
-          ("end_factor", "k", "Factor of the acceleration at the lowest point", "1"))  # fmt: skip
+          ("end_factor", "k", "Factor of the acceleration at the lowest point", "1"))
 
 
-def _best_other() -> tuple[Step, ...]:
+def _best_other() -> Steps:
     """The numbers of the better one of the two other drives."""
     is_slider = bind(common.is_at_most, smaller=f"{CRANK_SLIDER.key}_{PEAK}", greater=f"{CRANK_ROCKER.key}_{PEAK}")
-    both = tuple(
-        Choice(id=f"other_{name}", symbol=_indexed(symbol, "other"), unit=unit, description=f"{title}, best other drive", output=False,
-               needs=(PLANETARY.key, CRANK_SLIDER.key, CRANK_ROCKER.key),
-               cases=(Case(bind(common.same, quantity=f"{CRANK_SLIDER.key}_{name}"), "the crank-slider is the gentler one", is_slider),
-                      Case(bind(common.same, quantity=f"{CRANK_ROCKER.key}_{name}"), "the crank-rocker is the gentler one")))
-        for name, symbol, title, unit in OTHERS
-    )  # fmt: skip
-    single = tuple(
-        Value(id=f"other_{name}", symbol=_indexed(symbol, "other"), unit=unit, description=f"{title}, other drive", output=False,
-              needs=(PLANETARY.key, drive.key), lacks=lacking((PLANETARY, drive)),
-              formula=bind(common.same, quantity=f"{drive.key}_{name}"))
-        for drive in (CRANK_SLIDER, CRANK_ROCKER) for name, symbol, title, unit in OTHERS
-    )  # fmt: skip
-    return both + single
+    steps = Steps()
+    for name, symbol, title, unit in OTHERS:
+        steps.choice(f"other_{name}", _indexed(symbol, "other"), unit, f"{title}, best other drive",
+                     case(bind(common.same, quantity=f"{CRANK_SLIDER.key}_{name}"), "the crank-slider is the gentler one", is_slider),
+                     case(bind(common.same, quantity=f"{CRANK_ROCKER.key}_{name}"), "the crank-rocker is the gentler one"),
+                     needs=(PLANETARY.key, CRANK_SLIDER.key, CRANK_ROCKER.key), output=False)
+    for drive in (CRANK_SLIDER, CRANK_ROCKER):
+        for name, symbol, title, unit in OTHERS:
+            steps.value(f"other_{name}", _indexed(symbol, "other"), unit, f"{title}, other drive",
+                        bind(common.same, quantity=f"{drive.key}_{name}"), needs=(PLANETARY.key, drive.key),
+                        lacks=lacking((PLANETARY, drive)), output=False)
+    return steps
 
 
-def _of_planetary(lacks: tuple[str, ...], *pair: str) -> tuple[Step, ...]:
+def _of_planetary(lacks: tuple[str, ...], *pair: str) -> Steps:
     """Why the planetary drive differs from the best other one: its acceleration is stroke times factor times ω²/2."""
     given: dict[str, Any] = {"needs": pair, "lacks": lacks}
 
-    def ratio(name: str, symbol: str, title: str, of: str) -> Value:
-        return Value(id=name, symbol=symbol, description=f"{title}: planetary drive to best other drive", source="this method", **given,
-                     formula=bind(common.quotient, quantity=f"{PLANETARY.key}_{of}", by=f"other_{of}"))  # fmt: skip
+    steps = Steps()
 
-    return (
-        ratio("acceleration_ratio_planetary", "q_W", "Greatest acceleration", PEAK),
-        ratio("stroke_ratio_planetary", "q_H", "Stroke", "stroke"),
-        ratio("factor_ratio_planetary", "q_k", "Factor of the acceleration at the lowest point", "end_factor"),
-        Choice(id="reason", symbol="→", description="What makes the planetary drive's acceleration differ", **given,
-               cases=(Case("mostly its stroke", "the strokes differ more than the factors of the drives",
-                           bind(formulas.is_by_stroke, stroke_ratio="stroke_ratio_planetary", factor_ratio="factor_ratio_planetary")),
-                      Case("mostly the kind of drive", "the factors of the drives differ more than the strokes"))),
-    )  # fmt: skip
+    def ratio(name: str, symbol: str, title: str, of: str) -> None:
+        steps.value(name, symbol, "1", f"{title}: planetary drive to best other drive",
+                    bind(common.quotient, quantity=f"{PLANETARY.key}_{of}", by=f"other_{of}"), source="this method", **given)
 
-
-WHY = Chapter(
-    "Why the drives differ",
-    text="At the lowest point the acceleration is W₀ = k·H·ω₁²/2: stroke H times a factor k of the drive, which is 1 for the planetary drive and "
-    "1 + r/l for the crank-slider. With usual links the factors are near 1, so at equal stroke the drives differ little; a shorter stroke at the "
-    "same working depth lowers the acceleration in proportion.",
-    needs=(PLANETARY.key,),
-    absent="The planetary drive against the others: there is no block planetary.",
-    steps=(
-        *_best_other(),
-        *_of_planetary((), PLANETARY.key, CRANK_SLIDER.key),
-        *_of_planetary((CRANK_SLIDER.key,), PLANETARY.key, CRANK_ROCKER.key),
-    ),
-)
+    ratio("acceleration_ratio_planetary", "q_W", "Greatest acceleration", PEAK)
+    ratio("stroke_ratio_planetary", "q_H", "Stroke", "stroke")
+    ratio("factor_ratio_planetary", "q_k", "Factor of the acceleration at the lowest point", "end_factor")
+    steps.choice("reason", "→", "1", "What makes the planetary drive's acceleration differ",
+                 case("mostly its stroke", "the strokes differ more than the factors of the drives",
+                      lambda stroke_ratio_planetary, factor_ratio_planetary:
+                          np.maximum(stroke_ratio_planetary, 1 / stroke_ratio_planetary)
+                          >= np.maximum(factor_ratio_planetary, 1 / factor_ratio_planetary)),
+                 case("mostly the kind of drive", "the factors of the drives differ more than the strokes"), **given)
+    return steps
 
 
-def _grip(drives: Drives) -> Choice:
-    return Choice(
-        id="grip_verdict", symbol="→", description="What asks more of the paper", needs=keys(drives), lacks=lacking(drives),
-        cases=(Case("the grip of the rollers, not the knife", "with the best drive the grip accelerates the signature more than the knife does",
-                    bind(common.is_below, smaller=f"best_{PEAK}", greater="best_grip_size")),
-               Case("the knife, not the grip of the rollers", "with the best drive the knife accelerates the signature at least as much")),
-    )  # fmt: skip
+why = Chapter("Why the drives differ",
+              text="At the lowest point the acceleration is W₀ = k·H·ω₁²/2: stroke H times a factor k of the drive, which is 1 for the planetary "
+                   "drive and 1 + r/l for the crank-slider. With usual links the factors are near 1, so at equal stroke the drives differ little; "
+                   "a shorter stroke at the same working depth lowers the acceleration in proportion.", needs=(PLANETARY.key,),
+              absent="The planetary drive against the others: there is no block planetary.")
+why.add(_best_other())
+why.add(_of_planetary((), PLANETARY.key, CRANK_SLIDER.key))
+why.add(_of_planetary((CRANK_SLIDER.key,), PLANETARY.key, CRANK_ROCKER.key))
 
 
-GRIP = Chapter(
-    "Knife and rollers",
-    text="No drive spares the signature the jump from the knife's speed, which falls to nothing at the lowest point, to that of the rollers.",
-    steps=tuple(_grip(drives) for drives in SEVERAL),
-)
+def _grip(drives: Drives) -> Steps:
+    steps = Steps()
+    steps.choice("grip_verdict", "→", "1", "What asks more of the paper",
+                 case("the grip of the rollers, not the knife", "with the best drive the grip accelerates the signature more than the knife does",
+                      bind(common.is_below, smaller=f"best_{PEAK}", greater="best_grip_size")),
+                 case("the knife, not the grip of the rollers", "with the best drive the knife accelerates the signature at least as much"),
+                 needs=keys(drives), lacks=lacking(drives))
+    return steps
+
+
+grip = Chapter("Knife and rollers",
+               text="No drive spares the signature the jump from the knife's speed, which falls to nothing at the lowest point, to that of the "
+                    "rollers.")
+grip.add(_grip(drives) for drives in SEVERAL)

@@ -6,100 +6,98 @@ Each gives ``stroke``, ``lowest_angle``, ``working_angle``, ``contact_angle``, `
 
 from __future__ import annotations
 
-from diecut_report.api import Formula, Reduction, Require, Step, Value, bind
+import numpy as np
+
+from diecut_report.api import Formula, Steps, bind
 from diecut_report.mechanics import common, slider_crank
 from diecut_report.plugins.knife_drive import formulas, working
+
+# fmt: off
 
 NO_SPEED = ("grip_speed",)
 RADIUS = "planetary.carrier_radius"
 CRANK, ROD = "crank_slider.crank_radius", "crank_slider.rod_length"
 ANGLES = {"contact": "contact_angle", "grip": "grip_begin"}
 
-CONTACT = Value(id="contact_angle", symbol="φ_t", unit="deg", description="Crank angle of the contact at the table", source="kinematics",
-                digits=6, formula=bind(common.difference, greater="lowest_angle", smaller="working_angle"))  # fmt: skip
-GRIP = Value(id="grip_begin", symbol="φ_b", unit="deg", description="Crank angle at which gripping begins", source="004, after Fig. 3",
-             output=False, formula=bind(common.difference, greater="lowest_angle", smaller="grip_angle"))  # fmt: skip
+CONTACT = Steps()
+CONTACT.value("contact_angle", "φ_t", "deg", "Crank angle of the contact at the table",
+              lambda lowest_angle, working_angle: lowest_angle - working_angle, source="kinematics", digits=6)
+GRIP = Steps()
+GRIP.value("grip_begin", "φ_b", "deg", "Crank angle at which gripping begins", lambda lowest_angle, grip_angle: lowest_angle - grip_angle,
+           source="004, after Fig. 3", output=False)
 
-PLANETARY: tuple[Step, ...] = (
-    Value(id="stroke", symbol="H_", unit="mm", description="Stroke of the edge", source="004 eq. 1",
-          formula=bind(formulas.planetary_stroke, carrier_radius=RADIUS)),
-    working.reaches(working.PLANETARY),
-    Value(id="displacement", symbol="S_", unit="mm", description="Displacement of the edge from the carrier's axis", source="004 eq. 1",
-          formula=bind(formulas.planetary_displacement, carrier_radius=RADIUS)),
-    Value(id="velocity", symbol="V_", unit="m/s", description="Velocity of the edge", source="004 eq. 1",
-          formula=bind(formulas.planetary_velocity, carrier_radius=RADIUS)),
-    Value(id="acceleration", symbol="W_", unit="m/s**2", description="Acceleration of the edge", source="004 eq. 1",
-          formula=bind(formulas.planetary_acceleration, carrier_radius=RADIUS)),
-    Value(id="lowest_angle", symbol="φ_0", unit="deg", description="Crank angle of the lowest point", source="004 eq. 1",
-          formula=formulas.three_quarter_turn),
-    Value(id="working_angle", symbol="φ_w", unit="deg", description="Crank angle of the working stroke", source="004 eq. 1, solved", digits=6,
-          formula=bind(formulas.planetary_working_angle, carrier_radius=RADIUS)),
-    CONTACT,
-    Value(id="contact_rate", symbol="v_t", unit="m/s", description="Velocity of the edge as it meets the signature", source="004 eq. 1",
-          output=False, formula=bind(formulas.planetary_velocity, crank_angle="contact_angle", carrier_radius=RADIUS)),
-    Value(id="acceleration_end", symbol="W_0", unit="m/s**2", description="Acceleration of the edge at its lowest point", source="004 eq. 1",
-          formula=bind(formulas.planetary_acceleration, crank_angle="lowest_angle", carrier_radius=RADIUS)),
-    GRIP,
-    Value(id="grip_rate", symbol="v_g", unit="m/s", description="Velocity of the edge when gripping begins", source="004 eq. 1", output=False,
-          lacks=NO_SPEED, formula=bind(formulas.planetary_velocity, crank_angle="grip_begin", carrier_radius=RADIUS)),
-)  # fmt: skip
+PLANETARY = Steps()
+PLANETARY.value("stroke", "H_", "mm", "Stroke of the edge", bind(formulas.planetary_stroke, carrier_radius=RADIUS), source="004 eq. 1")
+PLANETARY.add(working.reaches(working.PLANETARY))
+PLANETARY.value("displacement", "S_", "mm", "Displacement of the edge from the carrier's axis",
+                bind(formulas.planetary_displacement, carrier_radius=RADIUS), source="004 eq. 1")
+PLANETARY.value("velocity", "V_", "m/s", "Velocity of the edge", bind(formulas.planetary_velocity, carrier_radius=RADIUS), source="004 eq. 1")
+PLANETARY.value("acceleration", "W_", "m/s**2", "Acceleration of the edge", bind(formulas.planetary_acceleration, carrier_radius=RADIUS),
+                source="004 eq. 1")
+PLANETARY.value("lowest_angle", "φ_0", "deg", "Crank angle of the lowest point", lambda: 3 * np.pi / 2, source="004 eq. 1")
+PLANETARY.value("working_angle", "φ_w", "deg", "Crank angle of the working stroke", bind(formulas.planetary_working_angle, carrier_radius=RADIUS),
+                source="004 eq. 1, solved", digits=6)
+PLANETARY.add(CONTACT)
+PLANETARY.value("contact_rate", "v_t", "m/s", "Velocity of the edge as it meets the signature",
+                bind(formulas.planetary_velocity, crank_angle="contact_angle", carrier_radius=RADIUS), source="004 eq. 1", output=False)
+PLANETARY.value("acceleration_end", "W_0", "m/s**2", "Acceleration of the edge at its lowest point",
+                bind(formulas.planetary_acceleration, crank_angle="lowest_angle", carrier_radius=RADIUS), source="004 eq. 1")
+PLANETARY.add(GRIP)
+PLANETARY.value("grip_rate", "v_g", "m/s", "Velocity of the edge when gripping begins",
+                bind(formulas.planetary_velocity, crank_angle="grip_begin", carrier_radius=RADIUS), source="004 eq. 1", output=False, lacks=NO_SPEED)
 
 
-def _slider_at(place: str, symbol: str, when: str, lacks: tuple[str, ...] = ()) -> tuple[Step, ...]:
+def _slider_at(place: str, symbol: str, when: str, lacks: tuple[str, ...] = ()) -> Steps:
     """The rod's angle and the edge's velocity at one place."""
-    return (
-        Value(id=f"{place}_rod_angle", symbol=f"β_{symbol}", unit="deg", description=f"Angle of the rod to the knife's path {when}",
-              source="004 eq. 2", output=False, lacks=lacks,
-              formula=bind(slider_crank.coupler_angle, crank_angle=ANGLES[place], rod_ratio="rod_ratio")),
-        Value(id=f"{place}_rate", symbol=f"v_{symbol}", unit="m/s", description=f"Velocity of the edge {when}", source="004 eq. 2",
-              output=False, lacks=lacks,
-              formula=bind(slider_crank.velocity, crank_angle=ANGLES[place], coupler_angle=f"{place}_rod_angle", crank_radius=CRANK)),
-    )  # fmt: skip
+    steps = Steps()
+    steps.value(f"{place}_rod_angle", f"β_{symbol}", "deg", f"Angle of the rod to the knife's path {when}",
+                bind(slider_crank.coupler_angle, crank_angle=ANGLES[place], rod_ratio="rod_ratio"), source="004 eq. 2", output=False, lacks=lacks)
+    steps.value(f"{place}_rate", f"v_{symbol}", "m/s", f"Velocity of the edge {when}",
+                bind(slider_crank.velocity, crank_angle=ANGLES[place], coupler_angle=f"{place}_rod_angle", crank_radius=CRANK), source="004 eq. 2",
+                output=False, lacks=lacks)
+    return steps
 
 
-def _first_order(name: str, symbol: str, unit: str, word: str, approximate: Formula) -> tuple[Step, ...]:
+def _first_order(name: str, symbol: str, unit: str, word: str, approximate: Formula) -> Steps:
     """A curve to the first order of r/l, as textbooks have it, and how far it is from the exact one."""
-    return (
-        Value(id=f"{name}_first_order", symbol=f"{symbol}_1", unit=unit, description=f"{word.capitalize()} of the edge to the first order of r/l",
-              source="004 eq. 2, to the first order", formula=bind(approximate, crank_radius=CRANK)),
-        Value(id=f"{name}_error", symbol=f"Δ{symbol}_", unit=unit, description=f"Exact {word} less the first-order one", output=False,
-              formula=bind(common.difference, greater=name, smaller=f"{name}_first_order")),
-        Reduction(id=f"{name}_difference", symbol=f"Δ{symbol}_m", unit=unit, of=f"{name}_error", operation="abs_max",
-                  description=f"Greatest difference of the first-order {word} from the exact one"),
-    )  # fmt: skip
+    steps = Steps()
+    steps.value(f"{name}_first_order", f"{symbol}_1", unit, f"{word.capitalize()} of the edge to the first order of r/l",
+                bind(approximate, crank_radius=CRANK), source="004 eq. 2, to the first order")
+    steps.value(f"{name}_error", f"Δ{symbol}_", unit, f"Exact {word} less the first-order one",
+                bind(common.difference, greater=name, smaller=f"{name}_first_order"), output=False)
+    steps.reduction(f"{name}_difference", f"Δ{symbol}_m", unit, f"Greatest difference of the first-order {word} from the exact one", "abs_max",
+                    of=f"{name}_error")
+    return steps
 
 
-CRANK_SLIDER: tuple[Step, ...] = (
-    Require(id="rod_longer", condition=bind(common.is_below, smaller=CRANK, greater=ROD), key=ROD,
-            message="is {crank_slider.rod_length}, not longer than the crank_radius of {crank_slider.crank_radius}: the crank cannot turn "
-            "fully; make the rod longer than the crank, usually three to six times"),
-    Value(id="rod_ratio", symbol="λ_", description="Rod to crank", source="004 eq. 2", output=False,
-          formula=bind(common.quotient, quantity=ROD, by=CRANK)),
-    Value(id="stroke", symbol="H_", unit="mm", description="Stroke of the edge", source="004 eq. 2",
-          formula=bind(common.twice, quantity=CRANK)),
-    working.reaches(working.CRANK_SLIDER),
-    Value(id="rod_angle", symbol="β_", unit="deg", description="Angle of the rod to the knife's path", source="004 eq. 2", output=False,
-          formula=bind(slider_crank.coupler_angle)),
-    Value(id="displacement", symbol="S_", unit="mm", description="Height of the edge above its lowest point", source="004 eq. 2, corrected",
-          formula=bind(slider_crank.displacement, coupler_angle="rod_angle", crank_radius=CRANK)),
-    Value(id="velocity", symbol="V_", unit="m/s", description="Velocity of the edge", source="004 eq. 2",
-          formula=bind(slider_crank.velocity, coupler_angle="rod_angle", crank_radius=CRANK)),
-    Value(id="acceleration", symbol="W_", unit="m/s**2", description="Acceleration of the edge", source="004 eq. 2",
-          formula=bind(slider_crank.acceleration, coupler_angle="rod_angle", crank_radius=CRANK)),
-    Value(id="lowest_angle", symbol="φ_0", unit="deg", description="Crank angle of the lowest point: a turn after φ = 0", source="004 eq. 2",
-          formula=formulas.full_turn),
-    Value(id="working_angle", symbol="φ_w", unit="deg", description="Crank angle of the working stroke", source="004 eq. 2, solved", digits=6,
-          formula=bind(slider_crank.crank_angle_at, displacement="working_depth", crank_radius=CRANK, rod_length=ROD)),
-    CONTACT,
-    *_slider_at("contact", "t", "as it meets the signature"),
-    Value(id="acceleration_end", symbol="W_0", unit="m/s**2", description="Acceleration of the edge at its lowest point",
-          source="004 eq. 2 at φ = 0", formula=bind(formulas.slider_end_acceleration, crank_radius=CRANK)),
-    GRIP,
-    *_slider_at("grip", "g", "when gripping begins", NO_SPEED),
-    *_first_order("displacement", "S", "mm", "height", slider_crank.displacement_first_order),
-    *_first_order("velocity", "V", "m/s", "velocity", slider_crank.velocity_first_order),
-    *_first_order("acceleration", "W", "m/s**2", "acceleration", slider_crank.acceleration_first_order),
-    Value(id="acceleration_difference_share", symbol="δ_W", source="this method", formula=bind(
-              common.quotient, quantity="acceleration_difference", by="acceleration_end"),
-          description="Greatest difference of the first-order acceleration, to the acceleration at the lowest point"),
-)  # fmt: skip
+CRANK_SLIDER = Steps()
+CRANK_SLIDER.require("rod_longer", bind(common.is_below, smaller=CRANK, greater=ROD), key=ROD,
+                     message="is {crank_slider.rod_length}, not longer than the crank_radius of {crank_slider.crank_radius}: the crank cannot turn "
+                             "fully; make the rod longer than the crank, usually three to six times")
+CRANK_SLIDER.value("rod_ratio", "λ_", "1", "Rod to crank", bind(common.quotient, quantity=ROD, by=CRANK), source="004 eq. 2", output=False)
+CRANK_SLIDER.value("stroke", "H_", "mm", "Stroke of the edge", bind(common.twice, quantity=CRANK), source="004 eq. 2")
+CRANK_SLIDER.add(working.reaches(working.CRANK_SLIDER))
+CRANK_SLIDER.value("rod_angle", "β_", "deg", "Angle of the rod to the knife's path", bind(slider_crank.coupler_angle), source="004 eq. 2",
+                   output=False)
+CRANK_SLIDER.value("displacement", "S_", "mm", "Height of the edge above its lowest point",
+                   bind(slider_crank.displacement, coupler_angle="rod_angle", crank_radius=CRANK), source="004 eq. 2, corrected")
+CRANK_SLIDER.value("velocity", "V_", "m/s", "Velocity of the edge", bind(slider_crank.velocity, coupler_angle="rod_angle", crank_radius=CRANK),
+                   source="004 eq. 2")
+CRANK_SLIDER.value("acceleration", "W_", "m/s**2", "Acceleration of the edge",
+                   bind(slider_crank.acceleration, coupler_angle="rod_angle", crank_radius=CRANK), source="004 eq. 2")
+CRANK_SLIDER.value("lowest_angle", "φ_0", "deg", "Crank angle of the lowest point: a turn after φ = 0", lambda: 2 * np.pi, source="004 eq. 2")
+CRANK_SLIDER.value("working_angle", "φ_w", "deg", "Crank angle of the working stroke",
+                   bind(slider_crank.crank_angle_at, displacement="working_depth", crank_radius=CRANK, rod_length=ROD), source="004 eq. 2, solved",
+                   digits=6)
+CRANK_SLIDER.add(CONTACT)
+CRANK_SLIDER.add(_slider_at("contact", "t", "as it meets the signature"))
+CRANK_SLIDER.value("acceleration_end", "W_0", "m/s**2", "Acceleration of the edge at its lowest point",
+                   bind(formulas.slider_end_acceleration, crank_radius=CRANK), source="004 eq. 2 at φ = 0")
+CRANK_SLIDER.add(GRIP)
+CRANK_SLIDER.add(_slider_at("grip", "g", "when gripping begins", NO_SPEED))
+CRANK_SLIDER.add(_first_order("displacement", "S", "mm", "height", slider_crank.displacement_first_order))
+CRANK_SLIDER.add(_first_order("velocity", "V", "m/s", "velocity", slider_crank.velocity_first_order))
+CRANK_SLIDER.add(_first_order("acceleration", "W", "m/s**2", "acceleration", slider_crank.acceleration_first_order))
+CRANK_SLIDER.value("acceleration_difference_share", "δ_W", "1",
+                   "Greatest difference of the first-order acceleration, to the acceleration at the lowest point",
+                   lambda acceleration_difference, acceleration_end: acceleration_difference / acceleration_end, source="this method")

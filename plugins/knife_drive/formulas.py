@@ -6,19 +6,7 @@ from typing import Any
 
 import numpy as np
 
-from diecut_report.api import as_angle, as_number, formula
-
-
-@formula
-def shaft_speed(cylinder_rate: Any, drive_ratio: Any) -> Any:
-    """Angular speed of the knife's shaft."""
-    return 2 * np.pi * cylinder_rate * drive_ratio
-
-
-@formula
-def turn_time(crank_speed: Any) -> Any:
-    """Time of a turn."""
-    return 2 * np.pi / crank_speed
+from diecut_report.api import as_angle, formula
 
 
 @formula
@@ -31,18 +19,6 @@ def roller_velocity(roller_diameter: Any, roller_ratio: Any, cycle_time: Any) ->
 def time_of_angle(angle: Any, cycle_time: Any) -> Any:
     """Time in which the shaft turns by an angle."""
     return angle * cycle_time / (2 * np.pi)
-
-
-@formula
-def signature_interval(cycle_time: Any, drive_ratio: Any) -> Any:
-    """Time between two signatures, one for each half turn of the plate cylinder."""
-    return cycle_time * drive_ratio / 2
-
-
-@formula
-def roller_time(signature_length: Any, working_depth: Any, roller_velocity: Any) -> Any:
-    """Time from the knife's lowest point until the trailing edge has left the table."""
-    return (signature_length - working_depth) / roller_velocity
 
 
 @formula
@@ -73,18 +49,6 @@ def planetary_acceleration(crank_angle: Any, carrier_radius: Any, crank_speed: A
 def planetary_working_angle(working_depth: Any, carrier_radius: Any) -> Any:
     """Turn of the carrier from the contact at the table to the lowest point."""
     return 2 * np.arcsin(np.sqrt(working_depth / (4 * carrier_radius)))
-
-
-@formula
-def three_quarter_turn() -> Any:
-    """Three quarters of a turn."""
-    return 3 * np.pi / 2
-
-
-@formula
-def full_turn() -> Any:
-    """A full turn."""
-    return 2 * np.pi
 
 
 @formula
@@ -170,27 +134,9 @@ def end_acceleration_inner(
 
 
 @formula
-def is_within(crank_angle: Any, lowest_angle: Any, working_angle: Any) -> Any:
-    """Whether a crank angle lies within the working stroke: nearer to its middle than half of it."""
-    return np.cos(crank_angle - lowest_angle + working_angle / 2) > np.cos(working_angle / 2)
-
-
-@formula
 def holds(flag: Any) -> Any:
     """Whether a flag is set."""
     return flag > 0
-
-
-@formula
-def end_factor(acceleration_end: Any, stroke: Any, crank_speed: Any) -> Any:
-    """Acceleration at the lowest point to that of a harmonic motion of the same stroke."""
-    return 2 * acceleration_end / (stroke * as_number(crank_speed) ** 2)
-
-
-@formula
-def grip_acceleration(roller_velocity: Any, grip_velocity: Any, grip_time: Any) -> Any:
-    """Acceleration that brings the signature from the knife's speed to the rollers'."""
-    return (roller_velocity - grip_velocity) / grip_time
 
 
 @formula
@@ -203,9 +149,3 @@ def least_of_three(first: Any, second: Any, third: Any) -> Any:
 def is_best_and_allowed(own: Any, best: Any, allowed: Any) -> Any:
     """Whether a quantity is not above the best one, and allowed."""
     return (own <= best) & (best <= allowed)
-
-
-@formula
-def is_by_stroke(stroke_ratio: Any, factor_ratio: Any) -> Any:
-    """Whether the strokes differ more than the factors of the drives."""
-    return np.maximum(stroke_ratio, 1 / stroke_ratio) >= np.maximum(factor_ratio, 1 / factor_ratio)

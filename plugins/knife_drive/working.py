@@ -2,27 +2,18 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from dataclasses import replace
 from itertools import combinations
 from typing import NamedTuple
 
 import numpy as np
 
-from diecut_report.api import (
-    Abscissa,
-    Breakpoints,
-    Case,
-    Chapter,
-    Choice,
-    Reduction,
-    Require,
-    Step,
-    Value,
-    bind,
-    prefixed,
-)
+from diecut_report.api import Chapter, Step, Steps, as_number, bind, case, prefixed
 from diecut_report.mechanics import common
 from diecut_report.plugins.knife_drive import formulas
+
+# fmt: off
 
 DRIVES = ("planetary", "crank_slider", "crank_rocker")
 
@@ -58,94 +49,84 @@ def lacking(drives: Drives) -> tuple[str, ...]:
     return tuple(drive.key for drive in ALL if drive not in drives)
 
 
-SPEEDS = Chapter(
-    "Knife's shaft and folding rollers",
-    text="The crank angle of each drive has its own origin. Displacement, velocity and acceleration of the knife's edge count upwards.",
-    steps=(
-        Require(id="any_drive", lacks=DRIVES, condition=bind(common.is_at_least, greater=0, smaller=1), key="planetary",
-                message="no drive is given; give at least one of the blocks planetary, crank_slider and crank_rocker"),
-        Value(id="crank_speed", symbol="ω_1", unit="rad/s", description="Angular speed of the knife's shaft", source="kinematics",
-              digits=6, formula=formulas.shaft_speed),
-        Value(id="cycle_time", symbol="T", unit="ms", description="Time of a turn of the knife's shaft", source="004, after Fig. 3",
-              formula=formulas.turn_time),
-        Value(id="roller_velocity", symbol="V_r", unit="m/s", description="Speed of the rollers' surface", source="kinematics",
-              formula=formulas.roller_velocity),
-        Value(id="grip_time", symbol="t_g", unit="ms", description="Time in which the rollers bring the signature to their speed",
-              source="004, after Fig. 3", formula=bind(formulas.time_of_angle, angle="grip_angle")),
-        Value(id="roller_time", symbol="t_r", unit="ms", needs=("signature_length",),
-              description="Time from the knife's lowest point until the trailing edge has left the table", source="kinematics",
-              formula=formulas.roller_time),
-        Value(id="signature_interval", symbol="t_s", unit="ms", needs=("signature_length",), description="Time between two signatures",
-              source="kinematics", formula=formulas.signature_interval),
-        Abscissa(id="crank_angle", symbol="φ", unit="deg", description="Crank angle", period=2 * np.pi),
-    ),
-)  # fmt: skip
+speeds = Chapter("Knife's shaft and folding rollers",
+                 text="The crank angle of each drive has its own origin. Displacement, velocity and acceleration of the knife's edge count upwards.")
+speeds.require("any_drive", lambda: 0 >= 1, key="planetary",
+               message="no drive is given; give at least one of the blocks planetary, crank_slider and crank_rocker", lacks=DRIVES)
+speeds.value("crank_speed", "ω_1", "rad/s", "Angular speed of the knife's shaft",
+             lambda cylinder_rate, drive_ratio: 2 * np.pi * cylinder_rate * drive_ratio, source="kinematics", digits=6)
+speeds.value("cycle_time", "T", "ms", "Time of a turn of the knife's shaft", lambda crank_speed: 2 * np.pi / crank_speed, source="004, after Fig. 3")
+speeds.value("roller_velocity", "V_r", "m/s", "Speed of the rollers' surface", formulas.roller_velocity, source="kinematics")
+speeds.value("grip_time", "t_g", "ms", "Time in which the rollers bring the signature to their speed",
+             bind(formulas.time_of_angle, angle="grip_angle"), source="004, after Fig. 3")
+speeds.value("roller_time", "t_r", "ms", "Time from the knife's lowest point until the trailing edge has left the table",
+             lambda signature_length, working_depth, roller_velocity: (signature_length - working_depth) / roller_velocity,
+             needs=("signature_length",), source="kinematics")
+speeds.value("signature_interval", "t_s", "ms", "Time between two signatures", lambda cycle_time, drive_ratio: cycle_time * drive_ratio / 2,
+             needs=("signature_length",), source="kinematics")
+speeds.abscissa("crank_angle", "φ", "deg", "Crank angle", 2 * np.pi)
 
-WORKING = (
-    Value(id="working_time", symbol="t_w", unit="ms", description="Duration of the working stroke", source="kinematics",
-          formula=bind(formulas.time_of_angle, angle="working_angle")),
-    Value(id="contact_velocity", symbol="V_t", unit="m/s", description="Speed of the edge as it meets the signature on the table",
-          source="kinematics", formula=bind(common.size_of, quantity="contact_rate")),
-    Breakpoints(id="working_ends", abscissa="crank_angle", places=("contact_angle", "lowest_angle")),
-    Choice(id="working", symbol="s_", description="Whether the knife leads the signature (1) or not (0)", output=False, per_piece=True,
-           cases=(Case(common.one, "within the working stroke", formulas.is_within), Case(common.zero, "outside the working stroke"))),
-    Choice(id="paper_acceleration", symbol="W_p", unit="m/s**2", output=False,
-           description="Acceleration of the signature while the knife leads it",
-           cases=(Case(bind(common.same, quantity="acceleration"), "within the working stroke", bind(formulas.holds, flag="working")),
-                  Case(common.zero, "outside the working stroke"))),
-    Reduction(id="acceleration_peak", symbol="W_m", unit="m/s**2", description="Greatest acceleration in the working stroke",
-              of="paper_acceleration", operation="abs_max"),
-    Value(id="end_factor", symbol="k_", description="Acceleration at the lowest point to that of a harmonic motion of the same stroke, H·ω₁²/2",
-          source="this method", formula=formulas.end_factor),
-    Value(id="grip_velocity", symbol="V_g", unit="m/s", description="Speed of the signature when gripping begins", source="input",
-          needs=("grip_speed",), formula=bind(common.same, quantity="grip_speed")),
-    Value(id="grip_velocity", symbol="V_g", unit="m/s", description="Speed of the edge when gripping begins", source="kinematics",
-          lacks=("grip_speed",), formula=bind(common.size_of, quantity="grip_rate")),
-    Value(id="grip_acceleration", symbol="W_g", unit="m/s**2", description="Acceleration of the signature in the grip of the rollers",
-          source="004, after Fig. 3", formula=formulas.grip_acceleration),
-    Value(id="grip_size", symbol="W_s", unit="m/s**2", description="Size of the acceleration in the grip of the rollers", output=False,
-          formula=bind(common.size_of, quantity="grip_acceleration")),
-    Value(id="table_time", symbol="t_t", unit="ms", description="Time of the signature on the table, from contact on", source="kinematics",
-          needs=("signature_length",), formula=bind(common.sum_of, first="working_time", second="roller_time")),
-)  # fmt: skip
+WORKING = Steps()
+WORKING.value("working_time", "t_w", "ms", "Duration of the working stroke", bind(formulas.time_of_angle, angle="working_angle"), source="kinematics")
+WORKING.value("contact_velocity", "V_t", "m/s", "Speed of the edge as it meets the signature on the table", lambda contact_rate: abs(contact_rate),
+              source="kinematics")
+WORKING.breakpoints("working_ends", "crank_angle", "contact_angle", "lowest_angle")
+WORKING.choice("working", "s_", "1", "Whether the knife leads the signature (1) or not (0)",
+               case(lambda: 1, "within the working stroke",
+                    lambda crank_angle, lowest_angle, working_angle:
+                        np.cos(crank_angle - lowest_angle + working_angle / 2) > np.cos(working_angle / 2)),
+               case(lambda: 0, "outside the working stroke"), output=False, per_piece=True)
+WORKING.choice("paper_acceleration", "W_p", "m/s**2", "Acceleration of the signature while the knife leads it",
+               case(lambda acceleration: acceleration, "within the working stroke", bind(formulas.holds, flag="working")),
+               case(lambda: 0, "outside the working stroke"), output=False)
+WORKING.reduction("acceleration_peak", "W_m", "m/s**2", "Greatest acceleration in the working stroke", "abs_max", of="paper_acceleration")
+WORKING.value("end_factor", "k_", "1", "Acceleration at the lowest point to that of a harmonic motion of the same stroke, H·ω₁²/2",
+              lambda acceleration_end, stroke, crank_speed: 2 * acceleration_end / (stroke * as_number(crank_speed) ** 2), source="this method")
+WORKING.value("grip_velocity", "V_g", "m/s", "Speed of the signature when gripping begins", lambda grip_speed: grip_speed, source="input",
+              needs=("grip_speed",))
+WORKING.value("grip_velocity", "V_g", "m/s", "Speed of the edge when gripping begins", lambda grip_rate: abs(grip_rate), source="kinematics",
+              lacks=("grip_speed",))
+WORKING.value("grip_acceleration", "W_g", "m/s**2", "Acceleration of the signature in the grip of the rollers",
+              lambda roller_velocity, grip_velocity, grip_time: (roller_velocity - grip_velocity) / grip_time, source="004, after Fig. 3")
+WORKING.value("grip_size", "W_s", "m/s**2", "Size of the acceleration in the grip of the rollers", lambda grip_acceleration: abs(grip_acceleration),
+              output=False)
+WORKING.value("table_time", "t_t", "ms", "Time of the signature on the table, from contact on",
+              lambda working_time, roller_time: working_time + roller_time, source="kinematics", needs=("signature_length",))
 
 
-SIGNATURE_BEYOND_DEPTH = Require(
-    id="signature_beyond_depth", needs=("signature_length",), key="signature_length",
-    condition=bind(common.is_below, smaller="working_depth", greater="signature_length"),
-    message="is {signature_length}, but the knife alone takes {working_depth} of the signature (working_depth) below the table; make "
-    "signature_length greater than that",
-)  # fmt: skip
+SIGNATURE_BEYOND_DEPTH = Steps()
+SIGNATURE_BEYOND_DEPTH.require("signature_beyond_depth", lambda working_depth, signature_length: working_depth < signature_length,
+                               key="signature_length",
+                               message="is {signature_length}, but the knife alone takes {working_depth} of the signature (working_depth) below "
+                                       "the table; make signature_length greater than that", needs=("signature_length",))
 
 
-def reaches(drive: Drive) -> Require:
+def reaches(drive: Drive) -> Steps:
     """The edge must rise above the table."""
-    return Require(
-        id="rises", key="working_depth", condition=bind(common.is_at_most, smaller="working_depth", greater="stroke"),
-        message=f"is {{working_depth}}, but the edge of the {drive.name} travels {{{drive.key}_stroke}} in all: it would never rise above "
-        f"the table; make the depth at most {{{drive.key}_stroke:down}}, or the stroke greater with {drive.longer} in {drive.key}",
-    )  # fmt: skip
+    steps = Steps()
+    steps.require("rises", lambda working_depth, stroke: working_depth <= stroke, key="working_depth",
+                  message=f"is {{working_depth}}, but the edge of the {drive.name} travels {{{drive.key}_stroke}} in all: it would never rise above "
+                          f"the table; make the depth at most {{{drive.key}_stroke:down}}, or the stroke greater with {drive.longer} in {drive.key}")
+    return steps
 
 
-def grips(drive: Drive) -> Require:
+def grips(drive: Drive) -> Steps:
     """The rollers grip what the knife has pushed to them."""
-    return Require(
-        id=f"{drive.key}_grips", key="grip_angle", needs=(drive.key,),
-        condition=bind(common.is_at_most, smaller="grip_angle", greater=f"{drive.key}_working_angle"),
-        message=f"is {{grip_angle}}, but the working stroke of the {drive.name} is {{{drive.key}_working_angle}}: the rollers would grip before "
-        f"the knife meets the signature; make grip_angle at most {{{drive.key}_working_angle:down}}, or working_depth greater",
-    )  # fmt: skip
+    steps = Steps()
+    steps.require(f"{drive.key}_grips", bind(common.is_at_most, smaller="grip_angle", greater=f"{drive.key}_working_angle"), key="grip_angle",
+                  message=f"is {{grip_angle}}, but the working stroke of the {drive.name} is {{{drive.key}_working_angle}}: the rollers "
+                          f"would grip before the knife meets the signature; make grip_angle at most {{{drive.key}_working_angle:down}}, "
+                          "or working_depth greater",
+                  needs=(drive.key,))
+    return steps
 
 
-def of_drive(drive: Drive, own: tuple[Step, ...]) -> Chapter:
+def of_drive(drive: Drive, own: Iterable[Step]) -> Chapter:
     """The chapter of a drive: its own motion, then the working stroke."""
     family = (*own, *WORKING)
-    return Chapter(
-        f"{drive.name[0].upper()}{drive.name[1:]}",
-        needs=(drive.key,),
-        absent=f"The {drive.name}: there is no block {drive.key}.",
-        steps=tuple(_told_apart(step, drive) for step in prefixed(f"{drive.key}_", family, shared=())),
-    )
+    chapter = Chapter(f"{drive.name[0].upper()}{drive.name[1:]}", needs=(drive.key,), absent=f"The {drive.name}: there is no block {drive.key}.")
+    chapter.add(tuple(_told_apart(step, drive) for step in prefixed(f"{drive.key}_", family, shared=())))
+    return chapter
 
 
 def _told_apart(step: Step, drive: Drive) -> Step:

@@ -16,8 +16,9 @@ MECHANISM = Mechanism(
     "relax after the dead centre while the platen stands. Calculated are contact and dwell, the platen's ideal and true motion, the force of the "
     "rods, the torque at the main shaft split into useful torque and friction, and work and power of a cycle.",
     inputs=PlatenPress,
-    chapters=(motion.MACHINE, motion.CONTACT, motion.MOTION, torque.FORCES, torque.FRICTION, torque.GUIDES, torque.TORQUE, torque.RETURN,
-              torque.WORK, *torque.PRESSURES),
+    chapters=(motion.machine, motion.contact, motion.motion_chapter, torque.forces, torque.friction, torque.guides, torque.torque_chapter,
+              torque.return_chapter,
+              torque.work, *torque.PRESSURES),
     key_results=("cutting_start_angle", "dwell_end_angle", "velocity_at_contact", "friction_arm", "torque_dead_center", "torque_max",
                  "torque_max_angle", "torque_max_source", "return_arm_min", "inertia_force_max", "work_per_cycle", "friction_work",
                  "friction_share", "power_mean"),

@@ -11,36 +11,6 @@ from diecut_report.mechanics.slider_crank import inner_arm_first_order
 
 
 @formula
-def turning_speed(cycles_per_hour: Any) -> Any:
-    """Angular speed of the crank at one turn for each cycle."""
-    return 2 * np.pi * cycles_per_hour
-
-
-@formula
-def rods_stretch(cutting_force_max: Any, rod_length: Any, rod_area: Any, elastic_modulus: Any) -> Any:
-    """Stretch of two rods under a force that they share."""
-    return cutting_force_max * rod_length / (2 * rod_area * elastic_modulus)
-
-
-@formula
-def fits_stroke(material_thickness: Any, drive_deformation: Any, crank_radius: Any) -> Any:
-    """Whether board and stretch are less than the stroke."""
-    return material_thickness + drive_deformation < 2 * crank_radius
-
-
-@formula
-def turns_fully(rod_length: Any, crank_radius: Any) -> Any:
-    """Whether the rod is longer than the crank, so that the crank passes all positions at a finite speed of the rod."""
-    return rod_length > 1.001 * crank_radius
-
-
-@formula
-def no_offset(offset_force: Any, offset_weight: Any) -> Any:
-    """Whether nothing turns the platen in its guides."""
-    return (offset_force == 0) & (offset_weight == 0)
-
-
-@formula
 def friction_arm(
     friction_platen_pin: Any,
     friction_crank_pin: Any,
@@ -71,24 +41,6 @@ def joint_arm(
     return (
         friction_platen_pin * platen_pin_radius * abs(rod_speed_ratio) + crank_pin + friction_journal * journal_radius
     )
-
-
-@formula
-def acceleration_dead_center(crank_radius: Any, crank_speed: Any, lambda_ratio: Any) -> Any:
-    """Acceleration of the platen at the inner dead centre."""
-    return crank_radius * crank_speed**2 * (1 - lambda_ratio)
-
-
-@formula
-def torque_dead_center(cutting_force_max: Any, inertia_dead_center: Any, friction_arm: Any) -> Any:
-    """Torque at the dead centre: only the friction of the joints is left."""
-    return abs(cutting_force_max - inertia_dead_center) * friction_arm
-
-
-@formula
-def turn_less(angle: Any) -> Any:
-    """An angle before the dead centre, counted on from the one before."""
-    return 2 * np.pi - angle
 
 
 @formula
@@ -142,33 +94,9 @@ def stretched_length(standing_distance: Any, crank_radius: Any, crank_angle: Any
 
 
 @formula
-def elastic_force(cutting_force_max: Any, rod_stretch: Any, drive_deformation: Any) -> Any:
-    """Force of the stretched rods."""
-    return cutting_force_max * rod_stretch / drive_deformation
-
-
-@formula
 def inertia(platen_mass: Any, acceleration: Any) -> Any:
     """Force that gives the platen its acceleration."""
     return platen_mass * acceleration
-
-
-@formula
-def driving_arm(travel_rate: Any) -> Any:
-    """Arm of the rods' force about the shaft, positive where the crank pulls the platen to the die."""
-    return -travel_rate
-
-
-@formula
-def relaxing_arm(standing_distance: Any, crank_radius: Any, crank_angle: Any, stretched_length: Any) -> Any:
-    """Arm of the rods' force about the shaft while the platen stands, negative where the rods help the crank."""
-    return -standing_distance * crank_radius * np.sin(crank_angle) / stretched_length
-
-
-@formula
-def joint_torque(force: Any, joint_arm: Any) -> Any:
-    """Torque of the joints' friction."""
-    return abs(force) * joint_arm
 
 
 @formula
@@ -181,12 +109,6 @@ def guide_moment(force: Any, offset_force: Any, platen_mass: Any, offset_weight:
 def guide_friction(friction_guide: Any, guide_moment: Any, guide_length: Any) -> Any:
     """Friction of the guides under their two reactions."""
     return 2 * friction_guide * abs(guide_moment) / guide_length
-
-
-@formula
-def guide_torque(guide_friction: Any, travel_rate: Any) -> Any:
-    """Torque of the guides' friction, which the rods carry with their own arm."""
-    return guide_friction * abs(travel_rate)
 
 
 @formula
@@ -214,21 +136,9 @@ def torque_as_printed(
 
 
 @formula
-def return_arm(friction_arm: Any, elastic_arm: Any) -> Any:
-    """What friction has over the help of the rods."""
-    return friction_arm - elastic_arm
-
-
-@formula
 def elastic_arm(standing_distance: Any, crank_radius: Any, dwell_end_angle: Any, rod_length: Any) -> Any:
     """Arm of the rods' force where they have relaxed: its greatest."""
     return standing_distance * crank_radius * np.sin(dwell_end_angle) / rod_length
-
-
-@formula
-def friction_limit(friction: Any, elastic_arm: Any, friction_arm: Any) -> Any:
-    """Coefficient of friction at which the torque touches zero."""
-    return friction * elastic_arm / friction_arm
 
 
 @formula
@@ -242,18 +152,6 @@ def deformation_limit(rod_length: Any, crank_radius: Any, friction_arm: Any) -> 
 def cutting_work(cutting_force_max: Any, material_thickness: Any) -> Any:
     """Work of a force that grows in proportion to the travel through the board."""
     return cutting_force_max * material_thickness / 2
-
-
-@formula
-def start_energy(platen_mass: Any, start_velocity: Any) -> Any:
-    """Energy of the platen at the speed that it is given when the rods have relaxed."""
-    return platen_mass * start_velocity**2 / 2
-
-
-@formula
-def energy_residual(work_per_cycle: Any, cutting_work: Any, friction_work: Any) -> Any:
-    """What the work of the torque differs from what it is spent on, relative."""
-    return abs(work_per_cycle - cutting_work - friction_work) / work_per_cycle
 
 
 @formula
