@@ -161,7 +161,8 @@ def _dimensioned(formula: Formula) -> Any:
         return _dimensioned(value) if isinstance(value, Formula) else value
 
     function = formula.function
-    named = {n: carried(function.__globals__[n]) for n in function.__code__.co_names if n in function.__globals__}
+    space = function.__globals__
+    named = {n: carried(space[n]) for n in function.__code__.co_names if n in space and space[n] is not formula}
     return types.FunctionType(function.__code__, {**function.__globals__, **named})
 
 

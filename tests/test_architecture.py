@@ -27,7 +27,7 @@ FOLDERS = {  # folder of the repository: package or name under which its modules
 LAYERS = [
     {"", "errors", "units"},
     {"standards", "texts"},
-    {"expressions"},
+    {"expressions", "formula_source", "trees"},
     {"mechanics"},
     {"contract"},
     {"api"},

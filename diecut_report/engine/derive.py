@@ -23,8 +23,8 @@ from diecut_report.contract.steps import (
     Words,
 )
 from diecut_report.engine import rows
-from diecut_report.engine.calculation import Calculation
-from diecut_report.engine.printing import Substitution, printed
+from diecut_report.engine.calculation import Calculation, Unproven
+from diecut_report.engine.printing import MOST_DIGITS, Contradiction, Substitution, printed
 from diecut_report.expressions import Array, Node
 from diecut_report.texts import number_text, shown, with_unit
 from diecut_report.units import unit
@@ -166,13 +166,31 @@ def _formula(calc: Calculation, part: Bound, step: Step, axis: str | None) -> It
     flag = isinstance(step, Value | Choice) and step.per_piece
     substitution = Substitution(calc, part, lambda name: value_at(calc, name, axis, flag=flag))
     takes = [name for name in part.names.values() if isinstance(name, str)]
-    numeric = substitution.numeric(target, step.unit, step.digits) if takes else None
+    try:
+        numeric = substitution.numeric(target, step.unit, step.digits) if takes else None
+    except Contradiction as found:
+        raise Unproven(_contradicted(step, part, found)) from None
     item: Item = {"equation": substitution.symbolic().to_json(), "substituted": numeric and numeric.to_json()}
     if takes and numeric is None:
         item["note"] = (
             "the terms are equal up to the rounding of the computer, or so nearly that printed numbers do not show it"
         )
     return item | {"result": shown(target, step.unit, step.digits)}
+
+
+def _contradicted(step: Step, part: Bound, found: Contradiction) -> str:
+    """Say what is wrong with a formula whose expression does not give its result, with so many digits as show it."""
+    factor, said = unit(step.unit).factor, ("", "")
+    for digits in range(step.digits, MOST_DIGITS + 1):
+        said = (number_text(found.result / factor, digits), number_text(found.printed / factor, digits))
+        if said[0] != said[1]:
+            break
+    result, again = (with_unit(text, step.unit) for text in said)
+    formula = part.formula
+    return (
+        f"{step.description} ({step.id}) is {result}, but its formula {formula.__name__} as it is printed gives {again}, "
+        f"which is more than rounding; it must compute by its parameters and constants alone ({formula.place})"
+    )
 
 
 OPPOSITE = {"<": ">=", "<=": ">", ">": "<=", ">=": "<", "==": "!=", "!=": "=="}
