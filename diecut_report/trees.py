@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from typing import Any, NamedTuple
 
 
@@ -51,3 +51,15 @@ def symbols(node: Node) -> list[str]:
 
     transform(node, note)
     return list(found)
+
+
+def walk(node: Node) -> Iterator[Node]:
+    """Give the node and all nodes in it, in order of appearance."""
+    yield node
+    pending = list(node.args)
+    while pending:
+        part = pending.pop(0)
+        if isinstance(part, Node):
+            yield from walk(part)
+        elif isinstance(part, tuple):
+            pending = [*part, *pending]

@@ -11,8 +11,6 @@ from collections.abc import Callable, Mapping
 from types import MappingProxyType
 from typing import TYPE_CHECKING, Any
 
-import numpy as np
-
 from diecut_report.contract.binding import Bound
 from diecut_report.contract.steps import Words
 from diecut_report.engine.rounding import Bounded, bounded
@@ -81,11 +79,16 @@ class Contradiction(Exception):
         self.result, self.printed = result, printed
 
 
+Elsewhere = Callable[[str], tuple[Node, Node] | None]  # of a quantity: its abscissa and place, if not the chapter's
+
+
 class Substitution:
     """A formula with numbers in, so precise that computing what is printed gives the printed result."""
 
-    def __init__(self, calc: Calculation, part: Bound, value_of: Callable[[str], float]) -> None:
-        self.calc, self.part, self.value_of = calc, part, value_of
+    def __init__(
+        self, calc: Calculation, part: Bound, value_of: Callable[[str], float], elsewhere: Elsewhere | None = None
+    ) -> None:
+        self.calc, self.part, self.value_of, self.elsewhere = calc, part, value_of, elsewhere
         self.constants: Mapping[str, Any] = part.formula.constants
 
     def symbolic(self) -> Node:
@@ -96,11 +99,16 @@ class Substitution:
         name = self.part.names.get(leaf.args[0]) if leaf.op == "sym" else None
         if name is None:
             return leaf
-        return (
-            Node("sym", (self.calc.step_or_input(name).symbol,))
-            if isinstance(name, str)
-            else Node("num", (f"{name:g}",))
-        )
+        return self._marked(name) if isinstance(name, str) else Node("num", (f"{name:g}",))
+
+    def _marked(self, name: str) -> Node:
+        """A quantity's symbol; where it is taken at another place than the chapter's, marked with that place."""
+        symbol = Node("sym", (self.calc.step_or_input(name).symbol,))
+        extreme = self.calc.steps.get(name.removesuffix("_at"))
+        if name in self.calc.middle and extreme is not None:
+            return Node("at", (symbol, Node("sym", (extreme.symbol,))))
+        place = self.elsewhere(name) if self.elsewhere else None
+        return symbol if place is None else Node("at", (symbol, *place))
 
     def numeric(self, target: float, display: str, result_digits: int) -> Node | None:
         """The expression with numbers and units; computed as printed it gives ``target`` (SI) as printed in ``display``.

@@ -97,11 +97,11 @@ def _error(name: str, value: float, args: Sequence[Bounded]) -> float:
             return max(errors)
         case "*":
             (one, one_error), (other, other_error) = args
-            return abs(one) * other_error + abs(other) * one_error + one_error * other_error
+            return float(abs(one) * other_error + abs(other) * one_error + one_error * other_error)
         case "/":
-            (over, over_error), (under, under_error) = args
+            over, (under, under_error) = args
             left = abs(under) - under_error
-            return (over_error + abs(value) * under_error) / left if left > 0 else math.inf
+            return (over.error + abs(value) * under_error) / left if left > 0 else math.inf
         case "sin" | "cos":
             return min(errors[0], 2.0)
         case "tan" if abs(math.cos(args[0].value)) <= errors[0]:
@@ -113,7 +113,7 @@ def _error(name: str, value: float, args: Sequence[Bounded]) -> float:
 
 def _about_the_cut(up: Bounded, across: Bounded) -> bool:
     """Whether rounding may carry a direction over ±180°, or its point into the origin."""
-    return abs(up.value) <= up.error and across.value - across.error <= 0
+    return bool(abs(up.value) <= up.error and across.value <= across.error)
 
 
 DOMAIN = {
