@@ -11,6 +11,7 @@ from typing import Any, TypeVar
 import click
 
 from diecut_report.errors import Problem, UserError
+from diecut_report.progress import is_styled
 
 PASSED, CHECK_FAILED, BAD_INPUT, PLUGIN_BROKE = 0, 1, 2, 3
 INTERRUPTED, FAULT = 130, 70  # as shells and sysexits have it: Ctrl-C, a fault of the program itself
@@ -51,8 +52,7 @@ def _close_output() -> None:
 
 def coloured(text: str, status: str) -> str:
     """The text in the status's colour where standard error is a terminal that wants colours."""
-    plain = not sys.stderr.isatty() or os.environ.get("NO_COLOR") or os.environ.get("TERM") == "dumb"
-    return text if plain else f"\x1b[{COLOURS[status]}m{text}\x1b[0m"
+    return f"\x1b[{COLOURS[status]}m{text}\x1b[0m" if is_styled() else text
 
 
 def common(command: Command) -> Command:

@@ -191,11 +191,15 @@ class _Filler:
         """The files beside the report."""
         mechanism = self.mechanism
         for export in mechanism.get("exports", ()):
+            if "error" in export:
+                words = self.words.say("not_written", title=export["title"], error=export["error"])
+                yield File(f"{self.stem}.{self.part.name}.{export['id']}", words)
+                continue
             count = len(mechanism["curves"][export["abscissa"]]["values"])
             columns = ", ".join([export["abscissa"], *export["columns"]])
-            words = {"dxf": "dxf" if len(export["columns"]) > 2 else "dxf_profile", "csv": "csv"}
+            told = {"dxf": "dxf" if len(export["columns"]) > 2 else "dxf_profile", "csv": "csv"}
             for ending, suffix in suffixes(self.part.name, export).items():
-                content = self.words.say(words[ending], title=export["title"], n=count, columns=columns)
+                content = self.words.say(told[ending], title=export["title"], n=count, columns=columns)
                 yield File(f"{self.stem}.{suffix}", content)
 
     def _check(self, check: Data) -> CheckRow:

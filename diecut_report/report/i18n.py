@@ -41,7 +41,7 @@ ENGLISH: dict[str, str] = {
     "of_curve": "of {curve}", "series": "Series", "looked_up": "From “{table}” for {choice}",
     "figure": "Figure", "table": "Table", "formula": "Formula",
     "where": "where", "shown_at": "Curves are shown at {places}.",
-    "not_drawn": "This figure could not be drawn.", "not_written": "could not be written: {error}",
+    "not_drawn": "This figure could not be drawn.", "not_written": "{title} could not be written: {error}",
     "curves_note": "Some rows of the curves; a place that stands twice is a jump, before and after it. Extremes lie between the rows and "
     "are given with the results.",
     "dxf": "{title} in mm: polylines through {n} points each on the layers PROFILE and PITCH_CURVE, the axis on CENTER",
