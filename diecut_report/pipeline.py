@@ -95,11 +95,9 @@ def _places(run: Run) -> Places:
     """Where in its plugin each figure and export is declared."""
     made = {name: calc.mechanism for name, calc in run.calculations.items()}
     made |= {case.name: case.comparison.mechanism for case in run.cases}
-    return {
-        (name, each.id): each.place
-        for name, mechanism in made.items()
-        for each in (*mechanism.figures, *mechanism.exports)
-    }
+    figures = {(name, each.id): each.place for name, mechanism in made.items() for each in mechanism.figures}
+    exports = {(name, each.id): each.place for name, mechanism in made.items() for each in mechanism.exports}
+    return figures | exports
 
 
 def _failed(results: Data) -> Iterator[PluginError]:

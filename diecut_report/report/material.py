@@ -46,7 +46,7 @@ class Material:
     @cached_property
     def figures(self) -> dict[str, Svg]:
         """All figures by their number, but those that cannot be drawn: these are in ``faults``."""
-        found = {}
+        found: dict[str, Svg] = {}
         for chapter, (name, data) in zip(self.document.chapters, parts(self.results), strict=True):
             for number, figure in chapter.figures:
                 if "error" not in figure:
