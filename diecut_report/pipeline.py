@@ -3,14 +3,17 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 from diecut_report.config.discovery import Discovery
 from diecut_report.config.loader import load_config
 from diecut_report.errors import PluginError, Problem, UserError
+
+if TYPE_CHECKING:
+    from diecut_report.results.press_run import Run
 
 FORMATS = ("html", "pdf", "json")
 ENCODER = json.JSONEncoder(ensure_ascii=False, allow_nan=False)
@@ -23,6 +26,18 @@ NO_PANGO = (
     "The PDF cannot be made, because a library of the system is missing: {}. Install it (Debian, Ubuntu: "
     "apt-get install libpango-1.0-0 libpangoft2-1.0-0 libharfbuzz-subset0), or leave the PDF out with --format html,json."
 )
+
+
+class Lost(NamedTuple):
+    """A figure or export that could not be drawn: of which mechanism, its id, and why."""
+
+    what: str
+    mechanism: str
+    id: str
+    words: str
+
+
+Places = dict[tuple[str, str], str]  # of a mechanism's name and the id of a figure or export
 
 
 @dataclass(frozen=True)
@@ -41,7 +56,7 @@ def check(config: Path, discovery: Discovery) -> tuple[PluginError, ...]:
 
 def calc(config: Path, discovery: Discovery, tell: Tell, target: Path | None = None) -> tuple[Outcome, str]:
     """The results document and its text; written to ``target`` if there is one."""
-    results, broken = _calculated(config, discovery, tell)
+    results, broken, _ = _calculated(config, discovery, tell)
     text = results_text(results)
     if target is not None:
         _write({target: text.encode()}, config)
@@ -52,28 +67,59 @@ def report(
     config: Path, discovery: Discovery, tell: Tell, folder: Path, formats: Sequence[str], language: str | None = None
 ) -> Outcome:
     """The report in the asked formats, as ``NAME.html``, ``NAME.pdf``, ``NAME.json`` in the folder, and the exports beside it."""
-    results, broken = _calculated(config, discovery, tell)
+    results, broken, places = _calculated(config, discovery, tell)
     if language is not None:
         results["project"]["language"] = language
-    contents = _rendered(results, formats, tell)
-    contents |= _exported(results, tell)
+    contents, undrawn = _rendered(results, formats, tell)
+    files_beside, unwritten = _exported(results, tell)
+    contents |= files_beside
     files = {folder / f"{config.stem}.{ending}": content for ending, content in contents.items()}
     _write(files, config)
-    return Outcome(results, tuple(files), broken)
+    return Outcome(
+        results, tuple(files), (*broken, *(_broken(results, places, lost) for lost in (*undrawn, *unwritten)))
+    )
 
 
-def _calculated(path: Path, discovery: Discovery, tell: Tell) -> tuple[Data, tuple[PluginError, ...]]:
+def _calculated(path: Path, discovery: Discovery, tell: Tell) -> tuple[Data, tuple[PluginError, ...], Places]:
     tell("reading the configuration")
     config = load_config(path, discovery)
     from diecut_report.results.document import document  # with the engine, which checking alone does not need
     from diecut_report.results.press_run import compute
 
     run = compute(config, lambda name: tell(f"calculating {name}"))
-    return document(run), tuple(run.errors.values())
+    results = document(run)
+    return results, (*run.errors.values(), *_failed(results)), _places(run)
 
 
-def _rendered(results: Data, formats: Sequence[str], tell: Tell) -> dict[str, bytes]:
-    """The content of each format; all are complete before anything is written."""
+def _places(run: Run) -> Places:
+    """Where in its plugin each figure and export is declared."""
+    made = {name: calc.mechanism for name, calc in run.calculations.items()}
+    made |= {case.name: case.comparison.mechanism for case in run.cases}
+    figures = {(name, each.id): each.place for name, mechanism in made.items() for each in mechanism.figures}
+    exports = {(name, each.id): each.place for name, mechanism in made.items() for each in mechanism.exports}
+    return figures | exports
+
+
+def _failed(results: Data) -> Iterator[PluginError]:
+    """The figures and exports that could not be made."""
+    for name, mechanism in {**results["mechanisms"], **results.get("comparisons", {})}.items():
+        for what in ("figure", "export"):
+            failed = (each for each in mechanism[f"{what}s"] if "error" in each)
+            yield from (
+                PluginError(f"{what} {each['id']!r}: {each['error']}", mechanism["kind"], name) for each in failed
+            )
+
+
+def _broken(results: Data, places: Places, lost: Lost) -> PluginError:
+    """What showed only in drawing that it cannot be drawn."""
+    mechanism = {**results["mechanisms"], **results.get("comparisons", {})}[lost.mechanism]
+    words = f"{lost.what} {lost.id!r} cannot be drawn: {lost.words} ({places[lost.mechanism, lost.id]})"
+    return PluginError(words, mechanism["kind"], lost.mechanism)
+
+
+def _rendered(results: Data, formats: Sequence[str], tell: Tell) -> tuple[dict[str, bytes], list[Lost]]:
+    """The content of each format, all complete before anything is written; and the figures that could not be drawn."""
+    undrawn: list[Lost] = []
     contents = {"json": results_text(results).encode()} if "json" in formats else {}
     if {"html", "pdf"} & set(formats):
         tell("drawing the report")
@@ -85,18 +131,25 @@ def _rendered(results: Data, formats: Sequence[str], tell: Tell) -> dict[str, by
         if "pdf" in formats:
             tell("setting the pages")
             contents["pdf"] = _pdf(rendering)
-    return {ending: contents[ending] for ending in formats}
+        undrawn += [Lost("figure", each.mechanism, each.figure["id"], each.words) for each in rendering.faults]
+    return {ending: contents[ending] for ending in formats}, undrawn
 
 
-def _exported(results: Data, tell: Tell) -> dict[str, bytes]:
-    """The profiles of the mechanisms as tables and drawings, by the ending of their file: ``INSTANCE.cam_1.dxf``."""
+def _exported(results: Data, tell: Tell) -> tuple[dict[str, bytes], list[Lost]]:
+    """The profiles of the mechanisms as tables and drawings, by the ending of their file: ``INSTANCE.cam_1.dxf``.
+
+    Beside them those that cannot be written.
+    """
     calculated = {**results["mechanisms"], **results.get("comparisons", {})}
     if not any(mechanism["exports"] for mechanism in calculated.values()):
-        return {}
+        return {}, []
     tell("drawing the profiles")
-    from diecut_report.report.profile_files import exports
+    from diecut_report.report.profile_files import written
 
-    return exports(results)
+    files, faults = written(results)
+    return files, [
+        Lost("export", name, export["id"], f"{type(cause).__name__}: {cause}") for name, export, cause in faults
+    ]
 
 
 def _pdf(rendering: Any) -> bytes:

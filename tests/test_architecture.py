@@ -27,7 +27,7 @@ FOLDERS = {  # folder of the repository: package or name under which its modules
 LAYERS = [
     {"", "errors", "quantities"},
     {"standards"},
-    {"expressions", "formula_source"},
+    {"expressions"},
     {"mechanics"},
     {"contract"},
     {"api"},

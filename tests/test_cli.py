@@ -423,3 +423,13 @@ def test_the_example_is_calculated_with_its_two_failing_checks(capfd: Capture) -
     failing = [c["id"] for data in found["mechanisms"].values() for c in data["checks"] if c["status"] == "fail"]
     assert failing == ["wall_at_flat", "radius"]
     assert found["governing"] == {"mechanism": "cylinder", "check": "wall_at_flat"}
+
+
+@pytest.mark.parametrize("environment", [{"NO_COLOR": "1"}, {"TERM": "dumb"}])
+def test_a_slow_run_shows_no_moving_sign_where_none_is_wanted(tmp_path: Path, environment: dict[str, str]) -> None:
+    folder = tmp_path / "plugins"
+    folder.mkdir()
+    saved(folder, SLOW, "slow.py")
+    call = ["calc", saved(tmp_path, HEAD + "  a: {kind: slow}\n"), "-o", tmp_path / "r.json", "--plugins", folder]
+    assert "\x1b" not in on_terminal(*call, **environment)
+    assert (tmp_path / "r.json").exists()

@@ -65,6 +65,9 @@ def main(arguments: Sequence[str] | None = None) -> int:
     except UserError as error:
         tell(str(problem) for problem in error.problems)
         return BAD_INPUT
+    except PluginError as error:
+        tell([str(error)])
+        return PLUGIN_BROKE
     except Exception:
         traceback.print_exc()
         tell(["This is a fault of diecut-report itself. Please report it with the lines above and the configuration."])
@@ -238,7 +241,9 @@ def _verdict(outcome: Outcome, quiet: bool) -> int:
     tell(str(error) for error in outcome.broken)
     if not quiet:
         tell(_summary(outcome.results))
-    return {"error": PLUGIN_BROKE, "fail": CHECK_FAILED}.get(outcome.results["status"], PASSED)
+    if outcome.broken:
+        return PLUGIN_BROKE
+    return CHECK_FAILED if outcome.results["status"] == "fail" else PASSED
 
 
 def _summary(results: dict[str, Any]) -> list[str]:

@@ -10,6 +10,7 @@ from typing import Any, TypeVar
 
 import click
 
+from diecut_report.cli.progress import is_styled
 from diecut_report.errors import Problem, UserError
 
 PASSED, CHECK_FAILED, BAD_INPUT, PLUGIN_BROKE = 0, 1, 2, 3
@@ -51,8 +52,7 @@ def _close_output() -> None:
 
 def coloured(text: str, status: str) -> str:
     """The text in the status's colour where standard error is a terminal that wants colours."""
-    plain = not sys.stderr.isatty() or os.environ.get("NO_COLOR") or os.environ.get("TERM") == "dumb"
-    return text if plain else f"\x1b[{COLOURS[status]}m{text}\x1b[0m"
+    return f"\x1b[{COLOURS[status]}m{text}\x1b[0m" if is_styled() else text
 
 
 def common(command: Command) -> Command:

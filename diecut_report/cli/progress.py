@@ -1,7 +1,8 @@
-"""What is being done, shown on a terminal once it has taken longer than a second."""
+"""What is being done, shown on a terminal that wants moving signs once it has taken longer than a second."""
 
 from __future__ import annotations
 
+import os
 import sys
 from threading import Lock, Timer
 from typing import TYPE_CHECKING
@@ -12,11 +13,16 @@ if TYPE_CHECKING:
 PATIENCE = 1.0  # seconds until it is shown
 
 
+def is_styled() -> bool:
+    """Return whether standard error is a terminal that wants colours and moving signs (NO_COLOR, TERM=dumb)."""
+    return sys.stderr.isatty() and not os.environ.get("NO_COLOR") and os.environ.get("TERM") != "dumb"
+
+
 class Progress:
     """Shows on a terminal what is being done, once it has taken longer than a second."""
 
     def __init__(self, quiet: bool) -> None:
-        self.doing, self.status, self.done = "", None, quiet or not sys.stderr.isatty()
+        self.doing, self.status, self.done = "", None, quiet or not is_styled()
         self.lock = Lock()
         self.timer = Timer(PATIENCE, self._show)
         self.timer.daemon = True

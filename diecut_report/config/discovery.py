@@ -27,6 +27,7 @@ from typing import Any
 from diecut_report.config import yaml_tree
 from diecut_report.contract.mechanism import Mechanism
 from diecut_report.errors import PluginError, Problem, UserError, nearest
+from diecut_report.expressions.source import FormulaError
 
 GROUP = "diecut_report.plugins"
 EXTENSIONS = "diecut_report.extensions"
@@ -120,11 +121,24 @@ def _loaded(origin: Origin) -> Mechanism | PluginError:
 
 
 def said(cause: BaseException) -> str:
-    """An exception of a plugin in one line: its type, its text, and the file and line that raised it."""
+    """An exception of a plugin in one line: its type, its text, and the last file and line of the plugin that led to it."""
     frames = [f for f in traceback.extract_tb(cause.__traceback__) if not f.filename.startswith("<")]
-    own = frames and not isinstance(cause, SyntaxError)  # a syntax error tells its own place
-    place = f" ({Path(frames[-1].filename).name}:{frames[-1].lineno})" if own else ""
+    own = [f for f in frames if not _is_foreign(Path(f.filename))] or frames
+    tells_place = isinstance(cause, SyntaxError | FormulaError)
+    place = f" ({Path(own[-1].filename).name}:{own[-1].lineno})" if own and not tells_place else ""
     return f"{type(cause).__name__}: {' '.join(str(cause).split())}{place}"
+
+
+PROGRAM = Path(__file__).parent
+LIBRARIES = ("numpy", "scipy", "pydantic", "pint")
+STANDARD = Path(traceback.__file__).parent
+
+
+def _is_foreign(file: Path) -> bool:
+    """Whether a file is no plugin's: of the program, of the standard library, of a library that plugins use."""
+    of_program = file.is_relative_to(PROGRAM) and not file.is_relative_to(PROGRAM / GROUP.rpartition(".")[2])
+    of_library = "site-packages" in file.parts and any(name in file.parts for name in LIBRARIES)
+    return of_program or of_library or file.parent == STANDARD
 
 
 # --- the three places ------------------------------------------------------------------------------------------------

@@ -10,9 +10,10 @@ from typing import Any, NamedTuple
 from pydantic import ValidationError
 from pydantic.fields import FieldInfo
 
+from diecut_report.config.discovery import said
 from diecut_report.config.yaml_tree import KeyPath, Tree
 from diecut_report.contract.inputs import Block, CurveInput, Meta, Pending, Quantity, Text, meta_of, nested
-from diecut_report.errors import Problem, nearest
+from diecut_report.errors import PluginError, Problem, nearest
 from diecut_report.quantities.units import pretty
 
 SHOWN = 60  # characters of a given text that a message repeats
@@ -84,6 +85,10 @@ def validate(
     except ValidationError as error:
         faults = [_Fault(model, place, fault) for fault in error.errors(include_url=False)]
         return None, chosen + [fault.problem() for fault in faults if fault.key not in open_keys]
+    except Exception as cause:  # of a validator of the plugin's own
+        raise PluginError(
+            f"its inputs {model.__name__} cannot be validated: {said(cause)}", instance=str(place.root[-1])
+        ) from cause
 
 
 def _choices(model: type[Block], data: Any, place: Place, key: KeyPath = ()) -> Iterator[Problem]:

@@ -8,9 +8,10 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
-from typing import Any, Literal, TypedDict, Unpack
+from typing import Any, Literal, Unpack
 
-from diecut_report.contract.binding import Binding, ByText, as_binding
+from diecut_report.contract.binding import as_binding
+from diecut_report.contract.options import Condition, Options, Written
 from diecut_report.contract.part_steps import Lookup, Neighbour, Part, Pick, Running, Total
 from diecut_report.contract.steps import (
     Abscissa,
@@ -34,31 +35,6 @@ from diecut_report.contract.steps import (
 )
 from diecut_report.expressions import Array
 from diecut_report.standards import StandardSeries, StandardTable
-
-Written = Binding | ByText | Callable[..., Any]
-"""A formula as an author writes it: a lambda, a ``@formula``, one that is bound, one chosen by a text."""
-
-
-class Options(TypedDict, total=False):
-    """What any step may say besides; see ``Step``."""
-
-    source: str
-    digits: int
-    output: bool
-    needs: tuple[str, ...]
-    lacks: tuple[str, ...]
-    exists: Written | None
-    numbered: str
-    first: int
-    whole: bool
-    units: tuple[tuple[str, str], ...]
-
-
-class Condition(TypedDict, total=False):
-    """With which optional inputs a step takes part that gives no quantity."""
-
-    needs: tuple[str, ...]
-    lacks: tuple[str, ...]
 
 
 @dataclass(eq=False)

@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import Any, Protocol
 
+from diecut_report.contract.declared import declared_at
 from diecut_report.expressions import Array
 
 Point = tuple[float, float]
@@ -108,6 +109,7 @@ class Figure:
     title: str
     caption: str
     needs: tuple[str, ...] = ()
+    place: str = field(default_factory=declared_at, init=False, repr=False)
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)

@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from functools import cached_property
 
 from diecut_report.contract.chapters import Chapter
 from diecut_report.contract.checks import Check
+from diecut_report.contract.declared import declared_at
 from diecut_report.contract.figures import Figure
 from diecut_report.contract.inputs import CurveInput, Inputs, fields, list_inputs
 from diecut_report.contract.part_steps import Lookup, Neighbour, Running
@@ -81,6 +82,7 @@ class Profile:
     title: str
     columns: tuple[str, ...]
     needs: tuple[str, ...] = ()
+    place: str = field(default_factory=declared_at, init=False, repr=False)
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)

@@ -9,6 +9,7 @@ import numpy as np
 
 from diecut_report.contract.figures import Bars, Chart, Drawing, Figure, Plot, Polar, plain
 from diecut_report.engine.calculation import Calculation
+from diecut_report.engine.drawable import Undrawable, curve_named, guarded
 from diecut_report.engine.printing.substitution import printed
 from diecut_report.engine.steps.rerun import varied, varied_curves
 from diecut_report.expressions import Array
@@ -22,6 +23,8 @@ class MachineView:
 
     def __getitem__(self, name: str) -> float:
         """A number by its id, SI."""
+        if name not in self:
+            raise Undrawable(f"there is no number {name!r} in this machine")
         return float(self.calc[name][0, 0])
 
     def __contains__(self, name: str) -> bool:
@@ -73,13 +76,19 @@ class MachineView:
 
 
 def figures(calc: Calculation) -> list[dict[str, Any]]:
-    """The figures whose needs are given."""
-    return [_figure(calc, figure) for figure in calc.mechanism.figures if calc.given.issuperset(figure.needs)]
+    """The figures whose needs are given; one that fails is kept with what went wrong (``error``)."""
+    return [_guarded(calc, figure) for figure in calc.mechanism.figures if calc.given.issuperset(figure.needs)]
 
 
-def _figure(calc: Calculation, figure: Figure) -> dict[str, Any]:
-    view = MachineView(calc)
+def _guarded(calc: Calculation, figure: Figure) -> dict[str, Any]:
     head = {"id": figure.id, "title": figure.title, "caption": figure.caption}
+    return guarded(lambda: _figure(calc, figure, head), head | {"type": "failed"}, figure.place)
+
+
+def _figure(calc: Calculation, figure: Figure, head: dict[str, Any]) -> dict[str, Any]:
+    view = MachineView(calc)
+    for curve in _curves(figure):
+        curve_named(calc, curve, figure.abscissa)  # type: ignore[attr-defined]
     match figure:
         case Plot(abscissa=abscissa, panels=panels):
             return head | {"type": "plot", "abscissa": abscissa, "panels": [_panel(p, view) for p in panels]}
@@ -94,6 +103,16 @@ def _figure(calc: Calculation, figure: Figure) -> dict[str, Any]:
         case Chart(build=build):
             return head | {"type": "chart", "panels": build(view)}
     raise TypeError(f"{figure.id} is no known figure")
+
+
+def _curves(figure: Figure) -> list[str]:
+    """The curves that a figure names."""
+    match figure:
+        case Plot(panels=panels):
+            return [figure.abscissa, *(series.curve for panel in panels for series in panel.series)]
+        case Polar(series=several):
+            return [figure.abscissa, *(series.curve for series in several)]
+    return []
 
 
 def _panel(panel: Any, view: MachineView) -> dict[str, Any]:

@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from typing import Any
 
-from diecut_report.report.equations import Equations
+from diecut_report.report.equations import Equation, Equations
 from diecut_report.report.file_names import suffixes
 from diecut_report.report.i18n import Words
 from diecut_report.report.model import (
@@ -54,6 +54,7 @@ class _Filler:
         self.decimal = words["decimal"]
         self.tables = Tables(part.letter, words)
         self.formulas = 0
+        self.defined: set[str] = set()
 
     def fill(self) -> None:
         part, mechanism = self.part, self.mechanism
@@ -113,7 +114,13 @@ class _Filler:
     def _section(self, section: Data) -> Section:
         heading = self._head("", section["title"])
         told: set[str] = set()
-        return Section(heading, section.get("text", ""), [self._item(item, told) for item in section["items"]])
+        items = [self._item(item, told) for item in section["items"]]
+        return Section(heading, section.get("text", ""), items, self._shown(section.get("shown", ())))
+
+    def _shown(self, places: Sequence[Data]) -> str:
+        """Where the curves of a section are shown, in words."""
+        told = [f"{at['symbol']} = {quantity(at['text'], at['unit'], self.decimal)}" for at in places]
+        return self.words.say("shown_at", places=self.words.listed(told)) if told else ""
 
     def _item(self, item: Data, told: set[str]) -> Item:
         if item["type"] == "note":
@@ -128,12 +135,20 @@ class _Filler:
             source=item["source"] if len(item["source"]) <= LONGEST_SOURCE else "",
             equation=self.equations.of(item),
             condition=self.equations.condition(item),
+            definitions=tuple(self._definitions(item)),
             words=item.get("words", ""),
             text=""
             if item.get("equation") or item["type"] in ("found", "reduction", "lookup")
             else item["result"]["text"],
             notes=tuple(self._notes(item, told)),
         )
+
+    def _definitions(self, item: Data) -> Iterator[Equation]:
+        """What names in the formula stand for, where that was not told already."""
+        for equation in self.equations.definitions(item):
+            if equation.text not in self.defined:
+                self.defined.add(equation.text)
+                yield equation
 
     def _notes(self, item: Data, told: set[str]) -> Iterator[str]:
         """The method, where it was not told already in this section, what proves the value, and a note."""
@@ -176,11 +191,15 @@ class _Filler:
         """The files beside the report."""
         mechanism = self.mechanism
         for export in mechanism.get("exports", ()):
+            if "error" in export:
+                words = self.words.say("not_written", title=export["title"], error=export["error"])
+                yield File(f"{self.stem}.{self.part.name}.{export['id']}", words)
+                continue
             count = len(mechanism["curves"][export["abscissa"]]["values"])
             columns = ", ".join([export["abscissa"], *export["columns"]])
-            words = {"dxf": "dxf" if len(export["columns"]) > 2 else "dxf_profile", "csv": "csv"}
+            told = {"dxf": "dxf" if len(export["columns"]) > 2 else "dxf_profile", "csv": "csv"}
             for ending, suffix in suffixes(self.part.name, export).items():
-                content = self.words.say(words[ending], title=export["title"], n=count, columns=columns)
+                content = self.words.say(told[ending], title=export["title"], n=count, columns=columns)
                 yield File(f"{self.stem}.{suffix}", content)
 
     def _check(self, check: Data) -> CheckRow:

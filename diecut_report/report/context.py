@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from functools import cached_property
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 from diecut_report.report.document import Document, document, parts
 from diecut_report.report.equations import Equations
@@ -15,6 +15,20 @@ if TYPE_CHECKING:
     from diecut_report.report.figures.style import Svg
 
 
+class Fault(NamedTuple):
+    """A figure that could not be drawn: its mechanism, number and data, and what went wrong."""
+
+    mechanism: str
+    number: str
+    figure: Mapping[str, Any]
+    cause: Exception
+
+    @property
+    def words(self) -> str:
+        """What went wrong."""
+        return f"{self.cause}" if isinstance(self.cause, ValueError) else f"{type(self.cause).__name__}: {self.cause}"
+
+
 class Material:
     """The parts of the report of a results document."""
 
@@ -22,6 +36,7 @@ class Material:
         self.results = results
         self.words = Words(results["project"].get("language") or "en")
         self.typesetter = Typesetter()
+        self.faults: list[Fault] = []
 
     @cached_property
     def document(self) -> Document:
@@ -30,11 +45,28 @@ class Material:
 
     @cached_property
     def figures(self) -> dict[str, Svg]:
-        """All figures by their number."""
+        """All figures by their number, but those that cannot be drawn: these are in ``faults``."""
+        found: dict[str, Svg] = {}
+        for chapter, (name, data) in zip(self.document.chapters, parts(self.results), strict=True):
+            for number, figure in chapter.figures:
+                if "error" not in figure:
+                    drawing = self._drawn(name, number, figure, data["curves"])
+                    found |= {number: drawing} if drawing else {}
+        return found
+
+    def _drawn(self, name: str, number: str, figure: Mapping[str, Any], curves: Mapping[str, Any]) -> Svg | None:
         from diecut_report.report.figures.by_type import render  # with matplotlib, which takes half a second
 
-        return {
-            number: render(figure, data["curves"], self.words, number)
-            for chapter, (_, data) in zip(self.document.chapters, parts(self.results), strict=True)
-            for number, figure in chapter.figures
-        }
+        try:
+            return render(figure, curves, self.words, number)
+        except Exception as cause:  # of any kind: what a plugin gives to be drawn is its own
+            self.faults.append(Fault(name, number, figure, cause))
+            return None
+
+    def failed(self, number: str) -> str:
+        """Why a figure could not be drawn; nothing where it could."""
+        if number in self.figures:
+            return ""
+        figure = dict(pair for chapter in self.document.chapters for pair in chapter.figures)[number]
+        told: str = figure.get("error", "")
+        return told or next(fault.words for fault in self.faults if fault.number == number)

@@ -82,6 +82,14 @@ class Equations:
             return None
         return Equation(r":\quad ".join(link.latex for link in links), ": ".join(link.text for link in links))
 
+    def definitions(self, item: Item) -> list[Equation]:
+        """What the names stand for by which the item's formula calls others: where k_t(x) = …"""
+        rows = [Row(self._link(each["defined"]), [self._link(each["as"])]) for each in item.get("where", ())]
+        return [
+            Equation(row.latex(), row.text()) if self.measure(row.latex()) <= self.width else self._stacked([row])
+            for row in rows
+        ]
+
     def _links(self, item: Item) -> list[Link]:
         """What stands behind the symbol: the formula, the numbers in it, and the result."""
         result = self._result(item["result"])

@@ -16,7 +16,7 @@ Tree = list[Any]
 OR, AND, COMPARE, SUM, PRODUCT, CALL, POWER, ATOM = range(8)  # how tightly a piece holds together
 WORDS: Mapping[str, str] = {"if": "if", "otherwise": "otherwise", "and": "and", "or": "or", "not": "not"}
 NAMES = {
-    "log": "ln", "sign": "sgn", "minimum": "min", "maximum": "max",
+    "log": "ln", "log10": "lg", "arcsinh": "arsinh", "arccosh": "arcosh", "arctanh": "artanh", "sign": "sgn", "minimum": "min", "maximum": "max",
     "ceil": "ceil", "floor": "floor", "round": "round", "arctan2": "arctan2",
 }  # fmt: skip
 SIGNS = {"<": "<", "<=": "≤", ">": ">", ">=": "≥", "==": "=", "!=": "≠"}
@@ -113,6 +113,10 @@ class Printer:
                 return self._power(base, exponent)
             case ["call", name, *args]:
                 return self._call(name, [self.piece(a) for a in args])
+            case ["at", symbol, *place]:
+                return Piece(self(symbol) + self.bracket(f" {self.signs['==']} ".join(map(self, place))), POWER)
+            case ["apply", name, *args]:
+                return Piece(self.symbol(name) + self.bracket(self.comma.join(map(self, args))), POWER)
         return self._logic(tree)
 
     def _logic(self, tree: Tree) -> Piece:

@@ -65,7 +65,7 @@ def filled(material: Material, medium: Medium, kind: str) -> str:
     faces = FACES | (MATH if kind == "screen" else {})
     style = "\n".join([_font_faces(tuple(faces.items())), _read("report.css"), _read(f"{kind}.css")])
     return _environment().get_template("report.html.j2").render(
-        doc=document, t=document.words, kind=kind, style=Markup(style), math=medium.math, figure=medium.figure
+        doc=document, t=document.words, kind=kind, style=Markup(style), math=medium.math, figure=medium.figure, failed=material.failed,
     )  # fmt: skip
 
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 
 ENGLISH: dict[str, str] = {
     # numbers and formulas
@@ -40,6 +40,8 @@ ENGLISH: dict[str, str] = {
     "since": "Branch taken", "method": "Method", "residual": "relation met to {residual}", "checked_to": "verified to {residual}",
     "of_curve": "of {curve}", "series": "Series", "looked_up": "From “{table}” for {choice}",
     "figure": "Figure", "table": "Table", "formula": "Formula",
+    "where": "where", "shown_at": "Curves are shown at {places}.",
+    "not_drawn": "This figure could not be drawn.", "not_written": "{title} could not be written: {error}",
     "curves_note": "Some rows of the curves; a place that stands twice is a jump, before and after it. Extremes lie between the rows and "
     "are given with the results.",
     "dxf": "{title} in mm: polylines through {n} points each on the layers PROFILE and PITCH_CURVE, the axis on CENTER",
@@ -74,3 +76,7 @@ class Words(Mapping[str, str]):
     def say(self, key: str, **parts: object) -> str:
         """A sentence with its parts filled in."""
         return self[key].format(**parts)
+
+    def listed(self, parts: Sequence[str]) -> str:
+        """Several things in a sentence."""
+        return f" {self['and']} ".join(filter(None, (", ".join(parts[:-1]), *parts[-1:])))

@@ -73,6 +73,7 @@ class Item:
     source: str = ""
     equation: Equation | None = None
     condition: Equation | None = None
+    definitions: tuple[Equation, ...] = ()
     words: str = ""
     text: str = ""
     notes: tuple[str, ...] = ()
@@ -135,6 +136,7 @@ class Section:
     heading: Heading
     text: str
     items: list[Item]
+    shown: str = ""
 
 
 @dataclass

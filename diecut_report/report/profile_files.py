@@ -25,18 +25,38 @@ AXIS = 0.02  # radius of the circle at the axis, of the greatest radius of the p
 MM = unit("mm")
 
 
+Fault = tuple[str, Data, Exception]  # the mechanism's name, the export, and what went wrong
+
+
 def exports(results: Data) -> dict[str, bytes]:
     """All files that the results ask for: what follows the report's name in theirs, and their content."""
-    found: dict[str, bytes] = {}
+    files, faults = written(results)
+    for *_, cause in faults:
+        raise cause
+    return files
+
+
+def written(results: Data) -> tuple[dict[str, bytes], list[Fault]]:
+    """Return the files of all exports, and those exports that cannot be written; one that failed before is left out."""
+    files: dict[str, bytes] = {}
+    faults: list[Fault] = []
     for name, mechanism in (results["mechanisms"] | results.get("comparisons", {})).items():
         for export in mechanism.get("exports", ()):
-            if export["type"] != "profile":
-                raise ValueError(f"{name}.{export['id']}: no file is known for the type {export['type']}")
-            curves = {column: mechanism["curves"][column] for column in (export["abscissa"], *export["columns"])}
-            files = suffixes(name, export)
-            found[files["dxf"]] = profile_drawing(curves, export)
-            found[files["csv"]] = table(curves)
-    return found
+            if "error" in export:
+                continue
+            try:
+                files |= _files(name, mechanism, export)
+            except Exception as cause:
+                faults.append((name, export, cause))
+    return files, faults
+
+
+def _files(name: str, mechanism: Data, export: Data) -> dict[str, bytes]:
+    if export["type"] != "profile":
+        raise ValueError(f"{name}.{export['id']}: no file is known for the type {export['type']}")
+    curves = {column: mechanism["curves"][column] for column in (export["abscissa"], *export["columns"])}
+    files = suffixes(name, export)
+    return {files["dxf"]: profile_drawing(curves, export), files["csv"]: table(curves)}
 
 
 def table(curves: Mapping[str, Data]) -> bytes:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import Any
 
-from diecut_report.report.context import Material
+from diecut_report.report.context import Fault, Material
 from diecut_report.report.html import page
 
 
@@ -14,6 +14,11 @@ class Rendering:
 
     def __init__(self, results: Mapping[str, Any]) -> None:
         self.material = Material(results)
+
+    @property
+    def faults(self) -> list[Fault]:
+        """The figures that could not be drawn; known when a format is made."""
+        return self.material.faults
 
     def html(self) -> str:
         """The report as one self-contained HTML page."""

@@ -10,9 +10,12 @@ from typing import Any, Literal
 import numpy as np
 
 from diecut_report.contract.inputs import CurveInput, Quantity, list_titles
+from diecut_report.contract.mechanism import Profile
 from diecut_report.contract.spectra import Spectrum, SpectrumLine
 from diecut_report.contract.steps import SILENT, Crossings, Step
 from diecut_report.engine import Calculation
+from diecut_report.engine.calculation import Unproven
+from diecut_report.engine.drawable import curve_named, guarded
 from diecut_report.engine.figure_views import figures
 from diecut_report.engine.printing.items import section_items
 from diecut_report.quantities.formatting import shortest, shown
@@ -216,6 +219,8 @@ def _spectrum(spectrum: Spectrum) -> Data:
 
 
 def _curve(step: Step | SpectrumLine, values: Any) -> Data:
+    if not np.isfinite(np.asarray(values, dtype=float)).all():
+        raise Unproven(f"{step.description} ({step.id}) is a curve that has no value at some of its places")
     return {"unit": unit(step.unit).si, "values": np.asarray(values, dtype=float).tolist(), "symbol": step.symbol,
             "description": step.description, "display_unit": step.unit, "source": step.source}  # fmt: skip
 
@@ -239,15 +244,18 @@ def _limits(calc: Calculation, name: str) -> Data:
 
 
 def exports(calc: Calculation) -> list[Data]:
-    """The profiles that are written beside the report."""
-    return [
-        {
-            "id": p.id,
-            "title": p.title,
-            "type": "profile",
-            "abscissa": calc.axis[p.columns[0]],
-            "columns": list(p.columns),
-        }
-        for p in calc.mechanism.exports
-        if calc.given.issuperset(p.needs)
-    ]
+    """The profiles that are written beside the report; one that fails is kept with what went wrong (``error``)."""
+    return [_export(calc, p) for p in calc.mechanism.exports if calc.given.issuperset(p.needs)]
+
+
+def _export(calc: Calculation, profile: Profile) -> Data:
+    said = {"id": profile.id, "title": profile.title, "type": "profile"}
+    columns = list(profile.columns)
+
+    def made() -> Data:
+        abscissa = curve_named(calc, columns[0])
+        for name in columns:
+            curve_named(calc, name, abscissa)
+        return said | {"abscissa": abscissa, "columns": columns}
+
+    return guarded(made, said | {"abscissa": "", "columns": columns}, profile.place)

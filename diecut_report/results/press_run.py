@@ -171,7 +171,7 @@ class Run:
             for path, message in fault.reasons:
                 key = tuple(int(part) if part.isdigit() else part for part in path.split("."))
                 self.problems.append(instance.place.problem(key, message))
-        except Exception as cause:
+        except (Exception, SystemExit) as cause:
             self._broke(instance, cause)
 
     def _compare(self, case: Found) -> None:
@@ -179,12 +179,12 @@ class Run:
         self.cases.append(case)
         try:
             self.comparisons[case.name] = compared(case, self.calculations)
-        except Exception as cause:
+        except (Exception, SystemExit) as cause:
             error = PluginError(said(cause), case.comparison.mechanism.kind, case.name)
             error.__cause__ = cause
             self.errors[case.name] = error
 
-    def _broke(self, instance: Instance, cause: Exception) -> None:
+    def _broke(self, instance: Instance, cause: BaseException) -> None:
         self.calculations.pop(instance.name, None)
         error = PluginError(said(cause), self.config.kinds[instance.name], instance.name)
         error.__cause__ = cause

@@ -116,7 +116,20 @@ class _Walk:
                 return self._needed(ANGLE, *args) and NUMBER
             case "arcsin" | "arccos" | "arctan":
                 return self._needed(NUMBER, *args) and ANGLE
-            case "exp" | "log" | "ceil" | "floor" | "round":
+            case (
+                "exp"
+                | "log"
+                | "log10"
+                | "ceil"
+                | "floor"
+                | "round"
+                | "sinh"
+                | "cosh"
+                | "tanh"
+                | "arcsinh"
+                | "arccosh"
+                | "arctanh"
+            ):
                 return self._needed(NUMBER, *args)
             case "arctan2":
                 self._common(node, *args)

@@ -14,7 +14,7 @@ import numpy as np
 
 from diecut_report.contract.binding import Binding, bound
 from diecut_report.contract.steps import Choice, Step, Value
-from diecut_report.expressions import NUMERIC, FormulaError, Node
+from diecut_report.expressions import NUMERIC, Formula, FormulaError, Named, Node
 
 NUMBERS, PIECES, POINTS = 0, 1, 2  # what a term depends on at most: each is computed on arrays of its own
 WRITING = {"+": "add", "-": "subtract", "*": "multiply", "/": "divide"}  # what may put its result where it belongs
@@ -91,8 +91,12 @@ class Program:
     def _formula(self, part: Any) -> str:
         link = bound(_binding(part))
         known = {parameter: self._quantity(name) for parameter, name in link.names.items()}
-        constants = {symbol: self._constant(float(value)) for symbol, value in link.formula.constants.items()}
-        return self._node(link.formula.tree, {"π": self._constant(np.pi)} | constants | known)
+        return self._tree(link.formula, known)
+
+    def _tree(self, formula: Formula, known: Mapping[str, str]) -> str:
+        """The term that a formula gives, its parameters being known."""
+        constants = {symbol: self._constant(float(value)) for symbol, value in formula.constants.items()}
+        return self._node(formula.tree, {"π": self._constant(np.pi)} | constants | dict(known))
 
     def _node(self, node: Node, known: Mapping[str, str]) -> str:
         match node:
@@ -100,6 +104,9 @@ class Program:
                 return self._constant(float(text))
             case Node("sym", (symbol,)):
                 return known[symbol]
+            case Node("apply", (Named(formula=called), *args)):
+                own = dict(zip(called.parameters, (self._node(part, known) for part in args), strict=True))
+                return self._tree(called, own)
             case Node("call", (name, *args)):
                 return self._call(name, *(self._node(part, known) for part in args))
             case Node("cmp", (sign, left, right)):

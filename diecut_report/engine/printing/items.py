@@ -4,8 +4,6 @@ from __future__ import annotations
 
 from typing import Any
 
-import numpy as np
-
 from diecut_report.contract.binding import Binding, Bound, bound
 from diecut_report.contract.part_steps import Lookup, Neighbour, Part, Pick, Running, Total
 from diecut_report.contract.steps import (
@@ -22,15 +20,30 @@ from diecut_report.contract.steps import (
     Value,
     Words,
 )
-from diecut_report.engine.calculation import Calculation
+from diecut_report.engine.calculation import Calculation, Unproven
 from diecut_report.engine.printing import tables
-from diecut_report.engine.printing.substitution import Substitution, printed
-from diecut_report.expressions import Array, Node
+from diecut_report.engine.printing.definitions import definitions
+from diecut_report.engine.printing.shown_place import (
+    case_taken,
+    is_elsewhere,
+    located,
+    marks,
+    place_of,
+    place_shown,
+    place_text,
+    value_at,
+)
+from diecut_report.engine.printing.substitution import (
+    MOST_DIGITS,
+    Contradiction,
+    Substitution,
+    printed,
+)
+from diecut_report.expressions import Node
 from diecut_report.quantities.formatting import number_text, shown, with_unit
 from diecut_report.quantities.units import unit
 
 Item = dict[str, Any]
-FIRST = np.zeros(1, dtype=int)  # the variant that is printed
 
 METHODS = {
     "max": "bounded search on the curve within each smooth piece, one-sided limits at the breakpoints included",
@@ -46,6 +59,9 @@ def section_items(calc: Calculation) -> list[dict[str, Any]]:
     for section, step in calc.mechanism.active(calc.given):
         chapter = chapters.setdefault(section.title, {"title": section.title, "text": section.text, "items": []})
         chapter["items"] += items(calc, step)
+        if isinstance(step, Value | Choice | Accumulated | Derivative) and calc.axis.get(step.id) in calc.domains:
+            place = place_shown(calc, calc.axis[step.id], False)
+            chapter["shown"] = [*(at for at in chapter.get("shown", []) if at != place), place]
     return [chapter for chapter in chapters.values() if chapter["items"]]
 
 
@@ -83,7 +99,7 @@ def items(calc: Calculation, step: Step) -> list[Item]:
                 _head(step)
                 | {
                     "type": "note",
-                    "text": f"{text} Formulas over it are shown with their numbers at {_at(calc, step)}.",
+                    "text": f"{text} Formulas over it are shown with their numbers at {place_text(calc, step)}.",
                 }
             ]
     return []
@@ -93,40 +109,14 @@ def _head(step: Step) -> Item:
     return {"id": step.id, "symbol": step.symbol, "description": step.description, "source": step.source}
 
 
-def shown_place(calc: Calculation, axis: str) -> tuple[Array, Array]:
-    """The place of an abscissa at which formulas are shown, and the middle of its smooth piece, each of shape (1, 1)."""
-    step = calc.steps[axis]
-    assert isinstance(step, Abscissa)
-    if step.shown_at:
-        return calc[step.shown_at][:1], calc.middle[step.shown_at][:1]
-    place = calc.domains[axis].samples[:1, calc.domains[axis].samples.shape[1] // 8][:, None]
-    return place, calc.domains[axis].middle_of(place, rows=FIRST)
-
-
-def value_at(calc: Calculation, name: str, axis: str | None, *, flag: bool = False) -> float:
-    """A number, or a curve's value where formulas are shown, or the first of a row over like parts.
-
-    What goes into a flag of smooth pieces is taken at the middle of the piece.
-    """
-    if axis in calc.domains and calc.axis.get(name) == axis:
-        place, middle = shown_place(calc, str(axis))
-        sampler = calc.kept(f"shown {flag}", str(axis), lambda _: (middle if flag else place, middle), FIRST)
-        return float(np.ravel(sampler[name])[0])  # a constant is a curve too
-    return float(calc[name][0, 0])
-
-
-def _at(calc: Calculation, axis: Step) -> str:
-    place = shown_place(calc, axis.id)[0][0, 0]
-    return f"{axis.symbol} = {with_unit(number_text(place / unit(axis.unit).factor, 6), axis.unit)}"
-
-
 def _value(calc: Calculation, step: Value, part: Bound) -> list[Item]:
     axis = calc.axis.get(step.id)
     if step.id in calc.values and calc.values[step.id].dtype == bool:
         return [_yes_or_no(calc, step, part)]
-    item = _head(step) | {"type": "formula"} | _formula(calc, part, step, axis)
+    elsewhere = is_elsewhere(calc, step, axis)
+    item = _head(step) | {"type": "formula"} | _formula(calc, part, step, axis, elsewhere)
     if axis in calc.domains:
-        item["at"] = _symbolled(calc, str(axis), step.per_piece)
+        item |= located(calc, str(axis), elsewhere)
     elif axis is not None:
         return [
             item,
@@ -152,27 +142,39 @@ def _sides(substitution: Substitution, held: bool) -> tuple[Any, Any]:
     return symbolic, numeric
 
 
-def _symbolled(calc: Calculation, axis: str, flag: bool) -> Item:
-    return _place(calc, axis, float(shown_place(calc, axis)[flag][0, 0]))
-
-
-def _place(calc: Calculation, axis: str, place: float) -> Item:
-    step = calc.steps[axis]
-    return {"symbol": step.symbol} | shown(place, step.unit, 6)
-
-
-def _formula(calc: Calculation, part: Bound, step: Step, axis: str | None) -> Item:
+def _formula(calc: Calculation, part: Bound, step: Step, axis: str | None, elsewhere: bool) -> Item:
     target = value_at(calc, step.id, axis)
-    flag = isinstance(step, Value | Choice) and step.per_piece
-    substitution = Substitution(calc, part, lambda name: value_at(calc, name, axis, flag=flag))
+    marked = marks(calc, axis, elsewhere)
+    substitution = Substitution(calc, part, lambda name: value_at(calc, name, axis, flag=elsewhere), marked)
     takes = [name for name in part.names.values() if isinstance(name, str)]
-    numeric = substitution.numeric(target, step.unit, step.digits) if takes else None
-    item: Item = {"equation": substitution.symbolic().to_json(), "substituted": numeric and numeric.to_json()}
+    try:
+        numeric = substitution.numeric(target, step.unit, step.digits) if takes else None
+    except Contradiction as found:
+        raise Unproven(_contradicted(step, part, found)) from None
+    symbolic = substitution.symbolic()
+    item: Item = {"equation": symbolic.to_json(), "substituted": numeric and numeric.to_json()}
+    if defined := definitions(symbolic):
+        item["where"] = defined
     if takes and numeric is None:
         item["note"] = (
             "the terms are equal up to the rounding of the computer, or so nearly that printed numbers do not show it"
         )
     return item | {"result": shown(target, step.unit, step.digits)}
+
+
+def _contradicted(step: Step, part: Bound, found: Contradiction) -> str:
+    """Say what is wrong with a formula whose expression does not give its result, with so many digits as show it."""
+    factor, said = unit(step.unit).factor, ("", "")
+    for digits in range(step.digits, MOST_DIGITS + 1):
+        said = (number_text(found.result / factor, digits), number_text(found.printed / factor, digits))
+        if said[0] != said[1]:
+            break
+    result, again = (with_unit(text, step.unit) for text in said)
+    formula = part.formula
+    return (
+        f"{step.description} ({step.id}) is {result}, but its formula {formula.__name__} as it is printed gives {again}, "
+        f"which is more than rounding; it must compute by its parameters and constants alone ({formula.place})"
+    )
 
 
 OPPOSITE = {"<": ">=", "<=": ">", ">": "<=", ">=": "<", "==": "!=", "!=": "=="}
@@ -188,32 +190,21 @@ def negated(condition: Node) -> Node:
 
 def _choice(calc: Calculation, step: Choice) -> Item:
     axis = calc.axis.get(step.id)
-    index = _case_taken(calc, step, axis)
+    elsewhere = is_elsewhere(calc, step, axis)
+    index = case_taken(calc, step, axis, flag=elsewhere)
     case = step.cases[index]
     item = _head(step) | {"type": "choice", "words": case.words}
     held = case.condition if case.condition is not None else step.cases[index - 1].condition
     if held is not None:
-        substitution = Substitution(calc, bound(held), lambda name: value_at(calc, name, axis, flag=step.per_piece))
+        marked = marks(calc, axis, elsewhere)
+        substitution = Substitution(calc, bound(held), lambda name: value_at(calc, name, axis, flag=elsewhere), marked)
         symbolic, numeric = _sides(substitution, case.condition is not None)
         item |= {"condition": symbolic, "condition_substituted": numeric}
     if axis in calc.domains:
-        item["at"] = _symbolled(calc, str(axis), step.per_piece)
+        item |= located(calc, str(axis), elsewhere)
     if isinstance(case.value, Binding):
-        return item | _formula(calc, bound(case.value), step, axis)
+        return item | _formula(calc, bound(case.value), step, axis, elsewhere)
     return item | {"equation": None, "substituted": None, "result": {"text": str(case.value), "unit": "1"}}
-
-
-def _case_taken(calc: Calculation, step: Choice, axis: str | None) -> int:
-    if axis is None:
-        return int(calc.branch[step.id][0, 0])
-    for index, case in enumerate(step.cases):
-        if case.condition is None:
-            return index
-        link = bound(case.condition)
-        taken = (value_at(calc, n, axis, flag=step.per_piece) if isinstance(n, str) else n for n in link.names.values())
-        if link.formula(*taken):
-            return index
-    return len(step.cases) - 1
 
 
 def _root(calc: Calculation, step: Root) -> Item:
@@ -243,7 +234,7 @@ def _reduction(calc: Calculation, step: Reduction) -> Item:
     item["method"] = METHODS["mean" if integrated else "max"]
     item["residual"] = {"text": number_text(calc.proof[step.id], 2), "unit": "1"}
     if f"{step.id}_at" in calc.values:
-        item["at"] = _place(calc, calc.axis[step.of], float(calc[f"{step.id}_at"][0, 0]))
+        item["at"] = place_of(calc, calc.axis[step.of], float(calc[f"{step.id}_at"][0, 0]))
     return item
 
 
@@ -259,7 +250,7 @@ def _of_curve(calc: Calculation, step: Accumulated | Derivative) -> Item:
     result = shown(value_at(calc, step.id, axis), step.unit, step.digits)
     return _head(step) | {
         "type": "reduction", "operation": operation, "of": calc.step_or_input(step.of).symbol, "result": result,
-        "at": _symbolled(calc, axis, False), "method": METHODS[operation],
+        "at": place_shown(calc, axis, False), "method": METHODS[operation],
         "residual": {"text": number_text(calc.proof[step.id], 2), "unit": "1"},
     }  # fmt: skip
 

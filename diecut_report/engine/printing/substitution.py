@@ -11,10 +11,9 @@ from collections.abc import Callable, Mapping
 from types import MappingProxyType
 from typing import TYPE_CHECKING, Any
 
-import numpy as np
-
 from diecut_report.contract.binding import Bound
 from diecut_report.contract.steps import Words
+from diecut_report.engine.printing.rounding import Bounded, bounded
 from diecut_report.expressions import Node, evaluate, transform
 from diecut_report.quantities.formatting import DIGITS, number_text, rounded, shortest, told, with_unit
 from diecut_report.quantities.units import unit
@@ -23,7 +22,6 @@ if TYPE_CHECKING:
     from diecut_report.engine.calculation import Calculation
 
 MOST_DIGITS = 17
-ROUNDING = 1e-11  # share of a sum's terms below which a result is rounding alone
 NAMED = re.compile(r"\{([\w.]+)(?::(up|down))?\}")
 TRIGONOMETRIC = ("sin", "cos", "tan")
 
@@ -73,11 +71,24 @@ def formula_unit(display: str) -> str:
     return display if abs(decade - round(decade)) < 1e-12 else own.si
 
 
+class Contradiction(Exception):
+    """A printed expression does not give the result that is printed, and that is not rounding; both in SI."""
+
+    def __init__(self, result: float, printed: float) -> None:
+        super().__init__(result, printed)
+        self.result, self.printed = result, printed
+
+
+Elsewhere = Callable[[str], tuple[Node, Node] | None]  # of a quantity: its abscissa and place, if not the chapter's
+
+
 class Substitution:
     """A formula with numbers in, so precise that computing what is printed gives the printed result."""
 
-    def __init__(self, calc: Calculation, part: Bound, value_of: Callable[[str], float]) -> None:
-        self.calc, self.part, self.value_of = calc, part, value_of
+    def __init__(
+        self, calc: Calculation, part: Bound, value_of: Callable[[str], float], elsewhere: Elsewhere | None = None
+    ) -> None:
+        self.calc, self.part, self.value_of, self.elsewhere = calc, part, value_of, elsewhere
         self.constants: Mapping[str, Any] = part.formula.constants
 
     def symbolic(self) -> Node:
@@ -88,55 +99,52 @@ class Substitution:
         name = self.part.names.get(leaf.args[0]) if leaf.op == "sym" else None
         if name is None:
             return leaf
-        return (
-            Node("sym", (self.calc.step_or_input(name).symbol,))
-            if isinstance(name, str)
-            else Node("num", (f"{name:g}",))
-        )
+        return self._marked(name) if isinstance(name, str) else Node("num", (f"{name:g}",))
+
+    def _marked(self, name: str) -> Node:
+        """A quantity's symbol; where it is taken at another place than the chapter's, marked with that place."""
+        symbol = Node("sym", (self.calc.step_or_input(name).symbol,))
+        extreme = self.calc.steps.get(name.removesuffix("_at"))
+        if name in self.calc.middle and extreme is not None:
+            return Node("at", (symbol, Node("sym", (extreme.symbol,))))
+        place = self.elsewhere(name) if self.elsewhere else None
+        return symbol if place is None else Node("at", (symbol, *place))
 
     def numeric(self, target: float, display: str, result_digits: int) -> Node | None:
         """The expression with numbers and units; computed as printed it gives ``target`` (SI) as printed in ``display``.
 
-        None where no number of digits shows it: the terms that it is the difference of are equal, or nearly so.
+        None where it is proved that only rounding keeps printed numbers from showing it: the terms that it is the
+        difference of are equal, or nearly so. ``Contradiction`` where the expression gives something else.
         """
+        wanted = rounded(target, display, result_digits)
+        whole = self._bounded(MOST_DIGITS)
+        is_rounding = abs(target) * 10.0**-result_digits <= whole.error < math.inf  # no number of digits shows it
         for digits in range(DIGITS, MOST_DIGITS + 1):
-            tree = self._with_numbers(self.part.formula.tree, digits, angle=False)
-            with np.errstate(all="ignore"):
-                again = float(evaluate(tree, self._printed_value))
-            if math.isfinite(again) and rounded(again, display, result_digits) == rounded(
-                target, display, result_digits
-            ):
-                return tree
-            if digits == DIGITS and self._is_rounding(target):
-                return None
-            if math.isfinite(again) and abs(again - target) <= ROUNDING * self._size(tree):
-                return tree
-        return None
+            again, error = self._bounded(digits)
+            if math.isfinite(again) and rounded(again, display, result_digits) == wanted:
+                return self._at(digits)
+            if is_rounding:
+                break
+            if abs(again - target) <= error < math.inf:
+                return self._at(digits)
+        if abs(whole.value - target) <= whole.error or whole.error == math.inf:
+            return None
+        raise Contradiction(target, whole.value)
 
-    def _is_rounding(self, target: float) -> bool:
-        tree = self._with_numbers(self.part.formula.tree, MOST_DIGITS, angle=False)
-        return abs(target) <= ROUNDING * self._size(tree)
+    def _at(self, digits: int) -> Node:
+        """The expression with numbers of so many digits."""
+        return self._with_numbers(self.part.formula.tree, digits, angle=False)
+
+    def _bounded(self, digits: int) -> Bounded:
+        return bounded(self._at(digits), self._printed_value)
 
     def comparison(self, holds: bool) -> Node | None:
         """A condition with numbers, precise enough that it holds (or not) as printed; None where no number of digits shows it."""
         for digits in range(DIGITS, MOST_DIGITS + 1):
-            tree = self._with_numbers(self.part.formula.tree, digits, angle=False)
+            tree = self._at(digits)
             if bool(evaluate(tree, self._printed_value)) is holds:
                 return tree
         return None
-
-    def _size(self, tree: Node) -> float:
-        """The size of the terms that a result is the sum of: what its rounding is to be judged by."""
-        inner = tree.args[1] if tree.op == "call" and tree.args[0] == "abs" else tree
-        if inner.op == "/":
-            return self._size(inner.args[0]) / abs(float(evaluate(inner.args[1], self._printed_value)))
-        if inner.op == "call" and inner.args[0] in ("sin", "cos"):
-            return 1.0
-        if inner.op == "*":
-            return self._size(inner.args[0]) * self._size(inner.args[1])
-        terms = inner.args if inner.op in ("+", "-") else (inner,)
-        with np.errstate(all="ignore"):
-            return max(abs(float(evaluate(term, self._printed_value))) for term in terms)
 
     def _printed_value(self, leaf: Node) -> float:
         if leaf.op == "qty":
@@ -161,12 +169,15 @@ class Substitution:
     def _number(self, leaf: Node, digits: int, *, angle: bool) -> Node:
         name = self.part.names.get(leaf.args[0])
         if name is None:
-            return leaf
+            constant = self.constants.get(leaf.args[0])
+            return leaf if constant is None else Node("qty", (shortest(float(constant), MOST_DIGITS), constant.unit))
         if not isinstance(name, str):
             return Node("num", (f"{name:g}",))
         declared = self.calc.step_or_input(name)
         display = "deg" if angle and unit(declared.unit).si == "rad" else formula_unit(declared.unit)
         number = self.value_of(name) / unit(display).factor
+        if digits == MOST_DIGITS:
+            return Node("qty", (f"{number:.{digits}g}", display))  # exact: neither as typed nor taken as whole
         text = (
             shortest(number, max(digits, 6))
             if name not in self.calc.values and name not in self.calc.curves

@@ -53,12 +53,22 @@ def drawing(figure: Mapping[str, Any], _curves: Mapping[str, Any], words: Words)
     return best
 
 
+def _look(shape: Shape) -> dict[str, Any]:
+    """The look of a shape's role; ValueError where there is no such role."""
+    if shape["role"] not in ROLES:
+        raise ValueError(f"{shape['role']!r} is no role of a {shape['shape']}; known: {', '.join(ROLES)}")
+    return ROLES[shape["role"]]
+
+
 class Shapes(Sheet):
     """A sheet with a way to draw each kind of shape."""
 
     def draw(self, shape: Shape) -> None:
-        """Draw a shape."""
-        getattr(self, f"_{shape['shape']}")(shape)
+        """Draw a shape; ValueError where nothing is known of its kind."""
+        way = getattr(self, f"_{shape['shape']}", None)
+        if way is None:
+            raise ValueError(f"{shape['shape']!r} is no shape that can be drawn")
+        way(shape)
 
     def _polyline(self, shape: Shape) -> None:
         points = self._points(shape["points"])
@@ -66,7 +76,7 @@ class Shapes(Sheet):
             points = np.vstack([points, points[:1]])
         if shape["role"] == "body":
             self.axes.fill(points[:, 0], points[:, 1], color=BODY, linewidth=0, zorder=1)
-        self._line(points, **ROLES[shape["role"]])
+        self._line(points, **_look(shape))
         if shape["role"] == "ground":
             self._ground(points)
 
@@ -91,7 +101,7 @@ class Shapes(Sheet):
         return points
 
     def _arc(self, shape: Shape) -> None:
-        self._line(self._bow(shape, shape["start"], shape["end"]), **ROLES[shape["role"]])
+        self._line(self._bow(shape, shape["start"], shape["end"]), **_look(shape))
 
     def _region(self, shape: Shape) -> None:
         loops = [self._points(loop) for loop in (shape["outer"], *shape["holes"])]
@@ -123,7 +133,7 @@ class Shapes(Sheet):
     def _arrow(self, shape: Shape) -> None:
         """A straight arrow from box to box; its head has its size on paper, and is smaller only on a shorter arrow."""
         tail, tip = self._outside(self._points(shape["from"])[0], self._points(shape["to"])[0])
-        look, length = ROLES[shape["role"]], float(np.hypot(*(tip - tail)))
+        look, length = _look(shape), float(np.hypot(*(tip - tail)))
         if length == 0:
             self._point({"at": shape["from"], "role": "joint", "label": shape.get("label")})
             return
@@ -148,7 +158,7 @@ class Shapes(Sheet):
     def _box(self, shape: Shape) -> None:
         """A box with lines of text."""
         center, (lines, size) = self._points(shape["center"])[0], filled(shape, self.scale)
-        look = {"edgecolor" if key == "color" else key: value for key, value in ROLES[shape["role"]].items()}
+        look = {"edgecolor" if key == "color" else key: value for key, value in _look(shape).items()}
         face = BODY if shape["role"] == "body" else "white"
         self.axes.add_patch(Rectangle(center - size / 2, *size, facecolor=face, **look | {"zorder": 4.2}))
         for index, line in enumerate(lines):

@@ -1,4 +1,4 @@
-"""The source of a formula's function, as syntax: of a ``def`` its body, of a lambda the expression that it returns.
+"""What is known of a formula's function from its code: its body as syntax, its place, and the formulas that it may call.
 
 Only the function's own lines are read: to parse whole files costs more than a short run may.
 """
@@ -6,13 +6,20 @@ Only the function's own lines are read: to parse whole files costs more than a s
 from __future__ import annotations
 
 import ast
+import inspect
 import linecache
+from collections.abc import Callable, Iterator, Mapping
 from textwrap import dedent
-from types import CodeType
+from types import CodeType, ModuleType
+from typing import Any
 
 LAMBDA = "<lambda>"
 CHANGED = "its place in the file holds something else; was the file changed?"
 Place = tuple[int, int]  # line from 1, column from 0 in bytes
+
+
+class FormulaError(TypeError):
+    """A formula's body holds something that cannot be printed: a mistake of the plugin's author."""
 
 
 class Unreadable(Exception):
@@ -85,3 +92,30 @@ def _between(lines: list[str], begin: Place, end: Place) -> str:
     chosen[-1] = chosen[-1][: end[1]]
     chosen[0] = chosen[0][begin[1] :]
     return b"".join(chosen).decode()
+
+
+def place(function: Callable[..., Any]) -> str:
+    """Return ``file:line`` of a function."""
+    code = inspect.unwrap(function).__code__
+    return f"{code.co_filename}:{code.co_firstlineno}"
+
+
+def perhaps_named(function: Callable[..., Any], kind: type) -> Iterator[Any]:
+    """Give the values of a type that a function may name, as globals or by way of a module, at no cost.
+
+    They may be too many: of ``np.sqrt`` the code tells no more than that both names stand in it.
+    """
+    space, names = function.__globals__, function.__code__.co_names
+    spaces = [space, *(vars(space[name]) for name in names if isinstance(space.get(name), ModuleType))]
+    for each in spaces:
+        yield from (each[name] for name in names if isinstance(each.get(name), kind))
+
+
+def given_to(function: Callable[..., Any], args: tuple[Any, ...], named: Mapping[str, Any]) -> dict[str, Any]:
+    """Return what each parameter of a function is given by a call, by position, by name or by default, in their order.
+
+    Raises TypeError in words where the call does not fit.
+    """
+    call = inspect.signature(function).bind(*args, **named)
+    call.apply_defaults()
+    return call.arguments

@@ -1,0 +1,33 @@
+"""What an author may write of any step: formulas in their forms, and what a step may say besides."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any, TypedDict
+
+from diecut_report.contract.binding import Binding, ByText
+
+Written = Binding | ByText | Callable[..., Any]
+"""A formula as an author writes it: a lambda, a ``@formula``, one that is bound, one chosen by a text."""
+
+
+class Options(TypedDict, total=False):
+    """What any step may say besides; see ``Step``."""
+
+    source: str
+    digits: int
+    output: bool
+    needs: tuple[str, ...]
+    lacks: tuple[str, ...]
+    exists: Written | None
+    numbered: str
+    first: int
+    whole: bool
+    units: tuple[tuple[str, str], ...]
+
+
+class Condition(TypedDict, total=False):
+    """With which optional inputs a step takes part that gives no quantity."""
+
+    needs: tuple[str, ...]
+    lacks: tuple[str, ...]

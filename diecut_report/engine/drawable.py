@@ -1,0 +1,64 @@
+"""What figures and exports may name, and what a fault in one of them costs: that one alone."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Callable, Mapping
+from typing import Any
+
+from diecut_report.config.discovery import said
+from diecut_report.engine.calculation import Calculation
+
+Data = dict[str, Any]
+
+
+class Undrawable(ValueError):
+    """A figure or export asks for what is not there, in words."""
+
+
+def guarded(make: Callable[[], Data], lost: Data, place: str) -> Data:
+    """Return what ``make`` makes, or ``lost`` with what went wrong and where in the plugin."""
+    try:
+        made = make()
+        _plain(made)
+        return made
+    except Undrawable as fault:
+        return lost | {"error": f"{fault} ({place})"}
+    except Exception as cause:
+        return lost | {"error": f"{said(cause)}, asked for at {place}"}
+
+
+def _plain(made: Data) -> None:
+    """Check that it can stand in a results file."""
+    try:
+        json.dumps(made, allow_nan=False)
+    except (TypeError, ValueError) as fault:
+        raise Undrawable(
+            f"it gives something that is no finite number, text or list of these ({fault}); an absent number in a line is None"
+        ) from None
+
+
+def curve_named(calc: Calculation, name: str, abscissa: str | None = None) -> str:
+    """Return a curve's abscissa; refused where the results have no such curve, or not over this abscissa."""
+    found = _abscissas(calc).get(name)
+    if found is None:
+        raise Undrawable(f"{name!r} is {_what(calc, name)}; it takes a curve that the results hold")
+    if abscissa is not None and found != abscissa:
+        raise Undrawable(f"{name!r} runs over {found!r}, not over {abscissa!r}; both must have one abscissa")
+    return found
+
+
+def _abscissas(calc: Calculation) -> Mapping[str, str]:
+    """The abscissa of each curve of the results; an abscissa is its own."""
+    own = {name: name for name in calc.domains} | {n: calc.axis[n] for n, step in calc.curves.items() if step.output}
+    for spectrum in calc.mechanism.spectra:
+        own |= {spectrum.id: spectrum.id} | {line.id: spectrum.id for line in spectrum.lines()}
+    return own
+
+
+def _what(calc: Calculation, name: str) -> str:
+    if name in calc.curves:
+        return "a curve that is no output"
+    if name in calc.values or name in calc.inputs:
+        return "a number or a text, not a curve"
+    return "no quantity of this machine"

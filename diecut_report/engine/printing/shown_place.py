@@ -1,0 +1,107 @@
+"""Where on its abscissa a curve is shown in print: one place for all formulas over it, and what is taken elsewhere."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+
+from diecut_report.contract.binding import bound
+from diecut_report.contract.steps import Abscissa, Choice, Value
+from diecut_report.engine.calculation import Calculation
+from diecut_report.engine.printing.substitution import Elsewhere
+from diecut_report.expressions import Array, Node
+from diecut_report.quantities.formatting import number_text, shown, with_unit
+from diecut_report.quantities.units import unit
+
+Item = dict[str, Any]
+FIRST = np.zeros(1, dtype=int)  # the variant that is printed
+
+
+def shown_place(calc: Calculation, axis: str) -> tuple[Array, Array]:
+    """The place of an abscissa at which formulas are shown, and the middle of its smooth piece, each of shape (1, 1)."""
+    step = calc.steps[axis]
+    assert isinstance(step, Abscissa)
+    if step.shown_at:
+        return calc[step.shown_at][:1], calc.middle[step.shown_at][:1]
+    place = calc.domains[axis].samples[:1, calc.domains[axis].samples.shape[1] // 8][:, None]
+    return place, calc.domains[axis].middle_of(place, rows=FIRST)
+
+
+def value_at(calc: Calculation, name: str, axis: str | None, *, flag: bool = False) -> float:
+    """A number, or a curve's value where formulas are shown, or the first of a row over like parts.
+
+    What goes into a flag of smooth pieces is taken at the middle of the piece.
+    """
+    if axis in calc.domains and calc.axis.get(name) == axis:
+        place, middle = shown_place(calc, str(axis))
+        sampler = calc.kept(f"shown {flag}", str(axis), lambda _: (middle if flag else place, middle), FIRST)
+        return float(np.ravel(sampler[name])[0])  # a constant is a curve too
+    return float(calc[name][0, 0])
+
+
+def place_text(calc: Calculation, axis: Abscissa) -> str:
+    place = shown_place(calc, axis.id)[0][0, 0]
+    return f"{axis.symbol} = {with_unit(number_text(place / unit(axis.unit).factor, 6), axis.unit)}"
+
+
+def is_elsewhere(calc: Calculation, step: Value | Choice, axis: str | None) -> bool:
+    """Whether a flag has to be shown in the middle of its smooth piece: where curves are shown its formula gives another."""
+    if not step.per_piece or axis not in calc.domains:
+        return False
+    here, there = (
+        step if isinstance(step, Value) else step.cases[case_taken(calc, step, axis, flag=f)] for f in (False, True)
+    )
+    if here is not there:
+        return True
+    part = here.formula if isinstance(here, Value) else here.value
+    assert not isinstance(part, str), "a curve has no texts"
+    link = bound(part)
+    taken = (value_at(calc, name, axis) if isinstance(name, str) else name for name in link.takes)
+    return bool(link.formula(*taken) != value_at(calc, step.id, axis))
+
+
+def located(calc: Calculation, axis: str, elsewhere: bool) -> Item:
+    """Where a formula over an abscissa is shown, and why where that is not its chapter's place."""
+    place = place_shown(calc, axis, elsewhere)
+    if not elsewhere:
+        return {"at": place}
+    told = f"{place['symbol']} = {with_unit(place['text'], place['unit'])}"
+    return {"at": place, "note": f"Taken at {told}, in the middle of its smooth piece; it is the same in all of it."}
+
+
+def marks(calc: Calculation, axis: str | None, elsewhere: bool) -> Elsewhere | None:
+    """How curves are marked that are taken elsewhere than the chapter's."""
+    if not elsewhere or axis is None:
+        return None
+    place = place_shown(calc, axis, True)
+    marked = Node("sym", (place["symbol"],)), Node("qty", (place["text"], place["unit"]))
+
+    def of(name: str) -> tuple[Node, Node] | None:
+        curve = calc.steps.get(name)
+        holds = curve is None or name == axis or getattr(curve, "per_piece", False)
+        return None if holds or calc.axis.get(name) != axis else marked
+
+    return of
+
+
+def place_shown(calc: Calculation, axis: str, elsewhere: bool) -> Item:
+    return place_of(calc, axis, float(shown_place(calc, axis)[elsewhere][0, 0]))
+
+
+def place_of(calc: Calculation, axis: str, place: float) -> Item:
+    step = calc.steps[axis]
+    return {"symbol": step.symbol} | shown(place, step.unit, 6)
+
+
+def case_taken(calc: Calculation, step: Choice, axis: str | None, *, flag: bool) -> int:
+    if axis is None:
+        return int(calc.branch[step.id][0, 0])
+    for index, case in enumerate(step.cases):
+        if case.condition is None:
+            return index
+        link = bound(case.condition)
+        taken = (value_at(calc, n, axis, flag=flag) if isinstance(n, str) else n for n in link.names.values())
+        if link.formula(*taken):
+            return index
+    return len(step.cases) - 1

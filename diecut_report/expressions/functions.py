@@ -1,0 +1,75 @@
+"""What a formula's body may hold beside its parameters: constants, functions, operators; each with its name in a tree."""
+
+from __future__ import annotations
+
+import ast
+import operator
+from collections.abc import Callable
+from typing import Any
+
+import numpy as np
+
+from diecut_report.expressions.tree import Node
+
+
+class Constant(float):
+    """A physical constant of a formula: an SI value with symbol and unit (pint-readable, coherent SI)."""
+
+    symbol: str
+    unit: str
+
+    def __new__(cls, value: float, symbol: str, unit: str) -> Constant:
+        self = super().__new__(cls, value)
+        self.symbol, self.unit = symbol, unit
+        return self
+
+
+GRAVITY = Constant(9.80665, "g", "m/s**2")
+
+ROUNDING = 1e-9  # how far beyond ±1 rounding may carry the cosine of an angle that exists
+
+
+def arccos(cosine: Any) -> Any:
+    """Angle of a cosine, in [0, π] rad; a cosine beyond ±1 by rounding alone counts as ±1, beyond that is NaN."""
+    beyond = (abs(cosine) > 1) & (abs(cosine) < 1 + ROUNDING)
+    return np.arccos(np.where(beyond, np.sign(cosine), cosine))
+
+
+def as_number(angle: Any) -> Any:
+    """Say to the check of dimensions that the radian drops: the number of radians stands as a plain number.
+
+    It gives back what it takes and is not printed.
+    """
+    return angle
+
+
+def as_angle(number: Any) -> Any:
+    """Say to the check of dimensions that what it takes stands as an angle in radians (1/s as rad/s, rad²/s² as rad/s²).
+
+    It gives back what it takes and is not printed.
+    """
+    return number
+
+
+FUNCTIONS: dict[Any, str] = {
+    np.sqrt: "sqrt", np.sin: "sin", np.cos: "cos", np.tan: "tan", np.arcsin: "arcsin", np.arccos: "arccos",
+    arccos: "arccos", np.arctan: "arctan", np.arctan2: "arctan2", np.exp: "exp", np.log: "log", np.abs: "abs", abs: "abs",
+    np.sign: "sign", np.minimum: "minimum", np.maximum: "maximum", np.ceil: "ceil", np.floor: "floor", np.round: "round",
+    np.sinh: "sinh", np.cosh: "cosh", np.tanh: "tanh", np.arcsinh: "arcsinh", np.arccosh: "arccosh", np.arctanh: "arctanh",
+    np.log10: "log10",
+}  # fmt: skip
+NUMERIC: dict[str, Callable[..., Any]] = {name: function for function, name in FUNCTIONS.items()}
+AS_NUMBER, AS_ANGLE = "as_number", "as_angle"
+SAID: dict[Any, str] = {as_number: AS_NUMBER, as_angle: AS_ANGLE}
+BINARY: dict[type[ast.operator], str] = {
+    ast.Add: "+", ast.Sub: "-", ast.Mult: "*", ast.Div: "/", ast.Pow: "^", ast.BitAnd: "and", ast.BitOr: "or",
+}  # fmt: skip
+COMPARE: dict[type[ast.cmpop], str] = {
+    ast.Lt: "<", ast.LtE: "<=", ast.Gt: ">", ast.GtE: ">=", ast.Eq: "==", ast.NotEq: "!=",
+}  # fmt: skip
+APPLY: dict[str, Callable[..., Any]] = {
+    "+": operator.add, "-": operator.sub, "*": operator.mul, "/": operator.truediv, "^": operator.pow,
+    "and": operator.and_, "or": operator.or_, "not": np.logical_not, "neg": operator.neg,
+    "<": operator.lt, "<=": operator.le, ">": operator.gt, ">=": operator.ge, "==": operator.eq, "!=": operator.ne,
+}  # fmt: skip
+PI = Node("sym", ("π",))

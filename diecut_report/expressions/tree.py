@@ -1,0 +1,65 @@
+"""Expression trees: nodes with their operands, and what is done with them whatever they say."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Mapping
+from typing import Any, NamedTuple
+
+
+class Node(NamedTuple):
+    """One node of an expression: an operation and its operands (nodes, or the texts of a leaf)."""
+
+    op: str
+    args: tuple[Any, ...]
+
+    def to_json(self) -> list[Any]:
+        """The node as nested lists, the form in which results hold it."""
+        return [self.op, *(a.to_json() if isinstance(a, Node) else list(map(_plain, a)) if isinstance(a, tuple) else a
+                           for a in self.args)]  # fmt: skip
+
+
+def _plain(part: Any) -> Any:
+    return part.to_json() if isinstance(part, Node) else part
+
+
+def transform(node: Node, leaf: Callable[[Node], Node]) -> Node:
+    """The tree with each leaf (``sym``, ``num``, ``qty``) replaced by ``leaf(node)``."""
+    if node.op in ("sym", "num", "qty"):
+        return leaf(node)
+    return Node(node.op, tuple(_inner(a, lambda n: transform(n, leaf)) for a in node.args))
+
+
+def _inner(part: Any, apply: Callable[[Node], Any]) -> Any:
+    if isinstance(part, Node):
+        return apply(part)
+    return tuple(apply(p) for p in part) if isinstance(part, tuple) else part
+
+
+def substitute(node: Node, values: Mapping[str, Node]) -> Node:
+    """The tree with the named symbols replaced."""
+    return transform(node, lambda n: values.get(n.args[0], n) if n.op == "sym" else n)
+
+
+def symbols(node: Node) -> list[str]:
+    """The symbols in the tree, in order of appearance, each once."""
+    found: dict[str, None] = {}
+
+    def note(leaf: Node) -> Node:
+        if leaf.op == "sym":
+            found[leaf.args[0]] = None
+        return leaf
+
+    transform(node, note)
+    return list(found)
+
+
+def walk(node: Node) -> Iterator[Node]:
+    """Give the node and all nodes in it, in order of appearance."""
+    yield node
+    pending = list(node.args)
+    while pending:
+        part = pending.pop(0)
+        if isinstance(part, Node):
+            yield from walk(part)
+        elif isinstance(part, tuple):
+            pending = [*part, *pending]

@@ -1,0 +1,78 @@
+"""One chapter shows its curves at one place, and marks what is taken elsewhere; constants stand with their values."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+import pytest
+
+from diecut_report.config.discovery import Discovery
+from diecut_report.config.loader import load_config
+from diecut_report.engine.printing.items import section_items
+from diecut_report.report.chapters import chapter as chapter_of
+from diecut_report.report.equations import Equations
+from diecut_report.report.i18n import Words
+from diecut_report.report.latex import Linear
+from diecut_report.report.typeset import Typesetter
+from diecut_report.results.mechanism import mechanism_results
+from diecut_report.results.press_run import compute
+from tests.configs import EXAMPLE
+from tests.machines import UNBALANCED, drive
+
+
+def chapters(calc: Any) -> dict[str, dict[str, Any]]:
+    return {chapter["title"]: chapter for chapter in section_items(calc)}
+
+
+def places(chapter: dict[str, Any]) -> set[str]:
+    """Where its formulas are shown that are not marked as taken elsewhere."""
+    shown = [i for i in chapter["items"] if i["type"] in ("formula", "choice") and i.get("at")]
+    return {i["at"]["text"] for i in shown if not i.get("note", "").startswith("Taken at ")}
+
+
+@pytest.fixture(scope="module")
+def run() -> Any:
+    return compute(load_config(EXAMPLE, Discovery()), lambda _: None)
+
+
+def test_every_chapter_of_an_example_shows_one_place_and_says_which(run: Any) -> None:
+    seen = 0
+    for calc in run.calculations.values():
+        for chapter in section_items(calc):
+            assert places(chapter) <= {at["text"] for at in chapter.get("shown", ())}
+            assert len({at["symbol"] for at in chapter.get("shown", ())}) == len(chapter.get("shown", ()))
+            seen += "shown" in chapter
+    assert seen > 10
+
+
+def test_the_moments_of_the_drive_add_up_where_they_are_shown() -> None:
+    """M_Σ = M_in + M_t·s: all of them at the crank angle of the greatest torque, not two of them in the middle of a stroke."""
+    calc = drive(**UNBALANCED)
+    chapter = chapters(calc)["Moments on the cylinder"]
+    (place,) = chapter["shown"]
+    assert float(place["text"]) == pytest.approx(np.degrees(calc["crank_torque_peak_at"][0, 0]), rel=1e-5)
+    assert places(chapter) == {place["text"]}
+    direction = next(item for item in chapter["items"] if item["id"] == "direction")
+    speed = calc.sample("cylinder_speed", calc["crank_torque_peak_at"], calc.middle["crank_torque_peak_at"])[0, 0]
+    assert f"{speed:.2f}" == direction["substituted"][2][1]
+
+
+def test_what_is_taken_in_the_middle_of_a_piece_is_marked_with_its_place(run: Any) -> None:
+    chapter = chapters(run.calculations["feeder"])["Motion of the sector"]
+    item = next(item for item in chapter["items"] if item["id"] == "law_middle")
+    assert Linear()(item["equation"]) == "k(φ = 260°)"
+    assert item["note"].startswith("Taken at φ = 260°")
+
+
+def test_constants_stand_with_their_value_and_unit_among_the_numbers() -> None:
+    items = [item for chapter in section_items(drive(**UNBALANCED)) for item in chapter["items"]]
+    moment = next(item for item in items if item["id"] == "inertia_moment")
+    assert "g" in Linear()(moment["equation"]) and "9.80665 m/s²" in Linear()(moment["substituted"])
+
+
+def test_the_report_says_at_the_chapters_head_where_curves_are_shown() -> None:
+    results = mechanism_results(drive(**UNBALANCED), {})
+    part = chapter_of("A", "drive", results, Equations(Words("en"), Typesetter().measure), Words("en"))
+    said = [section.shown for section in part.sections if section.shown]
+    assert said and all(words.startswith("Curves are shown at φ = ") and words.endswith("°.") for words in said)
