@@ -27,7 +27,9 @@ class Latex(Printer):
         "⌊": r"\lfloor ",
         "⌋": r"\rfloor ",
     }
-    known = frozenset(["sin", "cos", "tan", "arcsin", "arccos", "arctan", "sinh", "cosh", "tanh", "exp", "ln", "lg", "min", "max"])
+    known = frozenset(
+        ["sin", "cos", "tan", "arcsin", "arccos", "arctan", "sinh", "cosh", "tanh", "exp", "ln", "lg", "min", "max"]
+    )
 
     def number(self, text: str) -> str:
         found = parts(text)
