@@ -195,6 +195,7 @@ class Painted:
 
     def __init__(self, results: dict[str, Any]) -> None:
         self.title = results["project"]["title"]
+        self.faults: list[Any] = []
 
     def html(self) -> str:
         return f"<p>{self.title} in {self.__class__.__name__}</p>"
