@@ -27,7 +27,7 @@ from diecut_report.contract.steps import (
     Value,
     Words,
 )
-from diecut_report.engine import ahead, extremes, parts, possible, solve
+from diecut_report.engine import ahead, beyond, extremes, parts, possible, solve
 from diecut_report.engine.calculation import Calculation, Impossible, SampledCurve, Unproven
 from diecut_report.engine.domain import Domain
 from diecut_report.expressions import Array
@@ -61,6 +61,8 @@ def calculate(
                 raise Impossible([*first.reasons, *possible.reasons(calc, steps[i + 1 :])]) from None
             _finite(calc, step)
             _name_parts(calc, step)
+        for stand_in, residual in beyond.searched(calc) if only is None else ():
+            _prove(calc, stand_in, residual, solve.SAMPLE_TOLERANCE)
     return calc
 
 
