@@ -5,6 +5,8 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Literal
 
+from diecut_report.contract.place import placed
+
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class Check:
@@ -34,6 +36,7 @@ class Check:
     needs: tuple[str, ...] = ()
     at_least: str | float | None = None
     at_least_label: str = "at least"
+    at: str = placed()
 
     @property
     def pairs(self) -> tuple[tuple[str | float, str | float], ...]:

@@ -9,6 +9,7 @@ from typing import Any
 
 from diecut_report.contract.binding import Bound, ByText, bind
 from diecut_report.contract.forms import in_unit
+from diecut_report.contract.place import placed
 from diecut_report.contract.steps import Case, Step
 from diecut_report.expressions import Formula
 
@@ -28,6 +29,7 @@ class Section:
     text: str = ""
     needs: tuple[str, ...] = ()
     absent: str = ""
+    at: str = placed()
 
 
 def prefixed(

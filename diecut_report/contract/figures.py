@@ -6,6 +6,7 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any, Protocol
 
+from diecut_report.contract.place import placed
 from diecut_report.expressions import Array
 
 Point = tuple[float, float]
@@ -108,6 +109,7 @@ class Figure:
     title: str
     caption: str
     needs: tuple[str, ...] = ()
+    at: str = placed()
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)

@@ -11,6 +11,7 @@ from diecut_report.contract.families import Section, settled
 from diecut_report.contract.figures import Figure
 from diecut_report.contract.inputs import CurveInput, Inputs, fields, list_inputs
 from diecut_report.contract.parts import Lookup, Neighbour, Running
+from diecut_report.contract.place import placed
 from diecut_report.contract.spectra import Spectrum
 from diecut_report.contract.steps import (
     SILENT,
@@ -58,6 +59,7 @@ class Source:
 
     id: str
     citation: str
+    at: str = placed()
 
 
 @dataclass(frozen=True, eq=False)
@@ -67,6 +69,7 @@ class Erratum:
     source: str
     text: str
     touches: tuple[str, ...] = ()
+    at: str = placed()
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -80,6 +83,7 @@ class Profile:
     title: str
     columns: tuple[str, ...]
     needs: tuple[str, ...] = ()
+    at: str = placed()
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -93,6 +97,7 @@ class Comparison:
     kinds: tuple[str, ...]
     mechanism: Mechanism
     takes: Mapping[str, tuple[str, str]]
+    at: str = placed()
 
     def __post_init__(self) -> None:
         foreign = [key for key, (kind, _) in self.takes.items() if kind not in self.kinds]
@@ -122,6 +127,7 @@ class Mechanism:
     exports: tuple[Profile, ...] = ()
     comparisons: tuple[Comparison, ...] = ()
     spectra: tuple[Spectrum, ...] = ()
+    at: str = placed()
 
     @cached_property
     def steps(self) -> tuple[tuple[Section, Step], ...]:

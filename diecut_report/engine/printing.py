@@ -16,7 +16,7 @@ import numpy as np
 from diecut_report.contract.binding import Bound
 from diecut_report.contract.steps import Words
 from diecut_report.expressions import Node, evaluate, transform
-from diecut_report.texts import DIGITS, number_text, rounded, shortest, told, with_unit
+from diecut_report.texts import DIGITS, NAMED, number_text, rounded, shortest, told, with_unit
 from diecut_report.units import unit
 
 if TYPE_CHECKING:
@@ -24,7 +24,6 @@ if TYPE_CHECKING:
 
 MOST_DIGITS = 17
 ROUNDING = 1e-11  # share of a sum's terms below which a result is rounding alone
-NAMED = re.compile(r"\{([\w.]+)(?::(up|down))?\}")
 TRIGONOMETRIC = ("sin", "cos", "tan")
 
 

@@ -219,7 +219,7 @@ PATH = Section(
         Require(id="tangents", condition=bind(belt_path.has_tangent, center_distance="pulley_distance", **RADII), key=PULLEY,
                 message="pulleys {part} and {next} have no common tangent: their axes are only {pulley_distance} apart, so they touch "
                 "or overlap, or one lies within the other; move them apart or make them smaller"),
-        Clash(id="pulleys_apart", function=belt_path.overlapping, takes=LAYOUT, key=PULLEY,
+        Clash(id="toothed_pulleys_apart", function=belt_path.overlapping, takes=LAYOUT, key=PULLEY,
               message="pulleys {part} and {other} overlap; move them apart or make them smaller"),
         Clash(id="pulleys_counter_clockwise", function=belt_path.clockwise, takes=LAYOUT, key=PULLEYS,
               message="pulleys {part} to {other} are listed clockwise, so the signed wraps do not sum to 360°; reverse their order, so "
