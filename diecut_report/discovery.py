@@ -26,6 +26,7 @@ from typing import Any
 
 from diecut_report import yaml_tree
 from diecut_report.contract.mechanism import Mechanism
+from diecut_report.contract.place import Misdeclared
 from diecut_report.errors import PluginError, Problem, UserError, nearest
 
 GROUP = "diecut_report.plugins"
@@ -50,6 +51,7 @@ class Origin:
     kind: str
     told: str
     load: Callable[[], Any]
+    is_own: bool = False  # of the program itself, whose declarations its tests check
 
 
 class Discovery:
@@ -116,11 +118,29 @@ def _loaded(origin: Origin) -> Mechanism | PluginError:
         return PluginError(f"{origin.told} gives a {type(found).__name__}, where a Mechanism is needed", origin.kind)
     if found.kind != origin.kind:
         return PluginError(f"{origin.told} gives the kind {found.kind!r}; name it {origin.kind!r} there", origin.kind)
-    return found
+    return found if origin.is_own else _sound(origin, found)
+
+
+def _sound(origin: Origin, mechanism: Mechanism) -> Mechanism | PluginError:
+    """A mechanism of which nothing that it declares is wrong."""
+    from diecut_report.declaration import faults_at_load
+
+    try:
+        found = [str(fault) for fault in faults_at_load(mechanism)]
+    except Exception as cause:
+        error = PluginError(f"what {origin.told} declares cannot be read: {said(cause)}", origin.kind)
+        error.__cause__ = cause
+        return error
+    if not found:
+        return mechanism
+    head = f"{origin.told} declares what cannot be"
+    return PluginError(f"{head}: {found[0]}" if len(found) == 1 else "\n  ".join([f"{head}:", *found]), origin.kind)
 
 
 def said(cause: BaseException) -> str:
     """An exception of a plugin in one line: its type, its text, and the file and line that raised it."""
+    if isinstance(cause, Misdeclared):  # tells its own place
+        return str(cause)
     frames = [f for f in traceback.extract_tb(cause.__traceback__) if not f.filename.startswith("<")]
     own = frames and not isinstance(cause, SyntaxError)  # a syntax error tells its own place
     place = f" ({Path(frames[-1].filename).name}:{frames[-1].lineno})" if own else ""
@@ -133,7 +153,7 @@ def said(cause: BaseException) -> str:
 def _built_in() -> Iterator[Origin]:
     package = import_module(GROUP)
     for kind in _names_in(Path(package.__path__[0])):
-        yield Origin(kind, "the program itself", partial(_of_module, f"{GROUP}.{kind}"))
+        yield Origin(kind, "the program itself", partial(_of_module, f"{GROUP}.{kind}"), is_own=True)
 
 
 def _installed() -> Iterator[Origin]:

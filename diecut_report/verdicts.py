@@ -48,7 +48,10 @@ def check_results(calc: Calculation) -> list[Data]:
 
 def applies(calc: Calculation, check: Check) -> bool:
     """Whether a check is made. It is left out where an optional input of it is not given, or what it judges is absent."""
-    return is_made(calc, check) and not np.isnan(_compared(calc, check)).any(axis=0)[0].all()
+    if not is_made(calc, check):
+        return False
+    demand, limit = _compared(calc, check)
+    return not (np.isnan(demand) | np.isnan(limit))[0].all()
 
 
 def judged(calc: Calculation, check: Check) -> Judged:
@@ -56,8 +59,8 @@ def judged(calc: Calculation, check: Check) -> Judged:
     demand, limit = _compared(calc, check)
     held, ratio = verdict(check, demand, limit)
     there = np.isfinite(demand) & np.isfinite(limit)
-    flat = (part.reshape(len(demand), -1) for part in (demand, limit, held, ratio, there))
-    return Judged(demand, limit, held, ratio, there, worst(*flat))
+    flat = [part.reshape(len(demand), -1) for part in (demand, limit, held, ratio, there)]
+    return Judged(demand, limit, held, ratio, there, worst(flat[0], flat[1], flat[2], flat[3], flat[4]))
 
 
 def verdict(check: Check, demand: Any, limit: Any) -> tuple[Any, Any]:
@@ -187,10 +190,9 @@ def _further(calc: Calculation, check: Check, found: Judged, pair: int, part: in
         return {"at": _at(calc, check, pair)}
     if not _is_row(calc, check):
         return {}
-    columns = (np.moveaxis(array[0], 0, -1) for array in (found.demand, found.limit, found.held, found.ratio))
     there = found.there[0].T
-    pairs = worst(*columns, there)
-    parts = [_told(check, found, int(p), i) if there[i].all() else {"status": None} for i, p in enumerate(pairs)]
+    pairs = worst(found.demand[0].T, found.limit[0].T, found.held[0].T, found.ratio[0].T, there)
+    parts = [_told(check, found, int(p), i) if there[i].any() else {"status": None} for i, p in enumerate(pairs)]
     return {"part": part + 1, "parts": parts}
 
 

@@ -31,6 +31,7 @@ LAYERS = [
     {"mechanics"},
     {"contract"},
     {"api"},
+    {"declaration"},
     {"yaml_tree", "writing"},
     {"config", "discovery", "instances", "ordering", "references", "schema", "validation"},
     {"engine"},

@@ -6,6 +6,7 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from functools import cache, cached_property
 
+from diecut_report.contract.place import Misdeclared
 from diecut_report.expressions import Formula
 
 
@@ -24,9 +25,14 @@ class Bound:
 
 def bind(formula: Formula, **names: str | float) -> Bound:
     """Bind a formula to quantities; a parameter that is not named takes the quantity of its own name."""
-    unknown = set(names) - set(formula.parameters)
+    given: object = formula
+    if not isinstance(given, Formula):
+        name = getattr(given, "__name__", repr(given))
+        raise Misdeclared(f"bind takes a formula, and {name} is none; write @formula above it")
+    unknown = sorted(set(names) - set(formula.parameters))
     if unknown:
-        raise TypeError(f"formula {formula.__name__} has no parameter {', '.join(sorted(unknown))}")
+        known = ", ".join(formula.parameters) or "none"
+        raise Misdeclared(f"formula {formula.__name__} has no parameter {', '.join(unknown)}; it has {known}")
     return Bound(formula, {p: names.get(p, p) for p in formula.parameters})
 
 

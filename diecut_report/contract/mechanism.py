@@ -11,7 +11,7 @@ from diecut_report.contract.families import Section, settled
 from diecut_report.contract.figures import Figure
 from diecut_report.contract.inputs import CurveInput, Inputs, fields, list_inputs
 from diecut_report.contract.parts import Lookup, Neighbour, Running
-from diecut_report.contract.place import placed
+from diecut_report.contract.place import Misdeclared, placed
 from diecut_report.contract.spectra import Spectrum
 from diecut_report.contract.steps import (
     SILENT,
@@ -102,7 +102,7 @@ class Comparison:
     def __post_init__(self) -> None:
         foreign = [key for key, (kind, _) in self.takes.items() if kind not in self.kinds]
         if foreign or self.mechanism.checks:
-            raise ValueError(f"{self.mechanism.kind}: a comparison has no checks, and takes from its own kinds only")
+            raise Misdeclared(f"{self.mechanism.kind}: a comparison has no checks, and takes from its own kinds only")
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -187,8 +187,3 @@ class Mechanism:
     def curve_inputs(self) -> frozenset[str]:
         """The inputs that are curves."""
         return frozenset(name for name, meta in fields(self.inputs) if isinstance(meta, CurveInput))
-
-    def __post_init__(self) -> None:
-        unused = [e for e in self.errata if e.source not in {s.id for s in self.sources}]
-        if unused:
-            raise ValueError(f"{self.kind}: erratum of an unnamed source {unused[0].source}")

@@ -12,15 +12,28 @@ from diecut_report.declaration import (
     kinds,
     messages,
     order,
+    remembered,
+    spectra,
     symbols,
     tokens,
 )
 from diecut_report.declaration.names import Names
 from diecut_report.declaration.words import Fault
 
-PARTS = (inputs, tokens, formulas, order, kinds, messages, checks, figures, documents, symbols)
+PARTS = (inputs, tokens, formulas, order, kinds, messages, checks, figures, spectra, documents, symbols)
 
-__all__ = ["Fault", "faults"]
+__all__ = ["Fault", "faults", "faults_at_load"]
+
+
+def faults_at_load(mechanism: Mechanism) -> list[Fault]:
+    """Return what ``faults`` returns; a plugin that was found sound before is not judged again until one of its files changes."""
+    key = "" if list(formulas.unmarked(mechanism)) else remembered.content(mechanism)
+    if key and remembered.is_sound(key):
+        return []
+    found = faults(mechanism)
+    if key and not found:
+        remembered.remember(key)
+    return found
 
 
 def faults(mechanism: Mechanism) -> list[Fault]:

@@ -52,7 +52,7 @@ def _wrong(names: Names, check: Check) -> Iterator[str]:
         units = {each for giver in givers if giver.kind in JUDGED for each in giver.units_when(check.needs)}
         wrong = sorted(each for each in units if unit(each).kind != unit(check.unit).kind)
         if wrong:
-            yield f"{check.id} is in {check.unit}, {name} in {', '.join(wrong)}"
+            yield f"is in {check.unit}, {name} in {', '.join(wrong)}"
     if not all(sides.values()):
         return
     axes = {giver.axis for givers in sides.values() for giver in givers if giver.axis}

@@ -19,7 +19,11 @@ CITED = re.compile(r"(?:^|; ?)(?:(\d{3,})\b|(\S+?),? (?:eq\.|Fig\.|Table|erratum
 def faults(mechanism: Mechanism, names: Names) -> Iterator[Fault]:
     """Yield what names a source or a quantity that there is none of."""
     yield from _sources(mechanism)
+    known = [source.id for source in mechanism.sources]
     for erratum in mechanism.errata:
+        if erratum.source not in known:
+            text = f"is of no listed source{nearest(erratum.source, known)}; listed: {', '.join(known)}"
+            yield Fault(erratum.at, f"erratum of {erratum.source}", text)
         for name in erratum.touches:
             if not names.givers(name) and name not in _silent(mechanism):
                 yield Fault(erratum.at, f"erratum of {erratum.source}", f"touches {unknown(name, names.known)}")

@@ -8,7 +8,7 @@ from typing import Any
 from diecut_report.contract.binding import Binding, Bound, ByText, bound
 from diecut_report.contract.mechanism import Mechanism
 from diecut_report.contract.parts import Lookup, Pick
-from diecut_report.contract.steps import Case, Choice, Computed, Root, Step, Words
+from diecut_report.contract.steps import Case, Choice, Root, Step
 from diecut_report.declaration.names import Names
 from diecut_report.declaration.words import Fault
 from diecut_report.declaration.world import When
@@ -97,8 +97,9 @@ def _choices(step: Step, names: Names, when: When) -> Iterator[str]:
             if unknown not in takes:
                 asked = ", ".join(str(name) for name in takes)
                 yield f"the unknown {unknown} is nothing that the equation takes; it takes {asked}"
-        case Computed(function=function) | Words(function=function) if not callable(function):
-            yield f"the function is {function!r}, which cannot be called"
+    function: object = getattr(step, "function", None)
+    if hasattr(step, "function") and not callable(function):
+        yield f"the function is {function!r}, which cannot be called; name one without brackets"
 
 
 def _complete(names: Names, by: str, rows: Mapping[str, Any], when: When, what: str) -> Iterator[str]:

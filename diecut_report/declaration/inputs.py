@@ -20,7 +20,12 @@ def faults(mechanism: Mechanism, names: Names) -> Iterator[Fault]:
     """Yield what is wrong with the inputs."""
     yield from _block(mechanism.inputs, mechanism.at)
     for key in names.world.keys.values():
-        for other in getattr(key.meta, "units", ()):
+        forms = getattr(key.meta, "units", ())
+        if forms and "." in key.path:
+            yield Fault(
+                key.meta.at if key.meta else "", f"input {key.path}", "has other units within a block, where none hold"
+            )
+        for other in forms:
             yield from _form(key.meta.at if key.meta else "", f"input {key.path}", other, names.world.keys)
     for _, step in mechanism.steps:
         for other in step.units:
@@ -32,7 +37,7 @@ def _form(place: str, subject: str, form: tuple[str, str], keys: dict[str, Key])
     name, key = form[0], keys.get(form[0])
     if key is None:
         yield Fault(place, subject, f"has units beside {name}, which is no input{nearest(name, keys)}")
-    elif not key.may_be_absent or "." in name:
+    elif not key.may_be_absent or key.has_default or "." in name or getattr(key.meta, "press", None):
         yield Fault(place, subject, f"has units beside {name}, which is no optional input without a default")
 
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Container, Mapping
+from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -31,6 +32,7 @@ from diecut_report.engine import ahead, beyond, extremes, parts, possible, solve
 from diecut_report.engine.calculation import Calculation, Impossible, SampledCurve, Unproven
 from diecut_report.engine.domain import Domain
 from diecut_report.expressions import Array
+from diecut_report.texts import told
 from diecut_report.units import pretty, unit
 
 
@@ -121,7 +123,17 @@ def _choice(calc: Calculation, step: Choice) -> None:
 
 
 def _root(calc: Calculation, step: Root) -> None:
-    _, residual = solve.root(calc, step)
+    found, residual = solve.root(calc, step)
+    lost = np.isnan(found)[:, 0] & _possible(calc)
+    if lost.any():
+        low, high = (
+            told(float(calc.apply(end)[np.flatnonzero(lost)[0], 0]), step.unit) for end in (step.low, step.high)
+        )
+        where = f"{step.description} ({step.id}, {Path(step.at).name})"
+        between = f"the equation does not change its sign between low = {low} and high = {high}"
+        words = f"{where}: {between}; let the bracket hold the root, or require what it needs to exist"
+        _mark(calc, step, lost, words)
+        residual = np.where(lost[:, None], 0.0, residual)
     _prove(calc, step, residual, step.tolerance)
 
 
