@@ -24,7 +24,7 @@ from drive_kernel import Kernel
 
 from diecut_report.engine import calculate
 from diecut_report.plugins.cylinder_drive import MECHANISM
-from diecut_report.results.checks import applies, sides, verdict
+from diecut_report.results.checks import applies, judged
 from diecut_report.study.execution.process_settings import settle
 
 VARIANTS = 4096
@@ -54,7 +54,8 @@ def by_engine(values: Mapping[str, Any], count: int) -> dict[str, Any]:
     """All numbers and checks of variants, by the engine."""
     calc = calculate(MECHANISM, values, count)
     checks = [check for check in MECHANISM.checks if applies(calc, check)]
-    return calc.values | {check.id: verdict(check, *sides(calc, check)) for check in checks}
+    found = {check.id: judged(calc, check) for check in checks}
+    return calc.values | {name: (one.governing(one.held), one.governing(one.ratio)) for name, one in found.items()}
 
 
 def rate(function: Callable[[Mapping[str, Any], int], Any], inputs: Mapping[str, Any], chunk: int) -> float:

@@ -95,8 +95,8 @@ def _places(run: Run) -> Places:
     """Where in its plugin each figure and export is declared."""
     made = {name: calc.mechanism for name, calc in run.calculations.items()}
     made |= {case.name: case.comparison.mechanism for case in run.cases}
-    figures = {(name, each.id): each.place for name, mechanism in made.items() for each in mechanism.figures}
-    exports = {(name, each.id): each.place for name, mechanism in made.items() for each in mechanism.exports}
+    figures = {(name, each.id): each.at for name, mechanism in made.items() for each in mechanism.figures}
+    exports = {(name, each.id): each.at for name, mechanism in made.items() for each in mechanism.exports}
     return figures | exports
 
 

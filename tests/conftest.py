@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import os
 import signal
+import tempfile
 
 from hypothesis import HealthCheck, settings
 
@@ -22,3 +23,6 @@ settings.load_profile("diecut-report")
 # Where the suite runs in the background of a shell, Ctrl-C is ignored by all that it starts; some tests send it.
 if signal.getsignal(signal.SIGINT) is signal.SIG_IGN:
     signal.signal(signal.SIGINT, signal.default_int_handler)
+
+# What is remembered of plugins belongs to the user, not to the suite: it has a folder of its own.
+os.environ["XDG_CACHE_HOME"] = tempfile.mkdtemp(prefix="diecut-report-tests-")

@@ -31,6 +31,7 @@ LAYERS = [
     {"mechanics"},
     {"contract"},
     {"api"},
+    {"declaration"},
     {"files"},
     {"config"},
     {"engine"},

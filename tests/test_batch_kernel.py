@@ -12,7 +12,7 @@ import pytest
 from diecut_report.contract.steps import Crossings
 from diecut_report.engine import calculate
 from diecut_report.plugins.cylinder_drive import MECHANISM
-from diecut_report.results.checks import applies, sides, verdict
+from diecut_report.results.checks import applies, judged
 
 pytestmark = pytest.mark.repository
 
@@ -72,6 +72,6 @@ def test_the_kernel_judges_as_the_engine(both: Any) -> None:
     checks = [check for check in MECHANISM.checks if applies(calc, check)]
     assert set(found["checks"]) == {check.id for check in checks}
     for check in checks:
-        held, utilisation = verdict(check, *sides(calc, check))
-        np.testing.assert_array_equal(found["checks"][check.id][0], held[:, 0])
-        np.testing.assert_allclose(found["checks"][check.id][1], utilisation[:, 0], rtol=1e-9, atol=1e-3)
+        here = judged(calc, check)
+        np.testing.assert_array_equal(found["checks"][check.id][0], here.governing(here.held))
+        np.testing.assert_allclose(found["checks"][check.id][1], here.governing(here.ratio), rtol=1e-9, atol=1e-3)

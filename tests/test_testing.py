@@ -76,7 +76,7 @@ FLAWS = {
         mechanism(value(), checks=(check(demand="torque"),)),
         "takes torque, which nothing gives",
     ),
-    "a check in another kind of unit": (mechanism(value(), checks=(check(unit="mm"),)), "check c is in mm"),
+    "a check in another kind of unit": (mechanism(value(), checks=(check(unit="mm"),)), "check c: is in mm"),
     "a quantity without a symbol": (mechanism(value(symbol="")), "no symbol"),
     "a print that is not what is computed": (mechanism(value(formula=Lying(moment.function))), "prints"),
     "a bracket in another unit than the root": (rooted(low=bind(same, quantity="force")), "gives"),

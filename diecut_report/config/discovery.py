@@ -26,6 +26,7 @@ from typing import Any
 
 from diecut_report.config import yaml_tree
 from diecut_report.contract.mechanism import Mechanism
+from diecut_report.contract.place import Misdeclared
 from diecut_report.errors import PluginError, Problem, UserError, nearest
 from diecut_report.expressions.source import FormulaError
 
@@ -51,6 +52,7 @@ class Origin:
     kind: str
     told: str
     load: Callable[[], Any]
+    is_own: bool = False  # of the program itself, whose declarations its tests check
 
 
 class Discovery:
@@ -117,11 +119,29 @@ def _loaded(origin: Origin) -> Mechanism | PluginError:
         return PluginError(f"{origin.told} gives a {type(found).__name__}, where a Mechanism is needed", origin.kind)
     if found.kind != origin.kind:
         return PluginError(f"{origin.told} gives the kind {found.kind!r}; name it {origin.kind!r} there", origin.kind)
-    return found
+    return found if origin.is_own else _sound(origin, found)
+
+
+def _sound(origin: Origin, mechanism: Mechanism) -> Mechanism | PluginError:
+    """A mechanism of which nothing that it declares is wrong."""
+    from diecut_report.declaration import faults_at_load
+
+    try:
+        found = [str(fault) for fault in faults_at_load(mechanism)]
+    except Exception as cause:
+        error = PluginError(f"what {origin.told} declares cannot be read: {said(cause)}", origin.kind)
+        error.__cause__ = cause
+        return error
+    if not found:
+        return mechanism
+    head = f"{origin.told} declares what cannot be"
+    return PluginError(f"{head}: {found[0]}" if len(found) == 1 else "\n  ".join([f"{head}:", *found]), origin.kind)
 
 
 def said(cause: BaseException) -> str:
     """An exception of a plugin in one line: its type, its text, and the last file and line of the plugin that led to it."""
+    if isinstance(cause, Misdeclared):  # tells its own place
+        return str(cause)
     frames = [f for f in traceback.extract_tb(cause.__traceback__) if not f.filename.startswith("<")]
     own = [f for f in frames if not _is_foreign(Path(f.filename))] or frames
     tells_place = isinstance(cause, SyntaxError | FormulaError)
@@ -147,7 +167,7 @@ def _is_foreign(file: Path) -> bool:
 def _built_in() -> Iterator[Origin]:
     package = import_module(GROUP)
     for kind in _names_in(Path(package.__path__[0])):
-        yield Origin(kind, "the program itself", partial(_of_module, f"{GROUP}.{kind}"))
+        yield Origin(kind, "the program itself", partial(_of_module, f"{GROUP}.{kind}"), is_own=True)
 
 
 def _installed() -> Iterator[Origin]:

@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from functools import cache, cached_property
 from typing import Any
 
+from diecut_report.contract.place import Misdeclared
 from diecut_report.expressions import LAMBDA, Formula
 
 
@@ -25,10 +26,15 @@ class Bound:
 
 def bind(formula: Formula | Callable[..., Any], **names: str | float) -> Bound:
     """Bind a formula (or a lambda) to quantities; a parameter that is not named takes the quantity of its own name."""
+    if not callable(formula):
+        raise Misdeclared(
+            f"bind takes a formula, and {formula!r} is none; write a lambda, or a def with @formula above it"
+        )
     formula = formula if isinstance(formula, Formula) else Formula(formula)
-    unknown = set(names) - set(formula.parameters)
+    unknown = sorted(set(names) - set(formula.parameters))
     if unknown:
-        raise TypeError(f"formula {formula.__name__} has no parameter {', '.join(sorted(unknown))}")
+        known = ", ".join(formula.parameters) or "none"
+        raise Misdeclared(f"formula {formula.__name__} has no parameter {', '.join(unknown)}; it has {known}")
     return Bound(formula, {p: names.get(p, p) for p in formula.parameters})
 
 

@@ -13,6 +13,7 @@ from typing import Any, Literal, Unpack
 from diecut_report.contract.binding import as_binding
 from diecut_report.contract.options import Condition, Options, Written
 from diecut_report.contract.part_steps import Lookup, Neighbour, Part, Pick, Running, Total
+from diecut_report.contract.place import placed
 from diecut_report.contract.steps import (
     Abscissa,
     Accumulated,
@@ -272,6 +273,7 @@ class Chapter(Steps):
     text: str = field(default="", kw_only=True)
     needs: tuple[str, ...] = field(default=(), kw_only=True)
     absent: str = field(default="", kw_only=True)
+    at: str = placed()
 
 
 def case(value: Written | str, words: str, condition: Written | None = None) -> Case:

@@ -5,12 +5,16 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Literal
 
+from diecut_report.contract.place import placed
+
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class Check:
-    """``demand`` ≤ ``limit`` (ids of numbers, or plain numbers in ``unit``).
+    """``demand`` ≤ ``limit``, and ``at_least`` ≤ ``demand`` where that is given (ids, or plain numbers in ``unit``).
 
-    The utilisation is demand / limit, and null where the limit is not above zero.
+    The utilisation is demand / limit, and null where the limit is not above zero; of a two-sided check it is the worse of
+    that and at_least / demand. A row over like parts is judged part by part, and the worst one governs; a curve where
+    it goes furthest beyond its limit. ``consequence`` may name the part of a row that governs: ``{part}``, counted from 1.
 
     For an upper bound the demand is the machine's and the limit the allowed value; for a lower bound the demand is
     what is required and the limit what there is, so that the utilisation is required / available.
@@ -30,3 +34,17 @@ class Check:
     severity: Literal["fail", "warn"] = "fail"
     tolerance: float = 0.0
     needs: tuple[str, ...] = ()
+    at_least: str | float | None = None
+    at_least_label: str = "at least"
+    at: str = placed()
+
+    @property
+    def pairs(self) -> tuple[tuple[str | float, str | float], ...]:
+        """What is held against what, the first not above the second: demand and limit, then the lower bound and demand."""
+        upper = ((self.demand, self.limit),)
+        return upper if self.at_least is None else (*upper, (self.at_least, self.demand))
+
+    @property
+    def named(self) -> tuple[str, ...]:
+        """The ids of the quantities that are compared, each once."""
+        return tuple(dict.fromkeys(side for pair in self.pairs for side in pair if isinstance(side, str)))

@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from typing import Any, Protocol
 
-from diecut_report.contract.declared import declared_at
+from diecut_report.contract.place import placed
 from diecut_report.expressions import Array
 
 Point = tuple[float, float]
@@ -109,7 +109,7 @@ class Figure:
     title: str
     caption: str
     needs: tuple[str, ...] = ()
-    place: str = field(default_factory=declared_at, init=False, repr=False)
+    at: str = placed()
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)

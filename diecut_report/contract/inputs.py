@@ -16,6 +16,7 @@ import numpy as np
 from pydantic import BaseModel, ConfigDict, GetCoreSchemaHandler
 from pydantic_core import CoreSchema, core_schema
 
+from diecut_report.contract.place import placed
 from diecut_report.contract.placeholders import SI, FromPress, OneOf, Pending
 from diecut_report.errors import nearest
 from diecut_report.quantities.units import Unit, parse_quantity, pretty, to_display, unit
@@ -41,6 +42,7 @@ class Quantity:
     integer: bool = False
     press: FromPress | None = None
     units: tuple[tuple[str, str], ...] = ()
+    at: str = placed()
 
     @cached_property
     def parsed_unit(self) -> Unit:
@@ -135,6 +137,7 @@ class Text:
     description: str
     symbol: str = ""
     options: Collection[str] = ()
+    at: str = placed()
 
     def validate(self, given: str | None) -> str | None:
         """The text, if it is one of the options; ValueError with the known ones in words where it is not."""
@@ -159,6 +162,7 @@ class CurveInput:
     description: str
     referred: bool = False
     units: tuple[tuple[str, str], ...] = ()
+    at: str = placed()
 
     def validate(self, given: Any) -> Any:
         """What the engine makes a curve of; ValueError in words where it cannot."""

@@ -3,15 +3,15 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from functools import cached_property
 
 from diecut_report.contract.chapters import Chapter
 from diecut_report.contract.checks import Check
-from diecut_report.contract.declared import declared_at
 from diecut_report.contract.figures import Figure
 from diecut_report.contract.inputs import CurveInput, Inputs, fields, list_inputs
 from diecut_report.contract.part_steps import Lookup, Neighbour, Running
+from diecut_report.contract.place import Misdeclared, placed
 from diecut_report.contract.sections import settled
 from diecut_report.contract.spectra import Spectrum
 from diecut_report.contract.steps import (
@@ -60,6 +60,7 @@ class Source:
 
     id: str
     citation: str
+    at: str = placed()
 
 
 @dataclass(frozen=True, eq=False)
@@ -69,6 +70,7 @@ class Erratum:
     source: str
     text: str
     touches: tuple[str, ...] = ()
+    at: str = placed()
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -82,7 +84,7 @@ class Profile:
     title: str
     columns: tuple[str, ...]
     needs: tuple[str, ...] = ()
-    place: str = field(default_factory=declared_at, init=False, repr=False)
+    at: str = placed()
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -96,11 +98,12 @@ class Comparison:
     kinds: tuple[str, ...]
     mechanism: Mechanism
     takes: Mapping[str, tuple[str, str]]
+    at: str = placed()
 
     def __post_init__(self) -> None:
         foreign = [key for key, (kind, _) in self.takes.items() if kind not in self.kinds]
         if foreign or self.mechanism.checks:
-            raise ValueError(f"{self.mechanism.kind}: a comparison has no checks, and takes from its own kinds only")
+            raise Misdeclared(f"{self.mechanism.kind}: a comparison has no checks, and takes from its own kinds only")
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -125,6 +128,7 @@ class Mechanism:
     exports: tuple[Profile, ...] = ()
     comparisons: tuple[Comparison, ...] = ()
     spectra: tuple[Spectrum, ...] = ()
+    at: str = placed()
 
     @cached_property
     def steps(self) -> tuple[tuple[Chapter, Step], ...]:
@@ -184,8 +188,3 @@ class Mechanism:
     def curve_inputs(self) -> frozenset[str]:
         """The inputs that are curves."""
         return frozenset(name for name, meta in fields(self.inputs) if isinstance(meta, CurveInput))
-
-    def __post_init__(self) -> None:
-        unused = [e for e in self.errata if e.source not in {s.id for s in self.sources}]
-        if unused:
-            raise ValueError(f"{self.kind}: erratum of an unnamed source {unused[0].source}")

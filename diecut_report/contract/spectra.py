@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
+from diecut_report.contract.place import placed
 from diecut_report.expressions import Array
 
 
@@ -18,6 +19,7 @@ class SpectrumLine:
     values: Array
     unit: str = "1"
     source: str = ""
+    at: str = placed()
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)

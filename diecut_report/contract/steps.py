@@ -11,6 +11,7 @@ from dataclasses import dataclass
 from typing import Any, Literal
 
 from diecut_report.contract.binding import Binding, bound
+from diecut_report.contract.place import placed
 from diecut_report.expressions import Array
 
 
@@ -41,6 +42,7 @@ class Step:
     first: int = 1
     whole: bool = False
     units: tuple[tuple[str, str], ...] = ()
+    at: str = placed()
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)

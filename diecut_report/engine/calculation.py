@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, NamedTuple
 from weakref import proxy
 
 import numpy as np
@@ -105,6 +105,15 @@ class SampledCurve:
         return np.zeros((1, 1))
 
 
+class Side(NamedTuple):
+    """What a check on a curve compares, each of shape (variants, 1), SI: where on the abscissa it is furthest beyond."""
+
+    demand: Array
+    limit: Array
+    axis: str
+    place: Array
+
+
 class Calculation:
     """All that is known of a mechanism's machines; filled by ``engine.run``."""
 
@@ -131,6 +140,7 @@ class Calculation:
         self.extremes: dict[
             tuple[str, float], tuple[Array, tuple[Array, Array, Array]]
         ] = {}  # with the pieces they are of
+        self.judged: dict[tuple[str, int], Side] = {}  # for each check on a curve and its sides, where it governs
         self.flaws: dict[int, tuple[str, str]] = {}  # for each impossible variant the key and the message
 
     def __getitem__(self, name: str) -> Array:
@@ -282,4 +292,4 @@ def _row(value: tuple[Any, ...], variants: int) -> Any:
     return np.stack([np.broadcast_to(np.asarray(v, dtype=float), (variants,)) for v in value], axis=1)
 
 
-__all__ = ["Calculation", "CurveHandle", "Impossible", "SampledCurve", "Unproven"]
+__all__ = ["Calculation", "CurveHandle", "Impossible", "SampledCurve", "Side", "Unproven"]

@@ -82,7 +82,7 @@ def figures(calc: Calculation) -> list[dict[str, Any]]:
 
 def _guarded(calc: Calculation, figure: Figure) -> dict[str, Any]:
     head = {"id": figure.id, "title": figure.title, "caption": figure.caption}
-    return guarded(lambda: _figure(calc, figure, head), head | {"type": "failed"}, figure.place)
+    return guarded(lambda: _figure(calc, figure, head), head | {"type": "failed"}, figure.at)
 
 
 def _figure(calc: Calculation, figure: Figure, head: dict[str, Any]) -> dict[str, Any]:

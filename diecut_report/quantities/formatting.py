@@ -3,10 +3,12 @@
 from __future__ import annotations
 
 import math
+import re
 
 from diecut_report.quantities.units import pretty, unit
 
 DIGITS = 4
+NAMED = re.compile(r"\{([\w.]+)(?::(up|down))?\}")  # what a message names: ``{id}``, rounded by ``{id:up}``
 
 
 def number_text(value: float, digits: int = DIGITS) -> str:

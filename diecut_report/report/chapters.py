@@ -213,7 +213,7 @@ class _Filler:
             chapter=self.part.letter,
             chapter_title=self.part.title,
             anchor=f"c-{self.part.letter}-{check['id']}",
-            title=check["title"],
+            title=self._nth({"description": check["title"]}, check.get("part")),
             status=check["status"],
             demand=texts["demand"],
             demand_label=check["demand_label"],
@@ -224,6 +224,7 @@ class _Filler:
             utilisation=utilisation(check["utilisation"], check["status"], self.decimal),
             source=check["source"],
             message=check["message"],
+            parts=self.tables.of_check(check) if "parts" in check else None,
         )
 
     def _touched(self, erratum: Data) -> str:

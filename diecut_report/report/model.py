@@ -52,6 +52,7 @@ class CheckRow:
     utilisation: str
     source: str
     message: str
+    parts: PartsTable | None = None
 
 
 @dataclass(frozen=True)

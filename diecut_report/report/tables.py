@@ -6,10 +6,19 @@ from collections.abc import Callable, Iterator, Mapping, Sequence
 from types import MappingProxyType
 from typing import Any, TypeVar
 
+from markupsafe import Markup
+
 from diecut_report.quantities.units import pretty, to_display
 from diecut_report.report.curves import Place, table_places
 from diecut_report.report.i18n import Words
-from diecut_report.report.model import Cell, Column, PartsTable, Table, is_words
+from diecut_report.report.model import (
+    Cell,
+    Column,
+    PartsTable,
+    Table,
+    is_words,
+    utilisation,
+)
 from diecut_report.report.number_format import displayed, number
 from diecut_report.report.repeated_parts import Parts
 from diecut_report.report.symbols import symbol
@@ -80,6 +89,32 @@ class Tables:
         family = parts.family if parts.listed else f"{parts.family}_{parts.numbers[0]} … {parts.numbers[-1]}"
         title = self.lists.get(parts.family, columns[0].title if len(columns) == 1 else "")
         return PartsTable(self._number(), title, family, columns, lines)
+
+    def of_check(self, check: Data) -> PartsTable:
+        """A check on a row over like parts: how each part fares."""
+        parts = list(enumerate(check["parts"], 1))
+        columns = [self._side(check, side) for side in ("demand", "limit")]
+        columns += [Column(self.words[key], Markup(""), "", "", "") for key in ("utilisation", "verdict")]
+        lines = [(str(number), self._judged(check, part)) for number, part in parts]
+        return PartsTable(self._number(), check["title"], "", columns, lines)
+
+    def _side(self, check: Data, side: str) -> Column:
+        """The head of a side's column: its own words where all parts share them."""
+        labels = {part[f"{side}_label"] for part in check["parts"] if part["status"]}
+        title = labels.pop() if len(labels) == 1 else self.words[side]
+        return Column(title, Markup(""), pretty(check[f"{side}_display"]["unit"]), "", "")
+
+    def _judged(self, check: Data, part: Data) -> list[Cell]:
+        """Both sides of a part, its utilisation and its verdict; a part that has no such quantity has none."""
+        if part["status"] is None:
+            return [Cell("–")] * 4
+        mixed = len({other.get("demand_label") for other in check["parts"] if other["status"]}) > 1
+        sides = [
+            Cell(number(part[f"{side}_display"]["text"], self.decimal), part[f"{side}_label"] if mixed else "")
+            for side in ("demand", "limit")
+        ]
+        share = utilisation(part["utilisation"], part["status"], self.decimal)
+        return [*sides, Cell(share), Cell(self.words[part["status"]], wordy=True)]
 
     def _cell(self, row: Data, told: Callable[[Data], str]) -> Cell:
         text = row["display"]["text"]

@@ -3,19 +3,42 @@
 from __future__ import annotations
 
 import math
-from typing import Any, Literal
+from typing import Any, Literal, NamedTuple
 
 import numpy as np
 
 from diecut_report.contract.checks import Check
 from diecut_report.engine import Calculation
 from diecut_report.engine.printing.substitution import filled
-from diecut_report.quantities.formatting import shown, with_unit
+from diecut_report.engine.steps.extreme_checks import is_made
+from diecut_report.expressions import Array
+from diecut_report.quantities.formatting import number_text, shown, with_unit
 from diecut_report.quantities.units import unit
 
 Data = dict[str, Any]
 Status = Literal["pass", "warn", "fail"]
 ROUNDING = 1e-12
+PLACE_DIGITS = 6
+
+
+class Judged(NamedTuple):
+    """A check of all machines, each array of shape (variants, pairs of sides, parts); ``worst`` is the place of the governing one.
+
+    ``there`` says where both sides have a value; ``worst`` has shape (variants,) and counts through pairs and parts.
+    """
+
+    demand: Array
+    limit: Array
+    held: Array
+    ratio: Array
+    there: Array
+    worst: Array
+
+    def governing(self, values: Array) -> Array:
+        """Return what governs, shape (variants,)."""
+        flat = values.reshape(len(values), -1)
+        found: Array = flat[np.arange(len(flat)), self.worst]
+        return found
 
 
 def check_results(calc: Calculation) -> list[Data]:
@@ -25,20 +48,19 @@ def check_results(calc: Calculation) -> list[Data]:
 
 def applies(calc: Calculation, check: Check) -> bool:
     """Whether a check is made. It is left out where an optional input of it is not given, or what it judges is absent."""
-    sides = [side for side in (check.demand, check.limit) if isinstance(side, str)]
-    there = all(side in calc.values or side in calc.inputs for side in sides) and calc.given.issuperset(check.needs)
-    return there and not any(
-        calc.steps[s].exists is not None and np.isnan(calc[s][0, 0]) for s in sides if s in calc.steps
-    )
+    if not is_made(calc, check):
+        return False
+    demand, limit = _compared(calc, check)
+    return not (np.isnan(demand) | np.isnan(limit))[0].all()
 
 
-def sides(calc: Calculation, check: Check) -> tuple[Any, Any]:
-    """Demand and limit of all variants, SI, each of shape (variants, 1)."""
-    factor = unit(check.unit).factor
-    demand, limit = (
-        calc[s] if isinstance(s, str) else np.full((calc.count, 1), s * factor) for s in (check.demand, check.limit)
-    )
-    return demand, limit
+def judged(calc: Calculation, check: Check) -> Judged:
+    """Judge a check of all machines: each pair of its sides, for each part of a row."""
+    demand, limit = _compared(calc, check)
+    held, ratio = verdict(check, demand, limit)
+    there = np.isfinite(demand) & np.isfinite(limit)
+    flat = [part.reshape(len(demand), -1) for part in (demand, limit, held, ratio, there)]
+    return Judged(demand, limit, held, ratio, there, worst(flat[0], flat[1], flat[2], flat[3], flat[4]))
 
 
 def verdict(check: Check, demand: Any, limit: Any) -> tuple[Any, Any]:
@@ -49,33 +71,132 @@ def verdict(check: Check, demand: Any, limit: Any) -> tuple[Any, Any]:
         return held, np.where(limit > 0, np.divide(demand, limit), np.nan)
 
 
+def worst(demand: Array, limit: Array, held: Array, ratio: Array, there: Array) -> Array:
+    """Return along the last axis which one governs: one that fails, then the greatest utilisation, then what is furthest beyond."""
+    with np.errstate(all="ignore"):
+        beyond = np.where(there, demand - limit, -np.inf)
+    unknown = np.where(held, -np.inf, np.inf)
+    ratios = np.where(np.isnan(ratio), unknown, ratio)
+    first = np.broadcast_to(-np.arange(held.shape[-1]), held.shape)
+    found: Array = np.lexsort((first, beyond, ratios, ~held, there), axis=-1)[..., -1]
+    return found
+
+
+def _compared(calc: Calculation, check: Check) -> Array:
+    """Demands and limits of all machines, SI, shape (2, variants, pairs of sides, parts)."""
+    pairs = [
+        calc.judged[check.id, number][:2] if (check.id, number) in calc.judged else _sides(calc, check, pair)
+        for number, pair in enumerate(check.pairs)
+    ]
+    alike = np.broadcast_arrays(*(side for pair in pairs for side in pair), np.empty((calc.count, 1)))[:-1]
+    return np.stack([np.stack(alike[::2], axis=1), np.stack(alike[1::2], axis=1)])
+
+
+def _sides(calc: Calculation, check: Check, pair: tuple[str | float, ...]) -> tuple[Array, ...]:
+    """Two sides of a check, each of shape (variants, 1) or (variants, parts); NaN for a part that does not have it."""
+    factor = unit(check.unit).factor
+    return tuple(_side(calc, s) if isinstance(s, str) else np.full((calc.count, 1), s * factor) for s in pair)
+
+
+def _side(calc: Calculation, name: str) -> Array:
+    found: Any = calc[name]
+    if isinstance(found, tuple):  # an optional input of like parts, which some do not have
+        columns = [np.broadcast_to(np.nan if part is None else part, (calc.count,)) for part in found]
+        return np.stack(columns, axis=1)
+    return np.asarray(found, dtype=float)
+
+
 def _check(calc: Calculation, check: Check) -> Data:
-    demand, limit = (float(side[0, 0]) for side in sides(calc, check))
-    if not (math.isfinite(demand) and math.isfinite(limit)):
-        raise ValueError(f"check {check.id} compares {demand} with {limit}")
-    held, ratio = verdict(check, demand, limit)
-    status: Status = "pass" if held else check.severity
-    told = _told(demand, limit, check.unit)
-    sentence = f"{check.demand_label} {with_unit(*told['demand'].values())}, {check.limit_label} {with_unit(*told['limit'].values())}"
-    message = f"{sentence}." if held else f"{sentence}: {filled(calc, check.consequence)}"
+    found = judged(calc, check)
+    if np.isinf([found.demand[0], found.limit[0]]).any():
+        raise ValueError(f"check {check.id} compares {found.demand[0].ravel()} with {found.limit[0].ravel()}")
+    pair, part = divmod(int(found.worst[0]), found.demand.shape[2])
+    told = _told(check, found, pair, part)
+    where, places = _where(calc, check, pair, part, found.demand.shape[2])
+    bounds = f"{told['demand_label']} {_said(told, 'demand')}, {told['limit_label']} {_said(told, 'limit')}"
+    if pair:  # the lower bound governs
+        bounds = f"{told['limit_label']} {_said(told, 'limit')}, {told['demand_label']} {_said(told, 'demand')}"
+    sentence = bounds + _beside(calc, check, found, pair, part) + where
+    passes = told["status"] == "pass"
+    message = f"{sentence}." if passes else f"{sentence}: {filled(calc, check.consequence, places=places)}"
     return {
         "id": check.id,
         "title": check.title,
-        "status": status,
-        "demand": demand,
-        "limit": limit,
+        "status": told["status"],
+        "demand": told["demand"],
+        "limit": told["limit"],
         "operator": check.operator,
         "unit": unit(check.unit).si,
-        "utilisation": None if math.isnan(ratio) else float(ratio),
+        "utilisation": told["utilisation"],
         "source": check.source,
         "message": message[0].upper() + message[1:],
-        "demand_label": check.demand_label,
-        "limit_label": check.limit_label,
-        **{f"{name}_display": text for name, text in told.items()},
+        **{key: text for key, text in told.items() if key.endswith(("_label", "_display"))},
+        **_further(calc, check, found, pair, part),
     }
 
 
-def _told(demand: float, limit: float, display: str) -> dict[str, dict[str, str]]:
+def _told(check: Check, found: Judged, pair: int, part: int) -> Data:
+    """What is told of one pair of sides (0: demand and limit, 1: lower bound and demand), of one part."""
+    demand, limit, ratio = (float(side[0, pair, part]) for side in (found.demand, found.limit, found.ratio))
+    labels = (check.at_least_label, check.demand_label) if pair else (check.demand_label, check.limit_label)
+    return {
+        "status": "pass" if found.held[0, pair, part] else check.severity,
+        "demand": demand,
+        "limit": limit,
+        "utilisation": None if math.isnan(ratio) else ratio,
+        "demand_label": labels[0],
+        "limit_label": labels[1],
+        **{f"{name}_display": text for name, text in _texts(demand, limit, check.unit).items()},
+    }
+
+
+def _said(told: Data, side: str) -> str:
+    return with_unit(*told[f"{side}_display"].values())
+
+
+def _beside(calc: Calculation, check: Check, found: Judged, pair: int, part: int) -> str:
+    """The other bound of a two-sided check, in brackets; none of a curve, which has that at another place."""
+    if check.at_least is None or (check.id, pair) in calc.judged:
+        return ""
+    side, label = (found.limit, check.limit_label) if pair else (found.demand, check.at_least_label)
+    return f" ({label} {with_unit(*shown(float(side[0, 1 - pair, part]), check.unit).values())})"
+
+
+def _where(calc: Calculation, check: Check, pair: int, part: int, count: int) -> tuple[str, dict[str, int]]:
+    """Where a check governs, in words: a place of the abscissa, a part of a row; and what a message may name of that."""
+    if (check.id, pair) in calc.judged:
+        at = _at(calc, check, pair)
+        return f" at {at['symbol']} = {with_unit(at['text'], at['unit'])}", {}
+    if _is_row(calc, check):
+        places = {"part": part + 1, "next": (part + 1) % count + 1, "index": part}
+        return f" at part {part + 1} of {count}", places
+    return "", {}
+
+
+def _is_row(calc: Calculation, check: Check) -> bool:
+    return any(name in calc.axis and calc.axis[name] not in calc.domains for name in check.named)
+
+
+def _at(calc: Calculation, check: Check, pair: int) -> dict[str, str]:
+    side = calc.judged[check.id, pair]
+    axis = calc.steps[side.axis]
+    text = number_text(float(side.place[0, 0]) / unit(axis.unit).factor, PLACE_DIGITS)
+    return {"symbol": axis.symbol, "text": text, "unit": axis.unit}
+
+
+def _further(calc: Calculation, check: Check, found: Judged, pair: int, part: int) -> Data:
+    """Of a curve the place where it governs; of a row the part that governs, and all parts."""
+    if (check.id, pair) in calc.judged:
+        return {"at": _at(calc, check, pair)}
+    if not _is_row(calc, check):
+        return {}
+    there = found.there[0].T
+    pairs = worst(found.demand[0].T, found.limit[0].T, found.held[0].T, found.ratio[0].T, there)
+    parts = [_told(check, found, int(p), i) if there[i].any() else {"status": None} for i, p in enumerate(pairs)]
+    return {"part": part + 1, "parts": parts}
+
+
+def _texts(demand: float, limit: float, display: str) -> dict[str, dict[str, str]]:
     """Demand, limit and margin as texts, with so many digits that the margin can be seen in the two others.
 
     A demand that is nothing but rounding beside its limit is told as zero.

@@ -258,4 +258,4 @@ def _export(calc: Calculation, profile: Profile) -> Data:
             curve_named(calc, name, abscissa)
         return said | {"abscissa": abscissa, "columns": columns}
 
-    return guarded(made, said | {"abscissa": "", "columns": columns}, profile.place)
+    return guarded(made, said | {"abscissa": "", "columns": columns}, profile.at)

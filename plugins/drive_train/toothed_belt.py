@@ -165,7 +165,7 @@ path.value("pulley_distance", "d", "mm", "Distance to the next pulley", bind(bel
 path.require("tangents", bind(belt_path.has_tangent, center_distance="pulley_distance", **RADII), key=PULLEY,
              message="pulleys {part} and {next} have no common tangent: their axes are only {pulley_distance} apart, so they touch or overlap, or "
                      "one lies within the other; move them apart or make them smaller")
-path.clash("pulleys_apart", belt_path.overlapping, LAYOUT, key=PULLEY,
+path.clash("toothed_pulleys_apart", belt_path.overlapping, LAYOUT, key=PULLEY,
            message="pulleys {part} and {other} overlap; move them apart or make them smaller")
 path.clash("pulleys_counter_clockwise", belt_path.clockwise, LAYOUT, key=PULLEYS,
            message="pulleys {part} to {other} are listed clockwise, so the signed wraps do not sum to 360°; reverse their order, so that the belt "

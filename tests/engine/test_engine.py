@@ -13,7 +13,7 @@ from diecut_report.contract.steps import Root
 from diecut_report.engine import Calculation, CurveHandle, Impossible, Unproven, calculate
 from diecut_report.mechanics import common
 from diecut_report.results.mechanism import mechanism_results
-from tests.engine.toy import MECHANISM, ROOTED, cube, doubled, plus_one, zero
+from tests.engine.toy import MECHANISM, ROOTED, cube, doubled, plus_one, same, zero
 from tests.machines import inputs, number
 
 STEP = np.radians(120)
@@ -232,3 +232,11 @@ def test_each_crossing_can_be_referred_to() -> None:
     assert {"turns_count", "turns_1", "turns_2"} < set(known)
     assert number(calc, "turns_count") == 2
     assert np.degrees(number(calc, "turns_2")) == pytest.approx(270)
+
+
+def test_a_root_without_a_change_of_sign_names_its_bracket() -> None:
+    (step,) = ROOTED.chapters[0].steps
+    shifted = replace(ROOTED, chapters=(Chapter("Root", steps=(replace(step, low=bind(same, quantity="target")),)),))
+    words = r"Cube root \(x, toy\.py:\d+\): the equation does not change its sign between low = 2000 and high = 2001"
+    with pytest.raises(Unproven, match=words):
+        calculate(shifted, {"target": 2000.0})

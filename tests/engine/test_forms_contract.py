@@ -59,12 +59,12 @@ def test_a_sound_mechanism_of_two_forms_passes() -> None:
         ("grown", {"start": "cycle"}, "grown: cycle gives s,"),
         ("time", {"period": "share"}, "time: share gives"),
         ("joints", {"every": "stiffness"}, "joints: stiffness gives"),
-        ("joints", {"places": ("passed",)}, "joints: passed gives"),
-        ("joints", {"every": "ripples"}, "joints takes ripples, which nothing gives"),
-        ("grown", {"start": "begin"}, "grown takes begin, which nothing gives"),
-        ("force", {"units": (("weight", "N"),)}, "force has units beside weight, which is no optional input without a default"),
-        ("force", {"units": (("duration", "N"),)}, "force has units beside duration, which is no optional input"),
-        ("quarter", {"lacks": ("mass",)}, "joints takes quarter, which nothing gives"),
+        ("joints", {"places": ("share",)}, "joints: share gives"),
+        ("joints", {"every": "ripples"}, "step joints: takes ripples, which nothing gives"),
+        ("grown", {"start": "begin"}, "step grown: takes begin, which nothing gives"),
+        ("force", {"units": (("weight", "N"),)}, "step force: has units beside weight, which is no input"),
+        ("force", {"units": (("duration", "N"),)}, "step force: has units beside duration, which is no optional input"),
+        ("quarter", {"lacks": ("mass",)}, "step joints: takes quarter, which nothing gives"),
     ],
 )  # fmt: skip
 def test_the_contract_test_finds_what_is_wrong_in_either_form(name: str, changes: Any, words: str) -> None:
@@ -92,8 +92,8 @@ class OfPress(Inputs):
 @pytest.mark.parametrize(
     ("inputs", "words"),
     [
-        (Nested, "part.size has other units within a block, where none hold"),
-        (OfPress, "time has units beside rate, which is no optional input without a default"),
+        (Nested, "input part.size: has other units within a block, where none hold"),
+        (OfPress, "input time: has units beside rate, which is no optional input without a default"),
     ],
 )
 def test_units_that_could_not_hold_are_refused(inputs: type[Inputs], words: str) -> None:
@@ -114,11 +114,11 @@ def line(**changes: Any) -> SpectrumLine:
 @pytest.mark.parametrize(
     ("changes", "words"),
     [
-        ({"id": "position"}, "position of a spectrum is the id of another curve"),
-        ({"id": "ratio"}, "ratio of a spectrum is the id of another curve"),
-        ({"values": RATIOS[1:]}, "q does not have one number for each of ratio"),
-        ({"values": RATIOS * float("nan")}, "q does not have one number for each of ratio"),
-        ({"symbol": ""}, "q has no symbol or no description"),
+        ({"id": "position"}, "curve position: of a spectrum has the id of another curve"),
+        ({"id": "ratio"}, "curve ratio: of a spectrum has the id of another curve"),
+        ({"values": RATIOS[1:]}, "curve q: does not have one number for each of ratio"),
+        ({"values": RATIOS * float("nan")}, "curve q: does not have one number for each of ratio"),
+        ({"symbol": ""}, "curve q: has no symbol or no description"),
     ],
 )
 def test_a_spectrum_that_is_none_is_refused(changes: Any, words: str) -> None:

@@ -138,8 +138,8 @@ def shorter(arm: Any) -> Any:
 
 
 FAMILY = (
-    Value(id="load", symbol="F", unit="kN", description="Load of the variant", formula=bind(same, quantity="force")),
-    Value(id="load_moment", symbol="M", unit="N*m", description="Its moment", formula=bind(moment, force="load")),
+    Value(id="load", symbol="P", unit="kN", description="Load of the variant", formula=bind(same, quantity="force")),
+    Value(id="load_moment", symbol="M_P", unit="N*m", description="Its moment", formula=bind(moment, force="load")),
 )
 
 MECHANISM = Mechanism(
@@ -159,7 +159,7 @@ MECHANISM = Mechanism(
                        cases=(Case("heavy", "F > 5 kN", heavy), Case("light", "F ≤ 5 kN"))),
                 Pick(id="rated", symbol="M_r", unit="N*m", description="Rated moment", of="moment", rule="above", series=(100, 200, 400, 800)),
                 *prefixed("first_", FAMILY, shared=()),
-                *prefixed("second_", FAMILY, shared=()),
+                *prefixed("second_", FAMILY, shared=(), symbol_suffix="_2"),
             ),
         ),
         Chapter(
@@ -182,7 +182,7 @@ MECHANISM = Mechanism(
                 Breakpoints(id="step", abscissa="place", places=("step_angle",)),
                 Choice(id="on", symbol="s", description="Switched", per_piece=True, output=False,
                        cases=(Case(one, "after the step", is_on), Case(zero, "before the step"))),
-                Value(id="torque", symbol="M", unit="N*m", description="Torque", formula=wave),
+                Value(id="torque", symbol="T", unit="N*m", description="Torque", formula=wave),
                 Reduction(id="torque_max", symbol="M_max", unit="N*m", description="Greatest torque", of="torque", operation="max"),
                 Reduction(id="torque_min", symbol="M_min", unit="N*m", description="Least torque", of="torque", operation="min"),
                 Reduction(id="torque_range", symbol="ΔM", unit="N*m", description="Range", of="torque", operation="range"),

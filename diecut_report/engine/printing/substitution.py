@@ -15,14 +15,21 @@ from diecut_report.contract.binding import Bound
 from diecut_report.contract.steps import Words
 from diecut_report.engine.printing.rounding import Bounded, bounded
 from diecut_report.expressions import Node, evaluate, transform
-from diecut_report.quantities.formatting import DIGITS, number_text, rounded, shortest, told, with_unit
+from diecut_report.quantities.formatting import (
+    DIGITS,
+    NAMED,
+    number_text,
+    rounded,
+    shortest,
+    told,
+    with_unit,
+)
 from diecut_report.quantities.units import unit
 
 if TYPE_CHECKING:
     from diecut_report.engine.calculation import Calculation
 
 MOST_DIGITS = 17
-NAMED = re.compile(r"\{([\w.]+)(?::(up|down))?\}")
 TRIGONOMETRIC = ("sin", "cos", "tan")
 
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Container, Mapping
+from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -30,8 +31,14 @@ from diecut_report.contract.steps import (
 from diecut_report.engine.calculation import Calculation, Impossible, SampledCurve, Unproven
 from diecut_report.engine.numerics import extrema, roots_integrals
 from diecut_report.engine.numerics.domain import Domain
-from diecut_report.engine.steps import feasibility, part_rows, prefetch
+from diecut_report.engine.steps import (
+    extreme_checks,
+    feasibility,
+    part_rows,
+    prefetch,
+)
 from diecut_report.expressions import Array
+from diecut_report.quantities.formatting import told
 from diecut_report.quantities.units import pretty, unit
 
 
@@ -62,6 +69,8 @@ def calculate(
                 raise Impossible([*first.reasons, *feasibility.reasons(calc, steps[i + 1 :])]) from None
             _finite(calc, step)
             _name_parts(calc, step)
+        for stand_in, residual in extreme_checks.searched(calc) if only is None else ():
+            _prove(calc, stand_in, residual, roots_integrals.SAMPLE_TOLERANCE)
     return calc
 
 
@@ -120,7 +129,17 @@ def _choice(calc: Calculation, step: Choice) -> None:
 
 
 def _root(calc: Calculation, step: Root) -> None:
-    _, residual = roots_integrals.root(calc, step)
+    found, residual = roots_integrals.root(calc, step)
+    lost = np.isnan(found)[:, 0] & _possible(calc)
+    if lost.any():
+        low, high = (
+            told(float(calc.apply(end)[np.flatnonzero(lost)[0], 0]), step.unit) for end in (step.low, step.high)
+        )
+        where = f"{step.description} ({step.id}, {Path(step.at).name})"
+        between = f"the equation does not change its sign between low = {low} and high = {high}"
+        words = f"{where}: {between}; let the bracket hold the root, or require what it needs to exist"
+        _mark(calc, step, lost, words)
+        residual = np.where(lost[:, None], 0.0, residual)
     _prove(calc, step, residual, step.tolerance)
 
 

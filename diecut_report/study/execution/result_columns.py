@@ -15,9 +15,10 @@ from diecut_report.contract.checks import Check
 from diecut_report.contract.inputs import list_inputs
 from diecut_report.contract.steps import SILENT, Choice, Crossings, Step, Value
 from diecut_report.engine import Calculation
+from diecut_report.engine.steps.extreme_checks import is_made
 from diecut_report.expressions import Array
 from diecut_report.quantities.units import unit
-from diecut_report.results.checks import sides, verdict
+from diecut_report.results.checks import judged
 from diecut_report.study.storage.description import Column, Kind
 
 CROSSINGS = 8  # of a curve's changes of sign that have columns of their own
@@ -160,21 +161,15 @@ def verdicts(calculations: Mapping[str, Calculation], count: int) -> Verdicts:
     names, codes, ratios = [], [], []
     for name, calc in calculations.items():
         for check in calc.mechanism.checks:
-            if not _can_be_made(calc, check):
+            if not is_made(calc, check):
                 continue
-            demand, limit = (np.broadcast_to(side, (count, 1))[:, 0] for side in sides(calc, check))
-            held, ratio = verdict(check, demand, limit)
-            there = np.isfinite(demand) & np.isfinite(limit)
+            found = judged(calc, check)
+            there, held, ratio = (found.governing(part) for part in (found.there, found.held, found.ratio))
             names.append(f"{name}.checks.{check.id}")
             codes.append(np.where(there, np.where(held, PASS, FAIL if check.severity == "fail" else WARN), 0))
             ratios.append(np.where(there, ratio, np.nan))
     shape = (len(names), count)
     return Verdicts(names, np.reshape(codes, shape).astype(int), np.reshape(ratios, shape).astype(float))
-
-
-def _can_be_made(calc: Calculation, check: Check) -> bool:
-    named = [side for side in (check.demand, check.limit) if isinstance(side, str)]
-    return calc.given.issuperset(check.needs) and all(side in calc.values or side in calc.inputs for side in named)
 
 
 def governing(found: Verdicts) -> Array:

@@ -4,14 +4,13 @@ from __future__ import annotations
 
 from typing import Any
 
-from diecut_report.api import Annotated, Chapter, Inputs, Mechanism, Quantity, Value, formula
+from diecut_report.api import Annotated, Chapter, Computed, Inputs, Mechanism, Quantity
 
 
 class Fragile(Inputs):
     length: Annotated[float, Quantity("l", "mm", "Length", gt=0)] = 10
 
 
-@formula
 def breaking(length: Any) -> Any:
     raise RuntimeError("the plugin fell over")
 
@@ -22,5 +21,20 @@ MECHANISM = Mechanism(
     title="Fragile",
     summary="",
     inputs=Fragile,
-    chapters=(Chapter("Only", steps=(Value(id="result", unit="mm", description="Result", formula=breaking),)),),
+    chapters=(
+        Chapter(
+            "Only",
+            steps=(
+                Computed(
+                    id="result",
+                    symbol="r",
+                    unit="mm",
+                    description="Result",
+                    function=breaking,
+                    takes=("length",),
+                    method="none",
+                ),
+            ),
+        ),
+    ),
 )

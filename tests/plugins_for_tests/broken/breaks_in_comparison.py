@@ -4,7 +4,18 @@ from __future__ import annotations
 
 from typing import Any
 
-from diecut_report.api import Annotated, Chapter, Comparison, Inputs, Mechanism, Quantity, Value, bind, formula
+from diecut_report.api import (
+    Annotated,
+    Chapter,
+    Comparison,
+    Computed,
+    Inputs,
+    Mechanism,
+    Quantity,
+    Value,
+    bind,
+    formula,
+)
 
 
 class Rod(Inputs):
@@ -20,7 +31,6 @@ def same(length: Any) -> Any:
     return length
 
 
-@formula
 def breaking(arm: Any) -> Any:
     raise RuntimeError("the comparison fell over")
 
@@ -31,9 +41,24 @@ COMPARISON = Mechanism(
     title="Lever and rod compared",
     summary="",
     inputs=Both,
-    chapters=(Chapter("Only", steps=(Value(id="ratio", unit="mm", description="Ratio", formula=breaking),)),),
+    chapters=(
+        Chapter(
+            "Only",
+            steps=(
+                Computed(
+                    id="ratio",
+                    symbol="r",
+                    unit="mm",
+                    description="Ratio",
+                    function=breaking,
+                    takes=("arm",),
+                    method="none",
+                ),
+            ),
+        ),
+    ),
 )
-LENGTH = Value(id="result", unit="mm", description="Result", formula=bind(same, length="length"))
+LENGTH = Value(id="result", symbol="r", unit="mm", description="Result", formula=bind(same, length="length"))
 MECHANISM = Mechanism(
     kind="breaks_in_comparison",
     version="1",

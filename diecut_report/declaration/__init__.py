@@ -1,0 +1,48 @@
+"""The declaration check: all that can be known of a plugin from what it declares, told before anything is calculated."""
+
+from __future__ import annotations
+
+from diecut_report.contract.mechanism import Mechanism
+from diecut_report.declaration import (
+    checks,
+    documents,
+    figures,
+    formulas,
+    inputs,
+    kinds,
+    messages,
+    order,
+    remembered,
+    spectra,
+    symbols,
+    tokens,
+)
+from diecut_report.declaration.names import Names
+from diecut_report.declaration.words import Fault
+
+PARTS = (inputs, tokens, formulas, order, kinds, messages, checks, figures, spectra, documents, symbols)
+
+__all__ = ["Fault", "faults", "faults_at_load"]
+
+
+def faults_at_load(mechanism: Mechanism) -> list[Fault]:
+    """Return what ``faults`` returns; a plugin that was found sound before is not judged again until one of its files changes."""
+    key = "" if list(formulas.unmarked(mechanism)) else remembered.content(mechanism)
+    if key and remembered.is_sound(key):
+        return []
+    found = faults(mechanism)
+    if key and not found:
+        remembered.remember(key)
+    return found
+
+
+def faults(mechanism: Mechanism) -> list[Fault]:
+    """Return every mistake in what a mechanism declares, and in its comparisons; in the order of reading."""
+    found = list(formulas.unmarked(mechanism))
+    if found:  # nothing can be asked of what is no formula
+        return found
+    names = Names(mechanism)
+    found = [fault for part in PARTS for fault in part.faults(mechanism, names)]
+    for comparison in mechanism.comparisons:
+        found += faults(comparison.mechanism)
+    return list(dict.fromkeys(found))

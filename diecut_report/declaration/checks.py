@@ -1,0 +1,75 @@
+"""Checks: their sides are numbers, rows or curves that something gives, of one kind of unit, and what is said of them is known."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from itertools import product
+
+from diecut_report.contract.checks import Check
+from diecut_report.contract.mechanism import Mechanism
+from diecut_report.declaration.messages import named
+from diecut_report.declaration.names import Names
+from diecut_report.declaration.order import pairs
+from diecut_report.declaration.words import Fault, unknown
+from diecut_report.declaration.world import When
+from diecut_report.quantities.units import unit
+
+JUDGED = ("number", "row", "curve")
+OF_PARTS = ("part", "next", "index")
+
+
+def faults(mechanism: Mechanism, names: Names) -> Iterator[Fault]:
+    """Yield what is wrong with the checks."""
+    made = [(check, when) for check in mechanism.checks for when in _when(names, check)]
+    yield from pairs(names, "check", made)
+    for check in mechanism.checks:
+        for text in _wrong(names, check):
+            yield Fault(check.at, f"check {check.id}", text)
+
+
+def _when(names: Names, check: Check) -> list[When]:
+    """When a check is made: what it needs is given, and something gives each of its sides."""
+    givers = [[giver.when for giver in names.givers(name)] for name in check.named]
+    found = []
+    for chosen in product(*givers):
+        when = When(frozenset(check.needs))
+        for other in chosen:
+            when = when.with_(other)
+        found.append(when)
+    return [when for when in dict.fromkeys(found) if names.world.example(when) is not None]
+
+
+def _wrong(names: Names, check: Check) -> Iterator[str]:
+    sides = {name: names.givers(name) for name in check.named}
+    if not sides:
+        yield "compares plain numbers only; one side at least must be the id of a quantity"
+        return
+    for name, givers in sides.items():
+        if not givers:
+            yield f"takes {unknown(name, names.known)}"
+        for kind in sorted({giver.kind for giver in givers} - set(JUDGED)):
+            yield f"compares {name}, {_instead(name, kind)}"
+        units = {each for giver in givers if giver.kind in JUDGED for each in giver.units_when(check.needs)}
+        wrong = sorted(each for each in units if unit(each).kind != unit(check.unit).kind)
+        if wrong:
+            yield f"is in {check.unit}, {name} in {', '.join(wrong)}"
+    if not all(sides.values()):
+        return
+    axes = {giver.axis for givers in sides.values() for giver in givers if giver.axis}
+    if len(axes) > 1:
+        yield f"compares what runs over {' with what runs over '.join(sorted(axes))}; compare numbers, or curves over one abscissa"
+    made = _when(names, check)
+    if not made:
+        yield "is never made: what it needs and what it compares is never given together"
+    parts = OF_PARTS if any(names.kinds(name) == {"row"} for name in sides) else ()
+    yield from dict.fromkeys(f"the consequence names {text}" for when in made for text in named(names, check.consequence, when, parts))  # fmt: skip
+
+
+def _instead(name: str, kind: str) -> str:
+    return {
+        "text": "a text; compare a number",
+        "abscissa": "an abscissa, which takes all its values; compare a curve over it",
+        "crossings": f"places that may be none or many; compare {name}_count, or one of them as {name}_1",
+        "curve input": "a curve input; take it over by FromCurve and compare that curve",
+        "block": "a block; compare one of its inputs",
+    }[kind]

@@ -1,0 +1,100 @@
+"""What is said beside the calculation: sources, errata, key results, exports, spectra and comparisons name what there is."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator
+
+from diecut_report.contract.mechanism import Comparison, Mechanism
+from diecut_report.contract.steps import SILENT
+from diecut_report.declaration.names import Names
+from diecut_report.declaration.order import lacking
+from diecut_report.declaration.words import Fault, unknown
+from diecut_report.declaration.world import When, world
+from diecut_report.errors import nearest
+
+CITED = re.compile(r"(?:^|; ?)(?:(\d{3,})\b|(\S+?),? (?:eq\.|Fig\.|Table|erratum)\s)")
+
+
+def faults(mechanism: Mechanism, names: Names) -> Iterator[Fault]:
+    """Yield what names a source or a quantity that there is none of."""
+    yield from _sources(mechanism)
+    known = [source.id for source in mechanism.sources]
+    for erratum in mechanism.errata:
+        if erratum.source not in known:
+            text = f"is of no listed source{nearest(erratum.source, known)}; listed: {', '.join(known)}"
+            yield Fault(erratum.at, f"erratum of {erratum.source}", text)
+        for name in erratum.touches:
+            if not names.givers(name) and name not in _silent(mechanism):
+                yield Fault(erratum.at, f"erratum of {erratum.source}", f"touches {unknown(name, names.known)}")
+    for name in mechanism.key_results:
+        text = _key_result(names, name)
+        if text:
+            yield Fault(mechanism.at, "key_results", text)
+    yield from _exports(mechanism, names)
+    for comparison in mechanism.comparisons:
+        for text in _comparison(mechanism, names, comparison):
+            yield Fault(comparison.at, f"comparison {comparison.mechanism.kind}", text)
+
+
+def _silent(mechanism: Mechanism) -> set[str]:
+    return {step.id for _, step in mechanism.steps if isinstance(step, SILENT)}
+
+
+def _sources(mechanism: Mechanism) -> Iterator[Fault]:
+    """Sources that are cited by their id and not listed; a mechanism that lists none cites elsewhere."""
+    known = [source.id for source in mechanism.sources]
+    if not known:
+        return
+    cited = [(step.at, f"step {step.id}", step.source) for _, step in mechanism.steps]
+    cited += [(check.at, f"check {check.id}", check.source) for check in mechanism.checks]
+    for place, subject, text in cited:
+        for found in CITED.finditer(text):
+            name = found[1] or found[2]
+            if not any(text[found.start() :].lstrip("; ").startswith(source) for source in known):
+                yield Fault(place, subject, f"cites {name}, which is no source{nearest(name, known)}; listed: {', '.join(known)}")  # fmt: skip
+
+
+def _key_result(names: Names, name: str) -> str:
+    givers = [giver for giver in names.givers(name) if giver.step is not None]
+    if not givers:
+        steps = [known for known, all_ in names.known.items() if any(giver.step for giver in all_)]
+        return f"{name} is no step{nearest(name, steps)}; name what a step gives"
+    if not any(giver.step and giver.step.output for giver in givers):
+        return f"{name} is no output; take output=False away from its step"
+    return f"{name} is a curve; name an extreme of it" if {g.kind for g in givers} <= {"curve", "abscissa"} else ""
+
+
+def _exports(mechanism: Mechanism, names: Names) -> Iterator[Fault]:
+    for profile in mechanism.exports:
+        when, subject = When(frozenset(profile.needs)), f"export {profile.id}"
+        if len(profile.columns) < 2:
+            yield Fault(profile.at, subject, "has fewer than two columns; name x and y at least")
+        for name in profile.columns:
+            absent = lacking(names, name, when)
+            curves = [giver for giver in names.givers(name) if giver.kind == "curve"]
+            if absent:
+                yield Fault(profile.at, subject, f"writes {absent}")
+            elif not curves:
+                yield Fault(profile.at, subject, f"writes {name}, which is no curve")
+            elif not all(giver.step and giver.step.output for giver in curves):
+                yield Fault(
+                    profile.at, subject, f"writes {name}, which is no output; take output=False away from its step"
+                )
+        axes = set().union(*(names.axes(name) for name in profile.columns))
+        if len(axes) > 1:
+            yield Fault(
+                profile.at, subject, f"writes curves over {' and over '.join(sorted(axes))}; give each its own export"
+            )
+
+
+def _comparison(mechanism: Mechanism, names: Names, comparison: Comparison) -> Iterator[str]:
+    keys = world(comparison.mechanism.inputs).keys
+    for key, (kind, name) in comparison.takes.items():
+        if key not in keys:
+            yield f"fills {key}, which is no input of it{nearest(key, keys)}"
+        if kind == mechanism.kind and not names.givers(name):
+            yield f"takes {unknown(name, names.known)} in {kind}"
+    for name, declared in comparison.mechanism.inputs.model_fields.items():
+        if declared.is_required() and name not in comparison.takes:
+            yield f"fills nothing into {name}, which is required; add it to takes, or give it a default"

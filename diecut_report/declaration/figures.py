@@ -1,0 +1,80 @@
+"""Figures: what each draws is there whenever the figure is made, runs over its abscissa and has its unit."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from diecut_report.contract.figures import Bars, Figure, Panel, Plot, Polar
+from diecut_report.contract.mechanism import Mechanism
+from diecut_report.declaration.names import Names
+from diecut_report.declaration.order import lacking
+from diecut_report.declaration.words import Fault
+from diecut_report.declaration.world import When
+from diecut_report.quantities.units import unit
+
+NUMBER, CURVE = frozenset({"number", "row"}), frozenset({"curve"})
+
+
+def faults(mechanism: Mechanism, names: Names) -> Iterator[Fault]:
+    """Yield what is wrong with the figures, as far as they are data."""
+    spectra = {spectrum.id: spectrum for spectrum in mechanism.spectra}
+    for figure in mechanism.figures:
+        of_spectrum = isinstance(figure, Plot) and figure.abscissa in spectra
+        for text in () if of_spectrum else _wrong(figure, names):
+            yield Fault(figure.at, f"figure {figure.id}", text)
+
+
+def _wrong(figure: Figure, names: Names) -> Iterator[str]:
+    match figure:
+        case Plot(abscissa=axis, panels=panels):
+            yield from _axis(figure, names, axis)
+            for panel in panels:
+                yield from _panel(figure, names, axis, panel)
+        case Polar(abscissa=axis, unit=own, series=series):
+            yield from _axis(figure, names, axis)
+            for one in series:
+                yield from _drawn(figure, names, one.curve, own, CURVE, axis)
+        case Bars(groups=groups):
+            for group in groups:
+                for _, name in group.bars:
+                    yield from _drawn(figure, names, name.removeprefix("-"), group.unit, NUMBER)
+
+
+def _axis(figure: Figure, names: Names, axis: str) -> Iterator[str]:
+    absent = lacking(names, axis, When(frozenset(figure.needs)))
+    if absent:
+        yield f"the abscissa is {absent}"
+    elif "abscissa" not in names.kinds(axis):
+        yield f"the abscissa is {axis}, which is no Abscissa"
+
+
+def _panel(figure: Figure, names: Names, axis: str, panel: Panel) -> Iterator[str]:
+    across = next((each for giver in names.givers(axis) for each in giver.units_when(figure.needs)), "1")
+    for series in panel.series:
+        yield from _drawn(figure, names, series.curve, panel.unit, CURVE, axis)
+    for level in panel.levels:
+        yield from _drawn(figure, names, level.value, panel.unit, NUMBER)
+    for mark in panel.marks:
+        yield from _drawn(figure, names, mark.x, across, NUMBER)
+        yield from _drawn(figure, names, mark.y, panel.unit, NUMBER)
+    for span in panel.spans:
+        yield from _drawn(figure, names, span.start, across, NUMBER)
+        yield from _drawn(figure, names, span.end, across, NUMBER)
+
+
+def _drawn(
+    figure: Figure, names: Names, name: str, wanted: str, allowed: frozenset[str], axis: str = ""
+) -> Iterator[str]:
+    absent = lacking(names, name, When(frozenset(figure.needs)))
+    givers = names.givers(name)
+    if absent:
+        yield f"draws {absent}"
+    elif not names.kinds(name) & allowed:
+        kind = "a curve" if allowed is CURVE else "a number"
+        yield f"draws {name}, which is {' or '.join(sorted(names.kinds(name)))}; {kind} is wanted there"
+    elif axis and axis not in names.axes(name):
+        yield f"draws {name}, which runs over {', '.join(names.axes(name))}, over {axis}"
+    else:
+        units = {each for giver in givers if giver.kind in allowed for each in giver.units_when(figure.needs)}
+        if all(unit(each).kind != unit(wanted).kind for each in units):
+            yield f"draws {name}, in {', '.join(sorted(units)) or 'no unit'}, on an axis in {wanted}"

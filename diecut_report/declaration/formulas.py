@@ -1,0 +1,119 @@
+"""Formulas: each is one, can be read and printed, and has a value for each text that chooses; tables have a row for each."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from typing import Any
+
+from diecut_report.contract.binding import Binding, Bound, ByText, bound
+from diecut_report.contract.mechanism import Mechanism
+from diecut_report.contract.part_steps import Lookup, Pick
+from diecut_report.contract.steps import Case, Choice, Root, Step
+from diecut_report.declaration.names import Names
+from diecut_report.declaration.words import Fault
+from diecut_report.declaration.world import When
+from diecut_report.expressions import Formula
+from diecut_report.quantities.units import unit
+from diecut_report.standards import StandardTable
+
+PARTS = ("formula", "exists", "condition", "equation", "low", "high", "left", "right")
+
+
+def unmarked(mechanism: Mechanism) -> Iterator[Fault]:
+    """Yield what stands where a formula is wanted and is none: the first thing to be mended, as nothing can be asked of it."""
+    for _, step in mechanism.steps:
+        for part, declared in _declared(step):
+            if declared is not None and not isinstance(declared, Binding):
+                name = getattr(declared, "__name__", repr(declared))
+                what = (
+                    "a plain function; write @formula above it"
+                    if callable(declared)
+                    else "no formula; write one with @formula"
+                )
+                yield Fault(_place(declared, step.at), f"step {step.id}", f"the {part} {name} is {what}")
+        if isinstance(step, Choice) and not step.cases:
+            yield Fault(step.at, f"step {step.id}", "has no cases; give at least one Case")
+
+
+def _declared(step: Step) -> Iterator[tuple[str, Any]]:
+    for part in PARTS:
+        if hasattr(step, part):
+            yield part, getattr(step, part)
+    for case in getattr(step, "cases", ()):
+        if isinstance(case, Case):
+            yield "condition of a case", case.condition
+            yield "value of a case", None if isinstance(case.value, str) else case.value
+
+
+def _place(function: Any, otherwise: str) -> str:
+    code = getattr(function, "__code__", None)
+    return f"{code.co_filename}:{code.co_firstlineno}" if code else otherwise
+
+
+def faults(mechanism: Mechanism, names: Names) -> Iterator[Fault]:
+    """Yield the formulas that cannot be printed, texts without a formula or a row, and units that are none."""
+    seen: set[Formula] = set()
+    for number, (_, step) in enumerate(mechanism.steps):
+        try:
+            for other in (step.unit, *(text for _, text in step.units)):
+                unit(other)
+        except ValueError as unknown:
+            yield Fault(step.at, f"step {step.id}", f"has the unit {other!r}: {unknown}")
+        for part, declared in _declared(step):
+            options = (
+                declared.options() if isinstance(declared, ByText) else (declared,) if declared is not None else ()
+            )
+            for link in map(bound, options):
+                if link.formula not in seen:
+                    seen.add(link.formula)
+                    yield from _unreadable(step, part, link)
+        for text in _choices(step, names, names.when(number)):
+            yield Fault(step.at, f"step {step.id}", text)
+
+
+def _unreadable(step: Step, part: str, link: Bound) -> Iterator[Fault]:
+    """A formula whose body cannot be read: whatever reading it raises is the author's to mend."""
+    try:
+        _ = link.formula.tree
+    except RecursionError:
+        text = f"the {part} {link.formula.__name__} calls itself; name it otherwise than what it calls"
+        yield Fault(_place(link.formula.function, step.at), f"step {step.id}", text)
+    except Exception as why:
+        yield Fault(_place(link.formula.function, step.at), f"step {step.id}", f"the {part} cannot be printed: {why}")
+
+
+def _choices(step: Step, names: Names, when: When) -> Iterator[str]:
+    for _, declared in _declared(step):
+        if isinstance(declared, ByText):
+            yield from _complete(names, declared.key, declared.formulas, when, "formula")
+    match step:
+        case Lookup(by=by, table=table):
+            rows = table.values if isinstance(table, StandardTable) else table
+            yield from _complete(names, by, rows, when, "row in the table")
+        case Pick(by=by, series=Mapping() as series):
+            yield from _complete(names, by, series, when, "series")
+        case Root(unknown=unknown):
+            takes = bound(step.equation).names.values()
+            if unknown not in takes:
+                asked = ", ".join(str(name) for name in takes)
+                yield f"the unknown {unknown} is nothing that the equation takes; it takes {asked}"
+    function: object = getattr(step, "function", None)
+    if hasattr(step, "function") and not callable(function):
+        yield f"the function is {function!r}, which cannot be called; name one without brackets"
+
+
+def _complete(names: Names, by: str, rows: Mapping[str, Any], when: When, what: str) -> Iterator[str]:
+    """What is wrong with a choice by a text: each text that may be given there has its row."""
+    key = names.world.keys.get(by)
+    if key is None:
+        return  # told where ids are
+    if not key.texts:
+        allowed = ", ".join(map(repr, rows))
+        yield f"is chosen by {by}, which may be any text; give it allowed ones: Annotated[Literal[{allowed}], Text(…)]"
+        return
+    possible = [
+        text for text in key.texts if key.home or names.world.example(when.with_(When(frozenset((f"{by}={text}",)))))
+    ]
+    missing = [text for text in possible if text not in rows]
+    if missing:
+        yield f"has no {what} for {by}={', '.join(missing)}; add {'it' if len(missing) == 1 else 'them'}, or forbid the text"

@@ -1,0 +1,132 @@
+"""What steps take: a curve where a curve is wanted, a row where a row is, an abscissa, a text with allowed values."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from diecut_report.contract.binding import Binding, bound
+from diecut_report.contract.mechanism import Mechanism
+from diecut_report.contract.part_steps import (
+    Lookup,
+    Neighbour,
+    Part,
+    Pick,
+    Running,
+    Total,
+)
+from diecut_report.contract.steps import (
+    Abscissa,
+    Accumulated,
+    Breakpoints,
+    Choice,
+    Clash,
+    Computed,
+    Crossings,
+    CurvePeriod,
+    Derivative,
+    FromCurve,
+    Reduction,
+    Require,
+    Root,
+    Step,
+    Value,
+    Words,
+)
+from diecut_report.declaration.names import Names
+from diecut_report.declaration.words import Fault
+
+NUMBER, ROW, CURVE = (
+    frozenset({"number"}),
+    frozenset({"number", "row"}),
+    frozenset({"number", "row", "curve", "abscissa"}),
+)
+CURVE_INPUT = frozenset({"curve input"})
+SAID = {
+    NUMBER: "a single number", ROW: "a number or a row over like parts", CURVE: "a number, a row or a curve",
+    CURVE_INPUT: "an input declared as a CurveInput",
+}  # fmt: skip
+Asked = tuple[str, str, frozenset[str], str]  # the field, the name in it, what it may be, and what is wanted in words
+
+
+def faults(mechanism: Mechanism, names: Names) -> Iterator[Fault]:
+    """Yield the steps that take another kind of thing than they can, or mix what runs over unlike places."""
+    for _, step in mechanism.steps:
+        for field, name, allowed, wanted in _asked(step):
+            kinds = names.kinds(name)
+            if kinds and not kinds & allowed:
+                text = f"{field} is {name}, {_said(kinds)}; {wanted or SAID[allowed]} is wanted"
+                yield Fault(step.at, f"step {step.id}", text)
+        yield from _mixed(step, names)
+
+
+def _said(kinds: set[str]) -> str:
+    return " or ".join(f"{'an' if kind[0] in 'aeiou' else 'a'} {kind}" for kind in sorted(kinds))
+
+
+def _asked(step: Step) -> Iterator[Asked]:
+    """What a step takes, beside what it may be."""
+    if step.exists is not None:
+        yield from _of(step.exists, "exists", ROW)
+    match step:
+        case Value():
+            yield from _of(step.formula, "the formula", CURVE)
+        case Choice():
+            for case in step.cases:
+                yield from () if isinstance(case.value, str) else _of(case.value, "the value of a case", CURVE)
+                yield from () if case.condition is None else _of(case.condition, "a condition", CURVE)
+        case Root():
+            for field in ("low", "high"):
+                yield from _of(getattr(step, field), field, NUMBER)
+        case Require():
+            yield from _of(step.condition, "the condition", ROW)
+        case Reduction(of=of) | Crossings(of=of) | Accumulated(of=of) | Derivative(of=of):
+            yield "of", of, frozenset({"curve"}), "a curve over an abscissa"
+        case Total(of=of) | Neighbour(of=of) | Running(of=of) | Part(of=of):
+            yield "of", of, frozenset({"row"}), "a row over like parts"
+        case Pick(of=of):
+            yield "of", of, ROW, ""
+        case Words():
+            yield from (("takes", name, ROW | {"text"}, "a number or a text") for name in step.takes)
+        case Computed():
+            yield from (("takes", name, ROW | {"text", "curve input"}, "a number, a text or a CurveInput") for name in step.takes)  # fmt: skip
+        case Clash():
+            yield from (("takes", name, ROW, "") for name in step.takes)
+        case _:
+            yield from _over(step)
+
+
+def _over(step: Step) -> Iterator[Asked]:
+    axis = frozenset({"abscissa"}), "the id of an Abscissa"
+    match step:
+        case Abscissa(period=period, points=points):
+            yield from (("period", period, NUMBER, ""),) if isinstance(period, str) else ()
+            yield "points", points, NUMBER, ""
+        case Breakpoints(abscissa=abscissa, places=places, every=every):
+            yield "abscissa", abscissa, *axis
+            yield from (("places", place, NUMBER | {"crossings"}, "a number or found crossings") for place in places)
+            yield from (("every", every, NUMBER, ""),) if every else ()
+        case FromCurve(abscissa=abscissa, given=given):
+            yield "abscissa", abscissa, *axis
+            yield "given", given, CURVE_INPUT, ""
+            yield from ((f, getattr(step, f), NUMBER, "") for f in ("start", "lasts") if getattr(step, f))
+        case CurvePeriod(given=given):
+            yield "given", given, CURVE_INPUT, ""
+        case Lookup(by=by):
+            yield "by", by, frozenset({"text"}), "a text input"
+
+
+def _of(part: Binding, field: str, allowed: frozenset[str]) -> Iterator[Asked]:
+    names = (name for name in bound(part).names.values() if isinstance(name, str))
+    return ((field, name, allowed, "") for name in names)
+
+
+def _mixed(step: Step, names: Names) -> Iterator[Fault]:
+    """A formula of curves over unlike abscissas, of rows over unlike lists, of rows and curves."""
+    if not isinstance(step, Value | Choice):
+        return
+    own = {name: names.axes(name) for name in step.takes() if isinstance(name, str)}
+    sole = {name: next(iter(axes)) for name, axes in own.items() if len(axes) == 1}
+    if len(set(sole.values())) > 1:
+        told = ", ".join(f"{name} runs over {axis}" for name, axis in sole.items())
+        text = f"mixes what runs over unlike places: {told}; take a single number of one of them first"
+        yield Fault(step.at, f"step {step.id}", text)

@@ -1,0 +1,83 @@
+"""Ids: each is given once, and given before it is taken, whatever inputs are given."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from itertools import combinations
+from typing import Any
+
+from diecut_report.contract.mechanism import Mechanism
+from diecut_report.contract.sections import taken
+from diecut_report.contract.steps import SILENT, Root, Step, Words
+from diecut_report.declaration.names import Names
+from diecut_report.declaration.words import Fault, short, unknown
+from diecut_report.declaration.world import When, told
+
+
+def faults(mechanism: Mechanism, names: Names) -> Iterator[Fault]:
+    """Yield the ids that are doubled, never made, not given, or taken too early."""
+    yield from _doubled(mechanism, names)
+    for number, (_, step) in enumerate(mechanism.steps):
+        when = names.when(number)
+        if names.world.example(when) is None:
+            yield Fault(
+                step.at, f"step {step.id}", "is never calculated: what it needs and lacks is never given together"
+            )
+            continue
+        if not isinstance(step, SILENT) and not (step.symbol and step.description):
+            yield Fault(step.at, f"step {step.id}", "has no symbol or no description")
+        for name in sorted(asked(step)):
+            late = name == getattr(step, "shown_at", "") or isinstance(step, Words)
+            text = lacking(names, name, when, None if late else number)
+            if text:
+                yield Fault(step.at, f"step {step.id}", f"takes {text}")
+
+
+def asked(step: Step) -> set[str]:
+    """Return the ids that a step takes from elsewhere."""
+    own = {step.unknown, step.id} if isinstance(step, Root) else set()
+    return {name for name in taken(step) if name not in own}
+
+
+def lacking(names: Names, name: str, when: When, before: int | None = None) -> str:
+    """Return in words why a name is not known (before a step) where it is wanted; empty where it always is."""
+    givers = names.givers(name)
+    if not givers:
+        return unknown(name, names.known)
+    given = names.missing(name, when, before)
+    if given is None:
+        return ""
+    later = [giver for giver in givers if before is not None and giver.number >= before]
+    if later and names.missing(name, when) is None:
+        step = later[0].step
+        place = short(step.at) if step else ""
+        return f"{name} before it is calculated (at {place}); move that step up, or this one down"
+    tokens = set().union(*(part for each in (when, *(giver.when for giver in givers)) for part in each))
+    where = told(given, tokens)
+    return f"{name}, which nothing gives {where}; give it there too, or leave this out by needs or lacks".replace(
+        "  ", " "
+    )
+
+
+def _doubled(mechanism: Mechanism, names: Names) -> Iterator[Fault]:
+    """Steps, figures and exports with one id that can be made together."""
+    steps = [(step, names.when(number)) for number, (_, step) in enumerate(mechanism.steps)]
+    yield from pairs(names, "step", steps)
+    yield from pairs(names, "figure", [(figure, When(frozenset(figure.needs))) for figure in mechanism.figures])
+    yield from pairs(names, "export", [(profile, When(frozenset(profile.needs))) for profile in mechanism.exports])
+
+
+def pairs(names: Names, what: str, declared: list[tuple[Any, When]]) -> Iterator[Fault]:
+    """Yield the second of two that have one id and can be made together."""
+    by_id: dict[str, list[tuple[Any, When]]] = {}
+    for part, when in declared:
+        by_id.setdefault(part.id, []).append((part, when))
+    for name, alike in by_id.items():
+        for (first, one), (second, other) in combinations(alike, 2):
+            both = one.with_(other)
+            given = names.world.example(both) if first is not second else None
+            if given is not None:
+                where = told(given, both.needs | both.lacks)
+                yield Fault(second.at, f"{what} {name}", f"has the id of another {what} (at {short(first.at)}), and both are made"
+                            f"{' ' + where if where else ''}; name one of them otherwise, or let their needs exclude each other")  # fmt: skip
+                break

@@ -1,0 +1,422 @@
+"""Each kind of mistake in a plugin's declarations is told with its place, what it is of, and what to write instead."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from pathlib import Path
+from typing import Any, ClassVar, Literal
+
+import numpy as np
+import pytest
+
+from diecut_report.api import (
+    POINTS,
+    Abscissa,
+    Annotated,
+    BarGroup,
+    Bars,
+    Block,
+    ByText,
+    Case,
+    Chapter,
+    Check,
+    Choice,
+    Comparison,
+    CurveInput,
+    Erratum,
+    FromCurve,
+    Inputs,
+    Level,
+    Lookup,
+    Mechanism,
+    OneOf,
+    Panel,
+    Plot,
+    Profile,
+    Quantity,
+    Reduction,
+    Require,
+    Root,
+    Series,
+    Source,
+    Step,
+    Text,
+    Value,
+    Words,
+    bind,
+    formula,
+)
+from diecut_report.config.discovery import Discovery
+from diecut_report.contract.figures import Figure
+from diecut_report.declaration import faults
+from diecut_report.testing import check_mechanism
+
+
+class Bar(Block):
+    length: Annotated[float, Quantity("l", "mm", "Length")]
+
+
+class Arm(Inputs):
+    force: Annotated[float, Quantity("F", "N", "Force")] = 5
+    arm: Annotated[float, Quantity("a", "mm", "Arm")] = 10
+    width: Annotated[float | None, Quantity("b", "mm", "Width")] = None
+    mode: Annotated[Literal["near", "away"], Text("Mode")] = "near"
+    remark: Annotated[str | None, Text("Remark")] = None
+    bars: Annotated[list[Bar], Text("Bars")] = []  # noqa: RUF012
+    motion: Annotated[Any | None, CurveInput("y", "mm", "Motion")] = None
+    n_points: Annotated[int, POINTS] = 36
+
+
+@formula
+def product(force: Any, arm: Any) -> Any:
+    return force * arm
+
+
+@formula
+def same(value: Any) -> Any:
+    return value
+
+
+@formula
+def wave(angle: Any, moment: Any) -> Any:
+    return moment * np.sin(angle)
+
+
+@formula
+def is_long(arm: Any) -> Any:
+    return arm > 0
+
+
+@formula
+def without_return(arm: Any) -> Any:
+    arm + 1
+
+
+def plain(force: Any, arm: Any) -> Any:
+    return force * arm
+
+
+def value(name: str, symbol: str = "", **changes: Any) -> Value:
+    sound = {"symbol": symbol or f"M_{name}", "unit": "N*m", "description": name, "formula": product}
+    return Value(**{"id": name, **sound, **changes})
+
+
+MOMENT = value("moment", "M")
+ANGLE = Abscissa(id="angle", symbol="φ", unit="deg", description="Angle", period=2 * np.pi)
+TORQUE = value("torque", "T", formula=wave)
+PEAK = Reduction(id="peak", symbol="T_max", unit="N*m", description="Peak", of="torque", operation="max")
+STEPS = (MOMENT, ANGLE, TORQUE, PEAK)
+
+
+def check(**changes: Any) -> Check:
+    sound = {"id": "strong", "title": "Strong", "demand": "moment", "limit": 3.0, "unit": "N*m", "demand_label": "moment",
+             "limit_label": "allowed", "consequence": "shorten the arm"}  # fmt: skip
+    return Check(**{**sound, **changes})
+
+
+def made(*more: Step, first: tuple[Step, ...] = STEPS, **changes: Any) -> Mechanism:
+    sound: dict[str, Any] = {"kind": "arm", "version": "1", "title": "Arm", "summary": "", "inputs": Arm,
+             "sections": (Chapter("All", steps=(*first, *more)),)}  # fmt: skip
+    return Mechanism(**{**sound, **changes})
+
+
+def plot(series: str = "torque", unit: str = "N*m", abscissa: str = "angle", **panel: Any) -> Figure:
+    drawn = Panel(title="Torque", unit=unit, series=(Series(curve=series, label="T"),), **panel)
+    return Plot(id="turn", title="Turn", caption="", abscissa=abscissa, panels=(drawn,))
+
+
+def require(**changes: Any) -> Require:
+    return Require(**{"id": "long", "condition": is_long, "key": "arm", "message": "is {arm}", **changes})
+
+
+def with_input(declared: Any, default: Any = ...) -> type[Inputs]:
+    own = {"__annotations__": {"extra": declared}, "__module__": __name__}
+    return type("Extra", (Arm,), own if default is ... else {**own, "extra": default})
+
+
+class Torn(Arm):
+    one_of: ClassVar[tuple[OneOf, ...]] = (OneOf(("force",), ("torc",)),)
+
+
+class Needed(Inputs):
+    ratio: Annotated[float, Quantity("i", "1", "Ratio")]
+
+
+PARTNER = Mechanism(kind="both", version="1", title="", summary="", inputs=Needed, chapters=())
+LATE = value("late", formula=bind(product, force="moment", arm="arm"), unit="N*m*mm")
+SOURCES = (Source("002", "A paper"),)
+
+SOUND = {
+    "as it is": made(checks=(check(),), figures=(plot(),), key_results=("moment", "peak")),
+    "steps that exclude each other": made(value("other", "Q", needs=("width",)), value("other", "Q", lacks=("width",))),
+    "a choice by texts": made(value("other", "Q", needs=("mode=near",)), value("other", "Q", needs=("mode=away",))),
+    "an optional input behind its need": made(value("other", formula=bind(product, arm="width"), needs=("width",))),
+    "an input that a step takes over": made(value("arm", "a", unit="mm", formula=bind(same, value="inputs.arm"))),
+    "a two-sided check": made(checks=(check(at_least=1.0),)),
+    "a check on a row": made(checks=(check(demand="bars.length", unit="mm", consequence="shorten bar {part}"),)),
+    "a check on a curve": made(checks=(check(demand="torque"),)),
+    "a cited source": made(value("other", source="002 eq. 3; energy"), sources=SOURCES),
+}  # fmt: skip
+
+FAULTS: dict[str, tuple[Mechanism, str]] = {
+    # ids and order
+    "an id that nothing gives": (
+        made(value("x", formula=bind(product, arm="arms"))),
+        "step x: takes arms, which nothing gives (did you mean 'arm'?)",
+    ),
+    "an id before it is calculated": (
+        made(first=(LATE, *STEPS)),
+        "step late: takes moment before it is calculated (at test_faults.py:",
+    ),
+    "an optional input without its need": (
+        made(value("x", formula=bind(product, arm="width"))),
+        "step x: takes width, which nothing gives without width",
+    ),
+    "a step that is there in one mode only": (
+        made(value("x", needs=("mode=near",)), value("y", formula=bind(same, value="x"))),
+        "step y: takes x, which nothing gives with mode=away",
+    ),
+    "two steps of one id": (made(value("moment", "Q")), "step moment: has the id of another step (at test_faults.py:"),
+    "two steps of one id that overlap": (
+        made(value("x", needs=("width",)), value("x", "Q", needs=("mode=near",))),
+        "both are made with mode=near and with width",
+    ),
+    "a step that is never made": (made(value("x", needs=("width",), lacks=("width",))), "step x: is never calculated"),
+    "two checks of one id": (made(checks=(check(), check(limit=4.0))), "check strong: has the id of another check"),
+    "two figures of one id": (made(figures=(plot(), plot())), "figure turn: has the id of another figure"),
+    "no symbol": (made(value("x", description="")), "step x: has no symbol or no description"),
+    "one symbol for two": (made(value("x", "M")), "step x: has the symbol M of moment"),
+    "one symbol for an input and a step": (made(value("x", "F")), "step x: has the symbol F of force"),
+    # tokens
+    "a need that is no input": (
+        made(value("x", needs=("widht",))),
+        "step x: needs names widht, which is no input (did you mean 'width'?)",
+    ),
+    "a need that is a step": (
+        made(value("x", needs=("moment",))),
+        "needs names moment, which is a step; only inputs can be named",
+    ),
+    "a text that is not allowed": (
+        made(value("x", lacks=("mode=nere",))),
+        "lacks names mode=nere (did you mean 'near'?); mode may be near, away",
+    ),
+    "a text of a number": (
+        made(value("x", needs=("arm=1",))),
+        "needs names arm=1, but arm is no text with allowed values",
+    ),
+    "a need of a check": (made(checks=(check(needs=("wide",)),)), "check strong: needs names wide, which is no input"),
+    "a need of a section": (
+        made(chapters=(Chapter("All", steps=STEPS), Chapter("More", steps=(), needs=("wide",)))),
+        "section 'More': needs names wide",
+    ),
+    # messages
+    "an unknown id in a message": (
+        made(require(message="is {arms}")),
+        "step long: the message names arms, which nothing gives",
+    ),
+    "an id that comes later": (
+        made(first=(require(message="is {moment}"), *STEPS)),
+        "the message names moment before it is calculated",
+    ),
+    "a curve in a message": (made(require(message="is {torque}")), "{torque}, a curve, which has no single number"),
+    "a key that is no input": (made(require(key="amr")), "step long: the key 'amr' is no input (did you mean 'arm'?)"),
+    "an unknown id in a consequence": (
+        made(checks=(check(consequence="see {momnt}"),)),
+        "check strong: the consequence names momnt, which nothing gives",
+    ),
+    "a part of what has none": (
+        made(checks=(check(consequence="part {part}"),)),
+        "the consequence names part, which nothing gives",
+    ),
+    "a text made of what is not given": (
+        made(Words(id="advice", function=str, takes=("width",)), checks=(check(consequence="{advice}"),)),
+        "takes width, which nothing gives",
+    ),
+    "an id in a caption": (
+        made(figures=(replace(plot(), caption="At {moment}"),)),
+        "{moment} stands in braces in caption",
+    ),
+    # checks
+    "an unknown side": (
+        made(checks=(check(demand="momnt"),)),
+        "check strong: takes momnt, which nothing gives (did you mean 'moment'?)",
+    ),
+    "a text as a side": (made(checks=(check(demand="mode"),)), "check strong: compares mode, a text"),
+    "a check in another unit": (made(checks=(check(unit="mm"),)), "check strong: is in mm, moment in N*m"),
+    "a check of numbers alone": (made(checks=(check(demand=1.0),)), "compares plain numbers only"),
+    "a row against a curve": (
+        made(checks=(check(demand="bars.length", limit="torque", unit="mm"),)),
+        "compares what runs over",
+    ),
+    # kinds
+    "an extreme of a number": (
+        made(replace(PEAK, id="x", symbol="X", of="moment")),
+        "of is moment, a number; a curve over an abscissa is wanted",
+    ),
+    "a formula of a text": (made(value("x", formula=bind(same, value="mode"))), "the formula is mode, a text"),
+    "a curve input taken directly": (
+        made(value("x", formula=bind(same, value="motion"), needs=("motion",))),
+        "motion, a curve input",
+    ),
+    "rows and curves mixed": (
+        made(value("x", formula=bind(product, force="torque", arm="bars.length"), needs=("bars",))),
+        "mixes what runs over",
+    ),
+    "a curve over no abscissa": (
+        made(
+            FromCurve(
+                id="y", symbol="y", unit="mm", description="y", given="motion", abscissa="moment", needs=("motion",)
+            )
+        ),
+        "abscissa is moment, a number; the id of an Abscissa is wanted",
+    ),
+    # formulas and tables
+    "a plain function": (
+        made(value("x", formula=plain)),
+        "step x: the formula plain is a plain function; write @formula above it",
+    ),
+    "no return": (made(value("x", formula=without_return)), "the formula cannot be printed:"),
+    "a table without an allowed text": (
+        made(Lookup(id="x", symbol="x", description="x", by="mode", table={"near": 1.0})),
+        "step x: has no row in the table for mode=away; add it",
+    ),
+    "a choice of a formula without a text": (
+        made(value("x", formula=ByText("mode", {"near": product}))),
+        "step x: has no formula for mode=away",
+    ),
+    "a choice by any text": (
+        made(Lookup(id="x", symbol="x", description="x", by="remark", table={"a": 1.0}, needs=("remark",))),
+        "remark, which may be any text",
+    ),
+    "an unknown that the equation does not take": (
+        made(
+            Root(
+                id="x",
+                symbol="x",
+                description="x",
+                equation=bind(same, value="y"),
+                unknown="x",
+                low=bind(same, value=0),
+                high=bind(same, value=1),
+                left=bind(same, value="x"),
+                right=bind(same, value=1),
+            )
+        ),
+        "the unknown x is nothing that the equation takes",
+    ),
+    "an unknown unit": (made(value("x", unit="mmm")), "step x: has the unit 'mmm'"),
+    "no cases": (made(Choice(id="x", symbol="x", description="x", cases=())), "step x: has no cases"),
+    # figures
+    "a curve in another unit than its axis": (
+        made(figures=(plot(unit="mm"),)),
+        "figure turn: draws torque, in N*m, on an axis in mm",
+    ),
+    "a number as a curve": (made(figures=(plot("moment"),)), "draws moment, which is number; a curve is wanted there"),
+    "an unknown curve": (
+        made(figures=(plot("torqe"),)),
+        "figure turn: draws torqe, which nothing gives (did you mean 'torque'?)",
+    ),
+    "no abscissa": (made(figures=(plot(abscissa="moment"),)), "the abscissa is moment, which is no Abscissa"),
+    "a level that is not always there": (
+        made(value("x", needs=("width",)), figures=(plot(levels=(Level(value="x", label="x"),)),)),
+        "draws x, which nothing gives without width",
+    ),
+    "a bar in another unit": (
+        made(
+            figures=(
+                Bars(id="b", title="", caption="", groups=(BarGroup(label="", unit="N", bars=(("M", "-moment"),)),)),
+            )
+        ),
+        "draws moment, in N*m, on an axis in N",
+    ),
+    # inputs
+    "a default out of its bounds": (
+        made(inputs=with_input(Annotated[float, Quantity("x", "mm", "X", gt=0)], -3)),
+        "input extra: the default -3 mm is out of range; allowed: > 0 mm",
+    ),
+    "a default that is not allowed": (
+        made(inputs=with_input(Annotated[Literal["red", "blue"], Text("Colour")], "rad")),
+        "has the default 'rad' (did you mean 'red'?)",
+    ),
+    "a plain int": (
+        made(inputs=with_input(int, 2)),
+        "input extra: is a plain int, of which nothing is known; write extra: Annotated[int, Quantity(",
+    ),
+    "an input in an unknown unit": (
+        made(inputs=with_input(Annotated[float, Quantity("x", "mmm", "X")], 1)),
+        "input extra: has the unit 'mmm'",
+    ),
+    "a rule of an unknown key": (made(inputs=Torn), "one_of of Torn: names torc, which is no input"),
+    "units beside an unknown key": (
+        made(value("x", units=(("wdth", "N"),))),
+        "step x: has units beside wdth, which is no input (did you mean 'width'?)",
+    ),
+    "units beside what is always given": (
+        made(value("x", units=(("arm", "N"),))),
+        "units beside arm, which is no optional input",
+    ),
+    # what is said beside
+    "an unknown key result": (made(key_results=("momnt",)), "key_results: momnt is no step (did you mean 'moment'?)"),
+    "a key result that is no output": (
+        made(value("x", output=False), key_results=("x",)),
+        "x is no output; take output=False away",
+    ),
+    "a source that is not listed": (
+        made(value("x", source="003 eq. 1"), sources=SOURCES),
+        "step x: cites 003, which is no source",
+    ),
+    "an erratum of no source": (
+        made(errata=(Erratum("004", "wrong"),), sources=SOURCES),
+        "erratum of 004: is of no listed source",
+    ),
+    "an erratum that touches nothing": (
+        made(errata=(Erratum("002", "wrong", ("momnt",)),), sources=SOURCES),
+        "touches momnt, which nothing gives",
+    ),
+    "an export of a number": (
+        made(exports=(Profile(id="p", title="P", columns=("torque", "moment")),)),
+        "export p: writes moment, which is no curve",
+    ),
+    "a comparison of an unknown quantity": (
+        made(comparisons=(Comparison(kinds=("arm",), mechanism=PARTNER, takes={"ratio": ("arm", "momnt")}),)),
+        "comparison both: takes momnt, which nothing gives",
+    ),
+    "a comparison that leaves an input open": (
+        made(comparisons=(Comparison(kinds=("arm",), mechanism=PARTNER, takes={}),)),
+        "fills nothing into ratio, which is required",
+    ),
+}
+
+
+@pytest.mark.parametrize("name", SOUND)
+def test_what_is_sound_passes(name: str) -> None:
+    assert list(map(str, faults(SOUND[name]))) == []
+
+
+@pytest.mark.parametrize("name", FAULTS)
+def test_a_mistake_is_told_with_its_place(name: str) -> None:
+    mechanism, words = FAULTS[name]
+    told = list(map(str, faults(mechanism)))
+    assert any(words in line for line in told), told
+    assert all(line.startswith("test_faults.py:") for line in told), told
+    with pytest.raises(AssertionError) as caught:
+        check_mechanism(mechanism)
+    assert words in str(caught.value)
+
+
+def test_a_place_is_the_line_of_the_author_and_is_kept() -> None:
+    here = Path(__file__).read_text("utf-8").splitlines()
+    file, _, line = MOMENT.at.rpartition(":")
+    assert file == __file__ and "return Value(" in here[int(line) - 1]
+    assert replace(MOMENT, symbol="Q").at == MOMENT.at and "at=" not in repr(MOMENT)
+    assert Quantity("F", "N", "Force") == Quantity("F", "N", "Force")
+
+
+@pytest.mark.parametrize("kind", [kind for kind, origins in Discovery().origins.items() if origins[0].is_own])
+def test_the_programs_own_mechanisms_declare_nothing_wrong(kind: str) -> None:
+    assert list(map(str, faults(Discovery().mechanism(kind)))) == []
+
+
+def test_a_case_of_a_text_and_its_words_are_read() -> None:
+    step = Choice(id="x", symbol="x", description="x", cases=(Case("yes", "as {moment}", is_long), Case("no", "else")))
+    assert "{moment} stands in braces in the words of a case" in str(faults(made(step)))
