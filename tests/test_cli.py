@@ -14,7 +14,7 @@ from pathlib import Path
 import pytest
 
 from diecut_report import __version__, plugins
-from diecut_report.cli import main
+from diecut_report.cli.main import main
 from diecut_report.cli.progress import Progress
 from tests.configs import BROKEN, EXAMPLE, GOOD, HEAD, LEVER, LISTED, saved
 
@@ -403,7 +403,7 @@ def test_progress_keeps_quiet_where_there_is_no_terminal() -> None:
 @pytest.mark.parametrize("command", ["calc", "check"])
 def test_calc_and_check_import_nothing_that_draws_or_is_slow(command: str) -> None:
     code = (
-        f"import sys; from diecut_report.cli import main; main(['{command}', {str(EXAMPLE)!r}]); "
+        f"import sys; from diecut_report.cli.main import main; main(['{command}', {str(EXAMPLE)!r}]); "
         "print([m for m in ('matplotlib', 'jinja2', 'weasyprint', 'pint', 'rich', 'scipy.stats', 'diecut_report.report') "
         "if m in sys.modules], file=sys.stderr)"
     )
@@ -412,7 +412,7 @@ def test_calc_and_check_import_nothing_that_draws_or_is_slow(command: str) -> No
 
 
 def test_check_does_not_import_the_engine() -> None:
-    code = f"import sys; from diecut_report.cli import main; main(['check', {str(EXAMPLE)!r}]); print('diecut_report.engine' in sys.modules)"
+    code = f"import sys; from diecut_report.cli.main import main; main(['check', {str(EXAMPLE)!r}]); print('diecut_report.engine' in sys.modules)"
     done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
     assert done.stdout == "False\n"
 

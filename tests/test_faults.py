@@ -8,7 +8,7 @@ from typing import Any
 
 import pytest
 
-from diecut_report.cli import main
+from diecut_report.cli.main import main
 from tests.configs import HEAD, saved
 
 Capture = pytest.CaptureFixture[str]

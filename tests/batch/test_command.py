@@ -13,7 +13,7 @@ import numpy as np
 import pyarrow.parquet as pq
 import pytest
 
-from diecut_report.cli import main
+from diecut_report.cli.main import main
 from diecut_report.study.execution.variant_reports import best
 from tests.batch.studies import BASE, STUDY, varied
 from tests.configs import GOOD, saved

@@ -8,7 +8,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from diecut_report.cli import main
+from diecut_report.cli.main import main
 from diecut_report.config.discovery import Discovery
 from diecut_report.study.execution.variant_rows import calculate_rows
 from tests.batch.studies import study

@@ -11,7 +11,7 @@ from typing import Any
 
 import pytest
 
-from diecut_report.cli import main
+from diecut_report.cli.main import main
 from diecut_report.config.discovery import Discovery
 from diecut_report.errors import UserError
 from diecut_report.study.analysis.query import variant_config, variants

@@ -116,7 +116,7 @@ def check(**changes: Any) -> Check:
 
 def made(*more: Step, first: tuple[Step, ...] = STEPS, **changes: Any) -> Mechanism:
     sound: dict[str, Any] = {"kind": "arm", "version": "1", "title": "Arm", "summary": "", "inputs": Arm,
-             "sections": (Chapter("All", steps=(*first, *more)),)}  # fmt: skip
+             "chapters": (Chapter("All", steps=(*first, *more)),)}  # fmt: skip
     return Mechanism(**{**sound, **changes})
 
 

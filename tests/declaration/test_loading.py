@@ -9,7 +9,7 @@ from pathlib import Path
 import pytest
 
 from diecut_report import declaration
-from diecut_report.cli import main
+from diecut_report.cli.main import main
 from diecut_report.config.discovery import Discovery
 from diecut_report.errors import PluginError
 from tests.configs import GOOD
@@ -67,12 +67,16 @@ def test_a_faulty_plugin_gives_3_and_the_results_of_the_others(
     assert err.startswith("mechanism 'b' of plugin 'faulty':") and "widht" in err and "tooth" in err
 
 
-def test_a_plain_function_given_to_bind_is_told_at_its_line(tmp_path: Path) -> None:
-    folder = plugin(tmp_path / "own", "faulty", ("@formula\ndef same", "def same"))
+def test_what_is_given_to_bind_and_is_no_function_is_told_at_its_line(tmp_path: Path) -> None:
+    folder = plugin(tmp_path / "own", "faulty", ("bind(same", "bind(2"))
     with pytest.raises(
-        PluginError, match=r"faulty\.py:\d+: bind takes a formula, and same is none; write @formula above it"
+        PluginError, match=r"faulty\.py:\d+: bind takes a formula, and 2 is none; write a lambda, or a def"
     ):
         Discovery([folder]).mechanism("faulty")
+
+
+def test_a_plain_function_given_to_bind_is_a_formula(tmp_path: Path) -> None:
+    Discovery([plugin(tmp_path / "own", "faulty", ("@formula\ndef same", "def same"))]).mechanism("faulty")
 
 
 def judged(folder: Path, name: str, monkeypatch: pytest.MonkeyPatch) -> int:

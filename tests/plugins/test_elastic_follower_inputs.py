@@ -10,7 +10,7 @@ import pytest
 
 from diecut_report import pipeline
 from diecut_report.api import Abscissa, Breakpoints, Chapter, Inputs, Mechanism, Quantity, Value, bind, formula
-from diecut_report.cli import main
+from diecut_report.cli.main import main
 from diecut_report.config.discovery import Discovery
 from diecut_report.engine import Calculation, Impossible, calculate
 from diecut_report.errors import UserError

@@ -2,4 +2,4 @@
 
 from diecut_report.api import Inputs, Mechanism
 
-MECHANISM = Mechanism(kind="quite_other", version="1", title="Other", summary="", inputs=Inputs, sections=())
+MECHANISM = Mechanism(kind="quite_other", version="1", title="Other", summary="", inputs=Inputs, chapters=())

@@ -4,5 +4,5 @@ from diecut_report.api import Inputs, Mechanism
 
 print("hello from a plugin")
 
-FIRST = Mechanism(kind="first_kind", version="1", title="First", summary="", inputs=Inputs, sections=())
-SECOND = Mechanism(kind="second_kind", version="1", title="Second", summary="", inputs=Inputs, sections=())
+FIRST = Mechanism(kind="first_kind", version="1", title="First", summary="", inputs=Inputs, chapters=())
+SECOND = Mechanism(kind="second_kind", version="1", title="Second", summary="", inputs=Inputs, chapters=())
