@@ -15,6 +15,7 @@ import numpy as np
 from diecut_report.batch import work
 from diecut_report.batch.columns import columns_of, curve_columns
 from diecut_report.batch.description import Column, Description, Source
+from diecut_report.batch.dropped import without_value
 from diecut_report.batch.engines import Engine, InProcess, Pool, Warm, dask_cluster, results
 from diecut_report.batch.inputs import Input
 from diecut_report.batch.store import Store
@@ -80,7 +81,7 @@ def run_study(study: Study, directory: Path, where: Where, *, resume: bool, tell
                 store.note({"slow": slow, "seconds": before + time.monotonic() - began})
         finally:  # an interrupted run has spent its time too
             store.note({"slow": slow, "seconds": before + time.monotonic() - began})
-        store.finish({})
+        store.finish({}, without_value(study))
     return Outcome(store, store.state["counts"], slow)
 
 

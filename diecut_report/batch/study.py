@@ -8,14 +8,14 @@ from pathlib import Path
 from typing import Any
 
 from diecut_report import yaml_tree
-from diecut_report.batch.constraint_parts import ConstraintError
-from diecut_report.batch.constraints import Constraint, parse
+from diecut_report.batch.conditions.constraints import Constraint, parse
+from diecut_report.batch.conditions.terms import term
+from diecut_report.batch.conditions.words import ConditionError
 from diecut_report.batch.inputs import Input
 from diecut_report.batch.sampling import Sample
 from diecut_report.batch.study_form import Document, SampleForm
 from diecut_report.batch.study_results import Objective, Reports, ResultReader
 from diecut_report.batch.study_sample import Sampled, SampleReader, misused
-from diecut_report.batch.terms import term
 from diecut_report.config import Config, as_typed, load_config
 from diecut_report.discovery import Discovery
 from diecut_report.errors import Problem, UserError
@@ -140,8 +140,8 @@ class _Reader:
     def _constraints(self, sampled: Sampled) -> Iterator[Constraint]:
         for index, text in enumerate(self.data.get("constraints", [])):
             try:
-                yield parse(text, lambda path: term(sampled.bases[0], sampled.inputs, path))
-            except ConstraintError as fault:
+                yield parse(text, lambda path: term(sampled.bases[0], sampled.inputs, path), sampled.inputs)
+            except ConditionError as fault:
                 self.problems.append(self.place.problem(("constraints", index), str(fault)))
 
     def _results(

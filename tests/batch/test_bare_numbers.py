@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import pytest
 
+from diecut_report.batch.conditions.where import condition
 from diecut_report.batch.stored import Column
-from diecut_report.batch.where import condition
 from diecut_report.errors import UserError
 
 COLUMNS = {

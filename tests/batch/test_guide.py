@@ -8,10 +8,10 @@ from pathlib import Path
 
 import pytest
 
+from diecut_report.batch.conditions.where import condition
 from diecut_report.batch.run import result_columns, varied_columns
 from diecut_report.batch.stored import Column
 from diecut_report.batch.study import Study, load_study
-from diecut_report.batch.where import condition
 from diecut_report.discovery import Discovery
 from tests.configs import EXAMPLE, STUDIES, saved
 

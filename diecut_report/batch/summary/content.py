@@ -6,6 +6,7 @@ from dataclasses import dataclass
 from typing import Any
 
 from diecut_report import yaml_tree
+from diecut_report.batch.conditions.constraints import why_dropped
 from diecut_report.batch.stored import Column, Stored
 from diecut_report.batch.summary import asked, best, data, influence, matrix, pareto, passing, verdicts
 from diecut_report.batch.summary.data import Reason, Spread, Utilisation
@@ -171,7 +172,7 @@ def _facts(stored: Stored, total: int) -> list[tuple[str, str]]:
     study, counts = stored.study, stored.study.get("counts") or {}
     facts = [("Variants calculated", counted(total, "variant")), ("Varied", counted(len(stored.varied), "input"))]
     if counts.get("dropped"):
-        facts.append(("Left out by constraints", counted(int(counts["dropped"]), "variant")))
+        facts.append(("Left out by constraints", counted(int(counts["dropped"]), "variant") + why_dropped(counts)))
     facts += _margin(stored)
     seconds = float(study.get("seconds") or 0)
     if seconds > 0:

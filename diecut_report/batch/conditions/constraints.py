@@ -1,0 +1,99 @@
+"""Constraints between inputs: a text such as ``mechanisms.a.bore <= 0.6 * mechanisms.a.height``, read once, held on arrays."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Collection, Mapping
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from diecut_report.batch.conditions.numpy_emitter import Judged, judged
+from diecut_report.batch.conditions.parts import Name
+from diecut_report.batch.conditions.reading import read
+from diecut_report.batch.conditions.tree import Node as Tree
+from diecut_report.batch.conditions.tree import names
+from diecut_report.batch.conditions.words import ConditionError
+from diecut_report.expressions import Array, Node, evaluate, symbols
+
+WITHOUT_VALUE = "a division by zero, or the root of a number below zero"
+EXAMPLE = "mechanisms.NAME.KEY <= '90 mm'"
+
+
+@dataclass(frozen=True)
+class Term:
+    """What a path stands for in a constraint: its SI unit (None for a text or a yes/no), its value, and the unit that people read.
+
+    The value is ``sym`` of a varied path, ``qty`` of a value that the base fixes, or an expression of these.
+    """
+
+    unit: str | None
+    node: Node
+    display: str = ""
+
+
+Find = Callable[[str], Term]
+"""What a path stands for; ConditionError in words where it stands for nothing that is known before calculating."""
+
+
+@dataclass(frozen=True)
+class Constraint:
+    """What must hold between the inputs of a variant; ``values`` says what each name in its tree stands for."""
+
+    text: str
+    tree: Tree
+    values: Mapping[str, Node]
+
+    @property
+    def paths(self) -> tuple[str, ...]:
+        """The varied paths that it names."""
+        return tuple(dict.fromkeys(path for name in names(self.tree) for path in symbols(self.values[name])))
+
+    def judged(self, rows: Mapping[str, Any]) -> Judged:
+        """Return for each row whether it holds and whether it fails; what has no value (a division by zero) does neither."""
+
+        def value_of(name: str) -> Any:
+            node = self.values[name]
+            if node.op == "sym":
+                return rows[node.args[0]]
+            found = evaluate(node, lambda leaf: _value(leaf, rows))
+            return found if isinstance(found, str) else np.where(np.isfinite(found), found, np.nan)
+
+        return judged(self.tree, value_of, len(rows[self.paths[0]]))
+
+    def holds(self, rows: Mapping[str, Any]) -> Array:
+        """Return for each row whether it holds."""
+        return self.judged(rows).holds
+
+
+def why_dropped(counts: Mapping[str, Any]) -> str:
+    """Return what to add where the dropped variants are counted: how many of them because a constraint has no value."""
+    found = counts.get("without_value")
+    return f", {found} of them because a constraint has no value there ({WITHOUT_VALUE})" if found else ""
+
+
+def _value(leaf: Node, rows: Mapping[str, Any]) -> Any:
+    value = leaf.args[0]
+    return np.asarray(rows[value]) if leaf.op == "sym" else value if isinstance(value, str) else np.float64(value)
+
+
+def parse(text: str, find: Find, known: Collection[str] = ()) -> Constraint:
+    """Read a constraint; ConditionError in words for what it may not hold, unlike dimensions, or no varied path in it.
+
+    ``known``: paths that are taken whole, whatever they are made of.
+    """
+    found: dict[str, Node] = {}
+
+    def name(path: str) -> Name:
+        if "." not in path and path not in known:
+            advice = "write the whole path of an input, such as mechanisms.NAME.KEY, and texts in quotes"
+            raise ConditionError(f"“{path}” is no path of an input; {advice}.")
+        term = find(path)
+        found[path] = term.node
+        return Name(path, "text") if term.unit is None else Name(path, "number", term.unit, term.display)
+
+    made = Constraint(text, read(text, known, name, EXAMPLE), found)
+    if not made.paths:
+        words = f"“{text}” names no varied path, so it would keep all variants or none; name one of vary."
+        raise ConditionError(words)
+    return made

@@ -1,0 +1,56 @@
+"""Conditions on stored variants: ``drive.crank_torque_peak < '40 N*m' and status = 'pass'`` to SQL with parameters."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from typing import Any
+
+from diecut_report.batch.conditions.parts import Name
+from diecut_report.batch.conditions.reading import read
+from diecut_report.batch.conditions.sql_emitter import written
+from diecut_report.batch.conditions.tree import names
+from diecut_report.batch.conditions.words import ConditionError
+from diecut_report.batch.stored import Column
+from diecut_report.errors import Problem, UserError, nearest
+
+EXAMPLE = "drive.crank_torque_peak < '40 N*m' and status = 'pass'"
+SHOWN = 300  # letters of a condition in a message
+
+
+@dataclass
+class Condition:
+    """A condition for DuckDB with its parameters, and the columns that it names."""
+
+    sql: str
+    parameters: list[Any]
+    columns: list[str] = field(default_factory=list)
+
+
+def condition(given: str, columns: Mapping[str, Column]) -> Condition:
+    """Return the condition that a text says; UserError in words, with the place, for what cannot be asked."""
+    try:
+        tree = read(given, columns, lambda name: _name(name, columns), EXAMPLE)
+    except ConditionError as fault:
+        where = "" if fault.place is None else f", at character {fault.place + 1}"
+        shown = given if len(given) <= SHOWN else given[:SHOWN] + "…"
+        raise UserError(Problem(f"The condition “{shown}”{where}: {fault.words}")) from None
+    sql = written(tree, columns)
+    return Condition(sql.text, list(sql.given), list(names(tree)))
+
+
+def column_named(name: str, columns: Mapping[str, Column]) -> Column:
+    """Return the column of a name; UserError with the nearest where there is none."""
+    if name not in columns:
+        raise UserError(Problem(f"{name!r} is no column of these variants{nearest(name, columns)}."))
+    return columns[name]
+
+
+def _name(name: str, columns: Mapping[str, Column]) -> Name:
+    if name not in columns:
+        near = nearest(name, columns) or "; put texts in quotes"
+        raise ConditionError(f"{name!r} is no column of these variants{near}.")
+    column = columns[name]
+    if column.is_number:
+        return Name(name, "number", column.unit, column.display)
+    return Name(name, "truth" if column.kind == "bool" else "text")
