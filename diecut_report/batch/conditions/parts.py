@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from functools import reduce
-from typing import Literal, NoReturn
+from typing import Literal
 
 import numpy as np
 
@@ -207,15 +207,19 @@ def raised(base: Part, power: Part) -> Part:
     node = Power(base.node, power.node)
     if base.kind == NUMBER:
         return Part(node, "quantity", base.place, bare=base.bare and power.bare, loose=True)
-    exponent = float(numbers(power.node, _nothing)) if not names(power.node) else np.inf
-    if not abs(exponent) <= MAX_EXPONENT:
+    exponent = _constant(power.node)
+    if exponent is None or not abs(exponent) <= MAX_EXPONENT:
         words = f"the exponent of {base.shown} must be a number between -{MAX_EXPONENT} and {MAX_EXPONENT}."
         raise ConditionError(words, power.place)
     return Part(node, "quantity", base.place, tuple(round(exponent * share, 9) for share in base.kind), loose=True)
 
 
-def _nothing(name: str) -> NoReturn:
-    raise KeyError(name)
+def _constant(node: Node) -> float | None:
+    """Return the value of a number that names nothing, NaN where it has none."""
+    if names(node):
+        return None
+    with np.errstate(all="ignore"):
+        return float(numbers(node, lambda _: None))
 
 
 def called(name: str, given: Sequence[Part], place: int) -> Part:
