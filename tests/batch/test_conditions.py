@@ -159,6 +159,7 @@ MEANINGS = [  # a condition, and the rows above that fulfil it, by hand
     ("speed * gap > '1.5 mm/s'", [1, 2]),  # radians may be left out of a product
     ("speed > '9.55 rpm'", [2, 3]),
     ("speed > 0", [1, 2, 3]),
+    ("speed > abs(0) or share = 1 - 1", [0, 1, 2, 3]),
     # what has no value decides nothing, and is null
     ("1 / n > 0", [1, 2, 3, 4]),
     ("1 / n < 5", [1, 2, 3, 4]),

@@ -104,7 +104,7 @@ def _inputs(folder: Path) -> tuple[object, object]:
         ("drive.power_peak between 1 and 2 < 3", "use brackets"),
         ("cylinder.mass", "not a condition"),
         ("cylinder.mass + drive.slip > 1", "drive.slip is a condition"),
-        ("cylinder.mass + cylinder.radius > 1", "cylinder.mass is a mass and cylinder.radius is a length; + needs the same kind"),
+        ("cylinder.mass + cylinder.radius > 1", "is a mass and cylinder.radius is a length; + needs"),
         ("((variant < 1)", "')' is missing"),
         ("variant < 1)", "')' is not expected"),
         ("variant <", "missing before the end"),

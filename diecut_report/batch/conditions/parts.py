@@ -245,7 +245,7 @@ def _alike(left: Part, right: Part, sign: str) -> Part:
     """Return the side whose kind both have; a plain 0 is of any kind, and a number that of what people read in SI."""
     for bare, other in ((left, right), (right, left)):
         if bare.bare and not other.bare and (other.kind != NUMBER or other.name):
-            if bare.node != Number(0.0) and not (other.name and other.name.is_read_in_si):
+            if _constant(bare.node) != 0.0 and not (other.name and other.name.is_read_in_si):
                 raise _bare(bare, other, left, right, sign)
             return other
     is_loose = left.loose or right.loose
