@@ -24,7 +24,7 @@ COLUMNS = ("cam_1_x", "cam_1_y", "cam_1_pitch_x", "cam_1_pitch_y")
 AGAIN = """
 import json, sys
 from hashlib import sha256
-from diecut_report.exports import exports
+from diecut_report.report.profile_files import exports
 for name, content in exports(json.load(open(sys.argv[1], encoding="utf-8"))).items():
     print(name, sha256(content).hexdigest())
 """

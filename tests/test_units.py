@@ -12,7 +12,14 @@ import pint
 import pytest
 
 from diecut_report.quantities import units
-from diecut_report.quantities.units import UnitError, parse_quantity, pretty, to_display, unit
+from diecut_report.quantities.units import (
+    UnitError,
+    number_and_unit,
+    parse_quantity,
+    pretty,
+    to_display,
+    unit,
+)
 
 TABLE: dict[str, Any] = json.loads(units.TABLE_FILE.read_text(encoding="utf-8"))
 PINT: Any = pint.UnitRegistry()
@@ -195,6 +202,26 @@ def test_several_numbers_are_refused(value: str) -> None:
         parse_quantity(value, "mm")
 
 
+SPLIT = [
+    ("3 mm", (3.0, "mm")),
+    (" −2.5e-3*kg·m² ", (-0.0025, "kg·m²")),
+    ("50 %", (50.0, "%")),
+    ("7", (7.0, "")),
+    ("1 1/h", (1.0, "1/h")),
+]
+
+
+@pytest.mark.parametrize(("text", "parts"), SPLIT)
+def test_a_quantity_is_split_into_number_and_unit(text: str, parts: tuple[float, str]) -> None:
+    assert number_and_unit(text) == parts
+
+
+@pytest.mark.parametrize("text", ["wide", "", "mm 3", "1,5 mm", "3 4 mm", "1_000 mm"])
+def test_what_is_not_one_number_and_a_unit_is_refused(text: str) -> None:
+    with pytest.raises(UnitError, match=r"a number with a unit is needed, for example 90 mm|holds a comma"):
+        number_and_unit(text)
+
+
 @pytest.mark.parametrize("value", [True, False])
 def test_a_boolean_is_no_quantity(value: bool) -> None:
     with pytest.raises(UnitError, match=f"{str(value).lower()} is not a quantity; a length is needed"):
@@ -288,7 +315,7 @@ def test_every_printed_unit_is_read_back() -> None:
 def test_everyday_units_do_without_pint() -> None:
     script = """
 import sys
-from diecut_report.units import parse_quantity, pretty
+from diecut_report.quantities.units import parse_quantity, pretty
 assert parse_quantity("21 kN·m", "N*m") == 21000.0
 assert parse_quantity("100 1/min", "1/h") > 1.6
 assert pretty("kg*m**2") == "kg·m²"

@@ -79,6 +79,8 @@ def _target(study: Path | None, folder: Path | None, resume: Path | None) -> Pat
 
 
 def _told(outcome: Outcome, target: Path) -> Iterator[str]:
+    from diecut_report.study.conditions.constraints import why_dropped
+
     counts = outcome.counts
     yield f"written: {target}, with summary.html and summary.pdf" + _reports(target)
     named = [
@@ -86,7 +88,8 @@ def _told(outcome: Outcome, target: Path) -> Iterator[str]:
         for status in ("pass", "warn", "fail", "error")
         if counts.get(status)
     ]
-    dropped = f"; the constraints drop {counts['dropped']} more of the sample" if counts.get("dropped") else ""
+    more = f"; the constraints drop {counts['dropped']} more of the sample{why_dropped(counts)}"
+    dropped = more if counts.get("dropped") else ""
     yield f"{counts.get('variants', 0)} variants: {', '.join(named) or 'none'}{dropped}."
     yield from (
         f"{kind} cannot take arrays and was calculated machine by machine, which is slow: {why}"

@@ -17,6 +17,8 @@ from functools import cache, lru_cache
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from diecut_report.quantities.unit_spelling import normalised
+
 if TYPE_CHECKING:
     import pint
 
@@ -72,12 +74,6 @@ def _table() -> dict[str, Any]:
 
 # --- reading units ---------------------------------------------------------------------------------------------------
 
-_CHARACTERS = str.maketrans(
-    {"·": "*", "⋅": "*", "×": "*", "∙": "*", "µ": "u", "μ": "u", "−": "-", "∕": "/", "⁄": "/", "º": "°", "^": "**"}
-)
-_SUPERSCRIPTS = {"⁰": "0", "¹": "1", "²": "2", "³": "3", "⁴": "4", "⁵": "5", "⁶": "6", "⁷": "7", "⁸": "8", "⁹": "9"}
-_SUPERSCRIPT = re.compile("(⁻?)([" + "".join(_SUPERSCRIPTS) + "]+)")
-_GLUED = re.compile(r"(/?)(?<!\w)((?:[kMm]?N|kg|g)(?=mm|cm|m))(m|mm|cm)(\*\*-?\d+)?(?!\w)")
 _FACTOR = r"\(*(?:[^\W\d]\w*|%)(?:\*\*-?\d\d?)?\)*"
 _GRAMMAR = re.compile(rf"(?:1/)?{_FACTOR}(?:[*/]{_FACTOR})*")
 
@@ -98,31 +94,12 @@ def unit(text: str) -> Unit:
 
 
 def _canonical(text: str) -> str:
-    for spelling in (text.strip(), _normalise(text)):
+    for spelling in (text.strip(), normalised(text)):
         if spelling in _table()["units"]:
             return spelling
         if spelling in _table()["aliases"]:
             return str(_table()["aliases"][spelling])
     return spelling
-
-
-def _normalise(text: str) -> str:
-    text = text.translate(_CHARACTERS).replace("°C", "degC").replace("°F", "degF").replace("°", "deg")
-    text = _SUPERSCRIPT.sub(_plain_exponent, text)
-    text = re.sub(r"\s*(\*\*|[*/()])\s*", r"\1", text.strip())
-    text = re.sub(r"\s+|(?<=\))(?=\w)", "*", text)
-    text = re.sub(r"(?<=[^\W\d])(-?\d+)(?!\w)", r"**\1", text)
-    text = _GLUED.sub(_unglued, text)
-    return "1" + text if text.startswith("/") else text
-
-
-def _plain_exponent(match: re.Match[str]) -> str:
-    return "**" + match[1].replace("⁻", "-") + "".join(_SUPERSCRIPTS[digit] for digit in match[2])
-
-
-def _unglued(match: re.Match[str]) -> str:
-    slash, first, second, power = match.groups(default="")
-    return f"/({first}*{second}{power})" if slash else f"{first}*{second}{power}"
 
 
 def _read_with_pint(canonical: str, typed: str) -> Unit:
@@ -227,7 +204,7 @@ def parse_quantity(value: int | float | str, unit_text: str) -> float:
 @lru_cache(maxsize=4096)
 def _parse_text(text: str, unit_text: str) -> float:
     wanted = unit(unit_text)
-    number, own = _split(text, wanted)
+    number, own = number_and_unit(text, wanted)
     given = wanted if own in ("", wanted.text) else _own_unit(own, wanted)
     if given.kind != wanted.kind:
         raise UnitError(f"{text.strip()} is {kind_name(given)}; {_needed(wanted)}.")
@@ -242,7 +219,11 @@ def _own_unit(text: str, wanted: Unit) -> Unit:
         raise UnitError(f"{error} {needed[0].upper()}{needed[1:]}.") from None
 
 
-def _split(text: str, wanted: Unit) -> tuple[float, str]:
+def number_and_unit(text: str, wanted: Unit | None = None) -> tuple[float, str]:
+    """Split a quantity into its number and the text of its unit, which is "" where it has none ("3", "3 mm", "3 * mm").
+
+    Raises UnitError, which names the `wanted` unit, for a text that does not begin with one finite number.
+    """
     text = text.strip().replace("−", "-")
     match = _QUANTITY.fullmatch(text)
     if re.match(r"[+-]?[0-9]*,[0-9]", text) or (match and re.match(r",\s*[0-9]", match[2])):
@@ -267,7 +248,9 @@ def kind_name(of: Unit) -> str:
     return str(family["name"]) if family else f"a quantity in {of.si}"
 
 
-def _needed(wanted: Unit) -> str:
+def _needed(wanted: Unit | None) -> str:
+    if wanted is None:
+        return "a number with a unit is needed, for example 90 mm"
     family = _family(wanted.kind, wanted.si)
     typical = float(f"{wanted.from_si(family['example'] if family else wanted.factor):.1g}")
     example = f"{typical:.15g}" + ("" if wanted.text == "1" else f" {wanted.text}")

@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 import os
 import pty
+import re
 import subprocess
 import sys
 from pathlib import Path
@@ -82,6 +83,35 @@ def test_constraints_that_drop_all_variants_are_told_before_anything_is_written(
         "constraints: the constraints drop all 2 variants of the sample. Loosen one of them" in capfd.readouterr().err
     )
     assert not (tmp_path / "out").exists()
+
+
+UNDEFINED = "constraints: [\"'1 kN*m' / (mechanisms.a.force - '2 kN') < '5 m'\", \"mechanisms.a.force < '{limit}'\"]\n"
+NO_VALUE = "1 of them because a constraint has no value there (a division by zero, or the root of a number below zero)"
+
+
+def test_variants_for_which_a_constraint_has_no_value_are_dropped_and_counted(tmp_path: Path, capfd: Capture) -> None:
+    out = tmp_path / "out"
+    text = varied("[1 kN, 2 kN, 3 kN, 4 kN]", rest=UNDEFINED.format(limit="3.5 kN"))
+    assert run("batch", files(tmp_path, text), "-o", out) == 0
+    assert f"; the constraints drop 2 more of the sample, {NO_VALUE}." in capfd.readouterr().err
+    assert [row["variant"] for row in rows(out)] == [0, 2]
+    page = re.sub(r"<[^>]+>", " ", (out / "summary.html").read_text("utf-8"))
+    assert len(re.findall(rf"2\s+variants, {re.escape(NO_VALUE)}", page)) == 2
+    assert run("batch", "--resume", out) == 0
+    assert f"drop 2 more of the sample, {NO_VALUE}." in capfd.readouterr().err
+
+
+def test_variants_that_another_constraint_drops_anyway_are_not_counted_again(tmp_path: Path) -> None:
+    text = varied("[1 kN, 2 kN]", rest=UNDEFINED.format(limit="1.5 kN"))
+    assert run("batch", files(tmp_path, text), "-o", tmp_path / "out", "--quiet") == 0
+    counts = json.loads((tmp_path / "out" / "study.json").read_text())["counts"]
+    assert counts["dropped"] == 1 and "without_value" not in counts
+
+
+def test_constraints_without_any_value_say_so(tmp_path: Path, capfd: Capture) -> None:
+    text = varied("[2 kN, 4 kN]", rest=UNDEFINED.format(limit="3.5 kN"))
+    assert run("batch", files(tmp_path, text), "-o", tmp_path / "out") == 2
+    assert f"drop all 2 variants of the sample, {NO_VALUE}. Loosen one of them" in capfd.readouterr().err
 
 
 def test_a_huge_grid_says_its_size_and_asks(tmp_path: Path, capfd: Capture) -> None:

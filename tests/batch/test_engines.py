@@ -24,7 +24,7 @@ ROOT = Path(__file__).parents[2]
 RUN = """
 import sys
 from pathlib import Path
-from diecut_report.batch.engines import Pool, results
+from diecut_report.study.execution.engines import Pool, results
 from tests.batch.made_store import sleeps, warm
 if __name__ == "__main__":
     folder = Path(sys.argv[1])

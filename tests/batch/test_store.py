@@ -37,7 +37,7 @@ ROOT = Path(__file__).parents[2]
 WRITER = """
 import sys
 from pathlib import Path
-from diecut_report.batch.store import Store
+from diecut_report.study.storage.store import Store
 from tests.batch.made_store import part
 store = Store.open(Path(sys.argv[1]))
 with store.lock():
@@ -49,7 +49,7 @@ with store.lock():
 HOLDER = """
 import sys, time
 from pathlib import Path
-from diecut_report.batch.store import Store
+from diecut_report.study.storage.store import Store
 with Store.open(Path(sys.argv[1])).lock():
     print("held", flush=True)
     time.sleep(600)

@@ -15,10 +15,14 @@ from typing import Any
 
 from diecut_report.errors import Problem, UserError
 from diecut_report.report.number_format import number
-from diecut_report.study.analysis.stored_variants import FIXED, Column, Stored, opened
+from diecut_report.study.analysis.stored_variants import (
+    FIXED,
+    Column,
+    Stored,
+    opened,
+)
 from diecut_report.study.analysis.variant_config import variant_config
-from diecut_report.study.conditions.where import condition
-from diecut_report.study.conditions.where_words import Condition, column_named
+from diecut_report.study.conditions.where import Condition, column_named, condition
 from diecut_report.study.storage.state import read_state
 
 FORMATS = ("table", "csv", "json")
@@ -65,15 +69,9 @@ def variants(
     ``sort`` names columns, parted by commas, with - for the greatest first; without ``columns`` a table shows the varied
     quantities and what the question names. UserError in words for what cannot be asked.
     """
-    import duckdb
-
     with opened(directory) as stored:
         question = _question(stored, where, sort, top, format, columns)
-        try:
-            yield from {"table": _table, "csv": _csv, "json": _json}[format](stored, question, width)
-        except (duckdb.OutOfRangeException, duckdb.ConversionException) as error:
-            words = f"The condition cannot be calculated for every variant ({str(error).splitlines()[0]})."
-            raise UserError(Problem(words)) from error
+        yield from {"table": _table, "csv": _csv, "json": _json}[format](stored, question, width)
 
 
 def unfinished(directory: Path) -> Iterator[str]:

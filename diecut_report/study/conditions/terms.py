@@ -9,31 +9,40 @@ from diecut_report.config.loader import Config
 from diecut_report.config.references import PRESS, Target
 from diecut_report.contract.inputs import Quantity
 from diecut_report.expressions import Formula, Node, transform
-from diecut_report.study.conditions.constraint_parts import ConstraintError
 from diecut_report.study.conditions.constraints import Term
-from diecut_report.study.definition.base_inputs import MECHANISMS, Input, UnknownPath, find_input
+from diecut_report.study.conditions.words import ConditionError
+from diecut_report.study.definition.base_inputs import (
+    MECHANISMS,
+    Input,
+    UnknownPath,
+    find_input,
+)
 
 
 def term(base: Config, varied: Mapping[str, Input], path: str) -> Term:
-    """What a path stands for; ConstraintError in words where it is not known before the calculation.
+    """What a path stands for; ConditionError in words where it is not known before the calculation.
 
     ``base`` has stand-ins for what is varied, so that its references are those of every variant.
     """
     if path in varied:
-        return Term(varied[path].unit, Node("sym", (path,)))
+        return Term(varied[path].unit, Node("sym", (path,)), _display(varied[path]))
     try:
         asked = find_input(base, path)
     except UnknownPath as fault:
-        raise ConstraintError(f"“{path}”: {fault}") from None
+        raise ConditionError(f"“{path}”: {fault}") from None
     target = base.links.get((asked.instance, *asked.key))
     if target is None:
-        return Term(asked.unit, Node("qty", (_fixed(base, asked),)))
+        return Term(asked.unit, Node("qty", (_fixed(base, asked),)), _display(asked))
     return _referred(base, varied, asked, target)
+
+
+def _display(asked: Input) -> str:
+    return asked.meta.unit if isinstance(asked.meta, Quantity) else ""
 
 
 def _referred(base: Config, varied: Mapping[str, Input], asked: Input, target: Target) -> Term:
     if target.result is not None or target.is_broken:
-        raise ConstraintError(
+        raise ConditionError(
             f"“{asked.path}” refers to ${{{target.path}}}, which is known only after calculating; "
             f"constraints stand between inputs. Sort out such variants by a check, or when asking the results."
         )
@@ -42,7 +51,7 @@ def _referred(base: Config, varied: Mapping[str, Input], asked: Input, target: T
     if target.formula is None:
         return found
     assert isinstance(asked.meta, Quantity), "only quantities have a default that the press gives"
-    return Term(asked.meta.parsed_unit.si, _applied(target.formula, found.node))
+    return Term(asked.meta.parsed_unit.si, _applied(target.formula, found.node), _display(asked))
 
 
 def _applied(formula: Formula, to: Node) -> Node:
@@ -58,5 +67,5 @@ def _fixed(base: Config, asked: Input) -> float | str:
     name = ".".join(part for part in asked.key if isinstance(part, str))
     value = instance.value(asked.key) if name in instance.given else None
     if value is None:
-        raise ConstraintError(f"“{asked.path}” has no value in the base; give it there, or vary it.")
+        raise ConditionError(f"“{asked.path}” has no value in the base; give it there, or vary it.")
     return str(value).lower() if isinstance(value, bool) else value if isinstance(value, str) else float(value)

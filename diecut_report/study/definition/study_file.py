@@ -13,9 +13,9 @@ from diecut_report.config.loader import Config, as_typed, load_config
 from diecut_report.config.validation import Place, validate
 from diecut_report.config.yaml_tree import Tree
 from diecut_report.errors import Problem, UserError
-from diecut_report.study.conditions.constraint_parts import ConstraintError
 from diecut_report.study.conditions.constraints import Constraint, parse
 from diecut_report.study.conditions.terms import term
+from diecut_report.study.conditions.words import ConditionError
 from diecut_report.study.definition.base_inputs import Input
 from diecut_report.study.definition.form import Document, SampleForm
 from diecut_report.study.definition.sample import Sampled, SampleReader, misused
@@ -140,8 +140,8 @@ class _Reader:
     def _constraints(self, sampled: Sampled) -> Iterator[Constraint]:
         for index, text in enumerate(self.data.get("constraints", [])):
             try:
-                yield parse(text, lambda path: term(sampled.bases[0], sampled.inputs, path))
-            except ConstraintError as fault:
+                yield parse(text, lambda path: term(sampled.bases[0], sampled.inputs, path), sampled.inputs)
+            except ConditionError as fault:
                 self.problems.append(self.place.problem(("constraints", index), str(fault)))
 
     def _results(

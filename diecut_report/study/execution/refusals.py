@@ -2,17 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-
-import numpy as np
-
 from diecut_report.errors import Problem, UserError
-from diecut_report.expressions import Array
+from diecut_report.study.conditions.constraints import why_dropped
 from diecut_report.study.definition.study_file import Study
-from diecut_report.study.execution.worker import allowed
+from diecut_report.study.execution.dropped_variants import judged_rows, without_value
 
 LARGEST = 10_000_000  # rows that are calculated without being asked for twice
-ROWS = 65_536  # at a time
 
 
 def refuse_huge(study: Study, agreed: bool) -> None:
@@ -27,14 +22,8 @@ def refuse_huge(study: Study, agreed: bool) -> None:
 
 def refuse_empty(study: Study) -> None:
     """At least one variant must be left by the constraints."""
-    if not study.constraints or any(kept.any() for kept in _kept(study)):
+    if not study.constraints or any(found.holds.any() for found in judged_rows(study)):
         return
-    words = f"the constraints drop all {study.sample.count:,} variants of the sample. Loosen one of them, or vary other values."
+    why = why_dropped({"without_value": without_value(study)})
+    words = f"the constraints drop all {study.sample.count:,} variants of the sample{why}. Loosen one of them, or vary other values."
     raise UserError(Problem(words, str(study.file), path="constraints"))
-
-
-def _kept(study: Study) -> Iterator[Array]:
-    """Which rows are left, some at a time."""
-    for start in range(0, study.sample.count, ROWS):
-        stop = min(start + ROWS, study.sample.count)
-        yield np.asarray(allowed(study, study.sample.rows(start, stop), stop - start))

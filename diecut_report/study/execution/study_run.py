@@ -17,7 +17,15 @@ from diecut_report.contract.inputs import Quantity
 from diecut_report.study.definition.base_inputs import Input
 from diecut_report.study.definition.study_file import Study
 from diecut_report.study.execution import worker
-from diecut_report.study.execution.engines import Engine, InProcess, Pool, Warm, dask_cluster, results
+from diecut_report.study.execution.dropped_variants import without_value
+from diecut_report.study.execution.engines import (
+    Engine,
+    InProcess,
+    Pool,
+    Warm,
+    dask_cluster,
+    results,
+)
 from diecut_report.study.execution.result_columns import columns_of, curve_columns
 from diecut_report.study.storage.description import Column, Description, Source
 from diecut_report.study.storage.store import Store
@@ -80,7 +88,7 @@ def run_study(study: Study, directory: Path, where: Where, *, resume: bool, tell
                 store.note({"slow": slow, "seconds": before + time.monotonic() - began})
         finally:  # an interrupted run has spent its time too
             store.note({"slow": slow, "seconds": before + time.monotonic() - began})
-        store.finish({})
+        store.finish({}, without_value(study))
     return Outcome(store, store.state["counts"], slow)
 
 

@@ -12,6 +12,7 @@ import numpy as np
 
 from diecut_report.config.discovery import Discovery
 from diecut_report.expressions import Array
+from diecut_report.study.conditions.numpy_emitter import Judged
 from diecut_report.study.definition.study_file import Study, load_study
 from diecut_report.study.execution.process_settings import settle
 from diecut_report.study.execution.variant_rows import calculate_rows
@@ -54,7 +55,7 @@ def load(study: bytes, files: Mapping[str, bytes], plugins: Sequence[str]) -> St
 def calculate(study: Study, chunk: Chunk) -> Done:
     """The variants of a chunk that the constraints leave: their inputs, outputs, verdicts and reasons."""
     given = study.sample.rows(chunk.start, chunk.stop)
-    kept = np.flatnonzero(allowed(study, given, chunk.stop - chunk.start))
+    kept = np.flatnonzero(judged(study, given, chunk.stop - chunk.start).holds)
     given = {path: _taken(values, kept) for path, values in given.items()}
     columns: dict[str, Array] = {"variant": chunk.start + kept}
     columns |= {path: np.asarray(values, dtype=_kind(values)) for path, values in given.items()}
@@ -65,12 +66,13 @@ def calculate(study: Study, chunk: Chunk) -> Done:
     return Done(columns | verdicts, rows.slow)
 
 
-def allowed(study: Study, given: Mapping[str, Values], count: int) -> Array:
-    """Which rows keep all constraints."""
-    held = np.ones(count, dtype=bool)
+def judged(study: Study, given: Mapping[str, Values], count: int) -> Judged:
+    """Return which rows keep all constraints, and which break one; the others have a constraint without a value."""
+    holds, fails = np.ones(count, dtype=bool), np.zeros(count, dtype=bool)
     for constraint in study.constraints:
-        held &= constraint.holds(given)
-    return held
+        found = constraint.judged(given)
+        holds, fails = holds & found.holds, fails | found.fails
+    return Judged(holds, fails)
 
 
 def _taken(values: Values, rows: Array) -> Values:

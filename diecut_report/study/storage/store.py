@@ -188,11 +188,15 @@ class Store:
         """Add facts of the run (seconds, …) to study.json."""
         state.write_state(self.directory, self.state | dict(facts))
 
-    def finish(self, facts: Mapping[str, Any]) -> None:
-        """Mark the results as complete, with their counts and facts of the run; all parts must be there."""
+    def finish(self, facts: Mapping[str, Any], without_value: int = 0) -> None:
+        """Mark the results as complete, with their counts and facts of the run; all parts must be there.
+
+        ``without_value``: how many of the rows that are not stored were dropped as a constraint has no value for them.
+        """
         missing = set(range(self.description.parts)) - self.parts().keys()
         if missing:
             raise RuntimeError(f"{len(missing)} parts are missing, such as {min(missing)}")
         counts = self.counts()
         counts["dropped"] = counts["sample"] - counts["variants"]
+        counts |= {"without_value": without_value} if without_value else {}
         self.note({**facts, "parts": self.description.parts, "counts": counts, "state": "complete"})

@@ -7,6 +7,7 @@ from typing import Any
 
 from diecut_report.config import yaml_tree
 from diecut_report.study.analysis.stored_variants import Column, Stored
+from diecut_report.study.conditions.constraints import why_dropped
 from diecut_report.study.summary import best, data, influence, matrix, pareto, passing_values, questions, verdict_counts
 from diecut_report.study.summary.data import Reason, Spread, Utilisation
 from diecut_report.study.summary.figures import Figure, Figures
@@ -171,7 +172,7 @@ def _facts(stored: Stored, total: int) -> list[tuple[str, str]]:
     study, counts = stored.study, stored.study.get("counts") or {}
     facts = [("Variants calculated", counted(total, "variant")), ("Varied", counted(len(stored.varied), "input"))]
     if counts.get("dropped"):
-        facts.append(("Left out by constraints", counted(int(counts["dropped"]), "variant")))
+        facts.append(("Left out by constraints", counted(int(counts["dropped"]), "variant") + why_dropped(counts)))
     facts += _margin(stored)
     seconds = float(study.get("seconds") or 0)
     if seconds > 0:

@@ -7,6 +7,7 @@ from typing import Any, NamedTuple
 
 from diecut_report.config import yaml_tree
 from diecut_report.study.analysis.stored_variants import Stored
+from diecut_report.study.conditions.constraints import why_dropped
 from diecut_report.study.summary.quantity_names import counted, named
 
 METHODS = {
@@ -56,7 +57,9 @@ def _facts(stored: Stored, tree: yaml_tree.Tree, data: Mapping[str, Any]) -> lis
     if "sample" in counts and counts["sample"] != sample.get("count"):
         facts.append(("Variants of the sample", counted(int(counts["sample"]), "variant")))
     if data.get("constraints"):
-        facts.append(("Dropped by the constraints", counted(int(counts.get("dropped") or 0), "variant")))
+        facts.append(
+            ("Dropped by the constraints", counted(int(counts.get("dropped") or 0), "variant") + why_dropped(counts))
+        )
     goals = [f"{way} {name}" for each in data.get("objectives") or () for way, name in each.items()]
     return [*facts, *([("Objectives", "; ".join(goals))] if goals else [])]
 

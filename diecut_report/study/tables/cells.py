@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import re
 from bisect import bisect_right
 from dataclasses import dataclass
 from typing import Any
@@ -10,10 +9,14 @@ from typing import Any
 import numpy as np
 
 from diecut_report.expressions import Array
-from diecut_report.quantities.units import UnitError, parse_quantity, unit
+from diecut_report.quantities.units import (
+    UnitError,
+    number_and_unit,
+    parse_quantity,
+    unit,
+)
 
 EMPTY = "the cell is empty (or a formula without a stored value); every row needs a value"
-_NUMBER = re.compile(r"\s*[-+−]?[0-9.]+(?:[eE][-+−]?[0-9]+)?\s*\*?\s*(.*?)\s*", re.DOTALL)
 
 Faults = list[tuple[int, str]]
 """Places of cells, counted from 0, and what is wrong with them."""
@@ -134,7 +137,7 @@ def _read(item: Any, unit_text: str) -> tuple[float, str] | str:
         return f"{item} is no number (the cell holds a {type(item).__name__}); format the cell as a number"
     try:
         value = parse_quantity(item, unit_text)
-        matched = _NUMBER.fullmatch(item) if isinstance(item, str) else None
-        return value, unit(matched[1]).text if matched and matched[1] else ""
+        own = number_and_unit(item)[1] if isinstance(item, str) else ""
+        return value, unit(own).text if own else ""
     except UnitError as error:
         return str(error)

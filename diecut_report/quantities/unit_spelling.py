@@ -1,0 +1,32 @@
+"""The usual spellings of units ("kg·m²", "kg m^2", "Nm", "m/s2") and the one that the program looks up ("kg*m**2")."""
+
+from __future__ import annotations
+
+import re
+
+_CHARACTERS = str.maketrans(
+    {"·": "*", "⋅": "*", "×": "*", "∙": "*", "µ": "u", "μ": "u", "−": "-", "∕": "/", "⁄": "/", "º": "°", "^": "**"}
+)
+_SUPERSCRIPTS = {"⁰": "0", "¹": "1", "²": "2", "³": "3", "⁴": "4", "⁵": "5", "⁶": "6", "⁷": "7", "⁸": "8", "⁹": "9"}
+_SUPERSCRIPT = re.compile("(⁻?)([" + "".join(_SUPERSCRIPTS) + "]+)")
+_GLUED = re.compile(r"(/?)(?<!\w)((?:[kMm]?N|kg|g)(?=mm|cm|m))(m|mm|cm)(\*\*-?\d+)?(?!\w)")
+
+
+def normalised(text: str) -> str:
+    """Return a unit's text in the one spelling that the table of units and pint know."""
+    text = text.translate(_CHARACTERS).replace("°C", "degC").replace("°F", "degF").replace("°", "deg")
+    text = _SUPERSCRIPT.sub(_plain_exponent, text)
+    text = re.sub(r"\s*(\*\*|[*/()])\s*", r"\1", text.strip())
+    text = re.sub(r"\s+|(?<=\))(?=\w)", "*", text)
+    text = re.sub(r"(?<=[^\W\d])(-?\d+)(?!\w)", r"**\1", text)
+    text = _GLUED.sub(_unglued, text)
+    return "1" + text if text.startswith("/") else text
+
+
+def _plain_exponent(match: re.Match[str]) -> str:
+    return "**" + match[1].replace("⁻", "-") + "".join(_SUPERSCRIPTS[digit] for digit in match[2])
+
+
+def _unglued(match: re.Match[str]) -> str:
+    slash, first, second, power = match.groups(default="")
+    return f"/({first}*{second}{power})" if slash else f"{first}*{second}{power}"

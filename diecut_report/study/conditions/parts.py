@@ -1,0 +1,287 @@
+"""The parts of a condition and how they join: the kind of each quantity is judged, and the words where it does not fit."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from functools import reduce
+from typing import Literal
+
+import numpy as np
+
+from diecut_report.quantities.units import (
+    BASE_UNITS,
+    DIMENSIONS,
+    Kind,
+    Unit,
+    UnitError,
+    kind_name,
+    number_and_unit,
+    parse_quantity,
+    pretty,
+    unit,
+)
+from diecut_report.study.conditions.numpy_emitter import numbers
+from diecut_report.study.conditions.tree import (
+    Call,
+    Chain,
+    Compared,
+    Joined,
+    Like,
+    Named,
+    Negative,
+    Node,
+    Not,
+    Number,
+    Power,
+    Text,
+    names,
+)
+from diecut_report.study.conditions.words import ConditionError
+
+MAX_EXPONENT = 20
+NUMBER: Kind = (0.0,) * len(DIMENSIONS)
+ANGLE = DIMENSIONS.index("angle")
+
+
+@dataclass(frozen=True)
+class Name:
+    """What a name stands for: a number in its SI ``unit``, a text, or a truth; ``display`` is the unit that people read ("" if unknown)."""
+
+    name: str
+    holds: Literal["number", "text", "truth"]
+    unit: str = "1"
+    display: str = ""
+
+    @property
+    def is_read_in_si(self) -> bool:
+        """Whether people read it in SI, so that a number beside it needs no unit."""
+        return self.unit == (self.display or "1")
+
+
+@dataclass(frozen=True)
+class Part:
+    """A part of a condition and its place: a quantity of a kind, a text, a condition, or what stands in quotes and may be either.
+
+    A ``bare`` quantity is made of numbers without units. In the ``loose`` product of quantities (angular speed times radius)
+    radians may be left out. ``name`` is what it names or scales, ``typed`` what messages call it.
+    """
+
+    node: Node
+    what: Literal["quantity", "text", "condition", "quoted"]
+    place: int
+    kind: Kind = NUMBER
+    bare: bool = False
+    loose: bool = False
+    name: Name | None = None
+    typed: str = ""
+
+    @property
+    def shown(self) -> str:
+        """What messages call it."""
+        return self.typed or "the calculated side"
+
+
+def number(value: float, place: int) -> Part:
+    """Return a plain number as a part."""
+    if not np.isfinite(value):
+        raise ConditionError("the condition holds a number that is too large to calculate with.", place)
+    return Part(Number(value), "quantity", place, bare=True, typed=f"{value:g}")
+
+
+def named(name: Name, place: int) -> Part:
+    """Return what a name stands for as a part."""
+    node = Named(name.name, name.holds)
+    if name.holds == "number":
+        return Part(node, "quantity", place, unit(name.unit).kind, name=name, typed=name.name)
+    return Part(node, "text" if name.holds == "text" else "condition", place, typed=name.name)
+
+
+def quantity(part: Part, beside: Part | None = None) -> Part:
+    """Return a part as something to calculate with; a bare number in quotes counts in the unit of the name beside it."""
+    if part.what == "quantity":
+        return part
+    if not isinstance(part.node, Text):
+        words = f"{part.shown} is a {part.what}; a quantity is needed to calculate with or to compare by size."
+        raise ConditionError(words, part.place)
+    name = beside.name if beside else None
+    wanted = unit(name.display or name.unit) if name else None
+    try:
+        own = number_and_unit(part.node.value, wanted)[1]
+        measure = unit(own) if own else wanted or unit("1")
+        value = parse_quantity(part.node.value, measure.text)
+    except UnitError as error:
+        raise ConditionError(str(error), part.place) from None
+    return Part(Number(value), "quantity", part.place, measure.kind, typed=part.typed)
+
+
+def condition(part: Part, needed_by: str) -> Node:
+    """Return the node of a part that is to be a condition; ``needed_by`` says why."""
+    if part.what == "text":
+        raise ConditionError(f"{part.shown} stands alone; compare it with a text in quotes.", part.place)
+    if part.what != "condition":
+        raise ConditionError(f"{part.shown} is not a condition; {needed_by}.", part.place)
+    return part.node
+
+
+def joined(word: Literal["and", "or"], nodes: Sequence[Node], place: int) -> Part:
+    """Return conditions joined by ``and`` or ``or``."""
+    return Part(nodes[0] if len(nodes) == 1 else Joined(word, tuple(nodes)), "condition", place)
+
+
+def contrary(node: Node, place: int) -> Part:
+    """Return the contrary of a condition."""
+    return Part(Not(node), "condition", place)
+
+
+# --- comparisons -----------------------------------------------------------------------------------------------------
+
+
+def compared(signs: Sequence[str], parts: Sequence[Part]) -> Part:
+    """Return a comparison, also of more than two parts: each with the next."""
+    pairs = zip(signs, parts, parts[1:], strict=False)
+    return joined("and", [_pair(sign, left, right) for sign, left, right in pairs], parts[0].place)
+
+
+def _pair(sign: str, left: Part, right: Part) -> Node:
+    whats = {left.what, right.what}
+    if whats == {"condition"} or ("text" in whats and whats <= {"text", "quoted"}):
+        return Compared(sign, left.node, right.node)
+    if "text" in whats:
+        other = next(part.what for part in (left, right) if part.what not in ("text", "quoted"))
+        words = f"{left.shown} and {right.shown} are a text and a {other}; put texts in quotes."
+        raise ConditionError(words, right.place)
+    left, right = quantity(left, right), quantity(right, left)
+    _alike(left, right, sign)
+    return Compared(sign, left.node, right.node)
+
+
+def like(text: Part, pattern: Part) -> Part:
+    """Return whether a text is like a pattern in quotes."""
+    if text.what != "text" or not isinstance(pattern.node, Text) or not isinstance(text.node, Named):
+        words = "'like' compares a column of words with a pattern in quotes, such as 'drive.%'."
+        raise ConditionError(words, pattern.place)
+    return Part(Like(text.node, pattern.node.value), "condition", text.place)
+
+
+# --- arithmetic ------------------------------------------------------------------------------------------------------
+
+
+def calculated(sign: str, left: Part, right: Part) -> Part:
+    """Return what two quantities give by ``+ - * /``."""
+    left, right = quantity(left, right if sign in "+-" else None), quantity(right, left if sign in "+-" else None)
+    node = _chained(sign, left.node, right.node)
+    bare = left.bare and right.bare
+    if sign in "+-":
+        whole = _alike(left, right, sign)
+        return replace(whole, node=node, place=left.place, bare=bare, loose=left.loose or right.loose, typed="")
+    turn = 1.0 if sign == "*" else -1.0
+    kind = tuple(round(a + turn * b, 9) for a, b in zip(left.kind, right.kind, strict=True))
+    scaled = left if right.bare else right if left.bare and sign == "*" else None
+    loose = scaled.loose if scaled else True
+    return Part(node, "quantity", left.place, kind, bare, loose, scaled.name if scaled else None)
+
+
+def _chained(sign: str, left: Node, right: Node) -> Chain:
+    """Return a longer chain where the left side is one of the same binding: trees do not get deep by long sums."""
+    group = "+-" if sign in "+-" else "*/"
+    if isinstance(left, Chain) and left.rest[0][0] in group:
+        return Chain(left.first, (*left.rest, (sign, right)))
+    return Chain(left, ((sign, right),))
+
+
+def negative(part: Part) -> Part:
+    """Return a quantity with the other sign."""
+    part = quantity(part)
+    if isinstance(part.node, Number):
+        return replace(part, node=Number(-part.node.value), typed=f"-{part.typed}")
+    return replace(part, node=Negative(part.node), typed="")
+
+
+def raised(base: Part, power: Part) -> Part:
+    """Return a power; its exponent must be known where the base has a unit."""
+    base, power = quantity(base), quantity(power)
+    if power.kind != NUMBER:
+        words = f"the exponent {power.shown} is {_kind(power)}; a number is needed."
+        raise ConditionError(words, power.place)
+    node = Power(base.node, power.node)
+    if base.kind == NUMBER:
+        return Part(node, "quantity", base.place, bare=base.bare and power.bare, loose=True)
+    exponent = _constant(power.node)
+    if exponent is None or not abs(exponent) <= MAX_EXPONENT:
+        words = f"the exponent of {base.shown} must be a number between -{MAX_EXPONENT} and {MAX_EXPONENT}."
+        raise ConditionError(words, power.place)
+    return Part(node, "quantity", base.place, tuple(round(exponent * share, 9) for share in base.kind), loose=True)
+
+
+def _constant(node: Node) -> float | None:
+    """Return the value of a number that names nothing, NaN where it has none."""
+    if names(node):
+        return None
+    with np.errstate(all="ignore"):
+        return float(numbers(node, lambda _: None))
+
+
+def called(name: str, given: Sequence[Part], place: int) -> Part:
+    """Return a function of quantities."""
+    parts = [quantity(part) for part in given]
+    if not parts or (len(parts) > 1 and name in ("abs", "sqrt")):
+        wanted = "one quantity" if name in ("abs", "sqrt") else "one quantity or more"
+        raise ConditionError(f"{name} takes {wanted}; {len(parts)} given.", place)
+    whole = reduce(lambda one, two: _alike(one, two, name), parts)
+    bare, loose = all(part.bare for part in parts), any(part.loose for part in parts)
+    made = replace(
+        whole, node=Call(name, tuple(part.node for part in parts)), place=place, bare=bare, loose=loose, typed=""
+    )
+    if name == "sqrt":
+        return replace(made, kind=tuple(0.5 * share for share in whole.kind), loose=True, name=None)
+    return made
+
+
+# --- kinds -----------------------------------------------------------------------------------------------------------
+
+
+def _alike(left: Part, right: Part, sign: str) -> Part:
+    """Return the side whose kind both have; a plain 0 is of any kind, and a number that of what people read in SI."""
+    for bare, other in ((left, right), (right, left)):
+        if bare.bare and not other.bare and (other.kind != NUMBER or other.name):
+            if _constant(bare.node) != 0.0 and not (other.name and other.name.is_read_in_si):
+                raise _bare(bare, other, left, right, sign)
+            return other
+    is_loose = left.loose or right.loose
+    if left.kind == right.kind or (is_loose and _without_angle(left.kind) == _without_angle(right.kind)):
+        return right if left.bare else left
+    raise ConditionError(f"{_unlike(left, right)}; {sign} needs the same kind on both sides.", right.place)
+
+
+def _bare(bare: Part, other: Part, left: Part, right: Part, sign: str) -> ConditionError:
+    """Return what is wrong with a number beside a quantity that needs its unit."""
+    kinds = f"{_unlike(left, right)}; " if left.kind != right.kind else ""
+    if other.name is None or not other.name.display:
+        words = f"{kinds}{sign} needs the same kind on both sides. Put the quantity with its unit in quotes."
+        return ConditionError(words, bare.place)
+    example = f"'{bare.typed or 5} {other.name.display}'"
+    words = f"{kinds}a number beside {other.name.name} needs {pretty(other.name.display)}, for example {example}."
+    return ConditionError(words, bare.place)
+
+
+def _unlike(left: Part, right: Part) -> str:
+    return " and ".join(f"{part.shown} is {_kind(part)}" for part in (left, right))
+
+
+def _without_angle(kind: Kind) -> Kind:
+    return (*kind[:ANGLE], 0.0, *kind[ANGLE + 1 :])
+
+
+def _kind(part: Part) -> str:
+    if part.kind == NUMBER:
+        return "a pure number"
+    own = unit(part.name.unit) if part.name else None
+    return kind_name(own if own and own.kind == part.kind else _si_unit(part.kind))
+
+
+def _si_unit(kind: Kind) -> Unit:
+    powers = [
+        base if power == 1 else f"{base}**{power:g}" for base, power in zip(BASE_UNITS, kind, strict=True) if power
+    ]
+    return Unit("", 1.0, "*".join(powers), kind)

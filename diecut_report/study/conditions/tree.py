@@ -1,0 +1,145 @@
+"""The tree of a condition: what was read and judged, with all quantities in SI.
+
+A value that is missing, and a calculated one that is not finite (a division by zero, the root of less than zero), is no value. A
+comparison with no value is neither true nor false, and ``and``, ``or``, ``not`` of such follow: ``false and`` anything is false,
+``true or`` anything is true, else it stays undecided. A condition picks the rows for which it is true.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass, fields
+from typing import Any, Literal
+
+# --- values ----------------------------------------------------------------------------------------------------------
+
+
+@dataclass(frozen=True)
+class Number:
+    """A number, in SI."""
+
+    value: float
+
+
+@dataclass(frozen=True)
+class Text:
+    """A text."""
+
+    value: str
+
+
+@dataclass(frozen=True)
+class Named:
+    """What a name stands for in each row; ``holds`` says what that is."""
+
+    name: str
+    holds: Literal["number", "text", "truth"]
+
+
+@dataclass(frozen=True)
+class Negative:
+    """A number with the other sign."""
+
+    of: Node
+
+
+@dataclass(frozen=True)
+class Chain:
+    """Numbers joined from left to right, either by ``+`` and ``-`` or by ``*`` and ``/``."""
+
+    first: Node
+    rest: tuple[tuple[str, Node], ...]
+
+
+@dataclass(frozen=True)
+class Power:
+    """A number raised to another one."""
+
+    base: Node
+    exponent: Node
+
+
+@dataclass(frozen=True)
+class Call:
+    """A function (abs, sqrt, min, max) of numbers."""
+
+    name: str
+    of: tuple[Node, ...]
+
+
+# --- conditions ------------------------------------------------------------------------------------------------------
+
+
+@dataclass(frozen=True)
+class Truth:
+    """A condition that always or never holds."""
+
+    value: bool
+
+
+@dataclass(frozen=True)
+class Compared:
+    """A comparison (``== != < <= > >=``) of two numbers, two texts or two conditions."""
+
+    sign: str
+    left: Node
+    right: Node
+
+
+@dataclass(frozen=True)
+class Like:
+    """Whether a text is like a pattern: ``%`` stands for any letters, ``_`` for one."""
+
+    text: Node
+    pattern: str
+
+
+@dataclass(frozen=True)
+class Missing:
+    """Whether there is no value, or a condition is undecided."""
+
+    of: Node
+
+
+@dataclass(frozen=True)
+class Joined:
+    """Conditions joined by ``and`` or by ``or``."""
+
+    word: Literal["and", "or"]
+    parts: tuple[Node, ...]
+
+
+@dataclass(frozen=True)
+class Not:
+    """The contrary of a condition."""
+
+    of: Node
+
+
+Node = Number | Text | Named | Negative | Chain | Power | Call | Truth | Compared | Like | Missing | Joined | Not
+
+
+def is_condition(node: Node) -> bool:
+    """Return whether a node is true, false or undecided, rather than a number or a text."""
+    return isinstance(node, Truth | Compared | Like | Missing | Joined | Not) or (
+        isinstance(node, Named) and node.holds == "truth"
+    )
+
+
+def is_text(node: Node) -> bool:
+    """Return whether a node is a text."""
+    return isinstance(node, Text) or (isinstance(node, Named) and node.holds == "text")
+
+
+def names(node: Node) -> tuple[str, ...]:
+    """Return the names in a tree, in order of appearance, each once."""
+    return tuple(dict.fromkeys(_names(node)))
+
+
+def _names(part: Node | tuple[Any, ...]) -> Iterator[str]:
+    if isinstance(part, Named):
+        yield part.name
+        return
+    for inner in part if isinstance(part, tuple) else (getattr(part, field.name) for field in fields(part)):
+        if isinstance(inner, tuple | Node):
+            yield from _names(inner)
