@@ -92,8 +92,12 @@ class Elevator(Inputs):
     bucket_volume: Annotated[float, Quantity("V", "L", "Volume of a bucket", gt=0)] = 14
     bucket_pitch: Annotated[float, Quantity("p", "mm", "Distance of the buckets", gt=0)] = 400
     filling: Annotated[float, Quantity("ψ", "%", "Share of a bucket that may be filled", gt=0, le=100)] = 75
-    scoop_start: Annotated[float, Quantity("φ_1", "deg", "Turn of the drum at which a bucket enters the waste", ge=0, lt=360)] = 100
-    scoop_end: Annotated[float, Quantity("φ_2", "deg", "Turn of the drum at which it leaves the waste", gt=0, le=360)] = 160
+    scoop_start: Annotated[
+        float, Quantity("φ_1", "deg", "Turn of the drum at which a bucket enters the waste", ge=0, lt=360)
+    ] = 100
+    scoop_end: Annotated[
+        float, Quantity("φ_2", "deg", "Turn of the drum at which it leaves the waste", gt=0, le=360)
+    ] = 160
     pretension: Annotated[float | None, Quantity("T_0", "N", "Pull of the take-up on each strand", ge=0)] = None
     chute_drop: Annotated[float, Quantity("h", "mm", "Chute's edge below the top of the head drum", gt=0)] = 600
     efficiency: Annotated[float, Quantity("η", "%", "Efficiency of gear and belt drive", gt=0, le=100)] = 90
@@ -101,8 +105,12 @@ class Elevator(Inputs):
     large_pulley: Annotated[float, Quantity("d_2", "mm", "Greater pulley of the belt drive", gt=0)] = 280
     wanted_centre: Annotated[float, Quantity("C_w", "mm", "Wanted distance of the pulleys' shafts", gt=0)] = 500
     allowable_pull: Annotated[float, Quantity("[T]", "kN", "Pull that the belt may carry", gt=0)] = 10
-    allowable_pulley_load: Annotated[float, Quantity("[F_i]", "kN", "Load that each pulley's shaft may carry", gt=0)] = 6
-    allowable_torque: Annotated[float | None, Quantity("[M]", "N*m", "Torque that the head shaft may carry", gt=0)] = None
+    allowable_pulley_load: Annotated[
+        float, Quantity("[F_i]", "kN", "Load that each pulley's shaft may carry", gt=0)
+    ] = 6
+    allowable_torque: Annotated[float | None, Quantity("[M]", "N*m", "Torque that the head shaft may carry", gt=0)] = (
+        None
+    )
     pulleys: Annotated[list[Pulley], Text("Pulleys that turn the belt, without the head drum")]
     backstop: Annotated[Backstop | None, Text("Backstop, which holds the belt when the drive stops")] = None
     n_points: Annotated[int, POINTS] = 360  # fmt: skip

@@ -24,7 +24,7 @@ Stage = Literal["load", "check_mechanism", "calc", "report", "study", ""]
 STAGES: tuple[Stage, ...] = ("load", "check_mechanism", "calc", "report", "study")
 
 MACHINE: dict[str, Any] = {
-    "kind": KIND, "capacity": "12 t/h", "height": "12 m", "head_speed": "46 rpm", "allowable_torque": "400 N*m",
+    "kind": KIND, "capacity": "12 t/h", "height": "12 m", "head_speed": "46 rpm", "allowable_torque": "400 N*m", "n_points": 36,
     "pulleys": [{"diameter": "400 mm", "journal_diameter": "60 mm"},
                 {"diameter": "200 mm", "journal_diameter": "40 mm", "wrap": "30 deg"}],
     "backstop": {"radius": "150 mm", "allowable_force": "2 kN"},
@@ -37,7 +37,7 @@ class Mistake:
 
     ``told`` is the first place that tells it, ``words`` are patterns that the message holds, beside the plugin's name.
     ``placed`` says that the message names the plugin's file and the line, or one near to it. ``kept`` says that the numbers
-    are calculated all the same. ``keys`` are changes of the machine. ``now`` says what happens as long as it is not so.
+    are calculated all the same. ``keys`` are changes of the machine.
     """
 
     what: str
@@ -48,7 +48,6 @@ class Mistake:
     placed: bool = True
     kept: bool = False
     keys: dict[str, Any] = field(default_factory=dict)
-    now: str = ""
 
     @property
     def source(self) -> str:
@@ -95,14 +94,20 @@ def tried(mistake: Mistake, folder: Path) -> Told:
 
 def _used(mistake: Mistake, folder: Path) -> Told:
     machine = {key: value for key, value in (MACHINE | mistake.keys).items() if value is not None}
-    base = {"schema_version": 1, "project": {"title": "Mistake"}, "press": {"name": "P"}, "mechanisms": {"lift": machine}}
+    base = {
+        "schema_version": 1,
+        "project": {"title": "Mistake"},
+        "press": {"name": "P"},
+        "mechanisms": {"lift": machine},
+    }
     (folder / "press.yaml").write_text(json.dumps(base), "utf-8")
     found = _command(folder, "calc", folder / "press.yaml", "-o", folder / "press.json")
     if found.code or mistake.told not in ("report", "study"):
         return found
     if mistake.told == "report":
         return _command(folder, "report", folder / "press.yaml", "-o", folder, "--format", "html,json")
-    study = {"schema_version": 1, "base": "press.yaml", "variables": {"mechanisms.lift.head_speed": {"values": [46, 50]}}}
+    study = {"schema_version": 1, "base": "press.yaml", "sample": {"method": "grid"},
+             "vary": {"mechanisms.lift.head_speed": ["46 rpm", "50 rpm"]}}  # fmt: skip
     (folder / "study.yaml").write_text(json.dumps(study), "utf-8")
     return _command(folder, "batch", folder / "study.yaml", "-o", folder / "out")
 
