@@ -9,10 +9,10 @@ from typing import Any
 import pytest
 
 from diecut_report.discovery import Discovery
-from diecut_report.engine import Calculation
+from diecut_report.engine import Calculation, calculate
 from diecut_report.testing import check_mechanism
 from diecut_report.verdicts import check_results
-from tests.machines import number
+from tests.machines import inputs, number
 from tests.mistakes.now import NOW
 from tests.mistakes.runner import KIND, MACHINE, PLUGIN, Mistake, faults, tried
 from tests.mistakes.table import TABLE
@@ -22,8 +22,6 @@ MECHANISM = Discovery([PLUGIN.parent]).mechanism(KIND)
 
 def elevator(**changes: Any) -> Calculation:
     """The machine of the table with changes."""
-    from tests.machines import calculate, inputs
-
     keys = {key: value for key, value in (MACHINE | changes).items() if key != "kind"}
     return calculate(MECHANISM, inputs(MECHANISM, keys))
 
@@ -34,7 +32,7 @@ def _param(mistake: Mistake) -> Any:
     return pytest.param(mistake, id=mistake.what.replace(" ", "_"), marks=marks)
 
 
-@pytest.mark.parametrize("mistake", map(_param, TABLE))
+@pytest.mark.parametrize("mistake", list(map(_param, TABLE)))
 def test_a_mistake_is_told(mistake: Mistake, tmp_path: Path) -> None:
     assert not faults(mistake, tried(mistake, tmp_path))
 
