@@ -1,0 +1,159 @@
+"""Inputs. The file of a plugin."""
+
+from __future__ import annotations
+
+from tests.mistakes.rows import load, tested
+
+INPUTS = (
+    load(
+        "an input without a Quantity",
+        'bulk_density: Annotated[float, Quantity("γ", "kg/m**3", "Density of the loose waste", gt=0)] = 120',
+        "bulk_density: float = 120",
+        "bulk_density",
+        "Quantity",
+    ),
+    load(
+        "a whole number without a Quantity",
+        "    height: Annotated[",
+        "    strands: int = 2\n    height: Annotated[",
+        "strands",
+        "Quantity",
+    ),
+    load(
+        "a yes or no without a Text",
+        "    height: Annotated[",
+        "    closed: bool = True\n    height: Annotated[",
+        "closed",
+        "Text",
+    ),
+    load("a default beyond its bounds", "gt=0, le=100)] = 75", "gt=0, le=100)] = 750", "filling", "750", "100"),
+    load("a default that is no number", "gt=0, le=100)] = 75", 'gt=0, le=100)] = "most"', "filling", "most"),
+    load(
+        "no value as default of what must have one", "gt=0, le=100)] = 75", "gt=0, le=100)] = None", "filling", "None"
+    ),
+    load(
+        "bounds that nothing keeps",
+        '"Share of a bucket that may be filled", gt=0, le=100',
+        '"Share of a bucket that may be filled", gt=100, le=0',
+        "filling",
+        "100",
+        "0",
+    ),
+    load("a default that the texts do not allow", '] = "rubber"', '] = "wood"', "lagging", "wood", "bare.*rubber"),
+    load(
+        "a free text in a lookup",
+        'lagging: Annotated[Literal["bare", "rubber"]',
+        "lagging: Annotated[str",
+        "head_friction",
+        "lagging",
+    ),
+    load(
+        "an optional input without its default",
+        'Quantity("T_0", "N", "Pull of the take-up on each strand", ge=0)] = None',
+        'Quantity("T_0", "N", "Pull of the take-up on each strand", ge=0)]',
+        "pretension",
+        "None",
+    ),
+    load(
+        "a quantity without a description",
+        'Quantity("q_b", "kg/m", "Mass of the belt", gt=0)',
+        'Quantity("q_b", "kg/m", gt=0)',
+        "belt_mass|line|description",
+        "description",
+    ),
+    load(
+        "a misspelt bound",
+        'Quantity("q_b", "kg/m", "Mass of the belt", gt=0)',
+        'Quantity("q_b", "kg/m", "Mass of the belt", min=0)',
+        "min",
+    ),
+    load("a text as a bound", '"Mass of the belt", gt=0', '"Mass of the belt", gt="0 kg/m"', "belt_mass", "0 kg/m"),
+    load("inputs that are no Inputs", "class Elevator(Inputs):", "class Elevator(Block):", "Elevator", "Inputs"),
+    load("inputs of no class at all", "class Elevator(Inputs):", "class Elevator:", "Elevator", "Inputs"),
+    load("like parts that are no Block", "class Pulley(Block):", "class Pulley:", "Pulley|pulleys", "Block"),
+    load("inputs as an object", "inputs=Elevator,", "inputs=Elevator(),", "Elevator|inputs"),
+    load(
+        "a whole number that is not declared whole",
+        "height: Annotated[float",
+        "height: Annotated[int",
+        "height",
+        "integer",
+    ),
+    load(
+        "an input that is named as a key of the program",
+        "    height: Annotated[",
+        '    kind: Annotated[float, Quantity("k", "1", "Kind")] = 1\n    height: Annotated[',
+        "kind",
+    ),
+    load(
+        "a temperature in degrees Celsius",
+        "    height: Annotated[",
+        '    warmth: Annotated[float, Quantity("t", "degC", "Warmth")] = 20\n    height: Annotated[',
+        "warmth",
+        "degC",
+    ),
+    tested(
+        "symbol and unit exchanged",
+        'Quantity("H", "m", "Height of lift"',
+        'Quantity("m", "H", "Height of lift"',
+        "height|hanging_weight",
+        placed=False,
+    ),
+    tested(
+        "an input that nothing takes",
+        "    height: Annotated[",
+        '    slope: Annotated[float, Quantity("β", "deg", "Slope", ge=0)] = 0\n    height: Annotated[',
+        "slope",
+    ),
+)
+
+MODULE = (
+    load("no MECHANISM", "MECHANISM = Mechanism(", "ELEVATOR = Mechanism(", "MECHANISM", placed=False),
+    load(
+        "another thing as MECHANISM", "MECHANISM = Mechanism(", "MECHANISM = dict(", "dict", "Mechanism", placed=False
+    ),
+    load(
+        "a kind that is not the file's name",
+        'kind="bucket_elevator"',
+        'kind="elevator"',
+        "'elevator'",
+        "bucket_elevator",
+        placed=False,
+    ),
+    load("no version", '    version="1.0",\n', "", "version"),
+    load("a number as version", 'version="1.0"', "version=1.0", "version", "text"),
+    load("a colon is missing", "class Pulley(Block):", "class Pulley(Block)", "SyntaxError", "expected ':'"),
+    load(
+        "a bracket is not closed",
+        'CHECKS = (\n    Check(id="filling"',
+        'CHECKS = (\n    Check((id="filling"',
+        "SyntaxError",
+    ),
+    load(
+        "a tab among spaces",
+        "    return volume_rate * bulk_density",
+        "    rate = volume_rate\n\treturn rate * bulk_density",
+        "IndentationError|TabError",
+    ),
+    load(
+        "a wrong indent",
+        "    return volume_rate * bulk_density",
+        "  rate = 1\n    return volume_rate * bulk_density",
+        "IndentationError",
+    ),
+    load("an unknown name of the api", "    Abscissa,\n", "    Abcissa,\n", "Abcissa", "Abscissa"),
+    load("a name that is not imported", "    Lookup,\n", "", "NameError", "Lookup", placed=False),
+    load(
+        "an import of the engine",
+        "import numpy as np\n",
+        "import numpy as np\nfrom diecut_report.engine import calculate\n",
+        r"diecut_report\.engine",
+        r"diecut_report\.api",
+    ),
+    load(
+        "an import of a library that is not there",
+        "import numpy as np\n",
+        "import numpy as np\nimport sympie\n",
+        "sympie",
+    ),
+)
