@@ -12,7 +12,7 @@ from pydantic import AfterValidator, Field, field_validator
 
 from diecut_report import yaml_tree
 from diecut_report.contract.forms import in_form
-from diecut_report.contract.inputs import Annotated, Block, CurveInput, Pending, Quantity, Text
+from diecut_report.contract.inputs import SI, Annotated, Block, CurveInput, Pending, Quantity, Text
 from diecut_report.discovery import Discovery, DuplicateKind, UnknownKind, said
 from diecut_report.errors import PluginError, Problem, UserError
 from diecut_report.instances import Instance
@@ -291,7 +291,7 @@ def _is_open(instance: Instance, node: Node, target: Target) -> bool:
 def _pending(instance: Instance, node: Node, target: Target) -> Any:
     curve = declared(instance.model, node[1:-1]) if len(node) > 2 else None
     if isinstance(curve, CurveInput):
-        return f"0 {curve.unit}"  # one value of a list, whose kind the linker has judged
+        return SI(0.0, curve.unit, target.path)  # one value of a list, whose kind the linker has judged
     return Pending(target.path, target.unit, target.is_curve)
 
 

@@ -44,15 +44,23 @@ class Unit:
     si: str
     kind: Kind
 
-    def to_si(self, value: float) -> float:
+    def to_si(self, value: float | Decimal) -> float:
         """SI value of `value` units, rounded once: 7.3 um give 7.3e-06 m, not 7.2999999999999996e-06."""
         multiplier, divisor = _ratio(self.factor)
-        return float(Decimal(repr(float(value))) * multiplier / divisor)
+        return float((value if isinstance(value, Decimal) else Decimal(repr(float(value)))) * multiplier / divisor)
 
     def from_si(self, value: float) -> float:
         """Number of units in an SI value, rounded once."""
+        return float(self._number(repr(float(value))))
+
+    def exactly(self, value: float) -> Decimal:
+        """Return the number of units with so many digits that `to_si` gives the value again, also where its shortest text is a tie."""
+        short = self._number(repr(float(value)))
+        return short if self.to_si(short) == value else self._number(value)
+
+    def _number(self, value: str | float) -> Decimal:
         multiplier, divisor = _ratio(self.factor)
-        return float(Decimal(repr(float(value))) * divisor / multiplier)
+        return Decimal(value) * divisor / multiplier
 
 
 @cache
@@ -71,7 +79,6 @@ def _table() -> dict[str, Any]:
 
 
 # --- reading units ---------------------------------------------------------------------------------------------------
-
 _CHARACTERS = str.maketrans(
     {"·": "*", "⋅": "*", "×": "*", "∙": "*", "µ": "u", "μ": "u", "−": "-", "∕": "/", "⁄": "/", "º": "°", "^": "**"}
 )
@@ -237,7 +244,7 @@ def _own_unit(text: str, wanted: Unit) -> Unit:
         raise UnitError(f"{error} {needed[0].upper()}{needed[1:]}.") from None
 
 
-def _split(text: str, wanted: Unit) -> tuple[float, str]:
+def _split(text: str, wanted: Unit) -> tuple[Decimal, str]:
     text = text.strip().replace("−", "-")
     match = _QUANTITY.fullmatch(text)
     if re.match(r"[+-]?[0-9]*,[0-9]", text) or (match and re.match(r",\s*[0-9]", match[2])):
@@ -247,7 +254,9 @@ def _split(text: str, wanted: Unit) -> tuple[float, str]:
     own = match[2].strip().removeprefix("*").strip()
     if re.match(r"[0-9.+-]", own) and not own.startswith("1/"):
         raise UnitError(f"{_shortened(text)} is not one number and a unit; {_needed(wanted)}.")
-    return float(match[1]), own
+    number = float(match[1])
+    # all digits count: a share written in percent may need more of them than a float has
+    return Decimal(match[1] if number and math.isfinite(number) else repr(number)), own
 
 
 def _finite(value: float, typed: str) -> float:

@@ -101,8 +101,14 @@ class _Rows(Run):
     def _sound(self, instance: Instance, key: KeyPath, value: SI) -> Any:
         """A column without the values that its key refuses: these machines get a reason, and the value of another one."""
         meta = declared(instance.model, key)
-        if not isinstance(meta, Quantity) or not isinstance(value.value, np.ndarray) or value.value.ndim == 0:
+        if not isinstance(value.value, np.ndarray) or value.value.ndim == 0:
             return value if not isinstance(value.value, np.ndarray) else SI(value.value[()], value.unit, value.told)
+        if not isinstance(meta, Quantity):  # one value of a curve given as a list
+            if value.value.size > 1:
+                raise NotOnArrays(
+                    f"{self.config.kinds[instance.name]}: a curve given as a list refers to {value.told}, which varies"
+                )
+            return SI(value.value.item(), value.unit, value.told)
         column = np.broadcast_to(value.value, (self.machines.count,)).astype(float)
         bad = np.flatnonzero(~meta.holds(column))
         for row in bad:

@@ -8,7 +8,7 @@ from typing import Annotated, Any
 
 from diecut_report.config import Config, Press, substituted
 from diecut_report.contract.forms import in_form
-from diecut_report.contract.inputs import Block, CurveInput, Pending, Quantity, Text, fields, list_inputs
+from diecut_report.contract.inputs import SI, Block, CurveInput, Pending, Quantity, Text, fields, list_inputs
 from diecut_report.errors import Problem, nearest
 from diecut_report.instances import Instance
 from diecut_report.ordering import ordered
@@ -195,4 +195,4 @@ def _not_together(base: Config, values: Mapping[Input, Any]) -> Iterator[Problem
 def _stand_in(instance: Instance, key: KeyPath, target: Target) -> Any:
     """What stands for a reference where only the keys are judged; the values of a listed curve must be numbers."""
     is_listed = declared(instance.model, key) is None
-    return f"0 {target.unit}" if is_listed else Pending(target.path, target.unit, target.is_curve)
+    return SI(0.0, str(target.unit), target.path) if is_listed else Pending(target.path, target.unit, target.is_curve)
