@@ -32,7 +32,7 @@ def document(run: Run) -> Data:
         "schema_version": 1,
         "program": {"name": "diecut-report", "version": __version__},
         "config": {
-            "file": tree.file.replace("\\", "/").rsplit("/", 1)[-1],
+            "file": tree.name.replace("\\", "/").rsplit("/", 1)[-1],
             "sha256": tree.sha256,
             "resolved": resolved(run),
             "source_text": tree.text,

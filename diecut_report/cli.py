@@ -18,7 +18,7 @@ from typing import TYPE_CHECKING, Any, NoReturn
 import click
 
 from diecut_report import __version__
-from diecut_report.cli_batch import batch, variant_files, variants
+from diecut_report.cli_batch import batch, source, variants
 from diecut_report.cli_parts import (
     BAD_INPUT,
     CHECK_FAILED,
@@ -129,8 +129,9 @@ def report(
     """Calculate and write NAME.html, NAME.pdf and NAME.json."""
     from diecut_report import pipeline
 
-    with Progress(quiet) as progress, redirect_stdout(sys.stderr), variant_files(config) as file:
-        outcome = pipeline.report(file, Discovery(folders), progress, folder, formats, language)
+    with Progress(quiet) as progress, redirect_stdout(sys.stderr):
+        discovery = Discovery(folders)
+        outcome = pipeline.report(source(config, discovery), discovery, progress, folder, formats, language)
     if not quiet:
         tell(f"written: {path}" for path in outcome.written)
     return _verdict(outcome, quiet)
@@ -148,8 +149,9 @@ def calc(config: Path, target: Path | None, folders: tuple[Path, ...], quiet: bo
 
     to_file = None if target == Path("-") else target
     # a plugin that prints does not spoil the JSON
-    with Progress(quiet) as progress, redirect_stdout(sys.stderr), variant_files(config) as file:
-        outcome, text = pipeline.calc(file, Discovery(folders), progress, to_file)
+    with Progress(quiet) as progress, redirect_stdout(sys.stderr):
+        discovery = Discovery(folders)
+        outcome, text = pipeline.calc(source(config, discovery), discovery, progress, to_file)
     if to_file is None:
         emit(text)
     return _verdict(outcome, quiet or to_file is None)

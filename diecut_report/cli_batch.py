@@ -3,9 +3,8 @@
 from __future__ import annotations
 
 import sys
-import tempfile
 from collections.abc import Iterator
-from contextlib import closing, contextmanager, redirect_stdout
+from contextlib import closing, redirect_stdout
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -16,6 +15,8 @@ from diecut_report.errors import nearest
 
 if TYPE_CHECKING:
     from diecut_report.batch.run import Outcome
+    from diecut_report.discovery import Discovery
+    from diecut_report.pipeline import Source
 
 EXPORTS = ("csv", "xlsx")
 RESULTS = "study.json"  # what makes a folder one of a study's results
@@ -133,17 +134,11 @@ def variants(
     return PASSED
 
 
-@contextmanager
-def variant_files(config: Path) -> Iterator[Path]:
-    """The configuration file that a command names: itself, or for DIR#ID one of a stored variant, ``DIR-ID.yaml``."""
+def source(config: Path, discovery: Discovery) -> Source:
+    """Return the configuration that a command names: its file, or for DIR#ID that of a stored variant, ``DIR-ID.yaml``."""
     folder, _, number = str(config).rpartition("#")
     if not folder or not number.isdigit() or config.exists() or not (Path(folder) / RESULTS).exists():
-        yield config
-        return
+        return config
     from diecut_report.batch.variant import variant_config
 
-    text = variant_config(Path(folder), int(number))
-    with tempfile.TemporaryDirectory() as place:
-        file = Path(place) / f"{Path(folder).resolve().name}-{number}.yaml"
-        file.write_text(text, encoding="utf-8")
-        yield file
+    return variant_config(Path(folder), int(number), discovery, f"{Path(folder).resolve().name}-{number}.yaml")

@@ -120,9 +120,9 @@ class Config:
     broken: Mapping[str, PluginError]
 
 
-def load_config(path: Path, discovery: Discovery) -> Config:
+def load_config(given: Path | Tree, discovery: Discovery) -> Config:
     """Read and validate a configuration; UserError with all its problems. A broken plugin is kept in ``broken``."""
-    tree = yaml_tree.load(path)
+    tree = given if isinstance(given, Tree) else yaml_tree.load(given)
     _refuse_study(tree)
     discovery.extend()
     reader = _Reader(tree, discovery)

@@ -31,7 +31,7 @@ LAYERS = [
     {"mechanics"},
     {"contract"},
     {"api"},
-    {"yaml_tree", "writing"},
+    {"yaml_tree", "yaml_values", "writing"},
     {"config", "discovery", "instances", "ordering", "references", "schema", "validation"},
     {"engine"},
     {"verdicts"},

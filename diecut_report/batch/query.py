@@ -15,7 +15,6 @@ from typing import Any
 
 from diecut_report.batch.state import read_state
 from diecut_report.batch.stored import FIXED, Column, Stored, opened
-from diecut_report.batch.variant import variant_config
 from diecut_report.batch.where import condition
 from diecut_report.batch.where_words import Condition, column_named
 from diecut_report.errors import Problem, UserError
@@ -199,4 +198,4 @@ def _counted(stored: Stored, question: Question, given: int) -> str:
     return words + (f"; {given} are shown (--top, --format csv)." if given < found else ".")
 
 
-__all__ = ["FORMATS", "variant_config", "variants"]
+__all__ = ["FORMATS", "variants"]

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import os
-import tempfile
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 from pathlib import Path
@@ -83,11 +82,9 @@ def _engine(store: Store, where: Where, reports: int) -> Engine:
 
 
 def _write(place: Place, report: Report) -> None:
-    with tempfile.TemporaryDirectory() as folder:
-        file = Path(folder) / f"{report.variant}.yaml"
-        file.write_text(variant_config(place.directory, report.variant), encoding="utf-8")
-        discovery = Discovery([Path(plugin) for plugin in place.plugins])
-        pipeline.report(file, discovery, lambda _: None, place.directory / FOLDER, list(FORMATS), None)
+    discovery = Discovery([Path(plugin) for plugin in place.plugins])
+    config = variant_config(place.directory, report.variant, discovery, f"{report.variant}.yaml")
+    pipeline.report(config, discovery, lambda _: None, place.directory / FOLDER, list(FORMATS), None)
 
 
 def wanted(study: Study, store: Store) -> Chosen:

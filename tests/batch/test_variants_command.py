@@ -11,9 +11,10 @@ from typing import Any
 
 import pytest
 
-from diecut_report.batch.query import variant_config, variants
+from diecut_report.batch.query import variants
 from diecut_report.batch.run import Where, run_study
 from diecut_report.batch.study import load_study
+from diecut_report.batch.variant import variant_config
 from diecut_report.cli import main
 from diecut_report.discovery import Discovery
 from diecut_report.errors import UserError
@@ -87,7 +88,7 @@ def _same(one: Any, two: Any, share: float) -> bool:
 def test_a_variant_that_cannot_exist_says_why(run: Path, capfd: pytest.CaptureFixture[str]) -> None:
     broken = next(row for row in rows(run) if row["status"] == "error")
     with pytest.raises(UserError) as caught:
-        variant_config(run, broken["variant"])
+        variant_config(run, broken["variant"], Discovery([]), "broken.yaml")
     assert f"Variant {broken['variant']} cannot be calculated: {broken['error']}" in str(caught.value)
     assert main(["report", f"{run}#{broken['variant']}", "-o", str(run / "never")]) == 2
     assert broken["error"] in capfd.readouterr().err
