@@ -65,6 +65,9 @@ def main(arguments: Sequence[str] | None = None) -> int:
     except UserError as error:
         tell(str(problem) for problem in error.problems)
         return BAD_INPUT
+    except PluginError as error:
+        tell([str(error)])
+        return PLUGIN_BROKE
     except Exception:
         traceback.print_exc()
         tell(["This is a fault of diecut-report itself. Please report it with the lines above and the configuration."])

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from diecut_report.cli_parts import CHECK_FAILED, INTERRUPTED, PASSED, coloured, common, emit, tell
+from diecut_report.cli_parts import CHECK_FAILED, INTERRUPTED, PASSED, PLUGIN_BROKE, coloured, common, emit, tell
 from diecut_report.errors import nearest
 
 if TYPE_CHECKING:
@@ -67,7 +67,8 @@ def batch(study: Path | None, folder: Path | None, resume: Path | None, jobs: in
         return INTERRUPTED
     if not quiet:
         tell(_told(outcome, target))
-    return CHECK_FAILED if outcome.is_failed else PASSED
+    tell(_broken(outcome))
+    return PLUGIN_BROKE if outcome.is_broken else CHECK_FAILED if outcome.is_failed else PASSED
 
 
 def _target(study: Path | None, folder: Path | None, resume: Path | None) -> Path:
@@ -92,8 +93,16 @@ def _told(outcome: Outcome, target: Path) -> Iterator[str]:
     yield from (
         f"{kind} cannot take arrays and was calculated machine by machine, which is slow: {why}"
         for kind, why in outcome.slow.items()
+        if not (outcome.is_broken and kind in outcome.broken)
     )
     yield from outcome.notes
+
+
+def _broken(outcome: Outcome) -> Iterator[str]:
+    for kind, why in outcome.broken.items():
+        yield f"plugin {kind!r} broke; variants that it broke for are in error, the others are kept: {why}"
+    for kind, why in outcome.broken_reports.items():
+        yield f"plugin {kind!r} broke {why}"
 
 
 def _reports(target: Path) -> str:
