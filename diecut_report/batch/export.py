@@ -9,9 +9,9 @@ from itertools import chain, islice
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from diecut_report.batch.files import replaced, room
 from diecut_report.batch.store import PARTS, Store
 from diecut_report.errors import Problem, UserError, nearest
+from diecut_report.writing import replaced, room
 
 if TYPE_CHECKING:
     from openpyxl import Workbook

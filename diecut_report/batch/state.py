@@ -15,8 +15,8 @@ from typing import Any
 from filelock import FileLock, Timeout
 
 from diecut_report.batch.description import Description, Source, as_data, changes, from_data, libraries
-from diecut_report.batch.files import in_words, write
 from diecut_report.errors import Problem, UserError
+from diecut_report.writing import in_words, write
 
 STATE, STUDY, BASE, TABLES = "study.json", "study.yaml", "base.yaml", "tables"
 LOCK, HOLDER = ".lock", ".lock.json"

@@ -22,7 +22,6 @@ from filelock import FileLock
 
 from diecut_report.batch import state
 from diecut_report.batch.description import VARIANT, Description
-from diecut_report.batch.files import in_words, remove_stale
 from diecut_report.batch.parts import (
     DAMAGED,
     Values,
@@ -35,6 +34,7 @@ from diecut_report.batch.parts import (
     write_part,
 )
 from diecut_report.errors import Problem, UserError
+from diecut_report.writing import in_words, remove_stale
 
 PARTS = "variants"
 NAME = re.compile(r"part-(\d+)\.parquet")
