@@ -83,7 +83,7 @@ def _formats(_: click.Context, __: click.Parameter, given: str) -> list[str]:
     asked = list(dict.fromkeys(part.strip().lower() for part in given.split(",") if part.strip()))
     unknown = [part for part in asked if part not in FORMATS]
     if unknown or not asked:
-        words = f"{unknown[0]!r} is no format{nearest(unknown[0], FORMATS)}" if unknown else "no format is named"
+        words = f"{unknown[0]!r} is not a format{nearest(unknown[0], FORMATS)}" if unknown else "no format is named"
         raise click.BadParameter(f"{words}; known: {', '.join(FORMATS)}.")
     return asked
 

@@ -27,7 +27,7 @@ def _exports(_: click.Context, __: click.Parameter, given: str) -> list[str]:
     unknown = [part for part in asked if part not in EXPORTS]
     if unknown:
         raise click.BadParameter(
-            f"{unknown[0]!r} is no format{nearest(unknown[0], EXPORTS)}; known: {', '.join(EXPORTS)}."
+            f"{unknown[0]!r} is not a format{nearest(unknown[0], EXPORTS)}; known: {', '.join(EXPORTS)}."
         )
     return asked
 

@@ -50,7 +50,7 @@ def _refuse_config(path: Path, keep: Path) -> None:
 def _beside(place: Path, content: bytes) -> Iterator[Path]:
     """The content in a temporary file beside ``place``; gone on leaving, with the folders made for it if nothing is in them.
 
-    What is no regular file (/dev/null, a pipe) stands for itself.
+    What is not a regular file (/dev/null, a pipe) stands for itself.
     """
     made: list[Path] = []
     temporary = place

@@ -86,7 +86,7 @@ def _no_instance(base: Config, path: str) -> str:
     first, *rest = path.split(".")
     names = [name for name in base.instances if name != PRESS]
     if first in names:
-        return f"is no path of an input; write {MECHANISMS}.{path}."
+        return f"is not a path of an input; write {MECHANISMS}.{path}."
     if first == MECHANISMS and rest:
         return f"there is no mechanism {rest[0]!r}{nearest(rest[0], names)}. Known: {', '.join(names)}."
     if first == "project":
@@ -94,7 +94,7 @@ def _no_instance(base: Config, path: str) -> str:
     known = [found for name in base.instances for found in known_paths(base, name)]
     alike = next((found for found in known if found.endswith(f".{rest[-1] if rest else first}")), None)
     near = f" (did you mean {alike!r}?)" if alike else nearest(path, known)
-    return f"is no path of an input{near}; paths are {MECHANISMS}.NAME.KEY and {PRESS}.KEY. Mechanisms: {', '.join(names)}."
+    return f"is not a path of an input{near}; paths are {MECHANISMS}.NAME.KEY and {PRESS}.KEY. Mechanisms: {', '.join(names)}."
 
 
 def _no_input(base: Config, instance: Instance, keys: list[str]) -> str:
@@ -106,7 +106,7 @@ def _no_input(base: Config, instance: Instance, keys: list[str]) -> str:
     if name in instance.results:
         return f"is an output {told}; only inputs can be varied{nearest(name, _known(instance))}."
     near = nearest(name, _known(instance))
-    return f"{name!r} is no input {told}{near}. Known: {', '.join(_known(instance))}."
+    return f"{name!r} is not an input {told}{near}. Known: {', '.join(_known(instance))}."
 
 
 def known_paths(base: Config, name: str) -> list[str]:

@@ -45,7 +45,7 @@ def read_description(folder: Path) -> Description:
     try:
         found = from_data(read_state(folder))
     except (KeyError, TypeError, ValueError, AttributeError) as error:
-        raise UserError(Problem(f"This is no state of a study: {error}", str(folder / STATE))) from error
+        raise UserError(Problem(f"This is not the state of a study: {error}", str(folder / STATE))) from error
     study, base, *tables = (_with_copy(source, path) for path, source in copies(folder, found).items())
     return replace(found, study=study, base=base, tables=tuple(tables))
 

@@ -85,7 +85,7 @@ def _row(stored: Stored, variant: int) -> list[tuple[Column, Any]]:
     return [(column, value) for column, value in zip(stored.varied, rows[0], strict=False) if value is not None]
 
 
-def _given(value: Any, column: Column) -> Scalar:
+def _given(value: Scalar, column: Column) -> Scalar:
     """Return the value as a configuration gives it; whole pure numbers (teeth) as integers."""
     if not isinstance(value, float):
         return value
