@@ -210,7 +210,7 @@ def test_rounding_makes_no_variant_better(tmp_path: Path) -> None:
     [
         (["batch"], "Name a study file, or a folder to continue with --resume DIR."),
         (["batch", "s.yaml", "--resume", "x", "-o", "y"], "--resume names the folder; leave -o out."),
-        (["batch", "s.yaml", "--format", "cvs"], "'cvs' is no format (did you mean 'csv'?); known: csv, xlsx."),
+        (["batch", "s.yaml", "--format", "cvs"], "'cvs' is not a format (did you mean 'csv'?); known: csv, xlsx."),
         (["batch", "absent.yaml"], "absent.yaml"),
         (["batch", "--resume", "absent"], "There are no results of a study here"),
         (["variants", "absent"], "There are no results of a study here"),

@@ -175,7 +175,7 @@ def test_cluster_without_workers_is_told(cluster: Cluster, tmp_path: Path, monke
 @pytest.mark.parametrize("address", ["foo://127.0.0.1:8786", "127.0.0.1", "nonsense", "tcp://127.0.0.1:port"])
 def test_address_that_is_none_is_told(tmp_path: Path, address: str) -> None:
     with (
-        pytest.raises(UserError, match=r"no address of a Dask scheduler.*tcp://HOST:PORT"),
+        pytest.raises(UserError, match=r"not an address of a Dask scheduler.*tcp://HOST:PORT"),
         dask_cluster(address, warm(tmp_path)),
     ):
         pass

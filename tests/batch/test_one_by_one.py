@@ -11,8 +11,8 @@ import pytest
 from diecut_report.cli.main import main
 from diecut_report.config.discovery import Discovery
 from diecut_report.study.execution.variant_rows import calculate_rows
-from tests.batch.studies import study
-from tests.configs import PLUGINS
+from tests.batch.studies import study, varied
+from tests.configs import LEVER, PLUGINS
 
 FOLDER = PLUGINS / "scalar"
 BASE = """\
@@ -49,3 +49,13 @@ def test_the_command_and_its_summary_tell_it(tmp_path: Path, capfd: pytest.Captu
     assert "ladder cannot take arrays and was calculated machine by machine, which is slow" in capfd.readouterr().err
     assert list(json.loads((tmp_path / "out" / "study.json").read_text())["slow"]) == ["ladder"]
     assert "ladder" in (tmp_path / "out" / "summary.html").read_text()
+
+
+def test_machines_that_refer_to_a_calculated_text_are_calculated_one_by_one(tmp_path: Path) -> None:
+    base = LEVER + "  b: {kind: lever, force: 1, remark: '${a.size}'}\n"
+    known = study(tmp_path, varied("[14, 30]", path="mechanisms.a.teeth"), base)
+    rows = calculate_rows(
+        known.base, {known.inputs["mechanisms.a.teeth"]: known.sample.rows(0, 2)["mechanisms.a.teeth"]}, 2
+    )
+    assert list(rows.errors) == [None, None]
+    assert list(rows.columns["a.size"]) == ["small", "large"]

@@ -573,6 +573,6 @@ def test_workbook_that_finds_no_room_leaves_nothing(tmp_path: Path, monkeypatch:
 
 def test_unknown_format_is_told_before_anything_is_written(tmp_path: Path) -> None:
     store = filled(tmp_path / "out")
-    with pytest.raises(UserError, match=r"'xls' is no format of a table \(did you mean 'xlsx'\?\)"):
+    with pytest.raises(UserError, match=r"'xls' is not a format of a table \(did you mean 'xlsx'\?\)"):
         export(store, ["csv", "xls"])
     assert not (tmp_path / "out/variants.csv").exists()
