@@ -24,7 +24,7 @@ Capture = pytest.CaptureFixture[str]
 
 def run(*arguments: object) -> int:
     """The exit code of a command, with the kinds for tests."""
-    return main.main([*map(str, arguments), "--plugins", str(GOOD)])
+    return main([*map(str, arguments), "--plugins", str(GOOD)])
 
 
 def program(*arguments: object, **options: object) -> subprocess.CompletedProcess[bytes]:
@@ -193,13 +193,13 @@ def test_schema_of_all_and_of_one_kind(capfd: Capture) -> None:
     ],
 )
 def test_wrong_usage_gives_2_with_words(arguments: list[str], words: str, capfd: Capture) -> None:
-    assert main.main(arguments) == 2
+    assert main(arguments) == 2
     out, err = capfd.readouterr()
     assert out == "" and words in err
 
 
 def test_help_and_version_go_to_standard_output(capfd: Capture) -> None:
-    assert main.main(["--version"]) == main.main(["report", "--help"]) == 0
+    assert main(["--version"]) == main(["report", "--help"]) == 0
     out, err = capfd.readouterr()
     assert __version__ in out and "--plugins DIR" in out and err == ""
 
@@ -418,7 +418,7 @@ def test_check_does_not_import_the_engine() -> None:
 
 
 def test_the_example_is_calculated_with_its_two_failing_checks(capfd: Capture) -> None:
-    assert main.main(["calc", str(EXAMPLE)]) == 1
+    assert main(["calc", str(EXAMPLE)]) == 1
     found = json.loads(capfd.readouterr().out)
     failing = [c["id"] for data in found["mechanisms"].values() for c in data["checks"] if c["status"] == "fail"]
     assert failing == ["wall_at_flat", "radius"]

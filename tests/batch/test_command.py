@@ -24,7 +24,7 @@ CHECKED = BASE.replace("force: 2 kN,", "force: 2 kN, allowable_moment: 450,")
 
 
 def run(*arguments: object) -> int:
-    return main.main([*map(str, arguments), "--plugins", str(GOOD)])
+    return main([*map(str, arguments), "--plugins", str(GOOD)])
 
 
 def files(folder: Path, text: str = STUDY, base: str = BASE) -> Path:
