@@ -13,7 +13,7 @@ from typing import Any
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 from scipy import stats
 
@@ -22,6 +22,7 @@ from diecut_report.batch.sampling import Sample, SampleError
 from diecut_report.batch.sensitivity import sobol_indices
 from diecut_report.batch.variables import Choice, Normal, Range, Triangular, Uniform, Variable
 from diecut_report.expressions import Array
+from tests.examples import examples
 
 SPEED = Range("drive.crank_speed", 4.0, 12.0, 5)
 RADIUS = Choice("cylinder.bore_radius", (0.055, 0.06, 0.065))
@@ -131,7 +132,7 @@ def test_whole_numbers_of_a_range_are_different_and_nearest_to_equal_steps(low: 
 
 @pytest.mark.parametrize("kind", SAMPLES)
 @given(st.integers(2, 60), st.data())
-@settings(max_examples=15)
+@examples(15)
 def test_chunks_give_the_same_rows_as_the_whole(kind: str, count: int, data: Any) -> None:
     sample = SAMPLES[kind](count)
     cuts = data.draw(st.lists(st.integers(0, sample.count), max_size=5).map(sorted))

@@ -7,13 +7,14 @@ from typing import Any
 
 import numpy as np
 import pytest
-from hypothesis import assume, example, given, settings
+from hypothesis import assume, example, given
 from hypothesis import strategies as st
 from scipy.optimize import minimize_scalar
 
 from diecut_report.engine import Calculation, Impossible
 from diecut_report.expressions import Array
 from diecut_report.mechanics.motion_laws import LAWS
+from tests.examples import examples
 from tests.machines import number
 from tests.plugins.steppers import CAMS, at, checks, slope, smooth_places, stepper
 
@@ -60,7 +61,7 @@ def test_the_rollers_stay_tangent_to_their_profiles(n: str, law: str) -> None:
     dwell=st.floats(60, 190),
 )
 @example(arm=150.0, roller=5.0, one=40.0, other=200.0, phi=0.0, dwell=60.0)  # a roller that stands still on its cam
-@settings(deadline=None, max_examples=60)
+@examples(60)
 def test_the_checks_tell_whether_the_rollers_touch_their_profiles_once(
     arm: float, roller: float, one: float, other: float, phi: float, dwell: float
 ) -> None:
@@ -140,7 +141,7 @@ def test_hollow_flanks_are_told_with_the_radius_that_no_wheel_may_exceed() -> No
 
 
 @given(one=st.floats(-360, 360), other=st.floats(-360, 360))
-@settings(deadline=None, max_examples=60)
+@examples(60)
 def test_arms_are_accepted_where_one_stays_left_and_the_other_right_of_the_pin(one: float, other: float) -> None:
     swing = np.radians(np.linspace(-10, 70, 2001))
     signs = [np.sign(np.sin(np.radians(angle) + swing)) for angle in (one, other)]

@@ -13,11 +13,9 @@ from diecut_report.engine import Calculation, calculate
 from diecut_report.mechanics import motion_laws
 from diecut_report.plugins.elastic_follower import MECHANISM
 from diecut_report.results import mechanism_results
-from diecut_report.testing import check_mechanism
 from tests.machines import inputs, number
 from tests.mechanics.closed_follower import WAVES, after, response, undamped_cycloidal
 from tests.plugins.followers import LAWS, SHAFT, at, checks, follower, integrated, law_stretches
-from tests.plugins.symbols import doubled
 
 EACH_LAW = pytest.mark.parametrize("law", LAWS)
 SLIDE: dict[str, Any] = {"inertia": None, "mass": "0.8 kg", "stiffness": "5200 N/m", "rise": "1.2 m"}
@@ -27,14 +25,6 @@ RATIOS = ("peak_ratio", "residual_ratio", "overshoot", "tuning_ratio", "natural_
 def stiffness(ratio: float, inertia: float = 0.8, rise_time: float = 0.2) -> float:
     """The stiffness that gives so many natural periods within the rise."""
     return float(inertia * (2 * np.pi * ratio / rise_time) ** 2)
-
-
-def test_the_declaration_keeps_the_plugin_contract() -> None:
-    check_mechanism(MECHANISM)
-
-
-def test_each_symbol_stands_for_one_quantity() -> None:
-    assert doubled(MECHANISM) == []
 
 
 # --- against scipy's integration -------------------------------------------------------------------------------------
@@ -226,27 +216,6 @@ def test_the_residual_vibration_is_followed_as_long_as_wanted() -> None:
     times = long.curve_samples("time")[0]
     assert len(times) == 720
     assert times[-1] * 720 / 719 == pytest.approx(0.2 + 7 * 2 * np.pi / np.sqrt(6500), rel=1e-12)
-
-
-def test_many_variants_at_once_are_single_runs() -> None:
-    draw, count = np.random.default_rng(5), 24
-    ratio, time, body = draw.uniform(0.5, 15, count), draw.uniform(0.05, 2, count), draw.uniform(0.1, 9, count)
-    varied = {
-        "inertia": body, "stiffness": body * (2 * np.pi * ratio / time) ** 2, "damping_ratio": draw.uniform(0, 0.9, count),
-        "rise": draw.uniform(0.1, 5, count), "rise_time": time, "dwell_cycles": draw.uniform(0.2, 6, count),
-    }  # fmt: skip
-    base = inputs(MECHANISM, SHAFT | {"n_points": 72, "motion_law": "modified_trapezoidal"})
-    together = calculate(MECHANISM, base | varied, variants=count)
-    assert together.flaws == {}
-    for i in range(count):
-        alone = calculate(MECHANISM, base | {name: float(values[i]) for name, values in varied.items()})
-        for name, value in alone.values.items():
-            if value.shape != (1, 1) or name.endswith("_at"):
-                continue
-            if value.dtype == object:
-                assert together[name][i, 0] == value[0, 0]
-            else:
-                assert together[name][i, 0] == pytest.approx(value[0, 0], rel=1e-10, abs=1e-12, nan_ok=True), name
 
 
 def test_a_variant_that_cannot_be_calculated_spoils_no_other() -> None:
