@@ -4,10 +4,17 @@ from __future__ import annotations
 
 import os
 import signal
+from collections.abc import Callable
+from pathlib import Path
 from typing import Any
 
+import pytest
+from filelock import FileLock
 from hypothesis import HealthCheck, settings
 
+from diecut_report import pipeline
+from diecut_report.discovery import Discovery
+from tests.configs import EXAMPLES
 from tests.examples import FEW, MANY
 
 # How many examples hypothesis draws: few, new ones at each run ("local"); few, the same at each run, so that a change is
@@ -27,3 +34,21 @@ settings.load_profile(os.environ.get("HYPOTHESIS_PROFILE") or ("ci" if "CI" in o
 # Where the suite runs in the background of a shell, Ctrl-C is ignored by all that it starts; some tests send it.
 if signal.getsignal(signal.SIGINT) is signal.SIG_IGN:
     signal.signal(signal.SIGINT, signal.default_int_handler)
+
+
+@pytest.fixture(scope="session")
+def report_of(tmp_path_factory: pytest.TempPathFactory) -> Callable[[str], Path]:
+    """Give the folder with the report of an example (HTML, PDF and results), made once for all workers of a run."""
+    own = tmp_path_factory.getbasetemp()
+    shared = own.parent if "PYTEST_XDIST_WORKER" in os.environ else own  # each worker has a folder in that of the run
+
+    def folder(example: str) -> Path:
+        made = shared / "reports" / example
+        made.parent.mkdir(exist_ok=True)
+        with FileLock(f"{made}.lock"):
+            if not made.is_dir():
+                config = next(path for path in EXAMPLES if path.stem == example)
+                pipeline.report(config, Discovery([]), lambda _: None, made, ("html", "pdf", "json"))
+        return made
+
+    return folder

@@ -11,8 +11,6 @@ from pathlib import Path
 
 import pytest
 
-pytestmark = pytest.mark.repository
-
 ROOT = Path(__file__).parents[1]
 FOLDERS = {  # folder of the repository: package or name under which its modules are known here
     "diecut_report": "diecut_report",

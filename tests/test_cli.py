@@ -17,6 +17,8 @@ from diecut_report import __version__, cli, plugins
 from diecut_report.progress import Progress
 from tests.configs import BROKEN, EXAMPLE, GOOD, HEAD, LEVER, LISTED, saved
 
+pytestmark = pytest.mark.wheel
+
 FAILS = LEVER.replace("force: 2 kN", "force: 2 kN, allowable_moment: 150")
 Capture = pytest.CaptureFixture[str]
 

@@ -63,7 +63,7 @@ def cluster(tmp_path: Path) -> Iterator[Cluster]:
             process.wait()
 
 
-@pytest.mark.slow
+@pytest.mark.nightly
 def test_killed_worker_loses_nothing_and_rows_are_the_same(cluster: Cluster, tmp_path: Path) -> None:
     first, _ = cluster.worker(), cluster.worker()
     found, workers, killed = [], set(), False
@@ -92,7 +92,6 @@ vary:
 """
 
 
-@pytest.mark.slow
 def test_study_on_a_cluster_that_loses_a_worker_has_the_rows_of_one_in_this_process(
     cluster: Cluster, tmp_path: Path
 ) -> None:
@@ -114,7 +113,6 @@ def test_study_on_a_cluster_that_loses_a_worker_has_the_rows_of_one_in_this_proc
     assert rows[0].equals(rows[1]) and rows[0].num_rows == 39_000
 
 
-@pytest.mark.slow
 def test_worker_that_joins_later_takes_part(cluster: Cluster, tmp_path: Path) -> None:
     cluster.worker()
     workers = set()
@@ -126,7 +124,6 @@ def test_worker_that_joins_later_takes_part(cluster: Cluster, tmp_path: Path) ->
     assert len(workers) == 2
 
 
-@pytest.mark.slow
 def test_exception_names_its_chunk_and_the_cluster_can_be_used_again(cluster: Cluster, tmp_path: Path) -> None:
     cluster.worker()
     with (
@@ -138,7 +135,6 @@ def test_exception_names_its_chunk_and_the_cluster_can_be_used_again(cluster: Cl
         assert sorted(results(engine, square, range(30))) == [(n, n * n) for n in range(30)]
 
 
-@pytest.mark.slow
 def test_chunk_that_ends_its_workers_is_told(cluster: Cluster, tmp_path: Path) -> None:
     for _ in range(4):
         cluster.worker()
@@ -149,7 +145,6 @@ def test_chunk_that_ends_its_workers_is_told(cluster: Cluster, tmp_path: Path) -
         list(results(engine, dies_at_three, [3]))
 
 
-@pytest.mark.slow
 def test_lost_scheduler_is_told(cluster: Cluster, tmp_path: Path, caplog: pytest.LogCaptureFixture) -> None:
     cluster.worker()
     with (
@@ -162,9 +157,8 @@ def test_lost_scheduler_is_told(cluster: Cluster, tmp_path: Path, caplog: pytest
     assert [record.name for record in caplog.records] == []  # no traceback beside the words
 
 
-@pytest.mark.slow
 def test_cluster_without_workers_is_told(cluster: Cluster, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(module, "PATIENCE", 5)
+    monkeypatch.setattr(module, "PATIENCE", 2)
     with (
         pytest.raises(UserError, match=f"no workers.*dask worker {cluster.address}"),
         dask_cluster(cluster.address, warm(tmp_path)),
@@ -181,16 +175,18 @@ def test_address_that_is_none_is_told(tmp_path: Path, address: str) -> None:
         pass
 
 
-@pytest.mark.slow
 @pytest.mark.parametrize("address", ["tcp://127.0.0.1:1", "nosuch.invalid:8786"])
-def test_scheduler_that_is_not_there_is_told_within_its_time(tmp_path: Path, address: str) -> None:
+def test_scheduler_that_is_not_there_is_told_within_its_time(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, address: str
+) -> None:
+    monkeypatch.setattr(module, "PATIENCE", 2)
     began = time.monotonic()
     with (
         pytest.raises(UserError, match=f"scheduler at .*{address} cannot be reached"),
         dask_cluster(address, warm(tmp_path)),
     ):
         pass
-    assert time.monotonic() - began < 12
+    assert time.monotonic() - began < 5
 
 
 def test_worker_with_another_version_is_told(monkeypatch: pytest.MonkeyPatch) -> None:

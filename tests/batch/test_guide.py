@@ -15,7 +15,6 @@ from diecut_report.batch.where import condition
 from diecut_report.discovery import Discovery
 from tests.configs import EXAMPLE, STUDIES, saved
 
-pytestmark = pytest.mark.repository
 GUIDE = Path(__file__).parents[2] / "docs" / "studies.md"
 
 

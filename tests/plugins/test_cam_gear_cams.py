@@ -47,8 +47,8 @@ def nearest(calc: Calculation, n: str, phi: float) -> float:
 @pytest.mark.parametrize("law", list(LAWS))
 @pytest.mark.parametrize("n", ["1", "2"])
 def test_the_rollers_stay_tangent_to_their_profiles(n: str, law: str) -> None:
-    calc = stepper(**CAMS, motion_law=law)
-    for phi in np.linspace(0.05, 6.2, 29):
+    calc = stepper(**CAMS, motion_law=law, n_points=36)
+    for phi in np.linspace(0.05, 6.2, 11):
         assert nearest(calc, n, phi) == pytest.approx(0.025, abs=1e-9 * 0.025)
 
 
@@ -65,7 +65,9 @@ def test_the_rollers_stay_tangent_to_their_profiles(n: str, law: str) -> None:
 def test_the_checks_tell_whether_the_rollers_touch_their_profiles_once(
     arm: float, roller: float, one: float, other: float, phi: float, dwell: float
 ) -> None:
-    calc = stepper(arm_length=arm, roller_radius=roller, arm_angle_1=one, arm_angle_2=other, dwell_angle=dwell)
+    calc = stepper(
+        arm_length=arm, roller_radius=roller, arm_angle_1=one, arm_angle_2=other, dwell_angle=dwell, n_points=36
+    )
     sharp, turns = (checks(calc)[name]["status"] == "pass" for name in ("curvature", "profile_turns"))
     if sharp and turns:
         for n in "12":

@@ -17,7 +17,7 @@ from diecut_report.api import formula
 from diecut_report.engine import Calculation, Impossible
 from diecut_report.engine.views import MachineView
 from diecut_report.mechanics.motion_laws import LAWS, MotionLaw, register
-from diecut_report.plugins.cam_gear_transport import MECHANISM, drawing, figures
+from diecut_report.plugins.cam_gear_transport import drawing, figures
 from diecut_report.plugins.cam_gear_transport.advice import leaves_return
 from diecut_report.results import mechanism_results
 from tests.examples import examples
@@ -464,13 +464,6 @@ def test_the_drawn_sector_touches_the_gear_and_the_drawn_cams_are_closed() -> No
         np.testing.assert_allclose(np.hypot(*(pitch - profile).T), 0.025, rtol=1e-9)
 
 
-@BY_LAW
-def test_each_law_can_be_printed(law: str) -> None:
-    results = mechanism_results(stepper(**LOADED, motion_law=law), {})
-    assert results["status"] in ("pass", "fail")
-    assert [s["title"] for s in results["sections"]][:4] == [s.title for s in MECHANISM.sections[:4]]
-
-
 def test_all_that_the_method_promises_is_in_the_results() -> None:
     results = mechanism_results(stepper(**LOADED, module="5 mm", allowable_sheet_acceleration="200 m/s**2"), {})
     outputs = """radius_ratio gear_radius sector_radius gear_teeth sector_teeth time_dwell time_stop time_return angle_stop angle_start
@@ -515,7 +508,7 @@ def test_peaks_of_short_phases_are_those_of_the_law(sweep: float) -> None:
 
 
 def test_jumping_laws_print_at_all_dwells() -> None:
-    for dwell in range(40, 200, 7):
+    for dwell in range(40, 200, 21):
         mechanism_results(stepper(dwell_angle=f"{dwell} deg", sector_stop_sweep="5 deg", motion_law="parabolic"), {})
 
 

@@ -169,7 +169,7 @@ def entering(calc: Calculation) -> Array:
     depth, face, stress = sizes(calc)
     front, found = number(calc, "front_distance"), []
     levels = np.linspace(face, depth, 20_001)
-    for angle in np.linspace(number(calc, "angle_entry"), number(calc, "angle_start"), 101):
+    for angle in np.linspace(number(calc, "angle_entry"), number(calc, "angle_start"), 31):
         x = crossing(calc, angle, levels)
         within = np.maximum(x, front)
         rate = (crossing(calc, angle + 1e-6, levels) - crossing(calc, angle - 1e-6, levels)) / 2e-6

@@ -72,14 +72,12 @@ def test_numbers_and_curves_are_those_that_scipy_integrates(law: str) -> None:
     compare(law, np.random.default_rng(list(LAWS).index(law)))
 
 
-@pytest.mark.slow
-@pytest.mark.parametrize("seed", range(8))
+@pytest.mark.parametrize("seed", [0, *(pytest.param(seed, marks=pytest.mark.nightly) for seed in range(1, 8))])
 @EACH_LAW
 def test_many_machines_are_those_that_scipy_integrates(law: str, seed: int) -> None:
     compare(law, np.random.default_rng(100 + 10 * seed + list(LAWS).index(law)))
 
 
-@pytest.mark.slow
 def test_the_spectrum_is_what_scipy_integrates() -> None:
     """Each law and damping at three places of the spectrum; a rise of 1 in 1 s."""
     curves = mechanism_results(follower(), {})["curves"]
