@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import os
 import signal
-from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
@@ -14,7 +13,7 @@ from hypothesis import HealthCheck, settings
 
 from diecut_report import pipeline
 from diecut_report.discovery import Discovery
-from tests.configs import EXAMPLES
+from tests.configs import SMALL, saved
 from tests.examples import FEW, MANY
 
 # How many examples hypothesis draws: few, new ones at each run ("local"); few, the same at each run, so that a change is
@@ -37,18 +36,13 @@ if signal.getsignal(signal.SIGINT) is signal.SIG_IGN:
 
 
 @pytest.fixture(scope="session")
-def report_of(tmp_path_factory: pytest.TempPathFactory) -> Callable[[str], Path]:
-    """Give the folder with the report of an example (HTML, PDF and results), made once for all workers of a run."""
+def small_report(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """Give the folder with the report of a small press (HTML, PDF and results), made once for all workers of a run."""
     own = tmp_path_factory.getbasetemp()
     shared = own.parent if "PYTEST_XDIST_WORKER" in os.environ else own  # each worker has a folder in that of the run
-
-    def folder(example: str) -> Path:
-        made = shared / "reports" / example
-        made.parent.mkdir(exist_ok=True)
-        with FileLock(f"{made}.lock"):
-            if not made.is_dir():
-                config = next(path for path in EXAMPLES if path.stem == example)
-                pipeline.report(config, Discovery([]), lambda _: None, made, ("html", "pdf", "json"))
-        return made
-
-    return folder
+    made = shared / "small_report"
+    with FileLock(f"{made}.lock"):
+        if not made.is_dir():
+            config = saved(own, SMALL, "small.yaml")
+            pipeline.report(config, Discovery([]), lambda _: None, made, ("html", "pdf", "json"))
+    return made

@@ -4,14 +4,13 @@ from __future__ import annotations
 
 import subprocess
 import sys
-from collections.abc import Callable
 from pathlib import Path
 
 BENCHMARKS = Path(__file__).parents[1] / "benchmarks"
 
 
-def test_the_practical_route_sets_an_example(report_of: Callable[[str], Path], tmp_path: Path) -> None:
-    results, target = report_of("circular_knife") / "circular_knife.json", tmp_path / "practical.pdf"
+def test_the_practical_route_sets_a_report(small_report: Path, tmp_path: Path) -> None:
+    results, target = small_report / "small.json", tmp_path / "practical.pdf"
     command = [sys.executable, str(BENCHMARKS / "practical_route.py"), str(results), str(target)]
     subprocess.run(command, check=True, capture_output=True)
     assert target.read_bytes().startswith(b"%PDF")

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Callable
 from pathlib import Path
 
 import pytest
@@ -12,8 +11,8 @@ from diecut_report.report import Rendering
 
 
 @pytest.mark.wheel
-def test_the_report_of_a_results_file_is_the_report(report_of: Callable[[str], Path]) -> None:
-    file = report_of("circular_knife") / "circular_knife.json"
+def test_the_report_of_a_results_file_is_the_report(small_report: Path) -> None:
+    file = small_report / "small.json"
     again = Rendering(json.loads(file.read_text(encoding="utf-8")))
     assert again.html() == file.with_suffix(".html").read_text(encoding="utf-8")
     assert again.pdf() == file.with_suffix(".pdf").read_bytes()
