@@ -22,6 +22,7 @@ from diecut_report.errors import UserError
 from tests.batch.made_store import dies_at_three, fails_at_three, slow_square, square, warm
 from tests.batch.studies import study
 from tests.configs import GOOD
+from tests.processes import until
 
 ROOT = Path(__file__).parents[2]
 
@@ -46,6 +47,12 @@ class Cluster:
         return self.start("worker", self.address, "--nthreads", "1", "--no-nanny", *where)
 
 
+def is_open(port: int) -> bool:
+    """Whether something listens there."""
+    with socket.socket() as asked:
+        return asked.connect_ex(("127.0.0.1", port)) == 0
+
+
 @pytest.fixture
 def cluster(tmp_path: Path) -> Iterator[Cluster]:
     with socket.socket() as free:
@@ -56,6 +63,7 @@ def cluster(tmp_path: Path) -> Iterator[Cluster]:
     made = Cluster(f"tcp://127.0.0.1:{port}", folder)
     try:
         made.start("scheduler", "--host", "127.0.0.1", "--port", str(port), "--no-dashboard")
+        until(lambda: is_open(port), 60)
         yield made
     finally:
         for process in reversed(made.started):
@@ -117,10 +125,12 @@ def test_worker_that_joins_later_takes_part(cluster: Cluster, tmp_path: Path) ->
     cluster.worker()
     workers = set()
     with dask_cluster(cluster.address, warm(tmp_path)) as engine:
-        for chunk, (_, process) in results(engine, slow_square, range(60)):
+        for chunk, (_, process) in results(engine, slow_square, range(300)):
             workers.add(process)
             if chunk == 0:
                 cluster.worker()
+            if len(workers) == 2:
+                break
     assert len(workers) == 2
 
 

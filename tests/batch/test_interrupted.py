@@ -23,7 +23,7 @@ from tests.processes import until
 
 ROWS = 120_000
 SPENT = 60  # seconds after which a run hangs
-PARTS = 15  # files, of at most 8192 variants
+PARTS = 16  # files, of at most 8192 variants
 STUDY = """\
 schema_version: 1
 base: press.yaml

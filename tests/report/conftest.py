@@ -20,6 +20,15 @@ def results() -> dict[str, Any]:
     return sample()
 
 
+@pytest.fixture
+def plain() -> dict[str, Any]:
+    """A fresh copy of the sample without its figures, which take most of the time of a report."""
+    found = sample()
+    for mechanism in (*found["mechanisms"].values(), *found["comparisons"].values()):
+        mechanism["figures"] = []
+    return found
+
+
 @pytest.fixture(scope="session")
 def rendering() -> Rendering:
     """The sample's report; its formats are made once for all tests."""
