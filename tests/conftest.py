@@ -8,13 +8,13 @@ from pathlib import Path
 from typing import Any
 
 import pytest
-from filelock import FileLock
 from hypothesis import HealthCheck, settings
 
 from diecut_report import pipeline
 from diecut_report.discovery import Discovery
 from tests.configs import SMALL, saved
 from tests.examples import FEW, MANY
+from tests.shared import once
 
 # How many examples hypothesis draws: few, new ones at each run ("local"); few, the same at each run, so that a change is
 # judged by what it changes ("ci", where CI is set); many ("nightly", scripts/nightly.sh). HYPOTHESIS_PROFILE names another.
@@ -38,11 +38,9 @@ if signal.getsignal(signal.SIGINT) is signal.SIG_IGN:
 @pytest.fixture(scope="session")
 def small_report(tmp_path_factory: pytest.TempPathFactory) -> Path:
     """Give the folder with the report of a small press (HTML, PDF and results), made once for all workers of a run."""
-    own = tmp_path_factory.getbasetemp()
-    shared = own.parent if "PYTEST_XDIST_WORKER" in os.environ else own  # each worker has a folder in that of the run
-    made = shared / "small_report"
-    with FileLock(f"{made}.lock"):
-        if not made.is_dir():
-            config = saved(own, SMALL, "small.yaml")
-            pipeline.report(config, Discovery([]), lambda _: None, made, ("html", "pdf", "json"))
-    return made
+
+    def make(folder: Path) -> None:
+        config = saved(tmp_path_factory.getbasetemp(), SMALL, "small.yaml")
+        pipeline.report(config, Discovery([]), lambda _: None, folder, ("html", "pdf", "json"))
+
+    return once(tmp_path_factory, "small_report", make)

@@ -78,18 +78,18 @@ def test_many_machines_are_those_that_scipy_integrates(law: str, seed: int) -> N
     compare(law, np.random.default_rng(100 + 10 * seed + list(LAWS).index(law)))
 
 
-def test_the_spectrum_is_what_scipy_integrates() -> None:
+@pytest.mark.parametrize("place", [0, *(pytest.param(n, marks=pytest.mark.nightly) for n in (1, 3, 4)), 2])
+def test_the_spectrum_is_what_scipy_integrates(place: int) -> None:
     """Each law and damping at three places of the spectrum; a rise of 1 in 1 s."""
-    curves = mechanism_results(follower(), {})["curves"]
+    curves, damping = mechanism_results(follower(), {})["curves"], (0, 0.02, 0.05, 0.1, 0.2)[place]
     ratios = np.array(curves["tuning_ratio"]["values"])
     assert (ratios[0], ratios[-1]) == (0.5, 10)
-    for place, damping in enumerate((0, 0.02, 0.05, 0.1, 0.2)):
-        for number_of, (law, known) in enumerate(LAWS.items()):
-            found = curves[f"peak_ratio_{law}_damping_{round(100 * damping):02}"]["values"]
-            for i in (number_of + 3, 20 + 5 * place, -1 - number_of):
-                omega = 2 * np.pi * ratios[i]
-                parts = integrated(law_stretches(law, 1.0, 1.0), 1e-3, omega, damping, fine=400)
-                assert found[i] == pytest.approx(max(p.peak() for p in parts[:-1]) / known.peak, rel=1e-8)
+    for number_of, (law, known) in enumerate(LAWS.items()):
+        found = curves[f"peak_ratio_{law}_damping_{round(100 * damping):02}"]["values"]
+        for i in (number_of + 3, 20 + 5 * place, -1 - number_of):
+            omega = 2 * np.pi * ratios[i]
+            parts = integrated(law_stretches(law, 1.0, 1.0), 1e-3, omega, damping, fine=400)
+            assert found[i] == pytest.approx(max(p.peak() for p in parts[:-1]) / known.peak, rel=1e-8)
 
 
 # --- closed solutions ------------------------------------------------------------------------------------------------
@@ -256,7 +256,7 @@ def test_fewer_than_five_natural_periods_are_a_warning(ratio: float, status: str
 
 @pytest.mark.parametrize("law", ["harmonic", "parabolic"])
 def test_a_law_that_jumps_never_keeps_the_limit(law: str) -> None:
-    for ratio in (1, 3.3, 5, 10, 50):
+    for ratio in (1, 3.3, 50):
         calc = follower(motion_law=law, stiffness=stiffness(ratio) * (1 - 1e-12), damping_ratio=0)
         assert checks(calc)["peak_ratio"]["status"] == "fail"
     assert number(follower(motion_law=law, stiffness=stiffness(5), damping_ratio=0), "peak_ratio") == pytest.approx(
