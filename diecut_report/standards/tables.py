@@ -21,6 +21,7 @@ class StandardSeries:
     sources: tuple[str, ...]
     left_out: str = ""
     only_source: str = ""
+    file: str = ""
 
 
 @dataclass(frozen=True)
@@ -83,7 +84,9 @@ class StandardTable:
         own = self.column(column)
         values = tuple(sorted(set(own.values)))
         title = f"{self.title}: {own.name}" if own.name else self.title
-        return StandardSeries(self.id, title, own.unit, values, self.sources, self.left_out, self.only_source)
+        return StandardSeries(
+            self.id, title, own.unit, values, self.sources, self.left_out, self.only_source, self.file
+        )
 
 
 def sources_told(taken_from: StandardTable | StandardSeries) -> str:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from functools import partial
 from typing import Any
 
@@ -9,9 +10,11 @@ import numpy as np
 import pytest
 from scipy.integrate import quad
 
+from diecut_report.api import Chart, chart_panel, level, line
 from diecut_report.contract.inputs import flatten
 from diecut_report.declaration import faults
 from diecut_report.engine import Calculation, Impossible, calculate
+from diecut_report.engine.figure_views import figures
 from diecut_report.engine.printing.items import section_items
 from diecut_report.expressions import evaluate
 from diecut_report.quantities.units import unit
@@ -171,3 +174,34 @@ def test_what_a_table_gives_can_be_varied() -> None:
         [np.interp(13, TEETH, Y), np.nan], nan_ok=True
     )
     assert rerun({"bore_given": [0.05, 0.06]}, ["bore"])["bore"] == pytest.approx([0.05, 0.06])
+
+
+def plotted(limits: Any, **inputs: Any) -> dict[str, Any]:
+    panel = replace(MECHANISM.figures[0].panels[0], range=limits)  # type: ignore[attr-defined]
+    mechanism = replace(MECHANISM, figures=(replace(MECHANISM.figures[0], panels=(panel,)),))  # type: ignore[call-arg]
+    return figures(calculate(mechanism, flatten(Geared(**({"bearing": "6204"} | inputs)))))[0]
+
+
+def test_a_panel_has_the_range_that_it_declares() -> None:
+    assert "range" not in plotted(None)["panels"][0]
+    assert plotted((0, None))["panels"][0]["range"] == [0, None]
+    assert plotted((-1, "bore"))["panels"][0]["range"] == [pytest.approx(-0.001), 0.02]
+
+
+def test_what_leaves_the_range_is_a_fault_of_the_figure_in_words() -> None:
+    told = plotted((0, 8))["error"]
+    assert told.startswith("h reaches 10 mm, outside of the range of 'Lift', 0 mm to 8 mm; widen it")
+    assert "20 mm to 10 mm, which is none" in plotted(("bore", 10))["error"]
+
+
+def test_a_charts_panel_has_a_range_in_its_unit() -> None:
+    def chart(limits: Any, **more: Any) -> dict[str, Any]:
+        panel = chart_panel(
+            "Lift", "mm", "Turn", "φ", "deg", lines=[line([0, 1], [0.001, np.nan], "h")], range=limits, **more
+        )
+        drawn = Chart(id="own", title="Own", caption="", build=lambda view: [panel])
+        return figures(calculate(replace(MECHANISM, figures=(drawn,)), flatten(Geared(bearing="6204"))))[0]
+
+    assert chart((0, 2))["panels"][0]["range"] == [0, 0.002]
+    assert "h reaches 1 mm, outside of the range of 'Lift', … to 0.5000 mm" in chart((None, 0.5))["error"]
+    assert "top reaches 3 mm" in chart((0, 2), levels=[level(0.003, "top")])["error"]
