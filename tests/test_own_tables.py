@@ -92,7 +92,7 @@ FAULTS = {
     "descending": (FACTORS, {"rows": ((15, 0.29), (12, 0.245))}, "must ascend in teeth without repetition, but 12 follows 15"),
     "a number twice": (FACTORS, {"rows": ((12, 0.2), (12, 0.3))}, "must ascend in teeth without repetition, but 12 follows 12"),
     "one row": (FACTORS, {"rows": ((12, 0.2),)}, "has too few values; give two rows"),
-    "one column of numbers": (FACTORS, {"columns": {"teeth": "1"}, "rows": ((12,), (13,))}, "goes by the numbers of its first column and has no other"),
+    "one column of numbers": (FACTORS, {"columns": {"teeth": "1"}, "rows": ((12,), (13,))}, "goes by the numbers of its first column"),
     "an unknown unit": (FACTORS, {"columns": {"teeth": "1", "Y": "furlongz"}}, "has no usable unit of Y: .*furlongz"),
 }  # fmt: skip
 

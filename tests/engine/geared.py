@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Annotated as A
-from typing import ClassVar, Literal
+from typing import Annotated, ClassVar, Literal
 
 import numpy as np
 
@@ -44,20 +43,20 @@ LIFTS = own_table(
 
 
 class Wheel(Block):
-    count: A[float, Quantity("z_i", "1", "Teeth of a wheel", gt=0)]
-    grade: A[Literal["soft", "hard"], Text("Grade of a wheel")] = "soft"
-    strength: A[float | None, Quantity("σ_i", "MPa", "Strength of a wheel")] = None
+    count: Annotated[float, Quantity("z_i", "1", "Teeth of a wheel", gt=0)]
+    grade: Annotated[Literal["soft", "hard"], Text("Grade of a wheel")] = "soft"
+    strength: Annotated[float | None, Quantity("σ_i", "MPa", "Strength of a wheel")] = None
 
 
 class Geared(Inputs):
     one_of: ClassVar[tuple[OneOf, ...]] = (OneOf(("bearing",), ("bore_given",)),)
 
-    bearing: A[Literal["6204", "6205"] | None, Text("Bearing")] = None
-    bore_given: A[float | None, Quantity("d_g", "mm", "Bore", gt=0)] = None
-    teeth: A[float, Quantity("z", "1", "Teeth", gt=0)] = 17
-    reach: A[float, Quantity("r", "1", "Reach of the swing", gt=0)] = 4
-    wheels: A[list[Wheel], Text("Wheels")] = []  # noqa: RUF012
-    n_points: A[int, POINTS] = 36
+    bearing: Annotated[Literal["6204", "6205"] | None, Text("Bearing")] = None
+    bore_given: Annotated[float | None, Quantity("d_g", "mm", "Bore", gt=0)] = None
+    teeth: Annotated[float, Quantity("z", "1", "Teeth", gt=0)] = 17
+    reach: Annotated[float, Quantity("r", "1", "Reach of the swing", gt=0)] = 4
+    wheels: Annotated[list[Wheel], Text("Wheels")] = []  # noqa: RUF012
+    n_points: Annotated[int, POINTS] = 36
 
 
 shaft = Chapter("Shaft")

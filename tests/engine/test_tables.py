@@ -124,7 +124,8 @@ def test_a_curve_over_the_abscissa_has_its_corners_at_the_rows() -> None:
 @pytest.mark.parametrize("reach", [1, 4, 5])
 def test_a_curve_by_another_curve_has_its_corners_where_that_passes_the_rows(reach: float) -> None:
     calc = geared(reach=reach)
-    corners = [a for row in TEETH if abs(row - 17) < reach for a in (np.arcsin((row - 17) / reach) % (2 * np.pi), np.pi - np.arcsin((row - 17) / reach))]  # fmt: skip
+    angles = [np.arcsin((row - 17) / reach) for row in TEETH if abs(row - 17) < reach]
+    corners = [place % (2 * np.pi) for angle in angles for place in (angle, np.pi - angle)]
     whole, _ = quad(
         lambda a: float(np.interp(17 + reach * np.sin(a), TEETH, Y)), 0, 2 * np.pi, points=corners or None, epsabs=1e-12
     )
