@@ -259,10 +259,7 @@ class Steps:
         self, id: str, symbol: str, unit: str, description: str, table: StandardTable, of: str, *, column: str = "", key: str = "",
         **options: Unpack[Options],
     ) -> None:  # fmt: skip
-        """Declare a value between the rows of a table of numbers, by the quantity ``of``; outside of it the machine is impossible.
-
-        ``key`` is the input that is then to be changed, else ``of``.
-        """
+        """Declare a value between the rows of a table of numbers, by the quantity ``of``: see ``Interpolated``."""
         formula = bind(Between(table, column, id), x=of)
         own = {"formula": formula, "of": of, "table": table, "column": column, "key": key}
         self._give(Interpolated, id, symbol, unit, description, options, **own)
