@@ -10,9 +10,10 @@ from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import Any, Literal, Unpack
 
-from diecut_report.contract.binding import as_binding
+from diecut_report.contract.between import Between
+from diecut_report.contract.binding import as_binding, bind
 from diecut_report.contract.options import Condition, Options, Written
-from diecut_report.contract.part_steps import Lookup, Neighbour, Part, Pick, Running, Total
+from diecut_report.contract.part_steps import Interpolated, Lookup, Neighbour, Part, Pick, Running, Total
 from diecut_report.contract.place import placed
 from diecut_report.contract.steps import (
     Abscissa,
@@ -243,10 +244,25 @@ class Steps:
         description: str,
         table: Mapping[str, float] | StandardTable,
         by: str,
+        *,
+        column: str = "",
+        given: str = "",
         **options: Unpack[Options],
     ) -> None:
-        """Declare a number from a table by the text input ``by``; a row where the text is one of repeated parts."""
-        self._give(Lookup, id, symbol, unit, description, options, table=table, by=by)
+        """Declare a number from a table by the text input ``by``; a row where the text is one of repeated parts.
+
+        ``column`` is one of several columns; with the optional input ``given`` its value is taken where it is given.
+        """
+        self._give(Lookup, id, symbol, unit, description, options, table=table, by=by, column=column, given=given)
+
+    def interpolated(
+        self, id: str, symbol: str, unit: str, description: str, table: StandardTable, of: str, *, column: str = "", key: str = "",
+        **options: Unpack[Options],
+    ) -> None:  # fmt: skip
+        """Declare a value between the rows of a table of numbers, by the quantity ``of``: see ``Interpolated``."""
+        formula = bind(Between(table, column, id), x=of)
+        own = {"formula": formula, "of": of, "table": table, "column": column, "key": key}
+        self._give(Interpolated, id, symbol, unit, description, options, **own)
 
     def pick(
         self, id: str, symbol: str, unit: str, description: str, rule: Literal["above", "below", "nearest"], of: str,

@@ -15,12 +15,13 @@ from diecut_report.declaration import (
     remembered,
     spectra,
     symbols,
+    tables,
     tokens,
 )
 from diecut_report.declaration.names import Names
 from diecut_report.declaration.words import Fault
 
-PARTS = (inputs, tokens, formulas, order, kinds, messages, checks, figures, spectra, documents, symbols)
+PARTS = (inputs, tokens, formulas, order, kinds, tables, messages, checks, figures, spectra, documents, symbols)
 
 __all__ = ["Fault", "faults", "faults_at_load"]
 

@@ -52,6 +52,7 @@ def _panel(figure: Figure, names: Names, axis: str, panel: Panel) -> Iterator[st
     across = next((each for giver in names.givers(axis) for each in giver.units_when(figure.needs)), "1")
     for series in panel.series:
         yield from _drawn(figure, names, series.curve, panel.unit, CURVE, axis)
+    yield from _range(figure, names, panel)
     for level in panel.levels:
         yield from _drawn(figure, names, level.value, panel.unit, NUMBER)
     for mark in panel.marks:
@@ -60,6 +61,22 @@ def _panel(figure: Figure, names: Names, axis: str, panel: Panel) -> Iterator[st
     for span in panel.spans:
         yield from _drawn(figure, names, span.start, across, NUMBER)
         yield from _drawn(figure, names, span.end, across, NUMBER)
+
+
+def _range(figure: Figure, names: Names, panel: Panel) -> Iterator[str]:
+    """What is wrong with the range of a panel's axis: two ends, each a number, an id or None."""
+    ends: object = panel.range
+    if ends is None:
+        return
+    if not isinstance(ends, tuple) or len(ends) != 2 or not all(isinstance(e, str | int | float | None) for e in ends):
+        yield f"has the range {ends!r} in the panel {panel.title!r}; write its two ends, (0, None), each a number, an id or None"
+        return
+    for end in ends:
+        if isinstance(end, str):
+            yield from _drawn(figure, names, end, panel.unit, NUMBER)
+    low, high = ends
+    if not isinstance(low, str | None) and not isinstance(high, str | None) and not low < high:
+        yield f"has the range {ends!r} in the panel {panel.title!r}, whose ends do not ascend"
 
 
 def _drawn(

@@ -10,11 +10,12 @@ from diecut_report.contract.mechanism import Mechanism
 from diecut_report.contract.part_steps import Lookup, Pick
 from diecut_report.contract.steps import Case, Choice, Root, Step
 from diecut_report.declaration.names import Names
+from diecut_report.declaration.order import when_asked
+from diecut_report.declaration.tables import rows_of
 from diecut_report.declaration.words import Fault
 from diecut_report.declaration.world import When
 from diecut_report.expressions import Formula
 from diecut_report.quantities.units import unit
-from diecut_report.standards import StandardTable
 
 PARTS = ("formula", "exists", "condition", "equation", "low", "high", "left", "right")
 
@@ -87,9 +88,8 @@ def _choices(step: Step, names: Names, when: When) -> Iterator[str]:
         if isinstance(declared, ByText):
             yield from _complete(names, declared.key, declared.formulas, when, "formula")
     match step:
-        case Lookup(by=by, table=table):
-            rows = table.values if isinstance(table, StandardTable) else table
-            yield from _complete(names, by, rows, when, "row in the table")
+        case Lookup(by=by):
+            yield from _complete(names, by, rows_of(step), when_asked(step, when), "row in the table")
         case Pick(by=by, series=Mapping() as series):
             yield from _complete(names, by, series, when, "series")
         case Root(unknown=unknown):

@@ -7,6 +7,7 @@ from itertools import combinations
 from typing import Any
 
 from diecut_report.contract.mechanism import Mechanism
+from diecut_report.contract.part_steps import Lookup
 from diecut_report.contract.sections import taken
 from diecut_report.contract.steps import SILENT, Root, Step, Words
 from diecut_report.declaration.names import Names
@@ -28,15 +29,21 @@ def faults(mechanism: Mechanism, names: Names) -> Iterator[Fault]:
             yield Fault(step.at, f"step {step.id}", "has no symbol or no description")
         for name in sorted(asked(step)):
             late = name == getattr(step, "shown_at", "") or isinstance(step, Words)
-            text = lacking(names, name, when, None if late else number)
+            text = lacking(names, name, when_asked(step, when), None if late else number)
             if text:
                 yield Fault(step.at, f"step {step.id}", f"takes {text}")
 
 
 def asked(step: Step) -> set[str]:
     """Return the ids that a step takes from elsewhere."""
-    own = {step.unknown, step.id} if isinstance(step, Root) else set()
+    own = {step.unknown, step.id} if isinstance(step, Root) else {step.given} if isinstance(step, Lookup) else set()
     return {name for name in taken(step) if name not in own}
+
+
+def when_asked(step: Step, when: When) -> When:
+    """Return when a step takes what it asks for: a text that looks up what may be given, where that is not given."""
+    given = step.given.removeprefix("inputs.") if isinstance(step, Lookup) else ""
+    return when.with_(When(frozenset(), frozenset((given,)))) if given else when
 
 
 def lacking(names: Names, name: str, when: When, before: int | None = None) -> str:

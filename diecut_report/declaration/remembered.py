@@ -14,6 +14,7 @@ from diecut_report.contract.inputs import fields
 from diecut_report.contract.mechanism import Mechanism
 from diecut_report.contract.steps import Step
 from diecut_report.declaration.world import world
+from diecut_report.standards import StandardSeries, StandardTable
 
 OWN = Path(__file__).parents[1]
 
@@ -72,9 +73,16 @@ def _places(mechanism: Mechanism) -> Iterator[str]:
         yield from (str(getattr(part, "at", "")) for part in parts)
     for _, step in mechanism.steps:
         yield step.at
+        yield from _tables(step)
         yield from _formulas(step)
     for comparison in mechanism.comparisons:
         yield from _places(comparison.mechanism)
+
+
+def _tables(step: Step) -> Iterator[str]:
+    """The files that a step's tables were read from."""
+    taken = getattr(step, "table", None), getattr(step, "series", None)
+    yield from (f"{each.file}:" for each in taken if isinstance(each, StandardTable | StandardSeries) and each.file)
 
 
 def _formulas(step: Step) -> Iterator[str]:

@@ -8,6 +8,7 @@ from itertools import combinations
 from diecut_report.contract.binding import bound
 from diecut_report.contract.inputs import Quantity
 from diecut_report.contract.mechanism import Mechanism
+from diecut_report.contract.part_steps import Lookup
 from diecut_report.contract.steps import SILENT, Choice, FromCurve, Step, Value
 from diecut_report.declaration.names import Names
 from diecut_report.declaration.words import Fault, short
@@ -40,7 +41,7 @@ def _clash(names: Names, one: tuple[str, str, When, Step | None], other: tuple[s
 def _taken_over(step: Step) -> set[str]:
     """The quantities that a step gives again as they are."""
     found: set[str] = set()
-    if isinstance(step, FromCurve):
+    if isinstance(step, FromCurve | Lookup):
         found = {step.given}
     elif isinstance(step, Value | Choice):
         parts = [step.formula] if isinstance(step, Value) else [case.value for case in step.cases]

@@ -171,7 +171,8 @@ class _Filler:
     def _looked_up(self, item: Data) -> str:
         """Where a number was taken from: the table's title, and the text that chose it."""
         if item["table"]:
-            return self.words.say("looked_up", table=item["table"], choice=item["key"])
+            choice = ", ".join(filter(None, (item["key"], item.get("column"))))
+            return self.words.say("looked_up", table=item["table"], choice=choice)
         return f"{item['by']}: {item['key']}"
 
     def _results(self, outputs: Data) -> None:

@@ -11,7 +11,7 @@ from diecut_report.contract.part_steps import Lookup, Neighbour, Part, Pick, Run
 from diecut_report.engine.calculation import Calculation
 from diecut_report.expressions import Array
 from diecut_report.quantities.units import unit
-from diecut_report.standards import StandardSeries, StandardTable
+from diecut_report.standards import StandardSeries
 
 NEUTRAL = {"sum": 0.0, "product": 1.0, "min": np.inf, "max": -np.inf}
 REDUCE: dict[str, Any] = {"sum": np.sum, "product": np.prod, "min": np.min, "max": np.max}
@@ -43,13 +43,26 @@ def part(calc: Calculation, step: Part) -> None:
 
 
 def lookup(calc: Calculation, step: Lookup) -> None:
-    """A number from a table by a text, a row where there is a text for each part."""
-    numbers, display = (
-        (step.table.values, step.table.unit) if isinstance(step.table, StandardTable) else (step.table, step.unit)
-    )
+    """A number from a table by a text, a row where there is a text for each part; or as it is given."""
+    given = given_of(calc, step)
+    if isinstance(given, np.ndarray):
+        calc.values[step.id] = given
+        return
+    numbers, display = step.rows()
     text = calc.inputs[step.by]
-    found = [numbers[key] * unit(display).factor for key in (text if isinstance(text, tuple) else (text,))]
+    found = [
+        np.nan if key is None else numbers[key] * unit(display).factor
+        for key in (text if isinstance(text, tuple) else (text,))
+    ]
     calc.values[step.id] = np.tile(np.asarray(found, dtype=float), (calc.count, 1))
+    for part, value in enumerate(given or ()):
+        if value is not None:
+            calc.values[step.id][:, part] = value
+
+
+def given_of(calc: Calculation, step: Lookup) -> Any:
+    """What is given in place of the table's number: of all parts, or a tuple with None for those without; None where nothing is."""
+    return calc.inputs.get(step.given.removeprefix("inputs.")) if step.given else None
 
 
 def series_of(calc: Calculation, step: Pick) -> tuple[tuple[float, ...], str, StandardSeries | None]:

@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 
 from diecut_report.contract.mechanism import Mechanism
-from diecut_report.contract.part_steps import Lookup, Neighbour, Part, Pick, Running, Total
+from diecut_report.contract.part_steps import Interpolated, Lookup, Neighbour, Part, Pick, Running, Total
 from diecut_report.contract.steps import (
     Abscissa,
     Accumulated,
@@ -34,6 +34,7 @@ from diecut_report.engine.numerics.domain import Domain
 from diecut_report.engine.steps import (
     extreme_checks,
     feasibility,
+    interpolation,
     part_rows,
     prefetch,
 )
@@ -165,35 +166,13 @@ def _breakpoints(calc: Calculation, step: Breakpoints) -> None:
         domain.cut_every(np.where(_possible(calc)[:, None], calc[step.every], np.nan))
 
 
-def _all_crossings(calc: Calculation, curve: str) -> tuple[Array, Array]:
-    """Crossings, searched again between those found until no more appear: two may lie between two points of the first grid."""
-    domain = calc.domains[calc.axis[curve]]
-    edges, joints = domain.edges, domain.joints
-    domain.cut(roots_integrals.dips(calc, curve))
-    found = roots_integrals.crossings(calc, curve)
-    for _ in range(SEARCHES):
-        before = domain.edges
-        domain.cut(found[0])
-        last = found
-        if domain.edges is before:
-            break
-        found = roots_integrals.crossings(calc, curve)
-        if np.array_equal(np.isfinite(last[0]).sum(axis=1), np.isfinite(found[0]).sum(axis=1)):
-            break
-    domain.edges, domain.joints = edges, joints
-    return last
-
-
 def _crossings(calc: Calculation, step: Crossings) -> None:
-    calc.values[step.id], residual = _all_crossings(calc, step.of)
+    calc.values[step.id], residual = roots_integrals.all_crossings(calc, step.of)
     calc.values[f"{step.id}_count"] = np.isfinite(calc.values[step.id]).sum(axis=1, keepdims=True)
     places = {f"{step.id}_{i}": place[:, None] for i, place in enumerate(calc.values[step.id].T, 1)}
     calc.values |= places
     calc.named |= dict.fromkeys(places, step)
     _prove(calc, step, residual, roots_integrals.SAMPLE_TOLERANCE)
-
-
-SEARCHES = 5  # for crossings, each on a finer grid
 
 
 def _reduction(calc: Calculation, step: Reduction) -> None:
@@ -288,5 +267,5 @@ RUN: dict[type[Step], Callable[[Calculation, Any], None]] = {
     CurvePeriod: _curve_period, Computed: _computed,
     Require: feasibility.require, Clash: feasibility.clash,
     Total: part_rows.total, Neighbour: part_rows.neighbour, Running: part_rows.running, Part: part_rows.part, Lookup: part_rows.lookup,
-    Pick: part_rows.pick,
+    Pick: part_rows.pick, Interpolated: interpolation.interpolated,
 }  # fmt: skip

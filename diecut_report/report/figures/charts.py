@@ -75,6 +75,7 @@ def _of_curves(panel: Data, curves: Data, over: Data, words: Words) -> Panel:
         levels=[_level(level, shown, words) for level in panel["levels"]],
         spans=[Span(span["from"] / factor, span["to"] / factor, span["label"]) for span in panel["spans"]],
         zero=True,
+        limits=_limits(panel),
     )  # fmt: skip
 
 
@@ -96,7 +97,16 @@ def _of_lines(panel: Data, words: Words) -> Panel:
         marks=marks,
         levels=[_level(level, shown, words) for level in panel["levels"]],
         verticals=verticals,
+        limits=_limits(panel),
     )
+
+
+def _limits(panel: Data) -> tuple[float | None, float | None] | None:
+    """The range upwards that a panel declares, in its unit."""
+    if "range" not in panel:
+        return None
+    low, high = (None if end is None else end / unit(panel["unit"]).factor for end in panel["range"])
+    return low, high
 
 
 def _line(line: Data, across: str, shown: str) -> Line:

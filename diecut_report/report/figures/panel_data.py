@@ -63,18 +63,27 @@ class Panel:
     verticals: list[Note] = field(default_factory=list)
     spans: list[Span] = field(default_factory=list)
     zero: bool = False
+    limits: tuple[float | None, float | None] | None = None
 
     @property
     def heights(self) -> tuple[float, float]:
-        """The range upwards: all that is drawn, zero where it is near, and some room."""
-        heights = [line.y for line in (*self.lines, *self.fills)] + [[note.y] for note in (*self.marks, *self.levels)]
-        low, high = range_of([*heights, [0.0] if self.fills or self.zero else []])
-        if high - low > 0.5 * max(abs(low), abs(high)):
-            low, high = min(low, 0.0), max(high, 0.0)
+        """The range upwards: its ends as they are given, else all that is drawn, zero where it is near, and some room."""
+        limits = self.limits or (None, None)
+        low, high = (own if end is None else end for own, end in zip(self._drawn, limits, strict=True))
         span = (high - low) or abs(high) or 1.0
         room = span * (MORE_ROOM if self.marks or self.verticals else ROOM)
         below, above = (span * BASE if edge == 0 and not self.zero else room for edge in (low, high))
-        return low - below, high + above
+        return low - below * (limits[0] is None), high + above * (limits[1] is None)
+
+    @property
+    def _drawn(self) -> tuple[float, float]:
+        """The least and the greatest of what is drawn; without a given range zero is shown where it is near."""
+        heights = [line.y for line in (*self.lines, *self.fills)] + [[note.y] for note in (*self.marks, *self.levels)]
+        if self.limits is not None:
+            return range_of(heights)
+        low, high = range_of([*heights, [0.0] if self.fills or self.zero else []])
+        near = high - low > 0.5 * max(abs(low), abs(high))
+        return (min(low, 0.0), max(high, 0.0)) if near else (low, high)
 
 
 class Frame(NamedTuple):
