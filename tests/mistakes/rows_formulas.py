@@ -66,7 +66,7 @@ FORMULAS = (
          "np.where(is_scooping > 0)", "scoop_pull", r"np\.where"),
     load("np.where with two arguments", "np.where(is_scooping > 0, scoop_force * 2 * np.pi / (scoop_end - scoop_start), 0 * scoop_force)",
          "np.where(is_scooping > 0, scoop_force * 2 * np.pi / (scoop_end - scoop_start))", "scoop_pull", r"np\.where"),
-    load("a constant in another than its SI unit", "return line_mass * GRAVITY * height", "return line_mass * G * height", "G", "SI|m/s",
+    load("a constant in another than its SI unit", "return line_mass * GRAVITY * height", "return line_mass * G * height", r"\bg\b", "SI",
          also=(("# --- calculation\n", '# --- calculation\n\nG = Constant(9806.65, "g", "mm/s**2")\n'),
                ("    Chapter,\n", "    Chapter,\n    Constant,\n"),),
          placed=False, now="calc: the printed formula gives something else; the constant is not named"),

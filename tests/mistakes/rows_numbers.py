@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from tests.mistakes.rows import calc, row, tested
+from tests.mistakes.rows import calc, load, row, tested
 
 # fmt: off
 
@@ -29,11 +29,16 @@ DIMENSIONS = (
          "lambda head_diameter, belt_speed: head_diameter < belt_speed", "discharge"),
     tested("a derivative in another unit", '"N/rad"', '"N/s"', "force_slope", "rad"),
     tested("an integral in the curve's unit", '"W", "J"', '"W", "N"', "work"),
-    tested("a greatest value in another unit", '"M_max", "N*m"', '"M_max", "N"', "torque_max"),
-    tested("crossings in another unit than the abscissa", '"φ_r", "deg"', '"φ_r", "mm"', "release", "rad", now="silent"),
-    tested("a total in another unit than its parts", '"U_j", "N"', '"U_j", "kg"', "journal_losses"),
-    tested("a running sum in another unit than its parts", '"ΣU_i", "N"', '"ΣU_i", "kg"', "losses_so_far", now="silent"),
-    tested("a part in another unit than its row", '"F_f", "N"', '"F_f", "kg"', "foot_load", now="silent"),
+    load("a greatest value in another unit", '"M_max", "N*m"', '"M_max", "N"', "torque_max",
+         now="check_mechanism tells it, not load"),
+    load("crossings in another unit than the abscissa", '"φ_r", "deg"', '"φ_r", "mm"', "release", "mm",
+         now="silent"),
+    load("a total in another unit than its parts", '"U_j", "N"', '"U_j", "kg"', "journal_losses",
+         now="check_mechanism tells it, not load"),
+    load("a running sum in another unit than its parts", '"ΣU_i", "N"', '"ΣU_i", "kg"', "losses_so_far",
+         now="silent"),
+    load("a part in another unit than its row", '"F_f", "N"', '"F_f", "kg"', "foot_load",
+         now="silent"),
     tested("an abscissa's period in another unit", "period=2 * np.pi", 'period="chute_drop"', "angle"),
     tested("breakpoints in another unit than the abscissa", '"angle", "scoop_start", "scoop_end")', '"angle", "scoop_start", "chute_drop")',
          "scooping"),
@@ -57,7 +62,7 @@ NUMBERS = (
          "high=lambda small_pulley, large_pulley: (large_pulley - small_pulley) * 0.6", "centre", "sign"),
     calc("a root whose proof does not hold", "large_pulley * (np.pi - half_wrap)", "large_pulley * (np.pi + half_wrap)",
          "Distance of the shafts", "proof|prove"),
-    calc("a part that is not there", 'of="pulley_load", index=0', 'of="pulley_load", index=5', "foot_load", "5|6", "2",
+    calc("a part that is not there", 'of="pulley_load", index=0', 'of="pulley_load", index=5', "foot_load", "5|6", "2", code=2,
          now="in words of NumPy, without the step"),
     calc("an abscissa whose period is zero here", "period=2 * np.pi", 'period="scoop_start"', "angle", keys={"scoop_start": "0 deg"}),
     calc("a count that is not whole", "np.exp(head_friction * as_number(head_wrap))",
@@ -69,7 +74,7 @@ NUMBERS = (
     calc("a narrow jump without a breakpoint", 'shaft.breakpoints("scooping", "angle", "scoop_start", "scoop_end")\n', "",
          "torque|work|scoop", also=((", per_piece=True", ""),), keys={"scoop_end": "102 deg"},
          now="silent: integrals and extremes over the jump are wrong"),
-    calc("a pick beyond its series", 'series=standard_series("iec_60072_ratings")', "series=(0.1, 0.2)", "motor_power",
+    calc("a pick beyond its series", 'series=standard_series("iec_60072_ratings")', "series=(0.1, 0.2)", "motor_power", code=2,
          now="silent"),
     calc("plain code that gives a wrong shape", "return np.sqrt(2 * drop / GRAVITY) + 0 * speed", "return np.zeros(3)", "fall_time",
          r"\(3,\)", now="in words of NumPy, without the step"),

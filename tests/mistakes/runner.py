@@ -130,8 +130,11 @@ def faults(mistake: Mistake, told: Told) -> list[str]:
         return [f"told by {told.stage or 'nothing'}, not by {mistake.told}: {told.text.strip()[-400:]}"]
     wanted = 1 if told.stage == "check_mechanism" else mistake.code
     found = [f"exit code {told.code}, not {wanted}"] if told.code != wanted else []
+    named = () if mistake.code == 2 else (KIND,)  # a machine that cannot be is told by its place in the user's file
     found += [f"a traceback: {told.text.strip()[-400:]}"] if "Traceback" in told.text else []
-    found += [f"without {words!r}: {told.text}" for words in (KIND, *mistake.words) if not re.search(words, told.text)]
+    found += [
+        f"without {words!r}: {told.text}" for words in (*named, *mistake.words) if not re.search(words, told.text)
+    ]
     lines = [int(number) for number in re.findall(rf"{KIND}\.py(?::|, line )(\d+)", told.text)]
     if mistake.placed and not any(abs(line - mistake.line) <= NEAR for line in lines):
         found.append(f"without the place {KIND}.py:{mistake.line}: {told.text}")
