@@ -24,6 +24,7 @@ from diecut_report.contract.steps import (
 from diecut_report.engine.calculation import Calculation, Unproven
 from diecut_report.engine.printing import tables
 from diecut_report.engine.printing.definitions import definitions
+from diecut_report.engine.printing.interpolation import BetweenRows
 from diecut_report.engine.printing.shown_place import (
     case_taken,
     is_elsewhere,
@@ -41,7 +42,6 @@ from diecut_report.engine.printing.substitution import (
     Substitution,
     printed,
 )
-from diecut_report.engine.printing.substitution.interpolation import BetweenRows
 from diecut_report.expressions import Node
 from diecut_report.quantities.formatting import number_text, shown, with_unit
 from diecut_report.quantities.units import unit
