@@ -36,6 +36,7 @@ from diecut_report.engine.steps import (
     feasibility,
     part_rows,
     prefetch,
+    smooth_pieces,
 )
 from diecut_report.expressions import Array
 from diecut_report.quantities.formatting import told
@@ -64,6 +65,8 @@ def calculate(
             if isinstance(step, Words):
                 continue
             try:
+                if isinstance(step, prefetch.Asking):
+                    smooth_pieces.require(calc, step.id, step.of)
                 RUN[type(step)](calc, step)
             except Impossible as first:
                 raise Impossible([*first.reasons, *feasibility.reasons(calc, steps[i + 1 :])]) from None
