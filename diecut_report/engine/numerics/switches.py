@@ -24,6 +24,7 @@ from diecut_report.expressions import Array, Node, evaluate, symbols, walk
 APART = 1e-8  # share of the period within which a place is the end of its piece
 JUMP = 1e-9  # share of a curve's greatest value by which it moves at a jump
 ZOOMS, PARTS = 12, 16  # how often the place where a difference is least is looked at in so many parts of what is left
+FLAT = 0.1  # of a gap: where it moves by less about its least value that is not nothing
 HALVINGS = 60  # of an interval of the grid: down to the rounding of a place
 
 
@@ -197,9 +198,10 @@ class _Machine:
             truth, gap = self._decided(decision, self._sampler(places, row))
             i, j = np.nonzero(truth[:, 1:] != truth[:, :-1])
             yield row[i], places[i, j], places[i, j + 1]
-            still = np.setdiff1d(np.arange(len(row)), i)
-            least = np.abs(gap)[still].argmin(axis=1)
-            row, places = row[still], places[still]
+            least = np.abs(gap).argmin(axis=1)
+            still = _may_reach(np.abs(gap), least)
+            still[i] = False
+            row, places, least = row[still], places[still], least[still]
             low = places[np.arange(len(row)), np.maximum(least - 1, 0)]
             high = places[np.arange(len(row)), np.minimum(least + 1, PARTS)]
 
@@ -225,6 +227,13 @@ class _Machine:
         decided, inner = over(node), over(node.args[1])
         waves = {"sign": inner, "round": np.cos(np.pi * inner)}
         return decided, waves.get(node.args[0], np.sin(np.pi * inner))
+
+
+def _may_reach(gap: Array, least: Array) -> Array:
+    """Whether gaps (rows, places) may come down to nothing between their places: they turn back, and are not flat yet."""
+    turns = (least > 0) & (least < gap.shape[1] - 1)
+    found: Array = turns & (np.ptp(gap, axis=1) > FLAT * gap.min(axis=1))
+    return found
 
 
 def _over(values: Any, x: Array) -> Array:
