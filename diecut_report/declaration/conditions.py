@@ -3,15 +3,17 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from typing import get_args
 
 from diecut_report.contract.binding import Binding, Bound, ByText, bound
 from diecut_report.contract.mechanism import Mechanism
-from diecut_report.contract.steps import Choice, Require, Step, Value
+from diecut_report.contract.steps import Choice, Computed, Require, Step, Value
 from diecut_report.declaration.names import Names
 from diecut_report.declaration.units import kind_of
 from diecut_report.declaration.words import Fault
 from diecut_report.expressions import FormulaError, Node
 
+MAY_BE_ABSENT = Value | Choice | Computed
 YES_OR_NO = ("cmp", "and", "or", "not")
 
 
@@ -24,6 +26,11 @@ def faults(mechanism: Mechanism, names: Names) -> Iterator[Fault]:
                     text = f"the {part} gives a number, not yes or no; compare it with something ({link.formula.__name__} > 0)"
                     yield Fault(step.at, f"step {step.id}", text)
                     break
+        if step.exists is not None and not isinstance(step, MAY_BE_ABSENT):
+            kinds = ", ".join(kind.__name__.lower() for kind in get_args(MAY_BE_ABSENT))
+            yield Fault(
+                step.at, f"step {step.id}", f"has exists, which holds for {kinds} alone; put it on what this step takes"
+            )
         texts = _cases(step.cases) if isinstance(step, Choice) else _flag(step, names)
         yield from (Fault(step.at, f"step {step.id}", text) for text in texts)
 

@@ -169,7 +169,7 @@ class Run:
             self.results[name] = mechanism_results(self.calculations[name], self._provenance(instance))
         except Impossible as fault:
             for path, message in fault.reasons:
-                key = tuple(int(part) if part.isdigit() else part for part in path.split("."))
+                key = tuple(int(part) if part.isdigit() else part for part in path.split(".") if part)
                 self.problems.append(instance.place.problem(key, message))
         except (Exception, SystemExit) as cause:
             self._broke(instance, cause)
