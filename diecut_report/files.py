@@ -1,14 +1,23 @@
-"""Writes files so that none is ever half-written: all are complete beside their places before the first takes its place."""
+"""Writes files so that none is ever half-written: each is complete beside its place before it takes that place.
+
+`write_all` writes the files of a run, all or none; `write` and `replaced` a file of a study's folder, on the disk when they return.
+"""
 
 from __future__ import annotations
 
 import errno
 import os
+import shutil
+import tempfile
 from collections.abc import Iterator, Mapping
 from contextlib import ExitStack, contextmanager
 from pathlib import Path
 
 from diecut_report.errors import Problem, UserError
+
+TEMPORARY = ".*.part"  # what a killed run may leave behind
+NOTHING = "Nothing was written; make room and try again."
+KEPT = "What was finished is kept: make room, then continue with --resume."
 
 
 def write_all(files: Mapping[Path, bytes], keep: Path) -> None:
@@ -19,12 +28,12 @@ def write_all(files: Mapping[Path, bytes], keep: Path) -> None:
     with ExitStack() as stack:
         ready = []
         for path, content in files.items():
-            with _in_words(path):
+            with in_words(path, NOTHING):
                 place = path.resolve()
                 _refuse_config(path, keep)
                 ready.append((stack.enter_context(_beside(place, content)), place, path))
         for temporary, place, path in ready:
-            with _in_words(path):
+            with in_words(path, NOTHING):
                 if temporary == place:
                     temporary.write_bytes(files[path])
                 else:
@@ -41,7 +50,7 @@ def _refuse_config(path: Path, keep: Path) -> None:
 def _beside(place: Path, content: bytes) -> Iterator[Path]:
     """The content in a temporary file beside ``place``; gone on leaving, with the folders made for it if nothing is in them.
 
-    What is no regular file (/dev/null, a pipe) stands for itself.
+    What is not a regular file (/dev/null, a pipe) stands for itself.
     """
     made: list[Path] = []
     temporary = place
@@ -50,7 +59,7 @@ def _beside(place: Path, content: bytes) -> Iterator[Path]:
         if place.is_dir():
             raise IsADirectoryError(errno.EISDIR, "a folder has this name")
         if place.is_file() or not place.exists():
-            temporary = place.with_name(f".{os.urandom(8).hex()}.part")
+            temporary = _temporary(place)
             temporary.write_bytes(content)
         yield temporary
     finally:
@@ -69,21 +78,25 @@ def _make_folder(folder: Path, made: list[Path]) -> None:
     made.append(folder)
 
 
+def _temporary(place: Path) -> Path:
+    return place.with_name(f".{os.urandom(8).hex()}.part")
+
+
 @contextmanager
-def _in_words(path: Path) -> Iterator[None]:
+def in_words(path: Path, after: str = KEPT) -> Iterator[None]:
+    """Turn an OSError into a UserError that says what could not be written, why, and what to do."""
     try:
         yield
     except OSError as error:
-        raise UserError(Problem(f"This cannot be written: {reason(error)}", str(path))) from error
+        raise UserError(Problem(f"This cannot be written: {reason(error, after)}", str(path))) from error
 
 
-def reason(error: OSError) -> str:
-    """Why a file cannot be written, and what to do."""
+def reason(error: OSError, after: str = NOTHING) -> str:
+    """Return why a file cannot be written, and what to do; ``after`` is that on a full disk."""
     elsewhere = "Choose another place with -o."
-    no_room = "Nothing was written; make room and try again."
     reasons = {
-        errno.ENOSPC: f"the disk is full. {no_room}",
-        errno.EDQUOT: f"the quota of the disk is used up. {no_room}",
+        errno.ENOSPC: f"the disk is full. {after}",
+        errno.EDQUOT: f"the quota of the disk is used up. {after}",
         errno.EACCES: f"writing is not permitted there. {elsewhere}",
         errno.EPERM: f"writing is not permitted there. {elsewhere}",
         errno.EROFS: f"the disk can only be read. {elsewhere}",
@@ -93,3 +106,56 @@ def reason(error: OSError) -> str:
         errno.ENAMETOOLONG: "the name is too long. Choose a shorter one.",
     }
     return reasons.get(error.errno or 0, f"{error.strerror or error}. {elsewhere}")
+
+
+# --- files of a study's folder -----------------------------------------------------------------------------------------
+
+
+@contextmanager
+def replaced(path: Path) -> Iterator[Path]:
+    """Give a temporary name beside ``path``; what was written there takes the place of ``path`` at the end, or is removed."""
+    with in_words(path):
+        temporary = _temporary(path)
+        try:
+            yield temporary
+            _sync(temporary)
+            temporary.replace(path)
+            _sync(path.parent)
+        finally:
+            temporary.unlink(missing_ok=True)
+
+
+def write(path: Path, content: bytes | memoryview) -> None:
+    """Write the content under this name: all of it or, after an error in words, what was there before stays."""
+    with replaced(path) as temporary:
+        temporary.write_bytes(content)
+
+
+@contextmanager
+def room(folder: Path) -> Iterator[None]:
+    """Let temporary files of libraries go into the folder, on whose disk room is wanted; they are removed at the end."""
+    before = tempfile.tempdir
+    with in_words(folder), tempfile.TemporaryDirectory(prefix=".", suffix=".part", dir=folder) as place:
+        tempfile.tempdir = place
+        try:
+            yield
+        finally:
+            tempfile.tempdir = before
+
+
+def remove_stale(folder: Path) -> None:
+    """Remove what a run that was killed has left half-written, here and in the folders below."""
+    for path in list(folder.rglob(TEMPORARY)):
+        with in_words(path):
+            if path.is_dir():
+                shutil.rmtree(path)
+            else:
+                path.unlink(missing_ok=True)  # it may have stood in a folder that is gone
+
+
+def _sync(path: Path) -> None:
+    descriptor = os.open(path, os.O_RDONLY)
+    try:
+        os.fsync(descriptor)
+    finally:
+        os.close(descriptor)

@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 from diecut_report.config.discovery import Discovery
 from diecut_report.config.loader import load_config
+from diecut_report.config.yaml_tree import Tree
 from diecut_report.errors import PluginError, Problem, UserError
 
 if TYPE_CHECKING:
@@ -21,6 +22,7 @@ LINES_TO_DEPTH = 4  # the results file has a line for each quantity and each cur
 
 Data = dict[str, Any]
 Tell = Callable[[str], None]
+Source = Path | Tree  # a configuration: its file, or what was read and changed
 
 NO_PANGO = (
     "The PDF cannot be made, because a library of the system is missing: {}. Install it (Debian, Ubuntu: "
@@ -54,7 +56,7 @@ def check(config: Path, discovery: Discovery) -> tuple[PluginError, ...]:
     return tuple(load_config(config, discovery).broken.values())
 
 
-def calc(config: Path, discovery: Discovery, tell: Tell, target: Path | None = None) -> tuple[Outcome, str]:
+def calc(config: Source, discovery: Discovery, tell: Tell, target: Path | None = None) -> tuple[Outcome, str]:
     """The results document and its text; written to ``target`` if there is one."""
     results, broken, _ = _calculated(config, discovery, tell)
     text = results_text(results)
@@ -64,7 +66,7 @@ def calc(config: Path, discovery: Discovery, tell: Tell, target: Path | None = N
 
 
 def report(
-    config: Path, discovery: Discovery, tell: Tell, folder: Path, formats: Sequence[str], language: str | None = None
+    config: Source, discovery: Discovery, tell: Tell, folder: Path, formats: Sequence[str], language: str | None = None
 ) -> Outcome:
     """The report in the asked formats, as ``NAME.html``, ``NAME.pdf``, ``NAME.json`` in the folder, and the exports beside it."""
     results, broken, places = _calculated(config, discovery, tell)
@@ -73,16 +75,17 @@ def report(
     contents, undrawn = _rendered(results, formats, tell)
     files_beside, unwritten = _exported(results, tell)
     contents |= files_beside
-    files = {folder / f"{config.stem}.{ending}": content for ending, content in contents.items()}
+    stem = Path(config.name).stem
+    files = {folder / f"{stem}.{ending}": content for ending, content in contents.items()}
     _write(files, config)
     return Outcome(
         results, tuple(files), (*broken, *(_broken(results, places, lost) for lost in (*undrawn, *unwritten)))
     )
 
 
-def _calculated(path: Path, discovery: Discovery, tell: Tell) -> tuple[Data, tuple[PluginError, ...], Places]:
+def _calculated(source: Source, discovery: Discovery, tell: Tell) -> tuple[Data, tuple[PluginError, ...], Places]:
     tell("reading the configuration")
-    config = load_config(path, discovery)
+    config = load_config(source, discovery)
     from diecut_report.results.document import document  # with the engine, which checking alone does not need
     from diecut_report.results.press_run import compute
 
@@ -164,10 +167,10 @@ def _pdf(rendering: Any) -> bytes:
     return content
 
 
-def _write(files: dict[Path, bytes], config: Path) -> None:
+def _write(files: dict[Path, bytes], config: Source) -> None:
     from diecut_report.files import write_all
 
-    write_all(files, keep=config)
+    write_all(files, keep=Path(config.file) if isinstance(config, Tree) else config)
 
 
 def results_text(results: Data) -> str:

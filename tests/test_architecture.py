@@ -6,12 +6,11 @@ import ast
 import re
 import sys
 from collections.abc import Iterator
+from functools import cache
 from graphlib import TopologicalSorter
 from pathlib import Path
 
 import pytest
-
-pytestmark = pytest.mark.repository
 
 ROOT = Path(__file__).parents[1]
 FOLDERS = {  # folder of the repository: package or name under which its modules are known here
@@ -77,10 +76,12 @@ PROGRAM = {name: path for name, path in MODULES.items() if name.startswith("diec
 PLUGINS = {name: path for name, path in PROGRAM.items() if name.startswith("diecut_report.plugins.")}
 
 
+@cache
 def tree(name: str) -> ast.Module:
     return ast.parse(MODULES[name].read_text("utf-8"), str(MODULES[name]))
 
 
+@cache
 def imports(name: str) -> set[str]:
     """The modules that a module imports, anywhere in it; ``from package import module`` gives both."""
     package = name if MODULES[name].name == "__init__.py" else name.rpartition(".")[0]

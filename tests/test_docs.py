@@ -22,7 +22,6 @@ from tests.engine.swings import CLOSED, made, swing
 ROOT = Path(__file__).parents[1]
 
 
-@pytest.mark.repository
 def test_the_mechanism_pages_are_made_from_the_declarations() -> None:
     tool = runpy.run_path(str(ROOT / "tools" / "make_mechanism_pages.py"))
     for file, text in tool["pages"]().items():
@@ -42,14 +41,12 @@ def example(folder: Path, number: int) -> Mechanism:
     return found
 
 
-@pytest.mark.repository
 def test_the_first_plugin_of_the_guide_keeps_the_contract_and_calculates(tmp_path: Path) -> None:
     hook = example(tmp_path, 1)
     calc = calculate(hook, flatten(hook.inputs.model_validate({"force": 2, "arm": "50 mm"})))
     assert calc["stress"][0, 0] == pytest.approx(32 * 2000 * 0.05 / (pi * 0.02**3))
 
 
-@pytest.mark.repository
 @pytest.mark.parametrize(("key", "unit"), [("inertia", "N*m"), ("mass", "N")])
 def test_the_second_plugin_of_the_guide_follows_a_curve_in_either_form(tmp_path: Path, key: str, unit: str) -> None:
     tappet = example(tmp_path, 2)
@@ -61,7 +58,6 @@ def test_the_second_plugin_of_the_guide_follows_a_curve_in_either_form(tmp_path:
     assert mechanism_results(calc, {})["outputs"]["effort_max"]["unit"] == unit
 
 
-@pytest.mark.repository
 def test_a_page_tells_each_unit_with_its_key_and_lists_spectra() -> None:
     tool = runpy.run_path(str(ROOT / "tools" / "make_mechanism_pages.py"))
     lines = list(tool["page"](SWING))

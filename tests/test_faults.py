@@ -90,7 +90,7 @@ def folder(tmp_path: Path, figure: str = NONE, steps: str = "()", exports: str =
 def run(tmp_path: Path, command: str, plugins: Path, *more: str) -> int:
     config = saved(tmp_path, HEAD + "  a: {kind: disc}\n")
     target = tmp_path / "out" / ("press.json" if command == "calc" else "")
-    return main.main([command, str(config), "-o", str(target), "--plugins", str(plugins), *more])
+    return main([command, str(config), "-o", str(target), "--plugins", str(plugins), *more])
 
 
 def results(tmp_path: Path) -> dict[str, Any]:

@@ -31,7 +31,7 @@ from diecut_report.cli.output import (
     tell,
 )
 from diecut_report.cli.progress import Progress
-from diecut_report.cli.study import batch, variant_files, variants
+from diecut_report.cli.study import batch, source, variants
 from diecut_report.config.discovery import Discovery, DuplicateKind, UnknownKind
 from diecut_report.errors import PluginError, Problem, UserError, nearest
 
@@ -83,7 +83,7 @@ def _formats(_: click.Context, __: click.Parameter, given: str) -> list[str]:
     asked = list(dict.fromkeys(part.strip().lower() for part in given.split(",") if part.strip()))
     unknown = [part for part in asked if part not in FORMATS]
     if unknown or not asked:
-        words = f"{unknown[0]!r} is no format{nearest(unknown[0], FORMATS)}" if unknown else "no format is named"
+        words = f"{unknown[0]!r} is not a format{nearest(unknown[0], FORMATS)}" if unknown else "no format is named"
         raise click.BadParameter(f"{words}; known: {', '.join(FORMATS)}.")
     return asked
 
@@ -132,8 +132,9 @@ def report(
     """Calculate and write NAME.html, NAME.pdf and NAME.json."""
     from diecut_report import pipeline
 
-    with Progress(quiet) as progress, redirect_stdout(sys.stderr), variant_files(config) as file:
-        outcome = pipeline.report(file, Discovery(folders), progress, folder, formats, language)
+    with Progress(quiet) as progress, redirect_stdout(sys.stderr):
+        discovery = Discovery(folders)
+        outcome = pipeline.report(source(config, discovery), discovery, progress, folder, formats, language)
     if not quiet:
         tell(f"written: {path}" for path in outcome.written)
     return _verdict(outcome, quiet)
@@ -151,8 +152,9 @@ def calc(config: Path, target: Path | None, folders: tuple[Path, ...], quiet: bo
 
     to_file = None if target == Path("-") else target
     # a plugin that prints does not spoil the JSON
-    with Progress(quiet) as progress, redirect_stdout(sys.stderr), variant_files(config) as file:
-        outcome, text = pipeline.calc(file, Discovery(folders), progress, to_file)
+    with Progress(quiet) as progress, redirect_stdout(sys.stderr):
+        discovery = Discovery(folders)
+        outcome, text = pipeline.calc(source(config, discovery), discovery, progress, to_file)
     if to_file is None:
         emit(text)
     return _verdict(outcome, quiet or to_file is None)

@@ -3,18 +3,19 @@
 from __future__ import annotations
 
 import sys
-import tempfile
 from collections.abc import Iterator
-from contextlib import closing, contextmanager, redirect_stdout
+from contextlib import closing, redirect_stdout
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import click
 
-from diecut_report.cli.output import CHECK_FAILED, INTERRUPTED, PASSED, coloured, common, emit, tell
+from diecut_report.cli.output import CHECK_FAILED, INTERRUPTED, PASSED, PLUGIN_BROKE, coloured, common, emit, tell
 from diecut_report.errors import nearest
 
 if TYPE_CHECKING:
+    from diecut_report.config.discovery import Discovery
+    from diecut_report.pipeline import Source
     from diecut_report.study.execution.study_run import Outcome
 
 EXPORTS = ("csv", "xlsx")
@@ -26,7 +27,7 @@ def _exports(_: click.Context, __: click.Parameter, given: str) -> list[str]:
     unknown = [part for part in asked if part not in EXPORTS]
     if unknown:
         raise click.BadParameter(
-            f"{unknown[0]!r} is no format{nearest(unknown[0], EXPORTS)}; known: {', '.join(EXPORTS)}."
+            f"{unknown[0]!r} is not a format{nearest(unknown[0], EXPORTS)}; known: {', '.join(EXPORTS)}."
         )
     return asked
 
@@ -66,7 +67,8 @@ def batch(study: Path | None, folder: Path | None, resume: Path | None, jobs: in
         return INTERRUPTED
     if not quiet:
         tell(_told(outcome, target))
-    return CHECK_FAILED if outcome.is_failed else PASSED
+    tell(_broken(outcome))
+    return PLUGIN_BROKE if outcome.is_broken else CHECK_FAILED if outcome.is_failed else PASSED
 
 
 def _target(study: Path | None, folder: Path | None, resume: Path | None) -> Path:
@@ -94,8 +96,16 @@ def _told(outcome: Outcome, target: Path) -> Iterator[str]:
     yield from (
         f"{kind} cannot take arrays and was calculated machine by machine, which is slow: {why}"
         for kind, why in outcome.slow.items()
+        if not (outcome.is_broken and kind in outcome.broken)
     )
     yield from outcome.notes
+
+
+def _broken(outcome: Outcome) -> Iterator[str]:
+    for kind, why in outcome.broken.items():
+        yield f"plugin {kind!r} broke; variants that it broke for are in error, the others are kept: {why}"
+    for kind, why in outcome.broken_reports.items():
+        yield f"plugin {kind!r} broke {why}"
 
 
 def _reports(target: Path) -> str:
@@ -136,17 +146,11 @@ def variants(
     return PASSED
 
 
-@contextmanager
-def variant_files(config: Path) -> Iterator[Path]:
-    """The configuration file that a command names: itself, or for DIR#ID one of a stored variant, ``DIR-ID.yaml``."""
+def source(config: Path, discovery: Discovery) -> Source:
+    """Return the configuration that a command names: its file, or for DIR#ID that of a stored variant, ``DIR-ID.yaml``."""
     folder, _, number = str(config).rpartition("#")
     if not folder or not number.isdigit() or config.exists() or not (Path(folder) / RESULTS).exists():
-        yield config
-        return
+        return config
     from diecut_report.study.analysis.variant_config import variant_config
 
-    text = variant_config(Path(folder), int(number))
-    with tempfile.TemporaryDirectory() as place:
-        file = Path(place) / f"{Path(folder).resolve().name}-{number}.yaml"
-        file.write_text(text, encoding="utf-8")
-        yield file
+    return variant_config(Path(folder), int(number), discovery, f"{Path(folder).resolve().name}-{number}.yaml")

@@ -16,7 +16,7 @@ from diecut_report.config.model import Document, Press, Project
 from diecut_report.config.references import PRESS, Linker, Node, Target, texts
 from diecut_report.config.validation import Place, declared, keys_of, spread_out, told, validate
 from diecut_report.config.yaml_tree import KeyPath, Tree
-from diecut_report.contract.inputs import Block, CurveInput, Pending, Text
+from diecut_report.contract.inputs import SI, Block, CurveInput, Pending, Text
 from diecut_report.contract.unit_variants import in_form
 from diecut_report.errors import PluginError, Problem, UserError
 
@@ -41,9 +41,9 @@ class Config:
     broken: Mapping[str, PluginError]
 
 
-def load_config(path: Path, discovery: Discovery) -> Config:
+def load_config(given: Path | Tree, discovery: Discovery) -> Config:
     """Read and validate a configuration; UserError with all its problems. A broken plugin is kept in ``broken``."""
-    tree = yaml_tree.load(path)
+    tree = given if isinstance(given, Tree) else yaml_tree.load(given)
     _refuse_study(tree)
     discovery.extend()
     reader = _Reader(tree, discovery)
@@ -212,7 +212,7 @@ def _is_open(instance: Instance, node: Node, target: Target) -> bool:
 def _pending(instance: Instance, node: Node, target: Target) -> Any:
     curve = declared(instance.model, node[1:-1]) if len(node) > 2 else None
     if isinstance(curve, CurveInput):
-        return f"0 {curve.unit}"  # one value of a list, whose kind the linker has judged
+        return SI(0.0, curve.unit, target.path)  # one value of a list, whose kind the linker has judged
     return Pending(target.path, target.unit, target.is_curve)
 
 

@@ -69,13 +69,13 @@ class Node:
 class Tree:
     """A YAML file as data, with its places.
 
-    `data` holds plain dicts, lists and scalars; `text` the file's text; `sha256` the hash of its bytes.
+    `data` holds plain dicts, lists and scalars; `text` the file's text; `sha256` its hash; `name` what documents call it.
     """
 
-    def __init__(self, root: Node, file: str, text: str, sha256: str) -> None:
-        self._root = root
+    def __init__(self, root: Node, file: str, text: str, sha256: str, name: str = "") -> None:
+        self.root = root
         self.data: Any = root.plain()
-        self.file, self.text, self.sha256 = file, text, sha256
+        self.file, self.name, self.text, self.sha256 = file, name or file, text, sha256
 
     def position(self, path: KeyPath) -> Position:
         """Line and column (from 1) of the value at `path`, or of its nearest parent that exists.
@@ -97,7 +97,7 @@ class Tree:
         return nodes[-1].typed if len(nodes) == len(path) + 1 else None
 
     def _walk(self, path: KeyPath) -> list[Node]:
-        nodes = [self._root]
+        nodes = [self.root]
         for step in path:
             child = (nodes[-1].children or {}).get(step)
             if child is None:
@@ -220,7 +220,7 @@ class _Builder:
         if event.anchor is not None:
             self._anchors[event.anchor] = None
         if isinstance(event, yaml.ScalarEvent):
-            node = Node(_position(event), _resolved(event.value) if event.implicit[0] else event.value, event.value)
+            node = Node(_position(event), resolved(event.value) if event.implicit[0] else event.value, event.value)
         else:
             node = self._collection(event, path)
         if event.anchor is not None:
@@ -289,8 +289,8 @@ def _position(event: Any) -> Position:
     return event.start_mark.line + 1, event.start_mark.column + 1
 
 
-def _resolved(text: str) -> Any:
-    """The value of a plain scalar by the core schema."""
+def resolved(text: str) -> Any:
+    """Return the value of a plain scalar by the core schema."""
     if text in _WORDS:
         return _WORDS[text]
     if _INTEGER.fullmatch(text):

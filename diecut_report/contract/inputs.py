@@ -183,11 +183,19 @@ class CurveInput:
         if isinstance(given, list) and not self.referred:
             if len(given) < 4:
                 raise ValueError(f"has {len(given)} values; a curve over one turn needs at least 4")
-            return tuple(parse_quantity(value, self.unit) for value in given)
+            return tuple(self._listed(value) for value in given)
         if hasattr(given, "curve_id"):
             return given
         or_list = "" if self.referred else " or a list of values"
         raise ValueError(f"is {given!r}; a reference to a curve{or_list} in {self.unit} is needed")
+
+    def _listed(self, given: Any) -> float:
+        """Return one value of a list in SI; one that is referred to is in SI already."""
+        if not isinstance(given, SI):
+            return parse_quantity(given, self.unit)
+        if unit(given.unit).kind != unit(self.unit).kind:
+            raise ValueError(f"{given.told} is in {given.unit}; a quantity in {self.unit} is needed here")
+        return float(given.value)
 
     def __get_pydantic_core_schema__(self, source: Any, handler: GetCoreSchemaHandler) -> CoreSchema:
         return core_schema.no_info_plain_validator_function(_optional(source, self.validate))

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 import re
+from decimal import Decimal
 
 from diecut_report.quantities.units import pretty, unit
 
@@ -65,6 +66,23 @@ def told(value: float, unit_text: str, digits: int = DIGITS, *, up: bool | None 
     """An SI value as one would say it, ``40 mm``; rounded up or down where ``up`` says so."""
     number = value / unit(unit_text).factor
     return with_unit(number_text(number if up is None else outward(number, up, digits), digits), unit_text)
+
+
+def as_given(value: float, unit_text: str) -> str | float:
+    """Return an SI value as a config gives it to a key of this unit, so that it is read back as the very same float.
+
+    That is a text in SI; for pure numbers a bare number, or a text in the key's own unit (``12.5 %``) where it has one.
+    """
+    own = unit(unit_text)
+    if own.si != "1":
+        return f"{float(value)!r} {own.si}"
+    return value if own.text == "1" else f"{_decimal_text(own.exactly(value))} {own.text}"
+
+
+def _decimal_text(number: Decimal) -> str:
+    """Return all digits of a number, without an exponent where it is of a usual size."""
+    short = number.normalize()
+    return f"{short:f}" if -6 <= short.adjusted() <= 15 else f"{short}"
 
 
 def si(value: float, unit_text: str) -> float:

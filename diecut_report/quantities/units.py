@@ -46,15 +46,23 @@ class Unit:
     si: str
     kind: Kind
 
-    def to_si(self, value: float) -> float:
+    def to_si(self, value: float | Decimal) -> float:
         """SI value of `value` units, rounded once: 7.3 um give 7.3e-06 m, not 7.2999999999999996e-06."""
         multiplier, divisor = _ratio(self.factor)
-        return float(Decimal(repr(float(value))) * multiplier / divisor)
+        return float((value if isinstance(value, Decimal) else Decimal(repr(float(value)))) * multiplier / divisor)
 
     def from_si(self, value: float) -> float:
         """Number of units in an SI value, rounded once."""
+        return float(self._number(repr(float(value))))
+
+    def exactly(self, value: float) -> Decimal:
+        """Return the number of units with so many digits that `to_si` gives the value again, also where its shortest text is a tie."""
+        short = self._number(repr(float(value)))
+        return short if self.to_si(short) == value else self._number(value)
+
+    def _number(self, value: str | float) -> Decimal:
         multiplier, divisor = _ratio(self.factor)
-        return float(Decimal(repr(float(value))) * divisor / multiplier)
+        return Decimal(value) * divisor / multiplier
 
 
 @cache
@@ -219,7 +227,7 @@ def _own_unit(text: str, wanted: Unit) -> Unit:
         raise UnitError(f"{error} {needed[0].upper()}{needed[1:]}.") from None
 
 
-def number_and_unit(text: str, wanted: Unit | None = None) -> tuple[float, str]:
+def number_and_unit(text: str, wanted: Unit | None = None) -> tuple[Decimal, str]:
     """Split a quantity into its number and the text of its unit, which is "" where it has none ("3", "3 mm", "3 * mm").
 
     Raises UnitError, which names the `wanted` unit, for a text that does not begin with one finite number.
@@ -233,7 +241,9 @@ def number_and_unit(text: str, wanted: Unit | None = None) -> tuple[float, str]:
     own = match[2].strip().removeprefix("*").strip()
     if re.match(r"[0-9.+-]", own) and not own.startswith("1/"):
         raise UnitError(f"{_shortened(text)} is not one number and a unit; {_needed(wanted)}.")
-    return float(match[1]), own
+    number = float(match[1])
+    # all digits count: a share written in percent may need more of them than a float has
+    return Decimal(match[1] if number and math.isfinite(number) else repr(number)), own
 
 
 def _finite(value: float, typed: str) -> float:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Iterator
 from typing import Any
 
 from diecut_report import __version__
@@ -13,8 +14,7 @@ from diecut_report.config.validation import declared, keys_of
 from diecut_report.contract.inputs import Block, CurveInput, Quantity, flatten
 from diecut_report.contract.mechanism import Mechanism
 from diecut_report.engine import CurveHandle
-from diecut_report.quantities.formatting import shortest
-from diecut_report.quantities.units import unit
+from diecut_report.quantities.formatting import as_given, shortest
 from diecut_report.results.comparisons import Found
 from diecut_report.results.mechanism import RANK, worst
 from diecut_report.results.press_run import Run
@@ -32,7 +32,7 @@ def document(run: Run) -> Data:
         "schema_version": 1,
         "program": {"name": "diecut-report", "version": __version__},
         "config": {
-            "file": tree.file.replace("\\", "/").rsplit("/", 1)[-1],
+            "file": tree.name.replace("\\", "/").rsplit("/", 1)[-1],
             "sha256": tree.sha256,
             "resolved": resolved(run),
             "source_text": tree.text,
@@ -127,7 +127,17 @@ def resolved(run: Run) -> Data:
 
 def _plain(block: Block, instance: Instance) -> Data:
     values = {name: getattr(block, name) for name in type(block).model_fields}
-    return {name: _plain_value(block, name, value, instance) for name, value in values.items() if value is not None}
+    values = {name: value for name, value in values.items() if value is not None}
+    idle = set(_idle(block, values))
+    return {name: _plain_value(block, name, value, instance) for name, value in values.items() if name not in idle}
+
+
+def _idle(block: Block, values: Data) -> Iterator[str]:
+    """Return the defaults that have no use beside what is given: as given keys they would be refused."""
+    for rule in type(block).one_of:
+        fault = rule.fault(values)
+        defaults = [name for name in values if name not in block.model_fields_set] if fault else []
+        yield from (name for name in defaults if rule.fault(values.keys() - {name}) != fault)
 
 
 def _plain_value(block: Block, name: str, value: Any, instance: Instance) -> Any:
@@ -140,7 +150,7 @@ def _plain_value(block: Block, name: str, value: Any, instance: Instance) -> Any
         case CurveHandle(calculation=_):
             return instance.data[name]
         case tuple() if isinstance(meta, CurveInput):
-            return [f"{part!r} {unit(meta.unit).si}" for part in value]
-        case float() if isinstance(meta, Quantity) and meta.parsed_unit.si != "1":
-            return f"{value!r} {meta.parsed_unit.si}"
+            return [as_given(part, meta.unit) for part in value]
+        case float() if isinstance(meta, Quantity):
+            return as_given(value, meta.unit)
     return value

@@ -110,16 +110,10 @@ class Run:
         if isinstance(value, SI):
             value = value.value
         if isinstance(value, tuple):
-            return [f"{part!r} {target.unit}" for part in value]
+            return [SI(part, str(target.unit), target.path) for part in value]
         if value is None:
             raise Absent("is not given there.")
         return value if target.unit is None or target.is_curve else SI(value, target.unit, target.path)
-
-    def _stand_in(self, instance: Instance, node: Node) -> Any:
-        """What is put in the place of a reference or of a default of the press."""
-        value = self.values[node]
-        is_listed = declared(instance.model, node[1:]) is None  # one value of a curve given as a list
-        return f"{value.value!r} {value.unit}" if is_listed else value
 
     # --- mechanisms --------------------------------------------------------------------------------------------------
 
@@ -152,7 +146,7 @@ class Run:
         self._validated(PRESS, instance, {"name": "?"} | data)
 
     def _with_values(self, instance: Instance, own: dict[Node, Target]) -> Data:
-        return substituted(instance, own, lambda node, target: self._stand_in(instance, node))
+        return substituted(instance, own, lambda node, _: self.values[node])
 
     def _validated(self, name: str, instance: Instance, data: Data) -> bool:
         block, problems = validate(instance.model, data, instance.place)

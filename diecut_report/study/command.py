@@ -101,11 +101,11 @@ def run(
             pass
     outcome = run_study(known, directory, where, resume=resume, tell=shown)
     with outcome.store.lock():
-        told = write_reports(known, outcome.store, where, agreed=agreed, tell=shown.doing)
+        told, broken = write_reports(known, outcome.store, where, agreed=agreed, tell=shown.doing)
         shown.doing("summary")
         told += export(outcome.store, formats)
         summarise(directory)
-    return replace(outcome, notes=(*filter(None, [known.sample.note]), *told))
+    return replace(outcome, broken_reports=broken, notes=(*filter(None, [known.sample.note]), *told))
 
 
 def _loaded(study: Path | None, directory: Path, where: Where) -> Study:

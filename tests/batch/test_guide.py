@@ -15,7 +15,6 @@ from diecut_report.study.definition.study_file import Study, load_study
 from diecut_report.study.execution.study_run import result_columns, varied_columns
 from tests.configs import EXAMPLE, STUDIES, saved
 
-pytestmark = pytest.mark.repository
 GUIDE = Path(__file__).parents[2] / "docs" / "studies.md"
 
 

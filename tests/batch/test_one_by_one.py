@@ -11,8 +11,8 @@ import pytest
 from diecut_report.cli.main import main
 from diecut_report.config.discovery import Discovery
 from diecut_report.study.execution.variant_rows import calculate_rows
-from tests.batch.studies import study
-from tests.configs import PLUGINS
+from tests.batch.studies import study, varied
+from tests.configs import LEVER, PLUGINS
 
 FOLDER = PLUGINS / "scalar"
 BASE = """\
@@ -43,9 +43,20 @@ def test_each_machine_is_calculated_and_the_kind_is_named(tmp_path: Path) -> Non
     assert list(rows.status[~is_high]) == ["pass" if width >= 2 else "fail" for width in w[~is_high]]
 
 
+@pytest.mark.usefixtures("with_html_summary")
 def test_the_command_and_its_summary_tell_it(tmp_path: Path, capfd: pytest.CaptureFixture[str]) -> None:
     study(tmp_path, STUDY, BASE, Discovery([FOLDER]))
     assert main(["batch", str(tmp_path / "study.yaml"), "-o", str(tmp_path / "out"), "--plugins", str(FOLDER)]) == 1
     assert "ladder cannot take arrays and was calculated machine by machine, which is slow" in capfd.readouterr().err
     assert list(json.loads((tmp_path / "out" / "study.json").read_text())["slow"]) == ["ladder"]
     assert "ladder" in (tmp_path / "out" / "summary.html").read_text()
+
+
+def test_machines_that_refer_to_a_calculated_text_are_calculated_one_by_one(tmp_path: Path) -> None:
+    base = LEVER + "  b: {kind: lever, force: 1, remark: '${a.size}'}\n"
+    known = study(tmp_path, varied("[14, 30]", path="mechanisms.a.teeth"), base)
+    rows = calculate_rows(
+        known.base, {known.inputs["mechanisms.a.teeth"]: known.sample.rows(0, 2)["mechanisms.a.teeth"]}, 2
+    )
+    assert list(rows.errors) == [None, None]
+    assert list(rows.columns["a.size"]) == ["small", "large"]

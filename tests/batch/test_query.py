@@ -16,9 +16,12 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from diecut_report.config import yaml_tree
+from diecut_report.config.discovery import Discovery
+from diecut_report.config.yaml_tree import Tree
 from diecut_report.errors import UserError
-from diecut_report.study.analysis.query import variant_config, variants
+from diecut_report.study.analysis.query import variants
 from diecut_report.study.analysis.stored_variants import Column as Read
+from diecut_report.study.analysis.variant_config import variant_config
 from diecut_report.study.conditions.where import condition
 from diecut_report.study.storage.description import Column, Kind
 from tests.batch.stored_study import BORE, SPEED, calculated, many, ten, written
@@ -233,21 +236,38 @@ def test_asking_writes_nothing(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) 
 # --- the configuration of a variant ----------------------------------------------------------------------------------
 
 
+def taken(folder: Path, variant: int) -> Tree:
+    """The configuration of a variant; what it is as text reads back as the same."""
+    tree = variant_config(folder, variant, Discovery([]), f"study-{variant}.yaml")
+    assert yaml_tree.parse(tree.text, "variant").data == tree.data
+    return tree
+
+
 def test_a_variants_configuration_is_the_base_with_its_values(folder: Path) -> None:
-    text = variant_config(folder, 4)
-    base, data = yaml_tree.load(folder / "base.yaml").data, yaml_tree.parse(text, "variant").data
+    tree = taken(folder, 4)
+    base, data = yaml_tree.load(folder / "base.yaml").data, tree.data
+    assert tree.text.startswith("# Variant 4 of study.yaml: ")
+    assert (tree.name, tree.file) == ("study-4.yaml", str(folder / "base.yaml"))
     assert data["mechanisms"]["cylinder"].pop("bore_radius") == "0.065 m"
     assert data["mechanisms"]["drive"].pop("crank_speed") == f"{2 * math.pi / 60 * 50!r} rad/s"
     del base["mechanisms"]["cylinder"]["bore_radius"], base["mechanisms"]["drive"]["crank_speed"]
     assert data.pop("project") == {"title": "Two mechanisms – variant 4 of study"}
     del base["project"]
     assert data == base
-    assert "# bored" in text and "# the title" in text
+
+
+def test_problems_of_a_variant_name_the_line_of_the_base(folder: Path) -> None:
+    tree, path = taken(folder, 4), ("mechanisms", "cylinder", "bore_radius")
+    assert tree.position(path) == (9, 18)
+    assert tree.typed(path) == "0.065 m"
+    assert tree.position(("mechanisms", "cylinder", "segment_height")) == (10, 21)
 
 
 BASES: dict[str, tuple[str, Kind, Any, Any]] = {
     "lists and blocks": ("mechanisms.drive.gears.1.driver_teeth", "int", 24, 24),
     "a flow block in a list": ("mechanisms.drive.gears.0.driver_teeth", "float", 24.0, 24),
+    "a key in %": ("mechanisms.drive.slip", "float", 0.07, "7 %"),
+    "a key in %, 100 of them": ("mechanisms.drive.slip", "float", 1.0, "100 %"),
     "a key that the base leaves out": ("mechanisms.drive.n_points", "int", 720, 720),
     "a field of the press": ("press.sheet.thickness", "float", 0.0008, "0.0008 m"),
     "a block that the base leaves out": ("press.rollers.first.width", "float", 0.5, "0.5 m"),
@@ -259,14 +279,12 @@ BASES: dict[str, tuple[str, Kind, Any, Any]] = {
 @pytest.mark.parametrize("name", BASES)
 def test_a_value_goes_where_its_path_leads(tmp_path: Path, name: str) -> None:
     path, kind, value, expected = BASES[name]
-    column = Column(path, kind, "m" if path.startswith("press") else "1")
+    column = Column(path, kind, "m" if path.startswith("press") else "1", "%" if path.endswith("slip") else "")
     out = written(tmp_path / "out", [column], {path: [value], "status": ["pass"]}, varied=[path])
-    text = variant_config(out, 0)
-    data = yaml_tree.parse(text, "variant").data
+    data = taken(out, 0).data
     for key in path.split("."):
         data = data[int(key)] if key.isdecimal() else data[key]
-    assert data == expected
-    assert "# second stage" in text
+    assert data == expected and type(data) is type(expected)
 
 
 def test_a_value_beside_an_anchor_changes_one_place_only(tmp_path: Path) -> None:
@@ -276,10 +294,10 @@ def test_a_value_beside_an_anchor_changes_one_place_only(tmp_path: Path) -> None
     state = json.loads((out / "study.json").read_text("utf-8"))
     state["sha256"]["base"] = sha256(base.encode()).hexdigest()
     (out / "study.json").write_text(json.dumps(state), encoding="utf-8")
-    data = yaml_tree.parse(variant_config(out, 3), "variant").data
+    data = taken(out, 3).data
     assert data["mechanisms"] == {"a": {"bore_radius": "70 mm"}, "cylinder": {"bore_radius": "0.065 m"}}
 
 
 def test_a_variant_that_is_not_stored_is_told(folder: Path) -> None:
     with pytest.raises(UserError, match=r"no variant 17 here.*0 … 9"):
-        variant_config(folder, 17)
+        taken(folder, 17)

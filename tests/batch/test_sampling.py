@@ -13,7 +13,7 @@ from typing import Any
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 from scipy import stats
 
@@ -22,6 +22,7 @@ from diecut_report.study.analysis.sensitivity import sobol_indices
 from diecut_report.study.sampling import methods
 from diecut_report.study.sampling.methods import Sample, SampleError
 from diecut_report.study.sampling.variables import Choice, Normal, Range, Triangular, Uniform, Variable
+from tests.examples import examples
 
 SPEED = Range("drive.crank_speed", 4.0, 12.0, 5)
 RADIUS = Choice("cylinder.bore_radius", (0.055, 0.06, 0.065))
@@ -131,7 +132,7 @@ def test_whole_numbers_of_a_range_are_different_and_nearest_to_equal_steps(low: 
 
 @pytest.mark.parametrize("kind", SAMPLES)
 @given(st.integers(2, 60), st.data())
-@settings(max_examples=15)
+@examples(15)
 def test_chunks_give_the_same_rows_as_the_whole(kind: str, count: int, data: Any) -> None:
     sample = SAMPLES[kind](count)
     cuts = data.draw(st.lists(st.integers(0, sample.count), max_size=5).map(sorted))
@@ -161,29 +162,32 @@ def test_another_seed_gives_other_rows(method: Callable[..., Sample]) -> None:
     assert not np.isclose(one, two).any()
 
 
-@pytest.mark.slow
+MANY_ROWS = pytest.mark.parametrize("count", [200_000, pytest.param(1_000_000, marks=pytest.mark.nightly)])
+
+
+@MANY_ROWS
 @pytest.mark.parametrize("kind", ["sobol", "indices", "grid", "zip"])
-def test_a_million_rows_need_no_more_memory_than_a_chunk(kind: str) -> None:
-    sample, size = SAMPLES[kind](1_000_000), 10_000
+def test_many_rows_need_no_more_memory_than_a_chunk(kind: str, count: int) -> None:
+    sample, size = SAMPLES[kind](count), count // 50
     sample.rows(0, size)  # imports and caches
     tracemalloc.start()
-    for start in range(0, 1_000_000, size):
+    for start in range(0, count, size):
         sample.rows(start, start + size)
     peak = tracemalloc.get_traced_memory()[1]
     tracemalloc.stop()
     assert peak < 60 * 8 * size
 
 
-@pytest.mark.slow
-def test_a_latin_hypercube_holds_one_number_for_each_row_and_path() -> None:
-    sample = methods.latin_hypercube(MIXED, 1_000_000, seed=77)
+@MANY_ROWS
+def test_a_latin_hypercube_holds_one_number_for_each_row_and_path(count: int) -> None:
+    sample = methods.latin_hypercube(MIXED, count, seed=77)
     tracemalloc.start()
-    for start in range(0, 1_000_000, 10_000):
+    for start in range(0, count, 10_000):
         sample.rows(start, start + 10_000)
     held, peak = tracemalloc.get_traced_memory()
     tracemalloc.stop()
-    assert held < 1.1 * 8 * 1_000_000 * len(MIXED)
-    assert peak < 2 * 8 * 1_000_000 * len(MIXED)
+    assert held < 1.1 * 8 * count * len(MIXED)
+    assert peak < 2 * 8 * count * len(MIXED)
 
 
 # --- drawn samples ---------------------------------------------------------------------------------------------------

@@ -14,7 +14,8 @@ import pytest
 from diecut_report.cli.main import main
 from diecut_report.config.discovery import Discovery
 from diecut_report.errors import UserError
-from diecut_report.study.analysis.query import variant_config, variants
+from diecut_report.study.analysis.query import variants
+from diecut_report.study.analysis.variant_config import variant_config
 from diecut_report.study.definition.study_file import load_study
 from diecut_report.study.execution.study_run import Where, run_study
 from tests.batch.stored_study import many, ten
@@ -87,7 +88,7 @@ def _same(one: Any, two: Any, share: float) -> bool:
 def test_a_variant_that_cannot_exist_says_why(run: Path, capfd: pytest.CaptureFixture[str]) -> None:
     broken = next(row for row in rows(run) if row["status"] == "error")
     with pytest.raises(UserError) as caught:
-        variant_config(run, broken["variant"])
+        variant_config(run, broken["variant"], Discovery([]), "broken.yaml")
     assert f"Variant {broken['variant']} cannot be calculated: {broken['error']}" in str(caught.value)
     assert main(["report", f"{run}#{broken['variant']}", "-o", str(run / "never")]) == 2
     assert broken["error"] in capfd.readouterr().err

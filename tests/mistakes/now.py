@@ -251,5 +251,5 @@ NOW: dict[str, str] = {
     'a drawing with an array as a number': 'calc breaks: TypeError: Object of type ndarray is not JSON serializable',
     'a shape that is a text': 'silent',
     'a drawing that asks a text of a number': "words: mechanism 'lift' of plugin 'bucket_elevator': KeyError: 'drum' (calculation.py:212) 1",
-    'plain code that fails for some machines of a study': 'study breaks: diecut_report.study.execution.in_flight.ChunkFailed: Chunk(part=0, start=0, sto',
+    'plain code that fails for some machines of a study': 'study breaks: diecut_report.study…',
 }  # fmt: skip

@@ -118,10 +118,10 @@ def test_pick_names_its_series(chapters: dict[str, Chapter]) -> None:
     assert "neighbours not taken: 0.75 kW, 1.5 kW" in item.notes[1]
 
 
-def test_series_is_named_once_where_a_note_tells_its_sources(results: Data) -> None:
-    pick = next(item for item in results["mechanisms"]["train"]["sections"][0]["items"] if item.get("series"))
+def test_series_is_named_once_where_a_note_tells_its_sources(plain: Data) -> None:
+    pick = next(item for item in plain["mechanisms"]["train"]["sections"][0]["items"] if item.get("series"))
     pick["note"] = f"{pick['series']}: a standard; a catalogue"
-    section = Rendering(results).material.document.chapters[4].sections[0]
+    section = Rendering(plain).material.document.chapters[4].sections[0]
     notes = next(item.notes for item in section.items if item.description == "Rating")
     assert sum("Ratings of motors" in note for note in notes) == 1
 
@@ -152,15 +152,15 @@ def test_comparison_stands_in_contents_sources_and_checks(rendering: Rendering) 
     assert ("F", "compared") in [(row.chapter, row.id) for row in document.checks]
 
 
-def test_check_of_a_comparison_may_govern(results: Data) -> None:
-    results["governing"] = {"mechanism": "compared-cylinder-train", "check": "compared"}
-    governing = Rendering(results).material.document.governing
+def test_check_of_a_comparison_may_govern(plain: Data) -> None:
+    plain["governing"] = {"mechanism": "compared-cylinder-train", "check": "compared"}
+    governing = Rendering(plain).material.document.governing
     assert governing is not None and governing.chapter == "F"
 
 
-def test_comparison_without_checks_has_no_chapter_of_them(results: Data) -> None:
-    results["comparisons"]["compared-cylinder-train"]["checks"] = []
-    page = render_html(results)
+def test_comparison_without_checks_has_no_chapter_of_them(plain: Data) -> None:
+    plain["comparisons"]["compared-cylinder-train"]["checks"] = []
+    page = render_html(plain)
     last = page[page.index('<h2 id="m-F">') :]
     assert "There are no checks." not in last and "Checks" not in _words(last)
 
@@ -169,19 +169,19 @@ def test_mechanism_without_checks_says_so(html: str) -> None:
     assert "There are no checks." in html[html.index('<h2 id="m-E">') : html.index('<h2 id="m-F">')]
 
 
-def test_comparison_between_three(results: Data) -> None:
-    results["comparisons"]["compared-cylinder-train"]["between"] = ["cylinder", "drive", "train"]
-    assert "Comparison of A Impression cylinder, B Cylinder drive and E Drive train" in _words(render_html(results))
+def test_comparison_between_three(plain: Data) -> None:
+    plain["comparisons"]["compared-cylinder-train"]["between"] = ["cylinder", "drive", "train"]
+    assert "Comparison of A Impression cylinder, B Cylinder drive and E Drive train" in _words(render_html(plain))
 
 
 def test_figures_of_a_comparison_are_drawn(rendering: Rendering) -> None:
     assert "F.1" in rendering.material.figures
 
 
-def test_results_without_comparisons_have_none(results: Data) -> None:
-    del results["comparisons"]
-    results["mechanisms"]["cylinder"]["checks"].append(check("more"))
-    page = render_html(results)
+def test_results_without_comparisons_have_none(plain: Data) -> None:
+    del plain["comparisons"]
+    plain["mechanisms"]["cylinder"]["checks"].append(check("more"))
+    page = render_html(plain)
     assert 'id="m-E"' in page and 'id="m-F"' not in page and "Comparison of" not in page
 
 
@@ -195,9 +195,9 @@ def test_files_beside_the_report_are_named(chapters: dict[str, Chapter], results
     assert "Files beside this report" in html and "press.train.cam_1.dxf" in html
 
 
-def test_profile_without_a_pitch_curve_names_no_layer_of_it(results: Data) -> None:
-    results["mechanisms"]["train"]["exports"] = [export("cam_1_x", "cam_1_y")]
-    files = Rendering(results).material.document.chapters[4].files
+def test_profile_without_a_pitch_curve_names_no_layer_of_it(plain: Data) -> None:
+    plain["mechanisms"]["train"]["exports"] = [export("cam_1_x", "cam_1_y")]
+    files = Rendering(plain).material.document.chapters[4].files
     assert PITCH_CURVE not in files[0].content and PROFILE in files[0].content
 
 

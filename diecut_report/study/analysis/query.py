@@ -21,7 +21,6 @@ from diecut_report.study.analysis.stored_variants import (
     Stored,
     opened,
 )
-from diecut_report.study.analysis.variant_config import variant_config
 from diecut_report.study.conditions.where import Condition, column_named, condition
 from diecut_report.study.storage.state import read_state
 
@@ -197,4 +196,4 @@ def _counted(stored: Stored, question: Question, given: int) -> str:
     return words + (f"; {given} are shown (--top, --format csv)." if given < found else ".")
 
 
-__all__ = ["FORMATS", "variant_config", "variants"]
+__all__ = ["FORMATS", "variants"]

@@ -13,7 +13,7 @@ from diecut_report.config.model import Press
 from diecut_report.config.references import PRESS, Linker, Target
 from diecut_report.config.validation import declared, keys_of, validate
 from diecut_report.config.yaml_tree import KeyPath
-from diecut_report.contract.inputs import Block, CurveInput, Pending, Quantity, Text, fields, list_inputs
+from diecut_report.contract.inputs import SI, Block, CurveInput, Pending, Quantity, Text, fields, list_inputs
 from diecut_report.contract.unit_variants import in_form
 from diecut_report.errors import Problem, nearest
 
@@ -87,7 +87,7 @@ def _no_instance(base: Config, path: str) -> str:
     first, *rest = path.split(".")
     names = [name for name in base.instances if name != PRESS]
     if first in names:
-        return f"is no path of an input; write {MECHANISMS}.{path}."
+        return f"is not a path of an input; write {MECHANISMS}.{path}."
     if first == MECHANISMS and rest:
         return f"there is no mechanism {rest[0]!r}{nearest(rest[0], names)}. Known: {', '.join(names)}."
     if first == "project":
@@ -95,7 +95,7 @@ def _no_instance(base: Config, path: str) -> str:
     known = [found for name in base.instances for found in known_paths(base, name)]
     alike = next((found for found in known if found.endswith(f".{rest[-1] if rest else first}")), None)
     near = f" (did you mean {alike!r}?)" if alike else nearest(path, known)
-    return f"is no path of an input{near}; paths are {MECHANISMS}.NAME.KEY and {PRESS}.KEY. Mechanisms: {', '.join(names)}."
+    return f"is not a path of an input{near}; paths are {MECHANISMS}.NAME.KEY and {PRESS}.KEY. Mechanisms: {', '.join(names)}."
 
 
 def _no_input(base: Config, instance: Instance, keys: list[str]) -> str:
@@ -107,7 +107,7 @@ def _no_input(base: Config, instance: Instance, keys: list[str]) -> str:
     if name in instance.results:
         return f"is an output {told}; only inputs can be varied{nearest(name, _known(instance))}."
     near = nearest(name, _known(instance))
-    return f"{name!r} is no input {told}{near}. Known: {', '.join(_known(instance))}."
+    return f"{name!r} is not an input {told}{near}. Known: {', '.join(_known(instance))}."
 
 
 def known_paths(base: Config, name: str) -> list[str]:
@@ -196,4 +196,4 @@ def _not_together(base: Config, values: Mapping[Input, Any]) -> Iterator[Problem
 def _stand_in(instance: Instance, key: KeyPath, target: Target) -> Any:
     """What stands for a reference where only the keys are judged; the values of a listed curve must be numbers."""
     is_listed = declared(instance.model, key) is None
-    return f"0 {target.unit}" if is_listed else Pending(target.path, target.unit, target.is_curve)
+    return SI(0.0, str(target.unit), target.path) if is_listed else Pending(target.path, target.unit, target.is_curve)

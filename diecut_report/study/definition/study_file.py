@@ -53,6 +53,8 @@ class Study:
 def load_study(path: Path, discovery: Discovery, places: Mapping[str, Path] | None = None) -> Study:
     """Read a study and its base; UserError with all problems of both, each with its file, line, column and key.
 
+    PluginError where a plugin of the base is broken.
+
     ``places``: where the files are that the study names, where they are not sought from its folder.
     """
     reader = _Reader(path, yaml_tree.load(path), discovery, places or {})
@@ -132,9 +134,8 @@ class _Reader:
             words = "the base has problems, which are told with its own name; what is varied in it is judged when they are mended."
             self.problems += [self.place.problem(("base",), words), *error.problems]
             return None
-        self.problems += [
-            self.place.problem(("base",), f"a plugin of the base is broken: {error}") for error in base.broken.values()
-        ]
+        if base.broken:  # no variant can be calculated: the author of the plugin must act, not that of the study
+            raise next(iter(base.broken.values()))
         return base
 
     def _constraints(self, sampled: Sampled) -> Iterator[Constraint]:

@@ -127,8 +127,8 @@ def _connected(address: str) -> Any:
         client: Any = Client
         return client(address, timeout=PATIENCE, set_as_default=False)
     except ValueError as error:
-        words = f"{address!r} is no address of a Dask scheduler ({error}). Give it as tcp://HOST:PORT."
+        words = f"{address!r} is not an address of a Dask scheduler ({error}). Give it as tcp://HOST:PORT."
         raise UserError(Problem(words)) from error
     except OSError as error:
-        words = f"The Dask scheduler at {address} cannot be reached ({error}). Start it with `dask scheduler`, or mend the address."
+        words = f"The Dask scheduler at {address} cannot be reached ({error}). Start it with `dask scheduler`, or correct the address."
         raise UserError(Problem(words)) from error

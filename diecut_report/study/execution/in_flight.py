@@ -9,7 +9,7 @@ from concurrent.futures import FIRST_COMPLETED, CancelledError, Future, wait
 from dataclasses import dataclass, field
 from typing import Any, Protocol, Self
 
-from diecut_report.errors import Problem, UserError
+from diecut_report.errors import PluginError, Problem, UserError
 
 Chunk = Any
 Function = Callable[[Any, Chunk], Any]  # (what the worker has loaded, chunk) -> result
@@ -137,7 +137,7 @@ class _Flight:
     def _result(self, future: Future[Any], chunk: Chunk) -> Any:
         try:
             return future.result()
-        except UserError:
+        except (PluginError, UserError):
             raise
         except self.engine.gave_up as error:
             raise _gave_up(chunk) from error

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterator, Mapping
+from contextlib import contextmanager
 from dataclasses import dataclass, field
 from typing import Any
 
@@ -16,7 +17,7 @@ from diecut_report.config.validation import declared, validate
 from diecut_report.config.yaml_tree import KeyPath
 from diecut_report.contract.inputs import SI, Quantity, flatten
 from diecut_report.engine import Calculation, CurveHandle, Impossible, Unproven, calculate
-from diecut_report.errors import Problem
+from diecut_report.errors import PluginError, Problem
 from diecut_report.expressions import Array
 from diecut_report.results.press_run import Absent, Run
 from diecut_report.study.definition.base_inputs import Input, with_values
@@ -25,7 +26,27 @@ Values = Mapping[Input, Array | str]
 
 
 class NotOnArrays(Exception):
-    """A plugin that cannot calculate many machines at once; the text says what went wrong."""
+    """A plugin that cannot calculate these machines together, or breaks; its kind and what went wrong."""
+
+    def __init__(self, kind: str, words: str) -> None:
+        super().__init__(kind, words)
+        self.kind, self.words = kind, words
+
+    def __str__(self) -> str:
+        return f"plugin {self.kind!r}: {self.words}"
+
+
+@contextmanager
+def of_plugin(kind: str) -> Iterator[None]:
+    """Tell what breaks within as a fault of the plugin, whose code runs there."""
+    try:
+        yield
+    except (Impossible, NotOnArrays, Unproven):
+        raise
+    except PluginError as cause:
+        raise NotOnArrays(kind, cause.message) from cause
+    except Exception as cause:
+        raise NotOnArrays(kind, said(cause)) from cause
 
 
 @dataclass
@@ -71,6 +92,10 @@ class _Rows(Run):
     def _comparisons(self) -> None:
         """A study compares variants, not mechanisms."""
 
+    def _broke(self, instance: Instance, cause: BaseException) -> None:
+        """No mechanism of a machine is left out in silence."""
+        raise NotOnArrays(self.config.kinds[instance.name], said(cause)) from cause
+
     def _output(self, calculation: Calculation, name: str, target: Target) -> Any:
         """A result of all machines; where it is absent that is the machine's reason."""
         if calculation.axis.get(name) in calculation.domains:
@@ -82,13 +107,16 @@ class _Rows(Run):
             raise Absent("does not exist for these machines.")
         column = numbers[:, place]
         if column.dtype == object:
-            raise NotOnArrays(f"the text {name} is referred to")
+            if self.machines.count == 1:
+                return column[0]
+            raise NotOnArrays(calculation.mechanism.kind, f"its text {name} is referred to")
         return SI(column.astype(float), str(target.unit), target.path)
 
     def _validated(self, name: str, instance: Instance, data: dict[str, Any]) -> bool:
         """Judge the columns by the bounds of their keys; the block then holds arrays that are sound."""
         sound = _mended(data, lambda key, value: self._sound(instance, key, value))
-        block, problems = validate(instance.model, sound, instance.place)
+        with of_plugin(self.config.kinds.get(name, name)):
+            block, problems = validate(instance.model, sound, instance.place)
         self._all_wrong(problems)
         if block is not None:
             self.blocks[name] = block
@@ -101,8 +129,13 @@ class _Rows(Run):
     def _sound(self, instance: Instance, key: KeyPath, value: SI) -> Any:
         """A column without the values that its key refuses: these machines get a reason, and the value of another one."""
         meta = declared(instance.model, key)
-        if not isinstance(meta, Quantity) or not isinstance(value.value, np.ndarray) or value.value.ndim == 0:
+        if not isinstance(value.value, np.ndarray) or value.value.ndim == 0:
             return value if not isinstance(value.value, np.ndarray) else SI(value.value[()], value.unit, value.told)
+        if not isinstance(meta, Quantity):  # one value of a curve given as a list
+            if value.value.size > 1:
+                words = f"a curve given as a list refers to {value.told}, which varies"
+                raise NotOnArrays(self.config.kinds[instance.name], words)
+            return SI(value.value.item(), value.unit, value.told)
         column = np.broadcast_to(value.value, (self.machines.count,)).astype(float)
         bad = np.flatnonzero(~meta.holds(column))
         for row in bad:
@@ -127,12 +160,11 @@ class _Rows(Run):
         if len(self.machines.reasons) == self.machines.count:
             return
         try:
-            found = calculate(instance.mechanism, flatten(block), self.machines.count)
+            with of_plugin(instance.mechanism.kind):
+                found = calculate(instance.mechanism, flatten(block), self.machines.count)
         except (Impossible, Unproven) as fault:
             self._alone(name, instance, fault)
             return
-        except Exception as cause:
-            raise NotOnArrays(f"{instance.mechanism.kind}: {said(cause)}") from cause
         self.calculations[name] = found
         for row, (key, message) in found.flaws.items():
             self._reason([row], _told(instance, key, message))

@@ -8,6 +8,7 @@ from typing import Any
 
 import numpy as np
 
+from diecut_report.config.discovery import said
 from diecut_report.config.instances import Instance
 from diecut_report.config.loader import Config
 from diecut_report.config.references import PRESS
@@ -16,9 +17,11 @@ from diecut_report.contract.inputs import list_inputs
 from diecut_report.contract.steps import SILENT, Choice, Crossings, Step, Value
 from diecut_report.engine import Calculation
 from diecut_report.engine.steps.extreme_checks import is_made
+from diecut_report.errors import PluginError
 from diecut_report.expressions import Array
 from diecut_report.quantities.units import unit
 from diecut_report.results.checks import judged
+from diecut_report.study.execution.press_batch import of_plugin
 from diecut_report.study.storage.description import Column, Kind
 
 CROSSINGS = 8  # of a curve's changes of sign that have columns of their own
@@ -31,9 +34,16 @@ def columns_of(config: Config) -> list[Column]:
     found: list[Column] = []
     for name, instance in config.instances.items():
         if instance is not None and instance.mechanism is not None and name != PRESS:
-            found += _outputs(name, instance)
-            found += _checks(name, instance)
+            found += _declared(name, instance, instance.mechanism.kind)
     return found
+
+
+def _declared(name: str, instance: Instance, kind: str) -> list[Column]:
+    """Return the columns of a mechanism; PluginError where what it declares cannot be read."""
+    try:
+        return [*_outputs(name, instance), *_checks(name, instance)]
+    except Exception as cause:
+        raise PluginError(said(cause), kind, name) from cause
 
 
 def curve_columns(config: Config, names: Iterable[str]) -> Iterator[Column]:
@@ -135,7 +145,8 @@ def curve_values(calculations: Mapping[str, Calculation], names: Iterable[str]) 
             samples = calc.domains[curve].samples
             found[name] = list(np.broadcast_to(samples, (calc.count, samples.shape[1])))
         elif calc is not None and curve in calc.curves:
-            found[name] = list(calc.curve_samples(curve))
+            with of_plugin(calc.mechanism.kind):
+                found[name] = list(calc.curve_samples(curve))
     return found
 
 

@@ -67,12 +67,19 @@ class Outcome:
     store: Store
     counts: dict[str, int]
     slow: dict[str, str] = field(default_factory=dict)
+    broken: dict[str, str] = field(default_factory=dict)  # plugins that broke for some variants, and why
+    broken_reports: dict[str, str] = field(default_factory=dict)  # plugins that broke in full reports, and why
     notes: tuple[str, ...] = ()  # what else the user should know
 
     @property
     def is_failed(self) -> bool:
         """Whether a variant fails a check; variants that cannot exist do not count."""
         return self.counts.get("fail", 0) > 0
+
+    @property
+    def is_broken(self) -> bool:
+        """Whether a plugin broke for all variants, or in a full report: a single variant in error does not count."""
+        return bool(self.broken_reports) or (bool(self.broken) and self.counts["error"] == self.counts["variants"])
 
 
 def run_study(study: Study, directory: Path, where: Where, *, resume: bool, tell: Tell) -> Outcome:
@@ -81,15 +88,21 @@ def run_study(study: Study, directory: Path, where: Where, *, resume: bool, tell
     with store.lock():
         store.start(facts(study))
         began, before = time.monotonic(), float(store.state.get("seconds") or 0)
-        slow = dict(store.state.get("slow") or {})
+        slow, broken = dict(store.state.get("slow") or {}), dict(store.state.get("broken") or {})
+
+        def noted() -> None:
+            told = {"broken": broken} if broken else {}
+            store.note({"slow": slow, "seconds": before + time.monotonic() - began} | told)
+
         try:
             for done in _calculated(study, store, where, tell):
                 slow |= done.slow  # noted with each part: a run that is killed later has told it
-                store.note({"slow": slow, "seconds": before + time.monotonic() - began})
+                broken |= done.broken
+                noted()
         finally:  # an interrupted run has spent its time too
-            store.note({"slow": slow, "seconds": before + time.monotonic() - began})
+            noted()
         store.finish({}, without_value(study))
-    return Outcome(store, store.state["counts"], slow)
+    return Outcome(store, store.state["counts"], slow, broken)
 
 
 def _calculated(study: Study, store: Store, where: Where, tell: Tell) -> Iterator[worker.Done]:

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import os
-import tempfile
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 from pathlib import Path
@@ -53,10 +52,13 @@ class Report:
         return f"the full report of variant {self.variant}"
 
 
-def write_reports(study: Study, store: Store, where: Where, *, agreed: bool, tell: Tell) -> tuple[str, ...]:
+def write_reports(
+    study: Study, store: Store, where: Where, *, agreed: bool, tell: Tell
+) -> tuple[tuple[str, ...], dict[str, str]]:
     """The full reports that the study asks for, as ``reports/ID.html`` and so on; those that are there already are kept.
 
-    Returns what was not done, in words. ``tell`` hears how far it is. They are made side by side in processes of this machine.
+    Return what was not done, in words, and the plugins that broke, with their faults. ``tell`` hears how far it is. They
+    are made side by side in processes of this machine.
     """
     chosen = wanted(study, store)
     folder = store.directory / FOLDER
@@ -66,13 +68,15 @@ def write_reports(study: Study, store: Store, where: Where, *, agreed: bool, tel
             f"{len(missing):,} variants are to get a full report, each of which takes some seconds; none was made. "
             f"Make them all with: batch --resume {store.directory} --yes; or one: report {store.directory}#{missing[0]}"
         )
-        return (*chosen.notes, words)
+        return (*chosen.notes, words), {}
+    broken: dict[str, str] = {}
     if missing:
         with _engine(store, where, len(missing)) as engine:
             tell(f"full reports: 0 of {len(missing)}")
-            for done, _ in enumerate(results(engine, _write, map(Report, missing)), 1):
+            for done, (report, faults) in enumerate(results(engine, _write, map(Report, missing)), 1):
+                broken |= {kind: f"in {report}: {why}" for kind, why in faults.items()}
                 tell(f"full reports: {done} of {len(missing)}")
-    return chosen.notes
+    return chosen.notes, broken
 
 
 def _engine(store: Store, where: Where, reports: int) -> Engine:
@@ -82,12 +86,12 @@ def _engine(store: Store, where: Where, reports: int) -> Engine:
     return Pool(jobs, warm) if jobs > 1 else InProcess(warm)
 
 
-def _write(place: Place, report: Report) -> None:
-    with tempfile.TemporaryDirectory() as folder:
-        file = Path(folder) / f"{report.variant}.yaml"
-        file.write_text(variant_config(place.directory, report.variant), encoding="utf-8")
-        discovery = Discovery([Path(plugin) for plugin in place.plugins])
-        pipeline.report(file, discovery, lambda _: None, place.directory / FOLDER, list(FORMATS), None)
+def _write(place: Place, report: Report) -> dict[str, str]:
+    """Write a report; the plugins that broke in it, and why."""
+    discovery = Discovery([Path(plugin) for plugin in place.plugins])
+    config = variant_config(place.directory, report.variant, discovery, f"{report.variant}.yaml")
+    outcome = pipeline.report(config, discovery, lambda _: None, place.directory / FOLDER, list(FORMATS), None)
+    return {error.kind: error.message for error in outcome.broken}
 
 
 def wanted(study: Study, store: Store) -> Chosen:

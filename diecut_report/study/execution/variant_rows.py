@@ -30,6 +30,7 @@ class Rows:
     governing: Array = field(init=False)
     errors: Array = field(init=False)
     slow: dict[str, str] = field(default_factory=dict)
+    broken: dict[str, str] = field(default_factory=dict)  # plugins that broke for a machine alone, and why
 
     def __post_init__(self) -> None:
         self.status = np.full(self.count, "pass", dtype=object)
@@ -41,7 +42,8 @@ def calculate_rows(base: Config, given: Given, count: int, curves: Sequence[str]
     """All outputs and checks of the base, and these curves, with other values: arrays of shape (count,), SI, or texts.
 
     A machine that cannot exist has the status ``error`` and its reason. Machines with unlike texts are calculated in groups;
-    a plugin that cannot take arrays makes its machines be calculated one by one, which ``slow`` tells.
+    a plugin that cannot take arrays makes its machines be calculated one by one, which ``slow`` tells. One that breaks for
+    a machine alone leaves it in error, and is in ``broken``.
     """
     rows = Rows(count, curves)
     for alike, texts in _groups(given, count):
@@ -75,9 +77,9 @@ def _group(base: Config, numbers: Mapping[Input, Array], texts: Mapping[Input, A
         if len(chosen) == 1:
             rows.errors[chosen] = str(cause)
             rows.status[chosen] = "error"
+            rows.broken[cause.kind] = cause.words
             return
-        kind, _, words = str(cause).partition(": ")
-        rows.slow[kind] = words
+        rows.slow[cause.kind] = cause.words
         for index, row in enumerate(chosen):
             _group(base, {asked: values[[index]] for asked, values in numbers.items()}, texts, rows, np.array([row]))
 

@@ -31,10 +31,14 @@ class Chunk:
 
 @dataclass
 class Done:
-    """A chunk's columns by name, ready for its part file; ``slow`` names kinds that were calculated one by one, and why."""
+    """A chunk's columns by name, ready for its part file.
+
+    ``slow`` names kinds that were calculated one by one, ``broken`` those whose plugin broke, and why.
+    """
 
     columns: dict[str, Array]
     slow: dict[str, str] = field(default_factory=dict)
+    broken: dict[str, str] = field(default_factory=dict)
 
 
 def load(study: bytes, files: Mapping[str, bytes], plugins: Sequence[str]) -> Study:
@@ -63,7 +67,7 @@ def calculate(study: Study, chunk: Chunk) -> Done:
     rows = calculate_rows(study.base, inputs, len(kept), study.curves)
     columns |= {name: values for name, values in rows.columns.items() if _is_kept(study, name)}
     verdicts = {"status": rows.status, "governing": rows.governing, "error": rows.errors}
-    return Done(columns | verdicts, rows.slow)
+    return Done(columns | verdicts, rows.slow, rows.broken)
 
 
 def judged(study: Study, given: Mapping[str, Values], count: int) -> Judged:

@@ -13,8 +13,8 @@ import pyarrow.parquet as pq
 from numpy.typing import NDArray
 
 from diecut_report.errors import Problem, UserError
+from diecut_report.files import write
 from diecut_report.study.storage.description import SCHEMA_VERSION, VARIANT, VERDICT, Description, Kind
-from diecut_report.study.storage.durable_files import write
 
 Values = NDArray[Any] | Sequence[Any]
 TYPES: dict[Kind, Any] = {

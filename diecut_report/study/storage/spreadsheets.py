@@ -10,7 +10,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from diecut_report.errors import Problem, UserError, nearest
-from diecut_report.study.storage.durable_files import replaced, room
+from diecut_report.files import replaced, room
 from diecut_report.study.storage.store import PARTS, Store
 
 if TYPE_CHECKING:
@@ -25,7 +25,9 @@ def export(store: Store, formats: Iterable[str]) -> tuple[str, ...]:
     """Write the variants stored so far as DIR/variants.csv or .xlsx, a row each; says what is to be known of the files."""
     wanted = list(dict.fromkeys(formats))
     if strange := [name for name in wanted if name not in WRITERS]:
-        words = f"{strange[0]!r} is no format of a table{nearest(strange[0], WRITERS)}. Allowed: {', '.join(WRITERS)}."
+        words = (
+            f"{strange[0]!r} is not a format of a table{nearest(strange[0], WRITERS)}. Allowed: {', '.join(WRITERS)}."
+        )
         raise UserError(Problem(words))
     for name in wanted:
         path = store.directory / f"{NAME}.{name}"

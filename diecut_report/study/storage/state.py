@@ -15,8 +15,8 @@ from typing import Any
 from filelock import FileLock, Timeout
 
 from diecut_report.errors import Problem, UserError
+from diecut_report.files import in_words, write
 from diecut_report.study.storage.description import Description, Source, as_data, changes, from_data, libraries
-from diecut_report.study.storage.durable_files import in_words, write
 
 STATE, STUDY, BASE, TABLES = "study.json", "study.yaml", "base.yaml", "tables"
 LOCK, HOLDER = ".lock", ".lock.json"
@@ -45,7 +45,7 @@ def read_description(folder: Path) -> Description:
     try:
         found = from_data(read_state(folder))
     except (KeyError, TypeError, ValueError, AttributeError) as error:
-        raise UserError(Problem(f"This is no state of a study: {error}", str(folder / STATE))) from error
+        raise UserError(Problem(f"This is not the state of a study: {error}", str(folder / STATE))) from error
     study, base, *tables = (_with_copy(source, path) for path, source in copies(folder, found).items())
     return replace(found, study=study, base=base, tables=tuple(tables))
 

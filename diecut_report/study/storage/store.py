@@ -21,9 +21,9 @@ import pyarrow.parquet as pq
 from filelock import FileLock
 
 from diecut_report.errors import Problem, UserError
+from diecut_report.files import in_words, remove_stale
 from diecut_report.study.storage import state
 from diecut_report.study.storage.description import VARIANT, Description
-from diecut_report.study.storage.durable_files import in_words, remove_stale
 from diecut_report.study.storage.part_files import (
     DAMAGED,
     Values,

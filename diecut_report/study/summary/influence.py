@@ -206,8 +206,8 @@ def _without(others: Array, values: Array) -> Array:
 
 
 def ranks(values: Array) -> Array:
-    """Ranks from 1; equal values share the mean of theirs."""
-    _, place, counts = np.unique(values, return_inverse=True, return_counts=True)
-    last = np.cumsum(counts)
-    mean: Array = (last - (counts - 1) / 2)[place]
-    return mean
+    """Return ranks from 1; equal values share the mean of theirs."""
+    from scipy.stats import rankdata  # slow to import, and not needed for Sobol indices
+
+    found: Array = rankdata(values)
+    return found

@@ -1,0 +1,81 @@
+"""A YAML tree with other values in some of its places, and a tree written as text that reads back as the same tree."""
+
+from __future__ import annotations
+
+import hashlib
+import math
+from collections.abc import Iterator, Mapping
+from dataclasses import replace
+from typing import Any
+
+import yaml
+
+from diecut_report.config.yaml_tree import (
+    KeyPath,
+    Node,
+    Tree,
+    resolved,
+)
+
+Scalar = str | int | float
+
+
+def with_values(tree: Tree, values: Mapping[KeyPath, Scalar], name: str, heading: str) -> Tree:
+    """Return the tree with these values, each at the place of what it stands for; blocks that are missing are made.
+
+    ``name`` is what documents call it, ``heading`` the comment above its text; messages name the tree's own file and lines.
+    """
+    root = tree.root
+    for path, value in values.items():
+        root = _with_value(root, path, value)
+    text = f"# {heading}\n{as_text(root)}"
+    return Tree(root, tree.file, text, hashlib.sha256(text.encode()).hexdigest(), name)
+
+
+def _with_value(node: Node, path: KeyPath, value: Scalar) -> Node:
+    """Return a copy of the node with the value below it: an alias of the node keeps what it has."""
+    if not path:
+        return Node(node.position, value, value if isinstance(value, str) else repr(value))
+    key, rest = path[0], path[1:]
+    children = dict(node.children or {})
+    children[key] = _with_value(children.get(key, Node(node.position)), rest, value)
+    return replace(node, scalar=None, typed=None, children=children)
+
+
+def as_text(root: Node) -> str:
+    """Return the tree as YAML; comments, anchors and the layout of the file that it was read from are not kept."""
+    events = [
+        yaml.StreamStartEvent(),
+        yaml.DocumentStartEvent(),
+        *_events(root),
+        yaml.DocumentEndEvent(),
+        yaml.StreamEndEvent(),
+    ]
+    text: str = yaml.emit(events, allow_unicode=True, width=math.inf)
+    return text
+
+
+def _events(node: Node) -> Iterator[Any]:
+    if node.children is None:
+        yield _scalar(node.scalar, node.typed)
+        return
+    start, end = (
+        (yaml.SequenceStartEvent, yaml.SequenceEndEvent)
+        if node.is_list
+        else (yaml.MappingStartEvent, yaml.MappingEndEvent)
+    )
+    yield start(anchor=None, tag=None, implicit=True, flow_style=not node.children)
+    for key, child in node.children.items():
+        if not node.is_list:
+            yield _scalar(key, str(key))
+        yield from _events(child)
+    yield end()
+
+
+def _scalar(value: Any, typed: str | None) -> Any:
+    """Return a scalar as it was typed; a text that would be read as something else stands in quotes."""
+    text = "null" if value is None else str(typed)
+    is_other = isinstance(value, str) and resolved(text) != text
+    return yaml.ScalarEvent(
+        anchor=None, tag=None, implicit=(not is_other, True), value=text, style='"' if is_other else None
+    )

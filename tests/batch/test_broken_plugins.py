@@ -1,0 +1,171 @@
+"""A plugin that breaks in a study is named; where it leaves no variant, the study ends with 3, as ``calc`` does."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from pathlib import Path
+from typing import Any
+
+import pyarrow.parquet as pq
+import pytest
+
+from diecut_report import pipeline
+from diecut_report.cli.main import main
+from diecut_report.errors import PluginError
+from tests.configs import saved
+
+Capture = pytest.CaptureFixture[str]
+PLUGIN = """
+from typing import Any, Literal
+
+import numpy as np
+from pydantic import field_validator
+
+from diecut_report.api import (
+    POINTS, Abscissa, Annotated, Computed, FromPress, Inputs, Mechanism, Quantity, Chapter, Text, Value, formula)
+
+
+class Breaking(Inputs):
+    x: Annotated[float, Quantity("x", "mm", "Length", gt=0)] = 1.0
+    y: Annotated[float | None, Quantity("y", "1/h", "Rate", gt=0)] = None
+    n_points: Annotated[int, POINTS] = 36
+    # inputs
+
+
+@formula
+def twice(x: Any) -> Any:
+    return 2 * x
+
+
+@formula
+def unprintable(x: Any) -> Any:
+    return sum([x, x])
+
+
+@formula
+def missing(x: Any) -> Any:
+    return x * {{}}["nothing"]
+
+
+@formula
+def wave(angle: Any, a: Any) -> Any:
+    return a * np.sin(angle)
+
+
+def small(x: Any) -> Any:
+    if np.any(x > 2.5e-3):
+        raise LookupError("too long for the table")
+    return 2 * x
+
+
+def never(x: Any) -> Any:
+    raise LookupError("no table")
+
+
+STEP = Value(id="a", symbol="a", unit="mm", description="A", formula=twice)
+MECHANISM = Mechanism(kind="breaking", version="1", title="T", summary="S.", inputs=Breaking, chapters=(Chapter("S", steps=(STEP, {step})),))
+"""
+VALUE = 'Value(id="b", symbol="b", unit="mm", description="B", formula={})'
+COMPUTED = (
+    'Computed(id="b", symbol="b", unit="mm", description="B", source="s", function=small, takes=("x",), method="table")'
+)
+BASE = """\
+schema_version: 1
+project: {title: Test}
+press: {name: P, productivity: 6000 1/h}
+mechanisms: {m: {kind: breaking, x: 1 mm}}
+"""
+STUDY = """\
+schema_version: 1
+base: press.yaml
+sample: {method: grid}
+vary: {mechanisms.m.x: [1 mm, 2 mm, 3 mm, 4 mm]}
+"""
+
+
+def ran(folder: Path, step: str, capfd: Capture, inputs: str = "", rest: str = "") -> tuple[int, str]:
+    """The exit code of the study with this step in the plugin, and what it tells."""
+    (folder / "plugins").mkdir()
+    saved(folder / "plugins", PLUGIN.format(step=step).replace("# inputs", inputs), "breaking.py")
+    saved(folder, BASE)
+    study = saved(folder, STUDY + rest, "study.yaml")
+    code = main(["batch", str(study), "-o", str(folder / "out"), "--plugins", str(folder / "plugins")])
+    return code, capfd.readouterr().err
+
+
+def rows(folder: Path) -> list[dict[str, Any]]:
+    found: list[dict[str, Any]] = pq.read_table(folder / "out" / "variants").to_pylist()
+    return found
+
+
+DECLARED = {
+    "a formula that cannot be printed": (VALUE.format("unprintable"), "formula unprintable cannot print '[x, x]'"),
+    "a unit that nobody knows": (VALUE.format("twice").replace("mm", "parsnip"), "'parsnip' is not a known unit"),
+    "a plugin that cannot be loaded": (VALUE.format("nobody"), "name 'nobody' is not defined"),
+}
+
+
+@pytest.mark.parametrize("name", DECLARED)
+def test_what_cannot_be_declared_is_told_before_anything_is_written(tmp_path: Path, capfd: Capture, name: str) -> None:
+    step, words = DECLARED[name]
+    code, told = ran(tmp_path, step, capfd)
+    assert (code, len(told.splitlines())) == (3, 1)
+    assert told.startswith("mechanism 'm' of plugin 'breaking': ") and words in told
+    assert not (tmp_path / "out").exists()
+
+
+def test_variants_that_a_plugin_breaks_for_are_in_error_and_the_others_are_kept(tmp_path: Path, capfd: Capture) -> None:
+    code, told = ran(tmp_path, COMPUTED, capfd)
+    assert code == 0  # variants in error do not change it
+    assert [row["status"] for row in rows(tmp_path)] == ["pass", "pass", "error", "error"]
+    assert [row["m.b"] for row in rows(tmp_path)] == [pytest.approx(0.002), pytest.approx(0.004), None, None]
+    assert "4 variants: 2 pass, 2 error." in told
+    assert (
+        "plugin 'breaking' broke; variants that it broke for are in error, the others are kept: LookupError: too long"
+        in told
+    )
+    assert rows(tmp_path)[2]["error"].startswith("plugin 'breaking': LookupError: too long for the table (breaking.py:")
+
+
+def test_a_continued_run_tells_it_again(tmp_path: Path, capfd: Capture) -> None:
+    assert ran(tmp_path, COMPUTED.replace("small", "never"), capfd)[0] == 3  # no variant is left
+    assert main(["batch", "--resume", str(tmp_path / "out"), "--plugins", str(tmp_path / "plugins")]) == 3
+    assert "plugin 'breaking' broke" in capfd.readouterr().err
+
+
+def test_a_default_of_the_press_that_breaks_leaves_no_mechanism_out_in_silence(tmp_path: Path, capfd: Capture) -> None:
+    press = 'z: Annotated[float | None, Quantity("z", "1/h", "Z", gt=0, press=FromPress("press.productivity", missing))] = None'
+    helper = '@formula\ndef missing(x: Any) -> Any:\n    return x * {}["nothing"]\n\n\nclass Breaking'
+    (tmp_path / "plugins").mkdir()
+    text = PLUGIN.format(step=VALUE.format("twice")).replace("# inputs", press).replace("class Breaking", helper)
+    saved(tmp_path / "plugins", text, "breaking.py")
+    saved(tmp_path, BASE)
+    study = saved(tmp_path, STUDY, "study.yaml")
+    assert main(["batch", str(study), "-o", str(tmp_path / "out"), "--plugins", str(tmp_path / "plugins")]) == 3
+    assert {row["status"] for row in rows(tmp_path)} == {"error"}
+    assert "KeyError: 'nothing'" in rows(tmp_path)[0]["error"]
+
+
+def test_a_validator_that_breaks_for_a_variant_is_a_fault_of_the_plugin(tmp_path: Path, capfd: Capture) -> None:
+    validator = (
+        '@field_validator("x")\n    @classmethod\n    def checked(cls, given: Any) -> Any:\n'
+        "        return {}[given] if isinstance(given, np.ndarray) and np.any(given > 2.5e-3) else given\n"
+    )
+    assert ran(tmp_path, VALUE.format("twice"), capfd, validator)[0] == 0
+    assert [row["status"] for row in rows(tmp_path)] == ["pass", "pass", "error", "error"]
+    assert rows(tmp_path)[3]["error"].startswith(
+        "plugin 'breaking': its inputs Breaking cannot be validated: TypeError: unhashable type"
+    )
+
+
+def test_a_plugin_that_breaks_in_a_full_report_alone_is_told(
+    tmp_path: Path, capfd: Capture, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    made = pipeline.report
+
+    def broken(*given: Any) -> pipeline.Outcome:
+        return replace(made(*given), broken=(PluginError("KeyError: 'figure'", "breaking", "m"),))
+
+    monkeypatch.setattr(pipeline, "report", broken)
+    code, told = ran(tmp_path, VALUE.format("twice"), capfd, rest="reports: [0]\n")
+    assert code == 3 and "plugin 'breaking' broke in the full report of variant 0: KeyError: 'figure'" in told
