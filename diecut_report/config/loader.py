@@ -49,7 +49,7 @@ def load_config(given: Path | Tree, discovery: Discovery) -> Config:
     reader = _Reader(tree, discovery)
     linker = Linker(reader.instances)
     order, loops = ordered(reader.instances, linker.links)
-    problems = [*reader.problems, *linker.problems, *_wrong_values(reader.instances, linker), *loops]
+    problems = [*reader.problems, *linker.problems, *_wrong_values(reader, linker), *loops]
     if problems:
         problems += [
             reader.place.problem(("mechanisms", name, "kind"), str(error)) for name, error in reader.broken.items()
@@ -185,11 +185,14 @@ def _copied(data: Any) -> Any:
     return [_copied(part) for part in data] if isinstance(data, list) else data
 
 
-def _wrong_values(instances: Mapping[str, Instance | None], linker: Linker) -> list[Problem]:
-    """What is wrong with the values of the press and the mechanisms, as far as it can be known without calculating."""
+def _wrong_values(reader: _Reader, linker: Linker) -> list[Problem]:
+    """What is wrong with the values of the press and the mechanisms, as far as it can be known without calculating.
+
+    A plugin whose own validator breaks is kept in the reader's ``broken``.
+    """
     problems: list[Problem] = []
     unresolved = dict.fromkeys(linker.unresolved, Target("", "", is_broken=True))
-    for instance in instances.values():
+    for instance in reader.instances.values():
         if instance is None:
             continue
         written = {node: target for node, target in linker.links.items() if not target.is_default} | unresolved
@@ -199,7 +202,12 @@ def _wrong_values(instances: Mapping[str, Instance | None], linker: Linker) -> l
             for node, target in written.items()
             if node[0] == instance.name and _is_open(instance, node, target)
         }
-        problems += validate(instance.model, data, instance.place, left_open)[1]
+        try:
+            problems += validate(instance.model, data, instance.place, left_open)[1]
+        except PluginError as error:
+            named = PluginError(error.message, reader.kinds.get(instance.name, ""), instance.name)
+            named.__cause__ = error.__cause__
+            reader.broken[instance.name] = named
     return problems
 
 

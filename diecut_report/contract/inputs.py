@@ -21,7 +21,7 @@ from diecut_report.contract.placeholders import SI, FromPress, OneOf, Pending
 from diecut_report.errors import nearest
 from diecut_report.quantities.units import Unit, parse_quantity, pretty, to_display, unit
 
-SAME = 4e-16  # share of a bound by which converting a unit and back may move a number
+SAME = 1e-15  # share of a bound by which converting a unit and back may move a number
 BOUNDS = (("gt", ">"), ("ge", "≥"), ("lt", "<"), ("le", "≤"))
 
 

@@ -149,7 +149,11 @@ class Run:
         return substituted(instance, own, lambda node, _: self.values[node])
 
     def _validated(self, name: str, instance: Instance, data: Data) -> bool:
-        block, problems = validate(instance.model, data, instance.place)
+        try:
+            block, problems = validate(instance.model, data, instance.place)
+        except PluginError as error:
+            self._broke(instance, error.__cause__ or error)
+            return False
         self.problems += problems
         if block is not None:
             self.blocks[name] = block

@@ -2,14 +2,16 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
 import pytest
 
-from diecut_report.api import POINTS, Annotated, Block, Chapter, Inputs, Mechanism, Quantity, Text
+from diecut_report.api import POINTS, Annotated, Block, Chapter, Drawing, Inputs, Mechanism, Quantity, Text
 from diecut_report.engine import calculate
 from diecut_report.engine.calculation import Impossible, Unproven
+from diecut_report.engine.figure_views import figures
 
 SERIES = (100.0, 160.0, 200.0)
 
@@ -63,12 +65,29 @@ def test_a_variant_beyond_the_series_is_marked_alone() -> None:
 def test_a_part_that_the_list_does_not_have_is_told() -> None:
     with pytest.raises(Impossible) as caught:
         run(lift(), drums=True, **{"drums.width": (0.1,)})
-    assert caught.value.reasons == (("drums", "has 1 entry, but Second drum (second) takes part 2; add what is missing"),)
+    assert caught.value.reasons == (
+        ("drums", "has 1 entry, but Second drum (second) takes part 2; add what is missing"),
+    )
     with pytest.raises(Impossible, match="takes part 3 from the last"):
         run(lift(index=-3), drums=True, **{"drums.width": (0.1, 0.2)})
 
 
 def test_a_count_that_is_not_whole_is_refused() -> None:
-    with pytest.raises(Unproven, match=r"Number of belts \(count, test_beyond.py:\d+\) is 0\.5, but is marked as a count"):
+    with pytest.raises(
+        Unproven, match=r"Number of belts \(count, test_beyond.py:\d+\) is 0\.5, but is marked as a count"
+    ):
         run(lift(whole=True), 50e3)
     assert run(lift(whole=True), 100e3)["count"][0, 0] == 1
+
+
+@pytest.mark.parametrize(
+    ("drawn", "given"), [(None, "nothing"), ("circle", "a str"), ([1], "other things in its list")]
+)
+def test_a_drawing_that_gives_no_shapes_is_told(drawn: Any, given: str) -> None:
+    def drum(view: Any) -> Any:
+        return drawn
+
+    mechanism = replace(lift(), figures=(Drawing(id="drum", title="Drum", caption="", build=drum),))
+    [figure] = figures(run(mechanism))
+    assert figure["type"] == "failed"
+    assert figure["error"].startswith(f"drum gives {given}; return a list of what circle, polyline,")
