@@ -60,6 +60,18 @@ def test_what_breaks_gives_3_and_the_results_of_the_others(
     assert err.startswith("mechanism 'b' of plugin 'breaking':") and "KeyError: 'nothing' (breaking.py:" in err
 
 
+def test_a_default_of_an_unknown_field_of_the_press_is_told(tmp_path: Path, capfd: pytest.CaptureFixture[str]) -> None:
+    text = LEVER.replace('kind="lever"', 'kind="breaking"').replace('"press.productivity"', '"press.productivty"')
+    (tmp_path / "breaking.py").write_text(text, "utf-8")
+    (tmp_path / "press.yaml").write_text(CONFIG, "utf-8")
+    assert main(["calc", str(tmp_path / "press.yaml"), "--plugins", str(GOOD), "--plugins", str(tmp_path)]) == 3
+    err = capfd.readouterr().err
+    assert (
+        "input speed takes press.productivty, which is no number of the press (did you mean 'press.productivity'?)"
+        in err
+    )
+
+
 def test_a_reference_to_a_list_that_holds_references_is_told(tmp_path: Path, capfd: pytest.CaptureFixture[str]) -> None:
     (tmp_path / "press.yaml").write_text(LISTED, "utf-8")
     assert main(["calc", str(tmp_path / "press.yaml"), "--plugins", str(GOOD)]) == 2

@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Hashable, Iterator
 from functools import cache
-from typing import Any, Literal, get_args, get_origin, get_type_hints
+from typing import Any, Literal, cast, get_args, get_origin, get_type_hints
 
 from diecut_report.contract.mechanism import Mechanism
 from diecut_report.declaration.names import Names
@@ -22,7 +22,7 @@ def faults(mechanism: Mechanism, names: Names) -> Iterator[Fault]:
         for text in _wrong(declared):
             yield Fault(declared.at, subject, text)
     for check in mechanism.checks:
-        if not (isinstance(check.tolerance, int | float) and 0 <= check.tolerance <= MOST_TOLERANCE):
+        if not 0 <= check.tolerance <= MOST_TOLERANCE:
             text = (
                 f"has the tolerance {check.tolerance!r}, a share of the limit; allowed: 0 to {MOST_TOLERANCE} (1 %), "
                 "for rounding alone; put what is allowed into the limit"
@@ -41,7 +41,7 @@ def _declared(mechanism: Mechanism) -> Iterator[tuple[str, Any]]:
 
 
 def _wrong(declared: Any) -> Iterator[str]:
-    for name, (words, kind) in _fields(type(declared)).items():
+    for name, (words, kind) in _fields(cast(Hashable, type(declared))).items():
         value = getattr(declared, name)
         if words and value not in words:
             told = ", ".join(map(repr, words))
@@ -53,10 +53,10 @@ def _wrong(declared: Any) -> Iterator[str]:
 
 
 @cache
-def _fields(kind: type) -> dict[str, tuple[tuple[Any, ...], Any]]:
+def _fields(kind: Hashable) -> dict[str, tuple[tuple[Any, ...], Any]]:
     """The fields that hold one of several words, yes or no, or a tuple."""
     found: dict[str, tuple[tuple[Any, ...], Any]] = {}
-    for name, hint in get_type_hints(kind, localns=NOT_READ).items():
+    for name, hint in get_type_hints(cast(type, kind), localns=NOT_READ).items():
         origin = get_origin(hint)
         words = get_args(hint) if origin is Literal else ()
         if words or hint is bool or (origin is tuple and name not in PLAIN):

@@ -20,6 +20,7 @@ from diecut_report.engine.numerics.domain import Domain
 from diecut_report.engine.numerics.sample_cache import Table
 from diecut_report.expressions import Array
 
+Found = tuple[Array, Array, Array]  # of an extreme: value, place, middle of its piece
 CurveStep = Value | Choice | FromCurve | Accumulated | Derivative
 
 
@@ -136,13 +137,9 @@ class Calculation:
         self.proof: dict[str, float] = {}  # for each result that is no closed formula, its greatest residual
         self._kept: dict[tuple[str, str], tuple[Array, CurveSampler]] = {}  # curves already known at often used places
         self.ahead: dict[str, tuple[str, ...]] = {}  # for each abscissa the curves that coming steps ask for
-        self.searches: dict[
-            str, Any
-        ] = {}  # for each abscissa what is known of jumps inside its pieces (numerics.switches)
+        self.searches: dict[str, Any] = {}  # for each abscissa, of jumps in its pieces (switches)
         self._tables: dict[str, Table] = {}
-        self.extremes: dict[
-            tuple[str, float], tuple[Array, tuple[Array, Array, Array]]
-        ] = {}  # with the pieces they are of
+        self.extremes: dict[tuple[str, float], tuple[Array, Found]] = {}  # with the pieces they are of
         self.judged: dict[tuple[str, int], Side] = {}  # for each check on a curve and its sides, where it governs
         self.flaws: dict[int, tuple[str, str]] = {}  # for each impossible variant the key and the message
 
