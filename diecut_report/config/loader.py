@@ -16,9 +16,9 @@ from diecut_report.config.model import Document, Press, Project
 from diecut_report.config.references import PRESS, Linker, Node, Target, texts
 from diecut_report.config.validation import Place, declared, keys_of, spread_out, told, validate
 from diecut_report.config.yaml_tree import KeyPath, Tree
-from diecut_report.contract.inputs import SI, Block, CurveInput, Pending, Text
+from diecut_report.contract.inputs import SI, Block, CurveInput, Pending, Quantity, Text, fields
 from diecut_report.contract.unit_variants import in_form
-from diecut_report.errors import PluginError, Problem, UserError
+from diecut_report.errors import PluginError, Problem, UserError, nearest
 
 NAME = re.compile(r"[A-Za-z][A-Za-z0-9_-]*")
 RESERVED = (PRESS, "project")
@@ -49,7 +49,7 @@ def load_config(given: Path | Tree, discovery: Discovery) -> Config:
     reader = _Reader(tree, discovery)
     linker = Linker(reader.instances)
     order, loops = ordered(reader.instances, linker.links)
-    problems = [*reader.problems, *linker.problems, *_wrong_values(reader.instances, linker), *loops]
+    problems = [*reader.problems, *linker.problems, *_wrong_values(reader, linker), *loops]
     if problems:
         problems += [
             reader.place.problem(("mechanisms", name, "kind"), str(error)) for name, error in reader.broken.items()
@@ -129,6 +129,18 @@ class _Reader:
             _ = instance.given, instance.results
         except Exception as cause:
             raise PluginError(f"it declares what cannot be: {said(cause)}", kind) from cause
+        _known_to_press(instance, kind)
+
+
+def _known_to_press(instance: Instance, kind: str) -> None:
+    """Refuse a plugin with a default that the press can never give."""
+    for key, meta in fields(instance.model):
+        path = meta.press.path if isinstance(meta, Quantity) and meta.press else ""
+        if path and not isinstance(declared(Press, tuple(path.removeprefix(f"{PRESS}.").split("."))), Quantity):
+            known = [f"{PRESS}.{name}" for name, each in fields(Press) if isinstance(each, Quantity)]
+            what = f"which is no number of the press{nearest(path, known)}; it has {', '.join(known)}"
+            place = Path(meta.at).name
+            raise PluginError(f"it declares what cannot be: {place}: input {key} takes {path}, {what}", kind)
 
 
 def _of_instance(error: PluginError, name: str) -> PluginError:
@@ -185,11 +197,14 @@ def _copied(data: Any) -> Any:
     return [_copied(part) for part in data] if isinstance(data, list) else data
 
 
-def _wrong_values(instances: Mapping[str, Instance | None], linker: Linker) -> list[Problem]:
-    """What is wrong with the values of the press and the mechanisms, as far as it can be known without calculating."""
+def _wrong_values(reader: _Reader, linker: Linker) -> list[Problem]:
+    """What is wrong with the values of the press and the mechanisms, as far as it can be known without calculating.
+
+    A plugin whose own validator breaks is kept in the reader's ``broken``.
+    """
     problems: list[Problem] = []
     unresolved = dict.fromkeys(linker.unresolved, Target("", "", is_broken=True))
-    for instance in instances.values():
+    for instance in reader.instances.values():
         if instance is None:
             continue
         written = {node: target for node, target in linker.links.items() if not target.is_default} | unresolved
@@ -199,7 +214,12 @@ def _wrong_values(instances: Mapping[str, Instance | None], linker: Linker) -> l
             for node, target in written.items()
             if node[0] == instance.name and _is_open(instance, node, target)
         }
-        problems += validate(instance.model, data, instance.place, left_open)[1]
+        try:
+            problems += validate(instance.model, data, instance.place, left_open)[1]
+        except PluginError as error:
+            named = PluginError(error.message, reader.kinds.get(instance.name, ""), instance.name)
+            named.__cause__ = error.__cause__
+            reader.broken[instance.name] = named
     return problems
 
 

@@ -266,10 +266,12 @@ class Steps:
 
     def pick(
         self, id: str, symbol: str, unit: str, description: str, rule: Literal["above", "below", "nearest"], of: str,
-        series: tuple[float, ...] | StandardSeries | Mapping[str, StandardSeries], *, by: str = "", **options: Unpack[Options],
+        series: tuple[float, ...] | StandardSeries | Mapping[str, StandardSeries], *, by: str = "",
+        beyond: Literal["impossible", "last"] = "impossible", **options: Unpack[Options],
     ) -> None:  # fmt: skip
         """Declare a value of a standard series, taken by the quantity ``of``; its neighbours are printed: see ``Pick``."""
-        self._give(Pick, id, symbol, unit, description, options, rule=rule, of=of, series=series, by=by)
+        own = {"rule": rule, "of": of, "series": series, "by": by, "beyond": beyond}
+        self._give(Pick, id, symbol, unit, description, options, **own)
 
     def _give(
         self, kind: type[Step], id: str, symbol: str, unit: str, description: str, options: Options, **own: Any

@@ -100,10 +100,12 @@ class Pick(Step):
     """A value of a standard series: the next one at or above, at or below, or the nearest to a quantity.
 
     ``series`` are the standard values: in the display unit, or a standard series; or one for each value of the text
-    input ``by``. The neighbours that were not taken are printed too.
+    input ``by``. The neighbours that were not taken are printed too. A quantity beyond the end of the series makes the machine
+    impossible; ``beyond="last"`` takes the last value there, for a mechanism that judges it by a check of its own.
     """
 
     of: str
     series: tuple[float, ...] | StandardSeries | Mapping[str, StandardSeries]
     by: str = ""
     rule: Literal["above", "below", "nearest"]
+    beyond: Literal["impossible", "last"] = "impossible"

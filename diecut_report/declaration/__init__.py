@@ -4,8 +4,11 @@ from __future__ import annotations
 
 from diecut_report.contract.mechanism import Mechanism
 from diecut_report.declaration import (
+    allowed,
     checks,
+    conditions,
     documents,
+    doubled,
     figures,
     formulas,
     inputs,
@@ -17,11 +20,29 @@ from diecut_report.declaration import (
     symbols,
     tables,
     tokens,
+    units,
 )
 from diecut_report.declaration.names import Names
 from diecut_report.declaration.words import Fault
 
-PARTS = (inputs, tokens, formulas, order, kinds, tables, messages, checks, figures, spectra, documents, symbols)
+PARTS = (
+    inputs,
+    allowed,
+    tokens,
+    formulas,
+    order,
+    kinds,
+    conditions,
+    units,
+    tables,
+    doubled,
+    messages,
+    checks,
+    figures,
+    spectra,
+    documents,
+    symbols,
+)
 
 __all__ = ["Fault", "faults", "faults_at_load"]
 

@@ -4,12 +4,13 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterator
+from itertools import combinations
 
 from diecut_report.contract.mechanism import Comparison, Mechanism
 from diecut_report.contract.steps import SILENT
 from diecut_report.declaration.names import Names
 from diecut_report.declaration.order import lacking
-from diecut_report.declaration.words import Fault, unknown
+from diecut_report.declaration.words import Fault, short, unknown
 from diecut_report.declaration.world import When, world
 from diecut_report.errors import nearest
 
@@ -19,6 +20,14 @@ CITED = re.compile(r"(?:^|; ?)(?:(\d{3,})\b|(\S+?),? (?:eq\.|Fig\.|Table|erratum
 def faults(mechanism: Mechanism, names: Names) -> Iterator[Fault]:
     """Yield what names a source or a quantity that there is none of."""
     yield from _sources(mechanism)
+    yield from _titles(mechanism, names)
+    for first, second in combinations(mechanism.sources, 2):
+        if first.id == second.id:
+            yield Fault(
+                second.at,
+                f"source {second.id}",
+                f"has the id of another source (at {short(first.at)}); give it another",
+            )
     known = [source.id for source in mechanism.sources]
     for erratum in mechanism.errata:
         if erratum.source not in known:
@@ -35,6 +44,17 @@ def faults(mechanism: Mechanism, names: Names) -> Iterator[Fault]:
     for comparison in mechanism.comparisons:
         for text in _comparison(mechanism, names, comparison):
             yield Fault(comparison.at, f"comparison {comparison.mechanism.kind}", text)
+
+
+def _titles(mechanism: Mechanism, names: Names) -> Iterator[Fault]:
+    """Chapters of one title that may stand in one report."""
+    for first, second in combinations(mechanism.chapters, 2):
+        both = When(frozenset(first.needs + second.needs))
+        if first.title == second.title and names.world.example(both) is not None:
+            text = (
+                f"has the title of another chapter (at {short(first.at)}); give it another, or put their steps into one"
+            )
+            yield Fault(second.at, f"chapter {second.title!r}", text)
 
 
 def _silent(mechanism: Mechanism) -> set[str]:

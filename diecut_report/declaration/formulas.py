@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping
+from inspect import signature
 from typing import Any
 
 from diecut_report.contract.binding import Binding, Bound, ByText, bound
@@ -100,6 +101,21 @@ def _choices(step: Step, names: Names, when: When) -> Iterator[str]:
     function: object = getattr(step, "function", None)
     if hasattr(step, "function") and not callable(function):
         yield f"the function is {function!r}, which cannot be called; name one without brackets"
+    elif callable(function):
+        yield from _signature(function, len(getattr(step, "takes", ())))
+
+
+def _signature(function: Callable[..., object], given: int) -> Iterator[str]:
+    """A function that cannot be called with so many things by position."""
+    try:
+        parameters = signature(function)
+    except ValueError:  # of the interpreter itself, which says nothing of what it takes
+        return
+    try:
+        parameters.bind(*range(given))
+    except TypeError:
+        asked = [p for p in parameters.parameters.values() if p.default is p.empty and p.kind is not p.VAR_POSITIONAL]
+        yield f"its function takes {len(asked)}, and takes names {given}: each is given by its position"
 
 
 def _complete(names: Names, by: str, rows: Mapping[str, Any], when: When, what: str) -> Iterator[str]:

@@ -85,6 +85,8 @@ def _wrong(name: str, declared: FieldInfo, meta: Meta | None) -> Iterator[str]:
         except ValueError as unknown:
             yield f"has the unit {meta.unit!r}: {unknown}"
             return
+    if isinstance(meta, Quantity) and meta.integer and (meta.unit != "1" or meta.units):
+        yield f"is a whole number in {meta.unit}; a count has the unit 1"
     if declared.is_required() or default is None:
         return
     yield from _default(default, declared.annotation, meta)

@@ -82,7 +82,8 @@ def _asked(step: Step) -> Iterator[Asked]:
         case Reduction(of=of) | Crossings(of=of) | Accumulated(of=of) | Derivative(of=of):
             yield "of", of, frozenset({"curve"}), "a curve over an abscissa"
         case Total(of=of) | Neighbour(of=of) | Running(of=of) | Part(of=of):
-            yield "of", of, frozenset({"row"}), "a row over like parts"
+            for field, name in (("of", of), ("among", getattr(step, "among", ""))):
+                yield from ((field, name, frozenset({"row"}), "a row over like parts"),) if name else ()
         case Pick(of=of):
             yield "of", of, ROW, ""
         case Words():

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Collection, Iterator
 
 from diecut_report.contract.mechanism import Mechanism
@@ -13,6 +14,7 @@ from diecut_report.declaration.world import When
 from diecut_report.errors import nearest
 from diecut_report.quantities.formatting import NAMED
 
+BRACE = re.compile(r"\{[^{}]*\}?|\}")  # what looks as if it were filled in
 OF_PARTS = {Require: ("part", "next", "index"), Clash: ("part", "other", "index")}
 
 
@@ -29,6 +31,8 @@ def faults(mechanism: Mechanism, names: Names) -> Iterator[Fault]:
 
 def named(names: Names, text: str, when: When, parts: Collection[str] = (), before: int | None = None) -> Iterator[str]:
     """Yield what is wrong with the ``{ids}`` of a message that is told (before a step) when something is made."""
+    for left in BRACE.findall(NAMED.sub("", text)):
+        yield f"{left}: write {{id}}, {{id:up}} or {{id:down}}; nothing else is filled in"
     for name in dict.fromkeys(found[1] for found in NAMED.finditer(text)):
         if name in parts:
             continue

@@ -24,7 +24,7 @@ def content(mechanism: Mechanism) -> str:
     found = hashlib.sha256(__version__.encode())
     texts = [(key.path, key.texts) for key in world(mechanism.inputs).keys.values()]
     found.update(repr((mechanism.kind, texts)).encode())
-    for file in sorted({*_files(mechanism), *Path(__file__).parent.glob("*.py"), *(OWN / "contract").glob("*.py")}):
+    for file in sorted({*files(mechanism), *Path(__file__).parent.glob("*.py"), *(OWN / "contract").glob("*.py")}):
         found.update(str(file).encode() + hashlib.sha256(file.read_bytes()).digest())
     return found.hexdigest()
 
@@ -53,8 +53,8 @@ def _folder() -> Path | None:
     return home / "diecut-report" / "declarations"
 
 
-def _files(mechanism: Mechanism) -> Iterator[Path]:
-    """The files in which anything of a mechanism is declared, and all others of their packages."""
+def files(mechanism: Mechanism) -> Iterator[Path]:
+    """Give the files in which anything of a mechanism is declared, and all others of their packages."""
     for file in {Path(place.rpartition(":")[0]) for place in _places(mechanism)}:
         if not file.is_file():
             continue

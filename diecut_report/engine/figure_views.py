@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from typing import Any
 
 import numpy as np
@@ -107,11 +107,27 @@ def _figure(calc: Calculation, figure: Figure, head: dict[str, Any]) -> dict[str
             return head | {"type": "bars", "groups": [_group(g, view) for g in groups]}
         case Drawing(build=build, unit=unit, scaled_by=scale, schematic=schematic):
             relative = schematic or (scale and scale not in calc.given)
-            drawn = {"type": "drawing", "unit": "1" if relative else unit, "shapes": build(view)}
+            drawn = {"type": "drawing", "unit": "1" if relative else unit, "shapes": _listed(build, view)}
             return head | drawn | ({"schematic": True} if schematic else {})
         case Chart(build=build):
-            return head | {"type": "chart", "panels": [axis_range.of_lines(panel) for panel in build(view)]}
+            return head | {"type": "chart", "panels": [axis_range.of_lines(panel) for panel in _listed(build, view)]}
     raise TypeError(f"{figure.id} is no known figure")
+
+
+def _listed(build: Callable[[MachineView], Any], view: MachineView) -> Any:
+    """What an author's function draws, which must be a list of shapes; a function without a return gives none."""
+    drawn = build(view)
+    if not isinstance(drawn, list) or not all(isinstance(shape, dict) for shape in drawn):
+        name = getattr(build, "__name__", "its function")
+        given = (
+            "nothing"
+            if drawn is None
+            else f"a {type(drawn).__name__}"
+            if not isinstance(drawn, list)
+            else "other things in its list"
+        )
+        raise Undrawable(f"{name} gives {given}; return a list of what circle, polyline, chart_panel and the like give")
+    return drawn
 
 
 def _curves(figure: Figure) -> list[str]:

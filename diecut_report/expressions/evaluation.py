@@ -6,6 +6,8 @@ import math
 from collections.abc import Callable
 from typing import Any
 
+import numpy as np
+
 from diecut_report.expressions.formula import Named
 from diecut_report.expressions.functions import APPLY, NUMERIC
 from diecut_report.expressions.tree import Node
@@ -33,7 +35,12 @@ def evaluate(node: Node, value_of: Callable[[Node], Any]) -> Any:
 
 
 def _first_that_holds(branches: tuple[tuple[Node, ...], ...], value_of: Callable[[Node], Any]) -> Any:
-    for branch in branches:
-        if len(branch) == 1 or evaluate(branch[1], value_of):
+    for number, branch in enumerate(branches):
+        if len(branch) == 1:
+            return evaluate(branch[0], value_of)
+        held = evaluate(branch[1], value_of)
+        if np.ndim(held):
+            return np.where(held, evaluate(branch[0], value_of), _first_that_holds(branches[number + 1 :], value_of))
+        if held:
             return evaluate(branch[0], value_of)
     raise ValueError("no case of the formula holds")
