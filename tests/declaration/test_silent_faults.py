@@ -148,11 +148,20 @@ FAULTS: dict[str, tuple[Mechanism, str]] = {
     "a format in a message": (made(require(message="is {arm:.1f}")), "the message names {arm:.1f}"),
     "an open brace in a message": (made(require(message="is {arm")), "the message names {arm"),
     "an open brace in a consequence": (made(checks=(check(consequence="is {arm"),)), "the consequence names {arm"),
-    "words of a function that takes more": (made(Words(id="w", function=lambda one, two: "", takes=("arm",))), "step w: its function takes 2, and takes names 1"),  # noqa: E501
+    "words of a function that takes more": (
+        made(Words(id="w", function=lambda one, two: "", takes=("arm",))),
+        "step w: its function takes 2, and takes names 1",
+    ),
     "an erratum that touches an unknown": (made(errata=(Erratum("1", "e", touches=("momnt",)),), sources=(Source("1", "a"),)), "touches momnt"),
-    "a field of a block without its need": (made(value("x", formula=bind(same, value="extra.rate")), inputs=with_input(Annotated[Spring | None, Text("Spring")], None)), "step x: takes extra.rate"),  # noqa: E501
+    "a field of a block without its need": (
+        made(value("x", formula=bind(same, value="extra.rate")), inputs=with_input(Annotated[Spring | None, Text("Spring")], None)),
+        "step x: takes extra.rate",
+    ),
     "a need of a figure": (made(figures=(replace(plot(), needs=("widht",)),)), "figure turn: needs names widht"),
-    "a whole number in a unit": (made(inputs=with_input(Annotated[int, Quantity("z", "mm", "Z", integer=True)], 3)), "input extra: is a whole number in mm; a count has the unit 1"),  # noqa: E501
+    "a whole number in a unit": (
+        made(inputs=with_input(Annotated[int, Quantity("z", "mm", "Z", integer=True)], 3)),
+        "input extra: is a whole number in mm; a count has the unit 1",
+    ),
 }  # fmt: skip
 
 
