@@ -165,6 +165,15 @@ def test_a_plugin_converts_no_units() -> None:
     assert [name for name, path in PLUGINS.items() if converters.search(path.read_text("utf-8"))] == []
 
 
+def test_a_class_name_means_one_thing() -> None:
+    homes: dict[str, list[str]] = {}
+    for name in PROGRAM:
+        for node in ast.walk(tree(name)):
+            if isinstance(node, ast.ClassDef):
+                homes.setdefault(node.name, []).append(name)
+    assert {name: modules for name, modules in homes.items() if len(modules) > 1} == {}
+
+
 def test_functions_are_short() -> None:
     def too_long(name: str) -> Iterator[str]:
         for node in ast.walk(tree(name)):

@@ -125,7 +125,6 @@ def test_a_figure_that_cannot_be_drawn_costs_the_figure(tmp_path: Path, capfd: C
     assert page.count('role="img"') == 1
 
 
-@pytest.mark.slow
 def test_the_report_shows_a_box_in_the_place_of_a_lost_figure(tmp_path: Path) -> None:
     assert run(tmp_path, "report", folder(tmp_path, IN_CALC["what raises"][0]), "--format", "html,pdf") == 3
     page = (tmp_path / "out" / "press.html").read_text("utf-8")

@@ -12,9 +12,9 @@ from diecut_report.config import yaml_tree
 from diecut_report.config.dependency_order import ordered
 from diecut_report.config.discovery import Discovery, DuplicateKind, UnknownKind, said
 from diecut_report.config.instances import Instance
-from diecut_report.config.model import Document, Press, Project
+from diecut_report.config.model import ConfigDocument, Press, Project
 from diecut_report.config.references import PRESS, Linker, Node, Target, texts
-from diecut_report.config.validation import Place, declared, keys_of, spread_out, told, validate
+from diecut_report.config.validation import ConfigPlace, declared, keys_of, spread_out, told, validate
 from diecut_report.config.yaml_tree import KeyPath, Tree
 from diecut_report.contract.inputs import SI, Block, CurveInput, Pending, Quantity, Text, fields
 from diecut_report.contract.unit_variants import in_form
@@ -46,7 +46,7 @@ def load_config(given: Path | Tree, discovery: Discovery) -> Config:
     tree = given if isinstance(given, Tree) else yaml_tree.load(given)
     _refuse_study(tree)
     discovery.extend()
-    reader = _Reader(tree, discovery)
+    reader = _ConfigReader(tree, discovery)
     linker = Linker(reader.instances)
     order, loops = ordered(reader.instances, linker.links)
     problems = [*reader.problems, *linker.problems, *_wrong_values(reader, linker), *loops]
@@ -65,7 +65,7 @@ def _refuse_study(tree: Tree) -> None:
 
 
 @dataclass
-class _Reader:
+class _ConfigReader:
     """Reads the fixed part and finds the model of each mechanism."""
 
     tree: Tree
@@ -77,26 +77,28 @@ class _Reader:
     project: Project | None = None
 
     def __post_init__(self) -> None:
-        self.place = Place(self.tree)
-        whole = as_typed(Document, self.tree.data, self.place)
-        document, self.problems = validate(Document, whole, self.place)
+        self.place = ConfigPlace(self.tree)
+        whole = as_typed(ConfigDocument, self.tree.data, self.place)
+        document, self.problems = validate(ConfigDocument, whole, self.place)
         self.project = document.project if document else None
         data = whole if isinstance(whole, dict) else {}
         self.instances[PRESS] = None
         if isinstance(data.get(PRESS), dict):
-            self._add(PRESS, Press, data[PRESS], Place(self.tree, (PRESS,)))
+            self._add(PRESS, Press, data[PRESS], ConfigPlace(self.tree, (PRESS,)))
         mechanisms = data.get("mechanisms")
         for name, body in mechanisms.items() if isinstance(mechanisms, dict) else []:
             self.instances.setdefault(name, None)
-            self._mechanism(name, body, Place(self.tree, ("mechanisms", name)))
+            self._mechanism(name, body, ConfigPlace(self.tree, ("mechanisms", name)))
 
-    def _add(self, name: str, model: type[Block], data: dict[str, Any], place: Place, mechanism: Any = None) -> None:
+    def _add(
+        self, name: str, model: type[Block], data: dict[str, Any], place: ConfigPlace, mechanism: Any = None
+    ) -> None:
         data, place, problems = spread_out(model, data, place)
         self.problems += problems
         form = in_form(model, [key for key, value in data.items() if value is not None])
         self.instances[name] = Instance(name, form, as_typed(form, data, place), place, mechanism)
 
-    def _mechanism(self, name: str, body: Any, place: Place) -> None:
+    def _mechanism(self, name: str, body: Any, place: ConfigPlace) -> None:
         fault = _name_fault(name)
         if fault:
             self.problems.append(place.problem((), fault, at_key=True))
@@ -109,7 +111,7 @@ class _Reader:
         else:
             self._of_kind(name, body["kind"], {key: value for key, value in body.items() if key != "kind"}, place)
 
-    def _of_kind(self, name: str, kind: str, data: dict[str, Any], place: Place) -> None:
+    def _of_kind(self, name: str, kind: str, data: dict[str, Any], place: ConfigPlace) -> None:
         self.kinds[name] = kind
         try:
             mechanism = self.discovery.mechanism(kind)
@@ -157,7 +159,7 @@ def _name_fault(name: str) -> str:
     return ""
 
 
-def as_typed(model: type[Block], data: Any, place: Place, key: KeyPath = ()) -> Any:
+def as_typed(model: type[Block], data: Any, place: ConfigPlace, key: KeyPath = ()) -> Any:
     """The data with its texts as they were typed: a document number 0012 or a date stays as it is."""
     if not isinstance(data, dict):
         return data
@@ -197,7 +199,7 @@ def _copied(data: Any) -> Any:
     return [_copied(part) for part in data] if isinstance(data, list) else data
 
 
-def _wrong_values(reader: _Reader, linker: Linker) -> list[Problem]:
+def _wrong_values(reader: _ConfigReader, linker: Linker) -> list[Problem]:
     """What is wrong with the values of the press and the mechanisms, as far as it can be known without calculating.
 
     A plugin whose own validator breaks is kept in the reader's ``broken``.

@@ -12,7 +12,7 @@ from typing import Any, Literal, Unpack
 
 from diecut_report.contract.between import Between
 from diecut_report.contract.binding import as_binding, bind
-from diecut_report.contract.options import Condition, Options, Written
+from diecut_report.contract.options import Options, StepCondition, Written
 from diecut_report.contract.part_steps import Interpolated, Lookup, Neighbour, Part, Pick, Running, Total
 from diecut_report.contract.place import placed
 from diecut_report.contract.steps import (
@@ -115,7 +115,7 @@ class Steps:
         own = {"period": period, "points": points, "shown_at": shown_at, "intervals": intervals}
         self._give(Abscissa, id, symbol, unit, description, options, **own)
 
-    def breakpoints(self, id: str, abscissa: str, *places: str, every: str = "", **when: Unpack[Condition]) -> None:
+    def breakpoints(self, id: str, abscissa: str, *places: str, every: str = "", **when: Unpack[StepCondition]) -> None:
         """Declare places of an abscissa where a curve jumps or has a corner: see ``Breakpoints``."""
         self.add(Breakpoints(id=id, abscissa=abscissa, places=places, every=every, **when))
 
@@ -169,7 +169,7 @@ class Steps:
         own = {"given": given, "abscissa": abscissa, "start": start, "lasts": lasts, "gains": gains}
         self._give(FromCurve, id, symbol, unit, description, options, **own)
 
-    def require(self, id: str, condition: Written, key: str, message: str, **when: Unpack[Condition]) -> None:
+    def require(self, id: str, condition: Written, key: str, message: str, **when: Unpack[StepCondition]) -> None:
         """Declare what must hold for the machine to be possible, the key to change, and what is said where it does not."""
         self.add(Require(id=id, condition=as_binding(condition, id), key=key, message=message, **when))
 
@@ -180,7 +180,7 @@ class Steps:
         takes: tuple[str, ...],
         key: str,
         message: str,
-        **when: Unpack[Condition],
+        **when: Unpack[StepCondition],
     ) -> None:
         """Declare which of repeated parts stand in each other's way: see ``Clash``."""
         self.add(Clash(id=id, function=function, takes=takes, key=key, message=message, **when))
@@ -192,7 +192,7 @@ class Steps:
         takes: tuple[str, ...],
         *,
         output: bool = True,
-        **when: Unpack[Condition],
+        **when: Unpack[StepCondition],
     ) -> None:
         """Declare a text that plain code makes of numbers, for messages: see ``Words``."""
         self.add(Words(id=id, function=function, takes=takes, output=output, **when))

@@ -26,7 +26,7 @@ class Options(TypedDict, total=False):
     units: tuple[tuple[str, str], ...]
 
 
-class Condition(TypedDict, total=False):
+class StepCondition(TypedDict, total=False):
     """With which optional inputs a step takes part that gives no quantity."""
 
     needs: tuple[str, ...]

@@ -22,7 +22,7 @@ from diecut_report.declaration import (
     tokens,
     units,
 )
-from diecut_report.declaration.names import Names
+from diecut_report.declaration.names import DeclaredNames
 from diecut_report.declaration.words import Fault
 
 PARTS = (
@@ -63,7 +63,7 @@ def faults(mechanism: Mechanism) -> list[Fault]:
     found = list(formulas.unmarked(mechanism))
     if found:  # nothing can be asked of what is no formula
         return found
-    names = Names(mechanism)
+    names = DeclaredNames(mechanism)
     found = [fault for part in PARTS for fault in part.faults(mechanism, names)]
     for comparison in mechanism.comparisons:
         found += faults(comparison.mechanism)

@@ -7,7 +7,7 @@ from functools import cache
 from typing import Any, Literal, cast, get_args, get_origin, get_type_hints
 
 from diecut_report.contract.mechanism import Mechanism
-from diecut_report.declaration.names import Names
+from diecut_report.declaration.names import DeclaredNames
 from diecut_report.declaration.words import Fault
 from diecut_report.errors import nearest
 
@@ -16,7 +16,7 @@ NOT_READ = {"StandardSeries": object, "StandardTable": object, "Chapter": object
 PLAIN = ("needs", "lacks")  # which are told of where tokens are judged
 
 
-def faults(mechanism: Mechanism, names: Names) -> Iterator[Fault]:
+def faults(mechanism: Mechanism, names: DeclaredNames) -> Iterator[Fault]:
     """Yield words that are not among the allowed ones, and tolerances that let a machine fail."""
     for subject, declared in _declared(mechanism):
         for text in _wrong(declared):

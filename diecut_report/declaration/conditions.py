@@ -8,7 +8,7 @@ from typing import get_args
 from diecut_report.contract.binding import Binding, Bound, ByText, bound
 from diecut_report.contract.mechanism import Mechanism
 from diecut_report.contract.steps import Choice, Computed, Require, Step, Value
-from diecut_report.declaration.names import Names
+from diecut_report.declaration.names import DeclaredNames
 from diecut_report.declaration.units import kind_of
 from diecut_report.declaration.words import Fault
 from diecut_report.expressions import FormulaError, Node
@@ -17,7 +17,7 @@ MAY_BE_ABSENT = Value | Choice | Computed
 YES_OR_NO = ("cmp", "and", "or", "not")
 
 
-def faults(mechanism: Mechanism, names: Names) -> Iterator[Fault]:
+def faults(mechanism: Mechanism, names: DeclaredNames) -> Iterator[Fault]:
     """Yield conditions that are numbers, numbers that are conditions, and choices in which no case may hold."""
     for _, step in mechanism.steps:
         for part, condition in _conditions(step):
@@ -45,7 +45,7 @@ def _conditions(step: Step) -> Iterator[tuple[str, Binding]]:
             yield "condition of a case", case.condition
 
 
-def _decides(link: Bound, names: Names) -> bool:
+def _decides(link: Bound, names: DeclaredNames) -> bool:
     """Whether a formula gives yes or no; one that cannot be read is told elsewhere."""
     try:
         return _is_condition(link.formula.tree, link, names)
@@ -53,7 +53,7 @@ def _decides(link: Bound, names: Names) -> bool:
         return True
 
 
-def _is_condition(node: Node, link: Bound, names: Names) -> bool:
+def _is_condition(node: Node, link: Bound, names: DeclaredNames) -> bool:
     match node:
         case Node("cases", branches):
             return all(_is_condition(branch[0], link, names) for branch in branches)
@@ -65,7 +65,7 @@ def _is_condition(node: Node, link: Bound, names: Names) -> bool:
     return node.op in YES_OR_NO
 
 
-def _flag(step: Step, names: Names) -> Iterator[str]:
+def _flag(step: Step, names: DeclaredNames) -> Iterator[str]:
     """A comparison that stands as a quantity with a unit."""
     if isinstance(step, Value) and not isinstance(step.formula, ByText) and _decides(bound(step.formula), names):
         wrong = [each for each in (step.unit, *(other for _, other in step.units)) if kind_of(each) != kind_of("1")]

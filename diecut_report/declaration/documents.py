@@ -8,7 +8,7 @@ from itertools import combinations
 
 from diecut_report.contract.mechanism import Comparison, Mechanism
 from diecut_report.contract.steps import SILENT
-from diecut_report.declaration.names import Names
+from diecut_report.declaration.names import DeclaredNames
 from diecut_report.declaration.order import lacking
 from diecut_report.declaration.words import Fault, short, unknown
 from diecut_report.declaration.world import When, world
@@ -17,7 +17,7 @@ from diecut_report.errors import nearest
 CITED = re.compile(r"(?:^|; ?)(?:(\d{3,})\b|(\S+?),? (?:eq\.|Fig\.|Table|erratum)\s)")
 
 
-def faults(mechanism: Mechanism, names: Names) -> Iterator[Fault]:
+def faults(mechanism: Mechanism, names: DeclaredNames) -> Iterator[Fault]:
     """Yield what names a source or a quantity that there is none of."""
     yield from _sources(mechanism)
     yield from _titles(mechanism, names)
@@ -46,7 +46,7 @@ def faults(mechanism: Mechanism, names: Names) -> Iterator[Fault]:
             yield Fault(comparison.at, f"comparison {comparison.mechanism.kind}", text)
 
 
-def _titles(mechanism: Mechanism, names: Names) -> Iterator[Fault]:
+def _titles(mechanism: Mechanism, names: DeclaredNames) -> Iterator[Fault]:
     """Chapters of one title that may stand in one report."""
     for first, second in combinations(mechanism.chapters, 2):
         both = When(frozenset(first.needs + second.needs))
@@ -75,7 +75,7 @@ def _sources(mechanism: Mechanism) -> Iterator[Fault]:
                 yield Fault(place, subject, f"cites {name}, which is no source{nearest(name, known)}; listed: {', '.join(known)}")  # fmt: skip
 
 
-def _key_result(names: Names, name: str) -> str:
+def _key_result(names: DeclaredNames, name: str) -> str:
     givers = [giver for giver in names.givers(name) if giver.step is not None]
     if not givers:
         steps = [known for known, all_ in names.known.items() if any(giver.step for giver in all_)]
@@ -85,7 +85,7 @@ def _key_result(names: Names, name: str) -> str:
     return f"{name} is a curve; name an extreme of it" if {g.kind for g in givers} <= {"curve", "abscissa"} else ""
 
 
-def _exports(mechanism: Mechanism, names: Names) -> Iterator[Fault]:
+def _exports(mechanism: Mechanism, names: DeclaredNames) -> Iterator[Fault]:
     for profile in mechanism.exports:
         when, subject = When(frozenset(profile.needs)), f"export {profile.id}"
         if len(profile.columns) < 2:
@@ -108,7 +108,7 @@ def _exports(mechanism: Mechanism, names: Names) -> Iterator[Fault]:
             )
 
 
-def _comparison(mechanism: Mechanism, names: Names, comparison: Comparison) -> Iterator[str]:
+def _comparison(mechanism: Mechanism, names: DeclaredNames, comparison: Comparison) -> Iterator[str]:
     keys = world(comparison.mechanism.inputs).keys
     for key, (kind, name) in comparison.takes.items():
         if key not in keys:

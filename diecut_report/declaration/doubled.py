@@ -8,7 +8,7 @@ from functools import lru_cache
 from pathlib import Path
 
 from diecut_report.contract.mechanism import Mechanism
-from diecut_report.declaration.names import Names
+from diecut_report.declaration.names import DeclaredNames
 from diecut_report.declaration.remembered import files
 from diecut_report.declaration.words import Fault
 
@@ -22,7 +22,7 @@ MEANT = {
 }  # decorators by which a name is defined again on purpose
 
 
-def faults(mechanism: Mechanism, names: Names) -> Iterator[Fault]:
+def faults(mechanism: Mechanism, names: DeclaredNames) -> Iterator[Fault]:
     """Yield functions, classes and fields that are defined twice at one level of a file."""
     for file in sorted(file for file in files(mechanism) if file.suffix == ".py"):
         yield from _in_file(file, file.stat().st_mtime_ns)

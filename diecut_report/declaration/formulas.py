@@ -10,7 +10,7 @@ from diecut_report.contract.binding import Binding, Bound, ByText, bound
 from diecut_report.contract.mechanism import Mechanism
 from diecut_report.contract.part_steps import Lookup, Pick
 from diecut_report.contract.steps import Case, Choice, Root, Step
-from diecut_report.declaration.names import Names
+from diecut_report.declaration.names import DeclaredNames
 from diecut_report.declaration.order import when_asked
 from diecut_report.declaration.tables import rows_of
 from diecut_report.declaration.words import Fault
@@ -52,7 +52,7 @@ def _place(function: Any, otherwise: str) -> str:
     return f"{code.co_filename}:{code.co_firstlineno}" if code else otherwise
 
 
-def faults(mechanism: Mechanism, names: Names) -> Iterator[Fault]:
+def faults(mechanism: Mechanism, names: DeclaredNames) -> Iterator[Fault]:
     """Yield the formulas that cannot be printed, texts without a formula or a row, and units that are none."""
     seen: set[Formula] = set()
     for number, (_, step) in enumerate(mechanism.steps):
@@ -84,7 +84,7 @@ def _unreadable(step: Step, part: str, link: Bound) -> Iterator[Fault]:
         yield Fault(_place(link.formula.function, step.at), f"step {step.id}", f"the {part} cannot be printed: {why}")
 
 
-def _choices(step: Step, names: Names, when: When) -> Iterator[str]:
+def _choices(step: Step, names: DeclaredNames, when: When) -> Iterator[str]:
     for _, declared in _declared(step):
         if isinstance(declared, ByText):
             yield from _complete(names, declared.key, declared.formulas, when, "formula")
@@ -118,7 +118,7 @@ def _signature(function: Callable[..., object], given: int) -> Iterator[str]:
         yield f"its function takes {len(asked)}, and takes names {given}: each is given by its position"
 
 
-def _complete(names: Names, by: str, rows: Mapping[str, Any], when: When, what: str) -> Iterator[str]:
+def _complete(names: DeclaredNames, by: str, rows: Mapping[str, Any], when: When, what: str) -> Iterator[str]:
     """What is wrong with a choice by a text: each text that may be given there has its row."""
     key = names.world.keys.get(by)
     if key is None:

@@ -10,14 +10,14 @@ from pydantic.fields import FieldInfo
 
 from diecut_report.contract.inputs import Block, CurveInput, Meta, Quantity, Text, meta_of, nested
 from diecut_report.contract.mechanism import Mechanism
-from diecut_report.declaration.names import Names
+from diecut_report.declaration.names import DeclaredNames
 from diecut_report.declaration.words import Fault
 from diecut_report.declaration.world import Key, allowed
 from diecut_report.errors import nearest
 from diecut_report.quantities.units import unit
 
 
-def faults(mechanism: Mechanism, names: Names) -> Iterator[Fault]:
+def faults(mechanism: Mechanism, names: DeclaredNames) -> Iterator[Fault]:
     """Yield what is wrong with the inputs."""
     yield from _block(mechanism.inputs, mechanism.at)
     for key in names.world.keys.values():

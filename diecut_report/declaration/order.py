@@ -10,12 +10,12 @@ from diecut_report.contract.mechanism import Mechanism
 from diecut_report.contract.part_steps import Lookup
 from diecut_report.contract.sections import taken
 from diecut_report.contract.steps import SILENT, Root, Step, Words
-from diecut_report.declaration.names import Names
+from diecut_report.declaration.names import DeclaredNames
 from diecut_report.declaration.words import Fault, short, unknown
 from diecut_report.declaration.world import When, told
 
 
-def faults(mechanism: Mechanism, names: Names) -> Iterator[Fault]:
+def faults(mechanism: Mechanism, names: DeclaredNames) -> Iterator[Fault]:
     """Yield the ids that are doubled, never made, not given, or taken too early."""
     yield from _doubled(mechanism, names)
     for number, (_, step) in enumerate(mechanism.steps):
@@ -46,7 +46,7 @@ def when_asked(step: Step, when: When) -> When:
     return when.with_(When(frozenset(), frozenset((given,)))) if given else when
 
 
-def lacking(names: Names, name: str, when: When, before: int | None = None) -> str:
+def lacking(names: DeclaredNames, name: str, when: When, before: int | None = None) -> str:
     """Return in words why a name is not known (before a step) where it is wanted; empty where it always is."""
     givers = names.givers(name)
     if not givers:
@@ -66,7 +66,7 @@ def lacking(names: Names, name: str, when: When, before: int | None = None) -> s
     )
 
 
-def _doubled(mechanism: Mechanism, names: Names) -> Iterator[Fault]:
+def _doubled(mechanism: Mechanism, names: DeclaredNames) -> Iterator[Fault]:
     """Steps, figures and exports with one id that can be made together."""
     steps = [(step, names.when(number)) for number, (_, step) in enumerate(mechanism.steps)]
     yield from pairs(names, "step", steps)
@@ -74,7 +74,7 @@ def _doubled(mechanism: Mechanism, names: Names) -> Iterator[Fault]:
     yield from pairs(names, "export", [(profile, When(frozenset(profile.needs))) for profile in mechanism.exports])
 
 
-def pairs(names: Names, what: str, declared: list[tuple[Any, When]]) -> Iterator[Fault]:
+def pairs(names: DeclaredNames, what: str, declared: list[tuple[Any, When]]) -> Iterator[Fault]:
     """Yield the second of two that have one id and can be made together."""
     by_id: dict[str, list[tuple[Any, When]]] = {}
     for part, when in declared:

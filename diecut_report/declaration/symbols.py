@@ -10,12 +10,12 @@ from diecut_report.contract.inputs import Quantity
 from diecut_report.contract.mechanism import Mechanism
 from diecut_report.contract.part_steps import Lookup
 from diecut_report.contract.steps import SILENT, Choice, FromCurve, Step, Value
-from diecut_report.declaration.names import Names
+from diecut_report.declaration.names import DeclaredNames
 from diecut_report.declaration.words import Fault, short
 from diecut_report.declaration.world import When
 
 
-def faults(mechanism: Mechanism, names: Names) -> Iterator[Fault]:
+def faults(mechanism: Mechanism, names: DeclaredNames) -> Iterator[Fault]:
     """Yield the second of two quantities with one symbol; texts, and what only takes another quantity over, may share it."""
     by_symbol: dict[str, list[tuple[str, str, When, Step | None]]] = {}
     for key in names.world.keys.values():
@@ -32,7 +32,9 @@ def faults(mechanism: Mechanism, names: Names) -> Iterator[Fault]:
                 yield Fault(other[1], f"{'step' if other[3] else 'input'} {other[0]}", text)
 
 
-def _clash(names: Names, one: tuple[str, str, When, Step | None], other: tuple[str, str, When, Step | None]) -> bool:
+def _clash(
+    names: DeclaredNames, one: tuple[str, str, When, Step | None], other: tuple[str, str, When, Step | None]
+) -> bool:
     if any(step is not None and name in _taken_over(step) for step, name in ((one[3], other[0]), (other[3], one[0]))):
         return False
     return names.world.example(one[2].with_(other[2])) is not None

@@ -9,21 +9,21 @@ from diecut_report.contract.inputs import Quantity
 from diecut_report.contract.mechanism import Mechanism
 from diecut_report.contract.part_steps import Interpolated, Lookup, Pick
 from diecut_report.contract.steps import Abscissa, Step
-from diecut_report.declaration.names import Names
+from diecut_report.declaration.names import DeclaredNames
 from diecut_report.declaration.words import Fault
 from diecut_report.errors import nearest
 from diecut_report.quantities.units import unit
 from diecut_report.standards import StandardFault, StandardSeries, StandardTable
 
 
-def faults(mechanism: Mechanism, names: Names) -> Iterator[Fault]:
+def faults(mechanism: Mechanism, names: DeclaredNames) -> Iterator[Fault]:
     """Yield what is wrong with what steps take from tables and series."""
     for _, step in mechanism.steps:
         for text in _wrong(step, names):
             yield Fault(step.at, f"step {step.id}", text)
 
 
-def _wrong(step: Step, names: Names) -> Iterator[str]:
+def _wrong(step: Step, names: DeclaredNames) -> Iterator[str]:
     match step:
         case Lookup():
             yield from _column(step)
@@ -67,7 +67,7 @@ def _column(step: Lookup) -> Iterator[str]:
     )
 
 
-def _given(step: Lookup, names: Names) -> Iterator[str]:
+def _given(step: Lookup, names: DeclaredNames) -> Iterator[str]:
     """What is wrong with the input that may stand in the table's place."""
     path = step.given.removeprefix("inputs.")
     if not path:
@@ -85,7 +85,7 @@ def _given(step: Lookup, names: Names) -> Iterator[str]:
     yield from _unlike(f"given, {path},", key.meta.unit, _units(step), "the step")
 
 
-def _key(step: Interpolated, names: Names) -> Iterator[str]:
+def _key(step: Interpolated, names: DeclaredNames) -> Iterator[str]:
     """An impossible machine is told at an input."""
     inputs = [name for name in names.world.keys if "=" not in name]
     if step.key and step.key not in inputs:
@@ -94,7 +94,7 @@ def _key(step: Interpolated, names: Names) -> Iterator[str]:
         yield f'takes {step.of}, which may lie outside of the table; name the input that is then to be changed, key="…"'
 
 
-def _covered(step: Interpolated, names: Names) -> bool:
+def _covered(step: Interpolated, names: DeclaredNames) -> bool:
     """Whether a table goes over an abscissa of a period that is always the same."""
     low, high = step.between.x[[0, -1]]
     given = [giver.step for giver in names.givers(step.of)]
@@ -111,7 +111,7 @@ def _units(step: Step) -> set[str]:
     return {step.unit, *(text for _, text in step.units)}
 
 
-def _taken(names: Names, name: str) -> set[str]:
+def _taken(names: DeclaredNames, name: str) -> set[str]:
     """The units that a quantity may have."""
     return {each for giver in names.givers(name) for each in giver.units_when(())}
 

@@ -7,7 +7,7 @@ from collections.abc import Iterator, Mapping
 from diecut_report.contract.mechanism import Mechanism
 from diecut_report.contract.part_steps import Lookup, Neighbour, Part, Pick, Running, Total
 from diecut_report.contract.steps import Crossings, Reduction, Step
-from diecut_report.declaration.names import Names
+from diecut_report.declaration.names import DeclaredNames
 from diecut_report.declaration.words import Fault
 from diecut_report.quantities.units import unit
 from diecut_report.standards import StandardSeries, StandardTable
@@ -15,7 +15,7 @@ from diecut_report.standards import StandardSeries, StandardTable
 AS_IT_IS = ("max", "min", "abs_max", "range", "mean", "rms", "sum")  # operations that leave the unit as it is
 
 
-def faults(mechanism: Mechanism, names: Names) -> Iterator[Fault]:
+def faults(mechanism: Mechanism, names: DeclaredNames) -> Iterator[Fault]:
     """Yield the steps in another kind of unit than what they take over."""
     for number, (_, step) in enumerate(mechanism.steps):
         own = [step.unit, *(other for _, other in step.units)]
@@ -25,7 +25,7 @@ def faults(mechanism: Mechanism, names: Names) -> Iterator[Fault]:
                 yield Fault(step.at, f"step {step.id}", text)
 
 
-def _taken(step: Step, names: Names, number: int) -> Iterator[tuple[str, set[str]]]:
+def _taken(step: Step, names: DeclaredNames, number: int) -> Iterator[tuple[str, set[str]]]:
     """What a step takes over as it is, with the units that it may have."""
     match step:
         case Total(of=of, operation="product") | Running(of=of, operation="product"):
@@ -56,7 +56,7 @@ def kind_of(text: str) -> object:
         return text
 
 
-def _units(names: Names, name: str, step: Step, number: int) -> set[str]:
+def _units(names: DeclaredNames, name: str, step: Step, number: int) -> set[str]:
     """The units of what is given before a step."""
     givers = [giver for giver in names.givers(name) if giver.number < number]
     return {each for giver in givers for each in giver.units_when(step.needs)}

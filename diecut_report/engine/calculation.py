@@ -17,7 +17,7 @@ from diecut_report.contract.unit_variants import in_form
 from diecut_report.engine.numerics.chebyshev import PieceSeries
 from diecut_report.engine.numerics.curve_evaluation import MANY, Curves
 from diecut_report.engine.numerics.domain import Domain
-from diecut_report.engine.numerics.sample_cache import Table
+from diecut_report.engine.numerics.sample_cache import SampleCache
 from diecut_report.expressions import Array
 
 Found = tuple[Array, Array, Array]  # of an extreme: value, place, middle of its piece
@@ -138,7 +138,7 @@ class Calculation:
         self._kept: dict[tuple[str, str], tuple[Array, CurveSampler]] = {}  # curves already known at often used places
         self.ahead: dict[str, tuple[str, ...]] = {}  # for each abscissa the curves that coming steps ask for
         self.searches: dict[str, Any] = {}  # for each abscissa, of jumps in its pieces (switches)
-        self._tables: dict[str, Table] = {}
+        self._tables: dict[str, SampleCache] = {}
         self.extremes: dict[tuple[str, float], tuple[Array, Found]] = {}  # with the pieces they are of
         self.judged: dict[tuple[str, int], Side] = {}  # for each check on a curve and its sides, where it governs
         self.flaws: dict[int, tuple[str, str]] = {}  # for each impossible variant the key and the message
@@ -196,10 +196,10 @@ class Calculation:
         with np.errstate(all="ignore"):  # among variants some may be impossible
             return np.broadcast_to(sampler[curve], sampler.x.shape)
 
-    def table(self, axis: str) -> Table:
+    def table(self, axis: str) -> SampleCache:
         """What is known of the curves over an abscissa, piece by piece."""
         if axis not in self._tables:
-            self._tables[axis] = Table(self, axis)
+            self._tables[axis] = SampleCache(self, axis)
         return self._tables[axis]
 
     def release(self) -> None:

@@ -10,7 +10,7 @@ from typing import Any
 from numpy.typing import NDArray
 
 from diecut_report.expressions.evaluation import evaluate
-from diecut_report.expressions.formula import Formula, Named, Reading, formula
+from diecut_report.expressions.formula import Formula, FormulaName, Reading, formula
 from diecut_report.expressions.functions import (
     APPLY,
     AS_ANGLE,
@@ -33,6 +33,6 @@ Array = NDArray[Any]
 
 __all__ = [
     "APPLY", "AS_ANGLE", "AS_NUMBER", "BINARY", "COMPARE", "FUNCTIONS", "GRAVITY", "LAMBDA", "NUMERIC", "PI", "Array", "Constant",
-    "Formula", "FormulaError", "Named", "Node", "Reading", "arccos", "as_angle", "as_number", "evaluate", "formula", "substitute",
+    "Formula", "FormulaError", "FormulaName", "Node", "Reading", "arccos", "as_angle", "as_number", "evaluate", "formula", "substitute",
     "symbols", "transform", "walk", "written",
 ]  # fmt: skip

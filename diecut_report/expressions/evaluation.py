@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 
-from diecut_report.expressions.formula import Named
+from diecut_report.expressions.formula import FormulaName
 from diecut_report.expressions.functions import APPLY, NUMERIC
 from diecut_report.expressions.tree import Node
 
@@ -24,7 +24,7 @@ def evaluate(node: Node, value_of: Callable[[Node], Any]) -> Any:
             return value_of(node)
         case Node("call", (name, *args)):
             return NUMERIC[name](*(evaluate(a, value_of) for a in args))
-        case Node("apply", (Named(formula=called), *args)):
+        case Node("apply", (FormulaName(formula=called), *args)):
             known = dict(zip(called.parameters, (evaluate(a, value_of) for a in args), strict=True))
             return evaluate(called.tree, lambda leaf: known[leaf.args[0]] if leaf.args[0] in known else value_of(leaf))
         case Node("cmp", (sign, left, right)):

@@ -14,7 +14,7 @@ _LISTED = re.compile(r"(?P<family>.+?)\.(?P<number>\d+)(?:\.(?P<quantity>.+))?")
 _NUMBERED = re.compile(r"(?P<family>.*?)_(?P<number>\d+)(?:_(?P<quantity>.+))?")
 
 
-class Place(NamedTuple):
+class PartPlace(NamedTuple):
     """What an id says: the list or the kind of part, which part, which quantity of it, and how its parts are counted."""
 
     family: str
@@ -38,13 +38,13 @@ class Parts:
         return ((quantity, next(iter(rows.values()))[1]) for quantity, rows in self.columns.items())
 
 
-def place(name: str) -> Place | None:
+def place(name: str) -> PartPlace | None:
     """Where a quantity stands among like parts; None for a lone one."""
     listed = _LISTED.fullmatch(name)
     found = listed or _NUMBERED.fullmatch(name)
     if found is None:
         return None
-    return Place(found["family"], int(found["number"]), found["quantity"] or "", 0 if listed else 1)
+    return PartPlace(found["family"], int(found["number"]), found["quantity"] or "", 0 if listed else 1)
 
 
 def gathered(rows: Data) -> tuple[dict[str, Data], list[Parts]]:

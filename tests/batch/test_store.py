@@ -28,7 +28,7 @@ import scipy
 from diecut_report.errors import UserError
 from diecut_report.study.storage import spreadsheets as exports
 from diecut_report.study.storage import state
-from diecut_report.study.storage.description import Column, Description
+from diecut_report.study.storage.description import Description, ResultColumn
 from diecut_report.study.storage.spreadsheets import export
 from diecut_report.study.storage.store import Store
 from tests.batch.made_store import MASS, SPEED, description, part, source
@@ -144,7 +144,7 @@ def test_what_is_no_finite_number_is_null(tmp_path: Path, values: Any) -> None:
 
 
 def test_curves_are_lists(tmp_path: Path) -> None:
-    store = Store.create(tmp_path / "out", description(2, columns=(Column("drive.torque", "curve", "N*m"),)))
+    store = Store.create(tmp_path / "out", description(2, columns=(ResultColumn("drive.torque", "curve", "N*m"),)))
     with store.lock():
         store.write_part(0, {"status": ["pass", "error"], "drive.torque": [np.array([1.0, np.nan]), None]})
     assert store.read().to_table()["drive.torque"].to_pylist() == [[1.0, None], None]
@@ -156,7 +156,7 @@ def test_curves_are_lists(tmp_path: Path) -> None:
 
 
 def test_curves_of_unlike_lengths_are_as_they_were(tmp_path: Path) -> None:
-    store = Store.create(tmp_path / "out", description(5, columns=(Column("drive.torque", "curve", "N*m"),)))
+    store = Store.create(tmp_path / "out", description(5, columns=(ResultColumn("drive.torque", "curve", "N*m"),)))
     given = [np.array([1.0, 2.0, 3.0]), None, np.array([]), [4, np.inf], np.array([5.0])]
     with store.lock():
         store.write_part(0, {"status": ["pass"] * 5, "drive.torque": given})
@@ -379,7 +379,7 @@ def test_file_that_only_looks_like_a_part_is_told(tmp_path: Path, name: str) -> 
 
 def test_mechanism_may_be_called_as_a_column(tmp_path: Path) -> None:
     store = Store.create(
-        tmp_path / "out", description(2, columns=(Column("status.mass"), Column("variant.status", "text")))
+        tmp_path / "out", description(2, columns=(ResultColumn("status.mass"), ResultColumn("variant.status", "text")))
     )
     with store.lock():
         store.write_part(0, {"status": ["pass", "fail"], "status.mass": [1, 2], "variant.status": ["a", "b"]})
@@ -494,7 +494,7 @@ def test_interrupt_in_the_middle_of_a_file_leaves_nothing(tmp_path: Path, monkey
 
 @pytest.mark.parametrize("parts", [50, pytest.param(150, marks=pytest.mark.nightly)])
 def test_memory_stays_flat_over_many_parts(tmp_path: Path, parts: int) -> None:
-    columns = tuple(Column(f"a.{number}") for number in range(50))
+    columns = tuple(ResultColumn(f"a.{number}") for number in range(50))
     store = Store.create(tmp_path / "out", description(4000 * parts, 4000, columns=columns))
     values = np.random.default_rng(0).random((50, 4000))
 

@@ -19,7 +19,7 @@ from diecut_report.errors import UserError
 from diecut_report.study.analysis.query import variants
 from diecut_report.study.analysis.stored_variants import STATUSES, opened
 from diecut_report.study.analysis.titles import titles
-from diecut_report.study.storage.description import Column
+from diecut_report.study.storage.description import ResultColumn
 from diecut_report.study.summary import content as contents
 from diecut_report.study.summary import data, influence, pareto, questions, summarise
 from diecut_report.study.summary.pages import page, sheets
@@ -307,7 +307,7 @@ def saltelli(folder: Path, n: int, lost: int = 0) -> Path:
         "status": np.where(gone, "error", "pass").astype(object),
     }
     values |= {"error": np.where(gone, "cannot be", None).astype(object)}
-    columns = [*(Column(name) for name in names), Column("m.f")]
+    columns = [*(ResultColumn(name) for name in names), ResultColumn("m.f")]
     return written(folder, columns, values, varied=names, design="saltelli", n=n, objectives=[{"minimise": "m.f"}])
 
 
@@ -495,10 +495,10 @@ def test_what_people_read_are_titles_and_units_not_names(small_page: str) -> Non
 
 
 def test_titles_are_unlike_each_other() -> None:
-    gear = [Column(f"mechanisms.train.gears.{i}.teeth", description="Teeth of the gear") for i in range(2)]
-    force = [Column(f"{name}.force", description=f"Force ({end})") for name, end in (("a", "up"), ("b", "up"))]
-    both = [Column(f"a.force_{end}", description=f"Force ({end})") for end in ("mean", "peak")]
-    found = titles([*gear, *force, *both, Column("status", description="Status")])
+    gear = [ResultColumn(f"mechanisms.train.gears.{i}.teeth", description="Teeth of the gear") for i in range(2)]
+    force = [ResultColumn(f"{name}.force", description=f"Force ({end})") for name, end in (("a", "up"), ("b", "up"))]
+    both = [ResultColumn(f"a.force_{end}", description=f"Force ({end})") for end in ("mean", "peak")]
+    found = titles([*gear, *force, *both, ResultColumn("status", description="Status")])
     assert list(found.values()) == [
         "Teeth of the gear: no. 1 of gears (train)", "Teeth of the gear: no. 2 of gears (train)",
         "Force (up) (a)", "Force (b)", "Force (mean) (a)", "Force (peak) (a)", "",

@@ -10,7 +10,7 @@ import pytest
 
 from diecut_report.config.discovery import Discovery
 from diecut_report.pipeline import report
-from diecut_report.report.figures.panel_data import Across, Line, Note, Panel
+from diecut_report.report.figures.panel_data import Across, Line, Note, PanelData
 from diecut_report.study.definition.base_inputs import find_input
 from diecut_report.study.execution.variant_rows import calculate_rows
 from tests.configs import HEAD, loaded, saved
@@ -65,7 +65,7 @@ def diagram(
     limits: tuple[float | None, float | None] | None, heights: list[float], *, zero: bool = True
 ) -> tuple[float, float]:
     line = Line(np.arange(len(heights)), np.array(heights), "v")
-    return Panel(title="v", unit="1", across=Across("t", "t", "s", 0, 1), lines=[line], levels=[Note(0, heights[0], "")],
+    return PanelData(title="v", unit="1", across=Across("t", "t", "s", 0, 1), lines=[line], levels=[Note(0, heights[0], "")],
                  zero=zero, limits=limits).heights  # fmt: skip
 
 

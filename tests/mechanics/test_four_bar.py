@@ -29,7 +29,7 @@ def crank_rockers(draw: st.DrawFn) -> tuple[float, float, float]:
     return frame, coupler, rocker
 
 
-def closure(motion: four_bar.Motion, phi: Array, frame: float, coupler: float, rocker: float) -> Array:
+def closure(motion: four_bar.LinkageMotion, phi: Array, frame: float, coupler: float, rocker: float) -> Array:
     """What the vector loop crank + coupler − frame − rocker leaves open."""
     loop = np.exp(1j * phi) + coupler * np.exp(1j * motion.coupler_direction) - frame
     return np.abs(loop - rocker * np.exp(1j * motion.rocker_direction))

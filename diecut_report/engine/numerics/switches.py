@@ -36,7 +36,7 @@ class Decision(NamedTuple):
     node: Node
 
 
-class Fault(NamedTuple):
+class JumpFault(NamedTuple):
     """A curve that jumps: what decides there (None where a flag of the piece varies in it without a jump), and the place (SI)."""
 
     curve: str
@@ -47,7 +47,7 @@ class Fault(NamedTuple):
 Brackets = tuple[Array, Array, Array]  # rows, and the two places (rows,) between which a decision changes
 
 
-def faults(calc: Calculation, curve: str) -> Iterator[tuple[int, Fault]]:
+def faults(calc: Calculation, curve: str) -> Iterator[tuple[int, JumpFault]]:
     """Give the first jump of a curve inside a smooth piece, with the machine (its variant).
 
     Variants of one machine have the same formulas: where the first that is possible does not jump the others are not searched.
@@ -140,7 +140,7 @@ class _Machine:
         self.as_used = calc.sampler_of(axis, self.x, self.middle[:, None], self.variant)
         self.known: dict[Decision, Brackets] = {}
 
-    def faults(self, curve: str, deciding: Sequence[Value | Choice]) -> Iterator[Fault]:
+    def faults(self, curve: str, deciding: Sequence[Value | Choice]) -> Iterator[JumpFault]:
         """Give the places where a curve jumps inside a piece."""
         heights, used = (_over(sampler[curve], sampler.x) for sampler in (self.on_grid, self.as_used))
         size = JUMP * float(np.nanmax(np.abs(heights), initial=0.0))
@@ -150,10 +150,10 @@ class _Machine:
                 samplers = [self._sampler(x[:, None], row) for x in (low, high)] if len(row) else []
                 sides = [_over(sampler[curve], sampler.x)[:, 0] for sampler in samplers]
                 for i in np.flatnonzero(np.abs(sides[1] - sides[0]) > size) if sides else ():
-                    yield Fault(curve, decision, float(high[i]))
+                    yield JumpFault(curve, decision, float(high[i]))
         inner = (self.x - self.left[:, None] > self.near) & (self.right[:, None] - self.x > self.near)
         for i, k in np.argwhere(inner & (np.abs(heights - used) > size)):
-            yield Fault(curve, None, float(self.x[i, k]))
+            yield JumpFault(curve, None, float(self.x[i, k]))
 
     def _changes(self, decision: Decision) -> Brackets:
         """Where a decision changes inside a piece: neighbouring places before and after."""

@@ -22,7 +22,7 @@ def require(calc: Calculation, asking: str, curve: str) -> None:
         calc.flaws[variant] = asking, words
 
 
-def _words(calc: Calculation, found: switches.Fault) -> str:
+def _words(calc: Calculation, found: switches.JumpFault) -> str:
     curve, axis = calc.steps.get(found.curve), calc.steps[calc.axis[found.curve]]
     assert curve is not None
     place = f"{axis.symbol} = {told(found.place, axis.unit)}"

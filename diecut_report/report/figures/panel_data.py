@@ -41,7 +41,7 @@ class Note(NamedTuple):
     text: str
 
 
-class Span(NamedTuple):
+class SpanData(NamedTuple):
     """A named range of the abscissa."""
 
     start: float
@@ -50,7 +50,7 @@ class Span(NamedTuple):
 
 
 @dataclass(frozen=True, kw_only=True)
-class Panel:
+class PanelData:
     """One diagram; ``zero`` says that its zero line is always shown."""
 
     title: str
@@ -61,7 +61,7 @@ class Panel:
     marks: list[Note] = field(default_factory=list)
     levels: list[Note] = field(default_factory=list)
     verticals: list[Note] = field(default_factory=list)
-    spans: list[Span] = field(default_factory=list)
+    spans: list[SpanData] = field(default_factory=list)
     zero: bool = False
     limits: tuple[float | None, float | None] | None = None
 
@@ -123,6 +123,6 @@ def pieces(points: Array) -> list[Array]:
     return [piece if piece[-1, 0] >= piece[0, 0] else piece[::-1] for piece in found]
 
 
-def framed(panel: Panel, width: float, height: float) -> Frame:
+def framed(panel: PanelData, width: float, height: float) -> Frame:
     """The panel's frame on paper."""
     return Frame(width, height, (panel.across.low, panel.across.high), panel.heights)
