@@ -69,7 +69,7 @@ FORMULAS = (
     load("a constant in another than its SI unit", "return line_mass * GRAVITY * height", "return line_mass * G * height", r"\bg\b", "SI",
          also=(("# --- calculation\n", '# --- calculation\n\nG = Constant(9806.65, "g", "mm/s**2")\n'),
                ("    Chapter,\n", "    Chapter,\n    Constant,\n"),),
-         placed=False, now="calc: the printed formula gives something else; the constant is not named"),
+         placed=False),
     load("a keyword in a call", "np.ceil((2 * height + np.pi * head_diameter) / bucket_pitch)",
          "np.round(a=(2 * height + np.pi * head_diameter) / bucket_pitch)", "bucket_count", "a="),
     load("too few arguments of a formula", "lambda mass_rate, belt_speed: mass_rate / belt_speed)",
