@@ -3,7 +3,7 @@
 from typing import Annotated
 
 from diecut_report.contract.binding import Binding, Bound, ByText, bind
-from diecut_report.contract.chapters import Chapter, Steps, case
+from diecut_report.contract.chapters import Chapter, Steps
 from diecut_report.contract.charts import chart_panel, fill, level, line, mark, vertical
 from diecut_report.contract.checks import Check
 from diecut_report.contract.figures import (
@@ -34,6 +34,7 @@ from diecut_report.contract.figures import (
 )
 from diecut_report.contract.inputs import POINTS, Block, CurveInput, FromPress, Inputs, OneOf, Quantity, Text
 from diecut_report.contract.mechanism import Comparison, Erratum, Mechanism, Profile, Source
+from diecut_report.contract.options import case
 from diecut_report.contract.part_steps import Interpolated, Lookup, Neighbour, Part, Pick, Running, Total
 from diecut_report.contract.placeholders import Curve
 from diecut_report.contract.sections import prefixed

@@ -292,9 +292,3 @@ class Chapter(Steps):
     needs: tuple[str, ...] = field(default=(), kw_only=True)
     absent: str = field(default="", kw_only=True)
     at: str = placed()
-
-
-def case(value: Written | str, words: str, condition: Written | None = None) -> Case:
-    """Return one branch of a choice: its value (formula or text), why in words, and when it is taken; the last one has no condition."""
-    taken = value if isinstance(value, str) else as_binding(value, words)
-    return Case(taken, words, None if condition is None else as_binding(condition, words))

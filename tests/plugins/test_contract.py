@@ -15,7 +15,7 @@ from diecut_report.contract.inputs import Quantity
 from diecut_report.contract.mechanism import Mechanism
 from diecut_report.contract.steps import Crossings
 from diecut_report.engine import Calculation, Impossible, Unproven, calculate
-from diecut_report.results.checks import applies, sides, verdict
+from diecut_report.results.checks import applies, judged
 from diecut_report.results.mechanism import mechanism_results
 from diecut_report.testing import check_mechanism
 from tests.plugins.cases import COMPARISONS, FULL, MECHANISMS, Case, case, names
@@ -140,10 +140,9 @@ def same_curves(together: Calculation, alone: Calculation, i: int) -> None:
 def same_verdicts(together: Calculation, alone: Calculation, i: int) -> None:
     """Hold each check against the machine's own, with its utilisation."""
     for check in filter(partial(applies, alone), together.mechanism.checks):
-        held, ratio = (array[i] for array in verdict(check, *sides(together, check)))
-        held_alone, ratio_alone = (array[0] for array in verdict(check, *sides(alone, check)))
-        assert held == held_alone, check.id
-        np.testing.assert_allclose(ratio, ratio_alone, rtol=1e-7, atol=1e-6, err_msg=check.id)
+        found, own = judged(together, check), judged(alone, check)
+        np.testing.assert_array_equal(found.held[i], own.held[0], err_msg=check.id)
+        np.testing.assert_allclose(found.ratio[i], own.ratio[0], rtol=1e-7, atol=1e-6, err_msg=check.id)
 
 
 # --- report ----------------------------------------------------------------------------------------------------------
