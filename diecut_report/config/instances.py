@@ -105,6 +105,11 @@ class Instance:
         """Every step of the mechanism by its id, whether it takes part or not."""
         return {step.id: (section, step) for section, step in self.mechanism.steps} if self.mechanism else {}
 
+    @cached_property
+    def declared(self) -> dict[str, Step]:
+        """Those steps without their chapters."""
+        return {name: step for name, (_, step) in self.declared_steps.items()}
+
 
 def default_of(slot: Slot) -> FromPress | None:
     """The press's default that stands in for an input without a value."""

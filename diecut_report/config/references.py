@@ -15,8 +15,7 @@ from diecut_report.config.instances import Instance, Slot, default_of, slots
 from diecut_report.config.validation import declared
 from diecut_report.config.yaml_tree import KeyPath
 from diecut_report.contract.inputs import CurveInput, FromPress, Quantity, fields
-from diecut_report.contract.mechanism import MOST_NAMED
-from diecut_report.contract.steps import Crossings
+from diecut_report.contract.result_names import count_name, has_own_names, named, names_ahead
 from diecut_report.errors import Problem, nearest
 from diecut_report.expressions import Formula
 from diecut_report.quantities.units import pretty, unit
@@ -145,9 +144,9 @@ class Linker:
             if home:
                 raise Unresolved(f"${{{path}}} has a value for each of {home}; refer to one, as in ${{{path}.0}}.")
             return Target(path, instance.name, result=result, unit=si, is_curve=many)
-        row, _, index = result.rpartition(".")
-        if index.isdigit() and row in instance.results and instance.results[row][1]:
-            return Target(path, instance.name, result=result, unit=instance.results[row][0])
+        part = named(result, instance.declared)
+        if part and part.role == "part" and part.id in instance.results and instance.results[part.id][1]:
+            return Target(path, instance.name, result=result, unit=instance.results[part.id][0])
         return None
 
     def _input(self, path: str, instance: Instance, parts: list[str]) -> Target:
@@ -176,12 +175,11 @@ class Linker:
         return Target(path, instance.name, key, unit=si, is_curve=isinstance(meta, CurveInput))
 
     def _unknown(self, path: str, instance: Instance, name: str) -> str:
-        if f"{name}_count" in instance.results:
+        if count_name(name) in instance.results:
             return f"${{{path}}} has several values; refer to one of them, as in ${{{path}_1}}."
-        section, step = (
-            instance.declared_steps.get(name) or instance.declared_steps.get(name.removesuffix("_at")) or (None, None)
-        )
-        if section and step:
+        left_out = named(name, instance.declared)
+        if left_out and left_out.role in ("value", "place"):
+            section, step = instance.declared_steps[left_out.id]
             missing = [n for n in (*section.needs, *step.needs) if n not in instance.given]
             excess = [n for n in step.lacks if n in instance.given]
             words = (
@@ -197,12 +195,8 @@ class Linker:
 
 def _known(instance: Instance) -> list[str]:
     """What may be referred to; of numbered results the first alone, for how many there are shows in calculating."""
-    later: set[str] = set()
-    for _, step in instance.declared_steps.values():
-        if step.numbered:
-            later |= {step.numbered.format(i) for i in range(step.first + 1, step.first + MOST_NAMED)}
-        if isinstance(step, Crossings):
-            later |= {f"{step.id}_{i}" for i in range(2, MOST_NAMED + 1)}
+    several = [step for step in instance.declared.values() if has_own_names(step)]
+    later = {each.name for step in several for each in names_ahead(step) if each.index > 0}
     single = [name for name in instance.results if name not in later]
     return list(dict.fromkeys([*single, *(name for name, _ in fields(instance.model))]))
 

@@ -36,10 +36,10 @@ class View(Protocol):
         """A text by its id: an input, or what a choice gave."""
 
     def row(self, name: str) -> list[float]:
-        """The values of all like parts, SI."""
+        """The values of all repeated parts, SI."""
 
     def words(self, name: str) -> list[str]:
-        """A text input of all like parts."""
+        """A text input of all repeated parts."""
 
     def curve(self, name: str) -> list[float]:
         """A curve (or an abscissa) at the samples of the results, SI."""

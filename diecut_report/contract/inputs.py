@@ -202,7 +202,7 @@ class CurveInput:
 
 
 class Block(BaseModel):
-    """A block of inputs inside a mechanism, or one of a list of like parts."""
+    """A block of inputs inside a mechanism, or one of a list of repeated parts."""
 
     model_config = ConfigDict(extra="forbid", validate_default=True, frozen=True)
     one_of: ClassVar[tuple[OneOf, ...]] = ()
@@ -259,7 +259,7 @@ def list_inputs(model: type[Block], prefix: str = "") -> dict[str, str]:
 
 
 def list_titles(model: type[Block], prefix: str = "") -> dict[str, str]:
-    """What each list of like parts is, by its path."""
+    """What each list of repeated parts is, by its path."""
     found: dict[str, str] = {}
     for name, field in model.model_fields.items():
         block, meta = nested(field.annotation), meta_of(model, name)

@@ -12,6 +12,7 @@ from diecut_report.contract.figures import Figure
 from diecut_report.contract.inputs import CurveInput, Inputs, fields, list_inputs
 from diecut_report.contract.part_steps import Lookup, Neighbour, Running
 from diecut_report.contract.place import Misdeclared, placed
+from diecut_report.contract.result_names import names_ahead
 from diecut_report.contract.sections import settled
 from diecut_report.contract.spectra import Spectrum
 from diecut_report.contract.steps import (
@@ -22,19 +23,14 @@ from diecut_report.contract.steps import (
     Crossings,
     Derivative,
     FromCurve,
-    Reduction,
     Step,
     Value,
 )
 from diecut_report.quantities.units import unit
 
-MOST_NAMED = (
-    99  # crossings of a curve or parts of a list that a reference may name; how many there are shows in calculating
-)
-
 
 def axes(steps: tuple[Step, ...], inputs: type[Inputs]) -> dict[str, str]:
-    """For each curve its abscissa, for each row over like parts its list; single numbers are left out."""
+    """For each curve its abscissa, for each row over repeated parts its list; single numbers are left out."""
     found = list_inputs(inputs)
     for step in steps:
         match step:
@@ -156,18 +152,13 @@ class Mechanism:
         for _, step in self.active(given):
             if isinstance(step, SILENT):
                 continue
-            if isinstance(step, Crossings):
-                found |= {f"{step.id}_count": ("1", False)}
-                found |= {f"{step.id}_{i}": (unit(step.unit).si, False) for i in range(1, MOST_NAMED + 1)}
-                continue
-            if step.numbered:
-                names = (step.numbered.format(i) for i in range(step.first, step.first + MOST_NAMED))
-                found |= dict.fromkeys(names, (unit(step.unit).si, False))
-            text = isinstance(step, Choice) and isinstance(step.cases[0].value, str)
-            found[step.id] = (None if text else unit(step.unit).si, self.axis_of(step.id, given) is not None)
-            if isinstance(step, Reduction) and step.operation in ("max", "min", "abs_max"):
-                abscissa = found[self.axis_of(step.of, given) or ""]
-                found[f"{step.id}_at"] = abscissa[0], False
+            si = unit(step.unit).si
+            for each in names_ahead(step):
+                of_place = found[self.axis_of(step.of, given) or ""][0] if each.role == "place" else None  # type: ignore[attr-defined]
+                found[each.name] = {"count": "1", "place": of_place}.get(each.role, si), False
+            if not isinstance(step, Crossings):
+                text = isinstance(step, Choice) and isinstance(step.cases[0].value, str)
+                found[step.id] = None if text else si, self.axis_of(step.id, given) is not None
         return found
 
     def axis_of(self, name: str, given: frozenset[str]) -> str | None:
@@ -175,7 +166,7 @@ class Mechanism:
         return self.axes(given).get(name)
 
     def axes(self, given: frozenset[str]) -> dict[str, str]:
-        """For each curve its abscissa, for each row over like parts its list; single numbers are left out."""
+        """For each curve its abscissa, for each row over repeated parts its list; single numbers are left out."""
         if given not in self._axes:
             self._axes[given] = axes(tuple(step for _, step in self.active(given)), self.inputs)
         return self._axes[given]

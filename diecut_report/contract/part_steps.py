@@ -1,4 +1,4 @@
-"""Steps over like parts (a list of blocks in the config), and steps that take from standard series and tables."""
+"""Steps over repeated parts (a list of blocks in the config), and steps that take from standard series and tables."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ from diecut_report.standards import StandardSeries, StandardTable
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class Total(Step):
-    """Sum, product, least or greatest over like parts; with ``among`` (a row) only over the parts where that is above zero."""
+    """Sum, product, least or greatest over repeated parts; with ``among`` (a row) only over the parts where that is above zero."""
 
     of: str
     operation: Literal["sum", "product", "min", "max"]
@@ -48,7 +48,7 @@ class Part(Step):
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class Lookup(Step):
-    """A number from a table by a text input, in the step's display unit; a row where the text is one of like parts.
+    """A number from a table by a text input, in the step's display unit; a row where the text is one of repeated parts.
 
     ``column`` names the column of a table that has several. ``given`` is an optional input: where it is given the step has
     its value, and no text is needed.

@@ -8,6 +8,7 @@ from functools import cache
 from typing import Any
 
 from diecut_report.contract.binding import Bound, ByText, bind
+from diecut_report.contract.result_names import names_ahead
 from diecut_report.contract.steps import Case, Step
 from diecut_report.contract.unit_variants import in_unit
 from diecut_report.expressions import Formula
@@ -22,11 +23,13 @@ Rename = Callable[[str | float], str | float]
 def prefixed(prefix: str, steps: Iterable[Step], shared: tuple[str, ...], symbol_suffix: str = "") -> tuple[Step, ...]:
     """One family of steps for another variant: each id gets the prefix, except what is ``shared`` by all variants."""
     steps = tuple(steps)
-    own = {step.id for step in steps} - set(shared)
+    own_steps = [step for step in steps if step.id not in shared]
+    own = {step.id for step in own_steps} | {
+        e.name for step in own_steps if not step.numbered for e in names_ahead(step)
+    }
 
     def rename(name: str | float) -> str | float:
-        known = isinstance(name, str) and (name in own or name.removesuffix("_at") in own)
-        return f"{prefix}{name}" if known else name
+        return f"{prefix}{name}" if name in own else name
 
     return tuple(
         replace(step, id=str(rename(step.id)), symbol=step.symbol + symbol_suffix, **_renamed(step, rename))

@@ -25,7 +25,7 @@ class Step:
     ``exists`` is a condition on numbers: where it does not hold the quantity is absent for that machine.
     ``whole`` marks a count, which the results hold as an integer.
     ``units`` are other units, each with the input beside which it holds: (("mass", "N"),).
-    A row over like parts is named ``ID.0``, ``ID.1`` … in the results, or by ``numbered`` (``shaft_{}_speed``) from ``first`` on.
+    A row over repeated parts is named ``ID.0``, ``ID.1`` … in the results, or by ``numbered`` (``shaft_{}_speed``) from ``first`` on.
     """
 
     id: str
@@ -47,7 +47,7 @@ class Step:
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class Value(Step):
-    """A closed formula: a number, a curve where it takes a curve or an abscissa, a row of numbers over like parts.
+    """A closed formula: a number, a curve where it takes a curve or an abscissa, a row of numbers over repeated parts.
 
     ``per_piece`` marks a flag of a curve's smooth pieces (direction of motion, cutting): it is taken at the middle
     of the piece, so that one-sided limits at the piece's ends are well defined.
@@ -232,7 +232,7 @@ class Require(Step):
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class Clash(Step):
-    """Geometry that no printed formula tells: which of like parts stand in each other's way.
+    """Geometry that no printed formula tells: which of repeated parts stand in each other's way.
 
     ``function`` takes the rows ``takes``, each of shape (variants, parts), and gives for each part the index of the one that
     it clashes with, -1 for none, of the same shape. The message may name ``{part}`` and ``{other}``, counted from 1.

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import re
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 from functools import cached_property
@@ -11,6 +10,7 @@ from typing import NamedTuple
 from diecut_report.contract.inputs import CurveInput, Quantity, Text
 from diecut_report.contract.mechanism import Mechanism
 from diecut_report.contract.part_steps import Lookup, Neighbour, Running
+from diecut_report.contract.result_names import has_own_names, names_ahead, read
 from diecut_report.contract.steps import (
     Abscissa,
     Accumulated,
@@ -28,7 +28,6 @@ from diecut_report.contract.steps import (
 )
 from diecut_report.declaration.world import Key, When, World, world
 
-PLACED = ("max", "min", "abs_max")  # reductions that also give their place
 NO_QUANTITY = Breakpoints | Require | Clash
 
 
@@ -83,12 +82,13 @@ class DeclaredNames:
         when = self.when(number)
         for kind, axis in _kinds(step, found):
             yield step.id, Giver(when, kind, axis, None if kind == "text" else step.unit, step, number, step.units)
-        if isinstance(step, Reduction) and step.operation in PLACED:
-            places = [axis for curve in found.get(step.of, ()) for axis in found.get(curve.axis, ())]
-            own, forms = (places[0].unit, places[0].units) if places else (None, ())
-            yield f"{step.id}_at", Giver(when, "number", "", own, step, number, forms)
-        if isinstance(step, Crossings):
-            yield f"{step.id}_count", Giver(when, "number", "", "1", step, number)
+        for each in names_ahead(step):
+            if each.role == "place" and isinstance(step, Reduction):
+                places = [axis for curve in found.get(step.of, ()) for axis in found.get(curve.axis, ())]
+                own, forms = (places[0].unit, places[0].units) if places else (None, ())
+                yield each.name, Giver(when, "number", "", own, step, number, forms)
+            if each.role == "count":
+                yield each.name, Giver(when, "number", "", "1", step, number)
 
     def givers(self, name: str) -> list[Giver]:
         """Return what gives a name; of several crossings or numbered parts one that has a name of its own."""
@@ -96,8 +96,8 @@ class DeclaredNames:
 
     def _numbered(self, name: str) -> Iterator[Giver]:
         for number, (_, step) in enumerate(self.mechanism.steps):
-            pattern = step.numbered or ("" if not isinstance(step, Crossings) else f"{step.id}_{{}}")
-            if pattern and re.fullmatch(re.escape(pattern).replace(r"\{\}", r"\d+"), name):
+            found = read(name, step) if has_own_names(step) else None
+            if found and found.role in ("crossing", "part"):
                 yield Giver(self.when(number), "number", "", step.unit, step, number)
 
     def kinds(self, name: str) -> set[str]:

@@ -12,6 +12,7 @@ import numpy as np
 from diecut_report.contract.binding import Binding, bound
 from diecut_report.contract.inputs import CurveInput, Meta, Quantity, fields, texts_given
 from diecut_report.contract.mechanism import Mechanism
+from diecut_report.contract.result_names import named
 from diecut_report.contract.steps import Accumulated, Choice, Derivative, FromCurve, Step, Value
 from diecut_report.contract.unit_variants import in_form
 from diecut_report.engine.numerics.chebyshev import PieceSeries
@@ -131,7 +132,6 @@ class Calculation:
         self.curves: dict[str, CurveStep] = {}
         self.domains: dict[str, Domain] = {}
         self.series: dict[str, PieceSeries] = {}
-        self.named: dict[str, Step] = {}  # the steps of crossings and parts that have names of their own
         self.branch: dict[str, Array] = {}  # for each choice, the case taken by each variant
         self.middle: dict[str, Array] = {}  # for each place of an extreme, the middle of its smooth piece
         self.proof: dict[str, float] = {}  # for each result that is no closed formula, its greatest residual
@@ -151,7 +151,7 @@ class Calculation:
         return found
 
     def apply(self, part: Binding) -> Array:
-        """A formula of numbers (or rows over like parts), for all variants."""
+        """A formula of numbers (or rows over repeated parts), for all variants."""
         link = bound(part)
         result: Array = link.formula.function(*[self[n] if isinstance(n, str) else n for n in link.takes])
         if np.ndim(result) == 2 and len(result) == self.count:
@@ -215,12 +215,11 @@ class Calculation:
 
     def step_or_input(self, name: str) -> Step | Quantity:
         """What declares a quantity: its symbol, unit and description."""
-        if name in self.named:
-            return self.named[name]
-        own = name.removeprefix("inputs.")
-        if own == name and name.removesuffix("_at") in self.steps and name not in self.steps:
-            return self.steps[self.axis[self.steps[name.removesuffix("_at")].of]]  # type: ignore[attr-defined]
-        meta = self.steps[name] if name in self.steps else self.meta[own]
+        found = None if name in self.steps else named(name, self.steps)
+        if found is not None and found.role != "count":
+            step = self.steps[found.id]
+            return self.steps[self.axis[step.of]] if found.role == "place" else step  # type: ignore[attr-defined]
+        meta = self.steps[name] if name in self.steps else self.meta[name.removeprefix("inputs.")]
         assert isinstance(meta, Step | Quantity | CurveInput)
         return meta  # type: ignore[return-value]
 

@@ -53,11 +53,11 @@ class MachineView:
         return printed(self.calc, name)
 
     def row(self, name: str) -> list[float]:
-        """The values of all like parts, SI."""
+        """The values of all repeated parts, SI."""
         return [float(value) for value in self.calc[name][0]]
 
     def words(self, name: str) -> list[str]:
-        """A text input of all like parts."""
+        """A text input of all repeated parts."""
         return [str(text) for text in self.calc.inputs[name]]
 
     def curve(self, name: str) -> list[float]:

@@ -180,7 +180,7 @@ class _Filler:
         return f"{item['by']}: {item['key']}"
 
     def _results(self, outputs: Data) -> None:
-        """Outputs line by line, those of like parts as tables; the key ones for the summary."""
+        """Outputs line by line, those of repeated parts as tables; the key ones for the summary."""
         part, nth = self.part, counted(outputs)
         rows = {name: quantity_row(row, self.decimal, self._nth(row, nth.get(name))) for name, row in outputs.items()}
         single, lists = gathered(outputs)

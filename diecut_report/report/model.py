@@ -93,7 +93,7 @@ class PrintedTable:
 
 @dataclass(frozen=True)
 class TableCell:
-    """A value in a table of like parts, and what is to be said of it: where it comes from, how it was typed."""
+    """A value in a table of repeated parts, and what is to be said of it: where it comes from, how it was typed."""
 
     text: str
     note: str = ""
@@ -102,7 +102,7 @@ class TableCell:
 
 @dataclass(frozen=True)
 class PrintedColumn:
-    """The head of a column in a table of like parts."""
+    """The head of a column in a table of repeated parts."""
 
     title: str
     symbol: Markup
@@ -113,7 +113,7 @@ class PrintedColumn:
 
 @dataclass(frozen=True)
 class PartsTable:
-    """Quantities of like parts: a line for each part, by its number."""
+    """Quantities of repeated parts: a line for each part, by its number."""
 
     number: str
     title: str

@@ -1,4 +1,4 @@
-"""The numbered tables of a chapter: those of its calculation, of its curves, of quantities of like parts."""
+"""The numbered tables of a chapter: those of its calculation, of its curves, of quantities of repeated parts."""
 
 from __future__ import annotations
 
@@ -70,7 +70,7 @@ class Tables:
         return displayed(value if abs(value) > ROUNDING * scale else 0.0, curve["display_unit"], 4, self.decimal)
 
     def of_parts(self, parts: Parts, *, given: bool) -> list[PartsTable]:
-        """Quantities of like parts: inputs (``given``) tell their keys and where they come from, results their sources."""
+        """Quantities of repeated parts: inputs (``given``) tell their keys and where they come from, results their sources."""
         told = self._origin if given else lambda _: ""
         return [self._parts(parts, columns, told, given) for columns in shared_out(list(parts.heads))]
 
@@ -91,7 +91,7 @@ class Tables:
         return PartsTable(self._number(), title, family, columns, lines)
 
     def of_check(self, check: Data) -> PartsTable:
-        """A check on a row over like parts: how each part fares."""
+        """A check on a row over repeated parts: how each part fares."""
         parts = list(enumerate(check["parts"], 1))
         columns = [self._side(check, side) for side in ("demand", "limit")]
         columns += [PrintedColumn(self.words[key], Markup(""), "", "", "") for key in ("utilisation", "verdict")]

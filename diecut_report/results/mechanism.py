@@ -11,6 +11,7 @@ import numpy as np
 
 from diecut_report.contract.inputs import CurveInput, Quantity, list_titles
 from diecut_report.contract.mechanism import Profile
+from diecut_report.contract.result_names import ResultName, count_name, pattern, place_name, result_names
 from diecut_report.contract.spectra import Spectrum, SpectrumLine
 from diecut_report.contract.steps import SILENT, Crossings, Step
 from diecut_report.engine import Calculation
@@ -118,6 +119,8 @@ def inputs(calc: Calculation, provenance: Mapping[str, Provenance]) -> Data:
             home = calc.axis[name] if parted else ""
             path = f"{home}.{index}{name.removeprefix(home)}" if parted else name
             found[path] = _input(meta, part) | _origin(provenance.get(path))
+            if parted:
+                found[path]["part"] = {"family": home, "index": index, "quantity": name.removeprefix(f"{home}.")}
     return found
 
 
@@ -161,14 +164,14 @@ def numbers(calc: Calculation) -> Data:
 def _rowed(calc: Calculation, step: Step) -> Data:
     row = calc[step.id][0]
     if step.id in calc.axis:
-        names = step.numbered.format if step.numbered else f"{step.id}.{{}}".format
-        start = step.first if step.numbered else 0
         home = {} if step.numbered else {"list": calc.axis[step.id]}
-        return {names(start + i): _number(step, value) | home for i, value in enumerate(row)}
+        names = result_names(step, len(row))
+        rows = (_number(step, value) | home for value in row)
+        return {each.name: found | _part(step, each, **home) for each, found in zip(names, rows, strict=True)}
     if not isinstance(row[0], str) and math.isnan(row[0]):
         return {}
     found = _number(step, row[0])
-    place = f"{step.id}_at"
+    place = place_name(step.id)
     if place in calc.values:
         axis = calc.steps[calc.axis[step.of]]  # type: ignore[attr-defined]
         found["at"] = {"symbol": axis.symbol} | shown(float(calc[place][0, 0]), axis.unit, 6)
@@ -179,7 +182,19 @@ def _listed(calc: Calculation, step: Crossings) -> Data:
     places = [x for x in calc[step.id][0] if not math.isnan(x)]
     count = {"value": len(places), "unit": "1", "symbol": "", "description": f"{step.description}: how many",
              "source": step.source, "display": {"text": str(len(places)), "unit": "1"}}  # fmt: skip
-    return {f"{step.id}_count": count} | {f"{step.id}_{i}": _number(step, x) for i, x in enumerate(places, 1)}
+    _, *names = result_names(step, len(places))
+    rows = {each.name: _number(step, places[each.index]) | _part(step, each) for each in names}
+    return {count_name(step.id): count} | rows
+
+
+def _part(step: Step, each: ResultName, list: str = "") -> Data:
+    """Return which of repeated parts a result is of: of a list, or of a family that the names number."""
+    if list:
+        return {"part": {"family": list, "index": each.index, "quantity": step.id}}
+    made = pattern(step)
+    part = {"family": made.family, "index": each.index}
+    part |= {} if made.is_path else {"number": each.number}
+    return {"part": part | ({"quantity": made.quantity} if made.quantity else {})}
 
 
 def _number(step: Step, value: Any) -> Data:

@@ -12,8 +12,10 @@ from diecut_report.config.loader import Config, substituted
 from diecut_report.config.references import PRESS, Node, Target
 from diecut_report.config.validation import declared, validate
 from diecut_report.contract.inputs import SI, Block, Quantity, flatten
+from diecut_report.contract.result_names import named
 from diecut_report.engine import Calculation, CurveHandle, Impossible, calculate
 from diecut_report.errors import PluginError, Problem, UserError
+from diecut_report.expressions import Array
 from diecut_report.results.comparisons import Found, compared, found
 from diecut_report.results.mechanism import Provenance, mechanism_results
 
@@ -198,16 +200,23 @@ class Run:
         return found
 
 
+def number(calc: Calculation, name: str) -> Array | None:
+    """Return a number or text by its name in the results, shape (variants,); None where there is no such one."""
+    if name in calc.values:
+        return calc.values[name][:, 0]
+    part = named(name, calc.steps)
+    row = calc.values.get(part.id) if part and part.role == "part" else None
+    return row[:, part.index] if part and row is not None and part.index < row.shape[1] else None
+
+
 def output(calc: Calculation, name: str, target: Target) -> Any:
     """A result as a reference takes it over: a curve, a number with its SI unit, or a text. Absent where there is none."""
     if calc.axis.get(name) in calc.domains:
         return CurveHandle(calc, name)
-    row, _, index = name.rpartition(".")
-    base, place = (row, int(index)) if index.isdigit() else (name, 0)
-    numbers = calc.values[base][0] if base in calc.values else []
-    if place >= len(numbers):
+    numbers = number(calc, name)
+    if numbers is None:
         raise Absent("does not exist for this machine.")
-    value = numbers[place]
+    value = numbers[0]
     if isinstance(value, str):
         return value
     if math.isnan(value):

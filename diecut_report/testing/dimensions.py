@@ -9,6 +9,7 @@ from diecut_report.contract.binding import Binding, Bound, ByText, bound
 from diecut_report.contract.checks import Check
 from diecut_report.contract.inputs import fields
 from diecut_report.contract.mechanism import Mechanism, axes
+from diecut_report.contract.result_names import names_ahead
 from diecut_report.contract.steps import (
     SILENT,
     Abscissa,
@@ -65,11 +66,12 @@ def units_of(mechanism: Mechanism) -> dict[str, str]:
     for _, step in mechanism.steps:
         if not isinstance(step, SILENT):
             found[step.id] = unit(step.unit).si
-            if step.numbered:
-                found |= {step.numbered.format(i): found[step.id] for i in range(step.first, step.first + 3)}
     axis_of = axes(tuple(step for _, step in mechanism.steps), mechanism.inputs)
-    extremes = [s for _, s in mechanism.steps if isinstance(s, Reduction) and s.operation in ("max", "min", "abs_max")]
-    return found | {f"{step.id}_at": found[axis_of[step.of]] for step in extremes}
+    for _, step in mechanism.steps:
+        for each in names_ahead(step):
+            of_place = found[axis_of[step.of]] if each.role == "place" else ""  # type: ignore[attr-defined]
+            found.setdefault(each.name, {"count": "1", "place": of_place}.get(each.role, found[step.id]))
+    return found
 
 
 def dimensions(mechanism: Mechanism) -> Iterator[str]:

@@ -25,6 +25,13 @@ def quantity(
             "display": {"text": printed, "unit": shown or unit}} | more  # fmt: skip
 
 
+def part(family: str, index: int, quantity: str = "", number: int | None = None) -> Data:
+    """Return which of repeated parts a quantity is of, as the results tell it."""
+    found: Data = {"family": family, "index": index}
+    found |= {} if number is None else {"number": number}
+    return found | ({"quantity": quantity} if quantity else {})
+
+
 def inputs() -> Data:
     """Lone inputs, a list of two parts (no table) and one of five, each part with other origins."""
     found = {
@@ -33,15 +40,28 @@ def inputs() -> Data:
         "speed": quantity(5.2, "rad/s", "50", "Speed", "n", "rpm", origin="reference", path="drive.crank_speed"),
     }
     for k in range(2):
-        found[f"gears.{k}.teeth"] = quantity(20.0 + k, "1", str(20 + k), "Teeth", "z", origin="given", text=str(20 + k))
+        found[f"gears.{k}.teeth"] = quantity(20.0 + k, "1", str(20 + k), "Teeth", "z", origin="given", text=str(20 + k),
+                                             part=part("gears", k, "teeth"))  # fmt: skip
     for k in range(PULLEYS):
         typed = {0: "0.1 m", 1: "${drive.radius}", 2: "100 mm"}.get(k, "100")
         found[f"belt.pulleys.{k}.radius"] = quantity(
-            0.1, "m", "100", "Radius of the pulley", "r_p", "mm", origin="given", text=typed
+            0.1,
+            "m",
+            "100",
+            "Radius of the pulley",
+            "r_p",
+            "mm",
+            origin="given",
+            text=typed,
+            part=part("belt.pulleys", k, "radius"),
         )
     for k in range(PULLEYS):
-        found[f"belt.pulleys.{k}.side"] = quantity("inside", "1", "inside", "Side of the loop", origin="default")
-    found["belt.pulleys.3.mass"] = quantity(2.0, "kg", "2", "Mass", "m", origin="given", text="2 kg")
+        found[f"belt.pulleys.{k}.side"] = quantity(
+            "inside", "1", "inside", "Side of the loop", origin="default", part=part("belt.pulleys", k, "side")
+        )
+    found["belt.pulleys.3.mass"] = quantity(
+        2.0, "kg", "2", "Mass", "m", origin="given", text="2 kg", part=part("belt.pulleys", 3, "mass")
+    )
     return found
 
 
@@ -49,16 +69,31 @@ def outputs() -> Data:
     """Lone outputs, rows over five pulleys, numbered shafts of two kinds."""
     found = {"radius": quantity(0.1, "m", "100.0", "Radius", "R", "mm", key=True)}
     for k in range(PULLEYS):
-        found[f"wraps.{k}"] = quantity(1.0, "rad", f"{57.3 + k}", "Wrap on the pulley", "β", "deg")
+        found[f"wraps.{k}"] = quantity(
+            1.0, "rad", f"{57.3 + k}", "Wrap on the pulley", "β", "deg", part=part("belt.pulleys", k, "wraps")
+        )
     for k in range(PULLEYS):
-        found[f"arcs.{k}"] = quantity(0.1, "m", f"{100 + k}", "Arc on the pulley", "b", "mm")
+        found[f"arcs.{k}"] = quantity(
+            0.1, "m", f"{100 + k}", "Arc on the pulley", "b", "mm", part=part("belt.pulleys", k, "arcs")
+        )
     for k in range(3, 7):
         found[f"shaft_{k}_speed"] = quantity(
-            10.0, "rad/s", f"{90 + k}.49", "Speed of the shaft", "ω", "rpm", source="kinematics"
+            10.0,
+            "rad/s",
+            f"{90 + k}.49",
+            "Speed of the shaft",
+            "ω",
+            "rpm",
+            source="kinematics",
+            part=part("shaft", k - 3, "speed", k),
         )
-        found[f"shaft_{k}_torque"] = quantity(10.0, "N*m", f"{10 * k}.00", "Torque of the shaft", "M")
+        found[f"shaft_{k}_torque"] = quantity(
+            10.0, "N*m", f"{10 * k}.00", "Torque of the shaft", "M", part=part("shaft", k - 3, "torque", k)
+        )
     for k in range(2):
-        found[f"ratios.{k}"] = quantity(2.0, "1", f"{2 + k}.000", "Ratio of the pair", "i", key=True)
+        found[f"ratios.{k}"] = quantity(
+            2.0, "1", f"{2 + k}.000", "Ratio of the pair", "i", key=True, part=part("gears", k, "ratios")
+        )
     return found
 
 

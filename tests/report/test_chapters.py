@@ -69,7 +69,7 @@ def test_reference_without_a_text_shows_its_path(chapters: dict[str, PrintedChap
     assert (row.typed, row.origin) == ("drive.crank_speed", "reference")
 
 
-def test_results_of_like_parts_are_tables_others_are_counted(chapters: dict[str, PrintedChapter]) -> None:
+def test_results_of_repeated_parts_are_tables_others_are_counted(chapters: dict[str, PrintedChapter]) -> None:
     train = chapters["train"]
     assert [row.description for row in train.outputs] == [
         "Radius",
@@ -77,7 +77,7 @@ def test_results_of_like_parts_are_tables_others_are_counted(chapters: dict[str,
         "Ratio of the pair, no. 2",
     ]
     rows, shafts = train.output_parts
-    assert (rows.family, shafts.family) == ("", "shaft_3 … 6")
+    assert (rows.family, shafts.family) == ("belt.pulleys", "shaft_3 … 6")
     assert [cell.text for cell in shafts.lines[0][1]] == ["93.49", "30.00"]
     assert [row.description for row in train.key_results] == [
         "Radius",

@@ -7,6 +7,7 @@ from typing import Any
 
 from diecut_report.contract.binding import Binding, Bound, bound
 from diecut_report.contract.part_steps import Interpolated, Lookup, Neighbour, Part, Pick, Running, Total
+from diecut_report.contract.result_names import place_name
 from diecut_report.contract.steps import (
     Abscissa,
     Accumulated,
@@ -246,8 +247,9 @@ def _reduction(calc: Calculation, step: Reduction) -> Item:
     item = _head(step) | _reduced(calc, step, step.of) | {"operation": step.operation}
     item["method"] = METHODS["mean" if integrated else "max"]
     item["residual"] = {"text": number_text(calc.proof[step.id], 2), "unit": "1"}
-    if f"{step.id}_at" in calc.values:
-        item["at"] = place_of(calc, calc.axis[step.of], float(calc[f"{step.id}_at"][0, 0]))
+    place = place_name(step.id)
+    if place in calc.values:
+        item["at"] = place_of(calc, calc.axis[step.of], float(calc[place][0, 0]))
     return item
 
 

@@ -29,7 +29,7 @@ def shown_place(calc: Calculation, axis: str) -> tuple[Array, Array]:
 
 
 def value_at(calc: Calculation, name: str, axis: str | None, *, flag: bool = False) -> float:
-    """A number, or a curve's value where formulas are shown, or the first of a row over like parts.
+    """A number, or a curve's value where formulas are shown, or the first of a row over repeated parts.
 
     What goes into a flag of smooth pieces is taken at the middle of the piece.
     """

@@ -12,6 +12,7 @@ from types import MappingProxyType
 from typing import TYPE_CHECKING, Any
 
 from diecut_report.contract.binding import Bound
+from diecut_report.contract.result_names import named
 from diecut_report.contract.steps import Words
 from diecut_report.engine.printing.rounding import Bounded, bounded
 from diecut_report.expressions import Node, evaluate, transform
@@ -111,9 +112,9 @@ class Substitution:
     def _marked(self, name: str) -> Node:
         """A quantity's symbol; where it is taken at another place than the chapter's, marked with that place."""
         symbol = Node("sym", (self.calc.step_or_input(name).symbol,))
-        extreme = self.calc.steps.get(name.removesuffix("_at"))
-        if name in self.calc.middle and extreme is not None:
-            return Node("at", (symbol, Node("sym", (extreme.symbol,))))
+        found = named(name, self.calc.steps)
+        if found is not None and found.role == "place":
+            return Node("at", (symbol, Node("sym", (self.calc.steps[found.id].symbol,))))
         place = self.elsewhere(name) if self.elsewhere else None
         return symbol if place is None else Node("at", (symbol, *place))
 

@@ -1,4 +1,4 @@
-"""Rows over like parts, and what was taken from tables and standard series, as they are printed."""
+"""Rows over repeated parts, and what was taken from tables and standard series, as they are printed."""
 
 from __future__ import annotations
 
@@ -26,7 +26,7 @@ SERIES_WORDS = {
 
 
 def table(calc: Calculation, step: Step, names: list[str]) -> Item:
-    """A row over like parts with what it is made of: a line for each part, numbered."""
+    """A row over repeated parts with what it is made of: a line for each part, numbered."""
     declared = [calc.step_or_input(name) for name in names]
     columns = [{"title": "No.", "symbol": "", "unit": "1"}]
     columns += [{"title": d.description, "symbol": d.symbol, "unit": d.unit} for d in declared]

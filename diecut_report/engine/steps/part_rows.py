@@ -1,4 +1,4 @@
-"""Steps over like parts (rows), and numbers from standard series and tables, for all variants."""
+"""Steps over repeated parts (rows), and numbers from standard series and tables, for all variants."""
 
 from __future__ import annotations
 

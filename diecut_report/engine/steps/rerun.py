@@ -2,21 +2,19 @@
 
 from __future__ import annotations
 
-import re
 from collections.abc import Mapping, Sequence
 from typing import Any
 
 import numpy as np
 
 from diecut_report.contract.inputs import texts_given
-from diecut_report.contract.mechanism import MOST_NAMED, Mechanism
+from diecut_report.contract.mechanism import Mechanism
+from diecut_report.contract.result_names import named
 from diecut_report.contract.sections import taken
 from diecut_report.contract.steps import SILENT, Abscissa, Breakpoints, Step
 from diecut_report.engine.calculation import Calculation, Impossible, Unproven
 from diecut_report.engine.steps.run import calculate
 from diecut_report.expressions import Array
-
-PLACE = re.compile(r"_(at|count|\d+)$")  # of extremes and crossings: the step gives it
 
 
 def varied(calc: Calculation, inputs: Mapping[str, Any], names: Sequence[str]) -> dict[str, Array]:
@@ -66,17 +64,12 @@ def _repeated(value: Any, count: int) -> Any:
 def needed(mechanism: Mechanism, given: frozenset[str], names: Sequence[str]) -> set[str]:
     """The ids of the steps that quantities need, and of what must hold for them."""
     steps = [step for _, step in mechanism.active(given)]
-    own = {step.id: step for step in steps} | {
-        step.numbered.format(i): step
-        for step in steps
-        if step.numbered
-        for i in range(step.first, step.first + MOST_NAMED)
-    }
+    own = {step.id: step for step in steps}
     found: set[str] = set()
     pending = list(names)
     while pending:
         name = pending.pop()
-        step = own.get(name) or own.get(PLACE.sub("", name))
+        step = _giver(name, own)
         if step is None or step.id in found:
             continue
         found.add(step.id)
@@ -94,5 +87,12 @@ def _of_abscissa(steps: Sequence[Step], step: Step) -> list[str]:
     return [s.id for s in steps if getattr(s, "abscissa", "") == step.id]
 
 
+def _giver(name: str, own: Mapping[str, Step]) -> Step | None:
+    """Return the step of this id, or that gives this name."""
+    found = None if name in own else named(name, own)
+    return own[found.id] if found else own.get(name)
+
+
 def _known(step: Step, own: Mapping[str, Step], found: set[str]) -> bool:
-    return all(name not in own or own[name].id in found for name in taken(step))
+    givers = [_giver(name, own) for name in taken(step)]
+    return all(giver is None or giver.id in found for giver in givers)

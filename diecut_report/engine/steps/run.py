@@ -10,6 +10,7 @@ import numpy as np
 
 from diecut_report.contract.mechanism import Mechanism
 from diecut_report.contract.part_steps import Interpolated, Lookup, Neighbour, Part, Pick, Running, Total
+from diecut_report.contract.result_names import count_name, place_name, result_names
 from diecut_report.contract.steps import (
     Abscissa,
     Accumulated,
@@ -83,9 +84,8 @@ def calculate(
 def _name_parts(calc: Calculation, step: Step) -> None:
     """The parts of a row under names of their own."""
     if step.numbered:
-        names = [step.numbered.format(step.first + i) for i in range(calc[step.id].shape[1])]
-        calc.values |= {name: calc[step.id][:, [i]] for i, name in enumerate(names)}
-        calc.named |= dict.fromkeys(names, step)
+        row = calc[step.id]
+        calc.values |= {each.name: row[:, [each.index]] for each in result_names(step, row.shape[1])}
 
 
 def _value(calc: Calculation, step: Value) -> None:
@@ -147,11 +147,11 @@ def _breakpoints(calc: Calculation, step: Breakpoints) -> None:
 
 
 def _crossings(calc: Calculation, step: Crossings) -> None:
-    calc.values[step.id], residual = roots_integrals.all_crossings(calc, step.of)
-    calc.values[f"{step.id}_count"] = np.isfinite(calc.values[step.id]).sum(axis=1, keepdims=True)
-    places = {f"{step.id}_{i}": place[:, None] for i, place in enumerate(calc.values[step.id].T, 1)}
-    calc.values |= places
-    calc.named |= dict.fromkeys(places, step)
+    places, residual = roots_integrals.all_crossings(calc, step.of)
+    calc.values[step.id] = places
+    calc.values[count_name(step.id)] = np.isfinite(places).sum(axis=1, keepdims=True)
+    names = [each for each in result_names(step, places.shape[1]) if each.role == "crossing"]
+    calc.values |= {each.name: places[:, [each.index]] for each in names}
     prove(calc, step, residual, roots_integrals.SAMPLE_TOLERANCE)
 
 
@@ -171,7 +171,7 @@ def _reduction(calc: Calculation, step: Reduction) -> None:
     upper = np.abs(ends[0][0]) >= np.abs(ends[-1][0]) * (1 - extrema.SAME_HEIGHT)  # of two alike the upper one
     value, place, middle = (np.where(upper, top, bottom) for top, bottom in zip(ends[0], ends[-1], strict=True))
     calc.values[step.id] = np.maximum(*(np.abs(end[0]) for end in ends)) if step.operation == "abs_max" else value
-    calc.values[f"{step.id}_at"], calc.middle[f"{step.id}_at"] = place, middle
+    calc.values[place_name(step.id)], calc.middle[place_name(step.id)] = place, middle
 
 
 def _integrated(calc: Calculation, step: Reduction) -> None:

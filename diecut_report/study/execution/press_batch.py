@@ -19,7 +19,7 @@ from diecut_report.contract.inputs import SI, Quantity, flatten
 from diecut_report.engine import Calculation, CurveHandle, Impossible, Unproven, calculate
 from diecut_report.errors import PluginError, Problem
 from diecut_report.expressions import Array
-from diecut_report.results.press_run import Absent, Run
+from diecut_report.results.press_run import Absent, Run, number
 from diecut_report.study.definition.base_inputs import Input, with_values
 
 Values = Mapping[Input, Array | str]
@@ -100,12 +100,9 @@ class _Rows(Run):
         """A result of all machines; where it is absent that is the machine's reason."""
         if calculation.axis.get(name) in calculation.domains:
             return CurveHandle(calculation, name)
-        row, _, index = name.rpartition(".")
-        base, place = (row, int(index)) if index.isdigit() else (name, 0)
-        numbers = calculation.values.get(base)
-        if numbers is None or place >= numbers.shape[1]:
+        column = number(calculation, name)
+        if column is None:
             raise Absent("does not exist for these machines.")
-        column = numbers[:, place]
         if column.dtype == object:
             if self.machines.count == 1:
                 return column[0]

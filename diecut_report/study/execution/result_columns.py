@@ -14,6 +14,7 @@ from diecut_report.config.loader import Config
 from diecut_report.config.references import PRESS
 from diecut_report.contract.checks import Check
 from diecut_report.contract.inputs import list_inputs
+from diecut_report.contract.result_names import CROSSING_COLUMNS, ResultName, count_name, result_names
 from diecut_report.contract.steps import SILENT, Choice, Crossings, Step, Value
 from diecut_report.engine import Calculation
 from diecut_report.engine.steps.extreme_checks import is_made
@@ -24,7 +25,6 @@ from diecut_report.results.checks import judged
 from diecut_report.study.execution.press_batch import of_plugin
 from diecut_report.study.storage.description import Kind, ResultColumn
 
-CROSSINGS = 8  # of a curve's changes of sign that have columns of their own
 STATUS = np.array([None, "pass", "warn", "fail", "error"], dtype=object)
 PASS, WARN, FAIL, ERROR = 1, 2, 3, 4
 
@@ -71,18 +71,16 @@ def _outputs(name: str, instance: Instance) -> Iterator[ResultColumn]:
         if not step.output or isinstance(step, SILENT) or (home is not None and home not in lists):
             continue
         parts = _names(step, len(_at(instance.data, home)) if home else None)
-        for index, part in enumerate(parts):
-            count = isinstance(step, Crossings) and part.endswith("_count")
+        for part in parts:
+            count = part.role == "count"
             kind: Kind = "int" if count else _kind(step)
-            one = _column(f"{name}.{part}", kind, "1" if count else step.unit, step)
-            yield one if len(parts) == 1 else replace(one, description=_numbered(step, index))
+            one = _column(f"{name}.{part.name}", kind, "1" if count else step.unit, step)
+            yield one if len(parts) == 1 else replace(one, description=_numbered(step, part))
 
 
-def _numbered(step: Step, index: int) -> str:
-    """What one of several results of a step is, counted as its name counts it."""
-    if isinstance(step, Crossings):
-        return f"{step.description}: no. {index}" if index else f"{step.description}: how many in a turn"
-    return f"{step.description}: no. {step.first + index}"
+def _numbered(step: Step, part: ResultName) -> str:
+    """Return what one of several results of a step is."""
+    return f"{step.description}: {'how many in a turn' if part.role == 'count' else f'no. {part.number}'}"
 
 
 def _at(data: Any, path: str) -> Any:
@@ -91,13 +89,10 @@ def _at(data: Any, path: str) -> Any:
     return data
 
 
-def _names(step: Step, parts: int | None) -> list[str]:
-    """The results of a step by name, as in the results file."""
-    if isinstance(step, Crossings):
-        return [f"{step.id}_count", *(f"{step.id}_{i}" for i in range(1, CROSSINGS + 1))]
-    if parts is None:
-        return [step.id]
-    return [step.numbered.format(step.first + i) if step.numbered else f"{step.id}.{i}" for i in range(parts)]
+def _names(step: Step, parts: int | None) -> list[ResultName]:
+    """Return the results of a step by name, as in the results file, where an extreme's place stands beside its value."""
+    names = result_names(step, CROSSING_COLUMNS if isinstance(step, Crossings) else parts)
+    return [each for each in names if each.role != "place"]
 
 
 def _kind(step: Step) -> Kind:
@@ -128,10 +123,10 @@ def output_values(name: str, calc: Calculation) -> dict[str, Array]:
             continue
         values = calc.values[step.id]
         if isinstance(step, Crossings):
-            values = np.concatenate([calc.values[f"{step.id}_count"], _wide(values)], axis=1)
+            values = np.concatenate([calc.values[count_name(step.id)], _wide(values)], axis=1)
         parts = None if isinstance(step, Crossings) or step.id not in calc.axis else values.shape[1]
         names = _names(step, parts)
-        found |= {f"{name}.{part}": values[:, index] for index, part in enumerate(names)}
+        found |= {f"{name}.{part.name}": values[:, index] for index, part in enumerate(names)}
     return found
 
 
@@ -152,8 +147,8 @@ def curve_values(calculations: Mapping[str, Calculation], names: Iterable[str]) 
 
 def _wide(places: Array) -> Array:
     """Crossings in as many columns as there are for them, NaN where there are fewer."""
-    room = np.full((len(places), CROSSINGS), np.nan)
-    shown = places[:, :CROSSINGS]
+    room = np.full((len(places), CROSSING_COLUMNS), np.nan)
+    shown = places[:, :CROSSING_COLUMNS]
     room[:, : shown.shape[1]] = shown
     return room
 
