@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from functools import cache, cached_property
+from types import FunctionType
 from typing import Any
 
 from diecut_report.contract.place import Misdeclared
@@ -68,7 +69,19 @@ def as_binding(part: Binding | Callable[..., Any], name: str) -> Binding:
     """Return what an author wrote as a formula of the engine; a lambda is called ``name`` in messages."""
     if isinstance(part, Bound) and part.formula.__name__ == LAMBDA:
         part.formula.__name__ = name
-    return part if isinstance(part, Binding) else Formula(part, name)
+    return part if isinstance(part, Binding) else _formula(part, name)
+
+
+def _formula(function: Any, name: str) -> Formula:
+    if not isinstance(function, FunctionType):
+        raise Misdeclared(
+            f"{name} needs a formula, and {function!r} is none; write a lambda, or a def with @formula above it"
+        )
+    if function.__defaults__ or function.__kwdefaults__:
+        raise Misdeclared(
+            f"the formula of {name} has parameters with a default; it takes all that it needs from quantities: remove it"
+        )
+    return Formula(function, name)
 
 
 def bound(part: Binding) -> Bound:

@@ -14,7 +14,7 @@ from diecut_report.contract.between import Between
 from diecut_report.contract.binding import as_binding, bind
 from diecut_report.contract.options import Options, StepCondition, Written
 from diecut_report.contract.part_steps import Interpolated, Lookup, Neighbour, Part, Pick, Running, Total
-from diecut_report.contract.place import placed
+from diecut_report.contract.place import Misdeclared, placed
 from diecut_report.contract.steps import (
     Abscissa,
     Accumulated,
@@ -35,6 +35,7 @@ from diecut_report.contract.steps import (
     Value,
     Words,
 )
+from diecut_report.errors import nearest
 from diecut_report.expressions import Array
 from diecut_report.standards import StandardSeries, StandardTable
 
@@ -52,6 +53,8 @@ class Steps:
         """Add steps that are declared elsewhere: a family, several of them, or what several chapters share."""
         for step in steps:
             if isinstance(step, Step):
+                if any(step is other for other in self.steps):
+                    raise Misdeclared(f"{step.id} is added twice; add it once")
                 self.steps = (*self.steps, step)
             else:
                 self.add(*step)
@@ -280,6 +283,8 @@ class Steps:
         given: dict[str, Any] = {"symbol": symbol, "unit": unit, "description": description, **options, **own}
         exists = options.get("exists")
         given["exists"] = None if exists is None else as_binding(exists, f"{id} (exists)")
+        for name in given.keys() - kind.__dataclass_fields__.keys():
+            raise Misdeclared(f"{id} has no option {name}{nearest(name, kind.__dataclass_fields__)}")
         self.add(kind(id=id, **given))
 
 
