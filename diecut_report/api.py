@@ -3,7 +3,7 @@
 from typing import Annotated
 
 from diecut_report.contract.binding import Binding, Bound, ByText, bind
-from diecut_report.contract.chapters import Chapter, Steps, case
+from diecut_report.contract.chapters import Chapter, Steps
 from diecut_report.contract.charts import chart_panel, fill, level, line, mark, vertical
 from diecut_report.contract.checks import Check
 from diecut_report.contract.figures import (
@@ -34,7 +34,8 @@ from diecut_report.contract.figures import (
 )
 from diecut_report.contract.inputs import POINTS, Block, CurveInput, FromPress, Inputs, OneOf, Quantity, Text
 from diecut_report.contract.mechanism import Comparison, Erratum, Mechanism, Profile, Source
-from diecut_report.contract.part_steps import Lookup, Neighbour, Part, Pick, Running, Total
+from diecut_report.contract.options import case
+from diecut_report.contract.part_steps import Interpolated, Lookup, Neighbour, Part, Pick, Running, Total
 from diecut_report.contract.placeholders import Curve
 from diecut_report.contract.sections import prefixed
 from diecut_report.contract.spectra import Spectrum, SpectrumLine
@@ -59,15 +60,26 @@ from diecut_report.contract.steps import (
 )
 from diecut_report.expressions import GRAVITY, Constant, Formula, arccos, as_angle, as_number, formula
 from diecut_report.quantities.formatting import below, outward, si, told
-from diecut_report.standards import StandardSeries, StandardTable, standard_series, standard_series_by, standard_table
+from diecut_report.standards import (
+    StandardFault,
+    StandardSeries,
+    StandardTable,
+    own_series,
+    own_table,
+    standard_series,
+    standard_series_by,
+    standard_table,
+    table_beside,
+)
 
 __all__ = [
     "GRAVITY", "POINTS", "Abscissa", "Accumulated", "Annotated", "BarGroup", "Bars", "Binding", "Block", "Bound", "Breakpoints", "ByText",
     "Case", "Chapter", "Chart", "Check", "Choice", "Clash", "Comparison", "Computed", "Constant", "Crossings", "Curve", "CurveInput",
-    "CurvePeriod", "Derivative", "Drawing", "Erratum", "Formula", "FromCurve", "FromPress", "Inputs", "Level", "Lookup", "Mark",
-    "Mechanism", "Neighbour", "OneOf", "Panel", "Part", "Pick", "Plot", "Point", "Polar", "Profile", "Quantity", "Reduction", "Require",
-    "Root", "Running", "Series", "Shape", "Source", "Span", "Spectrum", "SpectrumLine", "StandardSeries", "StandardTable", "Step", "Steps",
-    "Text", "Total", "Value", "View", "Words", "arc", "arccos", "arrow", "as_angle", "as_number", "below", "bind", "box", "case",
-    "chart_panel", "circle", "dimension", "fill", "formula", "label", "level", "line", "mark", "outward", "point", "polyline", "prefixed",
-    "radius_dimension", "region", "si", "standard_series", "standard_series_by", "standard_table", "told", "vertical",
+    "CurvePeriod", "Derivative", "Drawing", "Erratum", "Formula", "FromCurve", "FromPress", "Inputs", "Interpolated", "Level", "Lookup",
+    "Mark", "Mechanism", "Neighbour", "OneOf", "Panel", "Part", "Pick", "Plot", "Point", "Polar", "Profile", "Quantity", "Reduction",
+    "Require", "Root", "Running", "Series", "Shape", "Source", "Span", "Spectrum", "SpectrumLine", "StandardFault", "StandardSeries",
+    "StandardTable", "Step", "Steps", "Text", "Total", "Value", "View", "Words", "arc", "arccos", "arrow", "as_angle", "as_number", "below",
+    "bind", "box", "case", "chart_panel", "circle", "dimension", "fill", "formula", "label", "level", "line", "mark", "outward",
+    "own_series", "own_table", "point", "polyline", "prefixed", "radius_dimension", "region", "si", "standard_series", "standard_series_by",
+    "standard_table", "table_beside", "told", "vertical",
 ]  # fmt: skip

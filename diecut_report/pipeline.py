@@ -43,7 +43,7 @@ Places = dict[tuple[str, str], str]  # of a mechanism's name and the id of a fig
 
 
 @dataclass(frozen=True)
-class Outcome:
+class ReportOutcome:
     """What came out: the results document, the files written, and the plugins that broke."""
 
     results: Data
@@ -56,18 +56,18 @@ def check(config: Path, discovery: Discovery) -> tuple[PluginError, ...]:
     return tuple(load_config(config, discovery).broken.values())
 
 
-def calc(config: Source, discovery: Discovery, tell: Tell, target: Path | None = None) -> tuple[Outcome, str]:
+def calc(config: Source, discovery: Discovery, tell: Tell, target: Path | None = None) -> tuple[ReportOutcome, str]:
     """The results document and its text; written to ``target`` if there is one."""
     results, broken, _ = _calculated(config, discovery, tell)
     text = results_text(results)
     if target is not None:
         _write({target: text.encode()}, config)
-    return Outcome(results, (target,) if target else (), broken), text
+    return ReportOutcome(results, (target,) if target else (), broken), text
 
 
 def report(
     config: Source, discovery: Discovery, tell: Tell, folder: Path, formats: Sequence[str], language: str | None = None
-) -> Outcome:
+) -> ReportOutcome:
     """The report in the asked formats, as ``NAME.html``, ``NAME.pdf``, ``NAME.json`` in the folder, and the exports beside it."""
     results, broken, places = _calculated(config, discovery, tell)
     if language is not None:
@@ -78,7 +78,7 @@ def report(
     stem = Path(config.name).stem
     files = {folder / f"{stem}.{ending}": content for ending, content in contents.items()}
     _write(files, config)
-    return Outcome(
+    return ReportOutcome(
         results, tuple(files), (*broken, *(_broken(results, places, lost) for lost in (*undrawn, *unwritten)))
     )
 

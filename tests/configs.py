@@ -23,6 +23,7 @@ project: {title: Test}
 press: {name: P, productivity: 6000 1/h, sheet: {length: 700 mm, thickness: 0.6 mm}}
 mechanisms:
 """
+SMALL = HEAD + "  clutch: {kind: clutch, torque: 300 N*m, shoe_radius: 120 mm, wedge_angle: 10 deg}\n"
 LEVER = HEAD + "  a: {kind: lever, force: 2 kN}\n"
 
 

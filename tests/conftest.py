@@ -5,20 +5,31 @@ from __future__ import annotations
 import os
 import signal
 import tempfile
+from pathlib import Path
+from typing import Any
 
+import pytest
 from hypothesis import HealthCheck, settings
 
+from diecut_report import pipeline
+from diecut_report.config.discovery import Discovery
+from tests.configs import SMALL, saved
+from tests.examples import FEW, MANY
+from tests.shared import once
+
+# How many examples hypothesis draws: few, new ones at each run ("local"); few, the same at each run, so that a change is
+# judged by what it changes ("ci", where CI is set); many ("nightly", scripts/nightly.sh). HYPOTHESIS_PROFILE names another.
 # No deadline: a first call may compile, import or wait for a busy machine, which says nothing about the code.
-# In CI the examples are the same at each run, so that a change is judged by what it changes; elsewhere they are new.
 # Many random machines cannot exist and are passed over, and a calculation takes some milliseconds: both are no fault.
-settings.register_profile(
-    "diecut-report",
-    deadline=None,
-    derandomize="CI" in os.environ,
-    print_blob=True,
-    suppress_health_check=[HealthCheck.filter_too_much, HealthCheck.too_slow],
-)
-settings.load_profile("diecut-report")
+_COMMON: dict[str, Any] = {
+    "deadline": None,
+    "print_blob": True,
+    "suppress_health_check": [HealthCheck.filter_too_much, HealthCheck.too_slow],
+}
+settings.register_profile("local", max_examples=FEW, **_COMMON)
+settings.register_profile("ci", max_examples=FEW, derandomize=True, **_COMMON)
+settings.register_profile("nightly", max_examples=MANY, **_COMMON)
+settings.load_profile(os.environ.get("HYPOTHESIS_PROFILE") or ("ci" if "CI" in os.environ else "local"))
 
 # Where the suite runs in the background of a shell, Ctrl-C is ignored by all that it starts; some tests send it.
 if signal.getsignal(signal.SIGINT) is signal.SIG_IGN:
@@ -26,3 +37,14 @@ if signal.getsignal(signal.SIGINT) is signal.SIG_IGN:
 
 # What is remembered of plugins belongs to the user, not to the suite: it has a folder of its own.
 os.environ["XDG_CACHE_HOME"] = tempfile.mkdtemp(prefix="diecut-report-tests-")
+
+
+@pytest.fixture(scope="session")
+def small_report(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """Give the folder with the report of a small press (HTML, PDF and results), made once for all workers of a run."""
+
+    def make(folder: Path) -> None:
+        config = saved(tmp_path_factory.getbasetemp(), SMALL, "small.yaml")
+        pipeline.report(config, Discovery([]), lambda _: None, folder, ("html", "pdf", "json"))
+
+    return once(tmp_path_factory, "small_report", make)

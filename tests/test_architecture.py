@@ -6,12 +6,11 @@ import ast
 import re
 import sys
 from collections.abc import Iterator
+from functools import cache
 from graphlib import TopologicalSorter
 from pathlib import Path
 
 import pytest
-
-pytestmark = pytest.mark.repository
 
 ROOT = Path(__file__).parents[1]
 FOLDERS = {  # folder of the repository: package or name under which its modules are known here
@@ -77,10 +76,12 @@ PROGRAM = {name: path for name, path in MODULES.items() if name.startswith("diec
 PLUGINS = {name: path for name, path in PROGRAM.items() if name.startswith("diecut_report.plugins.")}
 
 
+@cache
 def tree(name: str) -> ast.Module:
     return ast.parse(MODULES[name].read_text("utf-8"), str(MODULES[name]))
 
 
+@cache
 def imports(name: str) -> set[str]:
     """The modules that a module imports, anywhere in it; ``from package import module`` gives both."""
     package = name if MODULES[name].name == "__init__.py" else name.rpartition(".")[0]
@@ -162,6 +163,15 @@ def test_a_plugin_holds_no_latex() -> None:
 def test_a_plugin_converts_no_units() -> None:
     converters = re.compile(r"\b(radians|degrees|deg2rad|rad2deg|to_display|parse_quantity)\b")
     assert [name for name, path in PLUGINS.items() if converters.search(path.read_text("utf-8"))] == []
+
+
+def test_a_class_name_means_one_thing() -> None:
+    homes: dict[str, list[str]] = {}
+    for name in PROGRAM:
+        for node in ast.walk(tree(name)):
+            if isinstance(node, ast.ClassDef):
+                homes.setdefault(node.name, []).append(name)
+    assert {name: modules for name, modules in homes.items() if len(modules) > 1} == {}
 
 
 def test_functions_are_short() -> None:

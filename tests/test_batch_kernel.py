@@ -14,8 +14,6 @@ from diecut_report.engine import calculate
 from diecut_report.plugins.cylinder_drive import MECHANISM
 from diecut_report.results.checks import applies, judged
 
-pytestmark = pytest.mark.repository
-
 COUNT = 48
 LIMITS = {
     "crank_torque_mean": 4e-3,

@@ -15,7 +15,7 @@ from diecut_report.engine.numerics.codegen import Program
 from diecut_report.engine.printing.items import section_items
 from diecut_report.expressions import Formula, FormulaError, Node, evaluate
 from diecut_report.report.equations import Equations
-from diecut_report.report.i18n import Words
+from diecut_report.report.i18n import Catalogue
 from diecut_report.report.latex import Latex, Linear
 from diecut_report.report.typeset import Typesetter
 from diecut_report.testing.dimensions import dimensions
@@ -125,7 +125,7 @@ def test_a_named_call_prints_by_its_name_and_its_definition_once_below() -> None
     (chapter,) = section_items(calculate(bar(notch), {"radius": 0.003, "depth": 0.007}))
     item = json.loads(json.dumps(chapter["items"][0]))
     assert item["equation"][1] == ["*", ["apply", "k_t", ["/", ["sym", "r"], ["sym", "d"]]], ["sym", "d"]]
-    equations = Equations(Words("en"), Typesetter().measure)
+    equations = Equations(Catalogue("en"), Typesetter().measure)
     told = equations.of(item)
     assert told is not None and "x = k_t(r/d)·d + k_n(r/d)·r" in told.text
     assert [each.text for each in equations.definitions(item)] == [

@@ -26,7 +26,7 @@ from diecut_report.contract.inputs import flatten
 from diecut_report.engine import Calculation, calculate
 from diecut_report.report.chapters import chapter
 from diecut_report.report.equations import Equations
-from diecut_report.report.i18n import Words
+from diecut_report.report.i18n import Catalogue
 from diecut_report.results.checks import check_results
 from diecut_report.results.mechanism import mechanism_results
 from diecut_report.study.execution import result_columns
@@ -195,7 +195,7 @@ def test_a_study_judges_as_each_machine_alone(number: int, count: int) -> None:
 
 def test_the_report_shows_the_worst_part_and_a_table_of_all() -> None:
     results = mechanism_results(calculated(check("force", "strength")), {})
-    part = chapter("A", "rack", results, Equations(Words("en"), lambda _: 0.0), Words("en"))
+    part = chapter("A", "rack", results, Equations(Catalogue("en"), lambda _: 0.0), Catalogue("en"))
     [row] = part.checks
     assert row.title == "Bars, no. 2" and row.demand.startswith("12") and row.parts is not None
     lines = [(number, *(cell.text for cell in cells)) for number, cells in row.parts.lines]

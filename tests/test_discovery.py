@@ -14,6 +14,8 @@ from diecut_report.config.discovery import Discovery, DuplicateKind, UnknownKind
 from diecut_report.errors import PluginError, UserError
 from tests.configs import BROKEN, GOOD, LISTED
 
+pytestmark = pytest.mark.wheel
+
 
 def installed(monkeypatch: pytest.MonkeyPatch, **values: str) -> None:
     """Pretend that other packages announce these kinds."""

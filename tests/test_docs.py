@@ -22,7 +22,6 @@ from tests.engine.swings import CLOSED, made, swing
 ROOT = Path(__file__).parents[1]
 
 
-@pytest.mark.repository
 def test_the_mechanism_pages_are_made_from_the_declarations() -> None:
     tool = runpy.run_path(str(ROOT / "tools" / "make_mechanism_pages.py"))
     for file, text in tool["pages"]().items():
@@ -42,14 +41,12 @@ def example(folder: Path, number: int) -> Mechanism:
     return found
 
 
-@pytest.mark.repository
 def test_the_first_plugin_of_the_guide_keeps_the_contract_and_calculates(tmp_path: Path) -> None:
     hook = example(tmp_path, 1)
     calc = calculate(hook, flatten(hook.inputs.model_validate({"force": 2, "arm": "50 mm"})))
     assert calc["stress"][0, 0] == pytest.approx(32 * 2000 * 0.05 / (pi * 0.02**3))
 
 
-@pytest.mark.repository
 @pytest.mark.parametrize(("key", "unit"), [("inertia", "N*m"), ("mass", "N")])
 def test_the_second_plugin_of_the_guide_follows_a_curve_in_either_form(tmp_path: Path, key: str, unit: str) -> None:
     tappet = example(tmp_path, 2)
@@ -61,7 +58,6 @@ def test_the_second_plugin_of_the_guide_follows_a_curve_in_either_form(tmp_path:
     assert mechanism_results(calc, {})["outputs"]["effort_max"]["unit"] == unit
 
 
-@pytest.mark.repository
 def test_a_page_tells_each_unit_with_its_key_and_lists_spectra() -> None:
     tool = runpy.run_path(str(ROOT / "tools" / "make_mechanism_pages.py"))
     lines = list(tool["page"](SWING))
@@ -70,3 +66,12 @@ def test_a_page_tells_each_unit_with_its_key_and_lists_spectra() -> None:
     )
     assert "| `force` | F | N*m (with mass: N) | Torque or force |  |  |" in lines
     assert "| `amplitude_1` (a curve) | q_1 | 1 | Amplitude 1 | made up |  |" in lines
+
+
+@pytest.mark.repository
+def test_the_third_plugin_of_the_guide_takes_from_its_tables(tmp_path: Path) -> None:
+    pinion = example(tmp_path, 3)
+    calc = calculate(pinion, flatten(pinion.inputs.model_validate({"bearing": "6205", "teeth": 18})))
+    assert [calc[name][0, 0] for name in ("bore", "rating", "form_factor")] == pytest.approx([0.025, 14800, 0.308])
+    plain = calculate(pinion, flatten(pinion.inputs.model_validate({"bore_given": "30 mm", "teeth": 18})))
+    assert plain["bore"][0, 0] == pytest.approx(0.03)

@@ -90,7 +90,7 @@ def folder(tmp_path: Path, figure: str = NONE, steps: str = "()", exports: str =
 def run(tmp_path: Path, command: str, plugins: Path, *more: str) -> int:
     config = saved(tmp_path, HEAD + "  a: {kind: disc}\n")
     target = tmp_path / "out" / ("press.json" if command == "calc" else "")
-    return main.main([command, str(config), "-o", str(target), "--plugins", str(plugins), *more])
+    return main([command, str(config), "-o", str(target), "--plugins", str(plugins), *more])
 
 
 def results(tmp_path: Path) -> dict[str, Any]:
@@ -125,7 +125,6 @@ def test_a_figure_that_cannot_be_drawn_costs_the_figure(tmp_path: Path, capfd: C
     assert page.count('role="img"') == 1
 
 
-@pytest.mark.slow
 def test_the_report_shows_a_box_in_the_place_of_a_lost_figure(tmp_path: Path) -> None:
     assert run(tmp_path, "report", folder(tmp_path, IN_CALC["what raises"][0]), "--format", "html,pdf") == 3
     page = (tmp_path / "out" / "press.html").read_text("utf-8")

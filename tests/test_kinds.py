@@ -416,7 +416,6 @@ def exchanged(mechanism: Mechanism) -> Iterator[tuple[str, Mechanism]]:
                 yield step.id, replace(mechanism, chapters=chapters)  # fmt: skip
 
 
-@pytest.mark.slow
 def test_no_value_passes_with_the_radian_exchanged() -> None:
     tried = 0
     for mechanism in built_in():

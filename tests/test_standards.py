@@ -187,6 +187,7 @@ def test_a_series_ascends_without_a_gap(series: StandardSeries) -> None:
     assert min(steps) > 1 and max(steps) <= 1.5
 
 
+@pytest.mark.wheel
 def test_the_files_are_the_documented_ones() -> None:
     assert {form: standard_ids(form) for form in FORMS} == {
         "values": ("iec_60072_ratings", "renard_r10", "renard_r20", "renard_r40"),
@@ -214,7 +215,6 @@ def test_nothing_is_read_at_import() -> None:
     assert run.stdout.split() == ["0", "1"]
 
 
-@pytest.mark.repository
 def test_the_page_is_made_from_the_data_files() -> None:
     tool = runpy.run_path(str(ROOT / "tools" / "make_standards_page.py"))
     for file, text in tool["pages"]().items():

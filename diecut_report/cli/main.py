@@ -36,7 +36,7 @@ from diecut_report.config.discovery import Discovery, DuplicateKind, UnknownKind
 from diecut_report.errors import PluginError, Problem, UserError, nearest
 
 if TYPE_CHECKING:
-    from diecut_report.pipeline import Outcome
+    from diecut_report.pipeline import ReportOutcome
 
 
 def run() -> NoReturn:
@@ -239,7 +239,7 @@ program.add_command(variants)
 # --- verdict ---------------------------------------------------------------------------------------------------------
 
 
-def _verdict(outcome: Outcome, quiet: bool) -> int:
+def _verdict(outcome: ReportOutcome, quiet: bool) -> int:
     tell(str(error) for error in outcome.broken)
     if not quiet:
         tell(_summary(outcome.results))

@@ -16,7 +16,7 @@ from diecut_report.errors import nearest
 if TYPE_CHECKING:
     from diecut_report.config.discovery import Discovery
     from diecut_report.pipeline import Source
-    from diecut_report.study.execution.study_run import Outcome
+    from diecut_report.study.execution.study_run import StudyOutcome
 
 EXPORTS = ("csv", "xlsx")
 RESULTS = "study.json"  # what makes a folder one of a study's results
@@ -80,7 +80,7 @@ def _target(study: Path | None, folder: Path | None, resume: Path | None) -> Pat
     return resume or folder or Path(Path(str(study)).stem)
 
 
-def _told(outcome: Outcome, target: Path) -> Iterator[str]:
+def _told(outcome: StudyOutcome, target: Path) -> Iterator[str]:
     from diecut_report.study.conditions.constraints import why_dropped
 
     counts = outcome.counts
@@ -101,7 +101,7 @@ def _told(outcome: Outcome, target: Path) -> Iterator[str]:
     yield from outcome.notes
 
 
-def _broken(outcome: Outcome) -> Iterator[str]:
+def _broken(outcome: StudyOutcome) -> Iterator[str]:
     for kind, why in outcome.broken.items():
         yield f"plugin {kind!r} broke; variants that it broke for are in error, the others are kept: {why}"
     for kind, why in outcome.broken_reports.items():

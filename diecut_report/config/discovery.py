@@ -149,7 +149,7 @@ def said(cause: BaseException) -> str:
     return f"{type(cause).__name__}: {' '.join(str(cause).split())}{place}"
 
 
-PROGRAM = Path(__file__).parent
+PROGRAM = Path(__file__).parents[1]
 LIBRARIES = ("numpy", "scipy", "pydantic", "pint")
 STANDARD = Path(traceback.__file__).parent
 

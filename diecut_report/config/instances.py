@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from functools import cached_property
 from typing import Any
 
-from diecut_report.config.validation import Place, keys_of
+from diecut_report.config.validation import ConfigPlace, keys_of
 from diecut_report.config.yaml_tree import KeyPath
 from diecut_report.contract.chapters import Chapter
 from diecut_report.contract.inputs import (
@@ -52,7 +52,7 @@ class Instance:
     """A mechanism of the config, or the press (which has no calculation)."""
 
     def __init__(
-        self, name: str, model: type[Block], data: dict[str, Any], place: Place, mechanism: Mechanism | None
+        self, name: str, model: type[Block], data: dict[str, Any], place: ConfigPlace, mechanism: Mechanism | None
     ) -> None:
         self.name, self.model, self.data, self.place, self.mechanism = name, model, data, place, mechanism
         self.without: frozenset[KeyPath] = frozenset()

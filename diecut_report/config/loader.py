@@ -12,13 +12,13 @@ from diecut_report.config import yaml_tree
 from diecut_report.config.dependency_order import ordered
 from diecut_report.config.discovery import Discovery, DuplicateKind, UnknownKind, said
 from diecut_report.config.instances import Instance
-from diecut_report.config.model import Document, Press, Project
+from diecut_report.config.model import ConfigDocument, Press, Project
 from diecut_report.config.references import PRESS, Linker, Node, Target, texts
-from diecut_report.config.validation import Place, declared, keys_of, spread_out, told, validate
+from diecut_report.config.validation import ConfigPlace, declared, keys_of, spread_out, told, validate
 from diecut_report.config.yaml_tree import KeyPath, Tree
-from diecut_report.contract.inputs import SI, Block, CurveInput, Pending, Text
+from diecut_report.contract.inputs import SI, Block, CurveInput, Pending, Quantity, Text, fields
 from diecut_report.contract.unit_variants import in_form
-from diecut_report.errors import PluginError, Problem, UserError
+from diecut_report.errors import PluginError, Problem, UserError, nearest
 
 NAME = re.compile(r"[A-Za-z][A-Za-z0-9_-]*")
 RESERVED = (PRESS, "project")
@@ -46,10 +46,10 @@ def load_config(given: Path | Tree, discovery: Discovery) -> Config:
     tree = given if isinstance(given, Tree) else yaml_tree.load(given)
     _refuse_study(tree)
     discovery.extend()
-    reader = _Reader(tree, discovery)
+    reader = _ConfigReader(tree, discovery)
     linker = Linker(reader.instances)
     order, loops = ordered(reader.instances, linker.links)
-    problems = [*reader.problems, *linker.problems, *_wrong_values(reader.instances, linker), *loops]
+    problems = [*reader.problems, *linker.problems, *_wrong_values(reader, linker), *loops]
     if problems:
         problems += [
             reader.place.problem(("mechanisms", name, "kind"), str(error)) for name, error in reader.broken.items()
@@ -65,7 +65,7 @@ def _refuse_study(tree: Tree) -> None:
 
 
 @dataclass
-class _Reader:
+class _ConfigReader:
     """Reads the fixed part and finds the model of each mechanism."""
 
     tree: Tree
@@ -77,26 +77,28 @@ class _Reader:
     project: Project | None = None
 
     def __post_init__(self) -> None:
-        self.place = Place(self.tree)
-        whole = as_typed(Document, self.tree.data, self.place)
-        document, self.problems = validate(Document, whole, self.place)
+        self.place = ConfigPlace(self.tree)
+        whole = as_typed(ConfigDocument, self.tree.data, self.place)
+        document, self.problems = validate(ConfigDocument, whole, self.place)
         self.project = document.project if document else None
         data = whole if isinstance(whole, dict) else {}
         self.instances[PRESS] = None
         if isinstance(data.get(PRESS), dict):
-            self._add(PRESS, Press, data[PRESS], Place(self.tree, (PRESS,)))
+            self._add(PRESS, Press, data[PRESS], ConfigPlace(self.tree, (PRESS,)))
         mechanisms = data.get("mechanisms")
         for name, body in mechanisms.items() if isinstance(mechanisms, dict) else []:
             self.instances.setdefault(name, None)
-            self._mechanism(name, body, Place(self.tree, ("mechanisms", name)))
+            self._mechanism(name, body, ConfigPlace(self.tree, ("mechanisms", name)))
 
-    def _add(self, name: str, model: type[Block], data: dict[str, Any], place: Place, mechanism: Any = None) -> None:
+    def _add(
+        self, name: str, model: type[Block], data: dict[str, Any], place: ConfigPlace, mechanism: Any = None
+    ) -> None:
         data, place, problems = spread_out(model, data, place)
         self.problems += problems
         form = in_form(model, [key for key, value in data.items() if value is not None])
         self.instances[name] = Instance(name, form, as_typed(form, data, place), place, mechanism)
 
-    def _mechanism(self, name: str, body: Any, place: Place) -> None:
+    def _mechanism(self, name: str, body: Any, place: ConfigPlace) -> None:
         fault = _name_fault(name)
         if fault:
             self.problems.append(place.problem((), fault, at_key=True))
@@ -109,7 +111,7 @@ class _Reader:
         else:
             self._of_kind(name, body["kind"], {key: value for key, value in body.items() if key != "kind"}, place)
 
-    def _of_kind(self, name: str, kind: str, data: dict[str, Any], place: Place) -> None:
+    def _of_kind(self, name: str, kind: str, data: dict[str, Any], place: ConfigPlace) -> None:
         self.kinds[name] = kind
         try:
             mechanism = self.discovery.mechanism(kind)
@@ -129,6 +131,18 @@ class _Reader:
             _ = instance.given, instance.results
         except Exception as cause:
             raise PluginError(f"it declares what cannot be: {said(cause)}", kind) from cause
+        _known_to_press(instance, kind)
+
+
+def _known_to_press(instance: Instance, kind: str) -> None:
+    """Refuse a plugin with a default that the press can never give."""
+    for key, meta in fields(instance.model):
+        path = meta.press.path if isinstance(meta, Quantity) and meta.press else ""
+        if path and not isinstance(declared(Press, tuple(path.removeprefix(f"{PRESS}.").split("."))), Quantity):
+            known = [f"{PRESS}.{name}" for name, each in fields(Press) if isinstance(each, Quantity)]
+            what = f"which is no number of the press{nearest(path, known)}; it has {', '.join(known)}"
+            place = Path(meta.at).name
+            raise PluginError(f"it declares what cannot be: {place}: input {key} takes {path}, {what}", kind)
 
 
 def _of_instance(error: PluginError, name: str) -> PluginError:
@@ -145,7 +159,7 @@ def _name_fault(name: str) -> str:
     return ""
 
 
-def as_typed(model: type[Block], data: Any, place: Place, key: KeyPath = ()) -> Any:
+def as_typed(model: type[Block], data: Any, place: ConfigPlace, key: KeyPath = ()) -> Any:
     """The data with its texts as they were typed: a document number 0012 or a date stays as it is."""
     if not isinstance(data, dict):
         return data
@@ -185,11 +199,14 @@ def _copied(data: Any) -> Any:
     return [_copied(part) for part in data] if isinstance(data, list) else data
 
 
-def _wrong_values(instances: Mapping[str, Instance | None], linker: Linker) -> list[Problem]:
-    """What is wrong with the values of the press and the mechanisms, as far as it can be known without calculating."""
+def _wrong_values(reader: _ConfigReader, linker: Linker) -> list[Problem]:
+    """What is wrong with the values of the press and the mechanisms, as far as it can be known without calculating.
+
+    A plugin whose own validator breaks is kept in the reader's ``broken``.
+    """
     problems: list[Problem] = []
     unresolved = dict.fromkeys(linker.unresolved, Target("", "", is_broken=True))
-    for instance in instances.values():
+    for instance in reader.instances.values():
         if instance is None:
             continue
         written = {node: target for node, target in linker.links.items() if not target.is_default} | unresolved
@@ -199,7 +216,12 @@ def _wrong_values(instances: Mapping[str, Instance | None], linker: Linker) -> l
             for node, target in written.items()
             if node[0] == instance.name and _is_open(instance, node, target)
         }
-        problems += validate(instance.model, data, instance.place, left_open)[1]
+        try:
+            problems += validate(instance.model, data, instance.place, left_open)[1]
+        except PluginError as error:
+            named = PluginError(error.message, reader.kinds.get(instance.name, ""), instance.name)
+            named.__cause__ = error.__cause__
+            reader.broken[instance.name] = named
     return problems
 
 

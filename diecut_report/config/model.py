@@ -70,7 +70,7 @@ class Press(Block):
     sheet: Sheet | None = None
 
 
-class Document(Block):
+class ConfigDocument(Block):
     """The whole file; the press and the mechanisms are validated one by one."""
 
     schema_version: Literal[1]

@@ -164,6 +164,13 @@ class Linker:
             raise Unresolved(f"${{{path}}} is a list; refer to one of its values ({single}).")
         if name not in instance.given:
             raise Unresolved(f"${{{path}}} is not given; it is optional. Give {path}, or write the value itself here.")
+        held = (
+            [text for _, text in texts(instance.data.get(name)) if "${" in text] if isinstance(meta, CurveInput) else []
+        )
+        if held and isinstance(instance.data[name], list):
+            raise Unresolved(
+                f"${{{path}}} is a list that holds references itself ({held[0]}), and cannot be referred to; write its values here."
+            )
         si = unit(meta.unit).si if isinstance(meta, Quantity | CurveInput) else None
         return Target(path, instance.name, key, unit=si, is_curve=isinstance(meta, CurveInput))
 

@@ -20,7 +20,7 @@ SHOWN = 60  # characters of a given text that a message repeats
 
 
 @dataclass(frozen=True)
-class Place:
+class ConfigPlace:
     """Where a block stands in the file."""
 
     tree: Tree
@@ -50,8 +50,8 @@ class Place:
 
 
 def spread_out(
-    model: type[Block], data: Mapping[str, Any], place: Place
-) -> tuple[dict[str, Any], Place, list[Problem]]:
+    model: type[Block], data: Mapping[str, Any], place: ConfigPlace
+) -> tuple[dict[str, Any], ConfigPlace, list[Problem]]:
     """The data with lists that stand for single keys under these, where these stand in the file, and what is wrong with it."""
     found, problems = dict(data), []
     for key, single in model.spread.items():
@@ -75,7 +75,7 @@ def spread_out(
 
 
 def validate(
-    model: type[Block], data: Any, place: Place, open_keys: Container[KeyPath] = ()
+    model: type[Block], data: Any, place: ConfigPlace, open_keys: Container[KeyPath] = ()
 ) -> tuple[Any | None, list[Problem]]:
     """The validated block, or None with the problems; what is wrong at ``open_keys`` cannot be judged yet and is left out."""
     chosen = list(_choices(model, data, place))
@@ -91,7 +91,7 @@ def validate(
         ) from cause
 
 
-def _choices(model: type[Block], data: Any, place: Place, key: KeyPath = ()) -> Iterator[Problem]:
+def _choices(model: type[Block], data: Any, place: ConfigPlace, key: KeyPath = ()) -> Iterator[Problem]:
     """What is wrong with inputs of which one group is needed, in a block and the blocks in it."""
     if not isinstance(data, dict):
         return
@@ -105,7 +105,7 @@ def _choices(model: type[Block], data: Any, place: Place, key: KeyPath = ()) -> 
                 yield from _choices(block, part, place, (*key, name) if index is None else (*key, name, index))
 
 
-class Key(NamedTuple):
+class ModelKey(NamedTuple):
     """A key of a block: its field, what it declares, and the block that it holds (or a list of it)."""
 
     field: FieldInfo
@@ -115,12 +115,12 @@ class Key(NamedTuple):
 
 
 @cache
-def keys_of(model: type[Block]) -> dict[str, Key]:
+def keys_of(model: type[Block]) -> dict[str, ModelKey]:
     """The keys of a block by their names."""
     found = {}
     for name, declared_as in model.model_fields.items():
         block, is_list = nested(declared_as.annotation) or (None, False)
-        found[name] = Key(declared_as, meta_of(model, name), block, is_list)
+        found[name] = ModelKey(declared_as, meta_of(model, name), block, is_list)
     return found
 
 
@@ -142,7 +142,7 @@ def declared(model: type[Block], key: KeyPath) -> Meta | type[Block] | None:
 class _Fault:
     """One fault that pydantic found, in our words."""
 
-    def __init__(self, model: type[Block], place: Place, found: Mapping[str, Any]) -> None:
+    def __init__(self, model: type[Block], place: ConfigPlace, found: Mapping[str, Any]) -> None:
         self.model, self.place = model, place
         self.type: str = found["type"]
         self.key: KeyPath = found["loc"]

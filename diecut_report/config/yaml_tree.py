@@ -39,19 +39,19 @@ _FLOAT = re.compile(r"[-+]?(?:\.[0-9]+|[0-9]+(?:\.[0-9]*)?)(?:[eE][-+]?[0-9]+)?"
 
 
 @dataclass
-class Node:
+class YamlNode:
     """One value of the file: its place (from 1), its content, and its size and depth with all aliases expanded."""
 
     position: Position
     scalar: Any = None
     typed: str | None = None
-    children: dict[str | int, Node] | None = None
+    children: dict[str | int, YamlNode] | None = None
     is_list: bool = False
     key_positions: dict[str | int, Position] = field(default_factory=dict)
     size: int = 1
     depth: int = 0
 
-    def add(self, key: str | int, child: Node) -> None:
+    def add(self, key: str | int, child: YamlNode) -> None:
         """Put a child in, or only account for it where the key is there already."""
         self.size += child.size
         self.depth = max(self.depth, child.depth + 1)
@@ -72,7 +72,7 @@ class Tree:
     `data` holds plain dicts, lists and scalars; `text` the file's text; `sha256` its hash; `name` what documents call it.
     """
 
-    def __init__(self, root: Node, file: str, text: str, sha256: str, name: str = "") -> None:
+    def __init__(self, root: YamlNode, file: str, text: str, sha256: str, name: str = "") -> None:
         self.root = root
         self.data: Any = root.plain()
         self.file, self.name, self.text, self.sha256 = file, name or file, text, sha256
@@ -96,7 +96,7 @@ class Tree:
         nodes = self._walk(path)
         return nodes[-1].typed if len(nodes) == len(path) + 1 else None
 
-    def _walk(self, path: KeyPath) -> list[Node]:
+    def _walk(self, path: KeyPath) -> list[YamlNode]:
         nodes = [self.root]
         for step in path:
             child = (nodes[-1].children or {}).get(step)
@@ -188,11 +188,11 @@ class _Builder:
     def __init__(self, file: str) -> None:
         self.file = file
         self.problems: list[Problem] = []
-        self._anchors: dict[str, Node | None] = {}  # None while the anchored value is still open
+        self._anchors: dict[str, YamlNode | None] = {}  # None while the anchored value is still open
         self._values = 0
         self._events: Iterator[Any] = iter(())
 
-    def build(self, events: Iterator[Any]) -> Node:
+    def build(self, events: Iterator[Any]) -> YamlNode:
         self._events = events
         next(events)
         if isinstance(next(events), yaml.StreamEndEvent):
@@ -212,7 +212,7 @@ class _Builder:
         self._report(message, place, path)
         raise UserError(self.problems)
 
-    def _node(self, event: Any, path: KeyPath) -> Node:
+    def _node(self, event: Any, path: KeyPath) -> YamlNode:
         if isinstance(event, yaml.AliasEvent):
             return self._alias(event, path)
         self._count(1, event, path)
@@ -220,7 +220,7 @@ class _Builder:
         if event.anchor is not None:
             self._anchors[event.anchor] = None
         if isinstance(event, yaml.ScalarEvent):
-            node = Node(_position(event), resolved(event.value) if event.implicit[0] else event.value, event.value)
+            node = YamlNode(_position(event), resolved(event.value) if event.implicit[0] else event.value, event.value)
         else:
             node = self._collection(event, path)
         if event.anchor is not None:
@@ -239,20 +239,20 @@ class _Builder:
             advice = "Remove it; put the value in quotes where text is meant."
             self._report(f"The tag {tag} is not allowed. {advice}", _position(event), path)
 
-    def _alias(self, event: Any, path: KeyPath) -> Node:
+    def _alias(self, event: Any, path: KeyPath) -> YamlNode:
         name, place = event.anchor, _position(event)
         anchored = self._anchors.get(name)
         if anchored is None:
             fault = "stands in its own anchor, a loop" if name in self._anchors else f"has no anchor &{name} above it"
             advice = "Write the value itself, or put text that begins with * in quotes."
             self._report(f"The alias *{name} {fault}. {advice}", place, path)
-            return Node(place)
+            return YamlNode(place)
         self._count(anchored.size, event, path)
         self._check_depth(anchored, event, path)
         return anchored
 
-    def _collection(self, event: Any, path: KeyPath) -> Node:
-        node = Node(_position(event), children={}, is_list=isinstance(event, yaml.SequenceStartEvent), depth=1)
+    def _collection(self, event: Any, path: KeyPath) -> YamlNode:
+        node = YamlNode(_position(event), children={}, is_list=isinstance(event, yaml.SequenceStartEvent), depth=1)
         self._check_depth(node, event, path)
         while not isinstance(event := next(self._events), (yaml.SequenceEndEvent, yaml.MappingEndEvent)):
             if node.is_list:
@@ -263,12 +263,12 @@ class _Builder:
                 node.add(key, self._node(next(self._events), (*path, key)))
         return node
 
-    def _check_depth(self, node: Node, event: Any, path: KeyPath) -> None:
+    def _check_depth(self, node: YamlNode, event: Any, path: KeyPath) -> None:
         if len(path) + node.depth > MAX_DEPTH:
             message = f"The nesting is deeper than {MAX_DEPTH} levels, aliases included. Flatten it."
             self._stop(message, _position(event), path[:3])
 
-    def _key(self, event: Any, node: Node, path: KeyPath) -> str:
+    def _key(self, event: Any, node: YamlNode, path: KeyPath) -> str:
         """The key as text, with a problem reported if it is not text, a merge key, or a duplicate."""
         key, place = self._node(event, (*path, "?")), _position(event)
         text = key.typed if key.typed is not None else "(a list)" if key.is_list else "(a mapping)"

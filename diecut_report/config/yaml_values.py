@@ -12,8 +12,8 @@ import yaml
 
 from diecut_report.config.yaml_tree import (
     KeyPath,
-    Node,
     Tree,
+    YamlNode,
     resolved,
 )
 
@@ -32,17 +32,17 @@ def with_values(tree: Tree, values: Mapping[KeyPath, Scalar], name: str, heading
     return Tree(root, tree.file, text, hashlib.sha256(text.encode()).hexdigest(), name)
 
 
-def _with_value(node: Node, path: KeyPath, value: Scalar) -> Node:
+def _with_value(node: YamlNode, path: KeyPath, value: Scalar) -> YamlNode:
     """Return a copy of the node with the value below it: an alias of the node keeps what it has."""
     if not path:
-        return Node(node.position, value, value if isinstance(value, str) else repr(value))
+        return YamlNode(node.position, value, value if isinstance(value, str) else repr(value))
     key, rest = path[0], path[1:]
     children = dict(node.children or {})
-    children[key] = _with_value(children.get(key, Node(node.position)), rest, value)
+    children[key] = _with_value(children.get(key, YamlNode(node.position)), rest, value)
     return replace(node, scalar=None, typed=None, children=children)
 
 
-def as_text(root: Node) -> str:
+def as_text(root: YamlNode) -> str:
     """Return the tree as YAML; comments, anchors and the layout of the file that it was read from are not kept."""
     events = [
         yaml.StreamStartEvent(),
@@ -55,7 +55,7 @@ def as_text(root: Node) -> str:
     return text
 
 
-def _events(node: Node) -> Iterator[Any]:
+def _events(node: YamlNode) -> Iterator[Any]:
     if node.children is None:
         yield _scalar(node.scalar, node.typed)
         return

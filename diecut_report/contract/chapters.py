@@ -10,9 +10,10 @@ from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import Any, Literal, Unpack
 
-from diecut_report.contract.binding import as_binding
-from diecut_report.contract.options import Condition, Options, Written
-from diecut_report.contract.part_steps import Lookup, Neighbour, Part, Pick, Running, Total
+from diecut_report.contract.between import Between
+from diecut_report.contract.binding import as_binding, bind
+from diecut_report.contract.options import Options, StepCondition, Written
+from diecut_report.contract.part_steps import Interpolated, Lookup, Neighbour, Part, Pick, Running, Total
 from diecut_report.contract.place import placed
 from diecut_report.contract.steps import (
     Abscissa,
@@ -114,7 +115,7 @@ class Steps:
         own = {"period": period, "points": points, "shown_at": shown_at, "intervals": intervals}
         self._give(Abscissa, id, symbol, unit, description, options, **own)
 
-    def breakpoints(self, id: str, abscissa: str, *places: str, every: str = "", **when: Unpack[Condition]) -> None:
+    def breakpoints(self, id: str, abscissa: str, *places: str, every: str = "", **when: Unpack[StepCondition]) -> None:
         """Declare places of an abscissa where a curve jumps or has a corner: see ``Breakpoints``."""
         self.add(Breakpoints(id=id, abscissa=abscissa, places=places, every=every, **when))
 
@@ -168,7 +169,7 @@ class Steps:
         own = {"given": given, "abscissa": abscissa, "start": start, "lasts": lasts, "gains": gains}
         self._give(FromCurve, id, symbol, unit, description, options, **own)
 
-    def require(self, id: str, condition: Written, key: str, message: str, **when: Unpack[Condition]) -> None:
+    def require(self, id: str, condition: Written, key: str, message: str, **when: Unpack[StepCondition]) -> None:
         """Declare what must hold for the machine to be possible, the key to change, and what is said where it does not."""
         self.add(Require(id=id, condition=as_binding(condition, id), key=key, message=message, **when))
 
@@ -179,7 +180,7 @@ class Steps:
         takes: tuple[str, ...],
         key: str,
         message: str,
-        **when: Unpack[Condition],
+        **when: Unpack[StepCondition],
     ) -> None:
         """Declare which of repeated parts stand in each other's way: see ``Clash``."""
         self.add(Clash(id=id, function=function, takes=takes, key=key, message=message, **when))
@@ -191,7 +192,7 @@ class Steps:
         takes: tuple[str, ...],
         *,
         output: bool = True,
-        **when: Unpack[Condition],
+        **when: Unpack[StepCondition],
     ) -> None:
         """Declare a text that plain code makes of numbers, for messages: see ``Words``."""
         self.add(Words(id=id, function=function, takes=takes, output=output, **when))
@@ -243,17 +244,34 @@ class Steps:
         description: str,
         table: Mapping[str, float] | StandardTable,
         by: str,
+        *,
+        column: str = "",
+        given: str = "",
         **options: Unpack[Options],
     ) -> None:
-        """Declare a number from a table by the text input ``by``; a row where the text is one of repeated parts."""
-        self._give(Lookup, id, symbol, unit, description, options, table=table, by=by)
+        """Declare a number from a table by the text input ``by``; a row where the text is one of repeated parts.
+
+        ``column`` is one of several columns; with the optional input ``given`` its value is taken where it is given.
+        """
+        self._give(Lookup, id, symbol, unit, description, options, table=table, by=by, column=column, given=given)
+
+    def interpolated(
+        self, id: str, symbol: str, unit: str, description: str, table: StandardTable, of: str, *, column: str = "", key: str = "",
+        **options: Unpack[Options],
+    ) -> None:  # fmt: skip
+        """Declare a value between the rows of a table of numbers, by the quantity ``of``: see ``Interpolated``."""
+        formula = bind(Between(table, column, id), x=of)
+        own = {"formula": formula, "of": of, "table": table, "column": column, "key": key}
+        self._give(Interpolated, id, symbol, unit, description, options, **own)
 
     def pick(
         self, id: str, symbol: str, unit: str, description: str, rule: Literal["above", "below", "nearest"], of: str,
-        series: tuple[float, ...] | StandardSeries | Mapping[str, StandardSeries], *, by: str = "", **options: Unpack[Options],
+        series: tuple[float, ...] | StandardSeries | Mapping[str, StandardSeries], *, by: str = "",
+        beyond: Literal["impossible", "last"] = "impossible", **options: Unpack[Options],
     ) -> None:  # fmt: skip
         """Declare a value of a standard series, taken by the quantity ``of``; its neighbours are printed: see ``Pick``."""
-        self._give(Pick, id, symbol, unit, description, options, rule=rule, of=of, series=series, by=by)
+        own = {"rule": rule, "of": of, "series": series, "by": by, "beyond": beyond}
+        self._give(Pick, id, symbol, unit, description, options, **own)
 
     def _give(
         self, kind: type[Step], id: str, symbol: str, unit: str, description: str, options: Options, **own: Any
@@ -274,9 +292,3 @@ class Chapter(Steps):
     needs: tuple[str, ...] = field(default=(), kw_only=True)
     absent: str = field(default="", kw_only=True)
     at: str = placed()
-
-
-def case(value: Written | str, words: str, condition: Written | None = None) -> Case:
-    """Return one branch of a choice: its value (formula or text), why in words, and when it is taken; the last one has no condition."""
-    taken = value if isinstance(value, str) else as_binding(value, words)
-    return Case(taken, words, None if condition is None else as_binding(condition, words))

@@ -8,6 +8,7 @@ from typing import Any
 import numpy as np
 
 from diecut_report.expressions import Array
+from diecut_report.quantities.formatting import si
 
 Data = dict[str, Any]
 Values = Sequence[float] | Array
@@ -25,11 +26,16 @@ def chart_panel(
     marks: Sequence[Data] = (),
     levels: Sequence[Data] = (),
     verticals: Sequence[Data] = (),
+    range: tuple[float | None, float | None] | None = None,
 ) -> Data:
-    """One diagram of a chart; ``unit`` and ``x_unit`` are display units, ``title`` says what stands upwards."""
+    """One diagram of a chart; ``unit`` and ``x_unit`` are display units, ``title`` says what stands upwards.
+
+    ``range`` is that of the upright axis, (0, None), in ``unit``; None for an end that follows from the lines.
+    """
+    limits = {"range": [None if end is None else si(end, unit) for end in range]} if range else {}
     return {"title": title, "unit": unit, "x": {"title": x_title, "symbol": x_symbol, "unit": x_unit},
             "lines": list(lines), "fills": list(fills), "marks": list(marks), "levels": list(levels),
-            "verticals": list(verticals)}  # fmt: skip
+            "verticals": list(verticals), **limits}  # fmt: skip
 
 
 def line(x: Values, y: Values, label: str) -> Data:

@@ -11,6 +11,7 @@ from diecut_report.expressions import Array
 
 Point = tuple[float, float]
 Shape = dict[str, Any]
+Range = tuple[str | float | None, str | float | None]
 
 
 class View(Protocol):
@@ -91,7 +92,11 @@ class Span:
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class Panel:
-    """One diagram of a plot: curves of one unit over the abscissa."""
+    """One diagram of a plot: curves of one unit over the abscissa.
+
+    ``range`` is that of its axis, (0, None): ids or numbers in the panel's unit, None for an end that follows from the curves.
+    Without it zero is always shown.
+    """
 
     title: str
     unit: str
@@ -99,6 +104,7 @@ class Panel:
     levels: tuple[Level, ...] = ()
     marks: tuple[Mark, ...] = ()
     spans: tuple[Span, ...] = ()
+    range: Range | None = None
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)

@@ -21,6 +21,7 @@ from diecut_report.contract.placeholders import SI, FromPress, OneOf, Pending
 from diecut_report.errors import nearest
 from diecut_report.quantities.units import Unit, parse_quantity, pretty, to_display, unit
 
+SAME = 1e-15  # share of a bound by which converting a unit and back may move a number
 BOUNDS = (("gt", ">"), ("ge", "≥"), ("lt", "<"), ("le", "≤"))
 
 
@@ -105,10 +106,19 @@ class Quantity:
 
     def _within(self, shown: Any) -> Any:
         """Whether numbers in the display unit keep the bounds."""
+        shown = self._as_typed(shown)
         limits = ((self.gt, operator.gt), (self.ge, operator.ge), (self.lt, operator.lt), (self.le, operator.le))
         return np.logical_and.reduce(
             [held(shown, limit) for limit, held in limits if limit is not None] or [shown == shown]
         )
+
+    def _as_typed(self, shown: Any) -> Any:
+        """Numbers that are a bound but for the rounding of a unit's factor, as that bound: 7 % in SI is not quite 0.07 · 100 %."""
+        for bound in (self.gt, self.ge, self.lt, self.le):
+            if bound is not None:
+                near = np.abs(shown - bound) <= SAME * abs(bound)
+                shown = np.where(near, bound, shown) if isinstance(shown, np.ndarray) else bound if near else shown
+        return shown
 
     def holds(self, values: Any) -> Any:
         """Which numbers (an array, SI) are allowed."""

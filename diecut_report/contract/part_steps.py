@@ -4,12 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Literal
+from functools import cached_property
+from typing import Literal
 
-from diecut_report.contract.steps import Step
-
-if TYPE_CHECKING:
-    from diecut_report.standards import StandardSeries, StandardTable
+from diecut_report.contract.between import Between, difference
+from diecut_report.contract.binding import bind, bound
+from diecut_report.contract.steps import Step, Value
+from diecut_report.standards import StandardSeries, StandardTable
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -47,10 +48,51 @@ class Part(Step):
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class Lookup(Step):
-    """A number from a table by a text input, in the step's display unit; a row where the text is one of repeated parts."""
+    """A number from a table by a text input, in the step's display unit; a row where the text is one of repeated parts.
+
+    ``column`` names the column of a table that has several. ``given`` is an optional input: where it is given the step has
+    its value, and no text is needed.
+    """
 
     by: str
     table: Mapping[str, float] | StandardTable
+    column: str = ""
+    given: str = ""
+
+    def rows(self) -> tuple[Mapping[str, float], str]:
+        """Return the numbers by the rows' names, and their unit."""
+        if isinstance(self.table, StandardTable):
+            return self.table.by_name(self.column), self.table.column(self.column).unit
+        return self.table, self.unit
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class Interpolated(Value):
+    """A value between the rows of a table that go by numbers, straight from row to row, by the quantity ``of``.
+
+    It is a number, a row or a curve, as ``of`` is; ``formula`` is a ``Between`` of the table's columns. Outside of the table
+    the machine is impossible: ``key`` is then the input to change, else ``of``.
+    """
+
+    of: str
+    table: StandardTable
+    column: str = ""
+    key: str = ""
+
+    @property
+    def between(self) -> Between:
+        """The formula that goes through the table."""
+        formula = bound(self.formula).formula
+        assert isinstance(formula, Between)
+        return formula
+
+    @cached_property
+    def corners(self) -> tuple[Value, ...]:
+        """Return curves that cross zero where ``of`` crosses an inner row of the table, so that this one has a corner there."""
+        return tuple(
+            Value(id=f"{self.id}@{number}", unit=self.unit, formula=bind(difference, x=self.of, row=float(row)))
+            for number, row in enumerate(self.between.x[1:-1], 1)
+        )
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -58,10 +100,12 @@ class Pick(Step):
     """A value of a standard series: the next one at or above, at or below, or the nearest to a quantity.
 
     ``series`` are the standard values: in the display unit, or a standard series; or one for each value of the text
-    input ``by``. The neighbours that were not taken are printed too.
+    input ``by``. The neighbours that were not taken are printed too. A quantity beyond the end of the series makes the machine
+    impossible; ``beyond="last"`` takes the last value there, for a mechanism that judges it by a check of its own.
     """
 
     of: str
     series: tuple[float, ...] | StandardSeries | Mapping[str, StandardSeries]
     by: str = ""
     rule: Literal["above", "below", "nearest"]
+    beyond: Literal["impossible", "last"] = "impossible"

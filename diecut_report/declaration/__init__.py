@@ -4,8 +4,11 @@ from __future__ import annotations
 
 from diecut_report.contract.mechanism import Mechanism
 from diecut_report.declaration import (
+    allowed,
     checks,
+    conditions,
     documents,
+    doubled,
     figures,
     formulas,
     inputs,
@@ -15,12 +18,31 @@ from diecut_report.declaration import (
     remembered,
     spectra,
     symbols,
+    tables,
     tokens,
+    units,
 )
-from diecut_report.declaration.names import Names
+from diecut_report.declaration.names import DeclaredNames
 from diecut_report.declaration.words import Fault
 
-PARTS = (inputs, tokens, formulas, order, kinds, messages, checks, figures, spectra, documents, symbols)
+PARTS = (
+    inputs,
+    allowed,
+    tokens,
+    formulas,
+    order,
+    kinds,
+    conditions,
+    units,
+    tables,
+    doubled,
+    messages,
+    checks,
+    figures,
+    spectra,
+    documents,
+    symbols,
+)
 
 __all__ = ["Fault", "faults", "faults_at_load"]
 
@@ -41,7 +63,7 @@ def faults(mechanism: Mechanism) -> list[Fault]:
     found = list(formulas.unmarked(mechanism))
     if found:  # nothing can be asked of what is no formula
         return found
-    names = Names(mechanism)
+    names = DeclaredNames(mechanism)
     found = [fault for part in PARTS for fault in part.faults(mechanism, names)]
     for comparison in mechanism.comparisons:
         found += faults(comparison.mechanism)

@@ -8,7 +8,7 @@ from itertools import product
 from diecut_report.contract.checks import Check
 from diecut_report.contract.mechanism import Mechanism
 from diecut_report.declaration.messages import named
-from diecut_report.declaration.names import Names
+from diecut_report.declaration.names import DeclaredNames
 from diecut_report.declaration.order import pairs
 from diecut_report.declaration.words import Fault, unknown
 from diecut_report.declaration.world import When
@@ -18,7 +18,7 @@ JUDGED = ("number", "row", "curve")
 OF_PARTS = ("part", "next", "index")
 
 
-def faults(mechanism: Mechanism, names: Names) -> Iterator[Fault]:
+def faults(mechanism: Mechanism, names: DeclaredNames) -> Iterator[Fault]:
     """Yield what is wrong with the checks."""
     made = [(check, when) for check in mechanism.checks for when in _when(names, check)]
     yield from pairs(names, "check", made)
@@ -27,7 +27,7 @@ def faults(mechanism: Mechanism, names: Names) -> Iterator[Fault]:
             yield Fault(check.at, f"check {check.id}", text)
 
 
-def _when(names: Names, check: Check) -> list[When]:
+def _when(names: DeclaredNames, check: Check) -> list[When]:
     """When a check is made: what it needs is given, and something gives each of its sides."""
     givers = [[giver.when for giver in names.givers(name)] for name in check.named]
     found = []
@@ -39,7 +39,7 @@ def _when(names: Names, check: Check) -> list[When]:
     return [when for when in dict.fromkeys(found) if names.world.example(when) is not None]
 
 
-def _wrong(names: Names, check: Check) -> Iterator[str]:
+def _wrong(names: DeclaredNames, check: Check) -> Iterator[str]:
     sides = {name: names.givers(name) for name in check.named}
     if not sides:
         yield "compares plain numbers only; one side at least must be the id of a quantity"

@@ -4,21 +4,30 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterator
+from itertools import combinations
 
 from diecut_report.contract.mechanism import Comparison, Mechanism
 from diecut_report.contract.steps import SILENT
-from diecut_report.declaration.names import Names
+from diecut_report.declaration.names import DeclaredNames
 from diecut_report.declaration.order import lacking
-from diecut_report.declaration.words import Fault, unknown
+from diecut_report.declaration.words import Fault, short, unknown
 from diecut_report.declaration.world import When, world
 from diecut_report.errors import nearest
 
 CITED = re.compile(r"(?:^|; ?)(?:(\d{3,})\b|(\S+?),? (?:eq\.|Fig\.|Table|erratum)\s)")
 
 
-def faults(mechanism: Mechanism, names: Names) -> Iterator[Fault]:
+def faults(mechanism: Mechanism, names: DeclaredNames) -> Iterator[Fault]:
     """Yield what names a source or a quantity that there is none of."""
     yield from _sources(mechanism)
+    yield from _titles(mechanism, names)
+    for first, second in combinations(mechanism.sources, 2):
+        if first.id == second.id:
+            yield Fault(
+                second.at,
+                f"source {second.id}",
+                f"has the id of another source (at {short(first.at)}); give it another",
+            )
     known = [source.id for source in mechanism.sources]
     for erratum in mechanism.errata:
         if erratum.source not in known:
@@ -35,6 +44,17 @@ def faults(mechanism: Mechanism, names: Names) -> Iterator[Fault]:
     for comparison in mechanism.comparisons:
         for text in _comparison(mechanism, names, comparison):
             yield Fault(comparison.at, f"comparison {comparison.mechanism.kind}", text)
+
+
+def _titles(mechanism: Mechanism, names: DeclaredNames) -> Iterator[Fault]:
+    """Chapters of one title that may stand in one report."""
+    for first, second in combinations(mechanism.chapters, 2):
+        both = When(frozenset(first.needs + second.needs))
+        if first.title == second.title and names.world.example(both) is not None:
+            text = (
+                f"has the title of another chapter (at {short(first.at)}); give it another, or put their steps into one"
+            )
+            yield Fault(second.at, f"chapter {second.title!r}", text)
 
 
 def _silent(mechanism: Mechanism) -> set[str]:
@@ -55,7 +75,7 @@ def _sources(mechanism: Mechanism) -> Iterator[Fault]:
                 yield Fault(place, subject, f"cites {name}, which is no source{nearest(name, known)}; listed: {', '.join(known)}")  # fmt: skip
 
 
-def _key_result(names: Names, name: str) -> str:
+def _key_result(names: DeclaredNames, name: str) -> str:
     givers = [giver for giver in names.givers(name) if giver.step is not None]
     if not givers:
         steps = [known for known, all_ in names.known.items() if any(giver.step for giver in all_)]
@@ -65,7 +85,7 @@ def _key_result(names: Names, name: str) -> str:
     return f"{name} is a curve; name an extreme of it" if {g.kind for g in givers} <= {"curve", "abscissa"} else ""
 
 
-def _exports(mechanism: Mechanism, names: Names) -> Iterator[Fault]:
+def _exports(mechanism: Mechanism, names: DeclaredNames) -> Iterator[Fault]:
     for profile in mechanism.exports:
         when, subject = When(frozenset(profile.needs)), f"export {profile.id}"
         if len(profile.columns) < 2:
@@ -88,7 +108,7 @@ def _exports(mechanism: Mechanism, names: Names) -> Iterator[Fault]:
             )
 
 
-def _comparison(mechanism: Mechanism, names: Names, comparison: Comparison) -> Iterator[str]:
+def _comparison(mechanism: Mechanism, names: DeclaredNames, comparison: Comparison) -> Iterator[str]:
     keys = world(comparison.mechanism.inputs).keys
     for key, (kind, name) in comparison.takes.items():
         if key not in keys:

@@ -6,7 +6,7 @@ from collections.abc import Iterator
 
 from diecut_report.contract.figures import Bars, Figure, Panel, Plot, Polar
 from diecut_report.contract.mechanism import Mechanism
-from diecut_report.declaration.names import Names
+from diecut_report.declaration.names import DeclaredNames
 from diecut_report.declaration.order import lacking
 from diecut_report.declaration.words import Fault
 from diecut_report.declaration.world import When
@@ -15,7 +15,7 @@ from diecut_report.quantities.units import unit
 NUMBER, CURVE = frozenset({"number", "row"}), frozenset({"curve"})
 
 
-def faults(mechanism: Mechanism, names: Names) -> Iterator[Fault]:
+def faults(mechanism: Mechanism, names: DeclaredNames) -> Iterator[Fault]:
     """Yield what is wrong with the figures, as far as they are data."""
     spectra = {spectrum.id: spectrum for spectrum in mechanism.spectra}
     for figure in mechanism.figures:
@@ -24,7 +24,7 @@ def faults(mechanism: Mechanism, names: Names) -> Iterator[Fault]:
             yield Fault(figure.at, f"figure {figure.id}", text)
 
 
-def _wrong(figure: Figure, names: Names) -> Iterator[str]:
+def _wrong(figure: Figure, names: DeclaredNames) -> Iterator[str]:
     match figure:
         case Plot(abscissa=axis, panels=panels):
             yield from _axis(figure, names, axis)
@@ -40,7 +40,7 @@ def _wrong(figure: Figure, names: Names) -> Iterator[str]:
                     yield from _drawn(figure, names, name.removeprefix("-"), group.unit, NUMBER)
 
 
-def _axis(figure: Figure, names: Names, axis: str) -> Iterator[str]:
+def _axis(figure: Figure, names: DeclaredNames, axis: str) -> Iterator[str]:
     absent = lacking(names, axis, When(frozenset(figure.needs)))
     if absent:
         yield f"the abscissa is {absent}"
@@ -48,10 +48,11 @@ def _axis(figure: Figure, names: Names, axis: str) -> Iterator[str]:
         yield f"the abscissa is {axis}, which is no Abscissa"
 
 
-def _panel(figure: Figure, names: Names, axis: str, panel: Panel) -> Iterator[str]:
+def _panel(figure: Figure, names: DeclaredNames, axis: str, panel: Panel) -> Iterator[str]:
     across = next((each for giver in names.givers(axis) for each in giver.units_when(figure.needs)), "1")
     for series in panel.series:
         yield from _drawn(figure, names, series.curve, panel.unit, CURVE, axis)
+    yield from _range(figure, names, panel)
     for level in panel.levels:
         yield from _drawn(figure, names, level.value, panel.unit, NUMBER)
     for mark in panel.marks:
@@ -62,8 +63,24 @@ def _panel(figure: Figure, names: Names, axis: str, panel: Panel) -> Iterator[st
         yield from _drawn(figure, names, span.end, across, NUMBER)
 
 
+def _range(figure: Figure, names: DeclaredNames, panel: Panel) -> Iterator[str]:
+    """What is wrong with the range of a panel's axis: two ends, each a number, an id or None."""
+    ends: object = panel.range
+    if ends is None:
+        return
+    if not isinstance(ends, tuple) or len(ends) != 2 or not all(isinstance(e, str | int | float | None) for e in ends):
+        yield f"has the range {ends!r} in the panel {panel.title!r}; write its two ends, (0, None), each a number, an id or None"
+        return
+    for end in ends:
+        if isinstance(end, str):
+            yield from _drawn(figure, names, end, panel.unit, NUMBER)
+    low, high = ends
+    if not isinstance(low, str | None) and not isinstance(high, str | None) and not low < high:
+        yield f"has the range {ends!r} in the panel {panel.title!r}, whose ends do not ascend"
+
+
 def _drawn(
-    figure: Figure, names: Names, name: str, wanted: str, allowed: frozenset[str], axis: str = ""
+    figure: Figure, names: DeclaredNames, name: str, wanted: str, allowed: frozenset[str], axis: str = ""
 ) -> Iterator[str]:
     absent = lacking(names, name, When(frozenset(figure.needs)))
     givers = names.givers(name)

@@ -2,19 +2,21 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping
+from inspect import signature
 from typing import Any
 
 from diecut_report.contract.binding import Binding, Bound, ByText, bound
 from diecut_report.contract.mechanism import Mechanism
 from diecut_report.contract.part_steps import Lookup, Pick
 from diecut_report.contract.steps import Case, Choice, Root, Step
-from diecut_report.declaration.names import Names
+from diecut_report.declaration.names import DeclaredNames
+from diecut_report.declaration.order import when_asked
+from diecut_report.declaration.tables import rows_of
 from diecut_report.declaration.words import Fault
 from diecut_report.declaration.world import When
 from diecut_report.expressions import Formula
 from diecut_report.quantities.units import unit
-from diecut_report.standards import StandardTable
 
 PARTS = ("formula", "exists", "condition", "equation", "low", "high", "left", "right")
 
@@ -50,7 +52,7 @@ def _place(function: Any, otherwise: str) -> str:
     return f"{code.co_filename}:{code.co_firstlineno}" if code else otherwise
 
 
-def faults(mechanism: Mechanism, names: Names) -> Iterator[Fault]:
+def faults(mechanism: Mechanism, names: DeclaredNames) -> Iterator[Fault]:
     """Yield the formulas that cannot be printed, texts without a formula or a row, and units that are none."""
     seen: set[Formula] = set()
     for number, (_, step) in enumerate(mechanism.steps):
@@ -82,14 +84,13 @@ def _unreadable(step: Step, part: str, link: Bound) -> Iterator[Fault]:
         yield Fault(_place(link.formula.function, step.at), f"step {step.id}", f"the {part} cannot be printed: {why}")
 
 
-def _choices(step: Step, names: Names, when: When) -> Iterator[str]:
+def _choices(step: Step, names: DeclaredNames, when: When) -> Iterator[str]:
     for _, declared in _declared(step):
         if isinstance(declared, ByText):
             yield from _complete(names, declared.key, declared.formulas, when, "formula")
     match step:
-        case Lookup(by=by, table=table):
-            rows = table.values if isinstance(table, StandardTable) else table
-            yield from _complete(names, by, rows, when, "row in the table")
+        case Lookup(by=by):
+            yield from _complete(names, by, rows_of(step), when_asked(step, when), "row in the table")
         case Pick(by=by, series=Mapping() as series):
             yield from _complete(names, by, series, when, "series")
         case Root(unknown=unknown):
@@ -100,9 +101,24 @@ def _choices(step: Step, names: Names, when: When) -> Iterator[str]:
     function: object = getattr(step, "function", None)
     if hasattr(step, "function") and not callable(function):
         yield f"the function is {function!r}, which cannot be called; name one without brackets"
+    elif callable(function):
+        yield from _signature(function, len(getattr(step, "takes", ())))
 
 
-def _complete(names: Names, by: str, rows: Mapping[str, Any], when: When, what: str) -> Iterator[str]:
+def _signature(function: Callable[..., object], given: int) -> Iterator[str]:
+    """A function that cannot be called with so many things by position."""
+    try:
+        parameters = signature(function)
+    except ValueError:  # of the interpreter itself, which says nothing of what it takes
+        return
+    try:
+        parameters.bind(*range(given))
+    except TypeError:
+        asked = [p for p in parameters.parameters.values() if p.default is p.empty and p.kind is not p.VAR_POSITIONAL]
+        yield f"its function takes {len(asked)}, and takes names {given}: each is given by its position"
+
+
+def _complete(names: DeclaredNames, by: str, rows: Mapping[str, Any], when: When, what: str) -> Iterator[str]:
     """What is wrong with a choice by a text: each text that may be given there has its row."""
     key = names.world.keys.get(by)
     if key is None:

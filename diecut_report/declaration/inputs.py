@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import inspect
 from collections.abc import Iterator
 from typing import Any
 
@@ -9,14 +10,14 @@ from pydantic.fields import FieldInfo
 
 from diecut_report.contract.inputs import Block, CurveInput, Meta, Quantity, Text, meta_of, nested
 from diecut_report.contract.mechanism import Mechanism
-from diecut_report.declaration.names import Names
+from diecut_report.declaration.names import DeclaredNames
 from diecut_report.declaration.words import Fault
 from diecut_report.declaration.world import Key, allowed
 from diecut_report.errors import nearest
 from diecut_report.quantities.units import unit
 
 
-def faults(mechanism: Mechanism, names: Names) -> Iterator[Fault]:
+def faults(mechanism: Mechanism, names: DeclaredNames) -> Iterator[Fault]:
     """Yield what is wrong with the inputs."""
     yield from _block(mechanism.inputs, mechanism.at)
     for key in names.world.keys.values():
@@ -44,17 +45,30 @@ def _form(place: str, subject: str, form: tuple[str, str], keys: dict[str, Key])
 def _block(model: type[Block], place: str, prefix: str = "") -> Iterator[Fault]:
     for name, declared in model.model_fields.items():
         meta, inner = meta_of(model, name), nested(declared.annotation)
-        at, subject = (meta.at if meta else place), f"input {prefix}{name}"
         if inner:
-            yield from _block(inner[0], at, f"{prefix}{name}.")
+            yield from _block(inner[0], place, f"{prefix}{name}.")
             continue
         for text in _wrong(name, declared, meta):
-            yield Fault(at, subject, text)
+            yield Fault(_place(model, name, place), f"input {prefix}{name}", text)
     for rule in model.one_of:
         for key in sorted(set().union(*rule.groups, rule.shared) - set(model.model_fields)):
             yield Fault(place, f"one_of of {model.__name__}", f"names {key}, which is no input{nearest(key, model.model_fields)}")  # fmt: skip
     for key in sorted({single for keys in model.spread.values() for single in keys} - set(model.model_fields)):
         yield Fault(place, f"spread of {model.__name__}", f"names {key}, which is no input{nearest(key, model.model_fields)}")  # fmt: skip
+
+
+def _place(model: type[Block], name: str, otherwise: str) -> str:
+    """Return the line that declares an input: annotations may be texts that pydantic reads, so that they know no place themselves."""
+    for owner in model.__mro__:
+        if name in inspect.get_annotations(owner):
+            try:
+                lines, first = inspect.getsourcelines(owner)
+            except OSError:  # made without a file
+                return otherwise
+            for number, line in enumerate(lines, first):
+                if line.strip().startswith(f"{name}:"):
+                    return f"{inspect.getsourcefile(owner)}:{number}"
+    return otherwise
 
 
 def _wrong(name: str, declared: FieldInfo, meta: Meta | None) -> Iterator[str]:
@@ -71,6 +85,8 @@ def _wrong(name: str, declared: FieldInfo, meta: Meta | None) -> Iterator[str]:
         except ValueError as unknown:
             yield f"has the unit {meta.unit!r}: {unknown}"
             return
+    if isinstance(meta, Quantity) and meta.integer and (meta.unit != "1" or meta.units):
+        yield f"is a whole number in {meta.unit}; a count has the unit 1"
     if declared.is_required() or default is None:
         return
     yield from _default(default, declared.annotation, meta)

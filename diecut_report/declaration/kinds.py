@@ -32,7 +32,7 @@ from diecut_report.contract.steps import (
     Value,
     Words,
 )
-from diecut_report.declaration.names import Names
+from diecut_report.declaration.names import DeclaredNames
 from diecut_report.declaration.words import Fault
 
 NUMBER, ROW, CURVE = (
@@ -48,7 +48,7 @@ SAID = {
 Asked = tuple[str, str, frozenset[str], str]  # the field, the name in it, what it may be, and what is wanted in words
 
 
-def faults(mechanism: Mechanism, names: Names) -> Iterator[Fault]:
+def faults(mechanism: Mechanism, names: DeclaredNames) -> Iterator[Fault]:
     """Yield the steps that take another kind of thing than they can, or mix what runs over unlike places."""
     for _, step in mechanism.steps:
         for field, name, allowed, wanted in _asked(step):
@@ -82,7 +82,8 @@ def _asked(step: Step) -> Iterator[Asked]:
         case Reduction(of=of) | Crossings(of=of) | Accumulated(of=of) | Derivative(of=of):
             yield "of", of, frozenset({"curve"}), "a curve over an abscissa"
         case Total(of=of) | Neighbour(of=of) | Running(of=of) | Part(of=of):
-            yield "of", of, frozenset({"row"}), "a row over repeated parts"
+            for field, name in (("of", of), ("among", getattr(step, "among", ""))):
+                yield from ((field, name, frozenset({"row"}), "a row over repeated parts"),) if name else ()
         case Pick(of=of):
             yield "of", of, ROW, ""
         case Words():
@@ -120,7 +121,7 @@ def _of(part: Binding, field: str, allowed: frozenset[str]) -> Iterator[Asked]:
     return ((field, name, allowed, "") for name in names)
 
 
-def _mixed(step: Step, names: Names) -> Iterator[Fault]:
+def _mixed(step: Step, names: DeclaredNames) -> Iterator[Fault]:
     """A formula of curves over unlike abscissas, of rows over unlike lists, of rows and curves."""
     if not isinstance(step, Value | Choice):
         return

@@ -2,21 +2,23 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Collection, Iterator
 
 from diecut_report.contract.mechanism import Mechanism
 from diecut_report.contract.steps import Choice, Clash, Computed, CurvePeriod, Require, Words
-from diecut_report.declaration.names import Names
+from diecut_report.declaration.names import DeclaredNames
 from diecut_report.declaration.order import lacking
 from diecut_report.declaration.words import Fault
 from diecut_report.declaration.world import When
 from diecut_report.errors import nearest
 from diecut_report.quantities.formatting import NAMED
 
+BRACE = re.compile(r"\{[^{}]*\}?|\}")  # what looks as if it were filled in
 OF_PARTS = {Require: ("part", "next", "index"), Clash: ("part", "other", "index")}
 
 
-def faults(mechanism: Mechanism, names: Names) -> Iterator[Fault]:
+def faults(mechanism: Mechanism, names: DeclaredNames) -> Iterator[Fault]:
     """Yield the messages that name what cannot be printed, keys of no input, and texts that nothing fills in."""
     for number, (_, step) in enumerate(mechanism.steps):
         if isinstance(step, Require | Clash):
@@ -27,8 +29,12 @@ def faults(mechanism: Mechanism, names: Names) -> Iterator[Fault]:
     yield from _unfilled(mechanism)
 
 
-def named(names: Names, text: str, when: When, parts: Collection[str] = (), before: int | None = None) -> Iterator[str]:
+def named(
+    names: DeclaredNames, text: str, when: When, parts: Collection[str] = (), before: int | None = None
+) -> Iterator[str]:
     """Yield what is wrong with the ``{ids}`` of a message that is told (before a step) when something is made."""
+    for left in BRACE.findall(NAMED.sub("", text)):
+        yield f"{left}: write {{id}}, {{id:up}} or {{id:down}}; nothing else is filled in"
     for name in dict.fromkeys(found[1] for found in NAMED.finditer(text)):
         if name in parts:
             continue
@@ -45,7 +51,7 @@ def named(names: Names, text: str, when: When, parts: Collection[str] = (), befo
             yield from (f"{{{name}}}, which takes {said}" for said in of if said)
 
 
-def _key(names: Names, key: str) -> Iterator[str]:
+def _key(names: DeclaredNames, key: str) -> Iterator[str]:
     """What is wrong with the key of an input that a message stands at."""
     parts = [part for part in key.split(".") if not part.isdigit() and not NAMED.fullmatch(part)]
     path = ".".join(parts)

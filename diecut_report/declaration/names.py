@@ -49,7 +49,7 @@ class Giver(NamedTuple):
 
 
 @dataclass(frozen=True)
-class Names:
+class DeclaredNames:
     """All names of a mechanism."""
 
     mechanism: Mechanism

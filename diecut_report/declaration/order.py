@@ -7,14 +7,15 @@ from itertools import combinations
 from typing import Any
 
 from diecut_report.contract.mechanism import Mechanism
+from diecut_report.contract.part_steps import Lookup
 from diecut_report.contract.sections import taken
 from diecut_report.contract.steps import SILENT, Root, Step, Words
-from diecut_report.declaration.names import Names
+from diecut_report.declaration.names import DeclaredNames
 from diecut_report.declaration.words import Fault, short, unknown
 from diecut_report.declaration.world import When, told
 
 
-def faults(mechanism: Mechanism, names: Names) -> Iterator[Fault]:
+def faults(mechanism: Mechanism, names: DeclaredNames) -> Iterator[Fault]:
     """Yield the ids that are doubled, never made, not given, or taken too early."""
     yield from _doubled(mechanism, names)
     for number, (_, step) in enumerate(mechanism.steps):
@@ -28,18 +29,24 @@ def faults(mechanism: Mechanism, names: Names) -> Iterator[Fault]:
             yield Fault(step.at, f"step {step.id}", "has no symbol or no description")
         for name in sorted(asked(step)):
             late = name == getattr(step, "shown_at", "") or isinstance(step, Words)
-            text = lacking(names, name, when, None if late else number)
+            text = lacking(names, name, when_asked(step, when), None if late else number)
             if text:
                 yield Fault(step.at, f"step {step.id}", f"takes {text}")
 
 
 def asked(step: Step) -> set[str]:
     """Return the ids that a step takes from elsewhere."""
-    own = {step.unknown, step.id} if isinstance(step, Root) else set()
+    own = {step.unknown, step.id} if isinstance(step, Root) else {step.given} if isinstance(step, Lookup) else set()
     return {name for name in taken(step) if name not in own}
 
 
-def lacking(names: Names, name: str, when: When, before: int | None = None) -> str:
+def when_asked(step: Step, when: When) -> When:
+    """Return when a step takes what it asks for: a text that looks up what may be given, where that is not given."""
+    given = step.given.removeprefix("inputs.") if isinstance(step, Lookup) else ""
+    return when.with_(When(frozenset(), frozenset((given,)))) if given else when
+
+
+def lacking(names: DeclaredNames, name: str, when: When, before: int | None = None) -> str:
     """Return in words why a name is not known (before a step) where it is wanted; empty where it always is."""
     givers = names.givers(name)
     if not givers:
@@ -59,7 +66,7 @@ def lacking(names: Names, name: str, when: When, before: int | None = None) -> s
     )
 
 
-def _doubled(mechanism: Mechanism, names: Names) -> Iterator[Fault]:
+def _doubled(mechanism: Mechanism, names: DeclaredNames) -> Iterator[Fault]:
     """Steps, figures and exports with one id that can be made together."""
     steps = [(step, names.when(number)) for number, (_, step) in enumerate(mechanism.steps)]
     yield from pairs(names, "step", steps)
@@ -67,7 +74,7 @@ def _doubled(mechanism: Mechanism, names: Names) -> Iterator[Fault]:
     yield from pairs(names, "export", [(profile, When(frozenset(profile.needs))) for profile in mechanism.exports])
 
 
-def pairs(names: Names, what: str, declared: list[tuple[Any, When]]) -> Iterator[Fault]:
+def pairs(names: DeclaredNames, what: str, declared: list[tuple[Any, When]]) -> Iterator[Fault]:
     """Yield the second of two that have one id and can be made together."""
     by_id: dict[str, list[tuple[Any, When]]] = {}
     for part, when in declared:

@@ -14,6 +14,7 @@ from diecut_report.contract.inputs import fields
 from diecut_report.contract.mechanism import Mechanism
 from diecut_report.contract.steps import Step
 from diecut_report.declaration.world import world
+from diecut_report.standards import StandardSeries, StandardTable
 
 OWN = Path(__file__).parents[1]
 
@@ -23,7 +24,7 @@ def content(mechanism: Mechanism) -> str:
     found = hashlib.sha256(__version__.encode())
     texts = [(key.path, key.texts) for key in world(mechanism.inputs).keys.values()]
     found.update(repr((mechanism.kind, texts)).encode())
-    for file in sorted({*_files(mechanism), *Path(__file__).parent.glob("*.py"), *(OWN / "contract").glob("*.py")}):
+    for file in sorted({*files(mechanism), *Path(__file__).parent.glob("*.py"), *(OWN / "contract").glob("*.py")}):
         found.update(str(file).encode() + hashlib.sha256(file.read_bytes()).digest())
     return found.hexdigest()
 
@@ -52,8 +53,8 @@ def _folder() -> Path | None:
     return home / "diecut-report" / "declarations"
 
 
-def _files(mechanism: Mechanism) -> Iterator[Path]:
-    """The files in which anything of a mechanism is declared, and all others of their packages."""
+def files(mechanism: Mechanism) -> Iterator[Path]:
+    """Give the files in which anything of a mechanism is declared, and all others of their packages."""
     for file in {Path(place.rpartition(":")[0]) for place in _places(mechanism)}:
         if not file.is_file():
             continue
@@ -72,9 +73,16 @@ def _places(mechanism: Mechanism) -> Iterator[str]:
         yield from (str(getattr(part, "at", "")) for part in parts)
     for _, step in mechanism.steps:
         yield step.at
+        yield from _tables(step)
         yield from _formulas(step)
     for comparison in mechanism.comparisons:
         yield from _places(comparison.mechanism)
+
+
+def _tables(step: Step) -> Iterator[str]:
+    """The files that a step's tables were read from."""
+    taken = getattr(step, "table", None), getattr(step, "series", None)
+    yield from (f"{each.file}:" for each in taken if isinstance(each, StandardTable | StandardSeries) and each.file)
 
 
 def _formulas(step: Step) -> Iterator[str]:

@@ -7,11 +7,11 @@ from collections.abc import Iterator
 import numpy as np
 
 from diecut_report.contract.mechanism import Mechanism
-from diecut_report.declaration.names import Names
+from diecut_report.declaration.names import DeclaredNames
 from diecut_report.declaration.words import Fault
 
 
-def faults(mechanism: Mechanism, names: Names) -> Iterator[Fault]:
+def faults(mechanism: Mechanism, names: DeclaredNames) -> Iterator[Fault]:
     """Yield what is wrong with the spectra."""
     known = {name for name in names.known if names.kinds(name) & {"curve", "abscissa"}}
     for spectrum in mechanism.spectra:

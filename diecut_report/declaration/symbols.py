@@ -8,13 +8,14 @@ from itertools import combinations
 from diecut_report.contract.binding import bound
 from diecut_report.contract.inputs import Quantity
 from diecut_report.contract.mechanism import Mechanism
+from diecut_report.contract.part_steps import Lookup
 from diecut_report.contract.steps import SILENT, Choice, FromCurve, Step, Value
-from diecut_report.declaration.names import Names
+from diecut_report.declaration.names import DeclaredNames
 from diecut_report.declaration.words import Fault, short
 from diecut_report.declaration.world import When
 
 
-def faults(mechanism: Mechanism, names: Names) -> Iterator[Fault]:
+def faults(mechanism: Mechanism, names: DeclaredNames) -> Iterator[Fault]:
     """Yield the second of two quantities with one symbol; texts, and what only takes another quantity over, may share it."""
     by_symbol: dict[str, list[tuple[str, str, When, Step | None]]] = {}
     for key in names.world.keys.values():
@@ -31,7 +32,9 @@ def faults(mechanism: Mechanism, names: Names) -> Iterator[Fault]:
                 yield Fault(other[1], f"{'step' if other[3] else 'input'} {other[0]}", text)
 
 
-def _clash(names: Names, one: tuple[str, str, When, Step | None], other: tuple[str, str, When, Step | None]) -> bool:
+def _clash(
+    names: DeclaredNames, one: tuple[str, str, When, Step | None], other: tuple[str, str, When, Step | None]
+) -> bool:
     if any(step is not None and name in _taken_over(step) for step, name in ((one[3], other[0]), (other[3], one[0]))):
         return False
     return names.world.example(one[2].with_(other[2])) is not None
@@ -40,7 +43,7 @@ def _clash(names: Names, one: tuple[str, str, When, Step | None], other: tuple[s
 def _taken_over(step: Step) -> set[str]:
     """The quantities that a step gives again as they are."""
     found: set[str] = set()
-    if isinstance(step, FromCurve):
+    if isinstance(step, FromCurve | Lookup):
         found = {step.given}
     elif isinstance(step, Value | Choice):
         parts = [step.formula] if isinstance(step, Value) else [case.value for case in step.cases]

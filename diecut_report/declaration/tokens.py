@@ -6,12 +6,12 @@ from collections.abc import Iterable, Iterator
 
 from diecut_report.contract.figures import Drawing
 from diecut_report.contract.mechanism import Mechanism
-from diecut_report.declaration.names import Names
+from diecut_report.declaration.names import DeclaredNames
 from diecut_report.declaration.words import Fault
 from diecut_report.errors import nearest
 
 
-def faults(mechanism: Mechanism, names: Names) -> Iterator[Fault]:
+def faults(mechanism: Mechanism, names: DeclaredNames) -> Iterator[Fault]:
     """Yield the tokens that can never hold."""
     for section in mechanism.chapters:
         yield from _wrong(names, section.at, f"section {section.title!r}", "needs", section.needs)
@@ -28,7 +28,7 @@ def faults(mechanism: Mechanism, names: Names) -> Iterator[Fault]:
         yield from _wrong(names, profile.at, f"export {profile.id}", "needs", profile.needs)
 
 
-def _wrong(names: Names, place: str, subject: str, field: str, tokens: Iterable[str]) -> Iterator[Fault]:
+def _wrong(names: DeclaredNames, place: str, subject: str, field: str, tokens: Iterable[str]) -> Iterator[Fault]:
     if isinstance(tokens, str):
         yield Fault(place, subject, f'{field} is the text {tokens!r}; write a tuple, {field}=("{tokens}",)')
         return
@@ -38,7 +38,7 @@ def _wrong(names: Names, place: str, subject: str, field: str, tokens: Iterable[
             yield Fault(place, subject, f"{field} names {text}")
 
 
-def _told(names: Names, token: str) -> str:
+def _told(names: DeclaredNames, token: str) -> str:
     """What is wrong with a token, in words; empty where nothing is."""
     path, is_text, text = token.partition("=")
     key = names.world.keys.get(path)

@@ -18,9 +18,10 @@ from diecut_report.contract.unit_variants import in_form
 from diecut_report.engine.numerics.chebyshev import PieceSeries
 from diecut_report.engine.numerics.curve_evaluation import MANY, Curves
 from diecut_report.engine.numerics.domain import Domain
-from diecut_report.engine.numerics.sample_cache import Table
+from diecut_report.engine.numerics.sample_cache import SampleCache
 from diecut_report.expressions import Array
 
+Found = tuple[Array, Array, Array]  # of an extreme: value, place, middle of its piece
 CurveStep = Value | Choice | FromCurve | Accumulated | Derivative
 
 
@@ -134,12 +135,11 @@ class Calculation:
         self.branch: dict[str, Array] = {}  # for each choice, the case taken by each variant
         self.middle: dict[str, Array] = {}  # for each place of an extreme, the middle of its smooth piece
         self.proof: dict[str, float] = {}  # for each result that is no closed formula, its greatest residual
-        self._kept: dict[tuple[str, str], tuple[Array, _Sampler]] = {}  # curves already known at often used places
+        self._kept: dict[tuple[str, str], tuple[Array, CurveSampler]] = {}  # curves already known at often used places
         self.ahead: dict[str, tuple[str, ...]] = {}  # for each abscissa the curves that coming steps ask for
-        self._tables: dict[str, Table] = {}
-        self.extremes: dict[
-            tuple[str, float], tuple[Array, tuple[Array, Array, Array]]
-        ] = {}  # with the pieces they are of
+        self.searches: dict[str, Any] = {}  # for each abscissa, of jumps in its pieces (switches)
+        self._tables: dict[str, SampleCache] = {}
+        self.extremes: dict[tuple[str, float], tuple[Array, Found]] = {}  # with the pieces they are of
         self.judged: dict[tuple[str, int], Side] = {}  # for each check on a curve and its sides, where it governs
         self.flaws: dict[int, tuple[str, str]] = {}  # for each impossible variant the key and the message
 
@@ -169,22 +169,22 @@ class Calculation:
         found = self.sampler(curve, x, middle, rows)[curve]
         return np.broadcast_to(found, np.broadcast_shapes(np.shape(found), np.shape(x)))
 
-    def sampler(self, curve: str, x: Array, middle: Array, rows: Array | None = None) -> _Sampler:
+    def sampler(self, curve: str, x: Array, middle: Array, rows: Array | None = None) -> CurveSampler:
         """All curves over the abscissa of this one, at x as in ``sample``: a mapping from id to values."""
-        return _Sampler(self, self.axis[curve], x, middle, rows)
+        return CurveSampler(self, self.axis[curve], x, middle, rows)
 
-    def sampler_of(self, axis: str, x: Array, middle: Array, rows: Array | None) -> _Sampler:
+    def sampler_of(self, axis: str, x: Array, middle: Array, rows: Array | None) -> CurveSampler:
         """All curves over an abscissa at x (rows, points), in pieces of these middles (rows, points) or (rows, 1)."""
-        return _Sampler(self, axis, x, middle, rows)
+        return CurveSampler(self, axis, x, middle, rows)
 
     def kept(
         self, use: str, axis: str, places: Callable[[Domain], tuple[Array, Array]], rows: Array | None = None
-    ) -> _Sampler:
+    ) -> CurveSampler:
         """A sampler that is used again (for the search grid, the samples, the shown place) until the pieces change."""
         domain = self.domains[axis]
         edges, sampler = self._kept.get((use, axis), (None, None))
         if sampler is None or edges is not domain.edges:
-            sampler = _Sampler(proxy(self), axis, *places(domain), rows)
+            sampler = CurveSampler(proxy(self), axis, *places(domain), rows)
             self._kept[use, axis] = domain.edges, sampler
         return sampler
 
@@ -196,15 +196,16 @@ class Calculation:
         with np.errstate(all="ignore"):  # among variants some may be impossible
             return np.broadcast_to(sampler[curve], sampler.x.shape)
 
-    def table(self, axis: str) -> Table:
+    def table(self, axis: str) -> SampleCache:
         """What is known of the curves over an abscissa, piece by piece."""
         if axis not in self._tables:
-            self._tables[axis] = Table(self, axis)
+            self._tables[axis] = SampleCache(self, axis)
         return self._tables[axis]
 
     def release(self) -> None:
         """Forget the curves at all places: they hold this calculation, and no reference count would ever free them."""
         self._tables.clear()
+        self.searches.clear()
         self._kept.clear()
 
     def on_search_grid(self, curve: str) -> Array:
@@ -223,7 +224,7 @@ class Calculation:
         return meta  # type: ignore[return-value]
 
 
-class _Sampler:
+class CurveSampler:
     """Curves at given places of their abscissa; each is computed once."""
 
     def __init__(self, owner: Calculation, axis: str, x: Array, middle: Array, rows: Array | None) -> None:
@@ -247,13 +248,16 @@ class _Sampler:
             case Accumulated() | Derivative():
                 return self.owner.series[name].values(self.x, self.mid, self.rows)
             case Value(per_piece=True) | Choice(per_piece=True) if self.mid is not self.x:
-                return _Sampler(self.owner, self.axis, self.mid, self.mid, self.rows)[name]
-            case Value(formula=part):
-                return self._apply(part)
-            case Choice(cases=cases):
-                held = [self._apply(c.condition) for c in cases if c.condition is not None]
-                taken = [self._apply(c.value) for c in cases if not isinstance(c.value, str)]
-                return np.select(np.broadcast_arrays(*held), np.broadcast_arrays(*taken[:-1]), taken[-1])
+                return CurveSampler(self.owner, self.axis, self.mid, self.mid, self.rows)[name]
+        return self.formula_of(step)
+
+    def formula_of(self, step: Value | Choice) -> Array:
+        """What a step's formula gives at x itself, of a flag of the pieces too."""
+        if isinstance(step, Value):
+            return self._apply(step.formula)
+        held = [self._apply(c.condition) for c in step.cases if c.condition is not None]
+        taken = [self._apply(c.value) for c in step.cases if not isinstance(c.value, str)]
+        return np.select(np.broadcast_arrays(*held), np.broadcast_arrays(*taken[:-1]), taken[-1])
 
     def _taken_over(self, step: FromCurve) -> Array:
         """A curve input at shares of its period; where it gains, with what it gained in the periods before."""
@@ -291,4 +295,4 @@ def _row(value: tuple[Any, ...], variants: int) -> Any:
     return np.stack([np.broadcast_to(np.asarray(v, dtype=float), (variants,)) for v in value], axis=1)
 
 
-__all__ = ["Calculation", "CurveHandle", "Impossible", "SampledCurve", "Side", "Unproven"]
+__all__ = ["Calculation", "CurveHandle", "CurveSampler", "Impossible", "SampledCurve", "Side", "Unproven"]

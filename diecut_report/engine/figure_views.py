@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from typing import Any
 
 import numpy as np
 
-from diecut_report.contract.figures import Bars, Chart, Drawing, Figure, Plot, Polar, plain
+from diecut_report.contract.figures import Bars, Chart, Drawing, Figure, Panel, Plot, Polar, plain
+from diecut_report.engine import axis_range
 from diecut_report.engine.calculation import Calculation
 from diecut_report.engine.drawable import Undrawable, curve_named, guarded
 from diecut_report.engine.printing.substitution import printed
@@ -64,6 +65,13 @@ class MachineView:
         samples = self.calc.domains[name].samples if name in self.calc.domains else self.calc.curve_samples(name)
         return [float(value) for value in samples[0]]
 
+    def heights(self, name: str, abscissa: str) -> list[float]:
+        """A curve of a plot at the places that are drawn, SI; of a spectrum the values of its line."""
+        spectrum = next((each for each in self.calc.mechanism.spectra if each.id == abscissa), None)
+        if spectrum is None:
+            return self.curve(name)
+        return next([float(v) for v in line.values] for line in spectrum.lines() if line.id == name)
+
     def varied(self, inputs: Mapping[str, Any], *names: str) -> dict[str, Array]:
         """Numbers of the machine calculated again with other inputs; NaN where it is then impossible."""
         return varied(self.calc, inputs, names)
@@ -91,18 +99,35 @@ def _figure(calc: Calculation, figure: Figure, head: dict[str, Any]) -> dict[str
         curve_named(calc, curve, figure.abscissa)  # type: ignore[attr-defined]
     match figure:
         case Plot(abscissa=abscissa, panels=panels):
-            return head | {"type": "plot", "abscissa": abscissa, "panels": [_panel(p, view) for p in panels]}
+            made = [_panel(panel, view, abscissa) for panel in panels]
+            return head | {"type": "plot", "abscissa": abscissa, "panels": made}
         case Polar(abscissa=abscissa, unit=unit, series=series):
             return head | {"type": "polar", "abscissa": abscissa, "unit": unit, "series": [vars(s) for s in series]}
         case Bars(groups=groups):
             return head | {"type": "bars", "groups": [_group(g, view) for g in groups]}
         case Drawing(build=build, unit=unit, scaled_by=scale, schematic=schematic):
             relative = schematic or (scale and scale not in calc.given)
-            drawn = {"type": "drawing", "unit": "1" if relative else unit, "shapes": build(view)}
+            drawn = {"type": "drawing", "unit": "1" if relative else unit, "shapes": _listed(build, view)}
             return head | drawn | ({"schematic": True} if schematic else {})
         case Chart(build=build):
-            return head | {"type": "chart", "panels": build(view)}
+            return head | {"type": "chart", "panels": [axis_range.of_lines(panel) for panel in _listed(build, view)]}
     raise TypeError(f"{figure.id} is no known figure")
+
+
+def _listed(build: Callable[[MachineView], Any], view: MachineView) -> Any:
+    """What an author's function draws, which must be a list of shapes; a function without a return gives none."""
+    drawn = build(view)
+    if not isinstance(drawn, list) or not all(isinstance(shape, dict) for shape in drawn):
+        name = getattr(build, "__name__", "its function")
+        given = (
+            "nothing"
+            if drawn is None
+            else f"a {type(drawn).__name__}"
+            if not isinstance(drawn, list)
+            else "other things in its list"
+        )
+        raise Undrawable(f"{name} gives {given}; return a list of what circle, polyline, chart_panel and the like give")
+    return drawn
 
 
 def _curves(figure: Figure) -> list[str]:
@@ -115,11 +140,16 @@ def _curves(figure: Figure) -> list[str]:
     return []
 
 
-def _panel(panel: Any, view: MachineView) -> dict[str, Any]:
-    named = {"levels": panel.levels, "marks": panel.marks, "spans": panel.spans}
-    return {"title": panel.title, "unit": panel.unit, "series": [vars(s) for s in panel.series]} | {
+def _panel(panel: Panel, view: MachineView, abscissa: str) -> dict[str, Any]:
+    named: dict[str, tuple[Any, ...]] = {"levels": panel.levels, "marks": panel.marks, "spans": panel.spans}
+    made = {"title": panel.title, "unit": panel.unit, "series": [vars(s) for s in panel.series]} | {
         key: [plain(part, view) for part in parts] for key, parts in named.items()
     }
+    if panel.range is None:
+        return made
+    limits = axis_range.ends(panel, view)
+    curves = [(one.label, view.heights(one.curve, abscissa)) for one in panel.series]
+    return axis_range.checked(made | {"range": limits}, curves)
 
 
 def _group(group: Any, view: MachineView) -> dict[str, Any]:

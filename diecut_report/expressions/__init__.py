@@ -10,7 +10,7 @@ from typing import Any
 from numpy.typing import NDArray
 
 from diecut_report.expressions.evaluation import evaluate
-from diecut_report.expressions.formula import Formula, Named, Reading, formula
+from diecut_report.expressions.formula import Formula, FormulaName, Reading, formula
 from diecut_report.expressions.functions import (
     APPLY,
     AS_ANGLE,
@@ -27,12 +27,12 @@ from diecut_report.expressions.functions import (
     as_number,
 )
 from diecut_report.expressions.source import LAMBDA, FormulaError
-from diecut_report.expressions.tree import Node, substitute, symbols, transform, walk
+from diecut_report.expressions.tree import Node, substitute, symbols, transform, walk, written
 
 Array = NDArray[Any]
 
 __all__ = [
     "APPLY", "AS_ANGLE", "AS_NUMBER", "BINARY", "COMPARE", "FUNCTIONS", "GRAVITY", "LAMBDA", "NUMERIC", "PI", "Array", "Constant",
-    "Formula", "FormulaError", "Named", "Node", "Reading", "arccos", "as_angle", "as_number", "evaluate", "formula", "substitute",
-    "symbols", "transform", "walk",
+    "Formula", "FormulaError", "FormulaName", "Node", "Reading", "arccos", "as_angle", "as_number", "evaluate", "formula", "substitute",
+    "symbols", "transform", "walk", "written",
 ]  # fmt: skip

@@ -6,7 +6,9 @@ import math
 from collections.abc import Callable
 from typing import Any
 
-from diecut_report.expressions.formula import Named
+import numpy as np
+
+from diecut_report.expressions.formula import FormulaName
 from diecut_report.expressions.functions import APPLY, NUMERIC
 from diecut_report.expressions.tree import Node
 
@@ -22,7 +24,7 @@ def evaluate(node: Node, value_of: Callable[[Node], Any]) -> Any:
             return value_of(node)
         case Node("call", (name, *args)):
             return NUMERIC[name](*(evaluate(a, value_of) for a in args))
-        case Node("apply", (Named(formula=called), *args)):
+        case Node("apply", (FormulaName(formula=called), *args)):
             known = dict(zip(called.parameters, (evaluate(a, value_of) for a in args), strict=True))
             return evaluate(called.tree, lambda leaf: known[leaf.args[0]] if leaf.args[0] in known else value_of(leaf))
         case Node("cmp", (sign, left, right)):
@@ -33,7 +35,12 @@ def evaluate(node: Node, value_of: Callable[[Node], Any]) -> Any:
 
 
 def _first_that_holds(branches: tuple[tuple[Node, ...], ...], value_of: Callable[[Node], Any]) -> Any:
-    for branch in branches:
-        if len(branch) == 1 or evaluate(branch[1], value_of):
+    for number, branch in enumerate(branches):
+        if len(branch) == 1:
+            return evaluate(branch[0], value_of)
+        held = evaluate(branch[1], value_of)
+        if np.ndim(held):
+            return np.where(held, evaluate(branch[0], value_of), _first_that_holds(branches[number + 1 :], value_of))
+        if held:
             return evaluate(branch[0], value_of)
     raise ValueError("no case of the formula holds")

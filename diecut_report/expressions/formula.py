@@ -73,7 +73,7 @@ class Formula:
                 chain = " → ".join(each.__name__ for each in (*above[above.index(self) :], self))
                 raise FormulaError(f"{self.place}: formula {self.__name__} calls itself ({chain}) and would never end; "
                                    "give the formula another name than what it calls")  # fmt: skip
-            self._readings[full] = _Reader(self, above, full).read()
+            self._readings[full] = _BodyReader(self, above, full).read()
         return self._readings[full]
 
 
@@ -84,12 +84,12 @@ class Reading(NamedTuple):
     constants: dict[str, Constant]
 
 
-class Named(str):
+class FormulaName(str):
     """The name by which a formula is called in print, and the formula."""
 
     formula: Formula
 
-    def __new__(cls, formula: Formula) -> Named:
+    def __new__(cls, formula: Formula) -> FormulaName:
         self = super().__new__(cls, formula.printed_as)
         self.formula = formula
         return self
@@ -110,7 +110,7 @@ def formula(
     return Formula(function) if function is not None else lambda own: Formula(own, printed_as=printed_as)
 
 
-class _Reader:
+class _BodyReader:
     """Reads one formula's body into a tree."""
 
     def __init__(self, owner: Formula, above: tuple[Formula, ...], full: bool) -> None:
@@ -196,7 +196,7 @@ class _Reader:
         self.constants |= reading.constants
         nodes = {name: part if isinstance(part, Node) else Node("num", (repr(part),)) for name, part in given.items()}
         by_name = callee.printed_as and not self.full
-        return Node("apply", (Named(callee), *nodes.values())) if by_name else substitute(reading.tree, nodes)
+        return Node("apply", (FormulaName(callee), *nodes.values())) if by_name else substitute(reading.tree, nodes)
 
     def _constant(self, expression: ast.expr) -> Node:
         value = self._object(expression)

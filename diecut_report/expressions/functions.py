@@ -10,6 +10,9 @@ from typing import Any
 import numpy as np
 
 from diecut_report.expressions.tree import Node
+from diecut_report.quantities.units import unit as known
+
+ROUNDING = 1e-9  # of a factor of 1; how far beyond ±1 rounding may carry the cosine of an angle that exists
 
 
 class Constant(float):
@@ -19,14 +22,17 @@ class Constant(float):
     unit: str
 
     def __new__(cls, value: float, symbol: str, unit: str) -> Constant:
+        given = known(unit)
+        if abs(given.factor - 1) > ROUNDING:
+            raise TypeError(
+                f"{symbol} is in {unit}, which is {given.factor:g} {given.si}; give it in SI, {value * given.factor:g} {given.si}"
+            )
         self = super().__new__(cls, value)
         self.symbol, self.unit = symbol, unit
         return self
 
 
 GRAVITY = Constant(9.80665, "g", "m/s**2")
-
-ROUNDING = 1e-9  # how far beyond ±1 rounding may carry the cosine of an angle that exists
 
 
 def arccos(cosine: Any) -> Any:

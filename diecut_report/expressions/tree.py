@@ -63,3 +63,23 @@ def walk(node: Node) -> Iterator[Node]:
             yield from walk(part)
         elif isinstance(part, tuple):
             pending = [*part, *pending]
+
+
+LOOSE = ("+", "-", "cmp", "*", "/", "neg")  # operations that stand in brackets within another one
+
+
+def written(node: Node) -> str:
+    """Return an expression as a line of text, to show the author where in the formula."""
+    match node:
+        case Node("num" | "sym", (text,)):
+            return str(text)
+        case Node("call", (name, *args)):
+            return f"{name}({', '.join(map(written, args))})"
+        case Node("cases", branches):
+            return f"where({', '.join(written(part) for branch in branches for part in reversed(branch))})"
+        case Node("cmp", (sign, left, right)):
+            return f"{written(left)} {sign} {written(right)}"
+        case Node("neg" | "not", (inner,)):
+            return f"-{written(inner)}" if node.op == "neg" else f"not {written(inner)}"
+    left, right = (f"({written(part)})" if part.op in LOOSE else written(part) for part in node.args)
+    return f"{left} {node.op} {right}"

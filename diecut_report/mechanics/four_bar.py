@@ -153,7 +153,7 @@ def is_crank_rocker(frame_ratio: Any, coupler_ratio: Any, rocker_ratio: Any) -> 
     return (shortest > 1) & (1 + 2 * longest < frame_ratio + coupler_ratio + rocker_ratio)
 
 
-class Motion(NamedTuple):
+class LinkageMotion(NamedTuple):
     """Directions (rad) and derivatives by the crank angle; arrays of the broadcast shape of crank angle and ratios."""
 
     coupler_direction: Array
@@ -171,7 +171,7 @@ def motion(
     rocker_ratio: Array | float,
     *,
     branch: int = 1,
-) -> Motion:
+) -> LinkageMotion:
     """The whole motion of a crank-rocker in one of its two assemblies (branch +1, or -1: mirrored about the frame line).
 
     Ratios and crank angle (rad) broadcast together. NaN where the linkage does not close.
@@ -184,4 +184,4 @@ def motion(
     speed2 = coupler_speed_ratio(phi, coupler, rocker, coupler_ratio)
     speed3 = rocker_speed_ratio(phi, coupler, rocker, rocker_ratio)
     rate = rocker_acceleration_ratio(phi, coupler, rocker, speed3, speed2, coupler_ratio, rocker_ratio)
-    return Motion(branch * coupler, branch * rocker, mu, speed2, speed3, branch * rate)
+    return LinkageMotion(branch * coupler, branch * rocker, mu, speed2, speed3, branch * rate)

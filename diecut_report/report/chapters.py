@@ -7,15 +7,15 @@ from typing import Any
 
 from diecut_report.report.equations import Equation, Equations
 from diecut_report.report.file_names import suffixes
-from diecut_report.report.i18n import Words
+from diecut_report.report.i18n import Catalogue
 from diecut_report.report.model import (
-    Chapter,
     CheckRow,
     File,
     Heading,
     Item,
+    PrintedChapter,
+    PrintedSection,
     QuantityRow,
-    Section,
     quantity_row,
     utilisation,
 )
@@ -28,9 +28,11 @@ UNPRINTED_RESIDUAL = "0"
 LONGEST_SOURCE = 80  # letters; a longer one stands below the result
 
 
-def chapter(letter: str, name: str, mechanism: Data, equations: Equations, words: Words, stem: str = "") -> Chapter:
+def chapter(
+    letter: str, name: str, mechanism: Data, equations: Equations, words: Catalogue, stem: str = ""
+) -> PrintedChapter:
     """The chapter of one mechanism's results; ``stem`` is what the names of the report's files begin with."""
-    part = Chapter(
+    part = PrintedChapter(
         letter=letter,
         name=name,
         anchor=f"m-{letter}",
@@ -48,7 +50,9 @@ def chapter(letter: str, name: str, mechanism: Data, equations: Equations, words
 class _Filler:
     """Fills a chapter in the order of the printed page, so that all numbers count up."""
 
-    def __init__(self, part: Chapter, mechanism: Data, equations: Equations, words: Words, stem: str) -> None:
+    def __init__(
+        self, part: PrintedChapter, mechanism: Data, equations: Equations, words: Catalogue, stem: str
+    ) -> None:
         self.stem = stem
         self.part, self.mechanism, self.equations, self.words = part, mechanism, equations, words
         self.decimal = words["decimal"]
@@ -111,11 +115,11 @@ class _Filler:
             return self.words["reference"]
         return self.words.say("refers" if origin == "reference" else "from_press", path=path)
 
-    def _section(self, section: Data) -> Section:
+    def _section(self, section: Data) -> PrintedSection:
         heading = self._head("", section["title"])
         told: set[str] = set()
         items = [self._item(item, told) for item in section["items"]]
-        return Section(heading, section.get("text", ""), items, self._shown(section.get("shown", ())))
+        return PrintedSection(heading, section.get("text", ""), items, self._shown(section.get("shown", ())))
 
     def _shown(self, places: Sequence[Data]) -> str:
         """Where the curves of a section are shown, in words."""
@@ -171,7 +175,8 @@ class _Filler:
     def _looked_up(self, item: Data) -> str:
         """Where a number was taken from: the table's title, and the text that chose it."""
         if item["table"]:
-            return self.words.say("looked_up", table=item["table"], choice=item["key"])
+            choice = ", ".join(filter(None, (item["key"], item.get("column"))))
+            return self.words.say("looked_up", table=item["table"], choice=choice)
         return f"{item['by']}: {item['key']}"
 
     def _results(self, outputs: Data) -> None:

@@ -6,16 +6,16 @@ from collections.abc import Mapping
 from functools import cached_property
 from typing import TYPE_CHECKING, Any, NamedTuple
 
-from diecut_report.report.document import Document, document, parts
+from diecut_report.report.document import ReportDocument, document, parts
 from diecut_report.report.equations import Equations
-from diecut_report.report.i18n import Words
+from diecut_report.report.i18n import Catalogue
 from diecut_report.report.typeset import Typesetter
 
 if TYPE_CHECKING:
     from diecut_report.report.figures.style import Svg
 
 
-class Fault(NamedTuple):
+class DrawingFault(NamedTuple):
     """A figure that could not be drawn: its mechanism, number and data, and what went wrong."""
 
     mechanism: str
@@ -34,12 +34,12 @@ class Material:
 
     def __init__(self, results: Mapping[str, Any]) -> None:
         self.results = results
-        self.words = Words(results["project"].get("language") or "en")
+        self.words = Catalogue(results["project"].get("language") or "en")
         self.typesetter = Typesetter()
-        self.faults: list[Fault] = []
+        self.faults: list[DrawingFault] = []
 
     @cached_property
-    def document(self) -> Document:
+    def document(self) -> ReportDocument:
         """The report's content."""
         return document(self.results, Equations(self.words, self.typesetter.measure), self.words)
 
@@ -60,7 +60,7 @@ class Material:
         try:
             return render(figure, curves, self.words, number)
         except Exception as cause:  # of any kind: what a plugin gives to be drawn is its own
-            self.faults.append(Fault(name, number, figure, cause))
+            self.faults.append(DrawingFault(name, number, figure, cause))
             return None
 
     def failed(self, number: str) -> str:

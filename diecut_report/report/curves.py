@@ -17,7 +17,7 @@ MOST_PIECES = 8  # for which a table has the ends and the middle of each: with m
 ROUNDING = 1e-5  # of a curve's greatest value; where a root is taken of rounding, it grows to about a millionth
 
 
-class Place(NamedTuple):
+class CurvePlace(NamedTuple):
     """Where a row of a table is taken: x, and the list of a curve's results and the number in it (from 0) of the value."""
 
     x: float
@@ -66,7 +66,7 @@ def through_pole(x: Array, y: Array) -> tuple[Array, Array]:
     return np.insert(x, change + 1, places), np.insert(y, change + 1, 0.0)
 
 
-def table_places(over: Data, members: Sequence[Data]) -> Iterator[Place]:
+def table_places(over: Data, members: Sequence[Data]) -> Iterator[CurvePlace]:
     """Rows of a table of curves: each smooth piece's ends, the middle and as many beside it as there is room for.
 
     A jump gives two rows, before and after it. Pieces that are too many are not told apart.
@@ -75,13 +75,13 @@ def table_places(over: Data, members: Sequence[Data]) -> Iterator[Place]:
     if len(breaks) >= MOST_PIECES or any(curve.get("breakpoints", []) != breaks for curve in members):
         breaks = []
     count = max(1, CURVE_ROWS // (len(breaks) + 1) - 1) | 1  # an odd number has the middle
-    yield Place(float(x[0]), "values", 0)
+    yield CurvePlace(float(x[0]), "values", 0)
     for piece, (start, end) in enumerate(pairwise([x[0], *breaks, 2 * x[-1] - x[-2]])):
         if piece:
-            yield Place(start, "left", piece - 1)
+            yield CurvePlace(start, "left", piece - 1)
         if piece and any(_jumps(curve, piece - 1) for curve in members):
-            yield Place(start, "right", piece - 1)
-        yield from (Place(float(x[index]), "values", index) for index in _within(x, start, end, count))
+            yield CurvePlace(start, "right", piece - 1)
+        yield from (CurvePlace(float(x[index]), "values", index) for index in _within(x, start, end, count))
 
 
 def _jumps(curve: Data, index: int) -> bool:

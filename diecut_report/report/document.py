@@ -9,8 +9,8 @@ from typing import Any
 
 from diecut_report.report.chapters import chapter
 from diecut_report.report.equations import Equations
-from diecut_report.report.i18n import Words
-from diecut_report.report.model import Chapter, CheckRow, QuantityRow, quantity_row
+from diecut_report.report.i18n import Catalogue
+from diecut_report.report.model import CheckRow, PrintedChapter, QuantityRow, quantity_row
 
 Data = Mapping[str, Any]
 ORDER = {"fail": 0, "warn": 1, "pass": 2}
@@ -28,7 +28,7 @@ REVISION = ("revision", "date", "description", "by")
 
 
 @dataclass(frozen=True)
-class Document:
+class ReportDocument:
     """A whole report."""
 
     project: Data
@@ -40,11 +40,11 @@ class Document:
     checks: list[CheckRow]
     failures: list[CheckRow]
     press_rows: list[QuantityRow]
-    chapters: list[Chapter]
+    chapters: list[PrintedChapter]
     sources: list[tuple[str, str]]
     program: Data
     config: Data
-    words: Words
+    words: Catalogue
     contents: list[tuple[str, str, str, int]] = field(default_factory=list)
 
     @property
@@ -53,12 +53,12 @@ class Document:
         return str(self.project["title"])
 
 
-def document(results: Data, equations: Equations, words: Words) -> Document:
+def document(results: Data, equations: Equations, words: Catalogue) -> ReportDocument:
     """The report of the results."""
     chapters = _chapters(results, equations, words)
     checks = sorted((row for part in chapters for row in part.checks), key=lambda row: ORDER[row.status])
     decimal = words["decimal"]
-    return Document(
+    return ReportDocument(
         project=_title_block(results["project"]),
         press=results["press"],
         status=results["status"],
@@ -91,7 +91,7 @@ def parts(results: Data) -> Iterator[tuple[str, Data]]:
     yield from results.get("comparisons", {}).items()
 
 
-def _chapters(results: Data, equations: Equations, words: Words) -> list[Chapter]:
+def _chapters(results: Data, equations: Equations, words: Catalogue) -> list[PrintedChapter]:
     stem = PurePath(results["config"]["file"]).stem
     chapters = [
         chapter(letter(index), name, data, equations, words, stem) for index, (name, data) in enumerate(parts(results))
@@ -113,7 +113,7 @@ def letter(index: int) -> str:
     return ("" if index < 26 else letter(index // 26 - 1)) + chr(ord("A") + index % 26)
 
 
-def _counts(checks: list[CheckRow], chapters: list[Chapter], words: Words) -> Iterator[str]:
+def _counts(checks: list[CheckRow], chapters: list[PrintedChapter], words: Catalogue) -> Iterator[str]:
     """How many checks fail, warn and pass, and how many mechanisms were not calculated."""
     found = {status: sum(row.status == status for row in checks) for status in ORDER}
     total = len(checks)
@@ -144,7 +144,7 @@ def _sources(results: Data) -> list[tuple[str, str]]:
     )
 
 
-def _contents(chapters: list[Chapter], words: Words) -> Iterator[tuple[str, str, str, int]]:
+def _contents(chapters: list[PrintedChapter], words: Catalogue) -> Iterator[tuple[str, str, str, int]]:
     """Anchor, number, title and depth of all that has a heading."""
     yield "summary", "1", words["summary"], 1
     yield "press", "2", words["press_data"], 1

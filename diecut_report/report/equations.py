@@ -34,7 +34,7 @@ class Link(NamedTuple):
     tree: Tree | None = None
 
 
-class Row(NamedTuple):
+class EquationRow(NamedTuple):
     """A row of an equation: what stands left of the first sign of equality, the links behind it, and the place."""
 
     head: Link
@@ -67,10 +67,10 @@ class Equations:
         head, place = self._symbol(item["symbol"]), self._place(item)
         if item.get("relation"):
             _, _, left, right = item["relation"]
-            return self._stacked([Row(self._link(left), [self._link(right)]), Row(head, links, place)])
+            return self._stacked([EquationRow(self._link(left), [self._link(right)]), EquationRow(head, links, place)])
         if not links:
             return None
-        whole = Row(head, links, place)
+        whole = EquationRow(head, links, place)
         if self.measure(whole.latex()) <= ONE_LINE:
             return Equation(whole.latex(), whole.text())
         return self._stacked(self._rows(whole))
@@ -84,7 +84,7 @@ class Equations:
 
     def definitions(self, item: Item) -> list[Equation]:
         """What the names stand for by which the item's formula calls others: where k_t(x) = …"""
-        rows = [Row(self._link(each["defined"]), [self._link(each["as"])]) for each in item.get("where", ())]
+        rows = [EquationRow(self._link(each["defined"]), [self._link(each["as"])]) for each in item.get("where", ())]
         return [
             Equation(row.latex(), row.text()) if self.measure(row.latex()) <= self.width else self._stacked([row])
             for row in rows
@@ -142,24 +142,24 @@ class Equations:
         latex = rf"\quad\text{{{escaped(word)} }}{self.latex.symbol(at['symbol'])} = {place.latex}"
         return Link(latex, f" {word} {at['symbol']} = {place.text}")
 
-    def _rows(self, whole: Row) -> list[Row]:
+    def _rows(self, whole: EquationRow) -> list[EquationRow]:
         """The formula in the first row, the numbers in it and the result in the second, or each in its own."""
         *formulas, result = whole.links
         if not formulas:
             return [whole]
-        rows = [Row(whole.head, formulas[:1])] + [Row(Link(), [link]) for link in formulas[1:]]
+        rows = [EquationRow(whole.head, formulas[:1])] + [EquationRow(Link(), [link]) for link in formulas[1:]]
         last = rows[-1]._replace(links=[*rows[-1].links, result], place=whole.place)
         if len(rows) > 1 and self.measure(last.latex("")) <= self.width:
             return [*rows[:-1], last]
-        return [*rows, Row(Link(), [result], whole.place)]
+        return [*rows, EquationRow(Link(), [result], whole.place)]
 
-    def _stacked(self, rows: list[Row]) -> Equation:
+    def _stacked(self, rows: list[EquationRow]) -> Equation:
         """Rows one below the other, aligned at their first sign of equality, each broken where it is too wide."""
         lines = [line for row in rows for line in self._fitted(row)]
         stacked = r" \\ ".join(lines)
         return Equation(rf"\begin{{aligned}} {stacked} \end{{aligned}}", "\n".join(row.text() for row in rows))
 
-    def _fitted(self, row: Row) -> list[str]:
+    def _fitted(self, row: EquationRow) -> list[str]:
         """A row's lines; one that cannot be broken stays whole and is made smaller on the page."""
         tree = row.links[0].tree
         if self.measure(row.latex()) <= self.width or tree is None or len(row.links) > 1:

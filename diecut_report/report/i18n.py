@@ -57,7 +57,7 @@ ENGLISH: dict[str, str] = {
 CATALOGUES: dict[str, dict[str, str]] = {"en": ENGLISH}
 
 
-class Words(Mapping[str, str]):
+class Catalogue(Mapping[str, str]):
     """The words of one language; in templates ``t.summary``. A missing key is an error."""
 
     def __init__(self, language: str) -> None:

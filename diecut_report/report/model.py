@@ -78,11 +78,11 @@ class Item:
     words: str = ""
     text: str = ""
     notes: tuple[str, ...] = ()
-    table: Table | None = None
+    table: PrintedTable | None = None
 
 
 @dataclass(frozen=True)
-class Table:
+class PrintedTable:
     """A table of the calculation, or of curves."""
 
     title: str
@@ -92,7 +92,7 @@ class Table:
 
 
 @dataclass(frozen=True)
-class Cell:
+class TableCell:
     """A value in a table of repeated parts, and what is to be said of it: where it comes from, how it was typed."""
 
     text: str
@@ -101,7 +101,7 @@ class Cell:
 
 
 @dataclass(frozen=True)
-class Column:
+class PrintedColumn:
     """The head of a column in a table of repeated parts."""
 
     title: str
@@ -118,8 +118,8 @@ class PartsTable:
     number: str
     title: str
     family: str
-    columns: list[Column]
-    lines: list[tuple[str, list[Cell]]]
+    columns: list[PrintedColumn]
+    lines: list[tuple[str, list[TableCell]]]
 
 
 @dataclass(frozen=True)
@@ -131,7 +131,7 @@ class File:
 
 
 @dataclass(frozen=True)
-class Section:
+class PrintedSection:
     """A part of the calculation."""
 
     heading: Heading
@@ -141,7 +141,7 @@ class Section:
 
 
 @dataclass
-class Chapter:
+class PrintedChapter:
     """All that is told of one mechanism."""
 
     letter: str
@@ -155,15 +155,15 @@ class Chapter:
     summary: str = ""
     assumptions: list[str] = field(default_factory=list)
     warnings: list[str] = field(default_factory=list)
-    between: list[Chapter] = field(default_factory=list)
+    between: list[PrintedChapter] = field(default_factory=list)
     inputs: list[QuantityRow] = field(default_factory=list)
     input_parts: list[PartsTable] = field(default_factory=list)
     key_results: list[QuantityRow] = field(default_factory=list)
     outputs: list[QuantityRow] = field(default_factory=list)
     output_parts: list[PartsTable] = field(default_factory=list)
-    sections: list[Section] = field(default_factory=list)
+    sections: list[PrintedSection] = field(default_factory=list)
     checks: list[CheckRow] = field(default_factory=list)
-    curves: list[Table] = field(default_factory=list)
+    curves: list[PrintedTable] = field(default_factory=list)
     figures: list[tuple[str, Data]] = field(default_factory=list)
     files: list[File] = field(default_factory=list)
     absent: list[Data] = field(default_factory=list)

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import Any
 
-from diecut_report.report.context import Fault, Material
+from diecut_report.report.context import DrawingFault, Material
 from diecut_report.report.html import page
 
 
@@ -16,7 +16,7 @@ class Rendering:
         self.material = Material(results)
 
     @property
-    def faults(self) -> list[Fault]:
+    def faults(self) -> list[DrawingFault]:
         """The figures that could not be drawn; known when a format is made."""
         return self.material.faults
 

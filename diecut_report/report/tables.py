@@ -9,13 +9,13 @@ from typing import Any, TypeVar
 from markupsafe import Markup
 
 from diecut_report.quantities.units import pretty, to_display
-from diecut_report.report.curves import Place, table_places
-from diecut_report.report.i18n import Words
+from diecut_report.report.curves import CurvePlace, table_places
+from diecut_report.report.i18n import Catalogue
 from diecut_report.report.model import (
-    Cell,
-    Column,
     PartsTable,
-    Table,
+    PrintedColumn,
+    PrintedTable,
+    TableCell,
     is_words,
     utilisation,
 )
@@ -32,18 +32,18 @@ MOST_COLUMNS = 7  # beside the first one
 class Tables:
     """Makes a chapter's tables; they count up as they are made."""
 
-    def __init__(self, letter: str, words: Words, lists: Mapping[str, str] = MappingProxyType({})) -> None:
+    def __init__(self, letter: str, words: Catalogue, lists: Mapping[str, str] = MappingProxyType({})) -> None:
         self.letter, self.words, self.lists = letter, words, lists
         self.decimal = words["decimal"]
         self.count = 0
 
-    def of_item(self, item: Data) -> Table:
+    def of_item(self, item: Data) -> PrintedTable:
         """A table of the calculation."""
         columns = [(c["title"], symbol(c["symbol"]), pretty(c["unit"])) for c in item["columns"]]
         rows = [[number(text, self.decimal) for text in row] for row in item["rows"]]
-        return Table(item["title"], columns, rows, self._number())
+        return PrintedTable(item["title"], columns, rows, self._number())
 
-    def of_curves(self, curves: Data) -> list[Table]:
+    def of_curves(self, curves: Data) -> list[PrintedTable]:
         """Some rows of all curves, by their abscissa, so many columns a table as the page holds."""
         groups: dict[str, list[Data]] = {}
         for curve in curves.values():
@@ -53,18 +53,18 @@ class Tables:
             self._curves(curves[axis], columns) for axis, members in groups.items() for columns in shared_out(members)
         ]
 
-    def _curves(self, axis: Data, members: list[Data]) -> Table:
+    def _curves(self, axis: Data, members: list[Data]) -> PrintedTable:
         columns = [(c["description"], symbol(c["symbol"]), pretty(c["display_unit"])) for c in (axis, *members)]
         rows = [
             [self._abscissa(axis, place.x), *(self._sample(curve, place) for curve in members)]
             for place in table_places(axis, members)
         ]
-        return Table(self.words.say("curves_over", axis=axis["description"]), columns, rows, self._number())
+        return PrintedTable(self.words.say("curves_over", axis=axis["description"]), columns, rows, self._number())
 
     def _abscissa(self, axis: Data, x: float) -> str:
         return number(f"{to_display(x, axis['display_unit']):.6g}", self.decimal)
 
-    def _sample(self, curve: Data, place: Place) -> str:
+    def _sample(self, curve: Data, place: CurvePlace) -> str:
         value = curve[place.values][place.number]
         scale = max(abs(v) for v in curve["values"])
         return displayed(value if abs(value) > ROUNDING * scale else 0.0, curve["display_unit"], 4, self.decimal)
@@ -78,14 +78,14 @@ class Tables:
         self, parts: Parts, heads: list[tuple[str, Data]], told: Callable[[Data], str], given: bool
     ) -> PartsTable:
         columns = [
-            Column(row["description"], symbol(row["symbol"]), pretty(row["display"]["unit"]),
+            PrintedColumn(row["description"], symbol(row["symbol"]), pretty(row["display"]["unit"]),
                    key=quantity if given else "", source=row.get("source", ""))
             for quantity, row in heads
         ]  # fmt: skip
         lines = []
         for part in parts.numbers:
             rows = [parts.columns[quantity].get(part) for quantity, _ in heads]
-            lines.append((str(part), [self._cell(row[1], told) if row else Cell("–") for row in rows]))
+            lines.append((str(part), [self._cell(row[1], told) if row else TableCell("–") for row in rows]))
         family = parts.family if parts.listed else f"{parts.family}_{parts.numbers[0]} … {parts.numbers[-1]}"
         title = self.lists.get(parts.family, columns[0].title if len(columns) == 1 else "")
         return PartsTable(self._number(), title, family, columns, lines)
@@ -94,31 +94,31 @@ class Tables:
         """A check on a row over repeated parts: how each part fares."""
         parts = list(enumerate(check["parts"], 1))
         columns = [self._side(check, side) for side in ("demand", "limit")]
-        columns += [Column(self.words[key], Markup(""), "", "", "") for key in ("utilisation", "verdict")]
+        columns += [PrintedColumn(self.words[key], Markup(""), "", "", "") for key in ("utilisation", "verdict")]
         lines = [(str(number), self._judged(check, part)) for number, part in parts]
         return PartsTable(self._number(), check["title"], "", columns, lines)
 
-    def _side(self, check: Data, side: str) -> Column:
+    def _side(self, check: Data, side: str) -> PrintedColumn:
         """The head of a side's column: its own words where all parts share them."""
         labels = {part[f"{side}_label"] for part in check["parts"] if part["status"]}
         title = labels.pop() if len(labels) == 1 else self.words[side]
-        return Column(title, Markup(""), pretty(check[f"{side}_display"]["unit"]), "", "")
+        return PrintedColumn(title, Markup(""), pretty(check[f"{side}_display"]["unit"]), "", "")
 
-    def _judged(self, check: Data, part: Data) -> list[Cell]:
+    def _judged(self, check: Data, part: Data) -> list[TableCell]:
         """Both sides of a part, its utilisation and its verdict; a part that has no such quantity has none."""
         if part["status"] is None:
-            return [Cell("–")] * 4
+            return [TableCell("–")] * 4
         mixed = len({other.get("demand_label") for other in check["parts"] if other["status"]}) > 1
         sides = [
-            Cell(number(part[f"{side}_display"]["text"], self.decimal), part[f"{side}_label"] if mixed else "")
+            TableCell(number(part[f"{side}_display"]["text"], self.decimal), part[f"{side}_label"] if mixed else "")
             for side in ("demand", "limit")
         ]
         share = utilisation(part["utilisation"], part["status"], self.decimal)
-        return [*sides, Cell(share), Cell(self.words[part["status"]], wordy=True)]
+        return [*sides, TableCell(share), TableCell(self.words[part["status"]], wordy=True)]
 
-    def _cell(self, row: Data, told: Callable[[Data], str]) -> Cell:
+    def _cell(self, row: Data, told: Callable[[Data], str]) -> TableCell:
         text = row["display"]["text"]
-        return Cell(number(text, self.decimal), told(row), is_words(text))
+        return TableCell(number(text, self.decimal), told(row), is_words(text))
 
     def _origin(self, row: Data) -> str:
         """What is to be said of an input: that it is a default, what it refers to, how it was typed in another unit."""

@@ -21,7 +21,7 @@ ROUNDING = 1e-12
 PLACE_DIGITS = 6
 
 
-class Judged(NamedTuple):
+class JudgedCheck(NamedTuple):
     """A check of all machines, each array of shape (variants, pairs of sides, parts); ``worst`` is the place of the governing one.
 
     ``there`` says where both sides have a value; ``worst`` has shape (variants,) and counts through pairs and parts.
@@ -54,13 +54,13 @@ def applies(calc: Calculation, check: Check) -> bool:
     return not (np.isnan(demand) | np.isnan(limit))[0].all()
 
 
-def judged(calc: Calculation, check: Check) -> Judged:
+def judged(calc: Calculation, check: Check) -> JudgedCheck:
     """Judge a check of all machines: each pair of its sides, for each part of a row."""
     demand, limit = _compared(calc, check)
     held, ratio = verdict(check, demand, limit)
     there = np.isfinite(demand) & np.isfinite(limit)
     flat = [part.reshape(len(demand), -1) for part in (demand, limit, held, ratio, there)]
-    return Judged(demand, limit, held, ratio, there, worst(flat[0], flat[1], flat[2], flat[3], flat[4]))
+    return JudgedCheck(demand, limit, held, ratio, there, worst(flat[0], flat[1], flat[2], flat[3], flat[4]))
 
 
 def verdict(check: Check, demand: Any, limit: Any) -> tuple[Any, Any]:
@@ -135,7 +135,7 @@ def _check(calc: Calculation, check: Check) -> Data:
     }
 
 
-def _told(check: Check, found: Judged, pair: int, part: int) -> Data:
+def _told(check: Check, found: JudgedCheck, pair: int, part: int) -> Data:
     """What is told of one pair of sides (0: demand and limit, 1: lower bound and demand), of one part."""
     demand, limit, ratio = (float(side[0, pair, part]) for side in (found.demand, found.limit, found.ratio))
     labels = (check.at_least_label, check.demand_label) if pair else (check.demand_label, check.limit_label)
@@ -154,7 +154,7 @@ def _said(told: Data, side: str) -> str:
     return with_unit(*told[f"{side}_display"].values())
 
 
-def _beside(calc: Calculation, check: Check, found: Judged, pair: int, part: int) -> str:
+def _beside(calc: Calculation, check: Check, found: JudgedCheck, pair: int, part: int) -> str:
     """The other bound of a two-sided check, in brackets; none of a curve, which has that at another place."""
     if check.at_least is None or (check.id, pair) in calc.judged:
         return ""
@@ -184,7 +184,7 @@ def _at(calc: Calculation, check: Check, pair: int) -> dict[str, str]:
     return {"symbol": axis.symbol, "text": text, "unit": axis.unit}
 
 
-def _further(calc: Calculation, check: Check, found: Judged, pair: int, part: int) -> Data:
+def _further(calc: Calculation, check: Check, found: JudgedCheck, pair: int, part: int) -> Data:
     """Of a curve the place where it governs; of a row the part that governs, and all parts."""
     if (check.id, pair) in calc.judged:
         return {"at": _at(calc, check, pair)}

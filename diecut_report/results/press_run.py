@@ -151,7 +151,11 @@ class Run:
         return substituted(instance, own, lambda node, _: self.values[node])
 
     def _validated(self, name: str, instance: Instance, data: Data) -> bool:
-        block, problems = validate(instance.model, data, instance.place)
+        try:
+            block, problems = validate(instance.model, data, instance.place)
+        except PluginError as error:
+            self._broke(instance, error.__cause__ or error)
+            return False
         self.problems += problems
         if block is not None:
             self.blocks[name] = block
@@ -165,7 +169,7 @@ class Run:
             self.results[name] = mechanism_results(self.calculations[name], self._provenance(instance))
         except Impossible as fault:
             for path, message in fault.reasons:
-                key = tuple(int(part) if part.isdigit() else part for part in path.split("."))
+                key = tuple(int(part) if part.isdigit() else part for part in path.split(".") if part)
                 self.problems.append(instance.place.problem(key, message))
         except (Exception, SystemExit) as cause:
             self._broke(instance, cause)

@@ -16,7 +16,6 @@ from __future__ import annotations
 import json
 import math
 from collections.abc import Mapping
-from dataclasses import dataclass, field
 from decimal import Decimal
 from functools import cache
 from itertools import pairwise
@@ -25,6 +24,11 @@ from types import MappingProxyType
 from typing import Any, NoReturn
 
 from diecut_report.quantities.units import UnitError, unit
+from diecut_report.standards.own_tables import own_series, own_table, table_beside
+from diecut_report.standards.tables import Column, StandardFault, StandardSeries, StandardTable, sources_told
+
+__all__ = ["Column", "StandardFault", "StandardSeries", "StandardTable", "own_series", "own_table", "sources_told", "standard_ids",
+           "standard_series", "standard_series_by", "standard_table", "table_beside"]  # fmt: skip
 
 DATA = Path(__file__).with_name("data")
 FORMS: dict[str, set[str]] = {  # form of a file: what else stands in it
@@ -46,34 +50,6 @@ SHAPES: dict[str, tuple[type, str]] = {  # key: how it is written
     "table": (dict, "a table of names"),
     "by": (dict, "a table of names"),
 }
-
-
-class StandardFault(ValueError):
-    """A data file that cannot be trusted, or an id that no file has; the text says which and what to mend."""
-
-
-@dataclass(frozen=True)
-class StandardSeries:
-    """Standard values in ascending order, in the display unit ``unit``, and the published tables that agree on them."""
-
-    id: str
-    title: str
-    unit: str
-    values: tuple[float, ...]
-    sources: tuple[str, ...]
-    left_out: str = ""
-
-
-@dataclass(frozen=True)
-class StandardTable:
-    """A standard value for each name, in the display unit ``unit``, and the published tables that agree on them."""
-
-    id: str
-    title: str
-    unit: str
-    values: Mapping[str, float] = field(hash=False)
-    sources: tuple[str, ...]
-    left_out: str = ""
 
 
 def standard_ids(form: str, folder: Path = DATA) -> tuple[str, ...]:
@@ -107,8 +83,11 @@ def standard_table(id: str, folder: Path = DATA) -> StandardTable:
     """The table of that id: a number for each name."""
     data = _file(id, folder)
     _need(id, data, "table")
-    values = {name: _number(id, value) for name, value in data["table"].items()}
-    return StandardTable(id, data["title"], data["unit"], MappingProxyType(values), *_provenance(data))
+    values = tuple(_number(id, value) for value in data["table"].values())
+    sources, left_out = _provenance(data)
+    return StandardTable(
+        id, data["title"], (Column("", data["unit"], values),), sources, left_out, tuple(data["table"])
+    )
 
 
 def _series(id: str, data: dict[str, Any], values: tuple[float, ...]) -> StandardSeries:

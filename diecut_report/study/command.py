@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any
 from diecut_report.config.discovery import Discovery
 from diecut_report.study.definition.study_file import Study, load_study
 from diecut_report.study.execution.refusals import refuse_empty, refuse_huge
-from diecut_report.study.execution.study_run import Counts, Outcome, Where, engine_for, run_study
+from diecut_report.study.execution.study_run import Counts, StudyOutcome, Where, engine_for, run_study
 from diecut_report.study.execution.variant_reports import write_reports
 from diecut_report.study.storage import state
 from diecut_report.study.storage.spreadsheets import export
@@ -91,7 +91,7 @@ def run(
     agreed: bool,
     formats: Sequence[str],
     shown: Shown,
-) -> Outcome:
+) -> StudyOutcome:
     """Run a study, or continue the one of a folder; then reports, summary and the other formats."""
     known = _loaded(study, directory, where)
     refuse_huge(known, agreed)

@@ -11,7 +11,7 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping
 
-from diecut_report.expressions import AS_ANGLE, AS_NUMBER, Formula, Node, evaluate, symbols
+from diecut_report.expressions import AS_ANGLE, AS_NUMBER, Formula, Node, evaluate, symbols, written
 from diecut_report.quantities.units import (
     DIMENSIONS,
     Kind,
@@ -25,7 +25,6 @@ ANGLE: Kind = unit("rad").kind
 Found = Kind | None
 LENGTH_AT, ANGLE_AT = DIMENSIONS.index("length"), DIMENSIONS.index("angle")
 TEXT_LENGTH = 60
-LOOSE = ("+", "-", "cmp", "*", "/", "neg")  # operations that stand in brackets within another one
 
 
 class KindError(ValueError):
@@ -170,23 +169,6 @@ class _Walk:
 SAID = {AS_NUMBER: 0, AS_ANGLE: 1}
 
 
-def _written(node: Node) -> str:
-    """An expression as a line of text, to show the author where in the formula."""
-    match node:
-        case Node("num" | "sym", (text,)):
-            return str(text)
-        case Node("call", (name, *args)):
-            return f"{name}({', '.join(map(_written, args))})"
-        case Node("cases", branches):
-            return f"where({', '.join(_written(part) for branch in branches for part in reversed(branch))})"
-        case Node("cmp", (sign, left, right)):
-            return f"{_written(left)} {sign} {_written(right)}"
-        case Node("neg" | "not", (inner,)):
-            return f"-{_written(inner)}" if node.op == "neg" else f"not {_written(inner)}"
-    left, right = (f"({_written(part)})" if part.op in LOOSE else _written(part) for part in node.args)
-    return f"{left} {node.op} {right}"
-
-
 def _shortened(node: Node) -> str:
-    text = _written(node)
+    text = written(node)
     return text if len(text) <= TEXT_LENGTH else text[: TEXT_LENGTH - 1] + "…"

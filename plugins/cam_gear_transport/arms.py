@@ -49,7 +49,7 @@ TAKES = ("dwell_angle", "sector_dwell_sweep", "sector_stop_sweep", "law_peak_vel
          "center_distance", "arm_length", "roller_radius", "arm_angle_1", "arm_angle_2", "max_pressure_angle")  # fmt: skip
 
 
-class Motion(NamedTuple):
+class ArmMotion(NamedTuple):
     """Samples over a cycle: the sector's angle, its speed in the cam's frame and its acceleration, both to the disc's."""
 
     angle: Any
@@ -69,13 +69,13 @@ def leaves_time(rocker: Rocker) -> bool:
     return times(rocker)[1] > rocker.least_return
 
 
-def motion(rocker: Rocker) -> Motion:
+def motion(rocker: Rocker) -> ArmMotion:
     """The sector's motion by its law; by all with these peaks, should several have them."""
     laws = [law for law in LAWS.values() if (rocker.peak_velocity, rocker.peak_acceleration) == (law.B, law.A)]
-    return Motion(*map(np.concatenate, zip(*(_by_law(rocker, law) for law in laws), strict=True)))
+    return ArmMotion(*map(np.concatenate, zip(*(_by_law(rocker, law) for law in laws), strict=True)))
 
 
-def _by_law(rocker: Rocker, law: MotionLaw) -> Motion:
+def _by_law(rocker: Rocker, law: MotionLaw) -> ArmMotion:
     rise, back = times(rocker)
     joints = np.concatenate([EIGHTHS, law.breakpoints])
     sweep, k = (
@@ -87,7 +87,7 @@ def _by_law(rocker: Rocker, law: MotionLaw) -> Motion:
     )
     starting = formulas.starting_angle(rocker.stop, position)
     dwelling = formulas.constant_speed(rocker.held, rocker.dwell) * np.ones_like(PLACES)
-    return Motion(
+    return ArmMotion(
         np.concatenate([rocker.held * PLACES, starting + rocker.held * (k > 0.5),
                         formulas.returning_angle(rocker.held, rocker.stop, sweep, position)]),
         1 + np.concatenate([dwelling, rocker.stop / (2 * pi * rise) * velocity, -sweep / (2 * pi * back) * velocity]),
@@ -95,7 +95,7 @@ def _by_law(rocker: Rocker, law: MotionLaw) -> Motion:
     )  # fmt: skip
 
 
-def pressure_angles(rocker: Rocker, cycle: Motion, length: float, arms: Any) -> Any:
+def pressure_angles(rocker: Rocker, cycle: ArmMotion, length: float, arms: Any) -> Any:
     """Greatest pressure angle of each arm angle; infinite where the arm crosses the line O₁O₃ or its cam undercuts or turns back."""
     direction = arms[:, None] + cycle.angle
     lowest = loads.lowest_direction(arms, rocker.stop)
@@ -107,7 +107,7 @@ def pressure_angles(rocker: Rocker, cycle: Motion, length: float, arms: Any) -> 
         return np.where(beside & _sound(rocker, cycle, length, direction), found, np.inf)
 
 
-def _sound(rocker: Rocker, cycle: Motion, length: float, direction: Any) -> Any:
+def _sound(rocker: Rocker, cycle: ArmMotion, length: float, direction: Any) -> Any:
     """Whether the roller touches the profile of each arm angle once."""
     path = cam.roller_path(rocker.center_distance, length, direction, cycle.turn)
     swing = cam.swing_part(direction, cycle.turn, cycle.bend)
@@ -116,7 +116,7 @@ def _sound(rocker: Rocker, cycle: Motion, length: float, direction: Any) -> Any:
     return (SOUND * rocker.roller_radius * curvature < 1) & (distance > SOUND * rocker.roller_radius)
 
 
-def _best(rocker: Rocker, cycle: Motion, length: float, arm: float, left: bool) -> tuple[float, float]:
+def _best(rocker: Rocker, cycle: ArmMotion, length: float, arm: float, left: bool) -> tuple[float, float]:
     """An arm's angle that passes, in °, and its pressure angle: as it is, or the best; infinite where none passes."""
     limit = rocker.accepted - CLEAR
     if (np.sin(arm + rocker.held / 2) > 0) == left:

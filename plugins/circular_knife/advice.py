@@ -15,7 +15,7 @@ ENOUGH = 1e-9  # share by which a limit itself is kept clear of
 
 
 @dataclass(frozen=True)
-class Range:
+class PlaceRange:
     """The board must not begin before ``nearest``, and the cut must not end after ``furthest`` (distances from the axis)."""
 
     nearest: float
@@ -32,19 +32,19 @@ def _down(length: float) -> float:
     return si(outward(length * (1 - ENOUGH) / si(1, "mm"), up=False), "mm")
 
 
-def _range(given: Range, length: float) -> str:
+def _range(given: PlaceRange, length: float) -> str:
     """The distances of the front edge for a cut of this length, in words; empty where there are none."""
     first, last = _up(given.nearest), _down(given.furthest - length)
     return f"a front_distance from {told(first, 'mm')} to {told(last, 'mm')}" if first <= last else ""
 
 
-def _shorter(given: Range, front: float) -> str:
+def _shorter(given: PlaceRange, front: float) -> str:
     """The cut that is possible from this front edge, in words; empty where there is none."""
     length = _down(given.furthest - front)
     return f"a cut_length of at most {told(length, 'mm')}" if front >= given.nearest and length > 0 else ""
 
 
-def placing(given: Range, front: float, length: float) -> str:
+def placing(given: PlaceRange, front: float, length: float) -> str:
     """What brings the cut into a range: another place, a shorter cut, or both; empty where nothing does."""
     ways = [way for way in (_shorter(given, front), _range(given, length)) if way]
     if ways:
@@ -61,12 +61,12 @@ def _end_at(slope: float, eccentricity: float, edge_radius: float, depth: float)
     return float(f.edge_position(angle, depth, eccentricity, edge_radius))
 
 
-def possible(eccentricity: float, edge_radius: float, depth: float, thickness: float) -> Range:
+def possible(eccentricity: float, edge_radius: float, depth: float, thickness: float) -> PlaceRange:
     """Between what distances the geometry lets the knife cut."""
     at_face = f.lowest_passes(eccentricity, depth - thickness, edge_radius)
     at_counter = f.lowest_passes(eccentricity, depth, edge_radius) + CLEAR * edge_radius
     reach = f.reach(edge_radius, eccentricity, depth) - CLEAR * edge_radius
-    return Range(max(float(at_face), float(at_counter)), float(reach))
+    return PlaceRange(max(float(at_face), float(at_counter)), float(reach))
 
 
 def clear_of_blade(eccentricity: float, edge_radius: float, depth: float, thickness: float) -> float:
@@ -74,7 +74,7 @@ def clear_of_blade(eccentricity: float, edge_radius: float, depth: float, thickn
     return float(np.sqrt(np.maximum((edge_radius - eccentricity) ** 2 - (depth - thickness) ** 2, 0)))
 
 
-def sound(eccentricity: float, edge_radius: float, depth: float, thickness: float, friction: float) -> Range:
+def sound(eccentricity: float, edge_radius: float, depth: float, thickness: float, friction: float) -> PlaceRange:
     """Between what distances all checks pass; that of the pushing out is left aside where no cut would meet it."""
     sizes = eccentricity, edge_radius, depth
     bounds = possible(*sizes, thickness)
@@ -86,7 +86,7 @@ def sound(eccentricity: float, edge_radius: float, depth: float, thickness: floa
     # 0: above a thick board the edge turns back before it gets to the counter-knife, and no cut is sound
     furthest = float(min(bounds.furthest, _end_at(f.greatest_shear_angle(), *sizes), runs_back))
     pushed = _end_at(f.expulsion_angle(friction), *sizes)
-    return Range(nearest, min(furthest, pushed) if _up(nearest) < _down(pushed) else furthest)
+    return PlaceRange(nearest, min(furthest, pushed) if _up(nearest) < _down(pushed) else furthest)
 
 
 def check_advice(*sizes: float) -> str:

@@ -22,7 +22,7 @@ NONE: Range = (np.inf, -np.inf)
 
 
 @dataclass(frozen=True)
-class Block:
+class RubberBlock:
     """A damper's numbers, SI; what is not given (a length, a hardness) has none, and a drive that does not push no force."""
 
     kinetic_energy: float
@@ -93,12 +93,12 @@ def advice(names: tuple[str, ...]) -> Callable[..., str]:
 
     def words(*numbers: float) -> str:
         with np.errstate(all="ignore"):
-            return against_failure(Block(**dict(zip(names, map(np.float64, numbers), strict=True))))
+            return against_failure(RubberBlock(**dict(zip(names, map(np.float64, numbers), strict=True))))
 
     return words
 
 
-def against_failure(block: Block) -> str:
+def against_failure(block: RubberBlock) -> str:
     """All changes of one kind that make every check pass, and the kinds of which none does."""
     lengths, rubbers = list(_lengths(block)), list(_rubbers(block))
     changes = [*lengths, *rubbers, *([] if lengths else [*_dampers(block), *_pad(block)])]
@@ -116,7 +116,7 @@ def _between(key: str, low: str, high: str) -> str:
     return f"set {key} to {low}" if low == high else f"set {key} to between {low} and {high}"
 
 
-def _lengths(block: Block) -> Iterator[str]:
+def _lengths(block: RubberBlock) -> Iterator[str]:
     """Lengths of this block that pass."""
     least = block.shortest(block.damper_count, block.ring_width * block.pad_height)
     low, high = outward(least, up=True), block.longest
@@ -130,7 +130,7 @@ def _lengths(block: Block) -> Iterator[str]:
             yield "leave adopted_length out, and the length is sized"
 
 
-def _rubbers(block: Block) -> Iterator[str]:
+def _rubbers(block: RubberBlock) -> Iterator[str]:
     """Moduli, or hardnesses, that pass with the length as it is now, or else with another one."""
     at_longest = f" with adopted_length: {told(block.longest, 'mm', DIGITS)}"
     sized = "" if block.adopted_length is None else " and leave adopted_length out"
@@ -142,7 +142,7 @@ def _rubbers(block: Block) -> Iterator[str]:
             return
 
 
-def _rubber(block: Block, moduli: Range) -> str:
+def _rubber(block: RubberBlock, moduli: Range) -> str:
     """Moduli as the key that is given takes them; nothing where there is none."""
     key, display, limits, digits = "elastic_modulus", "MPa", moduli, (3, DIGITS)
     if not 0 < moduli[0] <= moduli[1]:
@@ -168,7 +168,7 @@ def _hardness(modulus: float) -> float:
     return float(brentq(lambda hardness: f.gent_modulus(hardness) - modulus, softest, hardest))
 
 
-def _dampers(block: Block) -> Iterator[str]:
+def _dampers(block: RubberBlock) -> Iterator[str]:
     """More dampers of this pad, with their length."""
     area, longest, stress = block.ring_width * block.pad_height, block.longest, block.stress_limit
     demanded = 2 * block.kinetic_energy * block.elastic_modulus / (longest * stress) + 2 * block.driving_force
@@ -179,7 +179,7 @@ def _dampers(block: Block) -> Iterator[str]:
         yield f"take {whole} dampers of this pad with adopted_length: {told(length, 'mm', DIGITS)}"
 
 
-def _pad(block: Block) -> Iterator[str]:
+def _pad(block: RubberBlock) -> Iterator[str]:
     """A square pad whose length of three sides passes: n·[σ]·b³ − 2F·b = 2W·E/(3[σ])."""
     borne = block.damper_count * block.stress_limit
     still = (2 * block.kinetic_energy * block.elastic_modulus / (3 * block.stress_limit * borne)) ** (1 / 3)

@@ -8,7 +8,7 @@ from diecut_report.api import Annotated, Block, FromPress, Inputs, OneOf, Quanti
 from diecut_report.plugins.damper.formulas import USUAL_LOSS, half_the_sheets
 
 
-class Drive(Block):
+class DriveBlock(Block):
     """A drive that still pushes while the dampers stop the mass: its force, or its torque and the rolling radius."""
 
     one_of: ClassVar[tuple[OneOf, ...]] = (OneOf(("force",), ("torque", "rolling_radius")),)
@@ -93,4 +93,4 @@ class Damper(Inputs):
             press=FromPress("press.productivity", half_the_sheets, optional=True),
         ),
     ] = None
-    drive: Drive | None = None
+    drive: DriveBlock | None = None

@@ -34,7 +34,7 @@ speeds.value("driven_diameter_exact", "d_2′", "mm", "Diameter of the driven pu
              bind(lambda vbelt_ratio, driver_diameter: vbelt_ratio * driver_diameter, driver_diameter="vbelt.driver_diameter"), source="kinematics",
              output=False)
 speeds.pick("driven_diameter", "d_2", "mm", "Datum diameter of the driven pulley", "nearest", of="driven_diameter_exact", series=advice.PULLEYS,
-            source="R40 series")
+            beyond="last", source="R40 series")
 speeds.value("vbelt_ratio_actual", "i_b′", "1", "Ratio of the V-belt with this diameter",
              bind(lambda driven_diameter, driver_diameter: driven_diameter / driver_diameter, driver_diameter="vbelt.driver_diameter"),
              source="kinematics")

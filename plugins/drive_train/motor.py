@@ -13,7 +13,7 @@ motor_chapter = Chapter("Motor")
 motor_chapter.value("power_required", "P_req", "kW", "Required power of the motor, with the reserve",
                     lambda shaft_1_power, reserve_factor: shaft_1_power * reserve_factor, source="this method")
 motor_chapter.pick("motor_power", "P_r", "kW", "Rated power of the motor", "above", of="power_required", series=motor_advice.RATINGS,
-                   source="IEC 60072-1")
+                   beyond="last", source="IEC 60072-1")
 motor_chapter.value("motor_rated_torque", "M_r", "N*m", "Rated torque of the motor", lambda motor_power, shaft_1_speed: motor_power / shaft_1_speed,
                     source="mechanics")
 motor_chapter.value("motor_peak_torque", "M_1,peak", "N*m", "Peak torque of the output, referred to the motor",

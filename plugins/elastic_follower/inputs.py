@@ -9,7 +9,7 @@ from diecut_report.api import POINTS, CurveInput, Inputs, OneOf, Quantity, Text
 from diecut_report.mechanics.motion_laws import LAWS
 
 
-class Motion(OneOf):
+class GivenMotion(OneOf):
     """The motion of the input: one rise by a law, or a curve, which has no use for the law."""
 
     def fault(self, given: Iterable[str]) -> str:
@@ -25,7 +25,7 @@ class ElasticFollower(Inputs):
 
     one_of: ClassVar[tuple[OneOf, ...]] = (
         OneOf(("inertia",), ("mass",)),
-        Motion(("rise", "rise_time"), ("motion_curve",)),
+        GivenMotion(("rise", "rise_time"), ("motion_curve",)),
     )
 
     inertia: Annotated[

@@ -16,14 +16,14 @@ STILL = 1e-9  # share of the motion's range within which it rests
 POINTS = 33  # of a smooth piece
 
 
-class Pieces(NamedTuple):
+class RestPieces(NamedTuple):
     """A motion's smooth pieces: edges (variants, pieces + 1), and positions in each (variants, pieces, points)."""
 
     edges: Array
     positions: Array
 
 
-def pieces(curve: Curve) -> Pieces:
+def pieces(curve: Curve) -> RestPieces:
     """The smooth pieces of a motion over its period."""
     inner = np.clip(curve.breakpoints, 0, 1)
     ends = np.ones((len(inner), 1))
@@ -33,7 +33,7 @@ def pieces(curve: Curve) -> Pieces:
     places = edges[:, :-1, None] + np.diff(edges, axis=1)[:, :, None] * share
     around = np.broadcast_to(middle[:, :, None], places.shape)
     flat = (len(edges), -1)
-    return Pieces(edges, curve.values(places.reshape(flat), around.reshape(flat), None).reshape(places.shape))
+    return RestPieces(edges, curve.values(places.reshape(flat), around.reshape(flat), None).reshape(places.shape))
 
 
 def moving(curve: Curve) -> tuple[Array, Array]:

@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 from diecut_report.api import Check
-from diecut_report.plugins.knife_drive.working import ALL, Drive
+from diecut_report.plugins.knife_drive.working import ALL, DriveKind
 
 
-def of_drive(drive: Drive) -> tuple[Check, ...]:
+def of_drive(drive: DriveKind) -> tuple[Check, ...]:
     """Paper in the working stroke, paper in the grip, depth, time on the table."""
     own, name = drive.key, f"{drive.name[0].upper()}{drive.name[1:]}"
     return (

@@ -16,7 +16,7 @@ from diecut_report.plugins.knife_drive.working import (
     CRANK_SLIDER,
     PLANETARY,
     SIGNATURE_BEYOND_DEPTH,
-    Drive,
+    DriveKind,
     Drives,
     grips,
     groups,
@@ -44,7 +44,7 @@ def _indexed(symbol: str, index: str) -> str:
     return f"{symbol}{',' if '_' in symbol else '_'}{index}"
 
 
-def _is_best(drive: Drive, *, allowed: bool = False) -> Binding:
+def _is_best(drive: DriveKind, *, allowed: bool = False) -> Binding:
     """The condition that a drive's peak is the least one (and one that the paper stands)."""
     own, best = f"{drive.key}_{PEAK}", f"best_{PEAK}"
     if allowed:
@@ -77,7 +77,7 @@ def _best(drives: Drives) -> Steps:
     return steps
 
 
-def _ratios(drive: Drive) -> Steps:
+def _ratios(drive: DriveKind) -> Steps:
     """A drive's numbers to those of the best one, where there is another to compare it with."""
     steps = Steps()
     for name, symbol, title, _ in COMPARED:
@@ -89,7 +89,7 @@ def _ratios(drive: Drive) -> Steps:
     return steps
 
 
-def _with_another(drive: Drive) -> list[tuple[Drives, tuple[str, ...]]]:
+def _with_another(drive: DriveKind) -> list[tuple[Drives, tuple[str, ...]]]:
     """Groups of drives, one of which is always given where this one and another are: each with what it must lack."""
     one, two = (d for d in ALL if d is not drive)
     return [((drive, one), ()), ((drive, two), (one.key,))]
@@ -108,7 +108,7 @@ def _verdict(drives: Drives) -> Steps:
     return steps
 
 
-def _alone(drive: Drive) -> Steps:
+def _alone(drive: DriveKind) -> Steps:
     """A drive that is given alone is the best one."""
     given: dict[str, Any] = {"needs": (drive.key,), "lacks": lacking((drive,))}
     stands = bind(common.is_at_most, smaller=f"{drive.key}_{PEAK}", greater=ALLOWED)

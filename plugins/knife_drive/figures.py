@@ -10,7 +10,7 @@ import numpy as np
 from diecut_report.api import Chart, Drawing, Shape, View, chart_panel, fill, level, line, mark, vertical
 from diecut_report.plugins.knife_drive.drawing import CRANK_ROCKER_DRAWN, CRANK_SLIDER_DRAWN, PLANETARY_DRAWN
 from diecut_report.plugins.knife_drive.table import table
-from diecut_report.plugins.knife_drive.working import ALL, CRANK_ROCKER, CRANK_SLIDER, PLANETARY, Drive
+from diecut_report.plugins.knife_drive.working import ALL, CRANK_ROCKER, CRANK_SLIDER, PLANETARY, DriveKind
 
 Values = Any
 CURVES = (("displacement", "Displacement of the edge", "mm", "S"), ("velocity", "Velocity of the edge", "m/s", "V"),
@@ -20,7 +20,7 @@ TURN = 2 * np.pi
 AROUND = np.linspace(0, TURN, 721)
 
 
-def given(view: View) -> list[Drive]:
+def given(view: View) -> list[DriveKind]:
     """The drives that are calculated."""
     return [drive for drive in ALL if f"{drive.key}_stroke" in view]
 
@@ -30,7 +30,7 @@ def at(view: View, curve: str, places: Values) -> Values:
     return np.interp(places, view.curve("crank_angle"), view.curve(curve), period=TURN)
 
 
-def over_turn(drive: Drive) -> Callable[[View], list[Shape]]:
+def over_turn(drive: DriveKind) -> Callable[[View], list[Shape]]:
     """Displacement, velocity and acceleration of a drive over its crank angle, the working stroke shaded."""
 
     def build(view: View) -> list[Shape]:
@@ -76,7 +76,7 @@ def _off_table(view: View) -> float:
 
 
 def _common(
-    view: View, title: str, unit: str, psi: Values, curves: dict[Drive, Values], more: list[Shape], **notes: Any
+    view: View, title: str, unit: str, psi: Values, curves: dict[DriveKind, Values], more: list[Shape], **notes: Any
 ) -> Shape:
     """The curves of all drives in one diagram; under each its working stroke is shaded."""
     fills: list[Shape] = []

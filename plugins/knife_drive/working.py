@@ -18,7 +18,7 @@ from diecut_report.plugins.knife_drive import formulas
 DRIVES = ("planetary", "crank_slider", "crank_rocker")
 
 
-class Drive(NamedTuple):
+class DriveKind(NamedTuple):
     """A drive: its block's key, its name in words, its letter in figure 1 of the source, what makes its stroke greater."""
 
     key: str
@@ -27,11 +27,11 @@ class Drive(NamedTuple):
     longer: str
 
 
-PLANETARY = Drive("planetary", "planetary drive", "a", "a greater carrier_radius")
-CRANK_SLIDER = Drive("crank_slider", "crank-slider", "b", "a greater crank_radius")
-CRANK_ROCKER = Drive("crank_rocker", "crank-rocker", "c", "a longer knife_arm or a wider swing")
+PLANETARY = DriveKind("planetary", "planetary drive", "a", "a greater carrier_radius")
+CRANK_SLIDER = DriveKind("crank_slider", "crank-slider", "b", "a greater crank_radius")
+CRANK_ROCKER = DriveKind("crank_rocker", "crank-rocker", "c", "a longer knife_arm or a wider swing")
 ALL = (PLANETARY, CRANK_SLIDER, CRANK_ROCKER)
-Drives = tuple[Drive, ...]
+Drives = tuple[DriveKind, ...]
 
 
 def groups(least: int = 1) -> tuple[Drives, ...]:
@@ -101,7 +101,7 @@ SIGNATURE_BEYOND_DEPTH.require("signature_beyond_depth", lambda working_depth, s
                                        "the table; make signature_length greater than that", needs=("signature_length",))
 
 
-def reaches(drive: Drive) -> Steps:
+def reaches(drive: DriveKind) -> Steps:
     """The edge must rise above the table."""
     steps = Steps()
     steps.require("rises", lambda working_depth, stroke: working_depth <= stroke, key="working_depth",
@@ -110,7 +110,7 @@ def reaches(drive: Drive) -> Steps:
     return steps
 
 
-def grips(drive: Drive) -> Steps:
+def grips(drive: DriveKind) -> Steps:
     """The rollers grip what the knife has pushed to them."""
     steps = Steps()
     steps.require(f"{drive.key}_grips", bind(common.is_at_most, smaller="grip_angle", greater=f"{drive.key}_working_angle"), key="grip_angle",
@@ -121,7 +121,7 @@ def grips(drive: Drive) -> Steps:
     return steps
 
 
-def of_drive(drive: Drive, own: Iterable[Step]) -> Chapter:
+def of_drive(drive: DriveKind, own: Iterable[Step]) -> Chapter:
     """The chapter of a drive: its own motion, then the working stroke."""
     family = (*own, *WORKING)
     chapter = Chapter(f"{drive.name[0].upper()}{drive.name[1:]}", needs=(drive.key,), absent=f"The {drive.name}: there is no block {drive.key}.")
@@ -129,7 +129,7 @@ def of_drive(drive: Drive, own: Iterable[Step]) -> Chapter:
     return chapter
 
 
-def _told_apart(step: Step, drive: Drive) -> Step:
+def _told_apart(step: Step, drive: DriveKind) -> Step:
     """The step with the drive's letter in its symbol and, where it is a result, the drive's name in its description."""
     name, said = f"{drive.name[0].upper()}{drive.name[1:]}", step.description
     return replace(

@@ -12,20 +12,20 @@ from typing import Any
 import numpy as np
 
 from diecut_report.study.execution.in_flight import Warm
-from diecut_report.study.storage.description import Column, Description, Source
+from diecut_report.study.storage.description import Description, ResultColumn, StudySource
 
 SPEED, MASS = "mechanisms.drive.crank_speed", "cylinder.mass"
 COLUMNS = (
-    Column(SPEED, "float", "rad/s", symbol="ω", description="Crank speed"),
-    Column(MASS, "float", "kg"),
-    Column("train.teeth", "int"),
-    Column("drive.reversed", "bool"),
-    Column("drive.law", "text"),
+    ResultColumn(SPEED, "float", "rad/s", symbol="ω", description="Crank speed"),
+    ResultColumn(MASS, "float", "kg"),
+    ResultColumn("train.teeth", "int"),
+    ResultColumn("drive.reversed", "bool"),
+    ResultColumn("drive.law", "text"),
 )
 
 
-def source(file: str, text: str) -> Source:
-    return Source(file, sha256(text.encode()).hexdigest(), text.encode())
+def source(file: str, text: str) -> StudySource:
+    return StudySource(file, sha256(text.encode()).hexdigest(), text.encode())
 
 
 def description(rows: int = 100, chunk: int = 10, **other: Any) -> Description:

@@ -10,27 +10,27 @@ from typing import Any
 
 import numpy as np
 
-from diecut_report.study.storage.description import Column, Description, Source
+from diecut_report.study.storage.description import Description, ResultColumn, StudySource
 from diecut_report.study.storage.store import Store
 
 SPEED, BORE, LAW = "mechanisms.drive.crank_speed", "mechanisms.cylinder.bore_radius", "mechanisms.drive.motion_law"
 INPUTS = (
-    Column(SPEED, "float", "rad/s", "rpm", "n", "Speed of the crank"),
-    Column(BORE, "float", "m", "mm", "R_b", "Radius of the bore (below the radius)"),
-    Column(LAW, "text", description="Law of motion"),
+    ResultColumn(SPEED, "float", "rad/s", "rpm", "n", "Speed of the crank"),
+    ResultColumn(BORE, "float", "m", "mm", "R_b", "Radius of the bore (below the radius)"),
+    ResultColumn(LAW, "text", description="Law of motion"),
 )
 RESULTS = (
-    Column("cylinder.mass", "float", "kg", symbol="m", description="Mass of the cylinder"),
-    Column("cylinder.radius", "float", "m", "mm", "R", "Radius"),
-    Column("cylinder.checks.wall.utilisation", description="Wall at the flat: utilisation"),
-    Column("cylinder.checks.wall.status", "text", description="Wall at the flat: verdict"),
-    Column("drive.crank_torque_peak", "float", "N*m", symbol="M_max", description="Greatest torque"),
-    Column("drive.power_peak", "float", "W", symbol="P_max", description="Greatest power"),
-    Column("drive.slip", "bool", description="Whether the clutch slips"),
-    Column("drive.idle_ratio", "float", description="Idle ratio"),
-    Column("drive.crank_torque", "curve", "N*m", description="Torque over a turn"),
-    Column("drive.checks.play.utilisation", description="Play of the joints: utilisation"),
-    Column("drive.checks.play.status", "text", description="Play of the joints: verdict"),
+    ResultColumn("cylinder.mass", "float", "kg", symbol="m", description="Mass of the cylinder"),
+    ResultColumn("cylinder.radius", "float", "m", "mm", "R", "Radius"),
+    ResultColumn("cylinder.checks.wall.utilisation", description="Wall at the flat: utilisation"),
+    ResultColumn("cylinder.checks.wall.status", "text", description="Wall at the flat: verdict"),
+    ResultColumn("drive.crank_torque_peak", "float", "N*m", symbol="M_max", description="Greatest torque"),
+    ResultColumn("drive.power_peak", "float", "W", symbol="P_max", description="Greatest power"),
+    ResultColumn("drive.slip", "bool", description="Whether the clutch slips"),
+    ResultColumn("drive.idle_ratio", "float", description="Idle ratio"),
+    ResultColumn("drive.crank_torque", "curve", "N*m", description="Torque over a turn"),
+    ResultColumn("drive.checks.play.utilisation", description="Play of the joints: utilisation"),
+    ResultColumn("drive.checks.play.status", "text", description="Play of the joints: verdict"),
 )
 BASE = """\
 schema_version: 1
@@ -105,13 +105,13 @@ def _without_broken(columns: Mapping[str, Any], bore: Any) -> dict[str, Any]:
 
 
 def written(
-    folder: Path, columns: Sequence[Column], values: Mapping[str, Any], parts: int = 1, text: str = STUDY, **facts: Any
+    folder: Path, columns: Sequence[ResultColumn], values: Mapping[str, Any], parts: int = 1, text: str = STUDY, **facts: Any
 ) -> Path:  # fmt: skip
     """A study's folder with these values, through the store; ``text`` is its study file, ``facts`` are what a run notes in study.json."""
     count = len(values["status"])
     every = max(1, -(-count // parts))
-    study = Source("study.yaml", sha256(text.encode()).hexdigest(), text.encode())
-    kept = Source("press.yaml", sha256(BASE.encode()).hexdigest(), BASE.encode())
+    study = StudySource("study.yaml", sha256(text.encode()).hexdigest(), text.encode())
+    kept = StudySource("press.yaml", sha256(BASE.encode()).hexdigest(), BASE.encode())
     store = Store.create(folder, Description(study, kept, tuple(columns), count, every))
     with store.lock():
         for index in range(store.description.parts):

@@ -5,15 +5,15 @@ from __future__ import annotations
 import pytest
 
 from diecut_report.errors import UserError
-from diecut_report.study.analysis.stored_variants import Column
+from diecut_report.study.analysis.stored_variants import StoredColumn
 from diecut_report.study.conditions.where import condition
 
 COLUMNS = {
     column.name: column
     for column in (
-        Column("a.error", "float", "1", "%"),
-        Column("a.ratio", "float"),
-        Column("a.gap", "float", "m", "mm"),
+        StoredColumn("a.error", "float", "1", "%"),
+        StoredColumn("a.ratio", "float"),
+        StoredColumn("a.gap", "float", "m", "mm"),
     )
 }
 

@@ -163,7 +163,7 @@ def test_a_plugin_that_breaks_in_a_full_report_alone_is_told(
 ) -> None:
     made = pipeline.report
 
-    def broken(*given: Any) -> pipeline.Outcome:
+    def broken(*given: Any) -> pipeline.ReportOutcome:
         return replace(made(*given), broken=(PluginError("KeyError: 'figure'", "breaking", "m"),))
 
     monkeypatch.setattr(pipeline, "report", broken)

@@ -92,10 +92,21 @@ def rounding(mechanism: dict[str, Any], unit: str) -> float:
     return 1e-12 * max(alike, default=0.0)
 
 
-@pytest.mark.slow
+@pytest.mark.parametrize(("name", "count"), [("flat_cylinder_press.yaml", 6), ("elastic_transport.yaml", 3)])
+def test_each_machine_among_many_is_the_one_alone(name: str, count: int) -> None:
+    """Through references from mechanism to mechanism; each kind on its own is held to it in tests/plugins/test_contract.py."""
+    check_rows(name, count)
+
+
+@pytest.mark.nightly
 @pytest.mark.parametrize("name", VARIED)
-def test_each_machine_among_many_is_the_one_alone(name: str) -> None:
-    base, count = config(name), 16
+def test_each_machine_among_more_is_the_one_alone(name: str) -> None:
+    check_rows(name, 16)
+
+
+def check_rows(name: str, count: int) -> None:
+    """Hold the rows of machines against the results of each."""
+    base = config(name)
     values = drawn(name, count)
     rows = together(base, values, count)
     assert not rows.slow

@@ -17,7 +17,7 @@ from hypothesis import strategies as st
 
 from diecut_report.errors import UserError
 from diecut_report.expressions import Node as Expression
-from diecut_report.study.analysis.stored_variants import Column
+from diecut_report.study.analysis.stored_variants import StoredColumn
 from diecut_report.study.conditions.constraints import Term, parse
 from diecut_report.study.conditions.numpy_emitter import judged
 from diecut_report.study.conditions.parts import Name
@@ -30,15 +30,15 @@ from diecut_report.study.conditions.words import ConditionError
 COLUMNS = {
     column.name: column
     for column in (
-        Column("n", "int"),
-        Column("gap", "float", "m", "mm"),
-        Column("my-drive.gap", "float", "m", "mm"),
-        Column("mass", "float", "kg", "kg"),
-        Column("speed", "float", "rad/s", "rpm"),
-        Column("share", "float", "1", "%"),
-        Column("ratio", "float"),
-        Column("law", "text"),
-        Column("slip", "bool"),
+        StoredColumn("n", "int"),
+        StoredColumn("gap", "float", "m", "mm"),
+        StoredColumn("my-drive.gap", "float", "m", "mm"),
+        StoredColumn("mass", "float", "kg", "kg"),
+        StoredColumn("speed", "float", "rad/s", "rpm"),
+        StoredColumn("share", "float", "1", "%"),
+        StoredColumn("ratio", "float"),
+        StoredColumn("law", "text"),
+        StoredColumn("slip", "bool"),
     )
 }
 ROWS: dict[str, list[Any]] = {

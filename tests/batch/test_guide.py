@@ -9,13 +9,12 @@ from pathlib import Path
 import pytest
 
 from diecut_report.config.discovery import Discovery
-from diecut_report.study.analysis.stored_variants import Column
+from diecut_report.study.analysis.stored_variants import StoredColumn
 from diecut_report.study.conditions.where import condition
 from diecut_report.study.definition.study_file import Study, load_study
 from diecut_report.study.execution.study_run import result_columns, varied_columns
 from tests.configs import EXAMPLE, STUDIES, saved
 
-pytestmark = pytest.mark.repository
 GUIDE = Path(__file__).parents[2] / "docs" / "studies.md"
 
 
@@ -40,11 +39,11 @@ def test_its_study_is_valid(example: Study) -> None:
 def test_its_questions_can_be_asked(guide: str) -> None:
     known = load_study(STUDIES[0], Discovery([]))
     columns = {
-        c.name: Column(c.name, c.kind, c.unit)
+        c.name: StoredColumn(c.name, c.kind, c.unit)
         for c in (*varied_columns(known), *result_columns(known))
         if c.kind != "curve"
     }
-    columns |= {name: Column(name, "text") for name in ("status", "governing")}
+    columns |= {name: StoredColumn(name, "text") for name in ("status", "governing")}
     questions = re.findall(r"""`"([^`]*)"`""", guide)
     assert len(questions) == 3
     for question in questions:

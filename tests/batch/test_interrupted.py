@@ -21,15 +21,15 @@ import pytest
 from tests.configs import GOOD, LEVER, saved
 from tests.processes import until
 
-ROWS = 200_000
+ROWS = 120_000
 SPENT = 60  # seconds after which a run hangs
-PARTS = 25  # files, of at most 8192 variants
+PARTS = 16  # files, of at most 8192 variants
 STUDY = """\
 schema_version: 1
 base: press.yaml
 sample: {method: grid}
 vary:
-  mechanisms.a.force: {from: 1 kN, to: 3 kN, count: 200000}
+  mechanisms.a.force: {from: 1 kN, to: 3 kN, count: 120000}
 """
 TABLE = """\
 schema_version: 1
@@ -41,13 +41,17 @@ vary:
 """
 
 
+ROOT = Path(__file__).parents[2]
+PLACE = os.environ | {"PYTHONPATH": str(ROOT)}
+
+
 def command(*arguments: str | Path) -> list[str]:
-    return [sys.executable, "-m", "diecut_report", "batch", *map(str, arguments), "--plugins", str(GOOD)]
+    return [sys.executable, "-m", "tests.batch.without_summary", "batch", *map(str, arguments), "--plugins", str(GOOD)]
 
 
 def finished(*arguments: str | Path) -> subprocess.CompletedProcess[str]:
     """The command, run to its end."""
-    return subprocess.run(command(*arguments), capture_output=True, text=True, timeout=SPENT, check=False)
+    return subprocess.run(command(*arguments), capture_output=True, text=True, timeout=SPENT, check=False, env=PLACE)
 
 
 @contextmanager
@@ -56,7 +60,8 @@ def begun(folder: Path, parts: int) -> Iterator[subprocess.Popen[str]]:
     saved(folder, LEVER)
     study = saved(folder, STUDY, "study.yaml")
     asked = command(study, "-o", folder / "out", "--jobs", "2")
-    with subprocess.Popen(asked, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, process_group=0) as run:
+    pipes = {"stdout": subprocess.PIPE, "stderr": subprocess.PIPE}
+    with subprocess.Popen(asked, **pipes, text=True, process_group=0, env=PLACE) as run:
         try:
             until(lambda: len(stored(folder / "out")) >= parts or run.poll() is not None, SPENT)
             assert run.poll() is None
@@ -97,7 +102,6 @@ def end(run: subprocess.Popen[str], by: Callable[[], None]) -> tuple[str, str]:
     return said
 
 
-@pytest.mark.slow
 def test_killed_run_is_continued_without_its_study(tmp_path: Path) -> None:
     out = tmp_path / "out"
     with begun(tmp_path, 5) as run:
@@ -111,13 +115,12 @@ def test_killed_run_is_continued_without_its_study(tmp_path: Path) -> None:
     assert 5 <= len(before) < PARTS
     run_again = finished("--resume", out)
     after = stored(out)
-    assert (run_again.returncode, run_again.stdout) == (0, "") and "200000 variants: 200000 pass" in run_again.stderr
+    assert (run_again.returncode, run_again.stdout) == (0, "") and "120000 variants: 120000 pass" in run_again.stderr
     assert {name for name in before if after[name] != before[name]} == {damaged}
     assert len(after) == PARTS and are_complete(out)
 
 
-@pytest.mark.slow
-@pytest.mark.parametrize("whole_group", [True, False])
+@pytest.mark.parametrize("whole_group", [True, pytest.param(False, marks=pytest.mark.nightly)])
 def test_interrupted_run_says_how_to_continue_and_is_continued(tmp_path: Path, whole_group: bool) -> None:
     """Ctrl-C reaches all processes of a terminal; `kill -INT` only the one that it names."""
     out = tmp_path / "out"
@@ -132,7 +135,6 @@ def test_interrupted_run_says_how_to_continue_and_is_continued(tmp_path: Path, w
     assert before.items() <= stored(out).items() and are_complete(out)
 
 
-@pytest.mark.slow
 def test_second_run_in_a_folder_is_refused_and_the_first_goes_on(tmp_path: Path) -> None:
     out = tmp_path / "out"
     with begun(tmp_path, 2) as run:
@@ -145,7 +147,6 @@ def test_second_run_in_a_folder_is_refused_and_the_first_goes_on(tmp_path: Path)
     assert run.returncode == 0 and are_complete(out)
 
 
-@pytest.mark.slow
 def test_changed_study_is_refused_with_what_changed(tmp_path: Path) -> None:
     out = tmp_path / "out"
     with begun(tmp_path, 2) as run:
@@ -155,20 +156,29 @@ def test_changed_study_is_refused_with_what_changed(tmp_path: Path) -> None:
     refused = finished(study, "--resume", out)
     assert refused.returncode == 2
     assert "study.yaml: The study file has changed since the results were begun." in refused.stderr
-    assert "+  mechanisms.a.force: {from: 1 kN, to: 4 kN, count: 200000}" in refused.stderr
+    assert "+  mechanisms.a.force: {from: 1 kN, to: 4 kN, count: 120000}" in refused.stderr
     assert stored(out) == before
 
 
-@pytest.mark.slow
+@pytest.mark.nightly
+@pytest.mark.parametrize("after", [1, 3, 5, 8, 10])
+def test_run_killed_at_any_time_is_continued(tmp_path: Path, after: int) -> None:
+    out = tmp_path / "out"
+    with begun(tmp_path, after) as run:
+        end(run, run.kill)
+    before = stored(out)
+    assert finished("--resume", out).returncode == 0
+    assert before.items() <= stored(out).items() and are_complete(out)
+
+
 def test_killed_worker_is_replaced(tmp_path: Path) -> None:
     with begun(tmp_path, 2) as run:
         workers = [each for each in psutil.Process(run.pid).children() if "spawn_main" in " ".join(each.cmdline())]
         workers[0].kill()
         said = run.communicate(timeout=SPENT)
-    assert run.returncode == 0 and "200000 variants" in said[1] and are_complete(tmp_path / "out")
+    assert run.returncode == 0 and "120000 variants" in said[1] and are_complete(tmp_path / "out")
 
 
-@pytest.mark.slow
 def test_tables_are_kept_with_the_results(tmp_path: Path) -> None:
     """Two tables of one name, one of them outside of the study's folder; workers get them too."""
     place = tmp_path / "studies"

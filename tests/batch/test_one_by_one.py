@@ -43,6 +43,7 @@ def test_each_machine_is_calculated_and_the_kind_is_named(tmp_path: Path) -> Non
     assert list(rows.status[~is_high]) == ["pass" if width >= 2 else "fail" for width in w[~is_high]]
 
 
+@pytest.mark.usefixtures("with_html_summary")
 def test_the_command_and_its_summary_tell_it(tmp_path: Path, capfd: pytest.CaptureFixture[str]) -> None:
     study(tmp_path, STUDY, BASE, Discovery([FOLDER]))
     assert main(["batch", str(tmp_path / "study.yaml"), "-o", str(tmp_path / "out"), "--plugins", str(FOLDER)]) == 1

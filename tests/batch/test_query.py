@@ -20,10 +20,10 @@ from diecut_report.config.discovery import Discovery
 from diecut_report.config.yaml_tree import Tree
 from diecut_report.errors import UserError
 from diecut_report.study.analysis.query import variants
-from diecut_report.study.analysis.stored_variants import Column as Read
+from diecut_report.study.analysis.stored_variants import StoredColumn as Read
 from diecut_report.study.analysis.variant_config import variant_config
 from diecut_report.study.conditions.where import condition
-from diecut_report.study.storage.description import Column, Kind
+from diecut_report.study.storage.description import Kind, ResultColumn
 from tests.batch.stored_study import BORE, SPEED, calculated, many, ten, written
 
 
@@ -279,7 +279,7 @@ BASES: dict[str, tuple[str, Kind, Any, Any]] = {
 @pytest.mark.parametrize("name", BASES)
 def test_a_value_goes_where_its_path_leads(tmp_path: Path, name: str) -> None:
     path, kind, value, expected = BASES[name]
-    column = Column(path, kind, "m" if path.startswith("press") else "1", "%" if path.endswith("slip") else "")
+    column = ResultColumn(path, kind, "m" if path.startswith("press") else "1", "%" if path.endswith("slip") else "")
     out = written(tmp_path / "out", [column], {path: [value], "status": ["pass"]}, varied=[path])
     data = taken(out, 0).data
     for key in path.split("."):

@@ -13,7 +13,7 @@ from typing import Any
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 from scipy import stats
 
@@ -21,12 +21,13 @@ from diecut_report.expressions import Array
 from diecut_report.study.analysis.sensitivity import sobol_indices
 from diecut_report.study.sampling import methods
 from diecut_report.study.sampling.methods import Sample, SampleError
-from diecut_report.study.sampling.variables import Choice, Normal, Range, Triangular, Uniform, Variable
+from diecut_report.study.sampling.variables import ChoiceVariable, Normal, RangeVariable, Triangular, Uniform, Variable
+from tests.examples import examples
 
-SPEED = Range("drive.crank_speed", 4.0, 12.0, 5)
-RADIUS = Choice("cylinder.bore_radius", (0.055, 0.06, 0.065))
-LAW = Choice("drive.motion_law", ("cycloidal", "harmonic"))
-TEETH = Range("train.teeth", 17, 23, 4, integer=True)
+SPEED = RangeVariable("drive.crank_speed", 4.0, 12.0, 5)
+RADIUS = ChoiceVariable("cylinder.bore_radius", (0.055, 0.06, 0.065))
+LAW = ChoiceVariable("drive.motion_law", ("cycloidal", "harmonic"))
+TEETH = RangeVariable("train.teeth", 17, 23, 4, integer=True)
 MIXED: tuple[Variable, ...] = (
     SPEED,
     LAW,
@@ -39,8 +40,10 @@ SAMPLES: dict[str, Callable[[int], Sample]] = {
     "latin hypercube": lambda count: methods.latin_hypercube(MIXED, count, seed=3),
     "sobol": lambda count: methods.sobol(MIXED, count, seed=3),
     "indices": lambda count: methods.sobol(MIXED, count, seed=3, indices=True),
-    "grid": lambda count: methods.grid([LAW, Range("x", 0.0, 1.0, count), TEETH]),
-    "zip": lambda count: methods.zipped([Range("y", 2.0, 5.0, count), Range("x", 1.0, 0.1, count, log=True)]),
+    "grid": lambda count: methods.grid([LAW, RangeVariable("x", 0.0, 1.0, count), TEETH]),
+    "zip": lambda count: methods.zipped(
+        [RangeVariable("y", 2.0, 5.0, count), RangeVariable("x", 1.0, 0.1, count, log=True)]
+    ),
     "table": lambda count: methods.table({"x": np.arange(count) * 0.1, "law": [f"law {i}" for i in range(count)]}),
 }
 SHARES = (np.arange(200_000) + 0.5) / 200_000
@@ -72,7 +75,7 @@ def test_a_grid_is_the_product_with_the_first_path_slowest() -> None:
 
 
 def test_a_grid_of_a_million_by_a_million_says_its_size_and_gives_its_last_row() -> None:
-    sample = methods.grid([Range("a", 0.0, 1.0, 10**6), Range("b", 5.0, 7.0, 10**6), LAW])
+    sample = methods.grid([RangeVariable("a", 0.0, 1.0, 10**6), RangeVariable("b", 5.0, 7.0, 10**6), LAW])
     assert sample.count == 2 * 10**12
     last = sample.rows(sample.count - 3, sample.count)
     assert list(last["a"]) == [1.0, 1.0, 1.0]
@@ -81,7 +84,7 @@ def test_a_grid_of_a_million_by_a_million_says_its_size_and_gives_its_last_row()
 
 
 def test_zipped_lists_go_together() -> None:
-    sample = methods.zipped([RADIUS, Range("x", 3.0, 1.0, 3)])
+    sample = methods.zipped([RADIUS, RangeVariable("x", 3.0, 1.0, 3)])
     assert as_lists(whole(sample)) == {"cylinder.bore_radius": [0.055, 0.06, 0.065], "x": [3.0, 2.0, 1.0]}
 
 
@@ -93,25 +96,27 @@ def test_a_table_gives_its_own_rows() -> None:
 
 def test_a_range_has_both_ends_and_equal_steps_or_ratios() -> None:
     number = np.arange(7)
-    np.testing.assert_allclose(Range("x", 0.1, 0.7, 7).at(number), np.linspace(0.1, 0.7, 7), rtol=1e-15)
-    np.testing.assert_allclose(Range("x", 0.1, 30.0, 7, log=True).at(number), np.geomspace(0.1, 30.0, 7), rtol=1e-14)
-    ends = Range("x", 0.3, 0.7, 7, log=True).at(np.array([0, 6]))
+    np.testing.assert_allclose(RangeVariable("x", 0.1, 0.7, 7).at(number), np.linspace(0.1, 0.7, 7), rtol=1e-15)
+    np.testing.assert_allclose(
+        RangeVariable("x", 0.1, 30.0, 7, log=True).at(number), np.geomspace(0.1, 30.0, 7), rtol=1e-14
+    )
+    ends = RangeVariable("x", 0.3, 0.7, 7, log=True).at(np.array([0, 6]))
     assert list(ends) == [0.3, 0.7]
 
 
 @pytest.mark.parametrize("log", [False, True])
 def test_the_ends_of_a_range_are_exactly_those_given_and_nothing_lies_beyond(log: bool) -> None:
     for low, high in np.random.default_rng(4).uniform(0.01, 3.0, (300, 2)).tolist():
-        values = Range("x", low, high, 7, log=log).at(np.arange(7))
+        values = RangeVariable("x", low, high, 7, log=log).at(np.arange(7))
         assert (values[0], values[-1]) == (low, high)
-        drawn = numbers(Range("x", low, high, log=log), np.array([1e-300, 1 - 1e-16]))
+        drawn = numbers(RangeVariable("x", low, high, log=log), np.array([1e-300, 1 - 1e-16]))
         assert min(low, high) <= drawn.min() <= drawn.max() <= max(low, high)
 
 
 @pytest.mark.parametrize("integer", [False, True])
 @pytest.mark.parametrize("log", [False, True])
 def test_a_descending_range_descends(integer: bool, log: bool) -> None:
-    drawn = numbers(Range("x", 9, 2, log=log, integer=integer), np.array([0.01, 0.3, 0.6, 0.99]))
+    drawn = numbers(RangeVariable("x", 9, 2, log=log, integer=integer), np.array([0.01, 0.3, 0.6, 0.99]))
     assert list(drawn) == sorted(drawn, reverse=True)
     assert drawn[0] > 8.5
 
@@ -119,7 +124,7 @@ def test_a_descending_range_descends(integer: bool, log: bool) -> None:
 @given(st.integers(-50, 50), st.integers(1, 60), st.data())
 def test_whole_numbers_of_a_range_are_different_and_nearest_to_equal_steps(low: int, span: int, data: Any) -> None:
     count = data.draw(st.integers(2, span + 1))
-    values = Range("x", low, low + span, count, integer=True).at(np.arange(count))
+    values = RangeVariable("x", low, low + span, count, integer=True).at(np.arange(count))
     assert len(set(values)) == count
     assert np.all(values == np.round(values))
     np.testing.assert_allclose(values, np.linspace(low, low + span, count), atol=0.5 + 1e-9)
@@ -131,7 +136,7 @@ def test_whole_numbers_of_a_range_are_different_and_nearest_to_equal_steps(low: 
 
 @pytest.mark.parametrize("kind", SAMPLES)
 @given(st.integers(2, 60), st.data())
-@settings(max_examples=15)
+@examples(15)
 def test_chunks_give_the_same_rows_as_the_whole(kind: str, count: int, data: Any) -> None:
     sample = SAMPLES[kind](count)
     cuts = data.draw(st.lists(st.integers(0, sample.count), max_size=5).map(sorted))
@@ -161,29 +166,32 @@ def test_another_seed_gives_other_rows(method: Callable[..., Sample]) -> None:
     assert not np.isclose(one, two).any()
 
 
-@pytest.mark.slow
+MANY_ROWS = pytest.mark.parametrize("count", [200_000, pytest.param(1_000_000, marks=pytest.mark.nightly)])
+
+
+@MANY_ROWS
 @pytest.mark.parametrize("kind", ["sobol", "indices", "grid", "zip"])
-def test_a_million_rows_need_no_more_memory_than_a_chunk(kind: str) -> None:
-    sample, size = SAMPLES[kind](1_000_000), 10_000
+def test_many_rows_need_no_more_memory_than_a_chunk(kind: str, count: int) -> None:
+    sample, size = SAMPLES[kind](count), count // 50
     sample.rows(0, size)  # imports and caches
     tracemalloc.start()
-    for start in range(0, 1_000_000, size):
+    for start in range(0, count, size):
         sample.rows(start, start + size)
     peak = tracemalloc.get_traced_memory()[1]
     tracemalloc.stop()
     assert peak < 60 * 8 * size
 
 
-@pytest.mark.slow
-def test_a_latin_hypercube_holds_one_number_for_each_row_and_path() -> None:
-    sample = methods.latin_hypercube(MIXED, 1_000_000, seed=77)
+@MANY_ROWS
+def test_a_latin_hypercube_holds_one_number_for_each_row_and_path(count: int) -> None:
+    sample = methods.latin_hypercube(MIXED, count, seed=77)
     tracemalloc.start()
-    for start in range(0, 1_000_000, 10_000):
+    for start in range(0, count, 10_000):
         sample.rows(start, start + 10_000)
     held, peak = tracemalloc.get_traced_memory()
     tracemalloc.stop()
-    assert held < 1.1 * 8 * 1_000_000 * len(MIXED)
-    assert peak < 2 * 8 * 1_000_000 * len(MIXED)
+    assert held < 1.1 * 8 * count * len(MIXED)
+    assert peak < 2 * 8 * count * len(MIXED)
 
 
 # --- drawn samples ---------------------------------------------------------------------------------------------------
@@ -227,9 +235,9 @@ def test_a_large_latin_hypercube_says_how_much_it_holds() -> None:
 CUT = stats.truncnorm(-1.5, 2.0, loc=3.0, scale=0.2)
 DISTRIBUTIONS: list[tuple[Variable, Any]] = [
     (Uniform("x", 2.0, 5.0), stats.uniform(2.0, 3.0)),
-    (Range("x", 2.0, 5.0), stats.uniform(2.0, 3.0)),
-    (Range("x", 5.0, 2.0), stats.uniform(2.0, 3.0)),
-    (Range("x", 0.1, 10.0, log=True), stats.loguniform(0.1, 10.0)),
+    (RangeVariable("x", 2.0, 5.0), stats.uniform(2.0, 3.0)),
+    (RangeVariable("x", 5.0, 2.0), stats.uniform(2.0, 3.0)),
+    (RangeVariable("x", 0.1, 10.0, log=True), stats.loguniform(0.1, 10.0)),
     (Normal("x", 3.0, 0.2), stats.norm(3.0, 0.2)),
     (Normal("x", 3.0, 0.2, low=2.7, high=3.4), CUT),
     (Normal("x", 3.0, 0.2, low=2.9), stats.truncnorm(-0.5, np.inf, loc=3.0, scale=0.2)),
@@ -262,7 +270,7 @@ def test_a_truncated_normal_has_the_mean_of_its_formula() -> None:
 def test_values_never_leave_their_limits(share: float) -> None:
     for variable, low, high in (
         (Uniform("x", 0.1, 0.7), 0.1, 0.7),
-        (Range("x", 0.7, 0.1, log=True), 0.1, 0.7),
+        (RangeVariable("x", 0.7, 0.1, log=True), 0.1, 0.7),
         (Normal("x", 0.1, 0.2, low=0.1, high=0.7), 0.1, 0.7),
         (Triangular("x", 0.1, 0.1, 0.7), 0.1, 0.7),
         (Normal("x", 5, 3, low=1, high=9, integer=True), 1, 9),
@@ -273,11 +281,15 @@ def test_values_never_leave_their_limits(share: float) -> None:
 
 @pytest.mark.parametrize(
     "variable",
-    [Uniform("x", 17, 23, integer=True), Range("x", 23, 17, 4, integer=True), Choice("x", (17.0, 20.0, 23.0))],
+    [
+        Uniform("x", 17, 23, integer=True),
+        RangeVariable("x", 23, 17, 4, integer=True),
+        ChoiceVariable("x", (17.0, 20.0, 23.0)),
+    ],
 )
 def test_whole_numbers_and_lists_are_drawn_evenly(variable: Variable) -> None:
     counted = Counter(numbers(variable, (np.arange(2100) + 0.5) / 2100))
-    expected = [17.0, 20.0, 23.0] if isinstance(variable, Choice) else [float(i) for i in range(17, 24)]
+    expected = [17.0, 20.0, 23.0] if isinstance(variable, ChoiceVariable) else [float(i) for i in range(17, 24)]
     assert counted == dict.fromkeys(expected, 2100 // len(expected))
 
 
@@ -292,7 +304,7 @@ def test_whole_numbers_of_a_normal_take_the_share_of_their_step() -> None:
 
 
 def test_whole_numbers_of_a_log_range_take_the_share_of_their_ratio() -> None:
-    counted = Counter(numbers(Range("x", 1, 8, log=True, integer=True)))
+    counted = Counter(numbers(RangeVariable("x", 1, 8, log=True, integer=True)))
     for value in range(1, 9):
         expected = math.log((value + 0.5) / (value - 0.5)) / math.log(8.5 / 0.5)
         assert counted[value] / len(SHARES) == pytest.approx(expected, abs=1e-5)
@@ -378,23 +390,23 @@ def test_what_does_not_vary_has_no_indices(values: Array) -> None:
 # --- what cannot be --------------------------------------------------------------------------------------------------
 
 WRONG: dict[str, Callable[[], object]] = {
-    "the list is empty": lambda: Choice("x", ()),
-    "mixes numbers and texts": lambda: Choice("x", (1.0, "a")),  # type: ignore[arg-type]
-    "not a finite number": lambda: Choice("x", (1.0, math.nan)),
-    "to must be a finite number": lambda: Range("x", 1.0, math.inf),
-    "from and to above zero": lambda: Range("x", 0.0, 1.0, 3, log=True),
-    "count must be 1 or more": lambda: Range("x", 0.0, 1.0, 0),
-    "from and to differ": lambda: Range("x", 0.0, 1.0, 1),
-    "to must be a whole number": lambda: Range("x", 1, 2.5, integer=True),
-    "holds 4 whole numbers, count: 5": lambda: Range("x", 1, 4, 5, integer=True),
-    "only 7 different whole numbers": lambda: Range("x", 1, 10, 8, log=True, integer=True),
+    "the list is empty": lambda: ChoiceVariable("x", ()),
+    "mixes numbers and texts": lambda: ChoiceVariable("x", (1.0, "a")),  # type: ignore[arg-type]
+    "not a finite number": lambda: ChoiceVariable("x", (1.0, math.nan)),
+    "to must be a finite number": lambda: RangeVariable("x", 1.0, math.inf),
+    "from and to above zero": lambda: RangeVariable("x", 0.0, 1.0, 3, log=True),
+    "count must be 1 or more": lambda: RangeVariable("x", 0.0, 1.0, 0),
+    "from and to differ": lambda: RangeVariable("x", 0.0, 1.0, 1),
+    "to must be a whole number": lambda: RangeVariable("x", 1, 2.5, integer=True),
+    "holds 4 whole numbers, count: 5": lambda: RangeVariable("x", 1, 4, 5, integer=True),
+    "only 7 different whole numbers": lambda: RangeVariable("x", 1, 10, 8, log=True, integer=True),
     "low must be below high": lambda: Uniform("x", 2.0, 2.0),
     "sd .* above zero": lambda: Normal("x", 2.0, 0.0),
     "more than 8 standard deviations": lambda: Normal("x", 2.0, 0.1, low=3.0),
     "mode must lie between": lambda: Triangular("x", 1.0, 5.0, 2.0),
     "no list of values for sample: grid": lambda: methods.grid([SPEED, Uniform("x", 0.0, 1.0)]),
     "no list of values for sample: zip": lambda: methods.zipped([Normal("x", 0.0, 1.0)]),
-    "count is missing; sample: grid": lambda: methods.grid([Range("x", 0.0, 1.0)]),
+    "count is missing; sample: grid": lambda: methods.grid([RangeVariable("x", 0.0, 1.0)]),
     "drive.crank_speed has 5, cylinder.bore_radius has 3": lambda: methods.zipped([SPEED, RADIUS]),
     "varied more than once": lambda: methods.sobol([SPEED, SPEED], 8),
     "nothing is varied": lambda: methods.grid([]),

@@ -32,7 +32,6 @@ from diecut_report.api import (
     Require,
     Running,
     StandardSeries,
-    StandardTable,
     Text,
     Total,
     Value,
@@ -42,6 +41,7 @@ from diecut_report.api import (
     chart_panel,
     formula,
     line,
+    own_table,
 )
 from diecut_report.mechanics import common
 
@@ -49,7 +49,7 @@ SERIES = {
     "rope": StandardSeries("rope", "Rope lengths", "m", (5, 10, 20), ("Table one", "Table two")),
     "chain": StandardSeries("chain", "Chain lengths", "m", (8, 16), ("Table three", "Table four")),
 }
-WEIGHTS = StandardTable("weights", "Weights", "kg", {"rope": 0.5, "chain": 2.0}, ("Table one", "Table two"))
+WEIGHTS = own_table(title="Weights", unit="kg", rows={"rope": 0.5, "chain": 2.0}, sources=("Table one", "Table two"))
 
 
 class Post(Block):

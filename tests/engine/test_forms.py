@@ -17,7 +17,7 @@ from diecut_report.engine import calculate
 from diecut_report.errors import UserError
 from diecut_report.pipeline import calc as run
 from diecut_report.report.equations import Equations
-from diecut_report.report.i18n import Words
+from diecut_report.report.i18n import Catalogue
 from diecut_report.results.mechanism import mechanism_results
 from tests.configs import problems, saved
 from tests.engine.swing import MECHANISM, Swing
@@ -177,7 +177,7 @@ def item(key: str, name: str) -> dict[str, Any]:
 
 
 def equation(of: dict[str, Any]) -> tuple[str, str]:
-    typeset = Equations(Words("en"), lambda latex: 0.0).of(of)
+    typeset = Equations(Catalogue("en"), lambda latex: 0.0).of(of)
     assert typeset is not None
     return typeset.latex, typeset.text
 

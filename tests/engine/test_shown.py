@@ -12,7 +12,7 @@ from diecut_report.config.loader import load_config
 from diecut_report.engine.printing.items import section_items
 from diecut_report.report.chapters import chapter as chapter_of
 from diecut_report.report.equations import Equations
-from diecut_report.report.i18n import Words
+from diecut_report.report.i18n import Catalogue
 from diecut_report.report.latex import Linear
 from diecut_report.report.typeset import Typesetter
 from diecut_report.results.mechanism import mechanism_results
@@ -73,6 +73,6 @@ def test_constants_stand_with_their_value_and_unit_among_the_numbers() -> None:
 
 def test_the_report_says_at_the_chapters_head_where_curves_are_shown() -> None:
     results = mechanism_results(drive(**UNBALANCED), {})
-    part = chapter_of("A", "drive", results, Equations(Words("en"), Typesetter().measure), Words("en"))
+    part = chapter_of("A", "drive", results, Equations(Catalogue("en"), Typesetter().measure), Catalogue("en"))
     said = [section.shown for section in part.sections if section.shown]
     assert said and all(words.startswith("Curves are shown at φ = ") and words.endswith("°.") for words in said)

@@ -8,13 +8,14 @@ from typing import NamedTuple
 
 import numpy as np
 import pytest
-from hypothesis import assume, given, settings
+from hypothesis import assume, given
 from hypothesis import strategies as st
 from scipy.optimize import brentq
 from scipy.spatial import ConvexHull
 
 from diecut_report.expressions import Array
 from diecut_report.mechanics import belt_path
+from tests.examples import examples
 
 
 class Layout(NamedTuple):
@@ -201,20 +202,20 @@ def test_the_length_is_that_of_the_drawn_path(belt: Layout) -> None:
 
 
 @given(belt=hulls())
-@settings(max_examples=60, deadline=None)
+@examples(60)
 def test_a_belt_around_inside_pulleys_is_a_rubber_band(belt: Layout) -> None:
     fine = extrapolated(rubber_band(belt, 2000), rubber_band(belt, 4000))
     assert total(belt) == pytest.approx(fine, rel=1e-5)
 
 
 @given(belt=mixed())
-@settings(max_examples=30, deadline=None)
+@examples(30)
 def test_a_belt_with_an_idler_has_the_length_of_the_drawn_path(belt: Layout) -> None:
     assert total(belt) == pytest.approx(drawn_length(belt), rel=1e-8)
 
 
 @given(belt=mixed())
-@settings(max_examples=40, deadline=None)
+@examples(40)
 def test_an_idler_that_presses_on_the_belt_lengthens_it(belt: Layout) -> None:
     outside = int(np.argmin(belt.signed))
     without = Layout(*(np.delete(row, outside) for row in belt))
@@ -222,7 +223,7 @@ def test_an_idler_that_presses_on_the_belt_lengthens_it(belt: Layout) -> None:
 
 
 @given(belt=mixed())
-@settings(max_examples=40, deadline=None)
+@examples(40)
 def test_the_ends_of_runs_and_arcs_meet(belt: Layout) -> None:
     path = belt_path.path(*belt)
     for i in range(len(belt.x)):
@@ -240,7 +241,7 @@ def test_the_ends_of_runs_and_arcs_meet(belt: Layout) -> None:
 
 
 @given(belt=mixed(), angle=st.floats(-4, 4), dx=st.floats(-500, 500), dy=st.floats(-500, 500), by=st.integers(0, 6))
-@settings(max_examples=60, deadline=None)
+@examples(60)
 def test_turning_moving_and_counting_from_another_pulley_change_nothing(
     belt: Layout, angle: float, dx: float, dy: float, by: int
 ) -> None:
@@ -253,7 +254,7 @@ def test_turning_moving_and_counting_from_another_pulley_change_nothing(
 
 
 @given(belt=mixed())
-@settings(max_examples=40, deadline=None)
+@examples(40)
 def test_a_mirrored_layout_in_reversed_order_is_the_same_belt(belt: Layout) -> None:
     mirrored = Layout(-belt.x[::-1], belt.y[::-1], belt.signed[::-1])
     assert total(mirrored) == pytest.approx(total(belt), rel=1e-11)
@@ -268,7 +269,7 @@ FOUR = st.lists(st.tuples(PLACE, PLACE, RADIUS | RADIUS.map(lambda r: -r)), min_
 
 
 @given(listed=st.lists(FOUR, min_size=2, max_size=5))
-@settings(max_examples=40, deadline=None)
+@examples(40)
 def test_layouts_together_are_the_layouts_alone(listed: list[list[tuple[float, float, float]]]) -> None:
     belts = [SQUARE, *(layout(*pulleys) for pulleys in listed)]
     together = Layout(*(np.array([getattr(b, row) for b in belts]) for row in Layout._fields))
@@ -283,7 +284,7 @@ def test_layouts_together_are_the_layouts_alone(listed: list[list[tuple[float, f
 
 
 @given(belt=scattered())
-@settings(max_examples=150, deadline=None)
+@examples(150)
 def test_a_layout_is_possible_where_its_drawn_belt_is_simple_and_clear_of_the_pulleys(belt: Layout) -> None:
     polygon = drawn(belt, 90)
     centers = np.column_stack(belt[:2])
@@ -296,7 +297,7 @@ def test_a_layout_is_possible_where_its_drawn_belt_is_simple_and_clear_of_the_pu
 
 
 @given(belt=mixed())
-@settings(max_examples=30, deadline=None)
+@examples(30)
 def test_a_possible_belt_goes_once_round_the_inside_pulleys_and_not_round_the_others(belt: Layout) -> None:
     polygon = drawn(belt, 60)
     found = [winding_number(polygon, center) for center in np.column_stack(belt[:2])]
@@ -361,7 +362,7 @@ def test_a_run_that_passes_through_a_pulley_is_named() -> None:
 
 
 @given(distance=st.floats(0.05, 3), small=st.floats(0.01, 0.5), ratio=st.floats(1, 8))
-@settings(max_examples=100, deadline=None)
+@examples(100)
 def test_the_open_belt_in_both_forms_is_the_path_of_two_pulleys(distance: float, small: float, ratio: float) -> None:
     large = small * ratio
     assume(distance > 1.001 * (small + large))

@@ -7,7 +7,7 @@ from typing import Any
 
 import numpy as np
 import pytest
-from hypothesis import assume, given, settings
+from hypothesis import assume, given
 from hypothesis import strategies as st
 from scipy.optimize import minimize_scalar
 
@@ -142,7 +142,6 @@ def nearest(follower: Follower, center: complex, roller: float) -> float:
 
 
 @given(follower=FOLLOWERS, share=st.floats(0.05, 0.95), turn=st.floats(0, 6.2))
-@settings(deadline=None)
 def test_a_roller_within_the_bounds_touches_its_profile_and_never_cuts_it(
     follower: Follower, share: float, turn: float
 ) -> None:
@@ -153,7 +152,6 @@ def test_a_roller_within_the_bounds_touches_its_profile_and_never_cuts_it(
 
 
 @given(follower=FOLLOWERS, share=st.floats(1.1, 3))
-@settings(deadline=None)
 def test_a_greater_roller_than_the_radius_of_curvature_cuts_its_profile(follower: Follower, share: float) -> None:
     """Where it is sharpest the profile runs backwards, and the roller there overlaps other parts of it."""
     curvature = follower.curvature(TURN)

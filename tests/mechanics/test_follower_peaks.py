@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 import pytest
-from hypothesis import assume, given, settings
+from hypothesis import assume, given
 from hypothesis import strategies as st
 from scipy.integrate import solve_ivp
 from scipy.interpolate import CubicHermiteSpline
@@ -16,6 +16,7 @@ from scipy.interpolate import CubicHermiteSpline
 from diecut_report.expressions import Array, formula
 from diecut_report.mechanics.follower_peaks import peaks
 from diecut_report.mechanics.motion_laws import LAWS, MotionLaw, register
+from tests.examples import examples
 from tests.mechanics.closed_follower import WAVES, Wave, after, response, undamped_cycloidal
 
 BY_LAW = pytest.mark.parametrize("law", LAWS.values(), ids=lambda law: law.name)
@@ -103,7 +104,7 @@ def test_all_laws_as_scipy_integrates_them(law: MotionLaw) -> None:
     ratio=st.floats(0.1, 100),
     damping=st.one_of(st.just(0.0), st.floats(0, 0.95)),
 )
-@settings(max_examples=150, deadline=None)
+@examples(150)
 def test_no_place_exceeds_the_peak_and_the_best_of_many_comes_near(name: str, ratio: float, damping: float) -> None:
     """The greatest of many places is out by half the square of the step, at the fastest swing that there is."""
     wave = WAVES[name]

@@ -6,12 +6,13 @@ from typing import Any
 
 import numpy as np
 import pytest
-from hypothesis import assume, given, settings
+from hypothesis import assume, given
 from hypothesis import strategies as st
 from scipy.optimize import minimize_scalar
 
 from diecut_report.expressions import Array, Formula
 from diecut_report.mechanics import four_bar
+from tests.examples import examples
 
 PHI = np.linspace(0.0, 2 * np.pi, 721)[None, :]
 SHEET = (5.0, 5.0, 2.05)
@@ -28,7 +29,7 @@ def crank_rockers(draw: st.DrawFn) -> tuple[float, float, float]:
     return frame, coupler, rocker
 
 
-def closure(motion: four_bar.Motion, phi: Array, frame: float, coupler: float, rocker: float) -> Array:
+def closure(motion: four_bar.LinkageMotion, phi: Array, frame: float, coupler: float, rocker: float) -> Array:
     """What the vector loop crank + coupler − frame − rocker leaves open."""
     loop = np.exp(1j * phi) + coupler * np.exp(1j * motion.coupler_direction) - frame
     return np.abs(loop - rocker * np.exp(1j * motion.rocker_direction))
@@ -36,14 +37,14 @@ def closure(motion: four_bar.Motion, phi: Array, frame: float, coupler: float, r
 
 @pytest.mark.parametrize("branch", [1, -1])
 @given(ratios=crank_rockers())
-@settings(max_examples=80, deadline=None)
+@examples(80)
 def test_the_loop_closes_in_both_branches(branch: int, ratios: tuple[float, float, float]) -> None:
     motion = four_bar.motion(PHI, *ratios, branch=branch)
     assert np.max(closure(motion, PHI, *ratios)) < 1e-12 * max(ratios) * 10
 
 
 @given(ratios=crank_rockers())
-@settings(max_examples=80, deadline=None)
+@examples(80)
 def test_the_rocker_swings_between_its_dead_centres_without_a_jump(ratios: tuple[float, float, float]) -> None:
     motion = four_bar.motion(PHI, *ratios)
     swing = motion.rocker_direction - four_bar.outer_rocker_direction(*ratios)
@@ -53,7 +54,7 @@ def test_the_rocker_swings_between_its_dead_centres_without_a_jump(ratios: tuple
 
 
 @given(ratios=crank_rockers(), branch=st.sampled_from([1, -1]), phi=st.floats(0, 2 * np.pi))
-@settings(max_examples=150, deadline=None)
+@examples(150)
 def test_speeds_and_acceleration_are_the_derivatives(
     ratios: tuple[float, float, float], branch: int, phi: float
 ) -> None:
@@ -84,14 +85,14 @@ def test_dead_centres_in_closed_form_are_the_extremes_of_the_rocker(sign: int, c
 
 
 @given(ratios=crank_rockers())
-@settings(max_examples=80, deadline=None)
+@examples(80)
 def test_the_rocker_stands_still_at_its_dead_centres(ratios: tuple[float, float, float]) -> None:
     dead = np.array([four_bar.outer_dead_center(*ratios), four_bar.inner_dead_center(*ratios)])
     assert np.max(np.abs(four_bar.motion(dead, *ratios).rocker_speed_ratio)) < 1e-6
 
 
 @given(ratios=crank_rockers(), share=st.floats(0.01, 0.99))
-@settings(max_examples=80, deadline=None)
+@examples(80)
 def test_the_crank_angle_of_a_rocker_direction_is_the_inverse(ratios: tuple[float, float, float], share: float) -> None:
     frame, coupler, rocker = ratios
     direction = four_bar.outer_rocker_direction(*ratios) + share * four_bar.swing_angle(*ratios)
@@ -104,7 +105,7 @@ def test_the_crank_angle_of_a_rocker_direction_is_the_inverse(ratios: tuple[floa
 
 
 @given(ratios=crank_rockers())
-@settings(max_examples=80, deadline=None)
+@examples(80)
 def test_extremes_of_the_transmission_angle_bound_it(ratios: tuple[float, float, float]) -> None:
     mu = four_bar.motion(PHI, *ratios).transmission_angle
     assert np.min(mu) == pytest.approx(four_bar.least_transmission_angle(*ratios), abs=1e-7)

@@ -4,11 +4,12 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
 from diecut_report.expressions import Array
 from diecut_report.mechanics import slider_crank as sc
+from tests.examples import examples
 
 PHI = np.linspace(0.0, 2 * np.pi, 721)[None, :]
 RATIOS = st.floats(1.05, 20)
@@ -24,7 +25,7 @@ def slider(crank: Array, radius: float, rod: float) -> Array:
 
 
 @given(radius=RADII, ratio=RATIOS)
-@settings(max_examples=80, deadline=None)
+@examples(80)
 def test_displacements_close_the_loop_from_both_dead_centres(radius: float, ratio: float) -> None:
     rod, scale = radius * ratio, radius * (1 + ratio)
     beta, inner_beta = sc.coupler_angle(PHI, ratio), sc.inner_coupler_angle(PHI, 1 / ratio)
@@ -35,7 +36,7 @@ def test_displacements_close_the_loop_from_both_dead_centres(radius: float, rati
 
 
 @given(radius=RADII, ratio=RATIOS, speed=SPEEDS, phi=ANGLES)
-@settings(max_examples=200, deadline=None)
+@examples(200)
 def test_speeds_and_accelerations_are_the_derivatives(radius: float, ratio: float, speed: float, phi: float) -> None:
     step = 1e-4
     five = phi + step * np.array([-2, -1, 0, 1, 2])
@@ -55,7 +56,7 @@ def test_speeds_and_accelerations_are_the_derivatives(radius: float, ratio: floa
 
 
 @given(radius=RADII, ratio=RATIOS, speed=SPEEDS, phi=ANGLES)
-@settings(max_examples=80, deadline=None)
+@examples(80)
 def test_the_two_ways_to_count_are_half_a_turn_apart(radius: float, ratio: float, speed: float, phi: float) -> None:
     beta, inner_beta = sc.coupler_angle(phi + np.pi, ratio), sc.inner_coupler_angle(phi, 1 / ratio)
     scale = radius * speed**2 * 1e-10 * (1 + 1 / (ratio - 1))
@@ -70,7 +71,7 @@ def test_the_two_ways_to_count_are_half_a_turn_apart(radius: float, ratio: float
 
 
 @given(radius=RADII, ratio=st.floats(5, 10), speed=SPEEDS)
-@settings(max_examples=60, deadline=None)
+@examples(60)
 def test_the_first_order_form_is_out_by_the_cube_of_the_ratio(radius: float, ratio: float, speed: float) -> None:
     """Half the ratio r/l leaves at most a quarter of the difference, and about an eighth: the next term is of third order."""
 
@@ -100,7 +101,7 @@ def test_the_first_order_form_is_out_by_the_cube_of_the_ratio(radius: float, rat
 
 
 @given(radius=RADII, ratio=RATIOS, share=st.floats(0.0001, 0.9999))
-@settings(max_examples=100, deadline=None)
+@examples(100)
 def test_the_crank_angle_of_a_displacement_is_the_inverse(radius: float, ratio: float, share: float) -> None:
     rod, travel = radius * ratio, 2 * radius * share
     outer = sc.crank_angle_at(travel, radius, rod)
@@ -111,7 +112,7 @@ def test_the_crank_angle_of_a_displacement_is_the_inverse(radius: float, ratio: 
 
 
 @given(radius=RADII, ratio=RATIOS)
-@settings(max_examples=300, deadline=None)
+@examples(300)
 def test_a_whole_stroke_is_half_a_turn_and_none_is_none(radius: float, ratio: float) -> None:
     for angle_at in (sc.crank_angle_at, sc.inner_crank_angle_at):
         assert angle_at(2 * radius, radius, radius * ratio) == pytest.approx(np.pi, abs=1e-12)

@@ -9,47 +9,32 @@ import numpy as np
 from diecut_report.api import (
     GRAVITY,
     POINTS,
-    Abscissa,
-    Accumulated,
     Annotated,
     BarGroup,
     Bars,
     Block,
-    Breakpoints,
-    Case,
     Chapter,
     Check,
-    Choice,
-    Computed,
-    Crossings,
-    Derivative,
     Drawing,
     Erratum,
     Inputs,
     Level,
-    Lookup,
     Mark,
     Mechanism,
     OneOf,
     Panel,
-    Part,
-    Pick,
     Plot,
     Profile,
     Quantity,
-    Reduction,
-    Require,
-    Root,
-    Running,
     Series,
     Shape,
     Source,
     Text,
-    Total,
-    Value,
     View,
-    Words,
+    as_angle,
+    as_number,
     bind,
+    case,
     circle,
     formula,
     point,
@@ -58,6 +43,8 @@ from diecut_report.api import (
     told,
 )
 from diecut_report.mechanics import common
+
+# fmt: off
 
 # --- inputs
 
@@ -92,12 +79,8 @@ class Elevator(Inputs):
     bucket_volume: Annotated[float, Quantity("V", "L", "Volume of a bucket", gt=0)] = 14
     bucket_pitch: Annotated[float, Quantity("p", "mm", "Distance of the buckets", gt=0)] = 400
     filling: Annotated[float, Quantity("ψ", "%", "Share of a bucket that may be filled", gt=0, le=100)] = 75
-    scoop_start: Annotated[
-        float, Quantity("φ_1", "deg", "Turn of the drum at which a bucket enters the waste", ge=0, lt=360)
-    ] = 100
-    scoop_end: Annotated[
-        float, Quantity("φ_2", "deg", "Turn of the drum at which it leaves the waste", gt=0, le=360)
-    ] = 160
+    scoop_start: Annotated[float, Quantity("φ_1", "deg", "Turn of the drum at which a bucket enters the waste", ge=0, lt=360)] = 100
+    scoop_end: Annotated[float, Quantity("φ_2", "deg", "Turn of the drum at which it leaves the waste", gt=0, le=360)] = 160
     pretension: Annotated[float | None, Quantity("T_0", "N", "Pull of the take-up on each strand", ge=0)] = None
     chute_drop: Annotated[float, Quantity("h", "mm", "Chute's edge below the top of the head drum", gt=0)] = 600
     efficiency: Annotated[float, Quantity("η", "%", "Efficiency of gear and belt drive", gt=0, le=100)] = 90
@@ -105,69 +88,73 @@ class Elevator(Inputs):
     large_pulley: Annotated[float, Quantity("d_2", "mm", "Greater pulley of the belt drive", gt=0)] = 280
     wanted_centre: Annotated[float, Quantity("C_w", "mm", "Wanted distance of the pulleys' shafts", gt=0)] = 500
     allowable_pull: Annotated[float, Quantity("[T]", "kN", "Pull that the belt may carry", gt=0)] = 10
-    allowable_pulley_load: Annotated[
-        float, Quantity("[F_i]", "kN", "Load that each pulley's shaft may carry", gt=0)
-    ] = 6
-    allowable_torque: Annotated[float | None, Quantity("[M]", "N*m", "Torque that the head shaft may carry", gt=0)] = (
-        None
-    )
+    allowable_pulley_load: Annotated[float, Quantity("[F_i]", "kN", "Load that each pulley's shaft may carry", gt=0)] = 6
+    allowable_torque: Annotated[float | None, Quantity("[M]", "N*m", "Torque that the head shaft may carry", gt=0)] = None
     pulleys: Annotated[list[Pulley], Text("Pulleys that turn the belt, without the head drum")]
     backstop: Annotated[Backstop | None, Text("Backstop, which holds the belt when the drive stops")] = None
-    n_points: Annotated[int, POINTS] = 360  # fmt: skip
+    n_points: Annotated[int, POINTS] = 360
 
 
-# --- formulas
+# --- calculation
+
+conveying = Chapter("Conveying")
+conveying.value("mass_rate", "Q_m", "t/h", "Mass rate: as given", bind(common.same, quantity="capacity"), needs=("capacity",), source="input")
+conveying.value("mass_rate", "Q_m", "t/h", "Mass rate: of the volume", lambda volume_rate, bulk_density: volume_rate * bulk_density,
+                lacks=("capacity",))
+conveying.value("belt_speed", "v", "m/s", "Speed of the belt", lambda head_speed, head_diameter: head_speed * head_diameter / 2,
+                source="S1 eq. 1")
+conveying.value("bucket_load", "m_w", "kg", "Waste in a bucket",
+                lambda filling, bucket_volume, bulk_density: filling * bucket_volume * bulk_density, source="S1 eq. 2")
+conveying.value("filling_needed", "ψ_n", "%", "Filling that the mass rate needs",
+                lambda mass_rate, bucket_pitch, bulk_density, bucket_volume, belt_speed:
+                    mass_rate * bucket_pitch / (bulk_density * bucket_volume * belt_speed))
+conveying.value("waste_line_mass", "q_w", "kg/m", "Waste on the belt", lambda mass_rate, belt_speed: mass_rate / belt_speed)
+conveying.value("strand_line_mass", "q_s", "kg/m", "Belt with empty buckets",
+                lambda belt_mass, bucket_mass, bucket_pitch: belt_mass + bucket_mass / bucket_pitch)
+conveying.value("bucket_count", "z", "1", "Buckets on the belt",
+                lambda height, head_diameter, bucket_pitch: np.ceil((2 * height + np.pi * head_diameter) / bucket_pitch), whole=True)
 
 
-@formula
-def mass_rate(volume_rate: Any, bulk_density: Any) -> Any:
-    return volume_rate * bulk_density
+def against_overfilling(filling: float, needed: float) -> str:
+    return f"buckets that are {told(needed / filling - 1, '%', 2)} greater carry it"
 
 
-@formula
-def belt_speed(head_speed: Any, head_diameter: Any) -> Any:
-    return head_speed * head_diameter / 2
+conveying.words("filling_advice", against_overfilling, takes=("filling", "filling_needed"))
 
-
-@formula
-def bucket_load(filling: Any, bucket_volume: Any, bulk_density: Any) -> Any:
-    return filling * bucket_volume * bulk_density
-
-
-@formula
-def filling_needed(mass_rate: Any, bucket_pitch: Any, bulk_density: Any, bucket_volume: Any, belt_speed: Any) -> Any:
-    return mass_rate * bucket_pitch / (bulk_density * bucket_volume * belt_speed)
-
-
-@formula
-def waste_line_mass(mass_rate: Any, belt_speed: Any) -> Any:
-    return mass_rate / belt_speed
-
-
-@formula
-def strand_line_mass(belt_mass: Any, bucket_mass: Any, bucket_pitch: Any) -> Any:
-    return belt_mass + bucket_mass / bucket_pitch
-
-
-@formula
-def froude_number(head_speed: Any, head_diameter: Any) -> Any:
-    return head_speed**2 * head_diameter / (2 * GRAVITY)
-
-
-@formula
-def speed_limit(head_diameter: Any) -> Any:
-    return np.sqrt(2 * GRAVITY / head_diameter)
-
-
-@formula
-def pole_distance(head_speed: Any) -> Any:
-    return GRAVITY / head_speed**2
+discharge = Chapter("Discharge", text="The waste stays in the bucket as long as the bucket presses on it.")
+discharge.value("froude_number", "Fr", "1", "Froude number of the head drum",
+                lambda head_speed, head_diameter: as_number(head_speed) ** 2 * head_diameter / (2 * GRAVITY), source="S2 eq. 4")
+discharge.value("speed_limit", "ω_lim", "rad/s", "Speed from which waste is thrown at once",
+                lambda head_diameter: as_angle(np.sqrt(2 * GRAVITY / head_diameter)), output=False)
+discharge.require("not_thrown", lambda froude_number: froude_number < 1, key="head_speed",
+                  message="is {head_speed}, but from {speed_limit:down} on the waste is thrown before it is at the top; turn slower")
+discharge.value("pole_distance", "h_p", "mm", "Distance of the pole of discharge", lambda head_speed: GRAVITY / as_number(head_speed) ** 2)
+discharge.choice("discharge", "K", "1", "Discharge is",
+                 case("by gravity", "the pole is above the buckets", lambda head_diameter, pole_distance: head_diameter < pole_distance),
+                 case("mixed", "the pole is among the buckets"), source="S2 table 1")
+discharge.abscissa("angle", "φ", "deg", "Turn of the head drum from the top", period=2 * np.pi)
 
 
 @formula
 def normal_force(bucket_load: Any, angle: Any, head_speed: Any, head_diameter: Any) -> Any:
-    centripetal = head_speed**2 * head_diameter / 2
+    centripetal = as_number(head_speed) ** 2 * head_diameter / 2
     return bucket_load * (GRAVITY * np.cos(angle) - centripetal)
+
+
+def falling_time(speed: Any, drop: Any) -> Any:
+    """Seconds in which a body that leaves the drum's top level falls to the chute's edge."""
+    return np.sqrt(2 * drop / GRAVITY) + 0 * speed
+
+
+discharge.value("normal_force", "N_w", "N", "Force of the bucket on the waste", normal_force)
+discharge.crossings("release", "φ_r", "deg", "Where the waste leaves the bucket", of="normal_force")
+discharge.derivative("force_slope", "N_w′", "N/rad", "Change of that force", of="normal_force")
+discharge.reduction("press_max", "N_max", "N", "Greatest force on the waste", "max", of="normal_force")
+discharge.value("rim_x", "x", "mm", "Rim of the drum, across", lambda head_diameter, angle: head_diameter / 2 * np.sin(angle))
+discharge.value("rim_y", "y", "mm", "Rim of the drum, upwards", lambda head_diameter, angle: head_diameter / 2 * np.cos(angle))
+discharge.computed("fall_time", "t_f", "s", "Fall of the waste to the chute", falling_time, takes=("belt_speed", "chute_drop"),
+                   method="the root of the free fall's parabola")
+discharge.value("throw", "s_f", "mm", "How far the waste flies meanwhile", lambda belt_speed, fall_time: belt_speed * fall_time)
 
 
 @formula
@@ -175,70 +162,50 @@ def hanging_weight(line_mass: Any, height: Any) -> Any:
     return line_mass * GRAVITY * height
 
 
-@formula
-def is_scooping(angle: Any, scoop_start: Any, scoop_end: Any) -> Any:
-    return (angle > scoop_start) & (angle < scoop_end)
+pull = Chapter("Pull")
+pull.lookup("scoop_height", "h_s", "m", "Height that scooping counts for", {"board": 4, "paper": 3, "foil": 6}, by="material",
+            source="S1 table 3")
+pull.lookup("head_friction", "f", "1", "Friction of the belt on the drum", {"bare": 0.2, "rubber": 0.3}, by="lagging", source="S1 table 5")
+pull.value("lift_force", "F_l", "N", "Weight of the waste that is lifted", bind(hanging_weight, line_mass="waste_line_mass"))
+pull.value("scoop_force", "F_s", "N", "Mean force of scooping",
+           bind(hanging_weight, line_mass="waste_line_mass", height="scoop_height"))
+pull.value("strand_weight", "G_s", "N", "Weight of a strand", bind(hanging_weight, line_mass="strand_line_mass"))
+pull.value("pulley_load", "F_i", "N", "Load of a pulley's shaft",
+           bind(lambda strand_weight, wrap: 2 * strand_weight * np.sin(wrap / 2), wrap="pulleys.wrap"), source="S1 eq. 7")
+pull.value("journal_loss", "U_i", "N", "Pull that a pulley's journals take",
+           bind(lambda pulley_load, friction, journal, diameter: pulley_load * friction * journal / diameter,
+                friction="pulleys.journal_friction", journal="pulleys.journal_diameter", diameter="pulleys.diameter"))
+pull.total("journal_losses", "U_j", "N", "Pull that all journals take", "sum", of="journal_loss")
+pull.running("losses_so_far", "ΣU_i", "N", "Losses up to each pulley", "sum", of="journal_loss")
+pull.part("foot_load", "F_f", "N", "Load of the first pulley's shaft", of="pulley_load", index=0)
+pull.value("circumferential_pull", "U", "N", "Pull at the head drum",
+           lambda lift_force, scoop_force, journal_losses: lift_force + scoop_force + journal_losses)
+pull.value("euler_ratio", "k_e", "1", "Ratio of pulls that friction holds",
+           lambda head_friction, head_wrap: np.exp(head_friction * as_number(head_wrap)))
+pull.value("slack_needed", "T_n", "N", "Pull of the slack strand that is needed",
+           lambda circumferential_pull, euler_ratio: circumferential_pull / (euler_ratio - 1))
+pull.value("slack_pull", "T_2", "N", "Pull of the slack strand: its weight", bind(common.same, quantity="strand_weight"),
+           lacks=("pretension",))
+pull.value("slack_pull", "T_2", "N", "Pull of the slack strand: weight and take-up",
+           lambda strand_weight, pretension: strand_weight + pretension, needs=("pretension",))
+pull.value("tight_pull", "T_1", "N", "Pull of the tight strand",
+           lambda slack_pull, circumferential_pull: slack_pull + circumferential_pull)
+pull.value("lagging_pressure", "p_L", "MPa", "Pressure on the rubber",
+           lambda tight_pull, slack_pull, head_diameter, belt_width: (tight_pull + slack_pull) / (head_diameter * belt_width),
+           needs=("lagging=rubber",))
 
-
-@formula
-def scoop_pull(is_scooping: Any, scoop_force: Any, scoop_start: Any, scoop_end: Any) -> Any:
-    return np.where(is_scooping > 0, scoop_force * 2 * np.pi / (scoop_end - scoop_start), 0 * scoop_force)
-
-
-@formula
-def shaft_torque(lift_force: Any, scoop_pull: Any, head_diameter: Any) -> Any:
-    return (lift_force + scoop_pull) * head_diameter / 2
-
-
-@formula
-def rim_x(head_diameter: Any, angle: Any) -> Any:
-    return head_diameter / 2 * np.sin(angle)
-
-
-@formula
-def rim_y(head_diameter: Any, angle: Any) -> Any:
-    return head_diameter / 2 * np.cos(angle)
-
-
-@formula
-def pulley_load(strand_weight: Any, wrap: Any) -> Any:
-    return 2 * strand_weight * np.sin(wrap / 2)
-
-
-@formula
-def journal_loss(pulley_load: Any, friction: Any, journal: Any, diameter: Any) -> Any:
-    return pulley_load * friction * journal / diameter
-
-
-@formula
-def circumferential_pull(lift_force: Any, scoop_force: Any, journal_losses: Any) -> Any:
-    return lift_force + scoop_force + journal_losses
-
-
-@formula
-def euler_ratio(head_friction: Any, head_wrap: Any) -> Any:
-    return np.exp(head_friction * head_wrap)
-
-
-@formula
-def slack_needed(circumferential_pull: Any, euler_ratio: Any) -> Any:
-    return circumferential_pull / (euler_ratio - 1)
-
-
-@formula
-def lagging_pressure(tight_pull: Any, slack_pull: Any, head_diameter: Any, belt_width: Any) -> Any:
-    return (tight_pull + slack_pull) / (head_diameter * belt_width)
-
-
-@formula
-def power(circumferential_pull: Any, belt_speed: Any, efficiency: Any) -> Any:
-    return circumferential_pull * belt_speed / efficiency
-
-
-@formula
-def length_wanted(wanted_centre: Any, small_pulley: Any, large_pulley: Any) -> Any:
-    around = np.pi / 2 * (large_pulley + small_pulley)
-    return 2 * wanted_centre + around + (large_pulley - small_pulley) ** 2 / (4 * wanted_centre)
+shaft = Chapter("Head shaft")
+shaft.breakpoints("scooping", "angle", "scoop_start", "scoop_end")
+shaft.value("is_scooping", "S", "1", "Whether a bucket scoops",
+            lambda angle, scoop_start, scoop_end: (angle > scoop_start) & (angle < scoop_end), per_piece=True, output=False)
+shaft.value("scoop_pull", "U_s", "N", "Force of scooping",
+            lambda is_scooping, scoop_force, scoop_start, scoop_end:
+                np.where(is_scooping > 0, scoop_force * 2 * np.pi / (scoop_end - scoop_start), 0 * scoop_force))
+shaft.value("shaft_torque", "M", "N*m", "Torque of the head shaft",
+            lambda lift_force, scoop_pull, head_diameter: (lift_force + scoop_pull) * head_diameter / 2)
+shaft.reduction("torque_max", "M_max", "N*m", "Greatest torque", "max", of="shaft_torque")
+shaft.reduction("torque_mean", "M_m", "N*m", "Mean torque", "mean", of="shaft_torque")
+shaft.accumulated("work", "W", "J", "Work since the top", of="shaft_torque")
 
 
 @formula
@@ -250,179 +217,40 @@ def length_mismatch(centre: Any, small_pulley: Any, large_pulley: Any, belt_leng
 
 
 @formula
-def least_centre(small_pulley: Any, large_pulley: Any) -> Any:
-    return (large_pulley - small_pulley) / 2
-
-
-@formula
-def greatest_centre(belt_length: Any) -> Any:
-    return belt_length / 2
-
-
-@formula
 def length_by_wraps(centre: Any, small_pulley: Any, large_pulley: Any) -> Any:
     half_wrap = np.arccos((large_pulley - small_pulley) / (2 * centre))
     straight = np.sqrt(4 * centre**2 - (large_pulley - small_pulley) ** 2)
     return straight + large_pulley * (np.pi - half_wrap) + small_pulley * half_wrap
 
 
-@formula
-def small_wrap(centre: Any, small_pulley: Any, large_pulley: Any) -> Any:
-    return 2 * np.arccos((large_pulley - small_pulley) / (2 * centre))
+drive = Chapter("Drive")
+drive.value("power", "P", "kW", "Power at the motor",
+            lambda circumferential_pull, belt_speed, efficiency: circumferential_pull * belt_speed / efficiency, source="S1 eq. 9")
+drive.pick("motor_power", "P_m", "kW", "Power of the motor", "above", of="power", series=standard_series("iec_60072_ratings"))
+drive.value("length_wanted", "L_w", "mm", "Length for the wanted distance",
+            lambda wanted_centre, small_pulley, large_pulley:
+                2 * wanted_centre + np.pi / 2 * (large_pulley + small_pulley) + (large_pulley - small_pulley) ** 2 / (4 * wanted_centre))
+drive.pick("belt_length", "L", "mm", "Length of the belt", "nearest", of="length_wanted", series=(1400, 1600, 1800, 2000))
+drive.root("centre", "C", "mm", "Distance of the shafts", length_mismatch,
+           low=lambda small_pulley, large_pulley: (large_pulley - small_pulley) / 2, high=lambda belt_length: belt_length / 2,
+           left=bind(common.same, quantity="belt_length"), right=length_by_wraps)
+drive.value("small_wrap", "α_1", "deg", "Wrap of the smaller pulley",
+            lambda centre, small_pulley, large_pulley: 2 * np.arccos((large_pulley - small_pulley) / (2 * centre)))
+drive.value("ratio_of_speeds", "i", "1", "Ratio of the belt drive", lambda small_pulley, large_pulley: large_pulley / small_pulley)
+
+holding = Chapter("Backstop", needs=("backstop",), absent="no backstop is given")
+holding.value("pawl_force", "F_p", "N", "Force of the pawl",
+              bind(lambda lift_force, head_diameter, arm: lift_force * head_diameter / (2 * arm), arm="backstop.radius"))
 
 
-@formula
-def over_arm(force: Any, diameter: Any, arm: Any) -> Any:
-    return force * diameter / (2 * arm)
-
-
-@formula
-def ratio_of_speeds(small_pulley: Any, large_pulley: Any) -> Any:
-    return large_pulley / small_pulley
-
-
-@formula
-def bucket_count(height: Any, head_diameter: Any, bucket_pitch: Any) -> Any:
-    return np.ceil((2 * height + np.pi * head_diameter) / bucket_pitch)
-
-
-def falling_time(speed: Any, drop: Any) -> Any:
-    """Seconds in which a body that leaves the drum's top level falls to the chute's edge."""
-    return np.sqrt(2 * drop / GRAVITY) + 0 * speed
-
-
-def against_overfilling(filling: float, needed: float) -> str:
-    return f"buckets that are {told(needed / filling - 1, '%', 2)} greater carry it"
+# --- report
 
 
 def head_drawing(view: View) -> list[Shape]:
     radius = view["head_diameter"] / 2
     rim = list(zip(view.curve("rim_x"), view.curve("rim_y"), strict=True))
-    return [circle((0.0, 0.0), radius, "outline"), polyline(rim, "hidden"), point((0.0, radius), "mark", view.text("head_diameter"))]  # fmt: skip
+    return [circle((0.0, 0.0), radius, "outline"), polyline(rim, "hidden"), point((0.0, radius), "mark", view.text("head_diameter"))]
 
-
-# --- calculation
-
-CONVEYING = Chapter(
-    "Conveying",
-    steps=(
-        Value(id="mass_rate", symbol="Q_m", unit="t/h", description="Mass rate: as given", source="input", needs=("capacity",),
-              formula=bind(common.same, quantity="capacity")),
-        Value(id="mass_rate", symbol="Q_m", unit="t/h", description="Mass rate: of the volume", lacks=("capacity",), formula=mass_rate),
-        Value(id="belt_speed", symbol="v", unit="m/s", description="Speed of the belt", source="S1 eq. 1", formula=belt_speed),
-        Value(id="bucket_load", symbol="m_w", unit="kg", description="Waste in a bucket", source="S1 eq. 2", formula=bucket_load),
-        Value(id="filling_needed", symbol="ψ_n", unit="%", description="Filling that the mass rate needs", formula=filling_needed),
-        Value(id="waste_line_mass", symbol="q_w", unit="kg/m", description="Waste on the belt", formula=waste_line_mass),
-        Value(id="strand_line_mass", symbol="q_s", unit="kg/m", description="Belt with empty buckets", formula=strand_line_mass),
-        Value(id="bucket_count", symbol="z", unit="1", description="Buckets on the belt", whole=True, formula=bucket_count),
-        Words(id="filling_advice", description="What to change where the buckets are too small", function=against_overfilling,
-              takes=("filling", "filling_needed")),
-    ),
-)  # fmt: skip
-
-DISCHARGE = Chapter(
-    "Discharge",
-    text="The waste stays in the bucket as long as the bucket presses on it.",
-    steps=(
-        Value(id="froude_number", symbol="Fr", unit="1", description="Froude number of the head drum", source="S2 eq. 4",
-              formula=froude_number),
-        Value(id="speed_limit", symbol="ω_lim", unit="rad/s", description="Speed from which waste is thrown at once", formula=speed_limit,
-              output=False),
-        Require(id="not_thrown", key="head_speed", condition=bind(common.is_below, smaller="froude_number", greater=1),
-                message="is {head_speed}, but from {speed_limit:down} on the waste is thrown before it is at the top; turn slower"),
-        Value(id="pole_distance", symbol="h_p", unit="mm", description="Distance of the pole of discharge", formula=pole_distance),
-        Choice(id="discharge", symbol="K", description="Discharge is", source="S2 table 1",
-               cases=(Case("by gravity", "the pole is above the buckets",
-                           bind(common.is_below, smaller="head_diameter", greater="pole_distance")),
-                      Case("mixed", "the pole is among the buckets"))),
-        Abscissa(id="angle", symbol="φ", unit="deg", description="Turn of the head drum from the top", period=2 * np.pi),
-        Value(id="normal_force", symbol="N_w", unit="N", description="Force of the bucket on the waste", formula=normal_force),
-        Crossings(id="release", symbol="φ_r", unit="deg", description="Where the waste leaves the bucket", of="normal_force"),
-        Derivative(id="force_slope", symbol="N_w′", unit="N/rad", description="Change of that force", of="normal_force"),
-        Reduction(id="press_max", symbol="N_max", unit="N", description="Greatest force on the waste", of="normal_force", operation="max"),
-        Value(id="rim_x", symbol="x", unit="mm", description="Rim of the drum, across", formula=rim_x),
-        Value(id="rim_y", symbol="y", unit="mm", description="Rim of the drum, upwards", formula=rim_y),
-        Computed(id="fall_time", symbol="t_f", unit="s", description="Fall of the waste to the chute", function=falling_time,
-                 takes=("belt_speed", "chute_drop"), method="the root of the free fall's parabola"),
-        Value(id="throw", symbol="s_f", unit="mm", description="How far the waste flies meanwhile",
-              formula=bind(common.product, first="belt_speed", second="fall_time")),
-    ),
-)  # fmt: skip
-
-PULL = Chapter(
-    "Pull",
-    steps=(
-        Lookup(id="scoop_height", symbol="h_s", unit="m", description="Height that scooping counts for", by="material", source="S1 table 3",
-               table={"board": 4, "paper": 3, "foil": 6}),
-        Lookup(id="head_friction", symbol="f", unit="1", description="Friction of the belt on the drum", by="lagging", source="S1 table 5",
-               table={"bare": 0.2, "rubber": 0.3}),
-        Value(id="lift_force", symbol="F_l", unit="N", description="Weight of the waste that is lifted",
-              formula=bind(hanging_weight, line_mass="waste_line_mass")),
-        Value(id="scoop_force", symbol="F_s", unit="N", description="Mean force of scooping",
-              formula=bind(hanging_weight, line_mass="waste_line_mass", height="scoop_height")),
-        Value(id="strand_weight", symbol="G_s", unit="N", description="Weight of a strand",
-              formula=bind(hanging_weight, line_mass="strand_line_mass")),
-        Value(id="pulley_load", symbol="F_i", unit="N", description="Load of a pulley's shaft", source="S1 eq. 7",
-              formula=bind(pulley_load, wrap="pulleys.wrap")),
-        Value(id="journal_loss", symbol="U_i", unit="N", description="Pull that a pulley's journals take",
-              formula=bind(journal_loss, friction="pulleys.journal_friction", journal="pulleys.journal_diameter",
-                           diameter="pulleys.diameter")),
-        Total(id="journal_losses", symbol="U_j", unit="N", description="Pull that all journals take", of="journal_loss", operation="sum"),
-        Running(id="losses_so_far", symbol="ΣU_i", unit="N", description="Losses up to each pulley", of="journal_loss", operation="sum"),
-        Part(id="foot_load", symbol="F_f", unit="N", description="Load of the first pulley's shaft", of="pulley_load", index=0),
-        Value(id="circumferential_pull", symbol="U", unit="N", description="Pull at the head drum", formula=circumferential_pull),
-        Value(id="euler_ratio", symbol="k_e", unit="1", description="Ratio of pulls that friction holds", formula=euler_ratio),
-        Value(id="slack_needed", symbol="T_n", unit="N", description="Pull of the slack strand that is needed", formula=slack_needed),
-        Value(id="slack_pull", symbol="T_2", unit="N", description="Pull of the slack strand: its weight", lacks=("pretension",),
-              formula=bind(common.same, quantity="strand_weight")),
-        Value(id="slack_pull", symbol="T_2", unit="N", description="Pull of the slack strand: weight and take-up", needs=("pretension",),
-              formula=bind(common.sum_of, first="strand_weight", second="pretension")),
-        Value(id="tight_pull", symbol="T_1", unit="N", description="Pull of the tight strand",
-              formula=bind(common.sum_of, first="slack_pull", second="circumferential_pull")),
-        Value(id="lagging_pressure", symbol="p_L", unit="MPa", description="Pressure on the rubber", needs=("lagging=rubber",),
-              formula=lagging_pressure),
-    ),
-)  # fmt: skip
-
-SHAFT = Chapter(
-    "Head shaft",
-    steps=(
-        Breakpoints(id="scooping", abscissa="angle", places=("scoop_start", "scoop_end")),
-        Value(id="is_scooping", symbol="S", unit="1", description="Whether a bucket scoops", per_piece=True, output=False,
-              formula=is_scooping),
-        Value(id="scoop_pull", symbol="U_s", unit="N", description="Force of scooping", formula=scoop_pull),
-        Value(id="shaft_torque", symbol="M", unit="N*m", description="Torque of the head shaft", formula=shaft_torque),
-        Reduction(id="torque_max", symbol="M_max", unit="N*m", description="Greatest torque", of="shaft_torque", operation="max"),
-        Reduction(id="torque_mean", symbol="M_m", unit="N*m", description="Mean torque", of="shaft_torque", operation="mean"),
-        Accumulated(id="work", symbol="W", unit="J", description="Work since the top", of="shaft_torque"),
-    ),
-)  # fmt: skip
-
-DRIVE = Chapter(
-    "Drive",
-    steps=(
-        Value(id="power", symbol="P", unit="kW", description="Power at the motor", source="S1 eq. 9", formula=power),
-        Pick(id="motor_power", symbol="P_m", unit="kW", description="Power of the motor", of="power", rule="above",
-             series=standard_series("iec_60072_ratings")),
-        Value(id="length_wanted", symbol="L_w", unit="mm", description="Length for the wanted distance", formula=length_wanted),
-        Pick(id="belt_length", symbol="L", unit="mm", description="Length of the belt", of="length_wanted", rule="nearest",
-             series=(1400, 1600, 1800, 2000)),
-        Root(id="centre", symbol="C", unit="mm", description="Distance of the shafts", equation=length_mismatch, unknown="centre",
-             low=least_centre, high=greatest_centre, left=bind(common.same, quantity="belt_length"), right=length_by_wraps),
-        Value(id="small_wrap", symbol="α_1", unit="deg", description="Wrap of the smaller pulley", formula=small_wrap),
-        Value(id="ratio_of_speeds", symbol="i", unit="1", description="Ratio of the belt drive", formula=ratio_of_speeds),
-    ),
-)  # fmt: skip
-
-HOLDING = Chapter(
-    "Backstop",
-    needs=("backstop",),
-    absent="no backstop is given",
-    steps=(
-        Value(id="pawl_force", symbol="F_p", unit="N", description="Force of the pawl",
-              formula=bind(over_arm, force="lift_force", diameter="head_diameter", arm="backstop.radius")),
-    ),
-)  # fmt: skip
 
 CHECKS = (
     Check(id="filling", title="Filling of the buckets", demand="filling_needed", limit="filling", unit="%", demand_label="needed",
@@ -439,7 +267,7 @@ CHECKS = (
           limit_label="allowed", consequence="place the pawl farther out.", needs=("backstop",)),
     Check(id="wrap", title="Wrap of the smaller pulley", demand=120, limit="small_wrap", unit="deg", demand_label="at least",
           limit_label="has", consequence="move the shafts apart.", severity="warn"),
-)  # fmt: skip
+)
 
 FIGURES = (
     Plot(id="turn", title="One turn of the head drum", caption="Force on the waste and torque over a turn.", abscissa="angle",
@@ -450,7 +278,7 @@ FIGURES = (
     Drawing(id="head", title="Head drum", caption="The head drum, to scale.", build=head_drawing),
     Bars(id="pulls", title="Pulls", caption="What the pull consists of.",
          groups=(BarGroup(label="Pull", unit="N", bars=(("waste", "lift_force"), ("scooping", "scoop_force"), ("all", "circumferential_pull"))),)),
-)  # fmt: skip
+)
 
 MECHANISM = Mechanism(
     kind="bucket_elevator",
@@ -458,7 +286,7 @@ MECHANISM = Mechanism(
     title="Bucket elevator",
     summary="Pull, discharge and drive of a bucket elevator.",
     inputs=Elevator,
-    chapters=(CONVEYING, DISCHARGE, PULL, SHAFT, DRIVE, HOLDING),
+    chapters=(conveying, discharge, pull, shaft, drive, holding),
     key_results=("belt_speed", "power", "motor_power"),
     checks=CHECKS,
     figures=FIGURES,

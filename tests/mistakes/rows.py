@@ -20,8 +20,8 @@ def load(what: str, old: str, new: str, *words: str, **rest: Any) -> Mistake:
 
 
 def tested(what: str, old: str, new: str, *words: str, **rest: Any) -> Mistake:
-    """A mistake that ``check_mechanism`` tells, with numbers: dimensions, and what is printed."""
-    return row("check_mechanism", what, old, new, *words, **rest)
+    """A mistake that ``check_mechanism`` tells of a step, with numbers: dimensions, and what is printed."""
+    return row("check_mechanism", what, old, new, *words, **({"placed": False} | rest))
 
 
 def calc(what: str, old: str, new: str, *words: str, **rest: Any) -> Mistake:

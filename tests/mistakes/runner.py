@@ -37,7 +37,7 @@ class Mistake:
 
     ``told`` is the first place that tells it, ``words`` are patterns that the message holds, beside the plugin's name.
     ``placed`` says that the message names the plugin's file and the line, or one near to it. ``kept`` says that the numbers
-    are calculated all the same. ``keys`` are changes of the machine.
+    are calculated all the same. ``keys`` are changes of the machine. ``now`` says what happens today where that is not yet so.
     """
 
     what: str
@@ -48,6 +48,7 @@ class Mistake:
     placed: bool = True
     kept: bool = False
     keys: dict[str, Any] = field(default_factory=dict)
+    now: str = ""
 
     @property
     def source(self) -> str:
@@ -119,7 +120,8 @@ def _command(folder: Path, command: Stage | Literal["batch"], *arguments: object
     stage: Stage = "study" if command == "batch" else command
     file = folder / "press.json"
     results = json.loads(file.read_text("utf-8"))["mechanisms"]["lift"] if file.exists() else {}
-    return Told(stage if code else "", code, errors.getvalue(), results)
+    told = code or "error." in errors.getvalue()  # a study goes on without the machines that fail, and says so
+    return Told(stage if told else "", code, errors.getvalue(), results)
 
 
 def faults(mistake: Mistake, told: Told) -> list[str]:
@@ -128,8 +130,11 @@ def faults(mistake: Mistake, told: Told) -> list[str]:
         return [f"told by {told.stage or 'nothing'}, not by {mistake.told}: {told.text.strip()[-400:]}"]
     wanted = 1 if told.stage == "check_mechanism" else mistake.code
     found = [f"exit code {told.code}, not {wanted}"] if told.code != wanted else []
+    named = () if mistake.code == 2 else (KIND,)  # a machine that cannot be is told by its place in the user's file
     found += [f"a traceback: {told.text.strip()[-400:]}"] if "Traceback" in told.text else []
-    found += [f"without {words!r}: {told.text}" for words in (KIND, *mistake.words) if not re.search(words, told.text)]
+    found += [
+        f"without {words!r}: {told.text}" for words in (*named, *mistake.words) if not re.search(words, told.text)
+    ]
     lines = [int(number) for number in re.findall(rf"{KIND}\.py(?::|, line )(\d+)", told.text)]
     if mistake.placed and not any(abs(line - mistake.line) <= NEAR for line in lines):
         found.append(f"without the place {KIND}.py:{mistake.line}: {told.text}")

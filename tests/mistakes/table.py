@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from tests.mistakes.rows_chapters import CALLS, CHAPTERS, LAMBDAS
 from tests.mistakes.rows_declared import DECLARED
 from tests.mistakes.rows_formulas import FORMULAS
 from tests.mistakes.rows_inputs import INPUTS, MODULE
@@ -12,6 +13,9 @@ from tests.mistakes.runner import Mistake
 TABLE: tuple[Mistake, ...] = (
     *NAMES,
     *TWICE,
+    *LAMBDAS,
+    *CALLS,
+    *CHAPTERS,
     *DECLARED,
     *INPUTS,
     *MODULE,

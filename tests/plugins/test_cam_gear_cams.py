@@ -7,13 +7,14 @@ from typing import Any
 
 import numpy as np
 import pytest
-from hypothesis import assume, example, given, settings
+from hypothesis import assume, example, given
 from hypothesis import strategies as st
 from scipy.optimize import minimize_scalar
 
 from diecut_report.engine import Calculation, Impossible
 from diecut_report.expressions import Array
 from diecut_report.mechanics.motion_laws import LAWS
+from tests.examples import examples
 from tests.machines import number
 from tests.plugins.steppers import CAMS, at, checks, slope, smooth_places, stepper
 
@@ -46,8 +47,8 @@ def nearest(calc: Calculation, n: str, phi: float) -> float:
 @pytest.mark.parametrize("law", list(LAWS))
 @pytest.mark.parametrize("n", ["1", "2"])
 def test_the_rollers_stay_tangent_to_their_profiles(n: str, law: str) -> None:
-    calc = stepper(**CAMS, motion_law=law)
-    for phi in np.linspace(0.05, 6.2, 29):
+    calc = stepper(**CAMS, motion_law=law, n_points=36)
+    for phi in np.linspace(0.05, 6.2, 11):
         assert nearest(calc, n, phi) == pytest.approx(0.025, abs=1e-9 * 0.025)
 
 
@@ -60,11 +61,13 @@ def test_the_rollers_stay_tangent_to_their_profiles(n: str, law: str) -> None:
     dwell=st.floats(60, 190),
 )
 @example(arm=150.0, roller=5.0, one=40.0, other=200.0, phi=0.0, dwell=60.0)  # a roller that stands still on its cam
-@settings(deadline=None, max_examples=60)
+@examples(60)
 def test_the_checks_tell_whether_the_rollers_touch_their_profiles_once(
     arm: float, roller: float, one: float, other: float, phi: float, dwell: float
 ) -> None:
-    calc = stepper(arm_length=arm, roller_radius=roller, arm_angle_1=one, arm_angle_2=other, dwell_angle=dwell)
+    calc = stepper(
+        arm_length=arm, roller_radius=roller, arm_angle_1=one, arm_angle_2=other, dwell_angle=dwell, n_points=36
+    )
     sharp, turns = (checks(calc)[name]["status"] == "pass" for name in ("curvature", "profile_turns"))
     if sharp and turns:
         for n in "12":
@@ -140,7 +143,7 @@ def test_hollow_flanks_are_told_with_the_radius_that_no_wheel_may_exceed() -> No
 
 
 @given(one=st.floats(-360, 360), other=st.floats(-360, 360))
-@settings(deadline=None, max_examples=60)
+@examples(60)
 def test_arms_are_accepted_where_one_stays_left_and_the_other_right_of_the_pin(one: float, other: float) -> None:
     swing = np.radians(np.linspace(-10, 70, 2001))
     signs = [np.sign(np.sin(np.radians(angle) + swing)) for angle in (one, other)]

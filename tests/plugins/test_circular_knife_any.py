@@ -7,12 +7,13 @@ from typing import Any
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
-from diecut_report.engine import Impossible, calculate
+from diecut_report.engine import calculate
 from diecut_report.plugins.circular_knife import MECHANISM
 from diecut_report.results.mechanism import mechanism_results
+from tests.examples import examples
 from tests.machines import inputs, number
 from tests.plugins.knives import at, in_cut
 from tests.validation.rows_circular_knife import KEYS
@@ -68,33 +69,7 @@ def test_a_knife_of_another_size_has_the_same_angles_and_its_force_grows_with_th
         assert number(other, name) == pytest.approx(number(one, name) * scale**power, rel=1e-7, abs=1e-12), name
 
 
-def test_many_variants_at_once_are_single_runs() -> None:
-    draw, count = np.random.default_rng(7), 200
-    varied = {
-        "eccentricity": draw.uniform(0.01, 0.04, count),
-        "edge_radius": draw.uniform(0.03, 0.2, count),
-        "front_distance": draw.uniform(0.01, 0.06, count),
-        "thickness": draw.uniform(2e-4, 3e-3, count),
-        "friction": draw.uniform(0, 0.4, count),
-    }
-    varied["depth"] = varied["edge_radius"] + varied["eccentricity"] * draw.uniform(-1.1, 1.1, count)
-    base = inputs(MECHANISM, KEYS | {"n_points": 72})
-    together = calculate(MECHANISM, base | varied, variants=count)
-    names = [name for name, value in together.values.items() if value.shape == (count, 1) and value.dtype != object]
-    assert 40 < len(together.flaws) < 160
-    for i in range(count):
-        single = base | {name: float(values[i]) for name, values in varied.items()}
-        if i in together.flaws:
-            with pytest.raises(Impossible):
-                calculate(MECHANISM, single)
-            continue
-        alone = calculate(MECHANISM, single)
-        for name in names:
-            tolerance = 1e-6 if name.endswith("_at") else 1e-12
-            assert together[name][i, 0] == pytest.approx(number(alone, name), rel=tolerance, abs=1e-14), name
-
-
-@settings(max_examples=25)
+@examples(25)
 @given(board=SHARE, cut=SHARE, low=SHARE)
 def test_the_figures_of_any_knife_are_drawn(board: float, cut: float, low: float) -> None:
     calc = calculate(MECHANISM, any_knife(0.1, 0.2, low, board, cut, 0.5))
@@ -114,7 +89,7 @@ def test_the_figures_of_any_knife_are_drawn(board: float, cut: float, low: float
     assert {mark[1] for mark in marks} == {-number(calc, "depth")}
 
 
-@settings(max_examples=25)
+@examples(25)
 @given(board=SHARE, cut=SHARE, low=SHARE)
 def test_the_three_positions_are_drawn_beside_one_another(board: float, cut: float, low: float) -> None:
     calc = calculate(MECHANISM, any_knife(0.1, 0.2, low, board, cut, 0.5))

@@ -7,7 +7,7 @@ from pathlib import Path
 from typing import Any
 
 import pytest
-from hypothesis import assume, example, given, settings
+from hypothesis import assume, example, given
 from hypothesis import strategies as st
 
 from diecut_report import pipeline
@@ -16,6 +16,7 @@ from diecut_report.engine import Impossible
 from diecut_report.errors import UserError
 from diecut_report.plugins.circular_knife.advice import SIZES
 from tests.configs import EXAMPLES, HEAD, problems
+from tests.examples import examples
 from tests.machines import number
 from tests.plugins.knives import checks, knife
 from tests.plugins.test_circular_knife_any import any_knife
@@ -133,7 +134,7 @@ SHARE = st.floats(0.03, 0.97)
 @example(
     ecc=0.9375, low=0.96484375, board=0.5, cut=0.5, thin=8.0, friction=0.0
 )  # turns back before it is at the counter-knife
-@settings(max_examples=150, deadline=None)
+@examples(150)
 @given(ecc=SHARE, low=SHARE, board=SHARE, cut=SHARE, thin=st.floats(0.05, 10), friction=st.floats(0, 0.5))
 def test_what_a_failing_check_advises_makes_it_pass_as_printed_and_breaks_no_other(
     ecc: float, low: float, board: float, cut: float, thin: float, friction: float

@@ -16,10 +16,8 @@ from diecut_report.engine import Impossible, calculate
 from diecut_report.expressions import Array
 from diecut_report.plugins.clutch import MECHANISM
 from diecut_report.results.mechanism import mechanism_results
-from diecut_report.testing import check_mechanism
 from tests.machines import inputs, number
-from tests.plugins.clutches import BASE, COOLED, checks, clutch
-from tests.plugins.symbols import doubled
+from tests.plugins.clutches import BASE, checks, clutch
 
 WEDGE = ("wedge_angle", "wedge_friction")
 
@@ -216,46 +214,9 @@ def test_an_input_out_of_its_range_is_refused(key: str, value: Any) -> None:
         MECHANISM.inputs.model_validate(BASE | {key: value})
 
 
-def test_many_clutches_at_once_are_as_many_single_ones() -> None:
-    draw = np.random.default_rng(5)
-    count = 200
-    varied = {
-        "torque": draw.uniform(10, 2000, count),
-        "wedge_angle": draw.uniform(0.02, 1.5, count),
-        "wedge_friction": draw.uniform(0, 0.9, count),
-        "load_torque_at_engagement": draw.uniform(0, 300, count),
-        "engagements_per_hour": np.where(draw.random(count) < 0.2, 0.0, draw.uniform(0, 0.1, count)),
-        "drum_mass": draw.uniform(0.5, 30, count),
-    }  # fmt: skip
-    base = inputs(MECHANISM, COOLED)
-    together = calculate(MECHANISM, base | varied, variants=count)
-    assert 20 < len(together.flaws) < count - 50
-    for i in range(count):
-        single = base | {name: float(values[i]) for name, values in varied.items()}
-        if i in together.flaws:
-            with pytest.raises(Impossible) as refused:
-                calculate(MECHANISM, single)
-            assert together.flaws[i] in refused.value.reasons
-            continue
-        alone = calculate(MECHANISM, single)
-        for name, values in together.values.items():
-            if values.dtype == object:
-                assert values[i, 0] == alone[name][0, 0]
-            else:
-                assert values[i, 0] == pytest.approx(number(alone, name), rel=1e-14, nan_ok=True)
-
-
 @pytest.mark.parametrize("share", [1 - 1e-13, 1 - 1e-15, 1 + 1e-14, 1 + 1e-12])
 def test_beside_the_self_locking_limit_nothing_breaks(share: float) -> None:
     results = mechanism_results(clutch(wedge_angle="15 deg", wedge_friction=np.tan(np.pi / 12) * share), {})
     items = {item["id"]: item for section in results["sections"] for item in section["items"] if "id" in item}
     assert abs(results["outputs"]["release_force"]["value"]) < 1e-7
     assert items["release_force"]["substituted"] is None and "nearly" in items["release_force"]["note"]
-
-
-def test_each_quantity_has_its_own_symbol() -> None:
-    assert doubled(MECHANISM) == []
-
-
-def test_the_declaration_keeps_the_plugin_contract() -> None:
-    check_mechanism(MECHANISM)

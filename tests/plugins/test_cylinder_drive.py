@@ -6,15 +6,15 @@ from typing import Any
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
 from diecut_report.contract.inputs import flatten
 from diecut_report.engine import Calculation, Impossible, calculate
 from diecut_report.expressions import Array
 from diecut_report.plugins.cylinder_drive import MECHANISM
-from diecut_report.testing import check_mechanism
-from tests.machines import LOSSLESS, PUBLISHED_DRIVE, UNBALANCED, drive, inputs, number
+from tests.examples import examples
+from tests.machines import LOSSLESS, PUBLISHED_DRIVE, UNBALANCED, drive, number
 
 
 def dense(calc: Calculation, curve: str, points: int = 200_001) -> Array:
@@ -209,50 +209,8 @@ def test_all_reasons_why_a_drive_cannot_be_are_told_at_once() -> None:
     assert [key for key, _ in refused.value.reasons] == ["rocker_ratio", "material_thickness", "carriage_clearance"]
 
 
-def random_machines(count: int, seed: int) -> dict[str, Array]:
-    """Machines as a designer might vary them, a few of them impossible."""
-    draw = np.random.default_rng(seed)
-    return {
-        "frame_ratio": draw.uniform(4.6, 6.2, count),
-        "coupler_ratio": draw.uniform(4.6, 5.6, count),
-        "rocker_ratio": draw.uniform(1.9, 3.0, count),
-        "crank_speed": draw.uniform(3, 13, count),
-        "cylinder_mass": draw.uniform(40, 160, count),
-        "static_unbalance": draw.uniform(0, 3, count),
-        "cutting_arc_fraction": draw.uniform(0.3, 1.0, count),
-        "efficiency_four_bar": draw.uniform(0.6, 1.0, count),
-        "cutting_force_per_length": draw.uniform(0, 8e4, count),
-    }
-
-
-@pytest.mark.slow
-def test_a_thousand_variants_at_once_are_a_thousand_single_runs() -> None:
-    base = inputs(MECHANISM, PUBLISHED_DRIVE | {"n_points": 72})
-    varied = random_machines(1000, seed=7)
-    together = calculate(MECHANISM, base | varied, variants=1000)
-    listed = tuple(f"{name}_" for name in ("torque_reversal", "flank_change"))  # compared as lists below
-    names = [n for n, v in together.values.items() if v.shape == (1000, 1) and not n.startswith(listed)]
-    assert 5 < len(together.flaws) < 500
-    torque = together.curve_samples("crank_torque")
-    for i in range(1000):
-        single = base | {name: float(values[i]) for name, values in varied.items()}
-        if i in together.flaws:
-            with pytest.raises(Impossible):
-                calculate(MECHANISM, single)
-            continue
-        alone = calculate(MECHANISM, single)
-        for name in names:
-            tolerance = 1e-7 if name.endswith("_at") else 1e-11
-            assert together[name][i, 0] == pytest.approx(
-                number(alone, name), rel=tolerance, abs=1e-9 if "residual" in name else 1e-12
-            )
-        np.testing.assert_allclose(torque[i], alone.curve_samples("crank_torque")[0], rtol=1e-11, atol=1e-9)
-        found, expected = together["torque_reversal"][i], alone["torque_reversal"][0]
-        np.testing.assert_allclose(found[np.isfinite(found)], expected[np.isfinite(expected)], atol=1e-9)
-
-
 @given(frame=st.floats(4.6, 6.2), coupler=st.floats(4.6, 5.6), rocker=st.floats(1.9, 3.0), fraction=st.floats(0.05, 1))
-@settings(max_examples=40, deadline=None)
+@examples(40)
 def test_the_energy_balance_holds_for_random_linkages(
     frame: float, coupler: float, rocker: float, fraction: float
 ) -> None:
@@ -263,7 +221,3 @@ def test_the_energy_balance_holds_for_random_linkages(
     except Impossible:
         return
     assert number(calc, "energy_residual") < 1e-10
-
-
-def test_the_declaration_keeps_the_plugin_contract() -> None:
-    check_mechanism(MECHANISM)

@@ -7,14 +7,14 @@ from typing import Any
 
 import numpy as np
 import pytest
-from hypothesis import assume, given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 from scipy.integrate import quad
 
 from diecut_report.engine import Impossible, calculate
 from diecut_report.plugins.cylinder_sizing import MECHANISM
 from diecut_report.results.mechanism import mechanism_results
-from diecut_report.testing import check_mechanism
+from tests.examples import examples
 from tests.machines import cylinder, inputs, number
 
 
@@ -77,7 +77,7 @@ def test_the_deflection_is_that_of_the_integrated_bending_line() -> None:
 
 
 @given(working=st.floats(50, 3000), share=st.floats(0.001, 0.97))
-@settings(max_examples=60, deadline=None)
+@examples(60)
 def test_the_sized_radius_is_the_exact_one_rounded_up(working: float, share: float) -> None:
     height = share * working / np.pi
     keys = {"working_length": working, "segment_height": height, "generatrix_length": 500}
@@ -111,36 +111,6 @@ def test_an_impossible_cylinder_is_refused_in_words(changes: dict[str, str], key
         cylinder(**changes)
     assert refused.value.key == key
     assert words in refused.value.message
-
-
-@given(
-    working=st.lists(st.floats(200, 900), min_size=5, max_size=5),
-    height=st.floats(5, 60),
-    bore=st.lists(st.floats(0, 130), min_size=5, max_size=5),
-)
-@settings(max_examples=25, deadline=None)
-def test_variants_together_are_the_variants_alone(working: list[float], height: float, bore: list[float]) -> None:
-    keys = {"segment_height": height, "generatrix_length": 700, "working_length": 500}
-    together = inputs(MECHANISM, keys) | {
-        "working_length": np.array(working) / 1e3,
-        "bore_radius": np.array(bore) / 1e3,
-    }
-    calc = calculate(MECHANISM, together, variants=5)
-    assume(len(calc.flaws) < 5)
-    for i, (length, hole) in enumerate(zip(working, bore, strict=True)):
-        alone = keys | {"working_length": length, "bore_radius": hole}
-        if i in calc.flaws:
-            with pytest.raises(Impossible) as refused:
-                calculate(MECHANISM, inputs(MECHANISM, alone))
-            assert calc.flaws[i][0] == refused.value.key
-            continue
-        single = calculate(MECHANISM, inputs(MECHANISM, alone))
-        for name in ("radius", "mass", "inertia", "static_unbalance", "overlap_mass", "wall_at_flat"):
-            assert calc[name][i, 0] == pytest.approx(number(single, name), rel=1e-12, abs=1e-15)
-
-
-def test_the_declaration_keeps_the_plugin_contract() -> None:
-    check_mechanism(MECHANISM)
 
 
 def test_a_wall_of_exactly_nothing_fails_without_a_utilisation() -> None:

@@ -18,11 +18,9 @@ from diecut_report.engine import Calculation, Impossible, calculate
 from diecut_report.engine.figure_views import figures
 from diecut_report.plugins.damper import MECHANISM
 from diecut_report.results.mechanism import mechanism_results
-from diecut_report.testing import check_mechanism
 from tests.configs import problems, saved
 from tests.machines import inputs, number
 from tests.plugins.dampers import calculated, passing, told
-from tests.plugins.symbols import doubled
 from tests.validation.rows_damper import WORKED, damper
 
 ROLLING: dict[str, Any] = {"mass": "80 kg", "inertia": "0.9 kg*m**2", "rolling_radius": "105 mm"}
@@ -226,26 +224,7 @@ def test_beyond_the_greatest_force_no_length_helps() -> None:
     assert "let it go before the stop, or take" in message and "no adopted_length" in message
 
 
-# --- arrays, figures, configs ----------------------------------------------------------------------------------------
-
-
-@given(
-    energy=st.lists(st.floats(1, 500), min_size=4, max_size=4),
-    push=st.lists(st.floats(1, 5000), min_size=4, max_size=4),
-    width=st.lists(st.floats(1, 200), min_size=4, max_size=4),
-)
-def test_variants_together_are_the_variants_alone(energy: list[float], push: list[float], width: list[float]) -> None:
-    varied = {"kinetic_energy": energy, "drive.force": push, "ring_width": [w / 1e3 for w in width]}
-    keys = WORKED | {"drive": {"force": 1}, "impacts_per_hour": 3000}
-    arrays = {name: np.array(values) for name, values in varied.items()}
-    together = calculate(MECHANISM, inputs(MECHANISM, keys) | arrays, variants=4)
-    for i in range(4):
-        alone = calculate(MECHANISM, inputs(MECHANISM, keys) | {name: values[i] for name, values in varied.items()})
-        for name, found in together.values.items():
-            if found.dtype == object:
-                assert found[i, 0] == alone[name][0, 0]
-            else:
-                assert found[i, 0] == pytest.approx(number(alone, name), rel=1e-12, nan_ok=True)
+# --- figures, configs ------------------------------------------------------------------------------------------------
 
 
 def figure(calc: Calculation, name: str) -> dict[str, Any]:
@@ -373,11 +352,3 @@ def test_the_inputs_show_no_loss_beside_the_one_that_is_used() -> None:
     assert results["outputs"]["loss_fraction"]["value"] == pytest.approx(1 - np.exp(-0.15 * np.pi), rel=1e-12)
     usual = mechanism_results(damper(), {})["outputs"]["loss_fraction"]
     assert usual["value"] == 0.2 and "usual" in usual["description"]
-
-
-def test_each_quantity_has_its_own_symbol() -> None:
-    assert doubled(MECHANISM, alike={("drive.force", "driving_force")}) == []
-
-
-def test_the_declaration_keeps_the_plugin_contract() -> None:
-    check_mechanism(MECHANISM)

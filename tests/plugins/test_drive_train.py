@@ -8,17 +8,16 @@ from math import pi, prod
 
 import numpy as np
 import pytest
-from hypothesis import assume, given, settings
+from hypothesis import assume, given
 from hypothesis import strategies as st
 from scipy.integrate import cumulative_trapezoid
 
 from diecut_report.api import standard_series
-from diecut_report.engine import CurveHandle, Impossible, calculate
-from diecut_report.plugins.drive_train import MECHANISM
+from diecut_report.engine import CurveHandle, Impossible
 from diecut_report.quantities.units import unit as parsed
 from diecut_report.results.mechanism import mechanism_results
-from diecut_report.testing import check_mechanism
-from tests.machines import UNBALANCED, drive, inputs, number
+from tests.examples import examples
+from tests.machines import UNBALANCED, drive, number
 from tests.plugins.drive_trains import (
     EXAMPLE,
     PAIRS,
@@ -31,10 +30,6 @@ from tests.plugins.drive_trains import (
     over_a_turn,
     train,
 )
-
-
-def test_the_declaration_is_sound() -> None:
-    check_mechanism(MECHANISM)
 
 
 def test_speeds_follow_the_driven_pulley_of_the_standard_series() -> None:
@@ -105,7 +100,7 @@ def test_torque_at_every_shaft_is_that_of_brute_force_over_the_turn() -> None:
     assert number(calc, "flywheel_torque_mean") == pytest.approx(number(calc, "shaft_2_torque"), rel=1e-10)
 
 
-@settings(max_examples=40, deadline=None)
+@examples(40)
 @given(
     teeth=st.lists(st.tuples(st.integers(17, 40), st.integers(40, 90), st.floats(0.8, 1.0)), max_size=4),
     values=st.lists(st.integers(-500, 1500), min_size=4, max_size=16),
@@ -165,7 +160,7 @@ def test_mean_and_peak_that_do_not_belong_to_the_curve_are_told() -> None:
     assert check(train(torque_peak=200), "torque_order")["status"] == "pass"
 
 
-@settings(max_examples=50, deadline=None)
+@examples(50)
 @given(torque=st.floats(0, 30_000))
 def test_the_motor_is_the_next_standard_one_and_fails_only_above_them_all(torque: float) -> None:
     calc = train(torque_mean=torque, torque_peak=torque)
@@ -192,20 +187,6 @@ def test_without_a_curve_there_is_no_flywheel() -> None:
     assert not [name for name in results["outputs"] if name.startswith("flywheel") or "energy" in name]
     assert "torque_curve" in str(results["absent"])
     assert not {"flywheel_rim_speed", "run_up_time"} & checked(train())
-
-
-def test_an_array_of_machines_gives_what_single_machines_give() -> None:
-    speeds, distances = np.array([45.0, 52.0, 60.0, 400.0]) * RPM, np.array([0.6, 0.7, 0.9, 0.6])
-    base = inputs(MECHANISM, EXAMPLE | WORKING | {"gears": PAIRS[:1], "power_per_belt": 2})
-    together = calculate(MECHANISM, base | {"output_speed": speeds * 2, "vbelt.center_distance": distances}, 4)
-    assert set(together.flaws) == {3}
-    for i in range(3):
-        single = calculate(MECHANISM, base | {"output_speed": speeds[i] * 2, "vbelt.center_distance": distances[i]})
-        for name, value in single.values.items():
-            if value.dtype != object:
-                np.testing.assert_allclose(
-                    together[name][i][: value.shape[1]], value[0], rtol=1e-9, atol=1e-9, err_msg=name
-                )
 
 
 def test_results_do_not_depend_on_the_number_of_samples() -> None:

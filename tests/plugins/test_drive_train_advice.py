@@ -8,16 +8,16 @@ from typing import Any
 
 import numpy as np
 import pytest
-from hypothesis import assume, given, settings
+from hypothesis import assume, given
 from hypothesis import strategies as st
 
 from diecut_report.api import standard_series_by
 from diecut_report.engine import Impossible
 from diecut_report.plugins.drive_train import MECHANISM, advice
 from diecut_report.results.checks import check_results
+from tests.examples import examples
 from tests.machines import number
 from tests.plugins.drive_trains import EXAMPLE, RPM, UNEVEN, WORKING, check, checked, train
-from tests.plugins.symbols import doubled
 
 GEARS = re.compile(r"give the gears a ratio of at (least|most) (\d+(?:\.\d+)?)")
 DISTANCE = re.compile(r"vbelt\.center_distance of (\d+(?:\.\d+)?) mm(?: … (\d+(?:\.\d+)?) mm)?")
@@ -38,7 +38,7 @@ def vbelt(**changes: Any) -> dict[str, Any]:
     return EXAMPLE["vbelt"] | changes
 
 
-@settings(max_examples=60, deadline=None)
+@examples(60)
 @given(
     speed=st.floats(0.5, 40),
     driver=st.sampled_from([90, 125, 200]),
@@ -86,7 +86,7 @@ def distances(told: str) -> list[float]:
     return [*ends, sum(ends) / len(ends)]
 
 
-@settings(max_examples=40, deadline=None)
+@examples(40)
 @given(
     speed=st.floats(42, 250),
     distance=st.one_of(st.floats(1, 700), st.floats(1500, 5000)),
@@ -200,10 +200,6 @@ def test_a_rim_too_fast_gets_a_material_and_a_fluctuation_that_hold(fluctuation:
     for change in ({"speed_fluctuation": float(greater[1])}, {"flywheel_material": "steel"}):
         mended = train(**fast | {"speed_fluctuation": fluctuation} | change)
         assert check(mended, "flywheel_rim_speed")["status"] == "pass"
-
-
-def test_each_quantity_has_a_symbol_of_its_own() -> None:
-    assert doubled(MECHANISM, alike=[("torque_curve", "output_torque")]) == []
 
 
 def test_labels_of_checks_are_short() -> None:

@@ -6,12 +6,13 @@ from math import pi, sin
 
 import numpy as np
 import pytest
-from hypothesis import assume, given, settings
+from hypothesis import assume, given
 from hypothesis import strategies as st
 from scipy.integrate import cumulative_trapezoid, solve_ivp
 
 from diecut_report.expressions import Array
 from diecut_report.results.mechanism import mechanism_results
+from tests.examples import examples
 from tests.machines import number
 from tests.plugins.drive_trains import RPM, UNEVEN, WORKING, at_flywheel, check, checked, over_a_turn, sine_load, train
 
@@ -26,7 +27,7 @@ def test_energy_fluctuation_is_that_of_brute_force() -> None:
     assert number(calc, "excess_energy_max_at") == pytest.approx(phi[np.argmax(energy)], abs=1e-4)
 
 
-@settings(max_examples=40, deadline=None)
+@examples(40)
 @given(values=st.lists(st.integers(-500, 1500), min_size=4, max_size=24))
 def test_energy_fluctuation_of_any_list_is_that_of_brute_force(values: list[int]) -> None:
     phi, torque = over_a_turn(values, 40_001)

@@ -8,7 +8,7 @@ from typing import Any, get_args
 
 import numpy as np
 import pytest
-from hypothesis import assume, given, settings
+from hypothesis import assume, given
 from hypothesis import strategies as st
 from pydantic import ValidationError
 from scipy.integrate import solve_ivp
@@ -17,6 +17,7 @@ from scipy.spatial import ConvexHull
 from diecut_report.api import standard_series, standard_series_by, standard_table
 from diecut_report.engine import Calculation, Impossible
 from diecut_report.plugins.drive_train.inputs import Section
+from tests.examples import examples
 from tests.machines import number
 from tests.plugins.drive_trains import EXAMPLE, PAIRS, check, train
 
@@ -148,7 +149,7 @@ def test_few_teeth_are_a_warning(teeth: int, status: str) -> None:
         assert check(calc, "gear_teeth")["status"] == status
 
 
-@settings(max_examples=60, deadline=None)
+@examples(60)
 @given(ratio=st.floats(1.2, 4.5), diameter=st.sampled_from([90, 100, 112, 118, 125, 127.5, 140, 160]))
 def test_the_pulleys_that_the_message_names_meet_the_speed(ratio: float, diameter: float) -> None:
     def made(driver: float) -> Calculation:

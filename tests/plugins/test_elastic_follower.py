@@ -13,11 +13,9 @@ from diecut_report.engine import Calculation, calculate
 from diecut_report.mechanics import motion_laws
 from diecut_report.plugins.elastic_follower import MECHANISM
 from diecut_report.results.mechanism import mechanism_results
-from diecut_report.testing import check_mechanism
 from tests.machines import inputs, number
 from tests.mechanics.closed_follower import WAVES, after, response, undamped_cycloidal
 from tests.plugins.followers import LAWS, SHAFT, at, checks, follower, integrated, law_stretches
-from tests.plugins.symbols import doubled
 
 EACH_LAW = pytest.mark.parametrize("law", LAWS)
 SLIDE: dict[str, Any] = {"inertia": None, "mass": "0.8 kg", "stiffness": "5200 N/m", "rise": "1.2 m"}
@@ -27,14 +25,6 @@ RATIOS = ("peak_ratio", "residual_ratio", "overshoot", "tuning_ratio", "natural_
 def stiffness(ratio: float, inertia: float = 0.8, rise_time: float = 0.2) -> float:
     """The stiffness that gives so many natural periods within the rise."""
     return float(inertia * (2 * np.pi * ratio / rise_time) ** 2)
-
-
-def test_the_declaration_keeps_the_plugin_contract() -> None:
-    check_mechanism(MECHANISM)
-
-
-def test_each_symbol_stands_for_one_quantity() -> None:
-    assert doubled(MECHANISM) == []
 
 
 # --- against scipy's integration -------------------------------------------------------------------------------------
@@ -82,26 +72,24 @@ def test_numbers_and_curves_are_those_that_scipy_integrates(law: str) -> None:
     compare(law, np.random.default_rng(list(LAWS).index(law)))
 
 
-@pytest.mark.slow
-@pytest.mark.parametrize("seed", range(8))
+@pytest.mark.parametrize("seed", [0, *(pytest.param(seed, marks=pytest.mark.nightly) for seed in range(1, 8))])
 @EACH_LAW
 def test_many_machines_are_those_that_scipy_integrates(law: str, seed: int) -> None:
     compare(law, np.random.default_rng(100 + 10 * seed + list(LAWS).index(law)))
 
 
-@pytest.mark.slow
-def test_the_spectrum_is_what_scipy_integrates() -> None:
+@pytest.mark.parametrize("place", [0, *(pytest.param(n, marks=pytest.mark.nightly) for n in (1, 3, 4)), 2])
+def test_the_spectrum_is_what_scipy_integrates(place: int) -> None:
     """Each law and damping at three places of the spectrum; a rise of 1 in 1 s."""
-    curves = mechanism_results(follower(), {})["curves"]
+    curves, damping = mechanism_results(follower(), {})["curves"], (0, 0.02, 0.05, 0.1, 0.2)[place]
     ratios = np.array(curves["tuning_ratio"]["values"])
     assert (ratios[0], ratios[-1]) == (0.5, 10)
-    for place, damping in enumerate((0, 0.02, 0.05, 0.1, 0.2)):
-        for number_of, (law, known) in enumerate(LAWS.items()):
-            found = curves[f"peak_ratio_{law}_damping_{round(100 * damping):02}"]["values"]
-            for i in (number_of + 3, 20 + 5 * place, -1 - number_of):
-                omega = 2 * np.pi * ratios[i]
-                parts = integrated(law_stretches(law, 1.0, 1.0), 1e-3, omega, damping, fine=400)
-                assert found[i] == pytest.approx(max(p.peak() for p in parts[:-1]) / known.peak, rel=1e-8)
+    for number_of, (law, known) in enumerate(LAWS.items()):
+        found = curves[f"peak_ratio_{law}_damping_{round(100 * damping):02}"]["values"]
+        for i in (number_of + 3, 20 + 5 * place, -1 - number_of):
+            omega = 2 * np.pi * ratios[i]
+            parts = integrated(law_stretches(law, 1.0, 1.0), 1e-3, omega, damping, fine=400)
+            assert found[i] == pytest.approx(max(p.peak() for p in parts[:-1]) / known.peak, rel=1e-8)
 
 
 # --- closed solutions ------------------------------------------------------------------------------------------------
@@ -228,27 +216,6 @@ def test_the_residual_vibration_is_followed_as_long_as_wanted() -> None:
     assert times[-1] * 720 / 719 == pytest.approx(0.2 + 7 * 2 * np.pi / np.sqrt(6500), rel=1e-12)
 
 
-def test_many_variants_at_once_are_single_runs() -> None:
-    draw, count = np.random.default_rng(5), 24
-    ratio, time, body = draw.uniform(0.5, 15, count), draw.uniform(0.05, 2, count), draw.uniform(0.1, 9, count)
-    varied = {
-        "inertia": body, "stiffness": body * (2 * np.pi * ratio / time) ** 2, "damping_ratio": draw.uniform(0, 0.9, count),
-        "rise": draw.uniform(0.1, 5, count), "rise_time": time, "dwell_cycles": draw.uniform(0.2, 6, count),
-    }  # fmt: skip
-    base = inputs(MECHANISM, SHAFT | {"n_points": 72, "motion_law": "modified_trapezoidal"})
-    together = calculate(MECHANISM, base | varied, variants=count)
-    assert together.flaws == {}
-    for i in range(count):
-        alone = calculate(MECHANISM, base | {name: float(values[i]) for name, values in varied.items()})
-        for name, value in alone.values.items():
-            if value.shape != (1, 1) or name.endswith("_at"):
-                continue
-            if value.dtype == object:
-                assert together[name][i, 0] == value[0, 0]
-            else:
-                assert together[name][i, 0] == pytest.approx(value[0, 0], rel=1e-10, abs=1e-12, nan_ok=True), name
-
-
 def test_a_variant_that_cannot_be_calculated_spoils_no_other() -> None:
     base = inputs(MECHANISM, SHAFT | {"n_points": 72})
     together = calculate(MECHANISM, base | {"stiffness": np.array([1e-3, 5200.0, 1e9])}, variants=3)
@@ -289,7 +256,7 @@ def test_fewer_than_five_natural_periods_are_a_warning(ratio: float, status: str
 
 @pytest.mark.parametrize("law", ["harmonic", "parabolic"])
 def test_a_law_that_jumps_never_keeps_the_limit(law: str) -> None:
-    for ratio in (1, 3.3, 5, 10, 50):
+    for ratio in (1, 3.3, 50):
         calc = follower(motion_law=law, stiffness=stiffness(ratio) * (1 - 1e-12), damping_ratio=0)
         assert checks(calc)["peak_ratio"]["status"] == "fail"
     assert number(follower(motion_law=law, stiffness=stiffness(5), damping_ratio=0), "peak_ratio") == pytest.approx(

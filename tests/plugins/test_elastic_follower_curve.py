@@ -217,21 +217,18 @@ def curve_variants(count: int) -> dict[str, Array]:
     }
 
 
-@pytest.mark.parametrize("sources", ["one source", "a source for each"])
-def test_many_variants_at_once_are_single_runs(sources: str) -> None:
+def test_many_variants_with_a_source_for_each_are_single_runs() -> None:
     count = 9
     varied = curve_variants(count)
     one_gear = {"cycles_per_hour": 6000, "n_points": 72, "motion_curve": CurveHandle(gear(), "gear_angle")}
     base = inputs(MECHANISM, {key: SHAFT[key] for key in ("inertia", "stiffness")} | one_gear)
     begin, lasts = np.random.default_rng(2).uniform([[0.0], [0.2]], [[0.99], [0.9]], (2, count))
     each = CurveHandle(calculate(TOY, {"begin": begin, "lasts": lasts, "n_points": 90}, variants=count), "place")
-    own = {} if sources == "one source" else {"motion_curve": each}
-    together = calculate(MECHANISM, base | varied | own, variants=count)
+    together = calculate(MECHANISM, base | varied | {"motion_curve": each}, variants=count)
     assert together.flaws == {}
     for i in range(count):
-        if own:
-            one = calculate(TOY, {"begin": float(begin[i]), "lasts": float(lasts[i]), "n_points": 90})
-            own = {"motion_curve": CurveHandle(one, "place")}
-        alone = calculate(MECHANISM, base | {name: float(values[i]) for name, values in varied.items()} | own)
+        one = calculate(TOY, {"begin": float(begin[i]), "lasts": float(lasts[i]), "n_points": 90})
+        own = {name: float(values[i]) for name, values in varied.items()} | {"motion_curve": CurveHandle(one, "place")}
+        alone = calculate(MECHANISM, base | own)
         for name in ("tuning_ratio", "peak_ratio", "residual_ratio", "overshoot", "torque_peak", "acceleration_peak", "rest_time"):  # fmt: skip
             assert together[name][i, 0] == pytest.approx(number(alone, name), rel=1e-9, abs=1e-11), name

@@ -17,7 +17,6 @@ from diecut_report.engine import Calculation, Impossible, calculate
 from diecut_report.expressions import Array
 from diecut_report.plugins.geneva_transport import MECHANISM
 from diecut_report.results.mechanism import mechanism_results
-from diecut_report.testing import check_mechanism
 from tests.configs import HEAD, problems, saved
 from tests.machines import inputs, number
 
@@ -300,37 +299,3 @@ def test_the_crank_makes_a_turn_for_each_sheet_of_the_press(tmp_path: Path) -> N
 def test_inputs_out_of_range_are_refused(tmp_path: Path, keys: str, words: str) -> None:
     found = problems(tmp_path, HEAD + f"  g: {{kind: geneva_transport, {keys}}}\n", Discovery([]))
     assert len(found) == 1 and words in found[0]
-
-
-# --- arrays, contract ------------------------------------------------------------------------------------------------
-
-
-def test_many_variants_at_once_are_single_runs() -> None:
-    draw, count = np.random.default_rng(3), 300
-    varied = {
-        "slots": draw.integers(3, 19, count).astype(float),
-        "center_distance": draw.uniform(0.05, 0.3, count),
-        "roller_radius": draw.uniform(0.004, 0.03, count),
-        "crank_speed": draw.uniform(3, 20, count),
-        "driven_inertia": draw.uniform(0.1, 9, count),
-        "locking_clearance": draw.uniform(0, 2e-4, count),
-    }
-    base = inputs(MECHANISM, CROSS | SHEET | {"driven_inertia": 1, "roller_width": "20 mm", "n_points": 72})
-    together = calculate(MECHANISM, base | varied, variants=count)
-    names = [name for name, value in together.values.items() if value.shape == (count, 1) and value.dtype != object]
-    assert 10 < len(together.flaws) < 200
-    for i in range(count):
-        single = base | {name: float(values[i]) for name, values in varied.items()}
-        if i in together.flaws:
-            with pytest.raises(Impossible):
-                calculate(MECHANISM, single)
-            continue
-        alone = calculate(MECHANISM, single)
-        for name in names:
-            tolerance = 1e-6 if name.endswith("_at") else 1e-12
-            scale = 1e-9 if name in ("energy_turn", "energy_residual") else 1e-15
-            assert together[name][i, 0] == pytest.approx(number(alone, name), rel=tolerance, abs=scale, nan_ok=True)
-
-
-def test_the_declaration_keeps_the_plugin_contract() -> None:
-    check_mechanism(MECHANISM)

@@ -11,9 +11,7 @@ from diecut_report.engine import Calculation, calculate
 from diecut_report.expressions import Array
 from diecut_report.mechanics import four_bar
 from diecut_report.plugins.knife_drive import MECHANISM
-from diecut_report.testing import check_mechanism
 from tests.machines import inputs, number
-from tests.plugins.symbols import doubled
 
 OMEGA = 2 * np.pi * 50000 / 3600
 DRIVES = ("planetary", "crank_slider", "crank_rocker")
@@ -248,11 +246,3 @@ def test_the_edge_may_start_at_the_table(drive: str, keys: dict[str, Any]) -> No
     calc = knife(**keys, working_depth=f"{stroke!r} m")
     assert number(calc, f"{drive}_contact_velocity") == pytest.approx(0, abs=1e-5)
     assert number(calc, f"{drive}_working_angle") > 1
-
-
-def test_the_declaration_keeps_the_plugin_contract() -> None:
-    check_mechanism(MECHANISM)
-
-
-def test_each_quantity_has_a_symbol_of_its_own() -> None:
-    assert [line for line in doubled(MECHANISM) if not line.startswith("→")] == []

@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 from numpy.typing import NDArray
 from scipy.integrate import quad
@@ -16,14 +16,12 @@ from scipy.optimize import brentq
 
 from diecut_report import pipeline
 from diecut_report.config.discovery import Discovery
-from diecut_report.engine import Calculation, Impossible, calculate
-from diecut_report.plugins.platen_press import MECHANISM
+from diecut_report.engine import Calculation
 from diecut_report.results.mechanism import mechanism_results
-from diecut_report.testing import check_mechanism
 from tests.configs import EXAMPLES
-from tests.machines import inputs, number
+from tests.examples import examples
+from tests.machines import number
 from tests.plugins.platens import FRICTIONS, GUIDED, at, checks, platen
-from tests.plugins.symbols import doubled
 
 R, ROD, FORCE, MASS, BOARD, STRETCH, OMEGA = 0.11, 0.635, 5e5, 306.0, 5e-4, 4.5e-4, 2 * pi / 3
 
@@ -212,7 +210,7 @@ def test_what_the_rods_take_up_they_give_back() -> None:
 
 @given(stretch=st.floats(0.05, 5), board=st.floats(0.05, 5), rod=st.floats(130, 2000), force=st.floats(1, 5000),
        frictions=st.lists(st.floats(0.005, 0.5), min_size=4, max_size=4), rate=st.floats(10, 9000))  # fmt: skip
-@settings(max_examples=60, deadline=None)
+@examples(60)
 def test_any_machine_keeps_energy_and_its_least_return_arm_is_that_of_the_whole_dwell(
     stretch: float, board: float, rod: float, force: float, frictions: list[float], rate: float
 ) -> None:
@@ -322,42 +320,3 @@ def test_the_example_is_the_sources_machine() -> None:
     outputs = found["mechanisms"]["platen"]["outputs"]
     assert outputs["torque_max"]["value"] == number(platen(), "torque_max")
     assert degrees(outputs["torque_max_angle"]["value"]) == pytest.approx(3.12, abs=5e-3)
-
-
-def test_many_variants_at_once_are_single_runs() -> None:
-    draw, count = np.random.default_rng(5), 120
-    varied = {
-        "material_thickness": draw.uniform(1e-4, 3e-3, count),
-        "drive_deformation": draw.uniform(1e-4, 2e-3, count),
-        "rod_length": draw.uniform(0.08, 1.2, count),
-        "friction": draw.uniform(0.0, 0.3, count),
-        "cycles_per_hour": draw.uniform(0.1, 2, count),
-        "offset_force": draw.uniform(-0.02, 0.02, count),
-    }
-    base = inputs(MECHANISM, GUIDED | {"n_points": 72, "crank_pin_length": "100 mm"})
-    together = calculate(MECHANISM, base | varied, variants=count)
-    names = [
-        name
-        for name, value in together.values.items()
-        if value.shape == (count, 1) and value.dtype != object and "_change_" not in name
-    ]  # a machine has as many crossings as it has
-    assert 0 < len(together.flaws) < 20
-    for i in range(count):
-        single = base | {name: float(values[i]) for name, values in varied.items()}
-        if i in together.flaws:
-            with pytest.raises(Impossible):
-                calculate(MECHANISM, single)
-            continue
-        alone = calculate(MECHANISM, single)
-        for name in names:
-            tolerance = 1e-6 if name.endswith(("_at", "_angle")) else 1e-10
-            scale = 1e-9 if name == "energy_residual" else 1e-14
-            assert together[name][i, 0] == pytest.approx(number(alone, name), rel=tolerance, abs=scale, nan_ok=True)
-
-
-def test_the_declaration_keeps_the_plugin_contract() -> None:
-    check_mechanism(MECHANISM)
-
-
-def test_each_symbol_stands_for_one_quantity() -> None:
-    assert doubled(MECHANISM) == []

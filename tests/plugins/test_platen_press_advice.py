@@ -5,10 +5,11 @@ from __future__ import annotations
 import re
 from typing import Any
 
-from hypothesis import assume, given, settings
+from hypothesis import assume, given
 from hypothesis import strategies as st
 
 from diecut_report.engine import Impossible
+from tests.examples import examples
 from tests.plugins.platens import GUIDED, checks, platen
 
 SET = re.compile(r"set (\w+) to at (?:least|most) ([\d.]+(?:e-?\d+)? (?:mm²|mm|kN))")
@@ -39,7 +40,7 @@ def advised(message: str) -> dict[str, str]:
 
 
 @given(keys=KEYS, stretch=STRETCH, guides=st.sampled_from([{}, GUIDED, GUIDED | {"offset_weight": "300 mm"}]))
-@settings(max_examples=60, deadline=None)
+@examples(60)
 def test_what_is_advised_makes_the_check_pass_and_breaks_no_other(
     keys: dict[str, Any], stretch: dict[str, Any], guides: dict[str, Any]
 ) -> None:

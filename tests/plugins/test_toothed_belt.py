@@ -7,7 +7,7 @@ from typing import Any
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
 from diecut_report.api import Annotated, Inputs, Mechanism, Source, Text
@@ -22,6 +22,7 @@ from diecut_report.plugins.drive_train.toothed_belt import (
 )
 from diecut_report.results.mechanism import mechanism_results
 from diecut_report.testing import check_mechanism
+from tests.examples import examples
 from tests.machines import inputs, number
 
 
@@ -89,7 +90,7 @@ def test_the_driving_pulley_of_the_method() -> None:
     rpm=st.floats(20, 600),
     side=st.sampled_from(["away", "die"]),
 )
-@settings(max_examples=60, deadline=None)
+@examples(60)
 def test_the_pulley_pays_out_what_the_rolling_cylinder_takes_up(
     radius: float, share: float, velocity: float, rpm: float, side: str
 ) -> None:
@@ -258,29 +259,3 @@ def test_an_impossible_layout_names_its_pulleys(case: str) -> None:
     for part in words:
         assert part in told.message
     assert len(told.reasons) == 1
-
-
-# --- variants --------------------------------------------------------------------------------------------------------
-
-
-@given(
-    speeds=st.lists(st.floats(20, 600), min_size=4, max_size=4),
-    heights=st.lists(st.floats(0, 220), min_size=4, max_size=4),
-)
-@settings(max_examples=20, deadline=None)
-def test_variants_together_are_the_variants_alone(speeds: list[float], heights: list[float]) -> None:
-    rows = [[*IDLER[:2], (300.0, y, 50.0, "outside")] for y in heights]
-    single = inputs(MECHANISM, {"toothed_belt": SHEET | {"pulleys": listed(rows[0])}})
-    places = np.array([[p[1] for p in row] for row in rows]) / 1e3
-    together = single | {
-        "toothed_belt.shaft_speed": np.array(speeds) * 2 * pi / 60,
-        "toothed_belt.pulleys.y": places,
-    }
-    calc = calculate(MECHANISM, together, variants=4)
-    for i, (row, speed) in enumerate(zip(rows, speeds, strict=True)):
-        if i in calc.flaws:
-            assert refused(row, shaft_speed=speed).key == calc.flaws[i][0]
-            continue
-        alone = belt(row, shaft_speed=speed)
-        for name in ("driving_pulley_radius", "toothed_belt_length", "teeth_in_mesh_min", "wraps"):
-            assert calc[name][i] == pytest.approx(alone[name][0], rel=1e-12)

@@ -13,16 +13,12 @@ from hypothesis import strategies as st
 
 from diecut_report import pipeline
 from diecut_report.config.discovery import Discovery
-from diecut_report.contract.inputs import fields
-from diecut_report.contract.mechanism import Mechanism
 from diecut_report.engine import Calculation, calculate
 from diecut_report.expressions import Array
 from diecut_report.mechanics.motion_laws import LAWS
 from diecut_report.plugins.cam_gear_transport import MECHANISM as CAM
 from diecut_report.plugins.geneva_transport import MECHANISM as GENEVA
-from diecut_report.plugins.geneva_transport.comparison import COMPARISON
 from diecut_report.results.comparisons import compared, found
-from diecut_report.testing import check_mechanism
 from tests.configs import HEAD, saved
 from tests.machines import inputs, number
 
@@ -216,18 +212,6 @@ def test_the_same_dwell_is_told_as_the_same() -> None:
         assert words in outputs(dwelling(**changes), geneva())["verdict"]
 
 
-@pytest.mark.parametrize("mechanism", [CAM, GENEVA, COMPARISON], ids=lambda m: m.kind)
-def test_each_quantity_has_a_symbol_of_its_own(mechanism: Mechanism) -> None:
-    """An input and the step that takes it over are one quantity; an arrow leads to words."""
-    carried = {"cam_gear_speed": "gear_speed", "cam_gear_acceleration": "gear_acceleration"}
-    owners: dict[str, set[str]] = {}
-    for name, meta in fields(mechanism.inputs):
-        owners.setdefault(meta.symbol, set()).add(name)
-    for _, step in mechanism.steps:
-        owners.setdefault(step.symbol, set()).add(carried.get(step.id, step.id))
-    assert {symbol: ids for symbol, ids in owners.items() if len(ids) > 1 and symbol not in ("", "→")} == {}
-
-
 def test_a_press_with_both_drives_is_compared_and_one_with_a_single_drive_is_not(tmp_path: Path) -> None:
     stepper = "  s: {kind: cam_gear_transport, dwell_angle: 160, center_distance: 300}\n"
     cross = "  g: {kind: geneva_transport, center_distance: 200, roller_radius: 10}\n"
@@ -241,7 +225,3 @@ def test_a_press_with_both_drives_is_compared_and_one_with_a_single_drive_is_not
     assert [figure["id"] for figure in data["figures"]] == ["peaks", "cycle", "same_dwell"]
     assert data["outputs"]["cycle_basis"]["value"] == "both drives have it"
     assert "comparisons" not in calculated(cross)
-
-
-def test_the_declaration_keeps_the_plugin_contract() -> None:
-    check_mechanism(COMPARISON)

@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+import json
 import logging
 from collections.abc import Iterator
+from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
@@ -14,12 +16,22 @@ from diecut_report.report import Rendering
 from diecut_report.report.figures.style import load_fonts
 from diecut_report.report.figures.style import style as style_of
 from tests.report.made_results import sample
+from tests.shared import once
 
 
 @pytest.fixture
 def results() -> dict[str, Any]:
     """A fresh copy of the sample."""
     return sample()
+
+
+@pytest.fixture
+def plain() -> dict[str, Any]:
+    """A fresh copy of the sample without its figures, which take most of the time of a report."""
+    found = sample()
+    for mechanism in (*found["mechanisms"].values(), *found["comparisons"].values()):
+        mechanism["figures"] = []
+    return found
 
 
 @pytest.fixture(scope="session")
@@ -53,19 +65,37 @@ class Records(logging.Handler):
         self.messages.append(record.getMessage())
 
 
-@pytest.fixture
-def weasyprint_log() -> Iterator[list[str]]:
-    """What WeasyPrint warns of."""
-    handler = Records()
-    logger = logging.getLogger("weasyprint")
-    logger.addHandler(handler)
-    yield handler.messages
-    logger.removeHandler(handler)
+@dataclass(frozen=True)
+class Printed:
+    """A PDF file, what WeasyPrint warned of, how many formulas were set for the HTML, and how many more for the PDF."""
+
+    path: Path
+    warnings: list[str]
+    set_for_html: int
+    set_anew: int
 
 
 @pytest.fixture(scope="session")
-def pdf(rendering: Rendering, tmp_path_factory: pytest.TempPathFactory) -> Path:
+def printed(request: pytest.FixtureRequest, tmp_path_factory: pytest.TempPathFactory) -> Printed:
+    """The sample as PDF, made once for all workers."""
+
+    def make(folder: Path) -> None:
+        rendering: Rendering = request.getfixturevalue("rendering")
+        request.getfixturevalue("html")
+        handler, logger = Records(), logging.getLogger("weasyprint")
+        known = len(rendering.material.typesetter._outlines)
+        logger.addHandler(handler)
+        (folder / "sample.pdf").write_bytes(rendering.pdf())
+        logger.removeHandler(handler)
+        anew = len(rendering.material.typesetter._outlines) - known
+        told = {"warnings": handler.messages, "set_for_html": known, "set_anew": anew}
+        (folder / "told.json").write_text(json.dumps(told))
+
+    folder = once(tmp_path_factory, "sample", make)
+    return Printed(folder / "sample.pdf", **json.loads((folder / "told.json").read_text()))
+
+
+@pytest.fixture(scope="session")
+def pdf(printed: Printed) -> Path:
     """The sample as a PDF file."""
-    path = tmp_path_factory.mktemp("report") / "sample.pdf"
-    path.write_bytes(rendering.pdf())
-    return path
+    return printed.path

@@ -9,7 +9,7 @@ from typing import Any
 import pytest
 
 from diecut_report.report import Rendering, render_html
-from diecut_report.report.model import Chapter, Item
+from diecut_report.report.model import Item, PrintedChapter
 from diecut_report.report.profile_files import CENTER, PITCH_CURVE, PROFILE, exports
 from tests.report.made_results import SOURCE, check, export
 
@@ -17,7 +17,7 @@ Data = dict[str, Any]
 
 
 @pytest.fixture(scope="session")
-def chapters(rendering: Rendering) -> dict[str, Chapter]:
+def chapters(rendering: Rendering) -> dict[str, PrintedChapter]:
     """The sample's chapters by their name."""
     return {chapter.name: chapter for chapter in rendering.material.document.chapters}
 
@@ -26,12 +26,12 @@ def _words(html: str) -> str:
     return re.sub(r"\s+", " ", unescape(re.sub(r"<[^>]*>", "", html)))
 
 
-def _items(chapters: dict[str, Chapter]) -> dict[str, Item]:
+def _items(chapters: dict[str, PrintedChapter]) -> dict[str, Item]:
     return {item.description: item for item in chapters["train"].sections[0].items}
 
 
 # lists
-def test_list_of_parts_is_a_table_with_its_keys(chapters: dict[str, Chapter]) -> None:
+def test_list_of_parts_is_a_table_with_its_keys(chapters: dict[str, PrintedChapter]) -> None:
     [table] = chapters["train"].input_parts
     assert (table.number, table.family) == ("E.1", "belt.pulleys")
     assert [(c.title, c.unit, c.key) for c in table.columns] == [
@@ -40,7 +40,7 @@ def test_list_of_parts_is_a_table_with_its_keys(chapters: dict[str, Chapter]) ->
     assert [number for number, _ in table.lines] == ["1", "2", "3", "4", "5"]
 
 
-def test_cell_says_where_its_value_comes_from(chapters: dict[str, Chapter]) -> None:
+def test_cell_says_where_its_value_comes_from(chapters: dict[str, PrintedChapter]) -> None:
     [table] = chapters["train"].input_parts
     radius, side, mass = zip(*(cells for _, cells in table.lines), strict=True)
     assert [cell.note for cell in radius] == ["0.1 m", "${drive.radius}", "", "", ""]
@@ -48,7 +48,7 @@ def test_cell_says_where_its_value_comes_from(chapters: dict[str, Chapter]) -> N
     assert [(cell.text, cell.note) for cell in mass] == [("–", ""), ("–", ""), ("–", ""), ("2", ""), ("–", "")]
 
 
-def test_short_list_and_block_stay_lines(chapters: dict[str, Chapter]) -> None:
+def test_short_list_and_block_stay_lines(chapters: dict[str, PrintedChapter]) -> None:
     assert [row.key for row in chapters["train"].inputs] == [
         "vbelt.section",
         "law",
@@ -58,18 +58,18 @@ def test_short_list_and_block_stay_lines(chapters: dict[str, Chapter]) -> None:
     ]
 
 
-def test_word_with_digits_is_a_word_and_no_number(chapters: dict[str, Chapter]) -> None:
+def test_word_with_digits_is_a_word_and_no_number(chapters: dict[str, PrintedChapter]) -> None:
     rows = {row.key: row for row in chapters["train"].inputs}
     assert rows["law"].wordy and rows["law"].value == "polynomial_345"
     assert not rows["speed"].wordy
 
 
-def test_reference_without_a_text_shows_its_path(chapters: dict[str, Chapter]) -> None:
+def test_reference_without_a_text_shows_its_path(chapters: dict[str, PrintedChapter]) -> None:
     row = next(row for row in chapters["train"].inputs if row.key == "speed")
     assert (row.typed, row.origin) == ("drive.crank_speed", "reference")
 
 
-def test_results_of_repeated_parts_are_tables_others_are_counted(chapters: dict[str, Chapter]) -> None:
+def test_results_of_repeated_parts_are_tables_others_are_counted(chapters: dict[str, PrintedChapter]) -> None:
     train = chapters["train"]
     assert [row.description for row in train.outputs] == [
         "Radius",
@@ -86,7 +86,7 @@ def test_results_of_repeated_parts_are_tables_others_are_counted(chapters: dict[
     ]
 
 
-def test_tables_of_a_chapter_count_up(chapters: dict[str, Chapter]) -> None:
+def test_tables_of_a_chapter_count_up(chapters: dict[str, PrintedChapter]) -> None:
     train = chapters["train"]
     calculated = [item.table.number for section in train.sections for item in section.items if item.table]
     told = [
@@ -99,41 +99,43 @@ def test_tables_of_a_chapter_count_up(chapters: dict[str, Chapter]) -> None:
 
 
 # standards
-def test_number_from_a_table_tells_table_and_key(chapters: dict[str, Chapter]) -> None:
+def test_number_from_a_table_tells_table_and_key(chapters: dict[str, PrintedChapter]) -> None:
     item = _items(chapters)["Least diameter"]
     assert item.equation is not None and item.equation.text == "d_min = 90 mm"
     assert item.notes == ("From “Least diameters by section” for SPA", f"Source: {SOURCE}")
     assert item.source == "" and item.text == ""
 
 
-def test_number_from_a_table_without_a_title_tells_what_chose_it(chapters: dict[str, Chapter]) -> None:
+def test_number_from_a_table_without_a_title_tells_what_chose_it(chapters: dict[str, PrintedChapter]) -> None:
     item = _items(chapters)["Density"]
     assert item.notes == ("Material: steel",)
     assert item.source == "material"
 
 
-def test_pick_names_its_series(chapters: dict[str, Chapter]) -> None:
+def test_pick_names_its_series(chapters: dict[str, PrintedChapter]) -> None:
     item = _items(chapters)["Rating"]
     assert item.notes[0] == "Series: Ratings of motors"
     assert "neighbours not taken: 0.75 kW, 1.5 kW" in item.notes[1]
 
 
-def test_series_is_named_once_where_a_note_tells_its_sources(results: Data) -> None:
-    pick = next(item for item in results["mechanisms"]["train"]["sections"][0]["items"] if item.get("series"))
+def test_series_is_named_once_where_a_note_tells_its_sources(plain: Data) -> None:
+    pick = next(item for item in plain["mechanisms"]["train"]["sections"][0]["items"] if item.get("series"))
     pick["note"] = f"{pick['series']}: a standard; a catalogue"
-    section = Rendering(results).material.document.chapters[4].sections[0]
+    section = Rendering(plain).material.document.chapters[4].sections[0]
     notes = next(item.notes for item in section.items if item.description == "Rating")
     assert sum("Ratings of motors" in note for note in notes) == 1
 
 
-def test_last_of_a_row_and_running_integral(chapters: dict[str, Chapter]) -> None:
+def test_last_of_a_row_and_running_integral(chapters: dict[str, PrintedChapter]) -> None:
     last, energy = (_items(chapters)[name].equation for name in ("Speed of the last shaft", "Energy"))
     assert last is not None and last.text == "n = last ω_k = 49.32 rpm"
     assert energy is not None and energy.text == "A = ∫ M dφ from 0 to φ = −6.804 J at φ = 45°"
 
 
 # comparisons
-def test_comparison_is_a_chapter_of_its_own_after_the_mechanisms(chapters: dict[str, Chapter], html: str) -> None:
+def test_comparison_is_a_chapter_of_its_own_after_the_mechanisms(
+    chapters: dict[str, PrintedChapter], html: str
+) -> None:
     names = list(chapters)
     assert names[-1] == "compared-cylinder-train"
     compared = chapters[names[-1]]
@@ -152,15 +154,15 @@ def test_comparison_stands_in_contents_sources_and_checks(rendering: Rendering) 
     assert ("F", "compared") in [(row.chapter, row.id) for row in document.checks]
 
 
-def test_check_of_a_comparison_may_govern(results: Data) -> None:
-    results["governing"] = {"mechanism": "compared-cylinder-train", "check": "compared"}
-    governing = Rendering(results).material.document.governing
+def test_check_of_a_comparison_may_govern(plain: Data) -> None:
+    plain["governing"] = {"mechanism": "compared-cylinder-train", "check": "compared"}
+    governing = Rendering(plain).material.document.governing
     assert governing is not None and governing.chapter == "F"
 
 
-def test_comparison_without_checks_has_no_chapter_of_them(results: Data) -> None:
-    results["comparisons"]["compared-cylinder-train"]["checks"] = []
-    page = render_html(results)
+def test_comparison_without_checks_has_no_chapter_of_them(plain: Data) -> None:
+    plain["comparisons"]["compared-cylinder-train"]["checks"] = []
+    page = render_html(plain)
     last = page[page.index('<h2 id="m-F">') :]
     assert "There are no checks." not in last and "Checks" not in _words(last)
 
@@ -169,24 +171,24 @@ def test_mechanism_without_checks_says_so(html: str) -> None:
     assert "There are no checks." in html[html.index('<h2 id="m-E">') : html.index('<h2 id="m-F">')]
 
 
-def test_comparison_between_three(results: Data) -> None:
-    results["comparisons"]["compared-cylinder-train"]["between"] = ["cylinder", "drive", "train"]
-    assert "Comparison of A Impression cylinder, B Cylinder drive and E Drive train" in _words(render_html(results))
+def test_comparison_between_three(plain: Data) -> None:
+    plain["comparisons"]["compared-cylinder-train"]["between"] = ["cylinder", "drive", "train"]
+    assert "Comparison of A Impression cylinder, B Cylinder drive and E Drive train" in _words(render_html(plain))
 
 
 def test_figures_of_a_comparison_are_drawn(rendering: Rendering) -> None:
     assert "F.1" in rendering.material.figures
 
 
-def test_results_without_comparisons_have_none(results: Data) -> None:
-    del results["comparisons"]
-    results["mechanisms"]["cylinder"]["checks"].append(check("more"))
-    page = render_html(results)
+def test_results_without_comparisons_have_none(plain: Data) -> None:
+    del plain["comparisons"]
+    plain["mechanisms"]["cylinder"]["checks"].append(check("more"))
+    page = render_html(plain)
     assert 'id="m-E"' in page and 'id="m-F"' not in page and "Comparison of" not in page
 
 
 # files
-def test_files_beside_the_report_are_named(chapters: dict[str, Chapter], results: Data, html: str) -> None:
+def test_files_beside_the_report_are_named(chapters: dict[str, PrintedChapter], results: Data, html: str) -> None:
     files = chapters["train"].files
     assert {file.name for file in files} == {f"press.{suffix}" for suffix in exports(results)}
     drawing, table = files
@@ -195,11 +197,11 @@ def test_files_beside_the_report_are_named(chapters: dict[str, Chapter], results
     assert "Files beside this report" in html and "press.train.cam_1.dxf" in html
 
 
-def test_profile_without_a_pitch_curve_names_no_layer_of_it(results: Data) -> None:
-    results["mechanisms"]["train"]["exports"] = [export("cam_1_x", "cam_1_y")]
-    files = Rendering(results).material.document.chapters[4].files
+def test_profile_without_a_pitch_curve_names_no_layer_of_it(plain: Data) -> None:
+    plain["mechanisms"]["train"]["exports"] = [export("cam_1_x", "cam_1_y")]
+    files = Rendering(plain).material.document.chapters[4].files
     assert PITCH_CURVE not in files[0].content and PROFILE in files[0].content
 
 
-def test_chapter_without_exports_says_nothing_of_files(chapters: dict[str, Chapter]) -> None:
+def test_chapter_without_exports_says_nothing_of_files(chapters: dict[str, PrintedChapter]) -> None:
     assert chapters["cylinder"].files == [] and "files" not in chapters["cylinder"].parts

@@ -13,14 +13,14 @@ import pytest
 from diecut_report.report.figures.by_type import render
 from diecut_report.report.figures.charts import _of_curves, _of_lines
 from diecut_report.report.figures.diagram import STROKES, Diagram, legend
-from diecut_report.report.figures.label_layout import Names
-from diecut_report.report.figures.panel_data import Panel, framed, pieces
+from diecut_report.report.figures.label_layout import LabelLayout
+from diecut_report.report.figures.panel_data import PanelData, framed, pieces
 from diecut_report.report.figures.style import overlap, text_size
-from diecut_report.report.i18n import Words
+from diecut_report.report.i18n import Catalogue
 from tests.report.made_figures import CHARTS, block, chart, energy, laws, line, panel, wedge
 
 pytestmark = pytest.mark.usefixtures("style")
-WORDS = Words("en")
+WORDS = Catalogue("en")
 Data = dict[str, Any]
 TURN = ("Angle", "φ", "deg")
 
@@ -32,13 +32,13 @@ def _texts(figure: Data) -> list[str]:
     return [re.sub(r"<[^>]*>|\s", "", group) for group in groups]
 
 
-def _panels(figure: Data) -> list[Panel]:
+def _panels(figure: Data) -> list[PanelData]:
     return [_of_lines(each, WORDS) for each in figure["panels"]]
 
 
-def _names(figure: Data, index: int = 0) -> Names:
+def _names(figure: Data, index: int = 0) -> LabelLayout:
     drawn = _panels(figure)[index]
-    return Names(drawn, framed(drawn, 430, 205))
+    return LabelLayout(drawn, framed(drawn, 430, 205))
 
 
 # what is written
@@ -64,7 +64,7 @@ def test_mark_without_a_name_is_only_marked() -> None:
 @pytest.mark.parametrize("build", CHARTS)
 def test_texts_keep_clear_of_each_other_and_inside(build: Any) -> None:
     for each in _panels(build()):
-        names = Names(each, framed(each, 430, 150))
+        names = LabelLayout(each, framed(each, 430, 150))
         boxes = []
         for text in names.texts:
             wide, high = (side / 2 for side in text_size(text.text, text.size))
@@ -76,7 +76,7 @@ def test_texts_keep_clear_of_each_other_and_inside(build: Any) -> None:
 @pytest.mark.parametrize("build", [wedge, block])
 def test_notes_keep_clear_of_lines(build: Any) -> None:
     for each in _panels(build()):
-        names = Names(each, framed(each, 430, 150))
+        names = LabelLayout(each, framed(each, 430, 150))
         points = np.concatenate([*names.lines, names.notes])
         for text in names.texts:
             if text.solid or text.text == "absorbed energy 75 J":  # on its line, or in its area

@@ -15,7 +15,7 @@ from diecut_report.report.figures.drawing import Shapes
 from diecut_report.report.figures.drawing_scale import LARGEST, PAD, PAGE, SIZES, content, filled, folded
 from diecut_report.report.figures.shapes import beyond, hatching
 from diecut_report.report.figures.style import MM, marked, overlap, text_size
-from diecut_report.report.i18n import Words
+from diecut_report.report.i18n import Catalogue
 from tests.report.made_figures import (
     DRAWINGS,
     arrow,
@@ -33,7 +33,7 @@ from tests.report.made_figures import (
 )
 
 pytestmark = pytest.mark.usefixtures("style")
-WORDS = Words("en")
+WORDS = Catalogue("en")
 Data = dict[str, Any]
 
 

@@ -15,9 +15,9 @@ from diecut_report.report.curves import continuous, period_of, through_pole
 from diecut_report.report.figures.by_type import render
 from diecut_report.report.figures.shapes import hatching
 from diecut_report.report.figures.style import Labels, marked
-from diecut_report.report.i18n import Words
+from diecut_report.report.i18n import Catalogue
 
-WORDS = Words("en")
+WORDS = Catalogue("en")
 
 
 def _figures(results: dict[str, Any]) -> list[tuple[dict[str, Any], dict[str, Any]]]:

@@ -13,7 +13,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from diecut_report.report.equations import WIDTH, Equations
-from diecut_report.report.i18n import Words
+from diecut_report.report.i18n import Catalogue
 from diecut_report.report.latex import Latex, Linear, unit_latex
 from diecut_report.report.typeset import Typesetter
 
@@ -172,7 +172,7 @@ def test_linear_text_says_what_the_tree_says(tree: Tree) -> None:
 # Equations: rows, breaking, places
 def _equations() -> tuple[Equations, Typesetter]:
     typesetter = Typesetter()
-    return Equations(Words("en"), typesetter.measure), typesetter
+    return Equations(Catalogue("en"), typesetter.measure), typesetter
 
 
 def _item(**more: Any) -> dict[str, Any]:

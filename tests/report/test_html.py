@@ -70,10 +70,10 @@ def test_broken_and_skipped_mechanisms_are_told(html: str) -> None:
     assert "refers to cam, which is in error" in html
 
 
-def test_a_press_with_nothing_but_a_name_has_no_empty_table(results: dict[str, Any], html: str) -> None:
+def test_a_press_with_nothing_but_a_name_has_no_empty_table(plain: dict[str, Any], html: str) -> None:
     assert '<table class="inputs press-data">' in html
-    results["press"]["fields"] = []
-    page = render_html(results)
+    plain["press"]["fields"] = []
+    page = render_html(plain)
     assert 'press-data"' not in page and '<h2 id="press">' in page
     assert "The configuration gives no data of the press but its name." in page
 
@@ -112,15 +112,15 @@ def test_scripts_in_any_text_are_only_text(results: dict[str, Any]) -> None:
     assert page.count("&lt;script&gt;") > 60
 
 
-def test_missing_data_is_an_error_and_no_gap(results: dict[str, Any]) -> None:
-    del results["program"]["version"]
+def test_missing_data_is_an_error_and_no_gap(plain: dict[str, Any]) -> None:
+    del plain["program"]["version"]
     with pytest.raises(UndefinedError, match="version"):
-        render_html(results)
+        render_html(plain)
 
 
-def test_optional_title_block_entries_may_be_missing(results: dict[str, Any]) -> None:
-    results["project"] = {"title": "Bare", "revisions": None}
-    assert "<h1>Bare</h1>" in render_html(results)
+def test_optional_title_block_entries_may_be_missing(plain: dict[str, Any]) -> None:
+    plain["project"] = {"title": "Bare", "revisions": None}
+    assert "<h1>Bare</h1>" in render_html(plain)
 
 
 def test_templates_have_no_words_of_their_own() -> None:

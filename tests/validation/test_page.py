@@ -2,11 +2,8 @@
 
 from __future__ import annotations
 
-import pytest
-
 from tests.validation.page import PAGE, page
 
 
-@pytest.mark.repository
 def test_the_page_is_made_from_the_rows() -> None:
     assert PAGE.read_text(encoding="utf-8") == page(), "run: python -m tests.validation.page"

@@ -14,7 +14,7 @@ import numpy as np
 
 from diecut_report.contract.binding import Binding, bound
 from diecut_report.contract.steps import Choice, Step, Value
-from diecut_report.expressions import NUMERIC, Formula, FormulaError, Named, Node
+from diecut_report.expressions import NUMERIC, Formula, FormulaError, FormulaName, Node
 
 NUMBERS, PIECES, POINTS = 0, 1, 2  # what a term depends on at most: each is computed on arrays of its own
 WRITING = {"+": "add", "-": "subtract", "*": "multiply", "/": "divide"}  # what may put its result where it belongs
@@ -104,7 +104,7 @@ class Program:
                 return self._constant(float(text))
             case Node("sym", (symbol,)):
                 return known[symbol]
-            case Node("apply", (Named(formula=called), *args)):
+            case Node("apply", (FormulaName(formula=called), *args)):
                 own = dict(zip(called.parameters, (self._node(part, known) for part in args), strict=True))
                 return self._tree(called, own)
             case Node("call", (name, *args)):

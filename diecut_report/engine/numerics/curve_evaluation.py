@@ -16,7 +16,7 @@ NARROW = 4  # places a row up to which it is faster to take them in turn, each f
 MANY = 8  # variants from which compiling pays
 
 
-class Values(Protocol):
+class CurveValues(Protocol):
     """Curves at certain places, by id."""
 
     def __getitem__(self, name: str) -> Array:
@@ -26,7 +26,7 @@ class Values(Protocol):
 Flags = Callable[[tuple[str, ...]], list[Array]]  # of names, a column (rows, 1) for each
 
 
-class Machines(Protocol):
+class VariantRows(Protocol):
     """What curves are evaluated of: a calculation of one machine or of many."""
 
     @property
@@ -40,7 +40,7 @@ class Machines(Protocol):
     def __getitem__(self, name: str) -> Array:
         """A number of all machines."""
 
-    def sampler_of(self, axis: str, x: Array, middle: Array, rows: Array) -> Values:
+    def sampler_of(self, axis: str, x: Array, middle: Array, rows: Array) -> CurveValues:
         """All curves over an abscissa by the plain formulas, at x in the pieces of these middles."""
 
 
@@ -52,7 +52,7 @@ class Curves:
 
     def __init__(
         self,
-        calc: Machines,
+        calc: VariantRows,
         axis: str,
         wanted: Sequence[str],
         middle: Array,
@@ -95,7 +95,7 @@ class Curves:
         return found
 
 
-def flags_of(calc: Machines, axis: str, names: tuple[str, ...], middle: Array, variant: Array) -> list[Array]:
+def flags_of(calc: VariantRows, axis: str, names: tuple[str, ...], middle: Array, variant: Array) -> list[Array]:
     """The flags of pieces, taken at their middles; (rows, 1) each."""
     if not names:
         return []
@@ -129,17 +129,17 @@ class _Columns:
         return found
 
 
-def _program(calc: Machines, axis: str, wanted: tuple[str, ...], *, at_middle: bool) -> Program:
+def _program(calc: VariantRows, axis: str, wanted: tuple[str, ...], *, at_middle: bool) -> Program:
     return program(tuple(calc.curves.items()), axis, wanted, at_middle)
 
 
-def _numbers(calc: Machines, of: Program) -> list[Any]:
+def _numbers(calc: VariantRows, of: Program) -> list[Any]:
     """What depends on numbers alone, a row for each machine."""
     found: list[Any] = list(of.numbers(*(calc[leaf.name] for leaf in of.leaves[NUMBERS].values())))
     return found
 
 
-def _given(calc: Machines, axis: str, of: Program, x: Array, middle: Array, variant: Array) -> list[Array]:
+def _given(calc: VariantRows, axis: str, of: Program, x: Array, middle: Array, variant: Array) -> list[Array]:
     leaves = of.leaves[POINTS].values()
     if all(leaf.kind == "abscissa" for leaf in leaves):
         return [x] * len(leaves)

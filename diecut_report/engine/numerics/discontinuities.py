@@ -8,7 +8,7 @@ from typing import Any
 
 from diecut_report.contract.binding import Binding, bound
 from diecut_report.contract.steps import Accumulated, Choice, Derivative, Step, Value
-from diecut_report.expressions import FormulaError, Node
+from diecut_report.expressions import FormulaError, Node, substitute
 
 STEPWISE = {"sign", "ceil", "floor", "round"}  # functions that jump themselves
 
@@ -57,13 +57,30 @@ class _Curves:
         except FormulaError:  # it is called as it is
             return bool(names)
         varying = {parameter for parameter, name in link.names.items() if self._varies(name)}
-        return any(self._jumps(name) for name in names) or (condition and bool(names)) or _decides(tree, varying)
+        return (
+            any(self._jumps(name) for name in names) or (condition and bool(names)) or _decides(expanded(tree), varying)
+        )
 
 
 def _binding(part: Any) -> Binding:
     assert not isinstance(part, str), "a curve has no texts"
     found: Binding = part
     return found
+
+
+def expanded(node: Node) -> Node:
+    """Return a tree with the expressions of formulas in the place of the names by which they are printed."""
+    if node.op == "apply":
+        called, *args = node.args
+        given = dict(zip(called.formula.parameters, map(expanded, args), strict=True))
+        return substitute(expanded(called.formula.tree), given)
+    return Node(node.op, tuple(_expanded(part) for part in node.args))
+
+
+def _expanded(part: Any) -> Any:
+    if isinstance(part, Node):
+        return expanded(part)
+    return tuple(map(_expanded, part)) if isinstance(part, tuple) else part
 
 
 def _decides(node: Node, varying: set[str]) -> bool:

@@ -13,7 +13,7 @@ from diecut_report.engine.numerics.bracketing import Function, smooth_minimum
 from diecut_report.engine.numerics.curve_evaluation import Curves
 from diecut_report.engine.numerics.domain import SMALLEST
 from diecut_report.engine.numerics.polynomial_peaks import Spots, around, vertices
-from diecut_report.engine.numerics.sample_cache import Pieces
+from diecut_report.engine.numerics.sample_cache import CachedPieces
 from diecut_report.expressions import Array
 
 PLACE_TOLERANCE = 1e-6  # of an extreme's place, as a share of its bracket; its value errs by the square of it
@@ -77,7 +77,7 @@ def search(calc: Calculation, wanted: Sequence[Wanted]) -> None:
         calc.extremes[curve, sign] = domain.edges, _at_start(pieces, best, flat, values[curve], sign)
 
 
-def _best(pieces: Pieces, seen: Candidates, sign: float) -> tuple[Found, Array]:
+def _best(pieces: CachedPieces, seen: Candidates, sign: float) -> tuple[Found, Array]:
     """The greatest candidate of each variant, at the first of the places that reach it but for rounding; NaN where there is none.
 
     Also which variants' are on a plateau.
@@ -93,7 +93,7 @@ def _best(pieces: Pieces, seen: Candidates, sign: float) -> tuple[Found, Array]:
     return (found[0], found[1], found[2]), np.unique(variant[alike[seen.flat[alike]]])
 
 
-def _at_start(pieces: Pieces, found: Found, flat: Array, values: Array, sign: float) -> Found:
+def _at_start(pieces: CachedPieces, found: Found, flat: Array, values: Array, sign: float) -> Found:
     """Extremes of which some are on a plateau: rounding must not choose the place on it, so it is the first point of the grid there."""
     if not len(flat):
         return found
@@ -134,7 +134,7 @@ def outruns(calc: Calculation, curve: str, found: Array, sign: float) -> Array:
     return share
 
 
-def _candidates(pieces: Pieces, which: int, values: Array, sign: float) -> Candidates:
+def _candidates(pieces: CachedPieces, which: int, values: Array, sign: float) -> Candidates:
     """Points of the grid not below their neighbours, and near enough to the greatest that a search may lift them above it.
 
     Near enough: a smooth curve rises between two points by less than what it falls to the next ones.
@@ -205,7 +205,7 @@ def _depths(calc: Calculation, axis: str, wanted: Sequence[Wanted], seen: Candid
     return depths
 
 
-def _refined(depth_of: Function, seen: Candidates, pieces: Pieces) -> Candidates:
+def _refined(depth_of: Function, seen: Candidates, pieces: CachedPieces) -> Candidates:
     """The candidates at their vertices, by a polynomial or else by a search; on a plateau as they are."""
     rising = np.flatnonzero(~seen.flat)
     piece = seen.piece[rising]

@@ -23,6 +23,7 @@ SAMPLE_TOLERANCE = 1e-8
 NEGLIGIBLE = 1e-17  # share of the greatest Chebyshev coefficient below which the last ones are left out
 ROUNDING = 1e-14  # share of a difference's terms that may be rounding
 DIP_TOLERANCE = 1e-8  # of the place of a dip, as a share of its bracket
+SEARCHES = 5  # for crossings, each on a finer grid
 NOISE = 1e-10  # share of a curve's greatest value below which its sign is rounding
 
 
@@ -107,6 +108,25 @@ def crossings(calc: Calculation, curve: str) -> tuple[Array, Array]:
     at_start = np.zeros(calc.count, dtype=bool)
     at_start[pieces.variant[first // points]] = sign[first] != sign[last]
     return _rows_of(places, rows, calc.count, at_start), worst
+
+
+def all_crossings(calc: Calculation, curve: str) -> tuple[Array, Array]:
+    """Return what ``crossings`` finds, searched again between those found: two may lie between two points of the first grid."""
+    domain = calc.domains[calc.axis[curve]]
+    edges, joints = domain.edges, domain.joints
+    domain.cut(dips(calc, curve))
+    found = crossings(calc, curve)
+    for _ in range(SEARCHES):
+        before = domain.edges
+        domain.cut(found[0])
+        last = found
+        if domain.edges is before:
+            break
+        found = crossings(calc, curve)
+        if np.array_equal(np.isfinite(last[0]).sum(axis=1), np.isfinite(found[0]).sum(axis=1)):
+            break
+    domain.edges, domain.joints = edges, joints
+    return last
 
 
 def _roots(calc: Calculation, curve: str, k: Array) -> tuple[Array, Array]:

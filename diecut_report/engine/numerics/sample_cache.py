@@ -10,7 +10,7 @@ from weakref import proxy
 
 import numpy as np
 
-from diecut_report.engine.numerics.curve_evaluation import Curves, Machines, flags_of
+from diecut_report.engine.numerics.curve_evaluation import Curves, VariantRows, flags_of
 from diecut_report.engine.numerics.discontinuities import jumping
 from diecut_report.engine.numerics.domain import Domain, nodes_of, shares
 from diecut_report.expressions import Array
@@ -23,7 +23,7 @@ Rows = Array | slice
 EVERY = slice(None)
 
 
-class Pieces:
+class CachedPieces:
     """Smooth pieces that have a width, one row each, ascending by variant and place."""
 
     def __init__(self, domain: Domain) -> None:
@@ -79,7 +79,7 @@ class Pieces:
         return found
 
 
-class Owner(Machines, Protocol):
+class Owner(VariantRows, Protocol):
     """The calculation that a table belongs to."""
 
     @property
@@ -91,7 +91,7 @@ class Owner(Machines, Protocol):
         """For each abscissa the curves that coming steps ask for."""
 
 
-Places = Callable[[Pieces, Rows], Array]  # of pieces, (rows, points)
+Places = Callable[[CachedPieces, Rows], Array]  # of pieces, (rows, points)
 
 
 class Known(NamedTuple):
@@ -101,7 +101,7 @@ class Known(NamedTuple):
     values: Array
 
 
-class Table:
+class SampleCache:
     """What is known of the curves over one abscissa."""
 
     def __init__(self, calc: Owner, axis: str) -> None:
@@ -110,17 +110,17 @@ class Table:
         )  # which holds this table: among many machines no memory may wait for the collector
         self.axis = axis
         self._edges: Array | None = None
-        self._pieces: Pieces
+        self._pieces: CachedPieces
         self._cuts: list[Array] = []  # for each cut the rows that pieces after it had before, -1 for none
         self._known: dict[str, dict[str, Known]] = defaultdict(dict)  # by use and curve
         self._flags: dict[str, Known] = {}
 
-    def pieces(self) -> Pieces:
+    def pieces(self) -> CachedPieces:
         """The present pieces."""
         domain = self.calc.domains[self.axis]
         if self._edges is domain.edges:
             return self._pieces
-        new = Pieces(domain)
+        new = CachedPieces(domain)
         if self._edges is not None and not all(
             np.array_equal(getattr(self._pieces, name), getattr(new, name)) for name in PIECE
         ):
@@ -144,7 +144,7 @@ class Table:
 
     def on_grid(self, curves: Sequence[str]) -> list[Array]:
         """Curves on the search grid, (pieces, points) each."""
-        return self._at("grid", curves, Pieces.grid)
+        return self._at("grid", curves, CachedPieces.grid)
 
     def at_gauss(self, curves: Sequence[str], order: int) -> list[Array]:
         """Curves at the Gauss–Legendre points, (pieces, points) each."""
@@ -206,7 +206,7 @@ def _take_limits(values: Array, limits: Array) -> None:
 PIECE = ("variant", "left", "right")
 
 
-def _matches(old: Pieces, new: Pieces) -> Array:
+def _matches(old: CachedPieces, new: CachedPieces) -> Array:
     """For each new piece the row of the old one that it is, -1 for none."""
     if not len(old.left):
         return np.full(len(new.left), -1)

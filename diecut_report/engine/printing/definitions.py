@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from typing import Any
 
-from diecut_report.expressions import Formula, Named
+from diecut_report.expressions import Formula, FormulaName
 from diecut_report.expressions.tree import Node, walk
 from diecut_report.quantities.formatting import shortest
 
@@ -29,7 +29,7 @@ def definitions(tree: Node) -> list[dict[str, Any]]:
 def _called(tree: Node) -> Iterator[Formula]:
     for node in walk(tree):
         match node:
-            case Node("apply", (Named(formula=formula), *_)):
+            case Node("apply", (FormulaName(formula=formula), *_)):
                 yield formula
                 yield from _called(formula.tree)
 

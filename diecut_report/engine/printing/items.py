@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from typing import Any
 
 from diecut_report.contract.binding import Binding, Bound, bound
-from diecut_report.contract.part_steps import Lookup, Neighbour, Part, Pick, Running, Total
+from diecut_report.contract.part_steps import Interpolated, Lookup, Neighbour, Part, Pick, Running, Total
 from diecut_report.contract.result_names import place_name
 from diecut_report.contract.steps import (
     Abscissa,
@@ -24,6 +25,7 @@ from diecut_report.contract.steps import (
 from diecut_report.engine.calculation import Calculation, Unproven
 from diecut_report.engine.printing import tables
 from diecut_report.engine.printing.definitions import definitions
+from diecut_report.engine.printing.interpolation import BetweenRows
 from diecut_report.engine.printing.shown_place import (
     case_taken,
     is_elsewhere,
@@ -37,6 +39,7 @@ from diecut_report.engine.printing.shown_place import (
 from diecut_report.engine.printing.substitution import (
     MOST_DIGITS,
     Contradiction,
+    Elsewhere,
     Substitution,
     printed,
 )
@@ -59,7 +62,7 @@ def section_items(calc: Calculation) -> list[dict[str, Any]]:
     chapters: dict[str, dict[str, Any]] = {}
     for section, step in calc.mechanism.active(calc.given):
         chapter = chapters.setdefault(section.title, {"title": section.title, "text": section.text, "items": []})
-        chapter["items"] += items(calc, step)
+        chapter["items"] += tables.once(chapter["items"], items(calc, step))
         if isinstance(step, Value | Choice | Accumulated | Derivative) and calc.axis.get(step.id) in calc.domains:
             place = place_shown(calc, calc.axis[step.id], False)
             chapter["shown"] = [*(at for at in chapter.get("shown", []) if at != place), place]
@@ -146,7 +149,7 @@ def _sides(substitution: Substitution, held: bool) -> tuple[Any, Any]:
 def _formula(calc: Calculation, part: Bound, step: Step, axis: str | None, elsewhere: bool) -> Item:
     target = value_at(calc, step.id, axis)
     marked = marks(calc, axis, elsewhere)
-    substitution = Substitution(calc, part, lambda name: value_at(calc, name, axis, flag=elsewhere), marked)
+    substitution = _substitution(calc, part, step, lambda name: value_at(calc, name, axis, flag=elsewhere), marked)
     takes = [name for name in part.names.values() if isinstance(name, str)]
     try:
         numeric = substitution.numeric(target, step.unit, step.digits) if takes else None
@@ -160,7 +163,17 @@ def _formula(calc: Calculation, part: Bound, step: Step, axis: str | None, elsew
         item["note"] = (
             "the terms are equal up to the rounding of the computer, or so nearly that printed numbers do not show it"
         )
+    if isinstance(substitution, BetweenRows):
+        item["note"] = " ".join(filter(None, (item.get("note"), substitution.told())))
     return item | {"result": shown(target, step.unit, step.digits)}
+
+
+def _substitution(
+    calc: Calculation, part: Bound, step: Step, value_of: Callable[[str], float], marked: Elsewhere | None
+) -> Substitution:
+    if isinstance(step, Interpolated):
+        return BetweenRows(calc, step, value_of, marked)
+    return Substitution(calc, part, value_of, marked)
 
 
 def _contradicted(step: Step, part: Bound, found: Contradiction) -> str:

@@ -12,7 +12,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from diecut_report.expressions import APPLY, NUMERIC, Named
+from diecut_report.expressions import APPLY, NUMERIC, FormulaName
 from diecut_report.expressions.tree import Node
 
 LAST_PLACES = 4 * 2.0**-53  # what an operation, or a number read in another unit, may be off by, of its value
@@ -52,7 +52,7 @@ def _bounded(node: Node, leaf: LeafOf) -> Bounded:
             return leaf(node)
         case Node("cases", branches):
             return _branches([[_bounded(part, leaf) for part in branch] for branch in branches])
-        case Node("apply", (Named(formula=called), *args)):
+        case Node("apply", (FormulaName(formula=called), *args)):
             known = dict(zip(called.parameters, (_bounded(a, leaf) for a in args), strict=True))
             return _bounded(called.tree, lambda own: known[own.args[0]] if own.args[0] in known else leaf(own))
         case Node("call" | "cmp", (name, *args)):

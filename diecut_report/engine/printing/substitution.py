@@ -139,6 +139,10 @@ class Substitution:
             return None
         raise Contradiction(target, whole.value)
 
+    def unit_of(self, declared: str, *, angle: bool) -> str:
+        """The unit in which a quantity's number stands; ``angle`` where a trigonometric function takes it."""
+        return "deg" if angle and unit(declared).si == "rad" else formula_unit(declared)
+
     def _at(self, digits: int) -> Node:
         """The expression with numbers of so many digits."""
         return self._with_numbers(self.part.formula.tree, digits, angle=False)
@@ -182,7 +186,7 @@ class Substitution:
         if not isinstance(name, str):
             return Node("num", (f"{name:g}",))
         declared = self.calc.step_or_input(name)
-        display = "deg" if angle and unit(declared.unit).si == "rad" else formula_unit(declared.unit)
+        display = self.unit_of(declared.unit, angle=angle)
         number = self.value_of(name) / unit(display).factor
         if digits == MOST_DIGITS:
             return Node("qty", (f"{number:.{digits}g}", display))  # exact: neither as typed nor taken as whole

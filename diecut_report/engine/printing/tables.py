@@ -2,18 +2,22 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import Any
+
+import numpy as np
 
 from diecut_report.contract.part_steps import Lookup, Part, Pick, Total
 from diecut_report.contract.steps import Step
 from diecut_report.engine.calculation import Calculation
 from diecut_report.engine.printing.substitution import printed
-from diecut_report.engine.steps.part_rows import series_of
+from diecut_report.engine.steps.part_rows import given_of, series_of
 from diecut_report.quantities.formatting import number_text, shown, with_unit
 from diecut_report.quantities.units import unit
-from diecut_report.standards import StandardSeries, StandardTable
+from diecut_report.standards import StandardSeries, StandardTable, sources_told
 
 Item = dict[str, Any]
+AS_GIVEN = "as given"
 SERIES_WORDS = {
     "above": "the next standard value at or above",
     "below": "the next standard value at or below",
@@ -59,19 +63,44 @@ def looked_up(calc: Calculation, step: Lookup) -> Item:
     """A row taken from a table, beside the texts by which it was taken."""
     found = table(calc, step, [step.id])
     found["columns"].insert(1, {"title": calc.meta[step.by].description, "symbol": "", "unit": "1"})
-    for line, text in zip(found["rows"], calc.inputs[step.by], strict=True):
+    for line, text in zip(found["rows"], _texts(calc, step), strict=True):
         line.insert(1, str(text))
     return found
 
 
+def _texts(calc: Calculation, step: Lookup) -> Sequence[str]:
+    """By which text each part of a row was looked up, or that its number is given."""
+    given = given_of(calc, step)
+    count = calc[step.id].shape[1]
+    if isinstance(given, np.ndarray):
+        return [AS_GIVEN] * count
+    texts: Sequence[str] = calc.inputs[step.by]
+    own = given or (None,) * count
+    return [text if value is None else AS_GIVEN for text, value in zip(texts, own, strict=True)]
+
+
 def _lookup(calc: Calculation, step: Lookup) -> Item:
+    if given_of(calc, step) is not None:
+        declared = calc.meta[step.given.removeprefix("inputs.")]
+        return {"type": "lookup", "by": declared.description, "key": AS_GIVEN, "table": ""}
     return {
         "type": "lookup",
         "by": calc.meta[step.by].description,
         "key": calc.inputs[step.by],
         "table": step.table.title if isinstance(step.table, StandardTable) else "",
+        **({"column": step.column} if step.column else {}),
         **_tables(step.table),
     }
+
+
+def once(before: list[Item], new: list[Item]) -> list[Item]:
+    """Return new items; of numbers taken one after another from a table of several columns the first alone names its sources."""
+    last = before[-1] if before else {}
+    for item in new:
+        is_again = item["type"] == last.get("type") == "lookup" and "column" in item
+        if is_again and (item["table"], item["key"]) == (last["table"], last["key"]):
+            item.pop("note")
+    return new
 
 
 def _pick(calc: Calculation, step: Pick) -> Item:
@@ -85,5 +114,5 @@ def _pick(calc: Calculation, step: Pick) -> Item:
 def _tables(taken_from: object) -> Item:
     """The published tables that agree on a standard value."""
     if isinstance(taken_from, StandardTable | StandardSeries):
-        return {"note": f"{taken_from.title}: {'; '.join(taken_from.sources)}"}
+        return {"note": sources_told(taken_from)}
     return {}

@@ -13,6 +13,7 @@ from diecut_report.contract.checks import Check
 from diecut_report.contract.steps import Value
 from diecut_report.engine.calculation import Calculation, Side
 from diecut_report.engine.numerics import extrema
+from diecut_report.engine.steps import smooth_pieces
 from diecut_report.expressions import Array, formula
 from diecut_report.quantities.units import unit
 
@@ -27,6 +28,8 @@ def searched(calc: Calculation) -> Iterator[tuple[Value, Array]]:
     """Search the checks on curves; give what stands for each, and how far it is from being proved, shape (variants, 1)."""
     for check in calc.mechanism.checks:
         if is_made(calc, check) and any(name in calc.curves for name in check.named):
+            for name in check.named:
+                smooth_pieces.require(calc, check.id, name)
             for number, step in enumerate(_stand_ins(check)):
                 yield step, _search(calc, check, number, step)
 

@@ -17,7 +17,7 @@ def require(calc: Calculation, step: Require) -> None:
     held = calc.apply(step.condition).astype(bool)
     for variant in np.flatnonzero(~held.all(axis=1)):
         part, count = int(np.argmin(held[variant])), held.shape[1]
-        _refuse(calc, step, int(variant), {"part": part + 1, "next": (part + 1) % count + 1, "index": part})
+        _said(calc, step, int(variant), {"part": part + 1, "next": (part + 1) % count + 1, "index": part})
 
 
 def clash(calc: Calculation, step: Clash) -> None:
@@ -25,14 +25,20 @@ def clash(calc: Calculation, step: Clash) -> None:
     others = step.function(*(calc[name] for name in step.takes))
     for variant in np.flatnonzero((others >= 0).any(axis=1)):
         part = int(np.argmax(others[variant] >= 0))
-        _refuse(calc, step, int(variant), {"part": part + 1, "other": int(others[variant, part]) + 1, "index": part})
+        _said(calc, step, int(variant), {"part": part + 1, "other": int(others[variant, part]) + 1, "index": part})
 
 
-def _refuse(calc: Calculation, step: Require | Clash, variant: int, places: dict[str, int]) -> None:
+def _said(calc: Calculation, step: Require | Clash, variant: int, places: dict[str, int]) -> None:
     if variant in calc.flaws and calc.count > 1:  # what follows from impossible numbers says nothing more
         return
     message = "" if calc.is_partial else filled(calc, step.message, variant, places)
-    key = filled(calc, step.key, variant, places)
+    refuse(calc, variant, filled(calc, step.key, variant, places), message)
+
+
+def refuse(calc: Calculation, variant: int, key: str, message: str) -> None:
+    """Mark a variant as impossible, unless it is already; a single machine is refused."""
+    if variant in calc.flaws and calc.count > 1:
+        return
     calc.flaws[variant] = key, message
     if calc.count == 1:
         raise Impossible([(key, message)])

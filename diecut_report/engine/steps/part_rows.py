@@ -8,10 +8,11 @@ from typing import Any
 import numpy as np
 
 from diecut_report.contract.part_steps import Lookup, Neighbour, Part, Pick, Running, Total
-from diecut_report.engine.calculation import Calculation
+from diecut_report.engine.calculation import Calculation, Impossible
 from diecut_report.expressions import Array
+from diecut_report.quantities.formatting import told
 from diecut_report.quantities.units import unit
-from diecut_report.standards import StandardSeries, StandardTable
+from diecut_report.standards import StandardSeries
 
 NEUTRAL = {"sum": 0.0, "product": 1.0, "min": np.inf, "max": -np.inf}
 REDUCE: dict[str, Any] = {"sum": np.sum, "product": np.prod, "min": np.min, "max": np.max}
@@ -38,18 +39,36 @@ def running(calc: Calculation, step: Running) -> None:
 
 
 def part(calc: Calculation, step: Part) -> None:
-    """The value of one part."""
+    """The value of one part; a machine whose list is shorter is impossible."""
+    count = calc[step.of].shape[1]
+    if not -count <= step.index < count:
+        which = f"part {step.index + 1}" if step.index >= 0 else f"part {-step.index} from the last"
+        words = f"has {count} {'entry' if count == 1 else 'entries'}, but {step.description} ({step.id}) takes {which}; add what is missing"
+        raise Impossible([(calc.axis[step.of], words)])
     calc.values[step.id] = calc[step.of][:, [step.index]]
 
 
 def lookup(calc: Calculation, step: Lookup) -> None:
-    """A number from a table by a text, a row where there is a text for each part."""
-    numbers, display = (
-        (step.table.values, step.table.unit) if isinstance(step.table, StandardTable) else (step.table, step.unit)
-    )
+    """A number from a table by a text, a row where there is a text for each part; or as it is given."""
+    given = given_of(calc, step)
+    if isinstance(given, np.ndarray):
+        calc.values[step.id] = given
+        return
+    numbers, display = step.rows()
     text = calc.inputs[step.by]
-    found = [numbers[key] * unit(display).factor for key in (text if isinstance(text, tuple) else (text,))]
+    found = [
+        np.nan if key is None else numbers[key] * unit(display).factor
+        for key in (text if isinstance(text, tuple) else (text,))
+    ]
     calc.values[step.id] = np.tile(np.asarray(found, dtype=float), (calc.count, 1))
+    for part, value in enumerate(given or ()):
+        if value is not None:
+            calc.values[step.id][:, part] = value
+
+
+def given_of(calc: Calculation, step: Lookup) -> Any:
+    """What is given in place of the table's number: of all parts, or a tuple with None for those without; None where nothing is."""
+    return calc.inputs.get(step.given.removeprefix("inputs.")) if step.given else None
 
 
 def series_of(calc: Calculation, step: Pick) -> tuple[tuple[float, ...], str, StandardSeries | None]:
@@ -61,12 +80,39 @@ def series_of(calc: Calculation, step: Pick) -> tuple[tuple[float, ...], str, St
 
 
 def pick(calc: Calculation, step: Pick) -> None:
-    """The standard value; beyond the ends of the series its last one."""
+    """The standard value; beyond the ends of the series its last one, or no machine."""
     values, display, _ = series_of(calc, step)
     series: Array = np.asarray(values) * unit(display).factor
     sought = calc[step.of]
+    if step.beyond == "impossible":
+        _within(calc, step, sought, series)
     above = np.clip(np.searchsorted(series, sought * (1 - SAME)), 0, len(series) - 1)
     below = np.clip(np.searchsorted(series, sought * (1 + SAME), side="right") - 1, 0, len(series) - 1)
     nearer = np.where(sought - series[below] <= series[above] - sought, below, above)
     calc.branch[step.id] = {"above": above, "below": below, "nearest": nearer}[step.rule]
     calc.values[step.id] = series[calc.branch[step.id]]
+
+
+def _within(calc: Calculation, step: Pick, sought: Array, series: Array) -> None:
+    """Refuse a machine for which the series has no value by the rule: what is sought lies beyond its end; mark such variants."""
+    over = sought > series[-1] * (1 + SAME) if step.rule != "below" else np.zeros_like(sought, dtype=bool)
+    under = sought < series[0] * (1 - SAME) if step.rule != "above" else np.zeros_like(sought, dtype=bool)
+    for variant in np.flatnonzero((over | under).any(axis=1)):
+        part = int(np.argmax(over[variant] | under[variant]))
+        end = (
+            f"the greatest value is {told(series[-1], step.unit)}"
+            if over[variant, part]
+            else f"the least value is {told(series[0], step.unit)}"
+        )
+        title = getattr(series_of(calc, step)[2], "title", "the series")
+        words = f"{step.description} ({step.id}): {_sought(calc, step, float(sought[variant, part]))} is beyond {title}, of which {end}"
+        key = step.of.removeprefix("inputs.")
+        if calc.count == 1:
+            raise Impossible([(key if key in calc.inputs else "", words)])
+        calc.flaws.setdefault(int(variant), (step.id, words))
+
+
+def _sought(calc: Calculation, step: Pick, value: float) -> str:
+    """Return what a step picks by, with its symbol and value."""
+    declared = calc.step_or_input(step.of)
+    return f"{declared.description}, {declared.symbol} = {told(value, declared.unit)},"

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from itertools import takewhile
 
+from diecut_report.contract.part_steps import Interpolated
 from diecut_report.contract.sections import taken
 from diecut_report.contract.steps import Accumulated, Choice, Crossings, Derivative, Reduction, Step, Value
 from diecut_report.engine.calculation import Calculation
@@ -32,7 +33,7 @@ def _search(calc: Calculation, first: Reduction, steps: Sequence[Step], axis: st
     edges = calc.domains[axis].edges
     if all(calc.extremes.get((first.of, sign), (None,))[0] is edges for sign in SIGNS[first.operation]):
         return
-    uncut = takewhile(lambda step: getattr(step, "abscissa", "") != axis, _computable(calc, steps, axis))
+    uncut = takewhile(lambda step: not _cuts(calc, step, axis), _computable(calc, steps, axis))
     extrema.search(
         calc,
         [
@@ -44,6 +45,11 @@ def _search(calc: Calculation, first: Reduction, steps: Sequence[Step], axis: st
     )
 
 
+def _cuts(calc: Calculation, step: Step, axis: str) -> bool:
+    """Whether a step cuts an abscissa into finer pieces; a value between the rows of a table has its corners there."""
+    return getattr(step, "abscissa", "") == axis or (isinstance(step, Interpolated) and calc.axis.get(step.id) == axis)
+
+
 def _computable(calc: Calculation, steps: Sequence[Step], axis: str) -> Iterator[Step]:
     """The coming steps that cut an abscissa, and those that ask for curves over it which need nothing that is not known yet.
 
@@ -51,7 +57,7 @@ def _computable(calc: Calculation, steps: Sequence[Step], axis: str) -> Iterator
     """
     known = {axis, *calc.inputs, *calc.values, *calc.curves, *(f"inputs.{name}" for name in calc.inputs)}
     for step in steps:
-        if getattr(step, "abscissa", "") == axis:
+        if _cuts(calc, step, axis):
             yield step
         elif isinstance(step, Value | Choice) and calc.axis.get(step.id) == axis and taken(step) <= known:
             known.add(step.id)

@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 
 from diecut_report.contract.mechanism import Mechanism
-from diecut_report.contract.part_steps import Lookup, Neighbour, Part, Pick, Running, Total
+from diecut_report.contract.part_steps import Interpolated, Lookup, Neighbour, Part, Pick, Running, Total
 from diecut_report.contract.result_names import count_name, place_name, result_names
 from diecut_report.contract.steps import (
     Abscissa,
@@ -29,15 +29,18 @@ from diecut_report.contract.steps import (
     Value,
     Words,
 )
-from diecut_report.engine.calculation import Calculation, Impossible, SampledCurve, Unproven
+from diecut_report.engine.calculation import Calculation, Impossible, SampledCurve
 from diecut_report.engine.numerics import extrema, roots_integrals
 from diecut_report.engine.numerics.domain import Domain
 from diecut_report.engine.steps import (
     extreme_checks,
     feasibility,
+    interpolation,
     part_rows,
     prefetch,
+    smooth_pieces,
 )
+from diecut_report.engine.steps.soundness import finite, mark, possible, prove, whole
 from diecut_report.expressions import Array
 from diecut_report.quantities.formatting import told
 from diecut_report.quantities.units import pretty, unit
@@ -65,13 +68,16 @@ def calculate(
             if isinstance(step, Words):
                 continue
             try:
+                if isinstance(step, prefetch.Asking):
+                    smooth_pieces.require(calc, step.id, step.of)
                 RUN[type(step)](calc, step)
             except Impossible as first:
                 raise Impossible([*first.reasons, *feasibility.reasons(calc, steps[i + 1 :])]) from None
-            _finite(calc, step)
+            finite(calc, step)
+            whole(calc, step)
             _name_parts(calc, step)
         for stand_in, residual in extreme_checks.searched(calc) if only is None else ():
-            _prove(calc, stand_in, residual, roots_integrals.SAMPLE_TOLERANCE)
+            prove(calc, stand_in, residual, roots_integrals.SAMPLE_TOLERANCE)
     return calc
 
 
@@ -80,31 +86,6 @@ def _name_parts(calc: Calculation, step: Step) -> None:
     if step.numbered:
         row = calc[step.id]
         calc.values |= {each.name: row[:, [each.index]] for each in result_names(step, row.shape[1])}
-
-
-def _possible(calc: Calculation) -> Array:
-    feasibility = np.ones(calc.count, dtype=bool)
-    feasibility[list(calc.flaws)] = False
-    return feasibility
-
-
-def _prove(calc: Calculation, step: Step, residual: Array, tolerance: float) -> None:
-    """A result that is not proved is refused for a single machine, and marks the variant among several."""
-    unproved = ~(residual[:, 0] <= tolerance) & _possible(calc)
-    calc.proof[step.id] = float(np.max(residual[_possible(calc) & ~unproved], initial=0.0))
-    if unproved.any():
-        _mark(
-            calc,
-            step,
-            unproved,
-            f"{step.description}: the proof leaves {np.max(residual[unproved]):.1e}, not {tolerance:.0e}",
-        )
-
-
-def _mark(calc: Calculation, step: Step, bad: Array, words: str) -> None:
-    if calc.count == 1:
-        raise Unproven(words)
-    calc.flaws |= {int(variant): (step.id, words) for variant in np.flatnonzero(bad)}
 
 
 def _value(calc: Calculation, step: Value) -> None:
@@ -130,7 +111,7 @@ def _choice(calc: Calculation, step: Choice) -> None:
 
 def _root(calc: Calculation, step: Root) -> None:
     found, residual = roots_integrals.root(calc, step)
-    lost = np.isnan(found)[:, 0] & _possible(calc)
+    lost = np.isnan(found)[:, 0] & possible(calc)
     if lost.any():
         low, high = (
             told(float(calc.apply(end)[np.flatnonzero(lost)[0], 0]), step.unit) for end in (step.low, step.high)
@@ -138,9 +119,9 @@ def _root(calc: Calculation, step: Root) -> None:
         where = f"{step.description} ({step.id}, {Path(step.at).name})"
         between = f"the equation does not change its sign between low = {low} and high = {high}"
         words = f"{where}: {between}; let the bracket hold the root, or require what it needs to exist"
-        _mark(calc, step, lost, words)
+        mark(calc, step, lost, words)
         residual = np.where(lost[:, None], 0.0, residual)
-    _prove(calc, step, residual, step.tolerance)
+    prove(calc, step, residual, step.tolerance)
 
 
 def _abscissa(calc: Calculation, step: Abscissa) -> None:
@@ -152,9 +133,9 @@ def _abscissa(calc: Calculation, step: Abscissa) -> None:
 
 def _above_zero(calc: Calculation, step: Step, length: Array) -> None:
     """A length that curves are laid over must be there."""
-    empty = ~(length > 0)[:, 0] & _possible(calc)
+    empty = ~(length > 0)[:, 0] & possible(calc)
     if empty.any():
-        _mark(calc, step, empty, f"{step.description} ({step.id}) has no length to run over with these inputs")
+        mark(calc, step, empty, f"{step.description} ({step.id}) has no length to run over with these inputs")
 
 
 def _breakpoints(calc: Calculation, step: Breakpoints) -> None:
@@ -162,38 +143,16 @@ def _breakpoints(calc: Calculation, step: Breakpoints) -> None:
     for place in step.places:
         domain.cut(calc[place])
     if step.every:
-        domain.cut_every(np.where(_possible(calc)[:, None], calc[step.every], np.nan))
-
-
-def _all_crossings(calc: Calculation, curve: str) -> tuple[Array, Array]:
-    """Crossings, searched again between those found until no more appear: two may lie between two points of the first grid."""
-    domain = calc.domains[calc.axis[curve]]
-    edges, joints = domain.edges, domain.joints
-    domain.cut(roots_integrals.dips(calc, curve))
-    found = roots_integrals.crossings(calc, curve)
-    for _ in range(SEARCHES):
-        before = domain.edges
-        domain.cut(found[0])
-        last = found
-        if domain.edges is before:
-            break
-        found = roots_integrals.crossings(calc, curve)
-        if np.array_equal(np.isfinite(last[0]).sum(axis=1), np.isfinite(found[0]).sum(axis=1)):
-            break
-    domain.edges, domain.joints = edges, joints
-    return last
+        domain.cut_every(np.where(possible(calc)[:, None], calc[step.every], np.nan))
 
 
 def _crossings(calc: Calculation, step: Crossings) -> None:
-    places, residual = _all_crossings(calc, step.of)
+    places, residual = roots_integrals.all_crossings(calc, step.of)
     calc.values[step.id] = places
     calc.values[count_name(step.id)] = np.isfinite(places).sum(axis=1, keepdims=True)
     names = [each for each in result_names(step, places.shape[1]) if each.role == "crossing"]
     calc.values |= {each.name: places[:, [each.index]] for each in names}
-    _prove(calc, step, residual, roots_integrals.SAMPLE_TOLERANCE)
-
-
-SEARCHES = 5  # for crossings, each on a finer grid
+    prove(calc, step, residual, roots_integrals.SAMPLE_TOLERANCE)
 
 
 def _reduction(calc: Calculation, step: Reduction) -> None:
@@ -205,7 +164,7 @@ def _reduction(calc: Calculation, step: Reduction) -> None:
     residual = np.maximum.reduce(
         [extrema.outruns(calc, step.of, end[0], sign) for end, sign in zip(ends, signs, strict=True)]
     )
-    _prove(calc, step, residual, roots_integrals.SAMPLE_TOLERANCE)
+    prove(calc, step, residual, roots_integrals.SAMPLE_TOLERANCE)
     if step.operation == "range":
         calc.values[step.id] = ends[0][0] - ends[1][0]
         return
@@ -217,17 +176,17 @@ def _reduction(calc: Calculation, step: Reduction) -> None:
 
 def _integrated(calc: Calculation, step: Reduction) -> None:
     whole, residual = roots_integrals.integral(calc, step.of, 2 if step.operation == "rms" else 1)
-    _prove(calc, step, residual, roots_integrals.SAMPLE_TOLERANCE)
+    prove(calc, step, residual, roots_integrals.SAMPLE_TOLERANCE)
     mean = whole / calc.domains[calc.axis[step.of]].period
     calc.values[step.id] = {"integral": whole, "mean": mean, "rms": np.sqrt(np.abs(mean))}[step.operation]
 
 
 def _accumulated(calc: Calculation, step: Accumulated) -> None:
-    _prove(calc, step, roots_integrals.accumulate(calc, step), roots_integrals.SAMPLE_TOLERANCE)
+    prove(calc, step, roots_integrals.accumulate(calc, step), roots_integrals.SAMPLE_TOLERANCE)
 
 
 def _derivative(calc: Calculation, step: Derivative) -> None:
-    _prove(calc, step, roots_integrals.differentiate(calc, step), roots_integrals.SAMPLE_TOLERANCE)
+    prove(calc, step, roots_integrals.differentiate(calc, step), roots_integrals.SAMPLE_TOLERANCE)
 
 
 def _from_curve(calc: Calculation, step: FromCurve) -> None:
@@ -246,7 +205,7 @@ def _laid_out(calc: Calculation, step: FromCurve, shares: Array) -> Array:
     if step.start or step.lasts:
         shares = np.concatenate([shares, np.zeros((len(shares), 1))], axis=1)  # where a period of the curve begins anew
     shares = np.mod(shares - (calc[step.start] if step.start else 0), 1)
-    turns = np.where(_possible(calc)[:, None], np.ceil(period / lasts), 1)
+    turns = np.where(possible(calc)[:, None], np.ceil(period / lasts), 1)
     places = [(shares + turn) * lasts for turn in range(int(turns.max()))]
     return np.concatenate([np.where(place < period, place, np.nan) for place in places], axis=1)
 
@@ -269,24 +228,11 @@ def _computed(calc: Calculation, step: Computed) -> None:
     calc.values[step.id] = calc.existing(step, np.broadcast_to(found, (calc.count, 1)))
 
 
-def _finite(calc: Calculation, step: Step) -> None:
-    """No number of a possible machine may be NaN or infinite, but for an absent output and the padding of crossings."""
-    values = calc.values.get(step.id)
-    if values is None or values.dtype == object or step.exists is not None or isinstance(step, Crossings):
-        return
-    is_finite = np.isfinite(values)
-    if is_finite.all():
-        return
-    bad = ~is_finite.all(axis=1) & _possible(calc)
-    if bad.any():
-        _mark(calc, step, bad, f"{step.description} ({step.id}) has no value with these inputs")
-
-
 RUN: dict[type[Step], Callable[[Calculation, Any], None]] = {
     Value: _value, Choice: _choice, Root: _root, Abscissa: _abscissa, Breakpoints: _breakpoints, Crossings: _crossings,
     Reduction: _reduction, Accumulated: _accumulated, Derivative: _derivative, FromCurve: _from_curve,
     CurvePeriod: _curve_period, Computed: _computed,
     Require: feasibility.require, Clash: feasibility.clash,
     Total: part_rows.total, Neighbour: part_rows.neighbour, Running: part_rows.running, Part: part_rows.part, Lookup: part_rows.lookup,
-    Pick: part_rows.pick,
+    Pick: part_rows.pick, Interpolated: interpolation.interpolated,
 }  # fmt: skip

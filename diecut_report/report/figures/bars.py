@@ -12,13 +12,13 @@ from matplotlib.figure import Figure
 from diecut_report.quantities.units import pretty, unit
 from diecut_report.report.figures.diagram import WIDTH
 from diecut_report.report.figures.style import ACCENT, INK, canvas, plain, text_size
-from diecut_report.report.i18n import Words
+from diecut_report.report.i18n import Catalogue
 from diecut_report.report.number_format import number, significant
 
 Data = Mapping[str, Any]
 
 
-def bars(figure: Data, _curves: Data, words: Words) -> Figure:
+def bars(figure: Data, _curves: Data, words: Catalogue) -> Figure:
     """Horizontal bars in groups side by side, each group with its unit; what is subtracted is hatched."""
     groups = figure["groups"]
     rows = max(len(group["bars"]) for group in groups)
@@ -35,7 +35,7 @@ def bars(figure: Data, _curves: Data, words: Words) -> Figure:
     return sheet
 
 
-def _group(axes: Axes, group: Data, shown: str, words: Words) -> None:
+def _group(axes: Axes, group: Data, shown: str, words: Catalogue) -> None:
     values = [bar["value"] / unit(shown).factor for bar in group["bars"]]
     reach = max(map(abs, values)) or 1.0
     points = axes.get_position().width * WIDTH

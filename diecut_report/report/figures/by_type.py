@@ -11,11 +11,11 @@ from diecut_report.report.figures.charts import chart, plot
 from diecut_report.report.figures.drawing import drawing
 from diecut_report.report.figures.polar import polar
 from diecut_report.report.figures.style import Svg, drawn
-from diecut_report.report.i18n import Words
+from diecut_report.report.i18n import Catalogue
 
 DRAW: dict[str, Callable[..., Any]] = {"plot": plot, "chart": chart, "polar": polar, "bars": bars, "drawing": drawing}
 
 
-def render(figure: Mapping[str, Any], curves: Mapping[str, Any], words: Words, key: str) -> Svg:
+def render(figure: Mapping[str, Any], curves: Mapping[str, Any], words: Catalogue, key: str) -> Svg:
     """A figure of the results; ``key`` keeps its ids apart from those of the report's other figures."""
     return drawn(partial(DRAW[figure["type"]], figure, curves, words), figure["title"], key)

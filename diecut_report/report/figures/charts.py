@@ -13,9 +13,9 @@ from numpy.typing import NDArray
 from diecut_report.quantities.units import pretty, to_display, unit
 from diecut_report.report.curves import continuous, period_of
 from diecut_report.report.figures.diagram import HEAD, WIDTH, Diagram
-from diecut_report.report.figures.panel_data import Across, Line, Note, Panel, Span, range_of
+from diecut_report.report.figures.panel_data import Across, Line, Note, PanelData, SpanData, range_of
 from diecut_report.report.figures.style import canvas, marked, plain
-from diecut_report.report.i18n import Words
+from diecut_report.report.i18n import Catalogue
 from diecut_report.report.number_format import displayed, joined
 
 Data = Mapping[str, Any]
@@ -26,17 +26,17 @@ HEIGHTS = {1: 205.0, 2: 150.0}  # of a diagram, by the number of diagrams; more 
 PAGE = 650.0  # no chart is higher
 
 
-def plot(figure: Data, curves: Data, words: Words) -> Figure:
+def plot(figure: Data, curves: Data, words: Catalogue) -> Figure:
     """Curves of the results, over a common abscissa."""
     return _sheet([_of_curves(panel, curves, curves[figure["abscissa"]], words) for panel in figure["panels"]], words)
 
 
-def chart(figure: Data, _curves: Data, words: Words) -> Figure:
+def chart(figure: Data, _curves: Data, words: Catalogue) -> Figure:
     """Lines that the figure brings itself, each diagram over what it likes."""
     return _sheet([_of_lines(panel, words) for panel in figure["panels"]], words)
 
 
-def _sheet(panels: list[Panel], words: Words) -> Figure:
+def _sheet(panels: list[PanelData], words: Catalogue) -> Figure:
     """All diagrams; numbers stand below a diagram where the next one runs over something else."""
     feet = [NAMED_FOOT if one.across != two.across else FOOT for one, two in pairwise(panels)]
     feet.append(NAMED_FOOT)
@@ -56,7 +56,7 @@ def _sheet(panels: list[Panel], words: Words) -> Figure:
     return sheet
 
 
-def _of_curves(panel: Data, curves: Data, over: Data, words: Words) -> Panel:
+def _of_curves(panel: Data, curves: Data, over: Data, words: Catalogue) -> PanelData:
     """A panel of curves, over a whole turn where the abscissa is one."""
     shown, across = panel["unit"], over["display_unit"]
     period = period_of(over)
@@ -66,19 +66,20 @@ def _of_curves(panel: Data, curves: Data, over: Data, words: Words) -> Panel:
         x, y = continuous(curves[series["curve"]], over, period)
         lines.append(Line(x / unit(across).factor, y / unit(shown).factor, series["label"]))
     factor = unit(across).factor
-    return Panel(
+    return PanelData(
         title=panel["title"],
         unit=shown,
         across=Across(over["description"], over["symbol"], across, *(to_display(v, across) for v in (over["values"][0], end))),
         lines=lines,
         marks=[_mark(mark, across, shown, words) for mark in panel["marks"]],
         levels=[_level(level, shown, words) for level in panel["levels"]],
-        spans=[Span(span["from"] / factor, span["to"] / factor, span["label"]) for span in panel["spans"]],
+        spans=[SpanData(span["from"] / factor, span["to"] / factor, span["label"]) for span in panel["spans"]],
         zero=True,
+        limits=_limits(panel),
     )  # fmt: skip
 
 
-def _of_lines(panel: Data, words: Words) -> Panel:
+def _of_lines(panel: Data, words: Catalogue) -> PanelData:
     """A panel of lines of its own, as far across as they reach."""
     shown, over = panel["unit"], panel["x"]
     across = over["unit"]
@@ -87,7 +88,7 @@ def _of_lines(panel: Data, words: Words) -> Panel:
     factor = unit(across).factor
     verticals = [Note(line["x"] / factor, 0.0, _phase(line["label"])) for line in panel["verticals"]]
     low, high = range_of([*(line.x for line in (*lines, *fills)), [note.x for note in (*marks, *verticals)]])
-    return Panel(
+    return PanelData(
         title=panel["title"],
         unit=shown,
         across=Across(over["title"], over["symbol"], across, low, high if high > low else low + 1),
@@ -96,7 +97,16 @@ def _of_lines(panel: Data, words: Words) -> Panel:
         marks=marks,
         levels=[_level(level, shown, words) for level in panel["levels"]],
         verticals=verticals,
+        limits=_limits(panel),
     )
+
+
+def _limits(panel: Data) -> tuple[float | None, float | None] | None:
+    """The range upwards that a panel declares, in its unit."""
+    if "range" not in panel:
+        return None
+    low, high = (None if end is None else end / unit(panel["unit"]).factor for end in panel["range"])
+    return low, high
 
 
 def _line(line: Data, across: str, shown: str) -> Line:
@@ -104,7 +114,7 @@ def _line(line: Data, across: str, shown: str) -> Line:
     return Line(x / unit(across).factor, y / unit(shown).factor, line["label"])
 
 
-def _mark(mark: Data, across: str, shown: str, words: Words) -> Note:
+def _mark(mark: Data, across: str, shown: str, words: Catalogue) -> Note:
     """A marked point: its name, its value, and its place."""
     text = f"{marked(mark['label'])} {_value(mark['y'], shown, words)} ({_value(mark['x'], across, words)})"
     return Note(mark["x"] / unit(across).factor, mark["y"] / unit(shown).factor, text if mark["label"] else "")
@@ -115,11 +125,11 @@ def _phase(name: str) -> str:
     return name if name and not set(name) - set("IVX") else marked(name)
 
 
-def _level(level: Data, shown: str, words: Words) -> Note:
+def _level(level: Data, shown: str, words: Catalogue) -> Note:
     """A level: its name and its value."""
     text = f"{marked(level['label'])} {_value(level['value'], shown, words)}"
     return Note(0.0, level["value"] / unit(shown).factor, text)
 
 
-def _value(value: float, shown: str, words: Words) -> str:
+def _value(value: float, shown: str, words: Catalogue) -> str:
     return plain(joined(displayed(value, shown, 4, words["decimal"]), pretty(shown)))

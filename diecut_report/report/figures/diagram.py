@@ -11,11 +11,11 @@ from matplotlib.patches import Patch
 from matplotlib.ticker import FuncFormatter, MaxNLocator, MultipleLocator
 
 from diecut_report.quantities.units import pretty
-from diecut_report.report.figures.label_layout import SIZE, Names
-from diecut_report.report.figures.panel_data import Across, Panel, framed, pieces
+from diecut_report.report.figures.label_layout import SIZE, LabelLayout
+from diecut_report.report.figures.panel_data import Across, PanelData, framed, pieces
 from diecut_report.report.figures.shapes import hatching
 from diecut_report.report.figures.style import ACCENT, INK, MM, PALE, SOFT, marked, plain, symbol, text_size
-from diecut_report.report.i18n import Words
+from diecut_report.report.i18n import Catalogue
 from diecut_report.report.number_format import number
 
 WIDTH = 172 * MM
@@ -51,10 +51,10 @@ class Legend(NamedTuple):
 class Diagram:
     """A panel whose names have found their places."""
 
-    def __init__(self, panel: Panel, width: float, height: float) -> None:
+    def __init__(self, panel: PanelData, width: float, height: float) -> None:
         self.panel = panel
         self.frame = framed(panel, width, height)
-        self.names = Names(panel, self.frame)
+        self.names = LabelLayout(panel, self.frame)
         self.tags = self.names.tags if len(panel.lines) > 1 else []
         areas = [marked(panel.fills[index].label) for index in self.names.outside]
         self.told = [tag for tag in self.tags if tag] + areas
@@ -70,7 +70,7 @@ class Diagram:
         if self.told == first.told and self.legend and not self.legend.beside:
             self.legend = None
 
-    def draw(self, axes: Axes, words: Words, *, named: bool) -> None:
+    def draw(self, axes: Axes, words: Catalogue, *, named: bool) -> None:
         """Draw into axes; ``named`` puts numbers and a title below."""
         axes.set_xlim(self.frame.across)
         axes.set_ylim(self.frame.upwards)
@@ -178,7 +178,7 @@ def titled(words: str, sign: str, shown: str) -> str:
     return " ".join(parts) + (f", {pretty(shown)}" if pretty(shown) else "")
 
 
-def _ticks(axes: Axes, across: Across, words: Words) -> None:
+def _ticks(axes: Axes, across: Across, words: Catalogue) -> None:
     """Round numbers at both axes: angles in steps that divide a turn."""
     span = across.high - across.low
     if across.unit == "deg" and span > 60:

@@ -13,10 +13,10 @@ from numpy.typing import NDArray
 
 from diecut_report.report.figures import label_places
 from diecut_report.report.figures.drawing_scale import LARGEST, filled
-from diecut_report.report.figures.drawing_sheet import ARROW, THICK, THIN, THIN_LINE, Sheet
+from diecut_report.report.figures.drawing_sheet import ARROW, THICK, THIN, THIN_LINE, DrawingSheet
 from diecut_report.report.figures.shapes import beyond, circular, hatching
 from diecut_report.report.figures.style import ACCENT, INK, LINE, SOFT, marked, sampled
-from diecut_report.report.i18n import Words
+from diecut_report.report.i18n import Catalogue
 
 Array = NDArray[Any]
 Shape = Mapping[str, Any]
@@ -38,7 +38,7 @@ SMALLER = (1.0, 0.87, 0.75, 0.64, 0.5)  # how much smaller a drawing is tried, s
 WORTH = 25.0  # what stands in the way of texts, for which the drawing is rather made a step smaller
 
 
-def drawing(figure: Mapping[str, Any], _curves: Mapping[str, Any], words: Words) -> Figure:
+def drawing(figure: Mapping[str, Any], _curves: Mapping[str, Any], words: Catalogue) -> Figure:
     """The shapes of a drawing, as large as the page lets them be, with a scale bar unless it is a schematic."""
     best, least = None, np.inf
     for step, share in enumerate(SMALLER):
@@ -60,7 +60,7 @@ def _look(shape: Shape) -> dict[str, Any]:
     return ROLES[shape["role"]]
 
 
-class Shapes(Sheet):
+class Shapes(DrawingSheet):
     """A sheet with a way to draw each kind of shape."""
 
     def draw(self, shape: Shape) -> None:

@@ -14,7 +14,7 @@ from diecut_report.quantities.units import pretty, unit
 from diecut_report.report.figures.drawing_scale import PAGE, folded, scaled
 from diecut_report.report.figures.shapes import extent
 from diecut_report.report.figures.style import INK, MM, Box, Labels, canvas, marked, overlap, sampled, text_size
-from diecut_report.report.i18n import Words
+from diecut_report.report.i18n import Catalogue
 from diecut_report.report.number_format import joined, number, significant
 
 Array = NDArray[Any]
@@ -27,10 +27,10 @@ FREE = 9.0  # what may be in the way of a text
 LONG = 50.0  # a text of so many points may be folded
 
 
-class Sheet:
+class DrawingSheet:
     """A drawing in work: shapes in points, what texts must keep clear of, and the box that all of it needs."""
 
-    def __init__(self, figure: Mapping[str, Any], words: Words, room: Array) -> None:
+    def __init__(self, figure: Mapping[str, Any], words: Catalogue, room: Array) -> None:
         self.shapes: list[Shape] = figure["shapes"]
         self.unit: str = figure["unit"]
         self.schematic: bool = figure.get("schematic", False)

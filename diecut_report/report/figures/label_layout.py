@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from diecut_report.report.figures.label_places import around, beside_level, beside_vertical
-from diecut_report.report.figures.panel_data import Frame, Line, Panel, pieces
+from diecut_report.report.figures.panel_data import Frame, Line, PanelData, pieces
 from diecut_report.report.figures.style import Labels, marked, overlap, plain, sampled, text_size
 
 Array = NDArray[Any]
@@ -20,7 +20,7 @@ WIDE_ENOUGH = 4.0  # between a line's name and the other lines, points
 MARGIN = 8.0  # between a line's name and the frame
 
 
-class Text(NamedTuple):
+class LabelText(NamedTuple):
     """A text with its place; nothing shows through a solid one."""
 
     x: float
@@ -31,12 +31,12 @@ class Text(NamedTuple):
     solid: bool = False
 
 
-class Names:
+class LabelLayout:
     """The texts of a panel; ``tags`` are the names of its lines as the legend gives them, none where they stand at the lines."""
 
-    def __init__(self, panel: Panel, frame: Frame) -> None:
+    def __init__(self, panel: PanelData, frame: Frame) -> None:
         self.panel, self.frame = panel, frame
-        self.texts: list[Text] = []
+        self.texts: list[LabelText] = []
         self.lines = [sampled(frame.points(line.x, line.y)) for line in panel.lines]
         self.notes = self._noted()
         self.labels = Labels(np.concatenate([*self.lines, self.notes]), (2, 2, frame.width - 2, frame.height - 2))
@@ -58,7 +58,7 @@ class Names:
 
     def _write(self, text: str, places: Iterator[tuple[float, float]]) -> None:
         x, y = self.labels.place(text_size(text, SIZE), places)
-        self.texts.append(Text(x, y, text))
+        self.texts.append(LabelText(x, y, text))
 
     def _spans(self) -> None:
         """The names of ranges, at the bottom edge."""
@@ -67,7 +67,7 @@ class Names:
             width, height = text_size(text, SMALL)
             x = float(self.frame.points((span.start + span.end) / 2, 0)[0])
             self.labels.take((x, height / 2 + 2), (width, height))
-            self.texts.append(Text(x, height / 2 + 2, text, SMALL, soft=True))
+            self.texts.append(LabelText(x, height / 2 + 2, text, SMALL, soft=True))
 
     def _notes(self) -> None:
         """Marks, levels and vertical lines."""
@@ -121,7 +121,7 @@ class Names:
                 del self.texts[before[0] :], self.labels.taken[before[1] :]
                 return False
             self.labels.take((x, y), size)
-            self.texts.append(Text(x, y, name, solid=True))
+            self.texts.append(LabelText(x, y, name, solid=True))
         return True
 
     def _on_line(self, index: int, size: tuple[float, float]) -> Iterator[tuple[float, float, float]]:

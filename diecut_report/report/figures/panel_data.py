@@ -41,7 +41,7 @@ class Note(NamedTuple):
     text: str
 
 
-class Span(NamedTuple):
+class SpanData(NamedTuple):
     """A named range of the abscissa."""
 
     start: float
@@ -50,7 +50,7 @@ class Span(NamedTuple):
 
 
 @dataclass(frozen=True, kw_only=True)
-class Panel:
+class PanelData:
     """One diagram; ``zero`` says that its zero line is always shown."""
 
     title: str
@@ -61,20 +61,29 @@ class Panel:
     marks: list[Note] = field(default_factory=list)
     levels: list[Note] = field(default_factory=list)
     verticals: list[Note] = field(default_factory=list)
-    spans: list[Span] = field(default_factory=list)
+    spans: list[SpanData] = field(default_factory=list)
     zero: bool = False
+    limits: tuple[float | None, float | None] | None = None
 
     @property
     def heights(self) -> tuple[float, float]:
-        """The range upwards: all that is drawn, zero where it is near, and some room."""
-        heights = [line.y for line in (*self.lines, *self.fills)] + [[note.y] for note in (*self.marks, *self.levels)]
-        low, high = range_of([*heights, [0.0] if self.fills or self.zero else []])
-        if high - low > 0.5 * max(abs(low), abs(high)):
-            low, high = min(low, 0.0), max(high, 0.0)
+        """The range upwards: its ends as they are given, else all that is drawn, zero where it is near, and some room."""
+        limits = self.limits or (None, None)
+        low, high = (own if end is None else end for own, end in zip(self._drawn, limits, strict=True))
         span = (high - low) or abs(high) or 1.0
         room = span * (MORE_ROOM if self.marks or self.verticals else ROOM)
         below, above = (span * BASE if edge == 0 and not self.zero else room for edge in (low, high))
-        return low - below, high + above
+        return low - below * (limits[0] is None), high + above * (limits[1] is None)
+
+    @property
+    def _drawn(self) -> tuple[float, float]:
+        """The least and the greatest of what is drawn; without a given range zero is shown where it is near."""
+        heights = [line.y for line in (*self.lines, *self.fills)] + [[note.y] for note in (*self.marks, *self.levels)]
+        if self.limits is not None:
+            return range_of(heights)
+        low, high = range_of([*heights, [0.0] if self.fills or self.zero else []])
+        near = high - low > 0.5 * max(abs(low), abs(high))
+        return (min(low, 0.0), max(high, 0.0)) if near else (low, high)
 
 
 class Frame(NamedTuple):
@@ -114,6 +123,6 @@ def pieces(points: Array) -> list[Array]:
     return [piece if piece[-1, 0] >= piece[0, 0] else piece[::-1] for piece in found]
 
 
-def framed(panel: Panel, width: float, height: float) -> Frame:
+def framed(panel: PanelData, width: float, height: float) -> Frame:
     """The panel's frame on paper."""
     return Frame(width, height, (panel.across.low, panel.across.high), panel.heights)

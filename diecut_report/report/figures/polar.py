@@ -14,14 +14,14 @@ from diecut_report.quantities.units import pretty, unit
 from diecut_report.report.curves import continuous, period_of, through_pole
 from diecut_report.report.figures.diagram import STROKES, WIDTH, titled
 from diecut_report.report.figures.style import MM, canvas, marked
-from diecut_report.report.i18n import Words
+from diecut_report.report.i18n import Catalogue
 from diecut_report.report.number_format import joined, number
 
 Data = Mapping[str, Any]
 TURN = 360.0
 
 
-def polar(figure: Data, curves: Data, words: Words) -> Figure:
+def polar(figure: Data, curves: Data, words: Catalogue) -> Figure:
     """Size of curves as distance from the pole over an angle; what is negative has another line."""
     over = curves[figure["abscissa"]]
     side = 100 * MM
@@ -64,7 +64,7 @@ def _emptiest(axes: Axes) -> float:
     return float(min(directions, key=lambda d: sizes[np.abs((angles - d + 180) % TURN - 180) < 14].max(initial=0.0)))
 
 
-def _radial(value: float, greatest: float, shown: str, words: Words) -> str:
+def _radial(value: float, greatest: float, shown: str, words: Catalogue) -> str:
     """The number at a circle, at the greatest one with its unit."""
     text = number(f"{value:.10g}", words["decimal"])
     return "" if value == 0 else joined(text, pretty(shown)) if value == greatest else text

@@ -17,8 +17,8 @@ from diecut_report.errors import Problem, UserError
 from diecut_report.report.number_format import number
 from diecut_report.study.analysis.stored_variants import (
     FIXED,
-    Column,
     Stored,
+    StoredColumn,
     opened,
 )
 from diecut_report.study.conditions.where import Condition, column_named, condition
@@ -36,9 +36,9 @@ class Question:
     """What is asked: a condition, the order, how many, and which columns."""
 
     condition: Condition
-    order: tuple[tuple[Column, bool], ...]
+    order: tuple[tuple[StoredColumn, bool], ...]
     top: int | None
-    columns: tuple[Column, ...]
+    columns: tuple[StoredColumn, ...]
 
     @property
     def where(self) -> str:
@@ -98,14 +98,18 @@ def _question(
     return Question(asked, order, top, tuple(_columns(stored, asked, order, format, columns)))
 
 
-def _order(sort: str, stored: Stored) -> Iterator[tuple[Column, bool]]:
+def _order(sort: str, stored: Stored) -> Iterator[tuple[StoredColumn, bool]]:
     for part in filter(None, (part.strip() for part in sort.split(","))):
         yield column_named(part.removeprefix("-").strip(), stored.columns), part.startswith("-")
 
 
 def _columns(
-    stored: Stored, asked: Condition, order: Iterable[tuple[Column, bool]], format: str, named: Sequence[str] | None
-) -> list[Column]:
+    stored: Stored,
+    asked: Condition,
+    order: Iterable[tuple[StoredColumn, bool]],
+    format: str,
+    named: Sequence[str] | None,
+) -> list[StoredColumn]:
     """The columns to give, each once."""
     if named is not None:
         return [stored.columns["variant"], *(column_named(name, stored.columns) for name in named if name != "variant")]

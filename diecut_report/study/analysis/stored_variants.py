@@ -33,7 +33,7 @@ MEMORY = "400MB"  # of DuckDB
 
 
 @dataclass(frozen=True)
-class Column:
+class StoredColumn:
     """A stored quantity: its name, what it holds, its SI unit, the unit that people read, its symbol, and what it is."""
 
     name: str
@@ -66,16 +66,16 @@ class Stored:
     folder: Path
     description: Description
     study: Mapping[str, Any]
-    columns: Mapping[str, Column]
+    columns: Mapping[str, StoredColumn]
     connection: DuckDBPyConnection
 
     @cached_property
-    def varied(self) -> list[Column]:
+    def varied(self) -> list[StoredColumn]:
         """What the study varies, in its order."""
         return [self.columns[path] for path in self.study.get("varied", ()) if path in self.columns]
 
     @cached_property
-    def checks(self) -> dict[str, tuple[Column, Column]]:
+    def checks(self) -> dict[str, tuple[StoredColumn, StoredColumn]]:
         """Each check, ``drive.checks.play``, with its columns of utilisation and status."""
         names = [
             name.removesuffix(UTILISATION) for name in self.columns if ".checks." in name and name.endswith(UTILISATION)
@@ -83,7 +83,7 @@ class Stored:
         return {name: (self.columns[name + UTILISATION], self.columns[name + VERDICT_OF]) for name in names}
 
     @cached_property
-    def outputs(self) -> list[Column]:
+    def outputs(self) -> list[StoredColumn]:
         """The kept outputs."""
         other = {*FIXED, *(column.name for column in self.varied)}
         return [
@@ -155,11 +155,11 @@ def _view(connection: DuckDBPyConnection, folder: Path) -> None:
     connection.execute("SET lock_configuration = true")
 
 
-def columns_of(description: Description) -> dict[str, Column]:
+def columns_of(description: Description) -> dict[str, StoredColumn]:
     """The columns of the part files by name; curves, which are lists, are no quantities to compare."""
     known = titles(description.all_columns)
     return {
-        column.name: Column(column.name, column.kind, column.unit, _display(column.display, column.unit), column.symbol, known[column.name])
+        column.name: StoredColumn(column.name, column.kind, column.unit, _display(column.display, column.unit), column.symbol, known[column.name])
         for column in description.all_columns
         if column.kind != "curve"
     }  # fmt: skip

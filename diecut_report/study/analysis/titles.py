@@ -6,19 +6,19 @@ import re
 from collections import Counter
 from collections.abc import Sequence
 
-from diecut_report.study.storage.description import Column
+from diecut_report.study.storage.description import ResultColumn
 
 MECHANISMS = "mechanisms."
 UTILISATION, VERDICT_OF = ".utilisation", ".status"  # ends of the columns of a check
 
 
-def titles(columns: Sequence[Column]) -> dict[str, str]:
+def titles(columns: Sequence[ResultColumn]) -> dict[str, str]:
     """Titles by name: ``Radius of the bore (cylinder)``; longer where two columns would share one, empty without a description."""
     checks = [column for column in columns if _is_verdict(column)]
     return _titles([column for column in columns if not _is_verdict(column)]) | _titles(checks)
 
 
-def _titles(columns: Sequence[Column]) -> dict[str, str]:
+def _titles(columns: Sequence[ResultColumn]) -> dict[str, str]:
     found = {column.name: "" for column in columns}
     open_ = [column for column in columns if column.description and home(column.name)]
     for title in (_short, _whole, _with_name):
@@ -35,16 +35,16 @@ def home(name: str) -> str:
     return first if rest else ""
 
 
-def _short(column: Column) -> str:
+def _short(column: ResultColumn) -> str:
     """Without what a closing bracket explains."""
     return _placed(column, re.sub(r" \([^()]*\)$", "", _told(column)))
 
 
-def _whole(column: Column) -> str:
+def _whole(column: ResultColumn) -> str:
     return _placed(column, _told(column))
 
 
-def _with_name(column: Column) -> str:
+def _with_name(column: ResultColumn) -> str:
     name = column.name.removeprefix(MECHANISMS).partition(".")[2]
     listed = re.fullmatch(r"(.+)\.(\d+)\.\w+", name)
     if listed:
@@ -52,14 +52,14 @@ def _with_name(column: Column) -> str:
     return _placed(column, f"{_told(column)}, {name}")
 
 
-def _told(column: Column) -> str:
+def _told(column: ResultColumn) -> str:
     """The description; of a check's verdict the check alone."""
     return column.description.removesuffix(": verdict") if _is_verdict(column) else column.description
 
 
-def _is_verdict(column: Column) -> bool:
+def _is_verdict(column: ResultColumn) -> bool:
     return ".checks." in column.name and column.name.endswith(VERDICT_OF)
 
 
-def _placed(column: Column, told: str) -> str:
+def _placed(column: ResultColumn, told: str) -> str:
     return f"{told} ({home(column.name)})"

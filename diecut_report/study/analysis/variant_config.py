@@ -12,7 +12,7 @@ from diecut_report.config.yaml_tree import KeyPath, Tree
 from diecut_report.config.yaml_values import Scalar, with_values
 from diecut_report.errors import PluginError, Problem, UserError
 from diecut_report.quantities.formatting import as_given
-from diecut_report.study.analysis.stored_variants import Column, Stored, opened
+from diecut_report.study.analysis.stored_variants import Stored, StoredColumn, opened
 from diecut_report.study.definition.base_inputs import MECHANISMS
 from diecut_report.study.storage.state import kept
 
@@ -71,7 +71,7 @@ def _keys(path: str) -> Iterator[str | int]:
         yield int(part) if part.isdecimal() else part
 
 
-def _row(stored: Stored, variant: int) -> list[tuple[Column, Any]]:
+def _row(stored: Stored, variant: int) -> list[tuple[StoredColumn, Any]]:
     names = ", ".join(column.sql for column in stored.varied) or "variant"
     rows = stored.rows(f"SELECT {names} FROM v WHERE variant = ?", [variant])
     if not rows:
@@ -85,7 +85,7 @@ def _row(stored: Stored, variant: int) -> list[tuple[Column, Any]]:
     return [(column, value) for column, value in zip(stored.varied, rows[0], strict=False) if value is not None]
 
 
-def _given(value: Scalar, column: Column) -> Scalar:
+def _given(value: Scalar, column: StoredColumn) -> Scalar:
     """Return the value as a configuration gives it; whole pure numbers (teeth) as integers."""
     if not isinstance(value, float):
         return value

@@ -10,7 +10,7 @@ from typing import Any, Literal
 from diecut_report.quantities.formatting import number_text
 from diecut_report.quantities.units import pretty, unit
 from diecut_report.report.number_format import number
-from diecut_report.study.analysis.stored_variants import Column
+from diecut_report.study.analysis.stored_variants import StoredColumn
 
 FREE = 10_000  # letters of a line that no terminal breaks
 HEAD = 14  # letters of a line of a heading
@@ -18,7 +18,9 @@ BETWEEN, REASON = 3, 40  # letters between columns; on a line of a reason, at le
 FEWEST = 3  # columns that stand whatever the line holds
 
 
-def table_text(columns: Sequence[Column], rows: Sequence[Sequence[Any]], width: int | None) -> tuple[str, list[Column]]:
+def table_text(
+    columns: Sequence[StoredColumn], rows: Sequence[Sequence[Any]], width: int | None
+) -> tuple[str, list[StoredColumn]]:
     """The table, and the columns that the line has no room for."""
     heads = [_head(column) for column in columns]
     texts = [[shown(value, column) for value, column in zip(row, columns, strict=True)] for row in rows]
@@ -27,7 +29,7 @@ def table_text(columns: Sequence[Column], rows: Sequence[Sequence[Any]], width: 
     return _drawn(columns, heads, texts, kept, width or FREE), [c for i, c in enumerate(columns) if i not in kept]
 
 
-def _kept(columns: Sequence[Column], wide: Sequence[int], room: int) -> list[int]:
+def _kept(columns: Sequence[StoredColumn], wide: Sequence[int], room: int) -> list[int]:
     """The columns that fit, by index: the first ones, the reason of an error (on several lines, if need be), then what fits."""
     reason = [index for index, column in enumerate(columns) if column.name == "error"]
     kept: list[int] = []
@@ -41,7 +43,11 @@ def _kept(columns: Sequence[Column], wide: Sequence[int], room: int) -> list[int
 
 
 def _drawn(
-    columns: Sequence[Column], heads: Sequence[str], texts: Sequence[Sequence[str]], kept: Sequence[int], width: int
+    columns: Sequence[StoredColumn],
+    heads: Sequence[str],
+    texts: Sequence[Sequence[str]],
+    kept: Sequence[int],
+    width: int,
 ) -> str:
     from rich import box
     from rich.console import Console
@@ -59,7 +65,7 @@ def _drawn(
     return "\n".join(line.rstrip() for line in target.getvalue().splitlines())
 
 
-def _head(column: Column) -> str:
+def _head(column: StoredColumn) -> str:
     """The name on short lines, and the unit below it."""
     lines = [""]
     for part in re.findall(r"[^._]*[._]|[^._]+", column.name.removeprefix("mechanisms.")):
@@ -70,7 +76,7 @@ def _head(column: Column) -> str:
     return "\n".join([*lines, sign] if sign else lines)
 
 
-def shown(value: Any, column: Column) -> str:
+def shown(value: Any, column: StoredColumn) -> str:
     """A stored value as people read it, in the column's display unit, without the unit."""
     if value is None:
         return "–"

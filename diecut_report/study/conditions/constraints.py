@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 
 from diecut_report.expressions import Array, Node, evaluate, symbols
-from diecut_report.study.conditions.numpy_emitter import Judged, judged
+from diecut_report.study.conditions.numpy_emitter import JudgedRows, judged
 from diecut_report.study.conditions.parts import Name
 from diecut_report.study.conditions.reading import read
 from diecut_report.study.conditions.tree import Node as Tree
@@ -49,7 +49,7 @@ class Constraint:
         """The varied paths that it names."""
         return tuple(dict.fromkeys(path for name in names(self.tree) for path in symbols(self.values[name])))
 
-    def judged(self, rows: Mapping[str, Any]) -> Judged:
+    def judged(self, rows: Mapping[str, Any]) -> JudgedRows:
         """Return for each row whether it holds and whether it fails; what has no value (a division by zero) does neither."""
 
         def value_of(name: str) -> Any:

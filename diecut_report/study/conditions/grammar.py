@@ -53,7 +53,7 @@ class Parsed:
 def parsed(given: str, known: Collection[str]) -> Parsed:
     """Parse a condition; ConditionError in words, with the place, for what is no condition by its words alone."""
     words = tokens(given, known)
-    pieces = _Writer(words).pieces()
+    pieces = _GrammarWriter(words).pieces()
     starts, at = [], 0
     for piece in pieces:
         starts.append(at)
@@ -69,7 +69,7 @@ class _Bracket:
     waiting: int = 0
 
 
-class _Writer:
+class _GrammarWriter:
     """Writes the words of a condition as Python, one piece for each, and refuses what does not follow on each other."""
 
     def __init__(self, words: Sequence[Token]) -> None:

@@ -12,17 +12,17 @@ from diecut_report.expressions import APPLY, NUMERIC, Array
 from diecut_report.study.conditions.tree import (
     Call,
     Chain,
+    ColumnName,
     Compared,
     Joined,
     Like,
     Missing,
-    Named,
     Negative,
     Node,
     Not,
     Number,
     Power,
-    Text,
+    TextLiteral,
     Truth,
     is_condition,
     is_text,
@@ -32,38 +32,38 @@ ValueOf = Callable[[str], Any]
 """What a name stands for in each row: numbers (NaN where one is missing), texts or truths (None where one is missing)."""
 
 
-class Judged(NamedTuple):
+class JudgedRows(NamedTuple):
     """For each row whether a condition holds and whether it fails; where it does neither it is undecided."""
 
     holds: Array
     fails: Array
 
 
-def judged(node: Node, value_of: ValueOf, count: int) -> Judged:
+def judged(node: Node, value_of: ValueOf, count: int) -> JudgedRows:
     """Return for each of so many rows whether the condition holds, and whether it fails."""
     with np.errstate(all="ignore"):
         found = _condition(node, value_of)
-    return Judged(*(np.array(np.broadcast_to(each, (count,)), dtype=bool) for each in found))
+    return JudgedRows(*(np.array(np.broadcast_to(each, (count,)), dtype=bool) for each in found))
 
 
 # --- conditions ------------------------------------------------------------------------------------------------------
 
 
-def _condition(node: Node, value_of: ValueOf) -> Judged:
+def _condition(node: Node, value_of: ValueOf) -> JudgedRows:
     match node:
         case Truth(value):
-            return Judged(np.array(value), np.array(not value))
-        case Named(name):
+            return JudgedRows(np.array(value), np.array(not value))
+        case ColumnName(name):
             values = np.asarray(value_of(name), dtype=object)
-            return Judged(_same(values, True), _same(values, False))
+            return JudgedRows(_same(values, True), _same(values, False))
         case Not(of):
             found = _condition(of, value_of)
-            return Judged(found.fails, found.holds)
+            return JudgedRows(found.fails, found.holds)
         case Joined(word, parts):
             return _joined(word, [_condition(part, value_of) for part in parts])
         case Missing(of):
             missing = _missing(of, value_of)
-            return Judged(missing, ~missing)
+            return JudgedRows(missing, ~missing)
         case Like(text, pattern):
             return _like(_texts(text, value_of), pattern)
         case Compared(sign, left, right) if is_text(left):
@@ -73,13 +73,13 @@ def _condition(node: Node, value_of: ValueOf) -> Judged:
     raise TypeError(f"{node} is not a condition")
 
 
-def _joined(word: str, parts: list[Judged]) -> Judged:
+def _joined(word: str, parts: list[JudgedRows]) -> JudgedRows:
     everywhere, anywhere = np.logical_and, np.logical_or
     for_holds, for_fails = (everywhere, anywhere) if word == "and" else (anywhere, everywhere)
     holds, fails = parts[0]
     for part in parts[1:]:
         holds, fails = for_holds(holds, part.holds), for_fails(fails, part.fails)
-    return Judged(holds, fails)
+    return JudgedRows(holds, fails)
 
 
 def _missing(node: Node, value_of: ValueOf) -> Array:
@@ -96,10 +96,10 @@ def _sizes(node: Node, value_of: ValueOf) -> Array:
     return numbers(node, value_of)
 
 
-def _compared(sign: str, left: Array, right: Array) -> Judged:
+def _compared(sign: str, left: Array, right: Array) -> JudgedRows:
     known = ~(np.isnan(left) | np.isnan(right))
     found = APPLY[sign](left, right)
-    return Judged(known & found, known & ~found)
+    return JudgedRows(known & found, known & ~found)
 
 
 def _same(values: Array, wanted: Any) -> Array:
@@ -107,27 +107,27 @@ def _same(values: Array, wanted: Any) -> Array:
 
 
 def _texts(node: Node, value_of: ValueOf) -> Array:
-    if not isinstance(node, Text | Named):
+    if not isinstance(node, TextLiteral | ColumnName):
         raise TypeError(f"{node} is not a text")
-    return np.array(node.value if isinstance(node, Text) else value_of(node.name), dtype=object)
+    return np.array(node.value if isinstance(node, TextLiteral) else value_of(node.name), dtype=object)
 
 
-def _compared_texts(sign: str, left: Array, right: Array) -> Judged:
+def _compared_texts(sign: str, left: Array, right: Array) -> JudgedRows:
     known = ~(_same(left, None) | _same(right, None))
     found = np.asarray(
         APPLY[sign](np.where(_same(left, None), "", left), np.where(_same(right, None), "", right)), bool
     )
-    return Judged(known & found, known & ~found)
+    return JudgedRows(known & found, known & ~found)
 
 
-def _like(texts: Array, pattern: str) -> Judged:
+def _like(texts: Array, pattern: str) -> JudgedRows:
     first, *middle = [re.escape(piece).replace("_", ".") for piece in pattern.split("%")]
     last = f".*{middle.pop()}" if middle else ""
     # Each piece is taken where it comes first, for good: nothing is tried twice, however many pieces there are.
     wanted = re.compile(first + "".join(f"(?>.*?{piece})" for piece in middle) + last, re.DOTALL)
     known = ~_same(texts, None)
     found = np.array([text is not None and bool(wanted.fullmatch(text)) for text in texts.flat], dtype=bool)
-    return Judged(known & found.reshape(texts.shape), known & ~found.reshape(texts.shape))
+    return JudgedRows(known & found.reshape(texts.shape), known & ~found.reshape(texts.shape))
 
 
 # --- numbers ---------------------------------------------------------------------------------------------------------
@@ -138,7 +138,7 @@ def numbers(node: Node, value_of: ValueOf) -> Array:
     match node:
         case Number(value):
             return np.array(value)
-        case Named(name):
+        case ColumnName(name):
             return np.asarray(value_of(name), dtype=float)
         case Negative(of):
             return _finite(-numbers(of, value_of))

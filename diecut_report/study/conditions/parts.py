@@ -25,16 +25,16 @@ from diecut_report.study.conditions.numpy_emitter import numbers
 from diecut_report.study.conditions.tree import (
     Call,
     Chain,
+    ColumnName,
     Compared,
     Joined,
     Like,
-    Named,
     Negative,
     Node,
     Not,
     Number,
     Power,
-    Text,
+    TextLiteral,
     names,
 )
 from diecut_report.study.conditions.words import ConditionError
@@ -60,7 +60,7 @@ class Name:
 
 
 @dataclass(frozen=True)
-class Part:
+class ConditionPart:
     """A part of a condition and its place: a quantity of a kind, a text, a condition, or what stands in quotes and may be either.
 
     A ``bare`` quantity is made of numbers without units. In the ``loose`` product of quantities (angular speed times radius)
@@ -82,26 +82,26 @@ class Part:
         return self.typed or "the calculated side"
 
 
-def number(value: float, place: int) -> Part:
+def number(value: float, place: int) -> ConditionPart:
     """Return a plain number as a part."""
     if not np.isfinite(value):
         raise ConditionError("the condition holds a number that is too large to calculate with.", place)
-    return Part(Number(value), "quantity", place, bare=True, typed=f"{value:g}")
+    return ConditionPart(Number(value), "quantity", place, bare=True, typed=f"{value:g}")
 
 
-def named(name: Name, place: int) -> Part:
+def named(name: Name, place: int) -> ConditionPart:
     """Return what a name stands for as a part."""
-    node = Named(name.name, name.holds)
+    node = ColumnName(name.name, name.holds)
     if name.holds == "number":
-        return Part(node, "quantity", place, unit(name.unit).kind, name=name, typed=name.name)
-    return Part(node, "text" if name.holds == "text" else "condition", place, typed=name.name)
+        return ConditionPart(node, "quantity", place, unit(name.unit).kind, name=name, typed=name.name)
+    return ConditionPart(node, "text" if name.holds == "text" else "condition", place, typed=name.name)
 
 
-def quantity(part: Part, beside: Part | None = None) -> Part:
+def quantity(part: ConditionPart, beside: ConditionPart | None = None) -> ConditionPart:
     """Return a part as something to calculate with; a bare number in quotes counts in the unit of the name beside it."""
     if part.what == "quantity":
         return part
-    if not isinstance(part.node, Text):
+    if not isinstance(part.node, TextLiteral):
         words = f"{part.shown} is a {part.what}; a quantity is needed to calculate with or to compare by size."
         raise ConditionError(words, part.place)
     name = beside.name if beside else None
@@ -112,10 +112,10 @@ def quantity(part: Part, beside: Part | None = None) -> Part:
         value = parse_quantity(part.node.value, measure.text)
     except UnitError as error:
         raise ConditionError(str(error), part.place) from None
-    return Part(Number(value), "quantity", part.place, measure.kind, typed=part.typed)
+    return ConditionPart(Number(value), "quantity", part.place, measure.kind, typed=part.typed)
 
 
-def condition(part: Part, needed_by: str) -> Node:
+def condition(part: ConditionPart, needed_by: str) -> Node:
     """Return the node of a part that is to be a condition; ``needed_by`` says why."""
     if part.what == "text":
         raise ConditionError(f"{part.shown} stands alone; compare it with a text in quotes.", part.place)
@@ -124,26 +124,26 @@ def condition(part: Part, needed_by: str) -> Node:
     return part.node
 
 
-def joined(word: Literal["and", "or"], nodes: Sequence[Node], place: int) -> Part:
+def joined(word: Literal["and", "or"], nodes: Sequence[Node], place: int) -> ConditionPart:
     """Return conditions joined by ``and`` or ``or``."""
-    return Part(nodes[0] if len(nodes) == 1 else Joined(word, tuple(nodes)), "condition", place)
+    return ConditionPart(nodes[0] if len(nodes) == 1 else Joined(word, tuple(nodes)), "condition", place)
 
 
-def contrary(node: Node, place: int) -> Part:
+def contrary(node: Node, place: int) -> ConditionPart:
     """Return the contrary of a condition."""
-    return Part(Not(node), "condition", place)
+    return ConditionPart(Not(node), "condition", place)
 
 
 # --- comparisons -----------------------------------------------------------------------------------------------------
 
 
-def compared(signs: Sequence[str], parts: Sequence[Part]) -> Part:
+def compared(signs: Sequence[str], parts: Sequence[ConditionPart]) -> ConditionPart:
     """Return a comparison, also of more than two parts: each with the next."""
     pairs = zip(signs, parts, parts[1:], strict=False)
     return joined("and", [_pair(sign, left, right) for sign, left, right in pairs], parts[0].place)
 
 
-def _pair(sign: str, left: Part, right: Part) -> Node:
+def _pair(sign: str, left: ConditionPart, right: ConditionPart) -> Node:
     whats = {left.what, right.what}
     if whats == {"condition"} or ("text" in whats and whats <= {"text", "quoted"}):
         return Compared(sign, left.node, right.node)
@@ -156,18 +156,18 @@ def _pair(sign: str, left: Part, right: Part) -> Node:
     return Compared(sign, left.node, right.node)
 
 
-def like(text: Part, pattern: Part) -> Part:
+def like(text: ConditionPart, pattern: ConditionPart) -> ConditionPart:
     """Return whether a text is like a pattern in quotes."""
-    if text.what != "text" or not isinstance(pattern.node, Text) or not isinstance(text.node, Named):
+    if text.what != "text" or not isinstance(pattern.node, TextLiteral) or not isinstance(text.node, ColumnName):
         words = "'like' compares a column of words with a pattern in quotes, such as 'drive.%'."
         raise ConditionError(words, pattern.place)
-    return Part(Like(text.node, pattern.node.value), "condition", text.place)
+    return ConditionPart(Like(text.node, pattern.node.value), "condition", text.place)
 
 
 # --- arithmetic ------------------------------------------------------------------------------------------------------
 
 
-def calculated(sign: str, left: Part, right: Part) -> Part:
+def calculated(sign: str, left: ConditionPart, right: ConditionPart) -> ConditionPart:
     """Return what two quantities give by ``+ - * /``."""
     left, right = quantity(left, right if sign in "+-" else None), quantity(right, left if sign in "+-" else None)
     node = _chained(sign, left.node, right.node)
@@ -179,7 +179,7 @@ def calculated(sign: str, left: Part, right: Part) -> Part:
     kind = tuple(round(a + turn * b, 9) for a, b in zip(left.kind, right.kind, strict=True))
     scaled = left if right.bare else right if left.bare and sign == "*" else None
     loose = scaled.loose if scaled else True
-    return Part(node, "quantity", left.place, kind, bare, loose, scaled.name if scaled else None)
+    return ConditionPart(node, "quantity", left.place, kind, bare, loose, scaled.name if scaled else None)
 
 
 def _chained(sign: str, left: Node, right: Node) -> Chain:
@@ -190,7 +190,7 @@ def _chained(sign: str, left: Node, right: Node) -> Chain:
     return Chain(left, ((sign, right),))
 
 
-def negative(part: Part) -> Part:
+def negative(part: ConditionPart) -> ConditionPart:
     """Return a quantity with the other sign."""
     part = quantity(part)
     if isinstance(part.node, Number):
@@ -198,7 +198,7 @@ def negative(part: Part) -> Part:
     return replace(part, node=Negative(part.node), typed="")
 
 
-def raised(base: Part, power: Part) -> Part:
+def raised(base: ConditionPart, power: ConditionPart) -> ConditionPart:
     """Return a power; its exponent must be known where the base has a unit."""
     base, power = quantity(base), quantity(power)
     if power.kind != NUMBER:
@@ -206,12 +206,14 @@ def raised(base: Part, power: Part) -> Part:
         raise ConditionError(words, power.place)
     node = Power(base.node, power.node)
     if base.kind == NUMBER:
-        return Part(node, "quantity", base.place, bare=base.bare and power.bare, loose=True)
+        return ConditionPart(node, "quantity", base.place, bare=base.bare and power.bare, loose=True)
     exponent = _constant(power.node)
     if exponent is None or not abs(exponent) <= MAX_EXPONENT:
         words = f"the exponent of {base.shown} must be a number between -{MAX_EXPONENT} and {MAX_EXPONENT}."
         raise ConditionError(words, power.place)
-    return Part(node, "quantity", base.place, tuple(round(exponent * share, 9) for share in base.kind), loose=True)
+    return ConditionPart(
+        node, "quantity", base.place, tuple(round(exponent * share, 9) for share in base.kind), loose=True
+    )
 
 
 def _constant(node: Node) -> float | None:
@@ -222,7 +224,7 @@ def _constant(node: Node) -> float | None:
         return float(numbers(node, lambda _: None))
 
 
-def called(name: str, given: Sequence[Part], place: int) -> Part:
+def called(name: str, given: Sequence[ConditionPart], place: int) -> ConditionPart:
     """Return a function of quantities."""
     parts = [quantity(part) for part in given]
     if not parts or (len(parts) > 1 and name in ("abs", "sqrt")):
@@ -241,7 +243,7 @@ def called(name: str, given: Sequence[Part], place: int) -> Part:
 # --- kinds -----------------------------------------------------------------------------------------------------------
 
 
-def _alike(left: Part, right: Part, sign: str) -> Part:
+def _alike(left: ConditionPart, right: ConditionPart, sign: str) -> ConditionPart:
     """Return the side whose kind both have; a plain 0 is of any kind, and a number that of what people read in SI."""
     for bare, other in ((left, right), (right, left)):
         if bare.bare and not other.bare and (other.kind != NUMBER or other.name):
@@ -254,7 +256,9 @@ def _alike(left: Part, right: Part, sign: str) -> Part:
     raise ConditionError(f"{_unlike(left, right)}; {sign} needs the same kind on both sides.", right.place)
 
 
-def _bare(bare: Part, other: Part, left: Part, right: Part, sign: str) -> ConditionError:
+def _bare(
+    bare: ConditionPart, other: ConditionPart, left: ConditionPart, right: ConditionPart, sign: str
+) -> ConditionError:
     """Return what is wrong with a number beside a quantity that needs its unit."""
     kinds = f"{_unlike(left, right)}; " if left.kind != right.kind else ""
     if other.name is None or not other.name.display:
@@ -265,7 +269,7 @@ def _bare(bare: Part, other: Part, left: Part, right: Part, sign: str) -> Condit
     return ConditionError(words, bare.place)
 
 
-def _unlike(left: Part, right: Part) -> str:
+def _unlike(left: ConditionPart, right: ConditionPart) -> str:
     return " and ".join(f"{part.shown} is {_kind(part)}" for part in (left, right))
 
 
@@ -273,7 +277,7 @@ def _without_angle(kind: Kind) -> Kind:
     return (*kind[:ANGLE], 0.0, *kind[ANGLE + 1 :])
 
 
-def _kind(part: Part) -> str:
+def _kind(part: ConditionPart) -> str:
     if part.kind == NUMBER:
         return "a pure number"
     own = unit(part.name.unit) if part.name else None

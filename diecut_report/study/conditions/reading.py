@@ -9,11 +9,11 @@ from itertools import chain
 from diecut_report.errors import nearest
 from diecut_report.study.conditions import parts
 from diecut_report.study.conditions.grammar import Parsed, parsed
-from diecut_report.study.conditions.parts import Name, Part
+from diecut_report.study.conditions.parts import ConditionPart, Name
 from diecut_report.study.conditions.tree import (
     Missing,
     Node,
-    Text,
+    TextLiteral,
     Truth,
 )
 from diecut_report.study.conditions.words import ALLOWED, FUNCTIONS, ConditionError
@@ -33,15 +33,15 @@ def read(given: str, known: Collection[str], find: Find, example: str) -> Node:
     ``known`` names are taken whole whatever they are made of, and may stand in double quotes; ``find`` says what a name is.
     """
     whole = parsed(given, known)
-    part = _Reader(whole, find).part(whole.body, 0)
+    part = _ConditionReader(whole, find).part(whole.body, 0)
     return parts.condition(part, f"a comparison is needed, such as {example}")
 
 
-class _Reader:
+class _ConditionReader:
     def __init__(self, whole: Parsed, find: Find) -> None:
         self.whole, self.find = whole, find
 
-    def part(self, at: ast.expr, depth: int) -> Part:
+    def part(self, at: ast.expr, depth: int) -> ConditionPart:
         """Return the part that a piece of the Python text says."""
         if depth > DEEPEST:
             words = f"the condition is nested deeper than {DEEPEST} levels. Write several conditions."
@@ -75,14 +75,14 @@ class _Reader:
 
     # --- names, numbers, texts ---
 
-    def _leaf(self, at: ast.Name) -> Part:
+    def _leaf(self, at: ast.Name) -> ConditionPart:
         word = self.whole.word(at)
         if word.sort == "number":
             return parts.number(float(word.text), word.place)
         if word.sort == "text":
-            return Part(Text(word.text), "quoted", word.place, typed=f"'{word.text}'")
+            return ConditionPart(TextLiteral(word.text), "quoted", word.place, typed=f"'{word.text}'")
         if word.text in ("true", "false") and word.sort == "keyword":
-            return Part(Truth(word.text == "true"), "condition", word.place, typed=word.text)
+            return ConditionPart(Truth(word.text == "true"), "condition", word.place, typed=word.text)
         try:
             return parts.named(self.find(word.text), word.place)
         except ConditionError as fault:
@@ -98,7 +98,7 @@ class _Reader:
 
     # --- arithmetic ---
 
-    def _signed(self, at: ast.UnaryOp, depth: int) -> Part:
+    def _signed(self, at: ast.UnaryOp, depth: int) -> ConditionPart:
         """Signs and ``not``, each time all that stand before each other, so that they make no depth."""
         is_not, is_turned = isinstance(at.op, ast.Not), False
         inner: ast.expr = at
@@ -115,7 +115,7 @@ class _Reader:
         node = parts.condition(part, "'not' stands before a condition; compare it with something")
         return parts.contrary(node, self._place(at)) if is_turned else part
 
-    def _calculated(self, at: ast.BinOp, depth: int) -> Part:
+    def _calculated(self, at: ast.BinOp, depth: int) -> ConditionPart:
         """A chain of + and - or of * and /, from left to right without a recursion for each."""
         group = (ast.Add, ast.Sub) if isinstance(at.op, ast.Add | ast.Sub) else (ast.Mult, ast.Div)
         rest, left = list[tuple[str, ast.expr]](), at.left
@@ -130,15 +130,15 @@ class _Reader:
 
     # --- comparisons ---
 
-    def _compared(self, left: ast.expr, ops: list[ast.cmpop], others: list[ast.expr], depth: int) -> Part:
-        def inner(at: ast.expr) -> Part:
+    def _compared(self, left: ast.expr, ops: list[ast.cmpop], others: list[ast.expr], depth: int) -> ConditionPart:
+        def inner(at: ast.expr) -> ConditionPart:
             return self.part(at, depth + 1)
 
         match ops, others:
             case _ if all(type(op) in _SIGNS for op in ops):
                 return parts.compared([_SIGNS[type(op)] for op in ops], [inner(at) for at in (left, *others)])
             case [ast.Is() | ast.IsNot() as op], [_]:
-                made = Part(Missing(inner(left).node), "condition", self._place(left))
+                made = ConditionPart(Missing(inner(left).node), "condition", self._place(left))
             case [ast.Is() | ast.IsNot() as op, ast.Is()], [low, high]:
                 pairs = [(inner(left), ">=", inner(low)), (inner(left), "<=", inner(high))]
                 made = self._joined("and", iter(pairs), left)
@@ -150,7 +150,9 @@ class _Reader:
                 raise self._unfit(next(chain(others[1:], others)))
         return made if isinstance(op, ast.Is | ast.In) else parts.contrary(made.node, made.place)
 
-    def _joined(self, word: str, pairs: Iterator[tuple[Part, str, Part]], at: ast.expr) -> Part:
+    def _joined(
+        self, word: str, pairs: Iterator[tuple[ConditionPart, str, ConditionPart]], at: ast.expr
+    ) -> ConditionPart:
         nodes = [parts.compared([sign], [one, two]).node for one, sign, two in pairs]
         return parts.joined(word, nodes, self._place(at))  # type: ignore[arg-type]
 

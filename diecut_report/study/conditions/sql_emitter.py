@@ -8,21 +8,21 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import Any, NamedTuple
 
-from diecut_report.study.analysis.stored_variants import Column
+from diecut_report.study.analysis.stored_variants import StoredColumn
 from diecut_report.study.conditions.tree import (
     Call,
     Chain,
+    ColumnName,
     Compared,
     Joined,
     Like,
     Missing,
-    Named,
     Negative,
     Node,
     Not,
     Number,
     Power,
-    Text,
+    TextLiteral,
     Truth,
 )
 
@@ -37,21 +37,21 @@ class Sql(NamedTuple):
     given: tuple[Any, ...] = ()
 
 
-def written(node: Node, columns: Mapping[str, Column]) -> Sql:
+def written(node: Node, columns: Mapping[str, StoredColumn]) -> Sql:
     """Return a condition as an SQL expression; each name in it must be a column."""
-    return _Writer(columns).expression(node)
+    return _SqlWriter(columns).expression(node)
 
 
-class _Writer:
-    def __init__(self, columns: Mapping[str, Column]) -> None:
+class _SqlWriter:
+    def __init__(self, columns: Mapping[str, StoredColumn]) -> None:
         self.columns = columns
 
     def expression(self, node: Node) -> Sql:
         """Return a side of a comparison or a condition; what is calculated and not finite is NULL."""
         match node:
-            case Named(name):
+            case ColumnName(name):
                 return Sql(self.columns[name].sql)
-            case Number(value) | Text(value):
+            case Number(value) | TextLiteral(value):
                 return Sql("?", (value,))
             case Truth(value):
                 return Sql("true" if value else "false")
@@ -72,7 +72,7 @@ class _Writer:
     def number(self, node: Node) -> Sql:
         """Return a number that something is calculated from; NaN and infinite ones go on through sums, products and roots."""
         match node:
-            case Named(name) if self.columns[name].kind == "int":
+            case ColumnName(name) if self.columns[name].kind == "int":
                 return Sql(f"CAST({self.columns[name].sql} AS DOUBLE)")
             case Negative(of):
                 return _filled("(-{})", self.number(of))
@@ -97,7 +97,7 @@ class _Writer:
 
     def _finite(self, node: Node) -> Sql:
         """Return a number that is NULL where it is calculated and not finite."""
-        return self.number(node) if isinstance(node, Named | Number) else self.expression(node)
+        return self.number(node) if isinstance(node, ColumnName | Number) else self.expression(node)
 
 
 def _filled(form: str, *parts: Sql) -> Sql:

@@ -22,14 +22,14 @@ class Number:
 
 
 @dataclass(frozen=True)
-class Text:
+class TextLiteral:
     """A text."""
 
     value: str
 
 
 @dataclass(frozen=True)
-class Named:
+class ColumnName:
     """What a name stands for in each row; ``holds`` says what that is."""
 
     name: str
@@ -116,19 +116,33 @@ class Not:
     of: Node
 
 
-Node = Number | Text | Named | Negative | Chain | Power | Call | Truth | Compared | Like | Missing | Joined | Not
+Node = (
+    Number
+    | TextLiteral
+    | ColumnName
+    | Negative
+    | Chain
+    | Power
+    | Call
+    | Truth
+    | Compared
+    | Like
+    | Missing
+    | Joined
+    | Not
+)
 
 
 def is_condition(node: Node) -> bool:
     """Return whether a node is true, false or undecided, rather than a number or a text."""
     return isinstance(node, Truth | Compared | Like | Missing | Joined | Not) or (
-        isinstance(node, Named) and node.holds == "truth"
+        isinstance(node, ColumnName) and node.holds == "truth"
     )
 
 
 def is_text(node: Node) -> bool:
     """Return whether a node is a text."""
-    return isinstance(node, Text) or (isinstance(node, Named) and node.holds == "text")
+    return isinstance(node, TextLiteral) or (isinstance(node, ColumnName) and node.holds == "text")
 
 
 def names(node: Node) -> tuple[str, ...]:
@@ -137,7 +151,7 @@ def names(node: Node) -> tuple[str, ...]:
 
 
 def _names(part: Node | tuple[Any, ...]) -> Iterator[str]:
-    if isinstance(part, Named):
+    if isinstance(part, ColumnName):
         yield part.name
         return
     for inner in part if isinstance(part, tuple) else (getattr(part, field.name) for field in fields(part)):

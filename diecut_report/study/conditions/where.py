@@ -7,7 +7,7 @@ from dataclasses import dataclass, field
 from typing import Any
 
 from diecut_report.errors import Problem, UserError, nearest
-from diecut_report.study.analysis.stored_variants import Column
+from diecut_report.study.analysis.stored_variants import StoredColumn
 from diecut_report.study.conditions.parts import Name
 from diecut_report.study.conditions.reading import read
 from diecut_report.study.conditions.sql_emitter import written
@@ -27,7 +27,7 @@ class Condition:
     columns: list[str] = field(default_factory=list)
 
 
-def condition(given: str, columns: Mapping[str, Column]) -> Condition:
+def condition(given: str, columns: Mapping[str, StoredColumn]) -> Condition:
     """Return the condition that a text says; UserError in words, with the place, for what cannot be asked."""
     try:
         tree = read(given, columns, lambda name: _name(name, columns), EXAMPLE)
@@ -39,14 +39,14 @@ def condition(given: str, columns: Mapping[str, Column]) -> Condition:
     return Condition(sql.text, list(sql.given), list(names(tree)))
 
 
-def column_named(name: str, columns: Mapping[str, Column]) -> Column:
+def column_named(name: str, columns: Mapping[str, StoredColumn]) -> StoredColumn:
     """Return the column of a name; UserError with the nearest where there is none."""
     if name not in columns:
         raise UserError(Problem(f"{name!r} is no column of these variants{nearest(name, columns)}."))
     return columns[name]
 
 
-def _name(name: str, columns: Mapping[str, Column]) -> Name:
+def _name(name: str, columns: Mapping[str, StoredColumn]) -> Name:
     if name not in columns:
         near = nearest(name, columns) or "; put texts in quotes"
         raise ConditionError(f"{name!r} is no column of these variants{near}.")

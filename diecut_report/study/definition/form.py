@@ -48,7 +48,7 @@ class ObjectiveForm(Block):
 Texts = Annotated[list[Annotated[str, Field(min_length=1)]], Field(default_factory=list)]
 
 
-class Document(Block):
+class StudyDocument(Block):
     """The whole study file; what is varied is judged path by path."""
 
     schema_version: Annotated[Literal[1], BeforeValidator(loader.Document.a_number)]

@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import Any
 
 from diecut_report.config.loader import Config
-from diecut_report.config.validation import Place
+from diecut_report.config.validation import ConfigPlace
 from diecut_report.contract.inputs import Pending
 from diecut_report.errors import Problem
 from diecut_report.study.definition.base_inputs import Input, UnknownPath, find_input, with_values
@@ -18,7 +18,7 @@ from diecut_report.study.definition.values import ValueReader
 from diecut_report.study.sampling import methods
 from diecut_report.study.sampling.methods import Sample
 from diecut_report.study.sampling.variables import SampleError, Variable
-from diecut_report.study.tables.reading import Column
+from diecut_report.study.tables.reading import ReadColumn
 
 MOST_TEXTS = 50  # values of a text for each of which the names of the results are looked up
 
@@ -39,11 +39,11 @@ class Sampled:
 class SampleReader:
     """Reads ``sample`` and ``vary``; gathers ``problems``."""
 
-    def __init__(self, place: Place, find: Callable[[str], Path], base: Config) -> None:
+    def __init__(self, place: ConfigPlace, find: Callable[[str], Path], base: Config) -> None:
         self.place, self.base = place, base
         self.problems: list[Problem] = []
         self.tables = TableReader(place, find)
-        self.vary = Place(place.tree, ("vary",))
+        self.vary = ConfigPlace(place.tree, ("vary",))
 
     def sampled(self, form: SampleForm | None, vary: Mapping[str, Any]) -> Sampled:
         """All of it; ``form`` is None where the sample's keys are wrong, so that values alone can be judged."""
@@ -94,7 +94,7 @@ class SampleReader:
         sample = self._made(lambda: methods.table(whole)) if is_whole else None
         return Sampled(inputs, sample, bases, self.tables.hashes)
 
-    def _headed(self, columns: Mapping[str, Column]) -> Iterator[tuple[str, Input]]:
+    def _headed(self, columns: Mapping[str, ReadColumn]) -> Iterator[tuple[str, Input]]:
         for path, column in columns.items():
             try:
                 yield path, find_input(self.base, path)
@@ -121,7 +121,7 @@ class SampleReader:
 # --- the method ------------------------------------------------------------------------------------------------------
 
 
-def misused(form: SampleForm, has_vary: bool, place: Place) -> Iterator[Problem]:
+def misused(form: SampleForm, has_vary: bool, place: ConfigPlace) -> Iterator[Problem]:
     """What the method needs and lacks, and keys that have no use with it."""
     used = {"count": DRAWN, "seed": DRAWN, "indices": ("sobol",), "file": ("table",)}
     for key, users in used.items():
@@ -160,6 +160,6 @@ def _texts(given: Any) -> list[str]:
     return list(dict.fromkeys(value for value in known if isinstance(value, str)))[:MOST_TEXTS]
 
 
-def _column_texts(asked: Input, column: Column) -> list[str]:
+def _column_texts(asked: Input, column: ReadColumn) -> list[str]:
     """The texts of a column, as far as it has any; what is wrong with them is told when they are judged."""
     return [] if asked.unit else list(dict.fromkeys(column.cells.texts()))[:MOST_TEXTS]

@@ -10,14 +10,14 @@ from typing import Any
 from diecut_report.config import yaml_tree
 from diecut_report.config.discovery import Discovery
 from diecut_report.config.loader import Config, as_typed, load_config
-from diecut_report.config.validation import Place, validate
+from diecut_report.config.validation import ConfigPlace, validate
 from diecut_report.config.yaml_tree import Tree
 from diecut_report.errors import Problem, UserError
 from diecut_report.study.conditions.constraints import Constraint, parse
 from diecut_report.study.conditions.terms import term
 from diecut_report.study.conditions.words import ConditionError
 from diecut_report.study.definition.base_inputs import Input
-from diecut_report.study.definition.form import Document, SampleForm
+from diecut_report.study.definition.form import SampleForm, StudyDocument
 from diecut_report.study.definition.sample import Sampled, SampleReader, misused
 from diecut_report.study.definition.wanted_results import Objective, Reports, ResultReader
 from diecut_report.study.sampling.methods import Sample
@@ -57,7 +57,7 @@ def load_study(path: Path, discovery: Discovery, places: Mapping[str, Path] | No
 
     ``places``: where the files are that the study names, where they are not sought from its folder.
     """
-    reader = _Reader(path, yaml_tree.load(path), discovery, places or {})
+    reader = _StudyReader(path, yaml_tree.load(path), discovery, places or {})
     study = reader.study()
     if study is None or reader.problems:
         raise UserError(_in_order(reader.problems, str(path)))
@@ -70,7 +70,7 @@ def _in_order(problems: list[Problem], file: str) -> list[Problem]:
 
 
 @dataclass
-class _Reader:
+class _StudyReader:
     """Reads the parts of a study one by one, each as far as what it needs is sound."""
 
     path: Path
@@ -80,9 +80,9 @@ class _Reader:
     problems: list[Problem] = field(default_factory=list)
 
     def __post_init__(self) -> None:
-        self.place = Place(self.tree)
-        data = as_typed(Document, self.tree.data, self.place)
-        self.problems += validate(Document, data, self.place)[1]
+        self.place = ConfigPlace(self.tree)
+        data = as_typed(StudyDocument, self.tree.data, self.place)
+        self.problems += validate(StudyDocument, data, self.place)[1]
         self.wrong = {problem.path.split(".")[0] for problem in self.problems}
         known = data if isinstance(data, dict) else {}
         self.data: dict[str, Any] = {

@@ -8,20 +8,20 @@ from pathlib import Path
 
 import numpy as np
 
-from diecut_report.config.validation import Place, validate
+from diecut_report.config.validation import ConfigPlace, validate
 from diecut_report.config.yaml_tree import KeyPath
 from diecut_report.contract.inputs import SI, Quantity
 from diecut_report.errors import Problem, UserError
 from diecut_report.study.definition.base_inputs import Input
 from diecut_report.study.definition.form import value_form
 from diecut_report.study.sampling.variables import Values
-from diecut_report.study.tables.reading import TOLD, Column, TableFile, read_table
+from diecut_report.study.tables.reading import TOLD, ReadColumn, TableFile, read_table
 
 
 class TableReader:
     """Reads tables, found by ``find`` by their names in the study; gathers ``problems``, and each one's SHA-256 in ``hashes``."""
 
-    def __init__(self, place: Place, find: Callable[[str], Path]) -> None:
+    def __init__(self, place: ConfigPlace, find: Callable[[str], Path]) -> None:
         self.place, self.find = place, find
         self.problems: list[Problem] = []
         self.hashes: dict[str, str] = {}
@@ -55,7 +55,7 @@ class TableReader:
             self.problems += error.problems
             return None
 
-    def values(self, asked: Input, column: Column) -> Values | None:
+    def values(self, asked: Input, column: ReadColumn) -> Values | None:
         """A column as the values of an input: SI numbers within its bounds, or texts that it takes."""
         before = len(self.problems)
         try:
@@ -71,14 +71,14 @@ class TableReader:
             return None
         return column.texts() if numbers is None else numbers
 
-    def _wrong_texts(self, asked: Input, column: Column) -> Iterator[Problem]:
+    def _wrong_texts(self, asked: Input, column: ReadColumn) -> Iterator[Problem]:
         form, texts = value_form(asked), column.texts()
         faults = {text: validate(form, {"value": text}, self.place)[1] for text in dict.fromkeys(texts)}
         wrong = [(place, faults[text][0].message) for place, text in enumerate(texts) if faults[text]]
         return _told(column, wrong)
 
 
-def _outside(meta: Quantity, column: Column, values: Iterable[float]) -> Iterator[Problem]:
+def _outside(meta: Quantity, column: ReadColumn, values: Iterable[float]) -> Iterator[Problem]:
     """Cells that the input's bounds refuse, with the words that a config has for them."""
     numbers = np.asarray(values)
     places = np.flatnonzero(~meta.holds(numbers))
@@ -93,7 +93,7 @@ def _refusal(meta: Quantity, value: float) -> str:
     raise AssertionError(f"{value} is refused in a column, but not alone")
 
 
-def _told(column: Column, faults: list[tuple[int, str]]) -> Iterator[Problem]:
+def _told(column: ReadColumn, faults: list[tuple[int, str]]) -> Iterator[Problem]:
     for place, message in faults[:TOLD]:
         yield column.problem(message, column.cells.row(place))
     if len(faults) > TOLD:

@@ -5,13 +5,21 @@ from __future__ import annotations
 from typing import Any
 
 from diecut_report.config.loader import as_typed
-from diecut_report.config.validation import Place, told, validate
+from diecut_report.config.validation import ConfigPlace, told, validate
 from diecut_report.contract.inputs import Block
 from diecut_report.errors import Problem, nearest
 from diecut_report.study.definition.base_inputs import Input
 from diecut_report.study.definition.form import DISTRIBUTIONS, TableForm, distribution_form, range_form, value_form
 from diecut_report.study.definition.tables import TableReader
-from diecut_report.study.sampling.variables import Choice, Normal, Range, SampleError, Triangular, Uniform, Variable
+from diecut_report.study.sampling.variables import (
+    ChoiceVariable,
+    Normal,
+    RangeVariable,
+    SampleError,
+    Triangular,
+    Uniform,
+    Variable,
+)
 
 NEEDED = (
     "a list of values, a range {from: …, to: …, count: …}, a distribution {distribution: normal, mean: …, sd: …} "
@@ -23,7 +31,7 @@ TEXTS = "is a text or a choice; give a list of values"
 class ValueReader:
     """Reads the values of varied paths; gathers ``problems`` (those of tables are gathered there)."""
 
-    def __init__(self, place: Place, tables: TableReader) -> None:
+    def __init__(self, place: ConfigPlace, tables: TableReader) -> None:
         self.place, self.tables = place, tables
         self.problems: list[Problem] = []
 
@@ -59,10 +67,10 @@ class ValueReader:
     def _listed(self, asked: Input, given: list[Any]) -> Variable | None:
         form = value_form(asked)
         values = [self._value(asked, form, index, value) for index, value in enumerate(given)]
-        return Choice(asked.path, tuple(values)) if None not in values else None
+        return ChoiceVariable(asked.path, tuple(values)) if None not in values else None
 
     def _value(self, asked: Input, form: type[Block], index: int, given: Any) -> Any:
-        place = Place(self.place.tree, (*self.place.root, asked.path), {("value",): (index,)})
+        place = ConfigPlace(self.place.tree, (*self.place.root, asked.path), {("value",): (index,)})
         if given is None or (isinstance(given, str) and "${" in given):
             words = (
                 "has no value; write one, or remove the entry"
@@ -79,7 +87,7 @@ class ValueReader:
         if block is None:
             return None
         low, high = float(getattr(block, "from")), float(block.to)
-        return Range(asked.path, low, high, block.count, block.spacing == "log", asked.is_integer)
+        return RangeVariable(asked.path, low, high, block.count, block.spacing == "log", asked.is_integer)
 
     def _distributed(self, asked: Input, given: dict[str, Any]) -> Variable | None:
         name = given["distribution"]
@@ -106,14 +114,14 @@ class ValueReader:
             return None
         key = (*self.place.root, asked.path, "table")
         values = self.tables.column(asked, block.table, block.column or asked.path, key)
-        return None if values is None else Choice(asked.path, tuple(values))
+        return None if values is None else ChoiceVariable(asked.path, tuple(values))
 
     # --- problems ----------------------------------------------------------------------------------------------------
 
-    def _place(self, asked: Input) -> Place:
-        return Place(self.place.tree, (*self.place.root, asked.path))
+    def _place(self, asked: Input) -> ConfigPlace:
+        return ConfigPlace(self.place.tree, (*self.place.root, asked.path))
 
-    def _validated(self, form: type[Block], given: dict[str, Any], place: Place) -> Block | None:
+    def _validated(self, form: type[Block], given: dict[str, Any], place: ConfigPlace) -> Block | None:
         block, problems = validate(form, as_typed(form, given, place), place)
         self.problems += problems
         return block

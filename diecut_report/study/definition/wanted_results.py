@@ -10,10 +10,10 @@ from typing import Any, Literal
 
 from diecut_report.config.loader import Config
 from diecut_report.config.references import PRESS
-from diecut_report.config.validation import Place, told
+from diecut_report.config.validation import ConfigPlace, told
 from diecut_report.errors import Problem, nearest
 from diecut_report.study.execution.result_columns import columns_of
-from diecut_report.study.storage.description import Column
+from diecut_report.study.storage.description import ResultColumn
 
 SHOWN = 12  # known names that a message lists
 
@@ -56,7 +56,7 @@ class _Known:
 class ResultReader:
     """Reads what is asked of the results; gathers ``problems``."""
 
-    def __init__(self, place: Place, bases: Sequence[Config]) -> None:
+    def __init__(self, place: ConfigPlace, bases: Sequence[Config]) -> None:
         self.place, self.bases = place, bases
         self.problems: list[Problem] = []
 
@@ -180,7 +180,7 @@ class ResultReader:
         names = [name for name in self.bases[0].instances if name != PRESS]
         return {name: self._of(name, [c for c in columns.values() if c.name.startswith(f"{name}.")]) for name in names}
 
-    def _of(self, name: str, columns: list[Column]) -> _Known:
+    def _of(self, name: str, columns: list[ResultColumn]) -> _Known:
         inner = {column.name.removeprefix(f"{name}."): column for column in columns}
         checks = {key for key in inner if key.startswith("checks.")}
         instances = [instance for base in self.bases if (instance := base.instances[name])]

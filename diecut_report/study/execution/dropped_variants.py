@@ -6,14 +6,14 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from diecut_report.study.conditions.numpy_emitter import Judged
+from diecut_report.study.conditions.numpy_emitter import JudgedRows
 from diecut_report.study.definition.study_file import Study
 from diecut_report.study.execution.worker import judged
 
 ROWS = 65_536  # at a time
 
 
-def judged_rows(study: Study) -> Iterator[Judged]:
+def judged_rows(study: Study) -> Iterator[JudgedRows]:
     """Yield which rows of the sample keep all constraints and which break one, some at a time."""
     for start in range(0, study.sample.count, ROWS):
         stop = min(start + ROWS, study.sample.count)

@@ -50,7 +50,7 @@ def of_plugin(kind: str) -> Iterator[None]:
 
 
 @dataclass
-class Machines:
+class CalculatedVariants:
     """What was calculated of a number of machines; ``reasons`` has a text for each that cannot exist."""
 
     count: int
@@ -63,14 +63,14 @@ class Machines:
             calculation.release()
 
 
-def calculated(base: Config, values: Values, count: int) -> Machines:
+def calculated(base: Config, values: Values, count: int) -> CalculatedVariants:
     """All mechanisms of the base for so many machines: numbers as arrays of shape (count,), SI; texts the same for all.
 
     Raises ``NotOnArrays`` where a plugin cannot take arrays.
     """
     data = {asked: SI(given, asked.unit, asked.path) if asked.unit else given for asked, given in values.items()}
     config, problems = with_values(base, data)
-    machines = Machines(count, {})
+    machines = CalculatedVariants(count, {})
     if problems:
         machines.reasons = dict.fromkeys(range(count), _words(problems[0]))
         return machines
@@ -84,7 +84,7 @@ class _Rows(Run):
 
     _number = staticmethod(np.asarray)
 
-    def __init__(self, config: Config, machines: Machines) -> None:
+    def __init__(self, config: Config, machines: CalculatedVariants) -> None:
         self.machines = machines
         super().__init__(config, lambda _: None)
         self._all_wrong(self.problems)

@@ -23,22 +23,22 @@ from diecut_report.expressions import Array
 from diecut_report.quantities.units import unit
 from diecut_report.results.checks import judged
 from diecut_report.study.execution.press_batch import of_plugin
-from diecut_report.study.storage.description import Column, Kind
+from diecut_report.study.storage.description import Kind, ResultColumn
 
 STATUS = np.array([None, "pass", "warn", "fail", "error"], dtype=object)
 PASS, WARN, FAIL, ERROR = 1, 2, 3, 4
 
 
-def columns_of(config: Config) -> list[Column]:
+def columns_of(config: Config) -> list[ResultColumn]:
     """The columns of all outputs and checks of a config's mechanisms."""
-    found: list[Column] = []
+    found: list[ResultColumn] = []
     for name, instance in config.instances.items():
         if instance is not None and instance.mechanism is not None and name != PRESS:
             found += _declared(name, instance, instance.mechanism.kind)
     return found
 
 
-def _declared(name: str, instance: Instance, kind: str) -> list[Column]:
+def _declared(name: str, instance: Instance, kind: str) -> list[ResultColumn]:
     """Return the columns of a mechanism; PluginError where what it declares cannot be read."""
     try:
         return [*_outputs(name, instance), *_checks(name, instance)]
@@ -46,7 +46,7 @@ def _declared(name: str, instance: Instance, kind: str) -> list[Column]:
         raise PluginError(said(cause), kind, name) from cause
 
 
-def curve_columns(config: Config, names: Iterable[str]) -> Iterator[Column]:
+def curve_columns(config: Config, names: Iterable[str]) -> Iterator[ResultColumn]:
     """The columns of curves, such as ``drive.crank_torque``: a list of numbers for each machine."""
     for name in names:
         home, _, curve = name.partition(".")
@@ -56,13 +56,13 @@ def curve_columns(config: Config, names: Iterable[str]) -> Iterator[Column]:
             yield _column(name, "curve", step.unit, step)
 
 
-def _column(name: str, kind: Kind, display: str, step: Step) -> Column:
+def _column(name: str, kind: Kind, display: str, step: Step) -> ResultColumn:
     """A column of what a step gives: SI, and the unit that the report prints it in."""
     si = unit(display).si
-    return Column(name, kind, si, display if display != si else "", step.symbol, step.description)
+    return ResultColumn(name, kind, si, display if display != si else "", step.symbol, step.description)
 
 
-def _outputs(name: str, instance: Instance) -> Iterator[Column]:
+def _outputs(name: str, instance: Instance) -> Iterator[ResultColumn]:
     assert instance.mechanism is not None
     axes = instance.mechanism.axes(instance.given)
     lists = set(list_inputs(instance.model).values())
@@ -103,10 +103,10 @@ def _kind(step: Step) -> Kind:
     return "int" if step.whole else "float"
 
 
-def _checks(name: str, instance: Instance) -> Iterator[Column]:
+def _checks(name: str, instance: Instance) -> Iterator[ResultColumn]:
     for check in _made(instance.mechanism.checks if instance.mechanism else (), instance.given):
-        yield Column(f"{name}.checks.{check.id}.utilisation", "float", description=f"{check.title}: utilisation")
-        yield Column(f"{name}.checks.{check.id}.status", "text", description=f"{check.title}: verdict")
+        yield ResultColumn(f"{name}.checks.{check.id}.utilisation", "float", description=f"{check.title}: utilisation")
+        yield ResultColumn(f"{name}.checks.{check.id}.status", "text", description=f"{check.title}: verdict")
 
 
 def _made(checks: tuple[Check, ...], given: frozenset[str]) -> dict[Check, None]:

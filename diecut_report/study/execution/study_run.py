@@ -27,7 +27,7 @@ from diecut_report.study.execution.engines import (
     results,
 )
 from diecut_report.study.execution.result_columns import columns_of, curve_columns
-from diecut_report.study.storage.description import Column, Description, Source
+from diecut_report.study.storage.description import Description, ResultColumn, StudySource
 from diecut_report.study.storage.store import Store
 
 SMALL = 1024  # variants up to which a pool of processes costs more time than it saves
@@ -61,7 +61,7 @@ class Where:
 
 
 @dataclass
-class Outcome:
+class StudyOutcome:
     """What a run left in its folder."""
 
     store: Store
@@ -82,7 +82,7 @@ class Outcome:
         return bool(self.broken_reports) or (bool(self.broken) and self.counts["error"] == self.counts["variants"])
 
 
-def run_study(study: Study, directory: Path, where: Where, *, resume: bool, tell: Tell) -> Outcome:
+def run_study(study: Study, directory: Path, where: Where, *, resume: bool, tell: Tell) -> StudyOutcome:
     """Calculate all variants of a study that are not in the folder yet; each part file is whole or absent, whatever happens."""
     store = Store.open(directory, described(study)) if resume else Store.create(directory, described(study))
     with store.lock():
@@ -102,7 +102,7 @@ def run_study(study: Study, directory: Path, where: Where, *, resume: bool, tell
         finally:  # an interrupted run has spent its time too
             noted()
         store.finish({}, without_value(study))
-    return Outcome(store, store.state["counts"], slow, broken)
+    return StudyOutcome(store, store.state["counts"], slow, broken)
 
 
 def _calculated(study: Study, store: Store, where: Where, tell: Tell) -> Iterator[worker.Done]:
@@ -158,17 +158,17 @@ def described(study: Study) -> Description:
     columns = [*varied_columns(study), *result_columns(study)]
     chunk = min(int(np.clip(study.sample.count // PARTS, *PART)), max(1, VALUES // _width(study, columns)))
     return Description(
-        study=Source(study.file.name, study.sha256, study.file.read_bytes()),
-        base=Source(base, study.base.tree.sha256, files[base]),
+        study=StudySource(study.file.name, study.sha256, study.file.read_bytes()),
+        base=StudySource(base, study.base.tree.sha256, files[base]),
         columns=tuple(columns),
         rows=study.sample.count,
         chunk=chunk,
-        tables=tuple(Source(name, digest, files[name]) for name, digest in study.tables.items()),
+        tables=tuple(StudySource(name, digest, files[name]) for name, digest in study.tables.items()),
         plugins=_versions(study),
     )
 
 
-def _width(study: Study, columns: Sequence[Column]) -> int:
+def _width(study: Study, columns: Sequence[ResultColumn]) -> int:
     """How many numbers a variant has, curves with as many points as the longest of the base."""
     models = [instance for instance in study.base.instances.values() if instance is not None]
     points = [instance.data.get("n_points", field.default) for instance in models
@@ -182,23 +182,23 @@ def _versions(study: Study) -> dict[str, str]:
     return {mechanism.kind: mechanism.version for mechanism in made if mechanism}
 
 
-def varied_columns(study: Study) -> list[Column]:
+def varied_columns(study: Study) -> list[ResultColumn]:
     """A column for each varied path."""
     return [_varied(path, asked) for path, asked in study.inputs.items()]
 
 
-def _varied(path: str, asked: Input) -> Column:
+def _varied(path: str, asked: Input) -> ResultColumn:
     meta = asked.meta
     if not isinstance(meta, Quantity):
-        return Column(path, "text", description=meta.description)
+        return ResultColumn(path, "text", description=meta.description)
     si = meta.parsed_unit.si
-    return Column(path, "float", si, meta.unit if meta.unit != si else "", meta.symbol, meta.description)
+    return ResultColumn(path, "float", si, meta.unit if meta.unit != si else "", meta.symbol, meta.description)
 
 
-def result_columns(study: Study) -> list[Column]:
+def result_columns(study: Study) -> list[ResultColumn]:
     """The outputs that are kept, and all checks, of all texts that the study varies."""
-    found: dict[str, Column] = {}
-    curves: dict[str, Column] = {}
+    found: dict[str, ResultColumn] = {}
+    curves: dict[str, ResultColumn] = {}
     for base in study.bases:
         found |= {column.name: column for column in columns_of(base)}
         curves |= {column.name: column for column in curve_columns(base, study.curves)}

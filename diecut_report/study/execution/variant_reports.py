@@ -35,7 +35,7 @@ class Chosen:
 
 
 @dataclass(frozen=True)
-class Place:
+class ReportPlace:
     """What a process needs to make reports: the folder of the study, and folders of plugins."""
 
     directory: Path
@@ -43,7 +43,7 @@ class Place:
 
 
 @dataclass(frozen=True)
-class Report:
+class VariantReport:
     """One full report."""
 
     variant: int
@@ -73,7 +73,7 @@ def write_reports(
     if missing:
         with _engine(store, where, len(missing)) as engine:
             tell(f"full reports: 0 of {len(missing)}")
-            for done, (report, faults) in enumerate(results(engine, _write, map(Report, missing)), 1):
+            for done, (report, faults) in enumerate(results(engine, _write, map(VariantReport, missing)), 1):
                 broken |= {kind: f"in {report}: {why}" for kind, why in faults.items()}
                 tell(f"full reports: {done} of {len(missing)}")
     return chosen.notes, broken
@@ -81,12 +81,12 @@ def write_reports(
 
 def _engine(store: Store, where: Where, reports: int) -> Engine:
     plugins = tuple(where.plugins)
-    warm = Warm("\n".join(["reports", str(store.directory), *plugins]), Place, (store.directory, plugins))
+    warm = Warm("\n".join(["reports", str(store.directory), *plugins]), ReportPlace, (store.directory, plugins))
     jobs = min(where.jobs or os.cpu_count() or 1, reports)
     return Pool(jobs, warm) if jobs > 1 else InProcess(warm)
 
 
-def _write(place: Place, report: Report) -> dict[str, str]:
+def _write(place: ReportPlace, report: VariantReport) -> dict[str, str]:
     """Write a report; the plugins that broke in it, and why."""
     discovery = Discovery([Path(plugin) for plugin in place.plugins])
     config = variant_config(place.directory, report.variant, discovery, f"{report.variant}.yaml")

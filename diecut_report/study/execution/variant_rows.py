@@ -13,7 +13,7 @@ from diecut_report.contract.inputs import POINTS
 from diecut_report.expressions import Array
 from diecut_report.study.definition.base_inputs import Input
 from diecut_report.study.execution import result_columns
-from diecut_report.study.execution.press_batch import Machines, NotOnArrays, calculated
+from diecut_report.study.execution.press_batch import CalculatedVariants, NotOnArrays, calculated
 
 TOGETHER = 1024  # machines that are calculated at a time: fewer cost more per machine, more take more memory
 Given = Mapping[Input, Array | list[str]]
@@ -84,7 +84,7 @@ def _group(base: Config, numbers: Mapping[Input, Array], texts: Mapping[Input, A
             _group(base, {asked: values[[index]] for asked, values in numbers.items()}, texts, rows, np.array([row]))
 
 
-def _kept(machines: Machines, rows: Rows, chosen: Array) -> None:
+def _kept(machines: CalculatedVariants, rows: Rows, chosen: Array) -> None:
     """Put what was calculated of some machines into their rows."""
     bad = np.array(sorted(machines.reasons), dtype=int)
     found = result_columns.verdicts(machines.calculations, machines.count)
@@ -106,7 +106,7 @@ def _kept(machines: Machines, rows: Rows, chosen: Array) -> None:
     rows.errors[chosen[bad]] = [machines.reasons[int(row)] for row in bad]
 
 
-def _all_columns(machines: Machines, found: result_columns.Verdicts) -> dict[str, Array]:
+def _all_columns(machines: CalculatedVariants, found: result_columns.Verdicts) -> dict[str, Array]:
     outputs: dict[str, Array] = {}
     for name, calc in machines.calculations.items():
         for column, values in result_columns.output_values(name, calc).items():

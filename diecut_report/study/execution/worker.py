@@ -12,7 +12,7 @@ import numpy as np
 
 from diecut_report.config.discovery import Discovery
 from diecut_report.expressions import Array
-from diecut_report.study.conditions.numpy_emitter import Judged
+from diecut_report.study.conditions.numpy_emitter import JudgedRows
 from diecut_report.study.definition.study_file import Study, load_study
 from diecut_report.study.execution.process_settings import settle
 from diecut_report.study.execution.variant_rows import calculate_rows
@@ -70,13 +70,13 @@ def calculate(study: Study, chunk: Chunk) -> Done:
     return Done(columns | verdicts, rows.slow, rows.broken)
 
 
-def judged(study: Study, given: Mapping[str, Values], count: int) -> Judged:
+def judged(study: Study, given: Mapping[str, Values], count: int) -> JudgedRows:
     """Return which rows keep all constraints, and which break one; the others have a constraint without a value."""
     holds, fails = np.ones(count, dtype=bool), np.zeros(count, dtype=bool)
     for constraint in study.constraints:
         found = constraint.judged(given)
         holds, fails = holds & found.holds, fails | found.fails
-    return Judged(holds, fails)
+    return JudgedRows(holds, fails)
 
 
 def _taken(values: Values, rows: Array) -> Values:

@@ -17,7 +17,7 @@ import numpy as np
 
 from diecut_report.expressions import Array
 from diecut_report.study.sampling.saltelli import Saltelli
-from diecut_report.study.sampling.variables import Choice, Range, SampleError, Values, Variable
+from diecut_report.study.sampling.variables import ChoiceVariable, RangeVariable, SampleError, Values, Variable
 
 
 class Sample(ABC):
@@ -81,7 +81,7 @@ class _Listed(Varied):
     def __post_init__(self) -> None:
         super().__post_init__()
         for variable in self.variables:
-            if not isinstance(variable, Choice | Range):
+            if not isinstance(variable, ChoiceVariable | RangeVariable):
                 words = f"a distribution has no list of values for sample: {self.method}"
                 raise SampleError(
                     f"{words}; give a list or a range, or sample: latin_hypercube or sobol", variable.path
@@ -95,7 +95,7 @@ class _Listed(Varied):
         return tuple(variable.count or 0 for variable in self.variables)
 
     def _taken(self, numbers: Sequence[Array]) -> dict[str, Values]:
-        listed = (variable for variable in self.variables if isinstance(variable, Choice | Range))
+        listed = (variable for variable in self.variables if isinstance(variable, ChoiceVariable | RangeVariable))
         return {variable.path: variable.at(number) for variable, number in zip(listed, numbers, strict=True)}
 
 
@@ -137,7 +137,7 @@ class Zip(_Listed):
 
 
 @dataclass(frozen=True)
-class Table(Sample):
+class TableSample(Sample):
     """Rows that are given: a column of SI floats, or of texts, for each path."""
 
     columns: Mapping[str, Values]

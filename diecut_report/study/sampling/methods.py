@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 
 from diecut_report.study.sampling.drawn_samples import LatinHypercube, Sobol, SobolIndices
-from diecut_report.study.sampling.listed_samples import Grid, Sample, Table, Zip
+from diecut_report.study.sampling.listed_samples import Grid, Sample, TableSample, Zip
 from diecut_report.study.sampling.saltelli import Saltelli
 from diecut_report.study.sampling.variables import SampleError, Values, Variable
 
@@ -34,4 +34,4 @@ def sobol(variables: Sequence[Variable], count: int, seed: int = 0, *, indices: 
 
 def table(columns: Mapping[str, Values]) -> Sample:
     """Given rows: for each path a column of SI floats, or of texts."""
-    return Table(dict(columns))
+    return TableSample(dict(columns))

@@ -45,7 +45,7 @@ class _Variable:
 
 
 @dataclass(frozen=True)
-class Choice(_Variable):
+class ChoiceVariable(_Variable):
     """A list of values; sampled, each is as probable as any other (write one twice to have it twice as often)."""
 
     values: tuple[float, ...] | tuple[str, ...]
@@ -75,7 +75,7 @@ class Choice(_Variable):
 
 
 @dataclass(frozen=True)
-class Range(_Variable):
+class RangeVariable(_Variable):
     """Values from `low` to `high`, both included; `high` may be the lower one, then they descend.
 
     In a grid `count` values with equal steps (equal ratios where `log`). Sampled, every value between, as probable as
@@ -235,7 +235,7 @@ class Triangular(_Distribution):
         return self._spread(inverse, self.low, self.high, self.integer)
 
 
-Variable = Choice | Range | Uniform | Normal | Triangular
+Variable = ChoiceVariable | RangeVariable | Uniform | Normal | Triangular
 
 
 def _cell(share: Array, count: int) -> Array:

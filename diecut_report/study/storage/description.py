@@ -20,7 +20,7 @@ Data = dict[str, Any]
 
 
 @dataclass(frozen=True)
-class Column:
+class ResultColumn:
     """A column of the results: values in ``unit`` (SI, ASCII; "1" for pure numbers and for what is no number).
 
     ``display``: the unit that people read it in, where it is another. A curve holds a list of numbers for each variant.
@@ -35,7 +35,7 @@ class Column:
 
 
 @dataclass(frozen=True)
-class Source:
+class StudySource:
     """A file that the study was read from. With its content a copy is kept in the folder of the results."""
 
     file: str
@@ -51,12 +51,12 @@ class Description:
     them and ``status``, ``governing``, ``error`` after them. ``plugins``: the version of each kind of mechanism.
     """
 
-    study: Source
-    base: Source
-    columns: tuple[Column, ...]
+    study: StudySource
+    base: StudySource
+    columns: tuple[ResultColumn, ...]
     rows: int
     chunk: int = CHUNK
-    tables: tuple[Source, ...] = ()
+    tables: tuple[StudySource, ...] = ()
     plugins: Mapping[str, str] = field(default_factory=dict)
     program: str = __version__
 
@@ -66,7 +66,7 @@ class Description:
         return -(-self.rows // self.chunk)
 
     @property
-    def all_columns(self) -> tuple[Column, ...]:
+    def all_columns(self) -> tuple[ResultColumn, ...]:
         """The columns of the part files."""
         return (VARIANT, *self.columns, *VERDICT)
 
@@ -76,11 +76,11 @@ def libraries() -> dict[str, str]:
     return {"python": platform.python_version(), **{name: version(name) for name in ("numpy", "scipy")}}
 
 
-VARIANT = Column("variant", "int", description="Number of the variant in the sample, from 0")
+VARIANT = ResultColumn("variant", "int", description="Number of the variant in the sample, from 0")
 VERDICT = (
-    Column("status", "text", description="Status of the variant: pass, warn, fail or error"),
-    Column("governing", "text", description="Check that governs the variant"),
-    Column("error", "text", description="Why the variant cannot be calculated"),
+    ResultColumn("status", "text", description="Status of the variant: pass, warn, fail or error"),
+    ResultColumn("governing", "text", description="Check that governs the variant"),
+    ResultColumn("error", "text", description="Why the variant cannot be calculated"),
 )
 
 
@@ -101,22 +101,22 @@ def as_data(description: Description) -> Data:
     }
 
 
-def _about(column: Column) -> Data:
+def _about(column: ResultColumn) -> Data:
     return {name: value for name, value in vars(column).items() if value and name != "name"}
 
 
 def from_data(data: Data) -> Description:
     """Read again from study.json; raises KeyError, TypeError or ValueError where it is none."""
-    columns = tuple(Column(name, **about) for name, about in data["columns"].items())
+    columns = tuple(ResultColumn(name, **about) for name, about in data["columns"].items())
     if data["schema_version"] != SCHEMA_VERSION:
         raise ValueError(f"its schema_version is {data['schema_version']}; this program reads {SCHEMA_VERSION}")
     return Description(
-        study=Source(data["study"], data["sha256"]["study"]),
-        base=Source(data["base"], data["sha256"]["base"]),
+        study=StudySource(data["study"], data["sha256"]["study"]),
+        base=StudySource(data["base"], data["sha256"]["base"]),
         columns=columns[1 : -len(VERDICT)],
         rows=int(data["rows"]),
         chunk=int(data["chunk"]),
-        tables=tuple(Source(file, data["sha256"][f"table {n}"]) for n, file in enumerate(data["tables"], 1)),
+        tables=tuple(StudySource(file, data["sha256"][f"table {n}"]) for n, file in enumerate(data["tables"], 1)),
         plugins=data["plugins"],
         program=data["program"]["version"],
     )
@@ -154,13 +154,13 @@ def _other_rows(before: Description, now: Description) -> Iterator[Problem]:
         yield Problem(words, now.study.file)
 
 
-def _changed(role: str, before: Source, now: Source) -> Iterator[Problem]:
+def _changed(role: str, before: StudySource, now: StudySource) -> Iterator[Problem]:
     if before.sha256 != now.sha256:
         lines = "".join(f"\n    {line}" for line in _lines(before, now))
         yield Problem(f"The {role} has changed since the results were begun.{lines}", now.file)
 
 
-def _lines(before: Source, now: Source) -> list[str]:
+def _lines(before: StudySource, now: StudySource) -> list[str]:
     """The first lines that differ, marked - (before) and + (now), where both contents are known texts."""
     if before.content is None or now.content is None:
         return []

@@ -16,7 +16,7 @@ from filelock import FileLock, Timeout
 
 from diecut_report.errors import Problem, UserError
 from diecut_report.files import in_words, write
-from diecut_report.study.storage.description import Description, Source, as_data, changes, from_data, libraries
+from diecut_report.study.storage.description import Description, StudySource, as_data, changes, from_data, libraries
 
 STATE, STUDY, BASE, TABLES = "study.json", "study.yaml", "base.yaml", "tables"
 LOCK, HOLDER = ".lock", ".lock.json"
@@ -50,7 +50,7 @@ def read_description(folder: Path) -> Description:
     return replace(found, study=study, base=base, tables=tuple(tables))
 
 
-def copies(folder: Path, description: Description) -> dict[Path, Source]:
+def copies(folder: Path, description: Description) -> dict[Path, StudySource]:
     """Where the copies of the study's files are: the study, its base, its tables; numbered, as names may be paths."""
     tables = {f"{TABLES}/{n}-{PurePath(table.file).name}": table for n, table in enumerate(description.tables, 1)}
     files = {STUDY: description.study, BASE: description.base, **tables}
@@ -69,7 +69,7 @@ def kept(folder: Path) -> dict[str, Path]:
     return {source.file: path for path, source in found.items() if source is not description.study}
 
 
-def _with_copy(source: Source, path: Path) -> Source:
+def _with_copy(source: StudySource, path: Path) -> StudySource:
     try:
         content = path.read_bytes() if path.is_file() else b""
     except OSError as error:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import Any, NamedTuple
 
-from diecut_report.study.analysis.stored_variants import Column, Stored
+from diecut_report.study.analysis.stored_variants import Stored, StoredColumn
 from diecut_report.study.summary import matrix, pareto
 from diecut_report.study.summary.quantity_names import WORST, display, utilised
 
@@ -23,7 +23,7 @@ class Best(NamedTuple):
     values: list[str]
 
 
-class Report(NamedTuple):
+class ListedReport(NamedTuple):
     """A full report of a variant."""
 
     variant: int
@@ -31,12 +31,12 @@ class Report(NamedTuple):
     status: str
 
 
-def columns(stored: Stored, goals: Sequence[pareto.Objective]) -> list[Column]:
+def columns(stored: Stored, goals: Sequence[pareto.StoredObjective]) -> list[StoredColumn]:
     """Objectives and inputs that the table of the best shows."""
     return list(dict.fromkeys([*(goal.column for goal in goals), *stored.varied[:INPUTS]]))
 
 
-def best(stored: Stored, variants: Sequence[int], shown: Sequence[Column]) -> list[Best]:
+def best(stored: Stored, variants: Sequence[int], shown: Sequence[StoredColumn]) -> list[Best]:
     """The rows of that table, in the order of the variants."""
     asked = ", ".join(["status", WORST.sql, "governing", *(column.sql for column in shown)])
     rows = {
@@ -45,7 +45,7 @@ def best(stored: Stored, variants: Sequence[int], shown: Sequence[Column]) -> li
     return [_row(stored, one, rows[one], shown) for one in variants]
 
 
-def _row(stored: Stored, variant: int, row: Sequence[Any], shown: Sequence[Column]) -> Best:
+def _row(stored: Stored, variant: int, row: Sequence[Any], shown: Sequence[StoredColumn]) -> Best:
     status, worst, governing, *values = row
     return Best(
         variant,
@@ -57,16 +57,16 @@ def _row(stored: Stored, variant: int, row: Sequence[Any], shown: Sequence[Colum
     )
 
 
-def _told(value: Any, column: Column) -> str:
+def _told(value: Any, column: StoredColumn) -> str:
     if value is None:
         return "–"
     return display(float(value), column) if column.is_number else str(value)
 
 
-def reports(stored: Stored, variants: Sequence[int]) -> list[Report]:
+def reports(stored: Stored, variants: Sequence[int]) -> list[ListedReport]:
     """The full reports of these variants."""
     states = dict(stored.rows(f"SELECT variant, status FROM v WHERE variant IN ({_list(variants)})"))
-    return [Report(one, matrix.report_of(stored.folder, one), states[one]) for one in variants if one in states]
+    return [ListedReport(one, matrix.report_of(stored.folder, one), states[one]) for one in variants if one in states]
 
 
 def _list(variants: Sequence[int]) -> str:

@@ -13,7 +13,7 @@ from matplotlib.figure import Figure
 from diecut_report.report.figures.diagram import WIDTH
 from diecut_report.report.figures.style import ACCENT, FONT_SIZE, INK, SOFT, Svg, canvas, drawn, text_size
 from diecut_report.report.number_format import number
-from diecut_report.study.analysis.stored_variants import STATUSES, Column
+from diecut_report.study.analysis.stored_variants import STATUSES, StoredColumn
 from diecut_report.study.summary.data import Histogram
 from diecut_report.study.summary.influence import Influence, Share
 from diecut_report.study.summary.quantity_names import factor, is_utilisation, named, titled, wrapped
@@ -185,6 +185,6 @@ def _bars(axes: Axes, each: Histogram) -> None:
         axes.spines[side].set_visible(False)
 
 
-def _title(axes: Axes, column: Column, wide: float) -> None:
+def _title(axes: Axes, column: StoredColumn, wide: float) -> None:
     """The quantity above a diagram, on two lines where it is long."""
     axes.set_title(wrapped(titled(column), wide - 12, 7.5, 2), pad=3, size=7.5, linespacing=1.05)

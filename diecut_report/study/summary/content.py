@@ -6,11 +6,11 @@ from dataclasses import dataclass
 from typing import Any
 
 from diecut_report.config import yaml_tree
-from diecut_report.study.analysis.stored_variants import Column, Stored
+from diecut_report.study.analysis.stored_variants import Stored, StoredColumn
 from diecut_report.study.conditions.constraints import why_dropped
 from diecut_report.study.summary import best, data, influence, matrix, pareto, passing_values, questions, verdict_counts
 from diecut_report.study.summary.data import Reason, Spread, Utilisation
-from diecut_report.study.summary.figures import Figure, Figures
+from diecut_report.study.summary.figures import Figures, SummaryFigure
 from diecut_report.study.summary.influence_table import Ranked, ranked
 from diecut_report.study.summary.quantity_names import WORST, counted, titled, utilised
 from diecut_report.study.summary.verdict_counts import Failure
@@ -41,7 +41,7 @@ class Summary:
     asked: questions.Asked | None
     failures: list[Failure]
     governing: list[verdict_counts.Governing]
-    passing: list[passing_values.Values]
+    passing: list[passing_values.PassingValues]
     utilisations: list[Utilisation]
     unmade: list[str]
     idle: int
@@ -50,7 +50,7 @@ class Summary:
     spreads: list[Spread]
     more_spreads: int
     reasons: list[Reason]
-    reports: list[best.Report]
+    reports: list[best.ListedReport]
     more_reports: int
     front: pareto.Front | None
     best_head: list[str]
@@ -58,10 +58,10 @@ class Summary:
     is_sobol: bool
     ranked: Ranked | None
     slow: dict[str, str]
-    figures: dict[str, Figure]
-    any_two: data.Sample
-    varied: list[Column]
-    choices: list[Column]
+    figures: dict[str, SummaryFigure]
+    any_two: data.SampledVariants
+    varied: list[StoredColumn]
+    choices: list[StoredColumn]
 
     @property
     def example(self) -> int:
@@ -129,8 +129,8 @@ def content(stored: Stored) -> Summary:
 
 
 def _panels(
-    stored: Stored, goals: tuple[pareto.Objective, ...], checks: list[str], varying: list[Column]
-) -> list[Column]:
+    stored: Stored, goals: tuple[pareto.StoredObjective, ...], checks: list[str], varying: list[StoredColumn]
+) -> list[StoredColumn]:
     """The quantities of histograms: objectives, utilisations of failing and governing checks, inputs, then the others."""
     limits = [stored.checks[check][0] for check in dict.fromkeys(checks) if check in stored.checks]
     wanted = [*(goal.column for goal in goals), WORST, *limits[:CHECKS], *stored.varied, *limits, *varying]
@@ -151,8 +151,8 @@ def _spreads(stored: Stored, total: int) -> dict[str, Spread]:
 
 
 def _main(
-    stored: Stored, goals: tuple[pareto.Objective, ...], varying: list[Column], failing: list[str]
-) -> list[Column]:
+    stored: Stored, goals: tuple[pareto.StoredObjective, ...], varying: list[StoredColumn], failing: list[str]
+) -> list[StoredColumn]:
     """What matters, the first most: objectives, utilisations of all checks and of those that fail most, other outputs."""
     inputs = {column.name for column in stored.varied}
     aims = [goal.column for goal in goals if goal.column in varying]
@@ -161,7 +161,7 @@ def _main(
     return list(dict.fromkeys([*aims, *worst, *failed, *(column for column in varying if column.name not in inputs)]))
 
 
-def _choices(stored: Stored, varying: list[Column], main: list[Column]) -> list[Column]:
+def _choices(stored: Stored, varying: list[StoredColumn], main: list[StoredColumn]) -> list[StoredColumn]:
     """The quantities of the charts of points and lines: inputs, outputs, utilisations; what matters most first."""
     inputs = [column for column in stored.varied if column in varying or column.kind in ("text", "bool")]
     return list(dict.fromkeys([*inputs, *main]))

@@ -11,7 +11,7 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from diecut_report.study.analysis.stored_variants import STATUSES, Column, Stored, text
+from diecut_report.study.analysis.stored_variants import STATUSES, Stored, StoredColumn, text
 from diecut_report.study.summary.quantity_names import WORST, is_utilisation
 
 Array = NDArray[Any]
@@ -44,7 +44,7 @@ class Utilisation(NamedTuple):
 class Spread(NamedTuple):
     """The range of a quantity in SI: least, 5 %, median, 95 %, greatest, and how many variants have it."""
 
-    column: Column
+    column: StoredColumn
     values: tuple[float, float, float, float, float]
     present: int
 
@@ -61,7 +61,7 @@ class Histogram(NamedTuple):
     ``is_open`` says that the last class holds all greater values too.
     """
 
-    column: Column
+    column: StoredColumn
     edges: Array
     counts: Array
     is_open: bool
@@ -70,8 +70,8 @@ class Histogram(NamedTuple):
 class Density(NamedTuple):
     """How many variants lie in each cell over two quantities, and how many of them do not fail: shape (cells of y, cells of x)."""
 
-    x: Column
-    y: Column
+    x: StoredColumn
+    y: StoredColumn
     x_edges: Array
     y_edges: Array
     counts: Array
@@ -87,7 +87,7 @@ class Reason(NamedTuple):
 
 
 @dataclass(frozen=True)
-class Sample:
+class SampledVariants:
     """Some variants with some quantities (SI, NaN where absent; words as their number in ``words``)."""
 
     variants: Array
@@ -133,7 +133,7 @@ def _utilisations(stored: Stored, names: Sequence[str]) -> Iterator[Utilisation]
         yield Utilisation(name, tuple(part[:-5]), *part[-5:])
 
 
-def _asked(value: Column, status: Column) -> Iterator[str]:
+def _asked(value: StoredColumn, status: StoredColumn) -> Iterator[str]:
     edges = [None, *BANDS, None]
     for low, high in pairwise(edges):
         limits = ([f"{value.sql} > {low!r}"] if low else []) + ([f"{value.sql} <= {high!r}"] if high else [])
@@ -150,7 +150,7 @@ def chunks(items: list[Any]) -> Iterator[list[Any]]:
         yield items[start : start + AT_ONCE]
 
 
-def spreads(stored: Stored, columns: Sequence[Column], total: int) -> dict[str, Spread]:
+def spreads(stored: Stored, columns: Sequence[StoredColumn], total: int) -> dict[str, Spread]:
     """The range of each quantity; those that no variant has are left out."""
     quantile = "quantile_cont" if total <= EXACT else "approx_quantile"
     found = {}
@@ -207,7 +207,7 @@ def reach(low: float, most: float, high: float) -> float:
     return most + 0.25 * (most - low) if most > low and high - most > 2 * (most - low) else high
 
 
-def _place(column: Column, low: float, high: float, cells: int) -> str:
+def _place(column: StoredColumn, low: float, high: float, cells: int) -> str:
     """SQL for the cell of a quantity, from 0; what lies outside counts in the outermost ones."""
     at = f"floor(({column.sql} - {low!r}) / {high - low!r} * {cells})"
     return f"CAST(greatest(0, least({at}, {cells - 1})) AS BIGINT)"
@@ -223,7 +223,7 @@ def reasons(stored: Stored) -> list[Reason]:
     return [Reason(told or "no reason was given", count, example) for told, count, example in stored.rows(sql)]
 
 
-def sample(stored: Stored, columns: Sequence[Column], most: int) -> Sample:
+def sample(stored: Stored, columns: Sequence[StoredColumn], most: int) -> SampledVariants:
     """So many variants drawn without regard to their values, the same ones each time, in the order of the sample."""
     words = {column.name: _words(stored, column) for column in columns if column.kind == "text"}
     asked = [_number(column, words) for column in columns]
@@ -232,10 +232,10 @@ def sample(stored: Stored, columns: Sequence[Column], most: int) -> Sample:
     sql = f"SELECT {', '.join(['variant', f'list_position([{known}], status) - 1', *asked])} FROM w WHERE {inside} ORDER BY variant"
     rows = np.array(stored.rows(sql), dtype=float).reshape(-1, len(columns) + 2)
     values = {column.name: rows[:, index + 2] for index, column in enumerate(columns)}
-    return Sample(rows[:, 0].astype(int), rows[:, 1].astype(int), values, words)
+    return SampledVariants(rows[:, 0].astype(int), rows[:, 1].astype(int), values, words)
 
 
-def _words(stored: Stored, column: Column) -> list[str]:
+def _words(stored: Stored, column: StoredColumn) -> list[str]:
     return [
         row[0]
         for row in stored.rows(
@@ -244,13 +244,13 @@ def _words(stored: Stored, column: Column) -> list[str]:
     ]
 
 
-def _number(column: Column, words: dict[str, list[str]]) -> str:
+def _number(column: StoredColumn, words: dict[str, list[str]]) -> str:
     """A quantity as a float: a text by its place among the words, yes as one."""
     if column.kind == "text":
         return f"CAST(list_position([{', '.join(map(text, words[column.name]))}], {column.sql}) - 1 AS DOUBLE)"
     return f"CAST({column.sql} AS DOUBLE)"
 
 
-def number_of(stored: Stored, column: Column) -> str:
+def number_of(stored: Stored, column: StoredColumn) -> str:
     """SQL that gives a column as a float, words by their number."""
     return _number(column, {column.name: _words(stored, column)} if column.kind == "text" else {})

@@ -10,9 +10,9 @@ import numpy as np
 
 from diecut_report.report.figures.style import Svg
 from diecut_report.report.number_format import number
-from diecut_report.study.analysis.stored_variants import Column, Stored
+from diecut_report.study.analysis.stored_variants import Stored, StoredColumn
 from diecut_report.study.summary import charts, data, point_charts
-from diecut_report.study.summary.data import Histogram, Sample, Spread
+from diecut_report.study.summary.data import Histogram, SampledVariants, Spread
 from diecut_report.study.summary.influence import Influence, Share
 from diecut_report.study.summary.pareto import Front
 from diecut_report.study.summary.point_charts import near
@@ -26,7 +26,7 @@ PALE = "#e0a3a1"  # of failures that another check governs
 FAR = "Values that lie far above the others stand at the edge."
 
 
-class Figure(NamedTuple):
+class SummaryFigure(NamedTuple):
     """A chart, what stands below it, and what it shows in words."""
 
     svg: Svg
@@ -40,14 +40,14 @@ class Figures:
 
     stored: Stored
     states: dict[str, int]
-    sample: Sample
+    sample: SampledVariants
     front: Front | None
-    main: list[Column]
+    main: list[StoredColumn]
     spreads: dict[str, Spread]
 
     def all(
         self, failures: Sequence[Failure], spreads: Sequence[Spread], ranked: Sequence[Influence]
-    ) -> dict[str, Figure]:
+    ) -> dict[str, SummaryFigure]:
         """Every chart that the study has something for, by its key."""
         found = {
             "counts": self.counts(),
@@ -59,13 +59,13 @@ class Figures:
         }
         return {key: figure for key, figure in found.items() if figure is not None}
 
-    def counts(self) -> Figure:
+    def counts(self) -> SummaryFigure:
         """The variants by status."""
         total = sum(self.states.values())
         told = ", ".join(f"{status} {count} ({percent(count, total)})" for status, count in self.states.items())
-        return Figure(charts.shares(self.states, f"Variants by status: {told}."), "Variants by status.", told)
+        return SummaryFigure(charts.shares(self.states, f"Variants by status: {told}."), "Variants by status.", told)
 
-    def failures(self, failures: Sequence[Failure]) -> Figure:
+    def failures(self, failures: Sequence[Failure]) -> SummaryFigure:
         """In how many variants the checks fail and govern."""
         rows = failures[:GOVERNING]
         told = "; ".join(
@@ -86,9 +86,9 @@ class Figures:
             )
             for row in rows
         ]
-        return Figure(charts.stacked(bars, colours, f"{told}.", "failures"), caption, told)
+        return SummaryFigure(charts.stacked(bars, colours, f"{told}.", "failures"), caption, told)
 
-    def distributions(self, spreads: Sequence[Spread]) -> Figure:
+    def distributions(self, spreads: Sequence[Spread]) -> SummaryFigure:
         """The distributions of the quantities that matter."""
         found = [data.histogram(self.stored, spread) for spread in spreads]
         told = "; ".join(_distributed(each, spread) for each, spread in zip(found, spreads, strict=True))
@@ -98,9 +98,9 @@ class Figures:
         )
         if any(each.is_open for each in found):
             caption += " Where a few variants lie far above the others (≥), the last bar holds them all."
-        return Figure(charts.distributions(found, f"{told}."), caption, told)
+        return SummaryFigure(charts.distributions(found, f"{told}."), caption, told)
 
-    def influence(self, found: Influence) -> Figure:
+    def influence(self, found: Influence) -> SummaryFigure:
         """The influence of the inputs on a quantity."""
         if found.is_sobol:
             told = "; ".join(
@@ -114,9 +114,9 @@ class Figures:
             told = "; ".join(f"{named(share.column)}: {share.first:+.2f}" for share in found.telling)
             caption = f"Influence on {named(found.target)}: partial rank correlation; to the right, a greater input gives a greater result."
         told = f"Influence on {named(found.target)}: {told}"
-        return Figure(charts.influence(found, f"{told}.", f"influence of {found.target.name}"), caption, told)
+        return SummaryFigure(charts.influence(found, f"{told}.", f"influence of {found.target.name}"), caption, told)
 
-    def parallel(self) -> Figure | None:
+    def parallel(self) -> SummaryFigure | None:
         """Parallel coordinates of inputs and of what matters."""
         inputs = [column for column in self.stored.varied if column.name in self.sample.values][: AXES - 2]
         goals = [column for column in self.main if column.name in self.sample.values][: max(2, AXES - len(inputs))]
@@ -132,11 +132,11 @@ class Figures:
             "Each line is a variant, from input to result: pass blue (in front), warning yellow, fail red. "
             f"The ends of the axes are those of all variants. {self._drawn(some, columns)}"
         )
-        return Figure(
+        return SummaryFigure(
             point_charts.parallel(some, columns, self._ends(columns), f"Parallel coordinates: {told}."), caption, told
         )
 
-    def _ends(self, columns: Sequence[Column]) -> dict[str, point_charts.Ends]:
+    def _ends(self, columns: Sequence[StoredColumn]) -> dict[str, point_charts.Ends]:
         """The ends of upright axes over all variants."""
         found: dict[str, point_charts.Ends] = {}
         for name in (column.name for column in columns):
@@ -149,7 +149,7 @@ class Figures:
                 found[name] = (0.0, float(last), False)
         return found
 
-    def pair(self) -> Figure | None:
+    def pair(self) -> SummaryFigure | None:
         """The first two quantities that matter, with the front."""
         pair = self._goals()
         if pair is None or not self.stored.study.get("objectives"):
@@ -167,19 +167,21 @@ class Figures:
         if sum(self.states.values()) > DENSE and {x.name, y.name} <= self.spreads.keys():
             return self._cells(x, y, front, caption, told)
         caption = f"{caption} {self._drawn(self.sample, pair)}"
-        return Figure(point_charts.scatter(self.sample, [pair], f"Scatter of {told}.", "pair", front), caption, told)
+        return SummaryFigure(
+            point_charts.scatter(self.sample, [pair], f"Scatter of {told}.", "pair", front), caption, told
+        )
 
-    def _cells(self, x: Column, y: Column, front: Front | None, caption: str, told: str) -> Figure:
+    def _cells(self, x: StoredColumn, y: StoredColumn, front: Front | None, caption: str, told: str) -> SummaryFigure:
         found = data.density(self.stored, self.spreads[x.name], self.spreads[y.name])
         counted_ = counted(int(found.counts.sum()), "variant")
         caption = f"{caption} Counted in cells are {counted_}: the larger a square, the more variants; its colour is the share that does not fail."
-        return Figure(point_charts.cells(found, f"Density of {told}.", "pair", front), caption, told)
+        return SummaryFigure(point_charts.cells(found, f"Density of {told}.", "pair", front), caption, told)
 
-    def _goals(self) -> tuple[Column, Column] | None:
+    def _goals(self) -> tuple[StoredColumn, StoredColumn] | None:
         known = [column for column in self.main if column.name in self.sample.values]
         return (known[0], known[1]) if len(known) > 1 else None
 
-    def grid(self, ranked: Sequence[Influence]) -> Figure | None:
+    def grid(self, ranked: Sequence[Influence]) -> SummaryFigure | None:
         """What matters over the inputs that move it most."""
         known = [found for found in ranked[:3] if found.target.name in self.sample.values]
         pairs = [(share.column, found.target) for found in known for share in self._drawable(found)[:2]]
@@ -190,20 +192,20 @@ class Figures:
         caption = (
             f"Each quantity over the inputs that move it most. {self._drawn(some, [c for pair in pairs for c in pair])}"
         )
-        return Figure(point_charts.scatter(some, pairs, f"Scatter: {told}.", "grid"), caption, told)
+        return SummaryFigure(point_charts.scatter(some, pairs, f"Scatter: {told}.", "grid"), caption, told)
 
     def _drawable(self, found: Influence) -> list[Share]:
         """The inputs that an axis of numbers can carry."""
         return [share for share in found.telling if share.column.is_number and share.column.name in self.sample.values]
 
-    def _correlated(self, x: Column, y: Column) -> str:
+    def _correlated(self, x: StoredColumn, y: StoredColumn) -> str:
         one, two = self.sample.values[x.name], self.sample.values[y.name]
         there = np.isfinite(one) & np.isfinite(two)
         if there.sum() < 3 or not np.ptp(one[there]) > 0 or not np.ptp(two[there]) > 0:
             return f"{counted(int(there.sum()), 'variant')}"
         return f"{counted(int(there.sum()), 'variant')}, correlation {np.corrcoef(one[there], two[there])[0, 1]:.2f}"
 
-    def _drawn(self, some: Sample, columns: Sequence[Column]) -> str:
+    def _drawn(self, some: SampledVariants, columns: Sequence[StoredColumn]) -> str:
         """How many of the variants a chart has, and whether some of them are out of its reach."""
         total, drawn = sum(self.states.values()), len(some.variants)
         of_all = f"Of {counted(total, 'variant')}, a sample of {counted(drawn, 'variant')} is drawn."
@@ -223,8 +225,8 @@ def _distributed(each: Histogram, spread: Spread) -> str:
     return f"{named(each.column)} from {low} to {high}, half of the variants below {middle}"
 
 
-def _thinned(sample: Sample, most: int) -> Sample:
+def _thinned(sample: SampledVariants, most: int) -> SampledVariants:
     """Every so-manieth variant of a sample, which is in no order of sizes."""
     step = max(1, -(-len(sample.variants) // most))
     values = {name: column[::step] for name, column in sample.values.items()}
-    return Sample(sample.variants[::step], sample.status[::step], values, sample.words)
+    return SampledVariants(sample.variants[::step], sample.status[::step], values, sample.words)

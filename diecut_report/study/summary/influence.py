@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from diecut_report.study.analysis.sensitivity import sobol_indices
-from diecut_report.study.analysis.stored_variants import Column, Stored
+from diecut_report.study.analysis.stored_variants import Stored, StoredColumn
 from diecut_report.study.sampling.saltelli import Saltelli
 from diecut_report.study.summary.data import number_of
 
@@ -30,7 +30,7 @@ SURE = 1.96  # standard errors to each side of an interval of 95 %
 class Share(NamedTuple):
     """An input's influence: by itself (or its correlation) and in all; half the width of the 95 % interval of each."""
 
-    column: Column
+    column: StoredColumn
     first: float
     total: float | None = None
     first_error: float | None = None
@@ -51,7 +51,7 @@ class Share(NamedTuple):
 class Influence:
     """The inputs by their influence on a quantity, the greatest first, and from how many variants that is known."""
 
-    target: Column
+    target: StoredColumn
     is_sobol: bool
     shares: tuple[Share, ...]
     variants: int
@@ -79,7 +79,7 @@ def is_saltelli(stored: Stored) -> bool:
     return bool(stored.rows("SELECT count(*) FROM v WHERE status <> 'error'")[0][0] >= COMPLETE * whole)
 
 
-def influences(stored: Stored, targets: Sequence[Column]) -> list[Influence]:
+def influences(stored: Stored, targets: Sequence[StoredColumn]) -> list[Influence]:
     """The influence of the varied inputs on each target that can be judged."""
     judge = _sobol if is_saltelli(stored) else _ranks
     found = [judge(stored, target) for target in targets if stored.varied]
@@ -89,7 +89,7 @@ def influences(stored: Stored, targets: Sequence[Column]) -> list[Influence]:
 # --- Sobol indices ---------------------------------------------------------------------------------------------------
 
 
-def _sobol(stored: Stored, target: Column) -> Influence | None:
+def _sobol(stored: Stored, target: StoredColumn) -> Influence | None:
     """From the points that lie one after the other in the sample; those of which any variant is missing are left out."""
     inputs = stored.varied
     order = Saltelli(int(stored.study["n"]), tuple(column.name for column in inputs))
@@ -122,7 +122,7 @@ def _half_widths(values: Array) -> Array:
 # --- partial rank correlation ----------------------------------------------------------------------------------------
 
 
-def _ranks(stored: Stored, target: Column) -> Influence | None:
+def _ranks(stored: Stored, target: StoredColumn) -> Influence | None:
     """The correlation of the ranks of a quantity and of each input, both without what the other inputs explain."""
     goal, columns = _read(stored, target)
     columns = {column: values for column, values in columns.items() if np.isfinite(values).any()}
@@ -141,7 +141,7 @@ def _ranks(stored: Stored, target: Column) -> Influence | None:
     return Influence(target, False, tuple(shares), len(goal)) if shares else None
 
 
-def _read(stored: Stored, target: Column) -> tuple[Array, dict[Column, Array]]:
+def _read(stored: Stored, target: StoredColumn) -> tuple[Array, dict[StoredColumn, Array]]:
     """A quantity and the inputs of the variants that have it, of many a part."""
     asked = ", ".join(f"{number_of(stored, column)} AS i{index}" for index, column in enumerate(stored.varied))
     count = stored.rows(f"SELECT count({target.sql}) FROM w")[0][0]
@@ -153,7 +153,7 @@ def _read(stored: Stored, target: Column) -> tuple[Array, dict[Column, Array]]:
     return columns[0], dict(zip(stored.varied, columns[1:], strict=True))
 
 
-def _terms(column: Column, values: Array) -> Array:
+def _terms(column: StoredColumn, values: Array) -> Array:
     """What stands for an input in the regression: its ranks; for words a column for each but the first."""
     if column.kind != "text":
         return ranks(values)[:, None]

@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 from typing import NamedTuple
 
-from diecut_report.study.summary.figures import Figure, Figures
+from diecut_report.study.summary.figures import Figures, SummaryFigure
 from diecut_report.study.summary.influence import Influence, Share
 from diecut_report.study.summary.quantity_names import counted, named
 
@@ -17,7 +17,7 @@ class Ranked(NamedTuple):
 
     targets: list[str]
     rows: list[tuple[str, list[str]]]
-    figures: list[Figure]
+    figures: list[SummaryFigure]
     variants: str
 
 

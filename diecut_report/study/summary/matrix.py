@@ -16,7 +16,7 @@ LISTED = 200  # links to full reports
 IDLE = 0.1  # utilisation that a check of the matrix reaches in some variant
 
 
-class Cell(NamedTuple):
+class MatrixCell(NamedTuple):
     """A utilisation as text, and its class: u0 … u4 by size, ``none`` without one; ``is_failing`` by the check's status."""
 
     text: str
@@ -24,13 +24,13 @@ class Cell(NamedTuple):
     is_failing: bool
 
 
-class Row(NamedTuple):
+class MatrixRow(NamedTuple):
     """A variant: its number, the file of its full report (or nothing), its status, and its cells."""
 
     variant: int
     href: str
     status: str
-    cells: list[Cell]
+    cells: list[MatrixCell]
 
 
 class Group(NamedTuple):
@@ -44,10 +44,10 @@ class Matrix(NamedTuple):
     """Part of the matrix: numbers and names of its checks, and its rows in groups."""
 
     checks: list[tuple[int, str]]
-    groups: list[tuple[str, list[Row]]]
+    groups: list[tuple[str, list[MatrixRow]]]
 
     @property
-    def rows(self) -> list[Row]:
+    def rows(self) -> list[MatrixRow]:
         """The rows of all groups."""
         return [row for _, rows in self.groups for row in rows]
 
@@ -125,18 +125,18 @@ def matrices(stored: Stored, groups: Sequence[Group], checks: Sequence[str]) -> 
         yield Matrix(numbers, [(title, some) for title, some in found if some])
 
 
-def _rows(stored: Stored, variants: Sequence[int], checks: Sequence[str]) -> dict[int, Row]:
+def _rows(stored: Stored, variants: Sequence[int], checks: Sequence[str]) -> dict[int, MatrixRow]:
     asked = ", ".join(column.sql for check in checks for column in stored.checks[check])
     listed = ", ".join(str(variant) for variant in variants) or "NULL"
     found = {}
     for variant, status, *values in stored.rows(f"SELECT variant, status, {asked} FROM v WHERE variant IN ({listed})"):
         cells = [_cell(value, made) for value, made in zip(values[::2], values[1::2], strict=True)]
-        found[variant] = Row(variant, report_of(stored.folder, variant), status, cells)
+        found[variant] = MatrixRow(variant, report_of(stored.folder, variant), status, cells)
     return found
 
 
-def _cell(value: float | None, made: str | None) -> Cell:
+def _cell(value: float | None, made: str | None) -> MatrixCell:
     failing = made == "fail"
     if value is None:
-        return Cell("✗" if failing else "–" if made is None else "✓", "u4" if failing else "none", failing)
-    return Cell(utilised(value), f"u{sum(value > limit for limit in BANDS)}", failing)
+        return MatrixCell("✗" if failing else "–" if made is None else "✓", "u4" if failing else "none", failing)
+    return MatrixCell(utilised(value), f"u{sum(value > limit for limit in BANDS)}", failing)

@@ -15,9 +15,9 @@ from weasyprint.urls import URLFetcher
 from diecut_report import __version__
 from diecut_report.quantities.units import pretty, unit
 from diecut_report.report import html, pdf
-from diecut_report.report.i18n import Words
+from diecut_report.report.i18n import Catalogue
 from diecut_report.report.number_format import number
-from diecut_report.study.analysis.stored_variants import Column
+from diecut_report.study.analysis.stored_variants import StoredColumn
 from diecut_report.study.summary.content import Summary
 from diecut_report.study.summary.quantity_names import counted, display, named, percent, titled, utilised
 
@@ -46,7 +46,7 @@ def _filled(summary: Summary, kind: str) -> str:
         ]
     )
     return html._environment().get_template("summary.html.j2").render(
-        s=summary, t=Words("en"), kind=kind, style=Markup(style), version=__version__, figure=partial(_figure, summary, kind),
+        s=summary, t=Catalogue("en"), kind=kind, style=Markup(style), version=__version__, figure=partial(_figure, summary, kind),
         points=Markup(_points(summary)) if kind == "screen" else "", named=named, titled=titled, display=display, counted=counted,
         percent=percent, utilised=utilised, number=number, pretty=pretty,
     )  # fmt: skip
@@ -85,5 +85,5 @@ def _points(summary: Summary) -> str:
     return text.replace("<", "\\u003c")
 
 
-def _short(value: float, column: Column) -> float | None:
+def _short(value: float, column: StoredColumn) -> float | None:
     return float(f"{value / unit(column.display).factor:.{DIGITS}g}") if math.isfinite(value) else None

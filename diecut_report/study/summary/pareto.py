@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from diecut_report.study.analysis.near_equality import rounded
-from diecut_report.study.analysis.stored_variants import Column, Stored
+from diecut_report.study.analysis.stored_variants import Stored, StoredColumn
 
 Array = NDArray[Any]
 BLOCK, MOST = 2_000, 20_000  # variants compared at a time; on a front
@@ -17,10 +17,10 @@ FIRST = 10  # variants that are best by a single objective
 
 
 @dataclass(frozen=True)
-class Objective:
+class StoredObjective:
     """A quantity that is to be small or great."""
 
-    column: Column
+    column: StoredColumn
     is_less: bool
 
     @property
@@ -36,7 +36,7 @@ class Front:
     ``is_passing`` says that only variants without a failing check were compared; ``is_cut`` that the front is longer than kept.
     """
 
-    objectives: tuple[Objective, ...]
+    objectives: tuple[StoredObjective, ...]
     variants: Array
     values: Array
     among: int
@@ -44,18 +44,18 @@ class Front:
     is_cut: bool
 
 
-def objectives(stored: Stored) -> tuple[Objective, ...]:
+def objectives(stored: Stored) -> tuple[StoredObjective, ...]:
     """The study's objectives, as far as numbers are stored for them."""
     found = []
     for given in stored.study.get("objectives") or ():
         for direction, name in given.items():
             column = stored.columns.get(name)
             if column is not None and column.is_number:
-                found.append(Objective(column, direction == "minimise"))
+                found.append(StoredObjective(column, direction == "minimise"))
     return tuple(found)
 
 
-def front(stored: Stored, wanted: tuple[Objective, ...], passing: int) -> Front | None:
+def front(stored: Stored, wanted: tuple[StoredObjective, ...], passing: int) -> Front | None:
     """The front of the variants that do not fail; of all calculated ones where all fail. None without objectives or variants.
 
     By a single objective it is the first ten.

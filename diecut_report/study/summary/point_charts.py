@@ -15,9 +15,9 @@ from numpy.typing import NDArray
 
 from diecut_report.report.figures.diagram import WIDTH
 from diecut_report.report.figures.style import INK, Svg, canvas, plain
-from diecut_report.study.analysis.stored_variants import STATUSES, Column
+from diecut_report.study.analysis.stored_variants import STATUSES, StoredColumn
 from diecut_report.study.summary.charts import COLOURS, HEAD, ORDER, chart, panel
-from diecut_report.study.summary.data import Density, Sample, reach
+from diecut_report.study.summary.data import Density, SampledVariants, reach
 from diecut_report.study.summary.pareto import Front
 from diecut_report.study.summary.quantity_names import display, factor, titled, wrapped
 
@@ -29,13 +29,19 @@ MARKERS = {"pass": "o", "warn": "^", "fail": "x"}
 
 
 def scatter(
-    drawn_from: Sample, pairs: Sequence[tuple[Column, Column]], told: str, key: str, front: Front | None = None
+    drawn_from: SampledVariants,
+    pairs: Sequence[tuple[StoredColumn, StoredColumn]],
+    told: str,
+    key: str,
+    front: Front | None = None,
 ) -> Svg:
     """Two quantities of each variant, by status; one pair large, several in rows of three."""
     return chart(partial(_scatter, drawn_from, pairs, front), told, key)
 
 
-def _scatter(drawn_from: Sample, pairs: Sequence[tuple[Column, Column]], front: Front | None) -> Figure:
+def _scatter(
+    drawn_from: SampledVariants, pairs: Sequence[tuple[StoredColumn, StoredColumn]], front: Front | None
+) -> Figure:
     across = 1 if len(pairs) == 1 else 3
     wide, high = (WIDTH - 60, 230.0) if across == 1 else ((WIDTH - 3 * 44) / 3 - 4, 96.0)
     under = LEGEND if across == 1 else 0.0
@@ -58,7 +64,7 @@ def _scatter(drawn_from: Sample, pairs: Sequence[tuple[Column, Column]], front: 
     return sheet
 
 
-def _points(axes: Axes, drawn_from: Sample, x: Column, y: Column, size: float) -> None:
+def _points(axes: Axes, drawn_from: SampledVariants, x: StoredColumn, y: StoredColumn, size: float) -> None:
     for status in reversed(ORDER):
         here = drawn_from.status == STATUSES.index(status)
         if here.any():
@@ -126,7 +132,7 @@ def near(values: NDArray[Any]) -> NDArray[Any]:
     return found
 
 
-def _spread(drawn_from: Sample, column: Column, here: NDArray[Any]) -> NDArray[Any]:
+def _spread(drawn_from: SampledVariants, column: StoredColumn, here: NDArray[Any]) -> NDArray[Any]:
     """Values of some variants; words a little to both sides of their place, so that points do not cover each other."""
     values: NDArray[Any] = near(drawn_from.values[column.name])
     if column.name in drawn_from.words:
@@ -135,7 +141,7 @@ def _spread(drawn_from: Sample, column: Column, here: NDArray[Any]) -> NDArray[A
     return found
 
 
-def _front(axes: Axes, front: Front | None, x: Column, y: Column) -> None:
+def _front(axes: Axes, front: Front | None, x: StoredColumn, y: StoredColumn) -> None:
     names = [objective.column.name for objective in front.objectives] if front else []
     if front is None or x.name not in names or y.name not in names:
         return
@@ -157,7 +163,7 @@ def _front(axes: Axes, front: Front | None, x: Column, y: Column) -> None:
     )
 
 
-def _named(axes: Axes, drawn_from: Sample, x: Column, y: Column, wide: float) -> None:
+def _named(axes: Axes, drawn_from: SampledVariants, x: StoredColumn, y: StoredColumn, wide: float) -> None:
     _titles(axes, x, y, wide)
     for column, axis, limits in ((x, axes.xaxis, axes.set_xlim), (y, axes.yaxis, axes.set_ylim)):
         words = drawn_from.words.get(column.name)
@@ -168,12 +174,12 @@ def _named(axes: Axes, drawn_from: Sample, x: Column, y: Column, wide: float) ->
             axis.set_major_locator(MaxNLocator(4))
 
 
-def _titles(axes: Axes, x: Column, y: Column, wide: float) -> None:
+def _titles(axes: Axes, x: StoredColumn, y: StoredColumn, wide: float) -> None:
     axes.set_title(wrapped(titled(y), wide, 7.5, 2), pad=3, size=7.5, linespacing=1.05)
     axes.set_xlabel(wrapped(titled(x), wide, 7.5, 2), labelpad=1.5, size=7.5, linespacing=1.05)
 
 
-def parallel(drawn_from: Sample, columns: Sequence[Column], ends: Mapping[str, Ends], told: str) -> Svg:
+def parallel(drawn_from: SampledVariants, columns: Sequence[StoredColumn], ends: Mapping[str, Ends], told: str) -> Svg:
     """A line for each variant over an upright axis for each quantity; those that fail behind those that pass.
 
     ``ends`` are the ends of the axes, over all variants.
@@ -181,7 +187,7 @@ def parallel(drawn_from: Sample, columns: Sequence[Column], ends: Mapping[str, E
     return chart(partial(_parallel, drawn_from, columns, ends), told, "parallel")
 
 
-def _parallel(drawn_from: Sample, columns: Sequence[Column], ends: Mapping[str, Ends]) -> Figure:
+def _parallel(drawn_from: SampledVariants, columns: Sequence[StoredColumn], ends: Mapping[str, Ends]) -> Figure:
     pitch = (WIDTH - 76) / (len(columns) - 1)
     names = [wrapped(titled(column), min(pitch, 100) - 6, 6.5, 6) for column in columns]
     foot = 16 + 8.0 * max(name.count("\n") + 1 for name in names)
@@ -206,7 +212,7 @@ def _parallel(drawn_from: Sample, columns: Sequence[Column], ends: Mapping[str, 
     return sheet
 
 
-def _scale(axes: Axes, place: int, column: Column, ends: Ends, words: list[str] | None) -> None:
+def _scale(axes: Axes, place: int, column: StoredColumn, ends: Ends, words: list[str] | None) -> None:
     """The ends of an upright axis; of words each at its place."""
     low, top, is_cut = ends
     if words is None:

@@ -10,19 +10,19 @@ from diecut_report.quantities.formatting import number_text
 from diecut_report.quantities.units import pretty, unit
 from diecut_report.report.figures.style import plain, text_size
 from diecut_report.report.number_format import joined, number
-from diecut_report.study.analysis.stored_variants import Column
+from diecut_report.study.analysis.stored_variants import StoredColumn
 from diecut_report.study.analysis.titles import UTILISATION
 
 DIGITS = 4
-WORST = Column("greatest utilisation", "float", title="Greatest utilisation of all checks (where each has one)")
+WORST = StoredColumn("greatest utilisation", "float", title="Greatest utilisation of all checks (where each has one)")
 
 
-def named(column: Column) -> str:
+def named(column: StoredColumn) -> str:
     """A quantity as people call it: ``Radius of the bore (cylinder)``."""
     return column.told
 
 
-def titled(column: Column) -> str:
+def titled(column: StoredColumn) -> str:
     """A quantity with the unit that people read."""
     sign = pretty(column.display)
     return named(column) + (f", {sign}" if sign else "")
@@ -59,12 +59,12 @@ def _shortened(words: str, wide: float, size: float) -> str:
     return head.rstrip() + tail
 
 
-def factor(column: Column) -> float:
+def factor(column: StoredColumn) -> float:
     """Display units in an SI unit."""
     return 1.0 / unit(column.display).factor
 
 
-def display(value: float, column: Column) -> str:
+def display(value: float, column: StoredColumn) -> str:
     """An SI value in the unit that people read, without the unit."""
     if not math.isfinite(value):
         return "–"
@@ -73,12 +73,12 @@ def display(value: float, column: Column) -> str:
     return number(number_text(unit(column.display).from_si(value), DIGITS)) if value else "0"
 
 
-def quantity(value: float, column: Column) -> str:
+def quantity(value: float, column: StoredColumn) -> str:
     """An SI value with the unit that people read."""
     return joined(display(value, column), pretty(column.display))
 
 
-def is_utilisation(column: Column) -> bool:
+def is_utilisation(column: StoredColumn) -> bool:
     """Whether 1 is the limit of a quantity."""
     return column.name == WORST.name or (".checks." in column.name and column.name.endswith(UTILISATION))
 

@@ -23,7 +23,7 @@ _HEADER = re.compile(r"\s*(.*?)\s*(?:\[\s*([^\[\]]*?)\s*\])?\s*", re.DOTALL)
 
 
 @dataclass(frozen=True, eq=False)
-class Column:
+class ReadColumn:
     """A column of a table as it stands in the file: `unit` is that of its header, `number` its place from 1."""
 
     file: str
@@ -81,10 +81,10 @@ class TableFile:
     """A table that was read: its columns by their names, in the file's order, all with `count` cells."""
 
     file: str
-    columns: dict[str, Column]
+    columns: dict[str, ReadColumn]
     count: int
 
-    def column(self, name: str) -> Column:
+    def column(self, name: str) -> ReadColumn:
         """A column by its name; UserError where there is none."""
         if name not in self.columns:
             raise UserError(self._missing(name))
@@ -117,14 +117,14 @@ def read_table(path: Path, sheet: str | None = None) -> TableFile:
     return TableFile(str(path), {column.name: column for column in columns}, count)
 
 
-def _column(file: str, number: int, header: tuple[str, str | None], cells: Cells) -> Column:
+def _column(file: str, number: int, header: tuple[str, str | None], cells: Cells) -> ReadColumn:
     text, stored_unit = header
     matched = _HEADER.fullmatch(text)
     name, own = (matched[1], matched[2]) if matched else (text, None)
-    return Column(file, name, own or stored_unit, number, cells)
+    return ReadColumn(file, name, own or stored_unit, number, cells)
 
 
-def _wrong_headers(columns: list[Column]) -> Iterator[Problem]:
+def _wrong_headers(columns: list[ReadColumn]) -> Iterator[Problem]:
     seen: dict[str, int] = {}
     for column in columns:
         if not column.name:

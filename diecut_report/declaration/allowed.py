@@ -1,0 +1,64 @@
+"""What a declaration may say: words among the allowed ones, yes or no, tuples of ids, tolerances of rounding."""
+
+from __future__ import annotations
+
+from collections.abc import Hashable, Iterator
+from functools import cache
+from typing import Any, Literal, cast, get_args, get_origin, get_type_hints
+
+from diecut_report.contract.mechanism import Mechanism
+from diecut_report.declaration.names import DeclaredNames
+from diecut_report.declaration.words import Fault
+from diecut_report.errors import nearest
+
+MOST_TOLERANCE = 0.01  # of a check: more than rounding and measuring leave open is a limit of its own
+NOT_READ = {"StandardSeries": object, "StandardTable": object, "Chapter": object}  # imported for type checkers alone
+PLAIN = ("needs", "lacks")  # which are told of where tokens are judged
+
+
+def faults(mechanism: Mechanism, names: DeclaredNames) -> Iterator[Fault]:
+    """Yield words that are not among the allowed ones, and tolerances that let a machine fail."""
+    for subject, declared in _declared(mechanism):
+        for text in _wrong(declared):
+            yield Fault(declared.at, subject, text)
+    for check in mechanism.checks:
+        if not 0 <= check.tolerance <= MOST_TOLERANCE:
+            text = (
+                f"has the tolerance {check.tolerance!r}, a share of the limit; allowed: 0 to {MOST_TOLERANCE} (1 %), "
+                "for rounding alone; put what is allowed into the limit"
+            )
+            yield Fault(check.at, f"check {check.id}", text)
+
+
+def _declared(mechanism: Mechanism) -> Iterator[tuple[str, Any]]:
+    yield f"mechanism {mechanism.kind}", mechanism
+    yield from ((f"chapter {chapter.title!r}", chapter) for chapter in mechanism.chapters)
+    yield from ((f"step {step.id}", step) for _, step in mechanism.steps)
+    yield from ((f"check {check.id}", check) for check in mechanism.checks)
+    yield from ((f"figure {figure.id}", figure) for figure in mechanism.figures)
+    yield from ((f"export {profile.id}", profile) for profile in mechanism.exports)
+    yield from ((f"erratum of {erratum.source}", erratum) for erratum in mechanism.errata)
+
+
+def _wrong(declared: Any) -> Iterator[str]:
+    for name, (words, kind) in _fields(cast(Hashable, type(declared))).items():
+        value = getattr(declared, name)
+        if words and value not in words:
+            told = ", ".join(map(repr, words))
+            yield f"has {name}={value!r}{nearest(str(value), map(str, words))}; allowed: {told}"
+        elif kind is bool and not isinstance(value, bool):
+            yield f"has {name}={value!r}; allowed: True, False"
+        elif kind is tuple and isinstance(value, str):
+            yield f"has {name}={value!r}, a text; write a tuple, ({value!r},)"
+
+
+@cache
+def _fields(kind: Hashable) -> dict[str, tuple[tuple[Any, ...], Any]]:
+    """The fields that hold one of several words, yes or no, or a tuple."""
+    found: dict[str, tuple[tuple[Any, ...], Any]] = {}
+    for name, hint in get_type_hints(cast(type, kind), localns=NOT_READ).items():
+        origin = get_origin(hint)
+        words = get_args(hint) if origin is Literal else ()
+        if words or hint is bool or (origin is tuple and name not in PLAIN):
+            found[name] = words, bool if hint is bool else origin
+    return found

@@ -1,0 +1,84 @@
+"""Conditions give yes or no, and choices end with a case that is always taken."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import get_args
+
+from diecut_report.contract.binding import Binding, Bound, ByText, bound
+from diecut_report.contract.mechanism import Mechanism
+from diecut_report.contract.steps import Choice, Computed, Require, Step, Value
+from diecut_report.declaration.names import DeclaredNames
+from diecut_report.declaration.units import kind_of
+from diecut_report.declaration.words import Fault
+from diecut_report.expressions import FormulaError, Node
+
+MAY_BE_ABSENT = Value | Choice | Computed
+YES_OR_NO = ("cmp", "and", "or", "not")
+
+
+def faults(mechanism: Mechanism, names: DeclaredNames) -> Iterator[Fault]:
+    """Yield conditions that are numbers, numbers that are conditions, and choices in which no case may hold."""
+    for _, step in mechanism.steps:
+        for part, condition in _conditions(step):
+            for link in condition.options() if isinstance(condition, ByText) else (bound(condition),):
+                if not _decides(link, names):
+                    text = f"the {part} gives a number, not yes or no; compare it with something ({link.formula.__name__} > 0)"
+                    yield Fault(step.at, f"step {step.id}", text)
+                    break
+        if step.exists is not None and not isinstance(step, MAY_BE_ABSENT):
+            kinds = ", ".join(kind.__name__.lower() for kind in get_args(MAY_BE_ABSENT))
+            yield Fault(
+                step.at, f"step {step.id}", f"has exists, which holds for {kinds} alone; put it on what this step takes"
+            )
+        texts = _cases(step.cases) if isinstance(step, Choice) else _flag(step, names)
+        yield from (Fault(step.at, f"step {step.id}", text) for text in texts)
+
+
+def _conditions(step: Step) -> Iterator[tuple[str, Binding]]:
+    if step.exists is not None:
+        yield "condition exists", step.exists
+    if isinstance(step, Require):
+        yield "condition", step.condition
+    for case in step.cases if isinstance(step, Choice) else ():
+        if case.condition is not None:
+            yield "condition of a case", case.condition
+
+
+def _decides(link: Bound, names: DeclaredNames) -> bool:
+    """Whether a formula gives yes or no; one that cannot be read is told elsewhere."""
+    try:
+        return _is_condition(link.formula.tree, link, names)
+    except (FormulaError, RecursionError):
+        return True
+
+
+def _is_condition(node: Node, link: Bound, names: DeclaredNames) -> bool:
+    match node:
+        case Node("cases", branches):
+            return all(_is_condition(branch[0], link, names) for branch in branches)
+        case Node("apply", (called, *_)):
+            return _is_condition(called.formula.tree, bound(called.formula), names)
+        case Node("sym", (parameter,)):
+            steps = [giver.step for giver in names.givers(str(link.names.get(parameter)))]
+            return bool(steps) and all(isinstance(step, Value) and _decides(bound(step.formula), names) for step in steps)  # fmt: skip
+    return node.op in YES_OR_NO
+
+
+def _flag(step: Step, names: DeclaredNames) -> Iterator[str]:
+    """A comparison that stands as a quantity with a unit."""
+    if isinstance(step, Value) and not isinstance(step.formula, ByText) and _decides(bound(step.formula), names):
+        wrong = [each for each in (step.unit, *(other for _, other in step.units)) if kind_of(each) != kind_of("1")]
+        if wrong:
+            yield f"gives yes or no (1 or 0), but has the unit {wrong[0]}; a flag has the unit 1"
+
+
+def _cases(cases: tuple[object, ...]) -> Iterator[str]:
+    texts = [isinstance(getattr(case, "value", None), str) for case in cases]
+    if any(texts) and not all(texts):
+        yield "mixes texts and numbers in its cases; give all cases texts, or all numbers"
+    if cases and getattr(cases[-1], "condition", None) is not None:
+        yield "has a condition in its last case, so that none may hold; take it away, or add a case for all else"
+    for number, case in enumerate(cases[:-1], 1):
+        if getattr(case, "condition", None) is None:
+            yield f"has no condition in case {number} of {len(cases)}, so that those after it are never taken; add one"

@@ -1,0 +1,126 @@
+"""Tables and series: the column is there, its unit is that of what is taken, what is given in its place may be left out."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from typing import Any
+
+from diecut_report.contract.inputs import Quantity
+from diecut_report.contract.mechanism import Mechanism
+from diecut_report.contract.part_steps import Interpolated, Lookup, Pick
+from diecut_report.contract.steps import Abscissa, Step
+from diecut_report.declaration.names import DeclaredNames
+from diecut_report.declaration.words import Fault
+from diecut_report.errors import nearest
+from diecut_report.quantities.units import unit
+from diecut_report.standards import StandardFault, StandardSeries, StandardTable
+
+
+def faults(mechanism: Mechanism, names: DeclaredNames) -> Iterator[Fault]:
+    """Yield what is wrong with what steps take from tables and series."""
+    for _, step in mechanism.steps:
+        for text in _wrong(step, names):
+            yield Fault(step.at, f"step {step.id}", text)
+
+
+def _wrong(step: Step, names: DeclaredNames) -> Iterator[str]:
+    match step:
+        case Lookup():
+            yield from _column(step)
+            yield from _given(step, names)
+        case Interpolated():
+            across, upwards = step.between.columns
+            yield from _unlike(f"the column {upwards.name} of the table", upwards.unit, _units(step), "the step")
+            yield from _unlike(f"the column {across.name} of the table", across.unit, _taken(names, step.of), step.of)
+            yield from _key(step, names)
+        case Pick(series=series):
+            for own in series.values() if isinstance(series, Mapping) else (series,):
+                if isinstance(own, StandardTable):
+                    yield "takes from a table; name its column, table.series(…)"
+                elif isinstance(own, StandardSeries):
+                    yield from _unlike(f"the series “{own.title}”", own.unit, _units(step), "the step")
+                    yield from _unlike(f"the series “{own.title}”", own.unit, _taken(names, step.of), step.of)
+
+
+def rows_of(step: Lookup) -> Mapping[str, Any]:
+    """Return the rows of a table by their names; none where that cannot be told."""
+    try:
+        return step.rows()[0]
+    except StandardFault:
+        return {}
+
+
+def _column(step: Lookup) -> Iterator[str]:
+    if not isinstance(step.table, StandardTable):
+        if step.column:
+            yield f"names the column {step.column}, but its table has none; write it with own_table(…, columns=…)"
+        return
+    try:
+        own = step.table.column(step.column)
+    except StandardFault as fault:
+        yield str(fault).removesuffix(".")
+        return
+    if not step.table.names:
+        yield f"looks up a text in the table “{step.table.title}”, which goes by numbers; take interpolated"
+    yield from _unlike(
+        "the table" if not own.name else f"the column {own.name} of the table", own.unit, _units(step), "the step"
+    )
+
+
+def _given(step: Lookup, names: DeclaredNames) -> Iterator[str]:
+    """What is wrong with the input that may stand in the table's place."""
+    path = step.given.removeprefix("inputs.")
+    if not path:
+        return
+    key = names.world.keys.get(path)
+    if key is None or not isinstance(key.meta, Quantity):
+        known = [name for name, other in names.world.keys.items() if isinstance(other.meta, Quantity)]
+        yield f"given is {path}, which is no input that is a number{nearest(path, known)}"
+        return
+    by = names.world.keys.get(step.by)
+    if not key.may_be_absent or key.has_default:
+        yield f"given is {path}, which is always there; let it be float | None with the default None"
+    if by is not None and by.home != key.home:
+        yield f"given is {path}, by is {step.by}; both must be inputs of one list, or of none"
+    yield from _unlike(f"given, {path},", key.meta.unit, _units(step), "the step")
+
+
+def _key(step: Interpolated, names: DeclaredNames) -> Iterator[str]:
+    """An impossible machine is told at an input."""
+    inputs = [name for name in names.world.keys if "=" not in name]
+    if step.key and step.key not in inputs:
+        yield f"key is {step.key}, which is no input{nearest(step.key, inputs)}"
+    elif not step.key and step.of.removeprefix("inputs.") not in inputs and not _covered(step, names):
+        yield f'takes {step.of}, which may lie outside of the table; name the input that is then to be changed, key="…"'
+
+
+def _covered(step: Interpolated, names: DeclaredNames) -> bool:
+    """Whether a table goes over an abscissa of a period that is always the same."""
+    low, high = step.between.x[[0, -1]]
+    given = [giver.step for giver in names.givers(step.of)]
+    return all(
+        isinstance(each, Abscissa)
+        and not isinstance(each.period, str)
+        and low <= 0
+        and each.period <= high * (1 + 1e-12)
+        for each in given
+    )
+
+
+def _units(step: Step) -> set[str]:
+    return {step.unit, *(text for _, text in step.units)}
+
+
+def _taken(names: DeclaredNames, name: str) -> set[str]:
+    """The units that a quantity may have."""
+    return {each for giver in names.givers(name) for each in giver.units_when(())}
+
+
+def _unlike(what: str, own: str, wanted: set[str], whose: str) -> Iterator[str]:
+    """The unit of a table beside that of the quantity it is for; unknown units are told where they are declared."""
+    try:
+        is_alike = not wanted or any(unit(each).kind == unit(own).kind for each in wanted)
+    except ValueError:
+        return
+    if not is_alike:
+        yield f"{what} is in {own}, {whose} in {', '.join(sorted(wanted))}"

@@ -1,0 +1,62 @@
+"""The range of a diagram's axis as it is declared: its ends, and that what is drawn lies between them."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from typing import Any
+
+from diecut_report.contract.figures import Panel, View
+from diecut_report.engine.drawable import Undrawable
+from diecut_report.quantities.formatting import told
+from diecut_report.quantities.units import unit
+
+Data = dict[str, Any]
+Lines = Sequence[tuple[str, Sequence[float]]]  # how each is called, and its heights
+SAME = 1e-12  # of the range: beyond its ends by no more is rounding
+
+
+def ends(panel: Panel, view: View) -> list[float | None]:
+    """Return the ends of a panel's range in SI, None where one follows from the curves."""
+    factor = unit(panel.unit).factor
+    return [
+        view[end] if isinstance(end, str) else None if end is None else float(end) * factor
+        for end in panel.range or (None, None)
+    ]
+
+
+def of_lines(panel: Data) -> Data:
+    """Return a chart's panel; Undrawable where its lines leave the range that it declares."""
+    if "range" not in panel:
+        return panel
+    lines = [(each["label"], [y for y in each["y"] if y is not None]) for each in (*panel["lines"], *panel["fills"])]
+    return checked(panel, lines)
+
+
+def checked(panel: Data, lines: Lines) -> Data:
+    """Return a panel with its range; Undrawable where that is empty, or where something drawn lies outside of it."""
+    low, high = panel["range"]
+    if low is not None and high is not None and not low < high:
+        raise Undrawable(
+            f"the range of {panel['title']!r} goes from {_told(low, panel)} to {_told(high, panel)}, which is none"
+        )
+    room = SAME * max(abs(end) for end in (low, high, 0.0) if end is not None)
+    for label, value in _heights(panel, lines):
+        if (low is not None and value < low - room) or (high is not None and value > high + room):
+            limits = f"{'…' if low is None else _told(low, panel)} to {'…' if high is None else _told(high, panel)}"
+            raise Undrawable(
+                f"{label} reaches {_told(value, panel)}, outside of the range of {panel['title']!r}, {limits}; widen it"
+            )
+    return panel
+
+
+def _heights(panel: Data, lines: Lines) -> Iterator[tuple[str, float]]:
+    """What is drawn, with how it is called."""
+    for label, values in lines:
+        if values:
+            yield from ((label, min(values)), (label, max(values)))
+    yield from ((mark["label"], mark["y"]) for mark in panel["marks"])
+    yield from ((level["label"], level["value"]) for level in panel["levels"])
+
+
+def _told(value: float, panel: Data) -> str:
+    return told(value, panel["unit"])

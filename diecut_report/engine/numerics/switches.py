@@ -1,0 +1,242 @@
+"""Where a curve jumps inside a smooth piece: each condition of its formula is followed through the piece to where it changes.
+
+A condition is held as the difference of its sides. Where that changes its sign between two points of the search grid, or comes near
+to zero between them, the very place is found; a condition on the abscissa itself has a straight difference, so that no window is
+too narrow. A place at an end of the piece, or one where the curve that is asked for does not jump, is no fault.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from functools import lru_cache
+from typing import Any, NamedTuple
+from weakref import proxy
+
+import numpy as np
+
+from diecut_report.contract.binding import Bound, bound
+from diecut_report.contract.sections import taken
+from diecut_report.contract.steps import Choice, Value
+from diecut_report.engine.calculation import Calculation, CurveSampler
+from diecut_report.engine.numerics.discontinuities import STEPWISE, expanded
+from diecut_report.expressions import Array, Node, evaluate, symbols, walk
+
+APART = 1e-8  # share of the period within which a place is the end of its piece
+JUMP = 1e-9  # share of a curve's greatest value by which it moves at a jump
+ZOOMS, PARTS = 12, 16  # how often the place where a difference is least is looked at in so many parts of what is left
+FLAT = 0.1  # of a gap: where it moves by less about its least value that is not nothing
+HALVINGS = 60  # of an interval of the grid: down to the rounding of a place
+
+
+class Decision(NamedTuple):
+    """A part of a formula that decides: a comparison, or a function that takes steps."""
+
+    step: Value | Choice
+    link: Bound
+    node: Node
+
+
+class JumpFault(NamedTuple):
+    """A curve that jumps: what decides there (None where a flag of the piece varies in it without a jump), and the place (SI)."""
+
+    curve: str
+    decision: Decision | None
+    place: float
+
+
+Brackets = tuple[Array, Array, Array]  # rows, and the two places (rows,) between which a decision changes
+
+
+def faults(calc: Calculation, curve: str) -> Iterator[tuple[int, JumpFault]]:
+    """Give the first jump of a curve inside a smooth piece, with the machine (its variant).
+
+    Variants of one machine have the same formulas: where the first that is possible does not jump the others are not searched.
+    """
+    axis = calc.axis[curve]
+    edges = calc.domains[axis].edges
+    search = calc.searches.get(axis)
+    if search is None or search.edges is not edges:
+        search = calc.searches[axis] = _Search(calc, axis, edges)
+    if curve in search.sound:
+        return
+    search.sound.add(curve)
+    followed = list(_followed(calc, curve))
+    deciding = [step for step in followed if any(_open(calc, axis, step))]
+    if not deciding and not any(step.per_piece for step in followed):
+        return
+    for variant in [variant for variant in range(calc.count) if variant not in calc.flaws]:
+        found = next(search.of_variant(variant).faults(curve, deciding), None)
+        if found is None:
+            return
+        yield variant, found
+
+
+def _followed(calc: Calculation, curve: str) -> Iterator[Value | Choice]:
+    """The formulas that a curve follows from, its own included."""
+    pending, seen = [curve], set[str]()
+    while pending:
+        name = pending.pop()
+        if name in calc.curves and name not in seen:
+            seen.add(name)
+            step = calc.curves[name]
+            pending += sorted(taken(step), reverse=True)
+            if isinstance(step, Value | Choice):
+                yield step
+
+
+def varies(calc: Calculation, axis: str, name: str | float) -> bool:
+    """Return whether a quantity varies within a piece: flags of pieces and numbers do not."""
+    return name == axis or (name in calc.curves and not getattr(calc.curves[str(name)], "per_piece", False))
+
+
+def _open(calc: Calculation, axis: str, step: Value | Choice) -> Iterator[Decision]:
+    """The decisions of a step that may change within a piece."""
+    for decision in _decisions(step):
+        names = decision.link.names
+        if any(varies(calc, axis, names.get(symbol, 0.0)) for symbol in symbols(decision.node)):
+            yield decision
+
+
+@lru_cache(maxsize=4096)
+def _decisions(step: Value | Choice) -> tuple[Decision, ...]:
+    parts = [step.formula] if isinstance(step, Value) else [p for c in step.cases for p in (c.condition, c.value)]
+    links = [bound(part) for part in parts if part is not None and not isinstance(part, str)]
+    return tuple(
+        Decision(step, link, node)
+        for link in links
+        for node in walk(expanded(link.formula.tree))
+        if node.op == "cmp" or (node.op == "call" and node.args[0] in STEPWISE)
+    )
+
+
+class _Search:
+    """What is known of the jumps of curves over an abscissa with these pieces."""
+
+    def __init__(self, calc: Calculation, axis: str, edges: Array) -> None:
+        self.calc, self.axis, self.edges = proxy(calc), axis, edges
+        self.sound: set[str] = set()  # curves that were searched
+        self.machines: dict[int, _Machine] = {}
+
+    def of_variant(self, variant: int) -> _Machine:
+        """Return the pieces of one machine."""
+        if variant not in self.machines:
+            self.machines[variant] = _Machine(self.calc, self.axis, variant)
+        return self.machines[variant]
+
+
+class _Machine:
+    """The smooth pieces of one machine, a row each, and the search grid in them; here flags of pieces are taken at each place."""
+
+    def __init__(self, calc: Calculation, axis: str, variant: int) -> None:
+        self.calc, self.axis = calc, axis
+        pieces = calc.table(axis).pieces()
+        own = np.flatnonzero(pieces.variant == variant)
+        self.variant, self.middle = pieces.variant[own], pieces.middle[own]
+        self.left, self.right = pieces.left[own], pieces.right[own]
+        self.near = APART * float(self.right.max(initial=0.0))
+        self.x = pieces.inside(pieces.grid(own), own)
+        self.row = np.arange(len(own))
+        self.on_grid = self._sampler(self.x, self.row)
+        self.as_used = calc.sampler_of(axis, self.x, self.middle[:, None], self.variant)
+        self.known: dict[Decision, Brackets] = {}
+
+    def faults(self, curve: str, deciding: Sequence[Value | Choice]) -> Iterator[JumpFault]:
+        """Give the places where a curve jumps inside a piece."""
+        heights, used = (_over(sampler[curve], sampler.x) for sampler in (self.on_grid, self.as_used))
+        size = JUMP * float(np.nanmax(np.abs(heights), initial=0.0))
+        for step in deciding:
+            for decision in _open(self.calc, self.axis, step):
+                row, low, high = self._changes(decision)
+                samplers = [self._sampler(x[:, None], row) for x in (low, high)] if len(row) else []
+                sides = [_over(sampler[curve], sampler.x)[:, 0] for sampler in samplers]
+                for i in np.flatnonzero(np.abs(sides[1] - sides[0]) > size) if sides else ():
+                    yield JumpFault(curve, decision, float(high[i]))
+        inner = (self.x - self.left[:, None] > self.near) & (self.right[:, None] - self.x > self.near)
+        for i, k in np.argwhere(inner & (np.abs(heights - used) > size)):
+            yield JumpFault(curve, None, float(self.x[i, k]))
+
+    def _changes(self, decision: Decision) -> Brackets:
+        """Where a decision changes inside a piece: neighbouring places before and after."""
+        if decision not in self.known:
+            truth, gap = self._decided(decision, self.on_grid)
+            is_change = truth[:, 1:] != truth[:, :-1]
+            row, k = np.nonzero(is_change)
+            found = [(row, self.x[row, k], self.x[row, k + 1])]
+            found += self._dips(decision, np.abs(gap), is_change)
+            row, low, high = (np.concatenate(columns) for columns in zip(*found, strict=True))
+            low, high = self._halved(decision, row, low, high)
+            inner = (high - self.left[row] > self.near) & (self.right[row] - low > self.near)
+            self.known[decision] = row[inner], low[inner], high[inner]
+        return self.known[decision]
+
+    def _halved(self, decision: Decision, row: Array, low: Array, high: Array) -> tuple[Array, Array]:
+        if not len(row):
+            return low, high
+        first, _ = self._decided(decision, self._sampler(low[:, None], row))
+        for _ in range(HALVINGS):
+            middle = (low + high) / 2
+            here, _ = self._decided(decision, self._sampler(middle[:, None], row))
+            same = (here == first)[:, 0]
+            low, high = np.where(same, middle, low), np.where(same, high, middle)
+        return low, high
+
+    def _dips(self, decision: Decision, gap: Array, is_change: Array) -> Iterator[Brackets]:
+        """Where a decision changes and changes back between two points of the grid: its gap dips to nothing there."""
+        last = gap.shape[1] - 1
+        before = np.concatenate([gap[:, [1]], gap[:, :-1]], axis=1)
+        after = np.concatenate([gap[:, 1:], gap[:, [-2]]], axis=1)
+        lowest = (gap <= before) & (gap <= after) & (2 * gap <= np.maximum(before, after)) & (gap > 0)
+        changed = np.zeros_like(lowest)
+        changed[:, 1:] |= is_change
+        changed[:, :-1] |= is_change
+        row, k = np.nonzero(lowest & ~changed)
+        low, high = self.x[row, np.maximum(k - 1, 0)], self.x[row, np.minimum(k + 1, last)]
+        for _ in range(ZOOMS):
+            if not len(row):
+                return
+            places = low[:, None] + (high - low)[:, None] * np.linspace(0, 1, PARTS + 1)
+            truth, gap = self._decided(decision, self._sampler(places, row))
+            i, j = np.nonzero(truth[:, 1:] != truth[:, :-1])
+            yield row[i], places[i, j], places[i, j + 1]
+            least = np.abs(gap).argmin(axis=1)
+            still = _may_reach(np.abs(gap), least)
+            still[i] = False
+            row, places, least = row[still], places[still], least[still]
+            low = places[np.arange(len(row)), np.maximum(least - 1, 0)]
+            high = places[np.arange(len(row)), np.minimum(least + 1, PARTS)]
+
+    def _sampler(self, x: Array, row: Array) -> CurveSampler:
+        """All curves at places (rows, points) of these pieces."""
+        return self.calc.sampler_of(self.axis, x, x, self.variant[row])
+
+    def _decided(self, decision: Decision, sampler: CurveSampler) -> tuple[Array, Array]:
+        """What is decided at places, and how far the decision is from changing there."""
+        _, link, node = decision
+
+        def value(leaf: Node) -> Any:
+            name = link.names.get(leaf.args[0])
+            if name is None:
+                return float(link.formula.constants[leaf.args[0]])
+            return sampler[name] if isinstance(name, str) else float(name)
+
+        def over(part: Node) -> Array:
+            return _over(evaluate(part, value), sampler.x)
+
+        if node.op == "cmp":
+            return over(node), over(node.args[1]) - over(node.args[2])
+        decided, inner = over(node), over(node.args[1])
+        waves = {"sign": inner, "round": np.cos(np.pi * inner)}
+        return decided, waves.get(node.args[0], np.sin(np.pi * inner))
+
+
+def _may_reach(gap: Array, least: Array) -> Array:
+    """Whether gaps (rows, places) may come down to nothing between their places: they turn back, and are not flat yet."""
+    turns = (least > 0) & (least < gap.shape[1] - 1)
+    found: Array = turns & (np.ptp(gap, axis=1) > FLAT * gap.min(axis=1))
+    return found
+
+
+def _over(values: Any, x: Array) -> Array:
+    """Values as numbers, one for each place."""
+    found: Array = np.broadcast_to(values, x.shape).astype(float)
+    return found

@@ -1,0 +1,48 @@
+"""Refuses what would be told of a curve that jumps inside a smooth piece: its extremes and integrals could be any numbers."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+from diecut_report.contract.steps import Value
+from diecut_report.engine.calculation import Calculation, Unproven
+from diecut_report.engine.numerics import switches
+from diecut_report.expressions import Node, substitute, written
+from diecut_report.quantities.formatting import told
+
+
+def require(calc: Calculation, asking: str, curve: str) -> None:
+    """Refuse a single machine whose curve jumps elsewhere than at its breakpoints; mark such variants. ``asking`` asks for the curve."""
+    if curve not in calc.curves:
+        return
+    for variant, found in switches.faults(calc, curve):
+        words = _words(calc, found)
+        if calc.count == 1:
+            raise Unproven(words)
+        calc.flaws[variant] = asking, words
+
+
+def _words(calc: Calculation, found: switches.JumpFault) -> str:
+    curve, axis = calc.steps.get(found.curve), calc.steps[calc.axis[found.curve]]
+    assert curve is not None
+    place = f"{axis.symbol} = {told(found.place, axis.unit)}"
+    where = f"{curve.description} ({curve.id}, {Path(curve.at).name})"
+    mend = f"declare that place among the breakpoints of {axis.id}, above what asks for the curve"
+    if found.decision is None:
+        return (f"{where} takes a flag of its smooth pieces (per_piece) that is not constant within one, as at {place}: "
+                f"it would be that of the middle of the piece; {mend}, or take per_piece away")  # fmt: skip
+    step, link, _ = found.decision
+    name = f"the formula {link.formula.__name__}" if isinstance(step, Value) else "the choice"
+    decided = written(_in_symbols(calc, found.decision))
+    of = "its formula" if step.id == curve.id else f"{name} of {step.id} ({Path(step.at).name})"
+    return f"{where} jumps inside a smooth piece, at {place}, where {decided} changes in {of}; {mend}"
+
+
+def _in_symbols(calc: Calculation, decision: switches.Decision) -> Node:
+    """What decides, with the symbols of the quantities."""
+    names = decision.link.names
+    shown = {
+        parameter: Node("sym", (calc.step_or_input(name).symbol,)) if isinstance(name, str) else Node("num", (f"{name:g}",))
+        for parameter, name in names.items()
+    }  # fmt: skip
+    return substitute(decision.node, shown)

@@ -1,0 +1,69 @@
+"""Refuses numbers that are none, counts that are not whole and results that are not proved, of one machine; marks such variants."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+
+from diecut_report.contract.steps import Crossings, Step
+from diecut_report.engine.calculation import Calculation, Unproven
+from diecut_report.expressions import Array
+from diecut_report.quantities.units import unit
+
+WHOLE = 1e-9  # by which a count may be off a whole number, for rounding
+
+
+def possible(calc: Calculation) -> Array:
+    """Return which variants are possible, as far as is known."""
+    found = np.ones(calc.count, dtype=bool)
+    found[list(calc.flaws)] = False
+    return found
+
+
+def prove(calc: Calculation, step: Step, residual: Array, tolerance: float) -> None:
+    """Refuse a result that is not proved for a single machine; mark the variant among several."""
+    unproved = ~(residual[:, 0] <= tolerance) & possible(calc)
+    calc.proof[step.id] = float(np.max(residual[possible(calc) & ~unproved], initial=0.0))
+    if unproved.any():
+        mark(
+            calc,
+            step,
+            unproved,
+            f"{step.description}: the proof leaves {np.max(residual[unproved]):.1e}, not {tolerance:.0e}",
+        )
+
+
+def mark(calc: Calculation, step: Step, bad: Array, words: str) -> None:
+    """Refuse a single machine in words; mark these among several."""
+    if calc.count == 1:
+        raise Unproven(words)
+    calc.flaws |= {int(variant): (step.id, words) for variant in np.flatnonzero(bad)}
+
+
+def finite(calc: Calculation, step: Step) -> None:
+    """Require that no number of a possible machine is NaN or infinite, but for an absent output and the padding of crossings."""
+    values = calc.values.get(step.id)
+    if values is None or values.dtype == object or step.exists is not None or isinstance(step, Crossings):
+        return
+    is_finite = np.isfinite(values)
+    if is_finite.all():
+        return
+    bad = ~is_finite.all(axis=1) & possible(calc)
+    if bad.any():
+        mark(calc, step, bad, f"{step.description} ({step.id}) has no value with these inputs")
+
+
+def whole(calc: Calculation, step: Step) -> None:
+    """Require that what is marked as a count is whole: the results would round it."""
+    values = calc.values.get(step.id)
+    if not step.whole or values is None or values.dtype == object:
+        return
+    numbers = values / unit(step.unit).factor
+    bad = (np.abs(numbers - np.round(numbers)) > WHOLE * np.maximum(np.abs(numbers), 1)).any(axis=1) & possible(calc)
+    if bad.any():
+        given = f"{numbers[np.flatnonzero(bad)[0]].ravel()[0]:.6g}"
+        words = (
+            f"{step.description} ({step.id}, {Path(step.at).name}) is {given}, but is marked as a count (whole=True)"
+        )
+        mark(calc, step, bad, f"{words}; round it in its formula, or take whole=True away")

@@ -1,0 +1,95 @@
+"""Standard series and tables as they are used: values in a display unit, with the published tables that agree on them."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+
+class StandardFault(ValueError):
+    """A series or table that cannot be trusted, or an id that no file has; the text says which and what to mend."""
+
+
+@dataclass(frozen=True)
+class StandardSeries:
+    """Standard values in ascending order, in the display unit ``unit``, and the published tables that agree on them."""
+
+    id: str
+    title: str
+    unit: str
+    values: tuple[float, ...]
+    sources: tuple[str, ...]
+    left_out: str = ""
+    only_source: str = ""
+    file: str = ""
+
+
+@dataclass(frozen=True)
+class Column:
+    """A column of a table: a value for each row, in the display unit ``unit``."""
+
+    name: str
+    unit: str
+    values: tuple[float, ...]
+
+
+@dataclass(frozen=True)
+class StandardTable:
+    """Rows of standard values, and the published tables that agree on them.
+
+    Each row has a name; where ``names`` is empty the rows go by the numbers of the first column, which ascend.
+    ``only_source`` says why there is one source only, ``file`` is where the table was read from.
+    """
+
+    id: str
+    title: str
+    columns: tuple[Column, ...]
+    sources: tuple[str, ...]
+    left_out: str = ""
+    names: tuple[str, ...] = ()
+    only_source: str = ""
+    file: str = ""
+
+    @property
+    def of_values(self) -> tuple[Column, ...]:
+        """The columns but the one whose numbers the rows go by."""
+        return self.columns if self.names else self.columns[1:]
+
+    @property
+    def unit(self) -> str:
+        """The unit of the only column of values."""
+        return self.column().unit
+
+    @property
+    def values(self) -> Mapping[str, float]:
+        """The only column of values, by the rows' names."""
+        return self.by_name()
+
+    def column(self, name: str = "") -> Column:
+        """Return the column of this name, or the only column of values; StandardFault where there is none."""
+        if not name and len(self.of_values) == 1:
+            return self.of_values[0]
+        known = {column.name: column for column in self.columns}
+        if name not in known:
+            asked = f"has no column {name!r}" if name else "has several columns; name one"
+            raise StandardFault(f"The table “{self.title}” {asked}; it has {', '.join(known)}.")
+        return known[name]
+
+    def by_name(self, column: str = "") -> Mapping[str, float]:
+        """Return a column by the rows' names."""
+        return dict(zip(self.names, self.column(column).values, strict=True)) if self.names else {}
+
+    def series(self, column: str = "") -> StandardSeries:
+        """Return the different values of a column in ascending order, as a standard series."""
+        own = self.column(column)
+        values = tuple(sorted(set(own.values)))
+        title = f"{self.title}: {own.name}" if own.name else self.title
+        return StandardSeries(
+            self.id, title, own.unit, values, self.sources, self.left_out, self.only_source, self.file
+        )
+
+
+def sources_told(taken_from: StandardTable | StandardSeries) -> str:
+    """Return in one line what a table or series is and where it comes from."""
+    told = f"{taken_from.title}: {'; '.join(taken_from.sources)}"
+    return f"{told} (one source: {taken_from.only_source})" if taken_from.only_source else told

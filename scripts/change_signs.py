@@ -1,0 +1,267 @@
+"""Changes one sign in a formula, runs the tests of that plugin, and demands that one fails: what shows that tests are strong.
+
+    .venv/bin/python scripts/change_signs.py [--per-plugin N | --all] [--seed S] [--only NAME …] [--jobs N] [--list]
+
+A formula is the body of a function under ``@formula``, or a lambda, in ``plugins/`` and in ``diecut_report/mechanics/``. One
+``+`` becomes ``-``, ``-`` becomes ``+``, ``*`` becomes ``/`` or ``/`` becomes ``*``; a leading minus becomes a plus. Each mutant
+lives in a copy; the checkout is never touched. Ends with 1 where a mutant survives, and with 2 where the tests fail without one.
+"""
+
+from __future__ import annotations
+
+import argparse
+import ast
+import os
+import random
+import re
+import shutil
+import subprocess
+import sys
+import tempfile
+from collections.abc import Iterator
+from concurrent.futures import ThreadPoolExecutor
+from dataclasses import dataclass
+from functools import cache, partial
+from pathlib import Path
+
+ROOT = Path(__file__).parents[1]
+PLUGINS, MECHANICS = ROOT / "plugins", ROOT / "diecut_report" / "mechanics"
+OTHER = {ast.Add: (b"+", b"-"), ast.Sub: (b"-", b"+"), ast.Mult: (b"*", b"/"), ast.Div: (b"/", b"*")}
+SHARED = {"tests.machines", "tests.configs", "tests.plugins.cases"}  # helpers of everything: they tell nothing
+BY_NAME = {"cylinder_drive", "cylinder_sizing"}  # reached through tests.machines: their tests are told by their names
+THROUGH = {  # modules of mechanics without a test file of their own: what they are tested through
+    "mechanics.circular_segment": ("cylinder_sizing", "cylinder_drive", "circular_knife"),
+    "mechanics.common": ("cylinder_sizing", "damper", "drive_train", "cylinder_drive", "circular_knife"),
+    "mechanics.modified_laws": ("mechanics.motion_laws",),
+    "mechanics.polynomial_laws": ("mechanics.motion_laws",),
+    "mechanics.triangle": ("drive_train", "mechanics.four_bar"),
+}
+PAPERS = {"cylinder_drive": "source_000", "cylinder_sizing": "source_000"}
+
+
+@dataclass(frozen=True)
+class Mutant:
+    """A place in a file, with the bytes there and those that replace them."""
+
+    unit: str
+    file: Path
+    line: int
+    start: int
+    old: bytes
+    new: bytes
+
+    @property
+    def text(self) -> bytes:
+        """The file with the change."""
+        source = self.file.read_bytes()
+        return source[: self.start] + self.new + source[self.start + len(self.old) :]
+
+    def __str__(self) -> str:
+        line = self.file.read_text("utf-8").splitlines()[self.line - 1].strip()
+        return f"{self.file.relative_to(ROOT)}:{self.line}: {self.old.decode()} → {self.new.decode()} in: {line}"
+
+
+def units() -> dict[str, list[Path]]:
+    """The files of each plugin and of each module of mechanics, by its name."""
+    found = {}
+    for path in sorted(PLUGINS.iterdir()):
+        if not path.name.startswith(("_", ".")) and (path.is_dir() or path.suffix == ".py"):
+            found[path.stem] = sorted(path.rglob("*.py")) if path.is_dir() else [path]
+    modules = [path for path in sorted(MECHANICS.rglob("*.py")) if path.name != "__init__.py"]
+    return found | {f"mechanics.{path.stem}": [path] for path in modules}
+
+
+# --- places ----------------------------------------------------------------------------------------------------------
+
+
+def mutants(unit: str, file: Path) -> Iterator[Mutant]:
+    """All changes of one sign in the formulas of a file."""
+    source = file.read_bytes()
+    starts = [0, *(match.end() for match in re.finditer(rb"\n", source))]
+    seen: set[int] = set()
+    for formula in formulas(ast.parse(source)):
+        for node in ast.walk(formula):
+            for line, start, old, new in changes(node, source, starts):
+                if start not in seen:
+                    seen.add(start)
+                    yield Mutant(unit, file, line, start, old, new)
+
+
+def formulas(tree: ast.Module) -> Iterator[ast.AST]:
+    """The expressions that are formulas: bodies of lambdas, and of functions under ``@formula``."""
+    for node in ast.walk(tree):
+        if isinstance(node, ast.Lambda):
+            yield node.body
+        elif isinstance(node, ast.FunctionDef) and any(map(is_formula, node.decorator_list)):
+            yield from node.body
+
+
+def is_formula(decorator: ast.expr) -> bool:
+    """Whether a decorator is ``@formula``, called or not."""
+    named = decorator.func if isinstance(decorator, ast.Call) else decorator
+    return (named.attr if isinstance(named, ast.Attribute) else getattr(named, "id", "")) == "formula"
+
+
+def changes(node: ast.AST, source: bytes, starts: list[int]) -> Iterator[tuple[int, int, bytes, bytes]]:
+    """The change of a sum, product or leading minus: its line, its place in the file, the old bytes and the new ones."""
+    if isinstance(node, ast.UnaryOp) and isinstance(node.op, ast.USub):
+        yield node.lineno, starts[node.lineno - 1] + node.col_offset, b"-", b"+"
+    if isinstance(node, ast.BinOp) and type(node.op) in OTHER:
+        old, new = OTHER[type(node.op)]
+        left, right = node.left, node.right
+        assert left.end_lineno is not None and left.end_col_offset is not None
+        end = starts[left.end_lineno - 1] + left.end_col_offset
+        between = source[end : starts[right.lineno - 1] + right.col_offset]
+        yield left.end_lineno, end + re.sub(rb"#[^\n]*", blank, between).index(old), old, new
+
+
+def blank(match: re.Match[bytes]) -> bytes:
+    """A comment as so many blanks."""
+    return b" " * len(match[0])
+
+
+# --- tests -----------------------------------------------------------------------------------------------------------
+
+
+def tests_of(unit: str) -> list[str]:
+    """The test files that use a plugin or module."""
+    if unit in THROUGH:
+        return [file for other in THROUGH[unit] for file in tests_of(other)]
+    package = f"diecut_report.{unit}" if unit.startswith("mechanics.") else f"diecut_report.plugins.{unit}"
+    folder = ROOT / "tests" / package.split(".")[1]
+    files = [
+        path
+        for path in sorted(folder.glob("test_*.py"))
+        if path.name != "test_contract.py" and is_about(path, unit, package)
+    ]
+    return [str(path.relative_to(ROOT)) for path in files]
+
+
+def is_about(test: Path, unit: str, package: str) -> bool:
+    """Whether a test file is about a plugin or module: by its name, or because it or a helper of it imports that."""
+    if unit in BY_NAME:
+        return unit in test.stem
+    module = ".".join(test.relative_to(ROOT).with_suffix("").parts)
+    return any(f"{name}.".startswith(f"{package}.") for name in reached(module))
+
+
+@cache
+def reached(module: str) -> frozenset[str]:
+    """The modules that a module of the tests imports, itself or through others of the tests."""
+    path = ROOT.joinpath(*module.split(".")).with_suffix(".py")
+    if module in SHARED or not path.is_file():
+        return frozenset()
+    found: set[str] = set()
+    for node in ast.walk(ast.parse(path.read_bytes())):
+        if isinstance(node, ast.ImportFrom) and node.module:
+            found |= {node.module} | {f"{node.module}.{alias.name}" for alias in node.names}
+        elif isinstance(node, ast.Import):
+            found |= {alias.name for alias in node.names}
+    own = {name for name in found if name.startswith("tests.")}
+    return frozenset(found).union(*map(reached, own)) if own else frozenset(found)
+
+
+# --- runs ------------------------------------------------------------------------------------------------------------
+
+
+class Copy:
+    """The program as it is installed, and the tests, in a folder of their own."""
+
+    def __init__(self, folder: Path) -> None:
+        self.folder, self.program = folder, folder / "program" / "diecut_report"
+        ignored = shutil.ignore_patterns("__pycache__")
+        shutil.copytree(ROOT / "diecut_report", self.program, ignore=ignored)
+        for name in ("plugins", "templates", "configs"):
+            shutil.copytree(ROOT / name, self.program / name, ignore=ignored)
+        shutil.copytree(ROOT / "tests", folder / "tests", ignore=ignored)
+        shutil.copy(ROOT / "pyproject.toml", folder)
+
+    def place(self, file: Path) -> Path:
+        """Where a file of the checkout is in the copy."""
+        path = file.relative_to(ROOT)
+        return self.folder / "program" / path if path.parts[0] == "diecut_report" else self.program / path
+
+    def fails(self, unit: str) -> bool:
+        """Whether a test of the plugin or module fails; those of printed numbers come first."""
+        rows = ["tests/validation/test_rows.py", "-k", PAPERS.get(unit, f"rows_{unit}")]
+        has_rows = unit in PAPERS or (ROOT / "tests" / "validation" / f"rows_{unit}.py").is_file()
+        asked = [rows] if has_rows else []
+        files = tests_of(unit)
+        if not files and not asked:
+            raise SystemExit(f"{unit} has no tests")
+        return any(self._pytest(arguments) for arguments in [*asked, *([files] if files else [])])
+
+    def _pytest(self, arguments: list[str]) -> bool:
+        command = [sys.executable, "-B", "-m", "pytest", "-x", "-q", "-n", "0", "-p", "no:cacheprovider", *arguments]
+        path = {"PYTHONPATH": str(self.folder / "program"), "HYPOTHESIS_PROFILE": "ci"}
+        done = subprocess.run(
+            command, cwd=self.folder, env=os.environ | path, capture_output=True, text=True, check=False
+        )
+        if done.returncode > 2:  # neither passed nor failed, nor an import that a formula does not survive
+            raise SystemExit(f"pytest ended with {done.returncode}:\n{done.stdout}{done.stderr}")
+        return done.returncode != 0
+
+    def kills(self, mutant: Mutant) -> bool:
+        """Whether a test notices the change."""
+        place = self.place(mutant.file)
+        whole = place.read_bytes()
+        place.write_bytes(mutant.text)
+        try:
+            return self.fails(mutant.unit)
+        finally:
+            place.write_bytes(whole)
+
+
+def chosen(arguments: argparse.Namespace) -> dict[str, list[Mutant]]:
+    """The mutants to try, by plugin or module."""
+    draw, found = random.Random(arguments.seed), {}
+    for unit, files in units().items():
+        if not arguments.only or unit in arguments.only:
+            everything = [mutant for file in files for mutant in mutants(unit, file)]
+            count = len(everything) if arguments.all else min(arguments.per_plugin, len(everything))
+            found[unit] = draw.sample(everything, count)
+    return {unit: some for unit, some in found.items() if some}
+
+
+def tried(work: Path, job: tuple[int, tuple[str, list[Mutant]]]) -> list[Mutant]:
+    """The survivors of one plugin or module."""
+    number, (unit, some) = job
+    copy = Copy(work / str(number))
+    if copy.fails(unit):
+        print(f"{unit}: the tests fail as they are", file=sys.stderr)
+        raise SystemExit(2)
+    left = []
+    for mutant in some:
+        is_killed = copy.kills(mutant)
+        print("killed  " if is_killed else "SURVIVES", mutant, flush=True)
+        left += [] if is_killed else [mutant]
+    return left
+
+
+def main() -> int:
+    """Try the mutants that were asked for."""
+    parser = argparse.ArgumentParser(description=(__doc__ or "").partition("\n")[0])
+    parser.add_argument("--per-plugin", type=int, default=1, metavar="N", help="mutants of each plugin and module (1)")
+    parser.add_argument("--all", action="store_true", help="every mutant")
+    parser.add_argument("--seed", type=int, default=0, help="draws other mutants (0)")
+    parser.add_argument("--only", nargs="*", metavar="NAME", help="plugins, or modules as mechanics.NAME")
+    parser.add_argument("--jobs", type=int, default=2, metavar="N", help="plugins at a time (2)")
+    parser.add_argument("--list", action="store_true", help="list the mutants, and the tests of each plugin")
+    arguments = parser.parse_args()
+    asked = chosen(arguments)
+    if arguments.list:
+        print(
+            "\n".join(
+                f"{unit}: {' '.join(tests_of(unit))}\n  " + "\n  ".join(map(str, some)) for unit, some in asked.items()
+            )
+        )
+        return 0
+    with tempfile.TemporaryDirectory() as work, ThreadPoolExecutor(arguments.jobs) as pool:
+        left = [mutant for some in pool.map(partial(tried, Path(work)), enumerate(asked.items())) for mutant in some]
+    total = sum(map(len, asked.values()))
+    print(f"{total - len(left)} of {total} changes of a sign are noticed.")
+    return 1 if left else 0
+
+
+if __name__ == "__main__":
+    raise SystemExit(main())

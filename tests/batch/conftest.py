@@ -1,0 +1,20 @@
+"""What tests of studies share."""
+
+from __future__ import annotations
+
+import pytest
+
+from diecut_report.study import command
+from diecut_report.study.summary import summarise
+
+
+@pytest.fixture
+def without_summary(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Studies are left without their summary, which takes seconds."""
+    monkeypatch.setattr(command, "summarise", lambda _: None)
+
+
+@pytest.fixture
+def with_html_summary(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Studies get their summary as HTML alone."""
+    monkeypatch.setattr(command, "summarise", lambda folder: summarise(folder, ["html"]))

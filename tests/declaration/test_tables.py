@@ -1,0 +1,201 @@
+"""Mistakes with tables, series and axis ranges are told where they are declared, with what to write instead."""
+
+from __future__ import annotations
+
+import sys
+from collections.abc import Callable
+from pathlib import Path
+from typing import Annotated, Any, Literal
+
+import numpy as np
+import pytest
+
+from diecut_report.api import (
+    POINTS,
+    Block,
+    Chapter,
+    Inputs,
+    Mechanism,
+    Panel,
+    Plot,
+    Quantity,
+    Series,
+    Text,
+    own_series,
+    own_table,
+)
+from diecut_report.config.discovery import Discovery, PluginError
+from diecut_report.contract.place import Misdeclared
+from diecut_report.declaration import faults
+
+SOURCES = ("One", "Two")
+BEARINGS = own_table(
+    title="Bearings", columns={"bore": "mm", "C": "kN"}, rows={"small": (20, 13.5), "big": (25, 14.8)}, sources=SOURCES
+)
+ONLY_SMALL = own_table(title="Small", unit="mm", rows={"small": 20}, sources=SOURCES)
+FACTORS = own_table(title="Factors", columns={"teeth": "1", "Y": "1"}, rows=((12, 0.2), (15, 0.3)), sources=SOURCES)
+LIFTS = own_table(title="Lifts", columns={"turn": "deg", "lift": "mm"}, rows=((0, 0), (90, 1)), sources=SOURCES)
+RODS = own_series(title="Rods", unit="mm", values=(1, 2), sources=SOURCES)
+
+
+class Wheel(Block):
+    width: Annotated[float | None, Quantity("b_i", "mm", "Width of a wheel")] = None
+
+
+class Shaft(Inputs):
+    bearing: Annotated[Literal["small", "big"], Text("Bearing")] = "small"
+    teeth: Annotated[float, Quantity("z", "1", "Teeth")] = 13
+    length: Annotated[float, Quantity("l", "mm", "Length")] = 13
+    bore: Annotated[float | None, Quantity("d_g", "mm", "Bore")] = None
+    force: Annotated[float | None, Quantity("F", "N", "Force")] = None
+    wheels: Annotated[list[Wheel], Text("Wheels")] = []  # noqa: RUF012
+    n_points: Annotated[int, POINTS] = 36
+
+
+def told(declare: Callable[[Chapter], None], *figures: Any) -> list[str]:
+    chapter = Chapter("All")
+    declare(chapter)
+    mechanism = Mechanism(
+        kind="shaft", version="1", title="Shaft", summary="", inputs=Shaft, chapters=(chapter,), figures=figures
+    )
+    return [str(fault) for fault in faults(mechanism)]
+
+
+def lookup(table: Any = BEARINGS, **more: Any) -> Callable[[Chapter], None]:
+    wanted = {"by": "bearing", "column": "bore", **more}
+    return lambda chapter: chapter.lookup("d", "d", "mm", "Bore", table, **wanted)
+
+
+def between(table: Any = FACTORS, of: str = "teeth", unit: str = "1", **more: Any) -> Callable[[Chapter], None]:
+    def declare(chapter: Chapter) -> None:
+        chapter.value("twice", "2z", "1", "Twice the teeth", lambda teeth: 2 * teeth)
+        chapter.abscissa("turn", "φ", "deg", "Turn", period=2 * np.pi)
+        chapter.interpolated("y", "Y", unit, "Factor", table, of, **more)
+
+    return declare
+
+
+def pick(series: Any, of: str = "length") -> Callable[[Chapter], None]:
+    return lambda chapter: chapter.pick("rod", "r", "mm", "Rod", "above", of, series)
+
+
+MISTAKES = {
+    "a column that is not there": (lookup(column="bores"), "The table “Bearings” has no column 'bores'; it has bore, C"),
+    "no column named": (lookup(column=""), "has several columns; name one; it has bore, C"),
+    "a column of a plain table": (lookup({"small": 1.0, "big": 2.0}), "names the column bore, but its table has none"),
+    "a column in another unit": (lookup(column="C"), "the column C of the table is in kN, the step in mm"),
+    "a table of numbers looked up": (lookup(FACTORS, column="Y"), "which goes by numbers; take interpolated"),
+    "a text without a row": (lookup(ONLY_SMALL, column=""), "has no row in the table for bearing=big"),
+    "given that is no input": (lookup(given="boer"), "given is boer, which is no input that is a number (did you mean 'bore'?)"),
+    "given that is a text": (lookup(given="bearing"), "given is bearing, which is no input that is a number"),
+    "given that is always there": (lookup(given="length"), "given is length, which is always there; let it be float | None"),
+    "given in another unit": (lookup(given="force"), "given, force, is in N, the step in mm"),
+    "given of parts, a text of none": (lookup(given="wheels.width"), "both must be inputs of one list, or of none"),
+    "the step in another unit than the column": (between(unit="mm"), "the column Y of the table is in 1, the step in mm"),
+    "another quantity than the table goes by": (between(of="length"), "the column teeth of the table is in 1, length in mm"),
+    "no key of what is calculated": (between(of="twice"), 'takes twice, which may lie outside of the table; name the input'),
+    "a key that is not there": (between(of="twice", key="tooth"), "key is tooth, which is no input (did you mean 'teeth'?)"),
+    "a turn of which the table has a quarter": (between(LIFTS, "turn", "mm"), "takes turn, which may lie outside of the table"),
+    "a quantity that is not there": (between(of="tooth"), "takes tooth, which nothing gives"),
+    "a series in another unit": (pick(RODS, "teeth"), "the series “Rods” is in mm, teeth in 1"),
+    "a table as a series": (pick(BEARINGS), "takes from a table; name its column, table.series(…)"),
+}  # fmt: skip
+
+
+@pytest.mark.parametrize(("declare", "words"), MISTAKES.values(), ids=MISTAKES)
+def test_a_mistake_is_told_with_its_place(declare: Callable[[Chapter], None], words: str) -> None:
+    found = told(declare)
+    assert any(words in text for text in found), found
+    assert all(text.startswith("test_tables.py:") for text in found)
+
+
+@pytest.mark.parametrize(
+    ("table", "column", "words"),
+    [
+        (BEARINGS, "bore", "“Bearings” goes by names; one that goes by numbers is needed"),
+        (FACTORS, "X", "has no column 'X'; it has teeth, Y"),
+        (FACTORS, "teeth", "goes by teeth; take another column"),
+        ({1: 2}, "", "is no table; write one with own_table"),
+    ],
+)
+def test_what_cannot_be_gone_between_is_told_at_once(table: Any, column: str, words: str) -> None:
+    with pytest.raises(Misdeclared, match=rf"test_tables\.py:\d+: step y: .*{words}"):
+        told(between(table, column=column))
+
+
+@pytest.mark.parametrize(
+    "declare",
+    [
+        lookup(),
+        lookup(given="bore"),
+        between(),
+        between(of="twice", key="teeth"),
+        pick(RODS),
+        pick(BEARINGS.series("bore")),
+    ],
+)
+def test_what_is_sound_is_not_told(declare: Callable[[Chapter], None]) -> None:
+    assert told(declare) == []
+
+
+RANGES = {
+    "one end": (0, "has the range 0 in the panel 'Sine'; write its two ends, (0, None)"),
+    "ends that fall": ((1, 0), "has the range (1, 0) in the panel 'Sine', whose ends do not ascend"),
+    "an id that is not there": ((0, "tooth"), "draws tooth, which nothing gives"),
+    "an id in another unit": ((0, "length"), "draws length, in mm, on an axis in 1"),
+    "a curve": (("sine", None), "a number is wanted there"),
+}
+
+
+def turned(limits: Any) -> list[str]:
+    def declare(chapter: Chapter) -> None:
+        chapter.abscissa("turn", "φ", "deg", "Turn", period=2 * np.pi)
+        chapter.value("sine", "s", "1", "Sine", lambda turn: np.sin(turn))
+
+    panel = Panel(title="Sine", unit="1", series=(Series(curve="sine", label="s"),), range=limits)
+    return told(declare, Plot(id="p", title="P", caption="", abscissa="turn", panels=(panel,)))
+
+
+@pytest.mark.parametrize(("limits", "words"), RANGES.values(), ids=RANGES)
+def test_a_range_that_is_none_is_told(limits: Any, words: str) -> None:
+    assert any(words in text for text in turned(limits)), turned(limits)
+
+
+def test_a_sound_range_is_not_told() -> None:
+    assert turned((-1, None)) == turned((None, "teeth")) == turned((None, None)) == []
+
+
+PLUGIN = """
+from typing import Annotated
+from diecut_report.api import Chapter, Inputs, Mechanism, Quantity, table_beside
+
+class Own(Inputs):
+    teeth: Annotated[float, Quantity("z", "1", "Teeth")] = 13
+
+all_ = Chapter("All")
+all_.interpolated("y", "Y", "1", "Factor", table_beside(__file__, "factors.yaml"), of="teeth")
+MECHANISM = Mechanism(kind="own", version="1", title="Own", summary="", inputs=Own, chapters=(all_,))
+"""
+TABLE = "title: Factors\ncolumns: {teeth: '1', Y: '1'}\nsources: [One, Two]\nrows: [[12, 0.2], [15, 0.3]]\n"
+
+
+def _read_anew(folder: Path) -> None:
+    """Load the plugin as another run of the program does."""
+    for name in [name for name in sys.modules if name.startswith("diecut_report_local_") and name.endswith("_own")]:
+        del sys.modules[name]
+    Discovery([folder]).mechanism("own")
+
+
+def test_a_file_beside_a_plugin_is_judged_again_when_it_changes(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path / "cache"))
+    (tmp_path / "own.py").write_text(PLUGIN, "utf-8")
+    (tmp_path / "factors.yaml").write_text(TABLE, "utf-8")
+    _read_anew(tmp_path)
+    (tmp_path / "factors.yaml").write_text(TABLE.replace("Y: '1'", "Y: mm"), "utf-8")
+    with pytest.raises(PluginError, match="the column Y of the table is in mm, the step in 1"):
+        _read_anew(tmp_path)
+    (tmp_path / "factors.yaml").write_text(TABLE.replace("15", "11"), "utf-8")
+    with pytest.raises(PluginError, match=r"must ascend in teeth without repetition, but 11 follows 12. \(own.py:9\)"):
+        _read_anew(tmp_path)

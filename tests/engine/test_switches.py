@@ -1,0 +1,131 @@
+"""A curve that jumps where no breakpoint is declared is refused, with the formula, the condition and the place."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+import pytest
+
+from diecut_report.api import POINTS, Annotated, Chapter, Check, Inputs, Mechanism, Quantity, bind, case, formula
+from diecut_report.engine import Calculation, calculate
+from diecut_report.engine.calculation import Unproven
+
+DEGREE = np.pi / 180
+
+
+class Wheel(Inputs):
+    moment: Annotated[float, Quantity("M", "N*m", "Moment")] = 81
+    start: Annotated[float, Quantity("φ_1", "deg", "Start")] = 100
+    end: Annotated[float, Quantity("φ_2", "deg", "End")] = 102
+    n_points: Annotated[int, POINTS] = 36
+
+
+@formula(printed_as="w")
+def window(angle: Any, start: Any, end: Any) -> Any:
+    return np.where((angle > start) & (angle < end), 3, 1)
+
+
+FORMULAS: dict[str, Any] = {
+    "a narrow window": lambda angle, moment, start, end: moment * np.where((angle > start) & (angle < end), 3, 1),
+    "a window in a formula that prints by its name": lambda angle, moment, start, end: moment * window(angle, start, end),
+    "a window by its distance": lambda angle, moment, start, end: moment * np.where(abs(angle - start) < (end - start) / 50, 3, 1),
+    "a step": lambda angle, moment, start: moment * (2 + np.sign(angle - start)),
+    "a staircase": lambda angle, moment, start: moment * (1 + np.floor(angle / start)),
+    "a condition on a curve": lambda lift, moment: moment * np.where(lift > 0.9999, 3, 1),
+}  # fmt: skip
+CONTINUOUS: dict[str, Any] = {
+    "the greater": lambda angle, moment, start: moment * np.maximum(angle, start),
+    "two branches that meet": lambda angle, moment, start: moment * np.where(angle < start, start, angle),
+    "a condition on numbers": lambda angle, moment, start, end: np.where(start < end, moment, 0) * np.sin(angle),
+    "a condition that never changes": lambda angle, moment: moment * np.where(angle < 7, 1, 3),
+}
+
+
+def wheel(
+    torque: Any, *places: str, per_piece: bool = False, checks: tuple[Check, ...] = (), last: Any = None
+) -> Mechanism:
+    chapter = Chapter("Turn")
+    chapter.abscissa("angle", "φ", "deg", "Angle", 2 * np.pi)
+    chapter.breakpoints("edges", "angle", *places)
+    chapter.value("lift", "h", "1", "Lift", lambda angle: np.cos(angle - 1))
+    chapter.value("inner", "T_i", "N*m", "Inner torque", torque, per_piece=per_piece)
+    chapter.value("torque", "T", "N*m", "Torque", last or bind(lambda inner: inner))
+    if not checks:
+        chapter.reduction("peak", "T_max", "N*m", "Greatest torque", "max", "torque")
+    return Mechanism(kind="wheel", version="1", title="", summary="", inputs=Wheel, chapters=(chapter,), checks=checks)
+
+
+def run(mechanism: Mechanism, variants: int = 1, **given: Any) -> Calculation:
+    values = {"moment": 81.0, "start": 100 * DEGREE, "end": 102 * DEGREE, "n_points": 36, **given}
+    return calculate(mechanism, values, variants)
+
+
+@pytest.mark.parametrize("name", FORMULAS)
+def test_a_jump_without_a_breakpoint_is_refused(name: str) -> None:
+    with pytest.raises(Unproven) as caught:
+        run(wheel(FORMULAS[name]))
+    words = str(caught.value)
+    assert (
+        words.startswith("Torque (torque, test_switches.py:")
+        and "declare that place among the breakpoints of angle" in words
+    )
+    assert "changes in the formula inner of inner (test_switches.py:" in words
+
+
+def test_the_place_and_the_condition_are_told() -> None:
+    with pytest.raises(Unproven, match=r"jumps inside a smooth piece, at φ = 100°, where φ > φ_1 changes"):
+        run(wheel(FORMULAS["a narrow window"]))
+
+
+def test_with_its_places_declared_it_is_calculated() -> None:
+    calc = run(wheel(FORMULAS["a narrow window"], "start", "end"))
+    assert calc["peak"][0, 0] == 3 * 81
+
+
+@pytest.mark.parametrize("name", CONTINUOUS)
+def test_what_does_not_jump_is_calculated(name: str) -> None:
+    assert np.isfinite(run(wheel(CONTINUOUS[name]))["peak"]).all()
+
+
+def test_a_flag_that_changes_within_its_piece_is_refused() -> None:
+    flag = FORMULAS["a narrow window"]
+    with pytest.raises(Unproven, match="at φ = 100°, where φ > φ_1 changes"):
+        run(wheel(flag, per_piece=True))
+    assert run(wheel(flag, "start", "end", per_piece=True))["peak"][0, 0] == 3 * 81
+
+
+def test_a_varying_value_taken_at_the_middle_of_the_piece_is_refused() -> None:
+    with pytest.raises(
+        Unproven, match=r"takes a flag of its smooth pieces \(per_piece\) that is not constant within one"
+    ):
+        run(wheel(lambda angle, moment: moment * np.sin(angle), per_piece=True))
+
+
+def test_a_jump_of_which_nothing_is_left_is_no_fault() -> None:
+    calc = run(wheel(FORMULAS["a narrow window"], last=lambda inner, moment, angle: np.sin(angle) * moment + 0 * inner))
+    assert calc["peak"][0, 0] == pytest.approx(81)
+
+
+def test_a_choice_and_a_check_on_a_curve_are_searched_too() -> None:
+    check = Check(
+        id="weak", title="", demand="torque", limit=100.0, unit="N*m", demand_label="", limit_label="", consequence=""
+    )
+    with pytest.raises(Unproven, match="jumps inside a smooth piece"):
+        run(wheel(FORMULAS["a narrow window"], checks=(check,)))
+    chapter = Chapter("Turn")
+    chapter.abscissa("angle", "φ", "deg", "Angle", 2 * np.pi)
+    chapter.choice("torque", "T", "N*m", "Torque", case(lambda moment: 3 * moment, "within", lambda angle, start: angle < start),
+                   case(lambda moment: moment, "beyond"))  # fmt: skip
+    chapter.reduction("mean", "T_m", "N*m", "Mean torque", "mean", "torque")
+    of_choice = Mechanism(kind="wheel", version="1", title="", summary="", inputs=Wheel, chapters=(chapter,))
+    with pytest.raises(Unproven, match="at φ = 100°, where φ < φ_1 changes in its formula"):
+        run(of_choice)
+
+
+def test_each_variant_that_jumps_is_marked() -> None:
+    mechanism = wheel(FORMULAS["a narrow window"], "start", "end")
+    starts = np.array([10.0, 20, 30, 40, 50, 60, 70, 80, 90]) * DEGREE
+    assert not run(mechanism, 9, start=starts).flaws
+    open_one = wheel(FORMULAS["a narrow window"])
+    assert set(run(open_one, 9, start=starts).flaws) == set(range(9))

@@ -1,0 +1,186 @@
+"""Machines of every kind for the contract test: those of the examples, and such as have all that the examples leave out."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from functools import cache
+from typing import Any
+
+import numpy as np
+
+from diecut_report.config.discovery import Discovery
+from diecut_report.config.loader import load_config
+from diecut_report.contract.inputs import SI, Quantity, fields
+from diecut_report.contract.mechanism import Mechanism
+from diecut_report.engine import Calculation, CurveHandle, calculate
+from diecut_report.mechanics.motion_laws import LAWS
+from diecut_report.quantities.units import unit
+from diecut_report.results.comparisons import Found
+from diecut_report.results.press_run import Run, compute
+from tests.configs import EXAMPLES
+from tests.machines import PUBLISHED_CYLINDER, PUBLISHED_DRIVE, UNBALANCED, inputs
+from tests.plugins.clutches import COOLED
+from tests.plugins.drive_trains import EXAMPLE as TRAIN
+from tests.plugins.drive_trains import PAIRS, UNEVEN
+from tests.plugins.followers import SHAFT
+from tests.plugins.platens import GUIDED
+from tests.plugins.steppers import LOADED, PUBLISHED
+from tests.validation.rows_circular_knife import KEYS as CIRCULAR
+from tests.validation.rows_damper import WORKED as DAMPER
+
+DISCOVERY = Discovery([])
+OF_KINDS = {kind: DISCOVERY.mechanism(kind) for kind in DISCOVERY.origins}
+COMPARISONS = {c.mechanism.kind: c.mechanism for mechanism in OF_KINDS.values() for c in mechanism.comparisons}
+MECHANISMS = OF_KINDS | COMPARISONS
+CONFIGS = {path.stem: load_config(path, DISCOVERY) for path in EXAMPLES}
+
+Ranges = Mapping[str, tuple[float, float]]
+
+
+@dataclass(frozen=True)
+class Case:
+    """A machine: its inputs in SI as the engine takes them, and which of them vary widely, between which limits."""
+
+    mechanism: Mechanism
+    values: Mapping[str, Any]
+    widely: Ranges
+
+    def together(self, count: int, seed: int) -> tuple[dict[str, Any], Calculation]:
+        """So many machines at once, with the inputs in which they differ."""
+        varied = self.varied(count, seed)
+        return varied, calculate(self.mechanism, {**self.values, **varied}, count)
+
+    def varied(self, count: int, seed: int) -> dict[str, Any]:
+        """The inputs of so many machines, without those that they share: some differ widely, all other numbers a little."""
+        draw, known = np.random.default_rng(seed), dict(fields(self.mechanism.inputs))
+        found: dict[str, Any] = {}
+        for name, value in self.values.items():
+            meta, parts = known.get(name), value if isinstance(value, tuple) else (value,)
+            if not isinstance(meta, Quantity) or not all(isinstance(part, int | float) for part in parts):
+                continue
+            if name in self.widely:
+                drawn = draw.uniform(*self.widely[name], count)
+                found[name] = np.round(drawn) if meta.integer else drawn
+            elif not meta.integer:
+                rows = [
+                    np.where(meta.holds(near := part * draw.uniform(0.99, 1.01, count)), near, part) for part in parts
+                ]
+                found[name] = tuple(rows) if isinstance(value, tuple) else rows[0]
+        return found
+
+
+# Keys that the examples do not give, and limits (SI) wide enough that some machines cannot exist.
+KNIFE: dict[str, Any] = {"working_depth": 40, "signature_length": 273, "n_points": 72}
+LINKAGE: dict[str, Any] = {"crank": 20, "coupler": 110, "rocker": 80, "frame": 120, "knife_arm": 107}
+KNIVES: dict[str, Any] = KNIFE | {"planetary": {"carrier_radius": 65.656}, "crank_slider": {"crank_radius": 35, "rod_length": 140}}  # fmt: skip
+CROSS: dict[str, Any] = {
+    "slots": 6, "center_distance": "200 mm", "crank_speed": "100 rpm", "roller_radius": "10 mm", "sprocket_teeth": 24,
+    "chain_pitch": "31.75 mm", "gear_ratio": 4, "driven_inertia": 1, "roller_width": "20 mm", "n_points": 72,
+}  # fmt: skip
+BELT: dict[str, Any] = {
+    "cylinder_radius": "105 mm", "driven_radius": "60 mm", "cylinder_velocity": "1 m/s", "shaft_speed": "150 rpm", "pitch": "8 mm",
+    "pulleys": [{"x": 0, "y": 0, "radius": 100, "side": "inside"}, {"x": 600, "y": 0, "radius": 100, "side": "inside"},
+                {"x": 300, "y": 70, "radius": 50, "side": "outside"}],
+}  # fmt: skip
+SLIDE: dict[str, Any] = {
+    "mass": "0.8 kg",
+    "stiffness": "5200 N/m",
+    "damping_ratio": 0.05,
+    "rise": "1.2 m",
+    "rise_time": "0.2 s",
+}
+FULL: dict[str, dict[str, dict[str, Any]]] = {
+    "cam_gear_transport": {law: PUBLISHED | LOADED | {"motion_law": law, "n_points": 72} for law in LAWS},
+    "circular_knife": {"worked": CIRCULAR | {"n_points": 72}},
+    "clutch": {"cooled": COOLED},
+    "cylinder_drive": {"unbalanced": PUBLISHED_DRIVE | UNBALANCED | {"n_points": 72}, "published": PUBLISHED_DRIVE | {"n_points": 72}},
+    "cylinder_sizing": {"published": PUBLISHED_CYLINDER, "sized": {"working_length": 500, "segment_height": 30, "generatrix_length": 700}},
+    "damper": {"driven": DAMPER | {"drive": {"force": 1}, "impacts_per_hour": 3000}},
+    "drive_train": {
+        "flywheel": TRAIN | {"gears": PAIRS, "torque_curve": UNEVEN, "torque_mean": 189.1667, "torque_peak": 1500, "power_per_belt": 2},
+        "toothed belt": TRAIN | {"toothed_belt": BELT},
+    },
+    "elastic_follower": {
+        "shaft": SHAFT | {"n_points": 72, "motion_law": "modified_trapezoidal"},
+        "slide": SLIDE | {"n_points": 72},
+    },
+    "geneva_transport": {"loaded": CROSS},
+    "knife_drive": {side: KNIVES | {"crank_rocker": LINKAGE | {"lowest_dead_center": side}} for side in ("outer", "inner")},
+    "platen_press": {"guided": GUIDED | {"n_points": 72, "crank_pin_length": "100 mm"}},
+}  # fmt: skip
+WIDELY: dict[str, Ranges] = {
+    "cam_gear_transport": {"dwell_angle": (1.5, 4.2), "sector_stop_sweep": (0.1, 0.6), "arm_length": (0.05, 0.1), "cycles_per_hour": (1, 2)},
+    "circular_knife": {"eccentricity": (0.01, 0.04), "edge_radius": (0.06, 0.14), "front_distance": (0.01, 0.06),
+                       "thickness": (2e-4, 3e-3), "friction": (0, 0.4)},
+    "clutch": {"torque": (10, 2000), "wedge_angle": (0.02, 1.5), "wedge_friction": (0, 0.9), "load_torque_at_engagement": (0, 300),
+               "engagements_per_hour": (0, 0.1), "drum_mass": (0.5, 30)},
+    "cylinder_drive": {"frame_ratio": (4.6, 6.2), "coupler_ratio": (4.6, 5.6), "rocker_ratio": (1.9, 3.0), "crank_speed": (3, 13),
+                       "cylinder_mass": (40, 160), "static_unbalance": (0, 3), "cutting_arc_fraction": (0.3, 1.0),
+                       "efficiency_four_bar": (0.6, 1.0), "cutting_force_per_length": (0, 8e4)},
+    "cylinder_sizing": {"working_length": (0.2, 0.9), "segment_height": (0.005, 0.06), "bore_radius": (0, 0.13)},
+    "damper": {"kinetic_energy": (1, 500), "drive.force": (1, 5000), "ring_width": (1e-3, 0.2)},
+    "drive_train": {"output_speed": (5, 40), "vbelt.center_distance": (0.5, 0.9), "toothed_belt.shaft_speed": (2, 60)},
+    "elastic_follower": {"stiffness": (1e3, 9e4), "damping_ratio": (0, 0.5), "dwell_cycles": (0.5, 9)},
+    "geneva_transport": {"slots": (3, 18), "center_distance": (0.05, 0.3), "roller_radius": (0.004, 0.03), "crank_speed": (3, 20),
+                         "driven_inertia": (0.1, 9), "locking_clearance": (0, 2e-4)},
+    "knife_drive": {"working_depth": (0.005, 0.06), "cylinder_rate": (2, 12), "planetary.carrier_radius": (0.012, 0.08),
+                    "crank_slider.crank_radius": (0.02, 0.05), "crank_slider.rod_length": (0.045, 0.2),
+                    "crank_rocker.crank": (0.012, 0.04), "crank_rocker.knife_arm": (0.08, 0.25), "grip_angle": (0.02, 0.2)},
+    "platen_press": {"material_thickness": (1e-4, 3e-3), "drive_deformation": (1e-4, 2e-3), "rod_length": (0.08, 1.2),
+                     "cycles_per_hour": (0.1, 2), "offset_force": (-0.02, 0.02), "friction": (0, 0.3)},
+}  # fmt: skip
+
+
+@cache
+def example(stem: str) -> Run:
+    """An example, calculated."""
+    return compute(CONFIGS[stem], lambda _: None)
+
+
+def names(kind: str) -> list[str]:
+    """The machines of a kind: those of the examples as ``EXAMPLE-NAME``, and the full ones."""
+    if kind in COMPARISONS:
+        return [f"{stem}-" for stem, config in CONFIGS.items() if kind in _compared(set(config.kinds.values()))]
+    found = [f"{stem}-{name}" for stem, config in CONFIGS.items() for name, k in config.kinds.items() if k == kind]
+    return [*found, *FULL.get(kind, {})]
+
+
+def _compared(kinds: set[str]) -> set[str]:
+    """The comparisons that are made between mechanisms of these kinds."""
+    return {c.mechanism.kind for kind in kinds for c in OF_KINDS[kind].comparisons if kinds.issuperset(c.kinds)}
+
+
+def case(kind: str, name: str) -> Case:
+    """A machine of a kind by its name."""
+    stem, _, instance = name.partition("-")
+    if name in FULL.get(kind, {}):
+        return Case(MECHANISMS[kind], inputs(MECHANISMS[kind], FULL[kind][name]), WIDELY[kind])
+    run = example(stem)
+    if kind in COMPARISONS:
+        return Case(
+            MECHANISMS[kind], _taken(next(c for c in run.cases if c.comparison.mechanism.kind == kind), run), {}
+        )
+    return Case(MECHANISMS[kind], _given(run.calculations[instance]), {})
+
+
+def _given(calc: Calculation) -> dict[str, Any]:
+    """What a single machine was calculated from, as the engine takes it, with fewer samples of its curves."""
+    values = {name: value if not isinstance(value, np.ndarray) else tuple(map(float, value[0])) if name in calc.axis else float(value[0, 0])
+              for name, value in calc.inputs.items()}  # fmt: skip
+    return values | ({"n_points": 72} if "n_points" in values else {})
+
+
+def _taken(found: Found, run: Run) -> dict[str, Any]:
+    """What a comparison takes from the results of others, as the engine takes it."""
+    values: dict[str, Any] = {}
+    for key, (kind, name) in found.comparison.takes.items():
+        calc = run.calculations[found.between[kind]]
+        known = calc.values.get(name, calc.inputs.get(name))
+        if name in calc.curves:
+            values[key] = CurveHandle(calc, name)
+        elif isinstance(known, str):
+            values[key] = known
+        elif known is not None and not np.isnan(known[0, 0]):
+            values[key] = SI(float(known[0, 0]), unit(calc.step_or_input(name).unit).si, name)
+    return inputs(found.comparison.mechanism, values)

@@ -1,0 +1,151 @@
+"""A table of an author's own is checked where it is written, in the plugin or in a file beside it."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from diecut_report.standards import StandardFault, StandardTable, own_series, own_table, table_beside
+
+STEELS: dict[str, Any] = {
+    "title": "Steels",
+    "columns": {"R_e": "MPa", "ρ": "kg/m**3"},
+    "rows": {"S235": (235, 7850), "S355": (355, 7850)},
+    "sources": ("One", "Two"),
+}
+FACTORS: dict[str, Any] = {
+    "title": "Factors",
+    "columns": {"teeth": "1", "Y": "1"},
+    "rows": ((12, 0.245), (15, 0.29), (20, 0.32)),
+    "sources": ("One", "Two"),
+}
+YAML = """
+title: Steels
+columns: {R_e: MPa, ρ: kg/m**3}
+sources: [One, Two]
+rows:
+  S235: [235, 7850]
+  S355: [355, 7850]
+"""
+JSON = '{"title": "Factors", "columns": {"teeth": "1", "Y": "1"}, "sources": ["One", "Two"], "rows": [[12, 0.245], [15, 2.9e-1], [20, 0.32]]}'
+CSV = """# title: Steels
+# source: One
+# source: Two
+
+grade, R_e [MPa], ρ [kg/m**3]
+S235, 235, 7850
+S355, 355, 7850
+"""
+
+
+def test_rows_by_name_have_columns_with_their_units() -> None:
+    table = own_table(**STEELS)
+    assert table.by_name("R_e") == {"S235": 235.0, "S355": 355.0} and table.column("ρ").unit == "kg/m**3"
+    one = own_table(
+        title="Densities", unit="kg/m**3", rows={"steel": 7850}, sources=("One",), only_source="the maker's own"
+    )
+    assert one.values == {"steel": 7850.0} and one.unit == "kg/m**3"
+
+
+def test_a_column_is_a_series_of_its_different_values() -> None:
+    series = own_table(**STEELS).series("ρ")
+    assert (series.values, series.unit, series.title, series.sources) == (
+        (7850.0,),
+        "kg/m**3",
+        "Steels: ρ",
+        ("One", "Two"),
+    )
+
+
+@pytest.mark.parametrize(
+    ("name", "text", "wanted"), [("a.yaml", YAML, STEELS), ("a.json", JSON, FACTORS), ("a.csv", CSV, STEELS)]
+)
+def test_a_file_beside_a_plugin_holds_the_same(tmp_path: Path, name: str, text: str, wanted: dict[str, Any]) -> None:
+    (tmp_path / name).write_text(text, encoding="utf-8")
+    read, written = table_beside(str(tmp_path / "plugin.py"), name), own_table(**wanted)
+    assert (read.columns, read.names, read.sources, read.title) == (
+        written.columns,
+        written.names,
+        written.sources,
+        written.title,
+    )
+    assert (read.id, read.file) == ("a", str(tmp_path / name))
+
+
+FAULTS = {
+    "no title": (STEELS, {"title": " "}, "has no title"),
+    "one source": (STEELS, {"sources": ("One",)}, "needs two sources that agree, or one and only_source="),
+    "the same source twice": (STEELS, {"sources": ("One", "One")}, "needs two sources"),
+    "no source": (STEELS, {"sources": (), "only_source": "none"}, "needs two sources"),
+    "sources as a text": (STEELS, {"sources": "One, Two"}, "needs its sources as texts in brackets"),
+    "unit and columns": (STEELS, {"unit": "mm"}, "needs one of unit="),
+    "neither": (STEELS, {"columns": None}, "needs one of unit="),
+    "no rows": (STEELS, {"rows": {}}, "has no rows"),
+    "a short row": (STEELS, {"rows": {"S235": (235,)}}, "has 1 values in the row 'S235', where 2 are needed"),
+    "a text as a value": (STEELS, {"rows": {"S235": (235, "7850")}}, "holds '7850' in the row 'S235'"),
+    "yes as a value": (STEELS, {"rows": {"S235": (235, True)}}, "holds True in the row 'S235'"),
+    "no finite value": (FACTORS, {"rows": ((12, 0.2), (15, float("nan")))}, r"holds nan in the row \(15, nan\)"),
+    "a name twice": (STEELS, {"rows": (("S235", 235, 1), ("S235", 236, 1))}, "has two rows of the name 'S235'"),
+    "a name that is none": (STEELS, {"rows": (("S235", 235, 1), (235, 1, 1))}, "has the name 235 of a row"),
+    "descending": (FACTORS, {"rows": ((15, 0.29), (12, 0.245))}, "must ascend in teeth without repetition, but 12 follows 15"),
+    "a number twice": (FACTORS, {"rows": ((12, 0.2), (12, 0.3))}, "must ascend in teeth without repetition, but 12 follows 12"),
+    "one row": (FACTORS, {"rows": ((12, 0.2),)}, "has too few values; give two rows"),
+    "one column of numbers": (FACTORS, {"columns": {"teeth": "1"}, "rows": ((12,), (13,))}, "goes by the numbers of its first column"),
+    "an unknown unit": (FACTORS, {"columns": {"teeth": "1", "Y": "furlongz"}}, "has no usable unit of Y: .*furlongz"),
+}  # fmt: skip
+
+
+@pytest.mark.parametrize(("sound", "change", "told"), FAULTS.values(), ids=FAULTS)
+def test_a_fault_is_told(sound: dict[str, Any], change: dict[str, Any], told: str) -> None:
+    with pytest.raises(StandardFault, match=f"^The table “.*” {told}"):
+        own_table(**{**sound, **change})
+
+
+def test_a_column_that_is_not_there_is_told() -> None:
+    table = own_table(**STEELS)
+    for name, told in (
+        ("R_m", "has no column 'R_m'; it has R_e, ρ"),
+        ("", "has several columns; name one; it has R_e, ρ"),
+    ):
+        with pytest.raises(StandardFault, match=told):
+            table.column(name)
+
+
+def test_a_series_of_ones_own_ascends() -> None:
+    given: dict[str, Any] = {"title": "Rods", "unit": "mm", "sources": ("One", "Two")}
+    assert own_series(values=(1, 2), **given).values == (1.0, 2.0)
+    for values, told in (((2, 1), "must ascend"), ((), "has no values"), ((1, "2"), "holds '2'")):
+        with pytest.raises(StandardFault, match=told):
+            own_series(values=values, **given)  # type: ignore[arg-type]
+
+
+@pytest.mark.parametrize(
+    ("name", "text", "told"),
+    [
+        ("a.yaml", "title: Steels\nrows: {a: 1}\nsources: [One, Two]\nunits: mm", "units: Extra inputs"),
+        ("a.yaml", "title: Steels\nunit: mm\nsources: [One, Two]", "rows: Field required"),
+        ("a.yaml", YAML + "  S355: [360, 7850]", "'S355' stands twice"),
+        ("a.yaml", YAML.replace("235, 7850", "2:35, 7850"), "holds '2:35' in the row 'S235'"),
+        ("a.yaml", "[", "cannot be read"),
+        ("a.json", "", "is not written as a table"),
+        ("a.csv", "# title: Steels", "no line with the names of its columns"),
+        ("a.csv", CSV.replace("ρ [kg/m**3]", "R_e [MPa]"), "two of its columns have one name"),
+        ("a.csv", CSV.replace("355, 7850", "355"), "has 1 values in the row 'S355'"),
+        ("a.csv", CSV.replace("# title: Steels", ""), "title: Field required"),
+    ],
+)
+def test_a_file_that_is_no_table_is_told(tmp_path: Path, name: str, text: str, told: str) -> None:
+    (tmp_path / name).write_text(text, encoding="utf-8")
+    with pytest.raises(StandardFault, match=told):
+        table_beside(str(tmp_path / "plugin.py"), name)
+
+
+def test_a_file_that_is_not_there_is_told(tmp_path: Path) -> None:
+    with pytest.raises(StandardFault, match=r"b\.yaml cannot be read"):
+        table_beside(str(tmp_path / "plugin.py"), "b.yaml")
+
+
+def test_a_table_is_data() -> None:
+    assert isinstance(own_table(**STEELS), StandardTable) and own_table(**STEELS) == own_table(**STEELS)
