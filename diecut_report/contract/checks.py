@@ -13,7 +13,7 @@ class Check:
     """``demand`` ≤ ``limit``, and ``at_least`` ≤ ``demand`` where that is given (ids, or plain numbers in ``unit``).
 
     The utilisation is demand / limit, and null where the limit is not above zero; of a two-sided check it is the worse of
-    that and at_least / demand. A row over like parts is judged part by part, and the worst one governs; a curve where
+    that and at_least / demand. A row over repeated parts is judged part by part, and the worst one governs; a curve where
     it goes furthest beyond its limit. ``consequence`` may name the part of a row that governs: ``{part}``, counted from 1.
 
     For an upper bound the demand is the machine's and the limit the allowed value; for a lower bound the demand is

@@ -42,7 +42,7 @@ NUMBER, ROW, CURVE = (
 )
 CURVE_INPUT = frozenset({"curve input"})
 SAID = {
-    NUMBER: "a single number", ROW: "a number or a row over like parts", CURVE: "a number, a row or a curve",
+    NUMBER: "a single number", ROW: "a number or a row over repeated parts", CURVE: "a number, a row or a curve",
     CURVE_INPUT: "an input declared as a CurveInput",
 }  # fmt: skip
 Asked = tuple[str, str, frozenset[str], str]  # the field, the name in it, what it may be, and what is wanted in words
@@ -83,7 +83,7 @@ def _asked(step: Step) -> Iterator[Asked]:
             yield "of", of, frozenset({"curve"}), "a curve over an abscissa"
         case Total(of=of) | Neighbour(of=of) | Running(of=of) | Part(of=of):
             for field, name in (("of", of), ("among", getattr(step, "among", ""))):
-                yield from ((field, name, frozenset({"row"}), "a row over like parts"),) if name else ()
+                yield from ((field, name, frozenset({"row"}), "a row over repeated parts"),) if name else ()
         case Pick(of=of):
             yield "of", of, ROW, ""
         case Words():

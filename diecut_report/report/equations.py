@@ -112,7 +112,7 @@ class Equations:
         return Link(self.latex.symbol(name), self.linear.symbol(name)) if name else Link()
 
     def _reduced(self, item: Item) -> list[Link]:
-        """What is taken of a curve or of like parts: max V, mean M …"""
+        """What is taken of a curve or of repeated parts: max V, mean M …"""
         name, operation = item["of"], item["operation"]
         if not name or operation == "pick":
             return []

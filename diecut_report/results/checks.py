@@ -100,7 +100,7 @@ def _sides(calc: Calculation, check: Check, pair: tuple[str | float, ...]) -> tu
 
 def _side(calc: Calculation, name: str) -> Array:
     found: Any = calc[name]
-    if isinstance(found, tuple):  # an optional input of like parts, which some do not have
+    if isinstance(found, tuple):  # an optional input of repeated parts, which some do not have
         columns = [np.broadcast_to(np.nan if part is None else part, (calc.count,)) for part in found]
         return np.stack(columns, axis=1)
     return np.asarray(found, dtype=float)

@@ -118,9 +118,9 @@ FAULTS: dict[str, tuple[Mechanism, str]] = {
     "a text for a tuple": (made(key_results="moment"), "has key_results='moment', a text; write a tuple, ('moment',)"),
     "a text for places": (made(Breakpoints(id="b", abscissa="angle", places="arm")), "has places='arm', a text"),
     # rows and curves of what has none
-    "a total of a number": (made(of_bars(Total, of="arm", operation="sum")), "of is arm, a number; a row over like parts is wanted"),
-    "a total among a number": (made(of_bars(Total, operation="sum", among="arm")), "among is arm, a number; a row over like parts is wanted"),
-    "a part of a curve": (made(of_bars(Part, "N*m", of="torque", index=0)), "of is torque, a curve; a row over like parts is wanted"),
+    "a total of a number": (made(of_bars(Total, of="arm", operation="sum")), "of is arm, a number; a row over repeated parts is wanted"),
+    "a total among a number": (made(of_bars(Total, operation="sum", among="arm")), "among is arm, a number; a row over repeated parts is wanted"),
+    "a part of a curve": (made(of_bars(Part, "N*m", of="torque", index=0)), "of is torque, a curve; a row over repeated parts is wanted"),
     "a running of a number": (made(of_bars(Running, of="arm", operation="sum")), "of is arm, a number"),
     "a neighbour of a number": (made(of_bars(Neighbour, of="arm")), "of is arm, a number"),
     "crossings of a number": (made(Crossings(id="x", symbol="x", unit="deg", description="x", of="moment")), "of is moment, a number"),

@@ -13,6 +13,7 @@ import pytest
 
 from diecut_report.contract.inputs import Quantity
 from diecut_report.contract.mechanism import Mechanism
+from diecut_report.contract.result_names import named
 from diecut_report.contract.steps import Crossings
 from diecut_report.engine import Calculation, Impossible, Unproven, calculate
 from diecut_report.results.checks import applies, judged
@@ -126,7 +127,9 @@ def scales(calc: Calculation) -> dict[str, float]:
 
 def is_place(calc: Calculation, name: str) -> bool:
     """Whether a number is a place that was found by search."""
-    return name.endswith("_at") or name in calc.named or isinstance(calc.steps.get(name), Crossings)
+    found = named(name, calc.steps)
+    is_found = found is not None and found.role in ("place", "crossing")
+    return is_found or isinstance(calc.steps.get(name), Crossings)
 
 
 def same_curves(together: Calculation, alone: Calculation, i: int) -> None:
