@@ -68,7 +68,6 @@ def test_a_page_tells_each_unit_with_its_key_and_lists_spectra() -> None:
     assert "| `amplitude_1` (a curve) | q_1 | 1 | Amplitude 1 | made up |  |" in lines
 
 
-@pytest.mark.repository
 def test_the_third_plugin_of_the_guide_takes_from_its_tables(tmp_path: Path) -> None:
     pinion = example(tmp_path, 3)
     calc = calculate(pinion, flatten(pinion.inputs.model_validate({"bearing": "6205", "teeth": 18})))

@@ -44,8 +44,11 @@ def _taken(step: Step, names: DeclaredNames, number: int) -> Iterator[tuple[str,
             yield of, _units(names, of, step, number)
             several = series.values() if isinstance(series, Mapping) else (series,)
             yield from ((f"the series {one.title}", {one.unit}) for one in several if isinstance(one, StandardSeries))
-        case Lookup(table=StandardTable() as table):
-            yield f"the table {table.title}", {table.unit}
+        case Lookup(table=StandardTable() as table, column=column):
+            yield (
+                f"the table {table.title}",
+                {one.unit for one in table.of_values if len(table.of_values) == 1 or one.name == column},
+            )
 
 
 def kind_of(text: str) -> object:

@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclassfrom types import MappingProxyType
+
 
 
 class StandardFault(ValueError):
@@ -77,7 +78,7 @@ class StandardTable:
 
     def by_name(self, column: str = "") -> Mapping[str, float]:
         """Return a column by the rows' names."""
-        return dict(zip(self.names, self.column(column).values, strict=True)) if self.names else {}
+        return MappingProxyType(dict(zip(self.names, self.column(column).values, strict=True)) if self.names else {})
 
     def series(self, column: str = "") -> StandardSeries:
         """Return the different values of a column in ascending order, as a standard series."""

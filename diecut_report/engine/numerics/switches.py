@@ -21,7 +21,7 @@ from diecut_report.engine.calculation import Calculation, CurveSampler
 from diecut_report.engine.numerics.discontinuities import STEPWISE, expanded
 from diecut_report.expressions import Array, Node, evaluate, symbols, walk
 
-APART = 1e-8  # share of the period within which a place is the end of its piece
+APART = 1e-6  # share of the period within which a place is the end of its piece: what only touches there is decided by the root of rounding
 JUMP = 1e-9  # share of a curve's greatest value by which it moves at a jump
 ZOOMS, PARTS = 12, 16  # how often the place where a difference is least is looked at in so many parts of what is left
 FLAT = 0.1  # of a gap: where it moves by less about its least value that is not nothing

@@ -7,7 +7,7 @@ from typing import Annotated, Any, Literal
 
 from pydantic import BeforeValidator, Field, create_model
 
-from diecut_report.config import loader
+from diecut_report.config.model import ConfigDocument
 from diecut_report.contract.inputs import Block, Quantity, Text
 from diecut_report.study.definition.base_inputs import Input
 
@@ -51,7 +51,7 @@ Texts = Annotated[list[Annotated[str, Field(min_length=1)]], Field(default_facto
 class StudyDocument(Block):
     """The whole study file; what is varied is judged path by path."""
 
-    schema_version: Annotated[Literal[1], BeforeValidator(loader.Document.a_number)]
+    schema_version: Annotated[Literal[1], BeforeValidator(ConfigDocument.a_number)]
     base: Annotated[str, Text("The config that is varied, beside the study file"), Field(min_length=1)]
     sample: Annotated[SampleForm, Text("How the variants are taken")]
     vary: Annotated[
