@@ -272,7 +272,7 @@ REST: dict[str, Any] = {"symbol": "y", "description": "Quantity"}
 )
 def test_what_runs_over_an_angle_has_its_unit(made: Step, unit: str, found: str) -> None:
     check_mechanism(wheel(TURN, RISE, replace(made, unit=unit)))
-    with pytest.raises(AssertionError, match="declared is|is in 1, x in deg"):
+    with pytest.raises(AssertionError, match=r"declared is|is in 1, x in deg"):
         check_mechanism(wheel(TURN, RISE, replace(made, unit=found)))
 
 

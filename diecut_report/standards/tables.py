@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclassfrom types import MappingProxyType
-
+from dataclasses import dataclass
+from types import MappingProxyType
 
 
 class StandardFault(ValueError):
