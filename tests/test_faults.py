@@ -8,6 +8,7 @@ from typing import Any
 
 import pytest
 
+from diecut_report import declaration
 from diecut_report.cli.main import main
 from tests.configs import HEAD, saved
 
@@ -98,6 +99,13 @@ def results(tmp_path: Path) -> dict[str, Any]:
     return found
 
 
+@pytest.fixture
+def undeclared(monkeypatch: pytest.MonkeyPatch) -> None:
+    """What declarations tell is not asked: a fault shows where it strikes, as one of the program's own plugins would."""
+    monkeypatch.setattr(declaration, "faults", lambda mechanism: [])
+
+
+@pytest.mark.usefixtures("undeclared")
 @pytest.mark.parametrize("command", ["calc", "report"])
 @pytest.mark.parametrize("fault", IN_CALC)
 def test_a_figure_that_fails_costs_the_figure(tmp_path: Path, capfd: Capture, command: str, fault: str) -> None:
@@ -133,6 +141,7 @@ def test_the_report_shows_a_box_in_the_place_of_a_lost_figure(tmp_path: Path) ->
     assert (tmp_path / "out" / "press.pdf").read_bytes().startswith(b"%PDF")
 
 
+@pytest.mark.usefixtures("undeclared")
 @pytest.mark.parametrize(
     ("columns", "words"),
     [(("width", "height"), "'width' is a number"), (("height", "heigth"), "'heigth' is no quantity")],
@@ -147,6 +156,7 @@ def test_an_export_that_fails_costs_the_export(tmp_path: Path, capfd: Capture, c
     assert "Edge could not be written" in (tmp_path / "out" / "press.html").read_text("utf-8")
 
 
+@pytest.mark.usefixtures("undeclared")
 def test_an_export_of_what_is_no_length_costs_the_export(tmp_path: Path, capfd: Capture) -> None:
     exports = "(Profile(id='edge', title='Edge', columns=('angle', 'height')),)"
     assert run(tmp_path, "report", folder(tmp_path, exports=exports), "--format", "json") == 3
