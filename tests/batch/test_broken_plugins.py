@@ -109,7 +109,7 @@ DECLARED = {
 def test_what_cannot_be_declared_is_told_before_anything_is_written(tmp_path: Path, capfd: Capture, name: str) -> None:
     step, words = DECLARED[name]
     code, told = ran(tmp_path, step, capfd)
-    assert (code, len(told.splitlines())) == (3, 1)
+    assert code == 3 and "Traceback" not in told
     assert told.startswith("mechanism 'm' of plugin 'breaking': ") and words in told
     assert not (tmp_path / "out").exists()
 
@@ -142,8 +142,7 @@ def test_a_default_of_the_press_that_breaks_leaves_no_mechanism_out_in_silence(t
     saved(tmp_path, BASE)
     study = saved(tmp_path, STUDY, "study.yaml")
     assert main(["batch", str(study), "-o", str(tmp_path / "out"), "--plugins", str(tmp_path / "plugins")]) == 3
-    assert {row["status"] for row in rows(tmp_path)} == {"error"}
-    assert "KeyError: 'nothing'" in rows(tmp_path)[0]["error"]
+    assert "formula missing cannot print" in capfd.readouterr().err and not (tmp_path / "out").exists()
 
 
 def test_a_validator_that_breaks_for_a_variant_is_a_fault_of_the_plugin(tmp_path: Path, capfd: Capture) -> None:

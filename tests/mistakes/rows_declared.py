@@ -7,8 +7,7 @@ from tests.mistakes.rows import calc, load
 # fmt: off
 
 DECLARED = (
-    load("a misspelt field of a step", 'lacks=("pretension",)', 'lack=("pretension",)', "lack", "lacks",
-         now="the place is the program's, not the plugin's"),
+    load("a misspelt field of a step", 'lacks=("pretension",)', 'lack=("pretension",)', "lack", "lacks"),
     load("a misspelt field of a check", 'severity="warn"', 'severty="warn"', "Check", "severty"),
     load("a misspelt field of the mechanism", "    assumptions=(", "    asumptions=(", "Mechanism", "asumptions"),
     load("a step without a formula",

@@ -82,8 +82,6 @@ FORMULAS = (
          "def hanging_weight(line_mass: Any, height: Any = 2)", "hanging_weight", "default", now="silent: the default is never used"),
     load("a list as a default", "def hanging_weight(line_mass: Any, height: Any)",
          "def hanging_weight(line_mass: Any, height: Any, seen: Any = [])", "lift_force", "seen, which nothing gives"),
-    load("a formula in place of its name", "right=length_by_wraps", 'right="length_by_wraps"', "length_by_wraps",
-         now="in words of Python, without the step"),
-    load("a formula that is called", "right=length_by_wraps", "right=length_by_wraps(1, 2, 3)", "length_by_wraps|centre",
-         now="in words of Python, without the step"),
+    load("a formula in place of its name", "right=length_by_wraps", 'right="length_by_wraps"', "length_by_wraps"),
+    load("a formula that is called", "right=length_by_wraps", "right=length_by_wraps(1, 2, 3)", "length_by_wraps|centre"),
 )
