@@ -134,15 +134,16 @@ def test_a_continued_run_tells_it_again(tmp_path: Path, capfd: Capture) -> None:
 
 
 def test_a_default_of_the_press_that_breaks_leaves_no_mechanism_out_in_silence(tmp_path: Path, capfd: Capture) -> None:
-    press = 'z: Annotated[float | None, Quantity("z", "1/h", "Z", gt=0, press=FromPress("press.productivity", missing))] = None'
-    helper = '@formula\ndef missing(x: Any) -> Any:\n    return x * {}["nothing"]\n\n\nclass Breaking'
+    press = 'z: Annotated[float | None, Quantity("z", "1/h", "Z", gt=0, press=FromPress("press.productivity", strange))] = None'
+    helper = '@formula\ndef strange(x: Any) -> Any:\n    return x * {}["nothing"]\n\n\nclass Breaking'
     (tmp_path / "plugins").mkdir()
     text = PLUGIN.format(step=VALUE.format("twice")).replace("# inputs", press).replace("class Breaking", helper)
     saved(tmp_path / "plugins", text, "breaking.py")
     saved(tmp_path, BASE)
     study = saved(tmp_path, STUDY, "study.yaml")
     assert main(["batch", str(study), "-o", str(tmp_path / "out"), "--plugins", str(tmp_path / "plugins")]) == 3
-    assert "formula missing cannot print" in capfd.readouterr().err and not (tmp_path / "out").exists()
+    assert {row["status"] for row in rows(tmp_path)} == {"error"}
+    assert "KeyError: 'nothing'" in rows(tmp_path)[0]["error"]
 
 
 def test_a_validator_that_breaks_for_a_variant_is_a_fault_of_the_plugin(tmp_path: Path, capfd: Capture) -> None:
