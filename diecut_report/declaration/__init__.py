@@ -16,6 +16,7 @@ from diecut_report.declaration import (
     messages,
     order,
     remembered,
+    shape,
     spectra,
     symbols,
     tables,
@@ -49,7 +50,7 @@ __all__ = ["Fault", "faults", "faults_at_load"]
 
 def faults_at_load(mechanism: Mechanism) -> list[Fault]:
     """Return what ``faults`` returns; a plugin that was found sound before is not judged again until one of its files changes."""
-    key = "" if list(formulas.unmarked(mechanism)) else remembered.content(mechanism)
+    key = "" if shape.faults(mechanism) or list(formulas.unmarked(mechanism)) else remembered.content(mechanism)
     if key and remembered.is_sound(key):
         return []
     found = faults(mechanism)
@@ -60,7 +61,7 @@ def faults_at_load(mechanism: Mechanism) -> list[Fault]:
 
 def faults(mechanism: Mechanism) -> list[Fault]:
     """Return every mistake in what a mechanism declares, and in its comparisons; in the order of reading."""
-    found = list(formulas.unmarked(mechanism))
+    found = shape.faults(mechanism) or list(formulas.unmarked(mechanism))
     if found:  # nothing can be asked of what is no formula
         return found
     names = DeclaredNames(mechanism)

@@ -79,9 +79,9 @@ FORMULAS = (
     load("*args", "def hanging_weight(line_mass: Any, height: Any) -> Any:\n    return line_mass * GRAVITY * height",
          "def hanging_weight(*line_mass: Any) -> Any:\n    return line_mass[0] * GRAVITY * line_mass[1]", "hanging_weight", "line_mass"),
     load("a default of a parameter", "def hanging_weight(line_mass: Any, height: Any)",
-         "def hanging_weight(line_mass: Any, height: Any = 2)", "hanging_weight", "default", now="silent: the default is never used"),
+         "def hanging_weight(line_mass: Any, height: Any = 2)", "hanging_weight", "default"),
     load("a list as a default", "def hanging_weight(line_mass: Any, height: Any)",
-         "def hanging_weight(line_mass: Any, height: Any, seen: Any = [])", "lift_force", "seen, which nothing gives"),
+         "def hanging_weight(line_mass: Any, height: Any, seen: Any = [])", "lift_force", "default"),
     load("a formula in place of its name", "right=length_by_wraps", 'right="length_by_wraps"', "length_by_wraps"),
     load("a formula that is called", "right=length_by_wraps", "right=length_by_wraps(1, 2, 3)", "length_by_wraps|centre"),
 )

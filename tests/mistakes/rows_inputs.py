@@ -53,7 +53,7 @@ MODULE = (
     load("another thing as MECHANISM", "MECHANISM = Mechanism(", "MECHANISM = dict(", "dict", "Mechanism", placed=False),
     load("a kind that is not the file's name", 'kind="bucket_elevator"', 'kind="elevator"', "'elevator'", "bucket_elevator", placed=False),
     load("no version", '    version="1.0",\n', "", "version"),
-    load("a number as version", 'version="1.0"', "version=1.0", "version", "text", now="silent"),
+    load("a number as version", 'version="1.0"', "version=1.0", "version", "text"),
     load("a colon is missing", "class Pulley(Block):", "class Pulley(Block)", "SyntaxError", "expected ':'"),
     load("a bracket is not closed", 'CHECKS = (\n    Check(id="filling"', 'CHECKS = (\n    Check((id="filling"', "SyntaxError"),
     load("a tab among spaces", "    slope = np.arcsin", "\tslope = np.arcsin", "IndentationError|TabError"),

@@ -118,7 +118,7 @@ TWICE = (
     load("a formula defined twice", "@formula\ndef length_by_wraps(centre: Any, small_pulley: Any, large_pulley: Any)",
          "@formula\ndef hanging_weight(centre: Any, small_pulley: Any, large_pulley: Any)", "hanging_weight", "twice|two|both|once",
          also=(("right=length_by_wraps", "right=hanging_weight"),)),
-    load("an id with a space", 'value("throw"', 'value("throw of waste"', "throw of waste", now="silent"),
+    load("an id with a space", 'value("throw"', 'value("throw of waste"', "throw of waste"),
     load("a step taken before it is calculated", 'np.sin(wrap / 2), wrap="pulleys.wrap")',
          'np.sin(wrap / 2), strand_weight="tight_pull", wrap="pulleys.wrap")', "pulley_load", "tight_pull", "before|later|after|order"),
     load("a step that takes itself", "lambda lift_force, scoop_force, journal_losses: lift_force + scoop_force + journal_losses",

@@ -1,0 +1,129 @@
+"""The shape of what is declared: each thing of the type that the contract names, or nothing else can be asked of it."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterable, Iterator, Mapping
+from typing import Any
+
+from diecut_report.contract.binding import Binding, Bound
+from diecut_report.contract.chapters import Chapter
+from diecut_report.contract.checks import Check
+from diecut_report.contract.figures import Figure
+from diecut_report.contract.inputs import Inputs
+from diecut_report.contract.mechanism import Erratum, Mechanism, Profile, Source
+from diecut_report.contract.part_steps import Lookup, Pick
+from diecut_report.contract.steps import Abscissa, Breakpoints, Case, Choice, Step
+from diecut_report.declaration.words import Fault
+from diecut_report.expressions import Formula
+from diecut_report.standards import StandardTable
+
+ID = re.compile(r"[A-Za-z_]\w*(\.\w+)*")
+HOLDS = {
+    "chapters": Chapter,
+    "checks": Check,
+    "figures": Figure,
+    "exports": Profile,
+    "sources": Source,
+    "errata": Erratum,
+}
+TEXTS = ("kind", "version", "title", "summary")
+FORMULAS = ("formula", "condition", "exists", "equation", "low", "high", "left", "right")
+
+
+def faults(mechanism: Mechanism) -> list[Fault]:
+    """Return what has not the shape that the contract names."""
+    own = [Fault(mechanism.at, f"mechanism {mechanism.kind}", text) for text in _of_mechanism(mechanism)]
+    if own:
+        return own
+    found = list(own)
+    for chapter in mechanism.chapters:
+        found += [Fault(chapter.at, f"chapter {chapter.title!r}", text) for text in _ids(chapter, "needs")]
+        for step in chapter.steps:
+            found += [Fault(step.at, f"step {step.id}", text) for text in _of_step(step)]
+    return found
+
+
+def _of_mechanism(mechanism: Mechanism) -> Iterator[str]:
+    for name in TEXTS:
+        if not isinstance(getattr(mechanism, name), str):
+            yield f"has {name}={getattr(mechanism, name)!r}; write a text in quotes"
+    model: Any = mechanism.inputs
+    if not (isinstance(model, type) and issubclass(model, Inputs)):
+        yield f"has inputs={model!r}; give the class of its inputs, which is a subclass of Inputs"
+    for name, kind in HOLDS.items():
+        given: Any = getattr(mechanism, name)
+        if not isinstance(given, tuple | list) or not all(isinstance(each, kind) for each in given):
+            yield f"has {name} of another kind; write a tuple of {kind.__name__}, with a comma behind a single one: {name}=(…,)"
+
+
+def _of_step(step: Step) -> Iterator[str]:
+    if not ID.fullmatch(step.id):
+        yield "is no id; write letters, digits and underscores"
+    if step.digits < 1:
+        yield f"has digits={step.digits!r}; at least one digit is printed"
+    yield from _ids(step, "needs", "lacks")
+    for name in FORMULAS:
+        yield from _of_formula(getattr(step, name, None))
+    match step:
+        case Abscissa(intervals=intervals) if intervals < 2:
+            yield f"has intervals={intervals!r}; the search for extremes needs at least 2, usually 32 or 64"
+        case Breakpoints() if not _are_texts(step.places):
+            yield f'has places={step.places!r}; name them one after another, each an id: "first", "second"'
+        case Choice():
+            yield from _of_cases(step)
+        case Pick(series=series, by=by):
+            yield from _of_series(series, by)
+        case Lookup(table=table) if not isinstance(table, StandardTable):
+            yield from _of_table(table)
+
+
+def _ids(declared: Any, *names: str) -> Iterator[str]:
+    for name in names:
+        given = getattr(declared, name)
+        if not isinstance(given, tuple) or not _are_texts(given):
+            yield f'has {name}={given!r}; write a tuple of texts, with a comma behind a single one: {name}=("key",)'
+
+
+def _are_texts(given: Iterable[object]) -> bool:
+    return all(isinstance(each, str) for each in given)
+
+
+def _of_formula(part: object) -> Iterator[str]:
+    if isinstance(part, Bound):
+        taken: dict[str, Any] = dict(part.names)
+        strange = [name for name, value in taken.items() if not isinstance(value, str | int | float)]
+        yield from (f"binds {name} to {taken[name]!r}; give an id or a number" for name in strange)
+    formula = part.formula if isinstance(part, Bound) else part
+    if isinstance(formula, Formula) and formula.function.__defaults__:
+        yield f"takes the formula {formula.__name__}, whose parameters have a default; each takes a quantity: remove the default"
+
+
+def _of_cases(step: Choice) -> Iterator[str]:
+    cases: tuple[Any, ...] = step.cases
+    if not all(isinstance(case, Case) for case in cases):
+        yield 'has cases that are none; give them one after another: case(value, "why", condition), case(value, "why")'
+        return
+    for case in cases:
+        if not isinstance(case.words, str):
+            yield 'has a case whose words are no text; write case(value, "why it is taken", condition)'
+        if not isinstance(case.value, str | Binding):
+            yield f"has a case of the value {case.value!r}; write a text, or a lambda that gives a number"
+        yield from _of_formula(case.value)
+        yield from _of_formula(case.condition)
+
+
+def _of_series(series: object, by: str) -> Iterator[str]:
+    if isinstance(series, tuple) and not series:
+        yield "picks from an empty series; give its values"
+    if isinstance(series, Mapping) and not by:
+        yield f'picks from several series ({", ".join(map(str, series))}); name the text input that chooses one: by="…"'
+
+
+def _of_table(table: Any) -> Iterator[str]:
+    if not isinstance(table, Mapping):
+        yield f'takes from {table!r}; give a table, then the text input by which: table, by="…"'
+        return
+    wrong = [key for key, value in table.items() if isinstance(value, bool) or not isinstance(value, int | float)]
+    if wrong:
+        yield f"has no number in its table for {', '.join(map(str, wrong))}; write numbers in the step's unit"
