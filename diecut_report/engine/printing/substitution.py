@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING, Any
 from diecut_report.contract.binding import Bound
 from diecut_report.contract.result_names import named
 from diecut_report.contract.steps import Words
-from diecut_report.engine.printing.rounding import Bounded, bounded
+from diecut_report.engine.printing.rounding import bounded
 from diecut_report.expressions import Node, evaluate, transform
 from diecut_report.quantities.formatting import (
     DIGITS,
@@ -125,19 +125,23 @@ class Substitution:
         difference of are equal, or nearly so. ``Contradiction`` where the expression gives something else.
         """
         wanted = rounded(target, display, result_digits)
-        whole = self._bounded(MOST_DIGITS)
+        plain = self._at(DIGITS)
+        if self._shows(bounded(plain, self._printed_value).value, display, result_digits, wanted):
+            return plain
+        whole = bounded(self._at(MOST_DIGITS), self._printed_value)
         is_rounding = abs(target) * 10.0**-result_digits <= whole.error < math.inf  # no number of digits shows it
-        for digits in range(DIGITS, MOST_DIGITS + 1):
-            again, error = self._bounded(digits)
-            if math.isfinite(again) and rounded(again, display, result_digits) == wanted:
-                return self._at(digits)
-            if is_rounding:
-                break
-            if abs(again - target) <= error < math.inf:
-                return self._at(digits)
+        for digits in () if is_rounding else range(DIGITS, MOST_DIGITS + 1):
+            tree = self._at(digits)
+            again, error = bounded(tree, self._printed_value)
+            if self._shows(again, display, result_digits, wanted) or abs(again - target) <= error < math.inf:
+                return tree
         if abs(whole.value - target) <= whole.error or whole.error == math.inf:
             return None
         raise Contradiction(target, whole.value)
+
+    @staticmethod
+    def _shows(value: float, display: str, digits: int, wanted: str) -> bool:
+        return math.isfinite(value) and rounded(value, display, digits) == wanted
 
     def unit_of(self, declared: str, *, angle: bool) -> str:
         """The unit in which a quantity's number stands; ``angle`` where a trigonometric function takes it."""
@@ -146,9 +150,6 @@ class Substitution:
     def _at(self, digits: int) -> Node:
         """The expression with numbers of so many digits."""
         return self._with_numbers(self.part.formula.tree, digits, angle=False)
-
-    def _bounded(self, digits: int) -> Bounded:
-        return bounded(self._at(digits), self._printed_value)
 
     def comparison(self, holds: bool) -> Node | None:
         """A condition with numbers, precise enough that it holds (or not) as printed; None where no number of digits shows it."""
