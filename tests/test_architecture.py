@@ -47,11 +47,11 @@ ONLY_IN = {  # library: the modules of the program that may import it
     "dask": r"(?!)",  # its client is all that is needed
     "distributed": r"diecut_report\.study\.execution\.dask_cluster",
     "duckdb": r"diecut_report\.study\.(analysis|summary)\.\w+",
-    "matplotlib": r"diecut_report\.(report\.figures|study\.summary)\.\w+",
+    "matplotlib": r"diecut_report\.(report\.figures|study\.summary)(\.\w+)?",
     "openpyxl": r"diecut_report\.study\.(tables\.file_formats|storage\.spreadsheets)",
     "pyarrow": r"diecut_report\.study\.(storage|tables)\.\w+",
     "threadpoolctl": r"diecut_report\.study\.execution\.process_settings",
-    "weasyprint": r"diecut_report\.(report\.pdf|study\.summary\.pages)",
+    "weasyprint": r"diecut_report\.report\.page_engine",
     "ezdxf": r"diecut_report\.report\.profile_files",
     "jinja2": r"diecut_report\.report\.(html|document)",
     "scipy.stats": r"diecut_report\.study\..*",  # slow to import, and needed by studies alone

@@ -9,12 +9,11 @@ from contextlib import contextmanager
 from typing import Any
 
 from markupsafe import Markup, escape
-from weasyprint import HTML
-from weasyprint.urls import URLFetcher
 
 from diecut_report.report.context import Material
 from diecut_report.report.equations import Equation
 from diecut_report.report.html import filled
+from diecut_report.report.page_engine import HTML, URLFetcher
 from diecut_report.report.pdf_math import Picture
 
 FORMULA = "data:formula,"  # addresses of the formulas' pictures, which WeasyPrint finds in its cache

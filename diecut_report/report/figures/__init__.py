@@ -1,1 +1,9 @@
-"""Figures of the results as SVG: charts and drawings."""
+"""Figures of the results as SVG: charts and drawings.
+
+Whatever draws with Matplotlib imports this package first, so that the library is imported with settings of its own.
+"""
+
+from diecut_report.report.surroundings import settings_of_its_own
+
+with settings_of_its_own():
+    import matplotlib  # noqa: F401  # imported here for its settings

@@ -59,7 +59,7 @@ class Dask:
         try:
             self._client.wait_for_workers(1, timeout=PATIENCE)
         except TimeoutError as error:
-            words = f"The Dask scheduler has no workers. Start some: dask worker {self._address}"
+            words = f"The Dask scheduler has no workers. Start some: PYTHONSAFEPATH=1 dask worker {self._address}"
             raise UserError(Problem(words)) from error
         try:
             self._client.register_plugin(_Study(self._warm), name=self._warm.key)

@@ -26,6 +26,9 @@ class Pool:
 
     def __init__(self, jobs: int, warm: Warm) -> None:
         self._jobs, self._warm = jobs, warm
+        os.environ["PYTHONSAFEPATH"] = (
+            "1"  # else a new process imports what lies in the current folder before its own modules
+        )
         self._context = _Processes()
         self._executor: ProcessPoolExecutor | None = None
 

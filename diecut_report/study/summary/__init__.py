@@ -15,6 +15,7 @@ def summarise(directory: Path, formats: Sequence[str] = FORMATS) -> list[Path]:
 
     UserError in words where nothing is stored or the files cannot be written; OSError where the system has no pango (PDF).
     """
+    import diecut_report.report.figures  # noqa: F401  # before Matplotlib, for its settings
     from diecut_report.files import write_all
     from diecut_report.study.summary.content import content  # with matplotlib
 

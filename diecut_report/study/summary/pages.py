@@ -9,14 +9,13 @@ from functools import partial
 from typing import Any
 
 from markupsafe import Markup
-from weasyprint import HTML
-from weasyprint.urls import URLFetcher
 
 from diecut_report import __version__
 from diecut_report.quantities.units import pretty, unit
 from diecut_report.report import html, pdf
 from diecut_report.report.i18n import Catalogue
 from diecut_report.report.number_format import number
+from diecut_report.report.page_engine import HTML, URLFetcher
 from diecut_report.study.analysis.stored_variants import StoredColumn
 from diecut_report.study.summary.content import Summary
 from diecut_report.study.summary.quantity_names import counted, display, named, percent, titled, utilised

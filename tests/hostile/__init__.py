@@ -1,0 +1,1 @@
+"""Inputs and surroundings that would do harm."""
