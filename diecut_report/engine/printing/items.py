@@ -33,7 +33,6 @@ from diecut_report.engine.printing.shown_place import (
     marks,
     place_of,
     place_shown,
-    place_text,
     value_at,
 )
 from diecut_report.engine.printing.substitution import (
@@ -99,13 +98,7 @@ def items(calc: Calculation, step: Step) -> list[Item]:
             return []
         case Abscissa(points=points):
             text = f"{step.description}; curves are sampled at {printed(calc, points)} places of it."
-            return [
-                _head(step)
-                | {
-                    "type": "note",
-                    "text": f"{text} Formulas over it are shown with their numbers at {place_text(calc, step)}.",
-                }
-            ]
+            return [_head(step) | {"type": "note", "text": text}]
     return []
 
 

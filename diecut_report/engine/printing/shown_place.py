@@ -11,8 +11,7 @@ from diecut_report.contract.steps import Abscissa, Choice, Value
 from diecut_report.engine.calculation import Calculation
 from diecut_report.engine.printing.substitution import Elsewhere
 from diecut_report.expressions import Array, Node
-from diecut_report.quantities.formatting import number_text, shown, with_unit
-from diecut_report.quantities.units import unit
+from diecut_report.quantities.formatting import shown, with_unit
 
 Item = dict[str, Any]
 FIRST = np.zeros(1, dtype=int)  # the variant that is printed
@@ -38,11 +37,6 @@ def value_at(calc: Calculation, name: str, axis: str | None, *, flag: bool = Fal
         sampler = calc.kept(f"shown {flag}", str(axis), lambda _: (middle if flag else place, middle), FIRST)
         return float(np.ravel(sampler[name])[0])  # a constant is a curve too
     return float(calc[name][0, 0])
-
-
-def place_text(calc: Calculation, axis: Abscissa) -> str:
-    place = shown_place(calc, axis.id)[0][0, 0]
-    return f"{axis.symbol} = {with_unit(number_text(place / unit(axis.unit).factor, 6), axis.unit)}"
 
 
 def is_elsewhere(calc: Calculation, step: Value | Choice, axis: str | None) -> bool:
