@@ -265,6 +265,8 @@ def _summary(results: dict[str, Any]) -> list[str]:
     calculated = [*results["mechanisms"].values(), *results.get("comparisons", {}).values()]
     lost = sum("error" in data for data in calculated)
     told = "mechanisms and comparisons" if "comparisons" in results else "mechanisms"
-    passed = f"{lost} of {len(calculated)} {told} were not calculated." if lost else coloured("No check fails.", "pass")
+    passed = coloured("No check fails.", "pass") if count else "There are no checks."
+    if lost:
+        passed = f"{lost} of {len(calculated)} {told} were not calculated."
     verdict = f"{failed} of {count} checks fail." if failed else passed
     return [line for _, line in sorted(lines, key=lambda pair: pair[0])] + [verdict]

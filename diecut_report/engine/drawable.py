@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 from collections.abc import Callable, Mapping
+from pathlib import Path
 from typing import Any
 
 from diecut_report.config.discovery import said
@@ -18,6 +19,7 @@ class Undrawable(ValueError):
 
 def guarded(make: Callable[[], Data], lost: Data, place: str) -> Data:
     """Return what ``make`` makes, or ``lost`` with what went wrong and where in the plugin."""
+    place = Path(place).name
     try:
         made = make()
         _plain(made)

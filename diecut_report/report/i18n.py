@@ -26,7 +26,8 @@ ENGLISH: dict[str, str] = {
     "purpose": "Purpose and assumptions", "assumptions": "Assumptions and limits", "inputs": "Inputs", "results": "Results",
     "curves": "Curves", "figures": "Figures", "absent": "Not calculated",
     "comparison": "Comparison of", "files": "Files beside this report",
-    "errata": "Errata of the sources", "sources": "Sources", "program": "Program and configuration",
+    "errata": "Errata of the sources", "sources": "Sources", "no_sources": "The mechanisms name no source.",
+    "program": "Program and configuration",
     "configuration": "Configuration as given", "appendix": "Appendix", "warnings": "Warnings",
     # tables
     "mechanism": "Mechanism", "check": "Check", "demand": "Demand", "limit": "Limit", "margin": "Margin",
