@@ -288,7 +288,7 @@ def beyond(u: Any, share: Any) -> Any:
 
 
 def test_the_sides_of_a_relation_are_both_angles() -> None:
-    root = Root(id="u", unit="1", equation=beyond, unknown="u", low=common.zero, high=common.one,
+    root = Root(id="u", unit="1", equation=beyond, unknown="u", low=common.zero, high=formula(lambda: 1),
                 left=bind(common.same, quantity="u"), right=bind(common.same, quantity="angle"), **REST)  # fmt: skip
     with pytest.raises(AssertionError, match="the relation equals a pure number with rad"):
         check_mechanism(wheel(root))
