@@ -1,4 +1,4 @@
-"""Checks on rows over like parts, on curves and with two bounds: every part and every place is judged, alone and in a study."""
+"""Checks on rows over repeated parts, on curves and with two bounds: every part and every place is judged, alone and in a study."""
 
 from __future__ import annotations
 

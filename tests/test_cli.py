@@ -172,7 +172,7 @@ def test_schema_of_all_and_of_one_kind(capfd: Capture) -> None:
     assert run("schema", "levre") == 2
     own = [entry.parent.name for entry in Path(str(plugins.__file__)).parent.glob("*/__init__.py")]
     known = ", ".join(sorted(["lever", *own]))
-    assert capfd.readouterr() == ("", f"'levre' is no known kind (did you mean 'lever'?). Known: {known}.\n")
+    assert capfd.readouterr() == ("", f"'levre' is not a known kind (did you mean 'lever'?). Known: {known}.\n")
     assert run("schema", "--plugins", BROKEN) == 3
     assert "breaks_at_import" in capfd.readouterr().out
 

@@ -116,7 +116,7 @@ FIXED = [
     (
         "kind: lever",
         "kind: levr",
-        "5:13: mechanisms.a.kind: 'levr' is no known kind (did you mean 'lever'?). Known: cam_gear_transport,",
+        "5:13: mechanisms.a.kind: 'levr' is not a known kind (did you mean 'lever'?). Known: cam_gear_transport,",
     ),
     ("kind: lever, ", "", f"5:3: mechanisms.a.kind: is missing. Give one of: {', '.join(DISCOVERY.origins)}."),
     ("kind: lever", "kind: [lever]", "5:13: mechanisms.a.kind: is a list; the name of a kind is needed"),
@@ -130,9 +130,9 @@ FIXED = [
     (
         "  a: {",
         "  2nd: {",
-        "5:3: mechanisms.2nd: “2nd” is no name: a letter, then letters, digits, _ and - are allowed.",
+        "5:3: mechanisms.2nd: “2nd” is not a name: a letter, then letters, digits, _ and - are allowed.",
     ),
-    ("  a: {", "  a.b: {", "5:3: mechanisms.a.b: “a.b” is no name"),
+    ("  a: {", "  a.b: {", "5:3: mechanisms.a.b: “a.b” is not a name"),
     ("\n  a: {kind: lever, force: 2 kN}", " {}", "4:13: mechanisms: has 0 entries; at least 1 needed"),
 ]
 

@@ -103,7 +103,7 @@ def test_the_same_folder_twice_is_one_folder() -> None:
 
 
 def test_an_unknown_kind_is_told_with_the_nearest() -> None:
-    with pytest.raises(UnknownKind, match=r"'cylinder_drives' is no known kind \(did you mean 'cylinder_drive'\?\)"):
+    with pytest.raises(UnknownKind, match=r"'cylinder_drives' is not a known kind \(did you mean 'cylinder_drive'\?\)"):
         Discovery().mechanism("cylinder_drives")
 
 

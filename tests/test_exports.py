@@ -153,7 +153,7 @@ def test_equal_results_give_equal_bytes_in_another_process(tmp_path: Path) -> No
 def test_curve_that_is_no_length_is_refused() -> None:
     results = _results()
     results["mechanisms"]["feeder"]["curves"]["cam_1_y"]["unit"] = "rad"
-    with pytest.raises(ValueError, match="cam_1_y is no length"):
+    with pytest.raises(ValueError, match="cam_1_y is not a length"):
         exports(results)
 
 

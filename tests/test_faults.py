@@ -57,13 +57,13 @@ DRAWING = "Drawing(id='lost', title='Lost', caption='Is not there.', build=lambd
 NONE = "Drawing(id='lost', title='Lost', caption='', build=lambda view: [point((0, 0))])"
 IN_CALC = {
     "a number for a curve": (PLOT.format("width", ""), "'width' is a number or a text, not a curve"),
-    "an unknown curve": (PLOT.format("heigth", ""), "'heigth' is no quantity of this machine"),
-    "a curve that is no output": (PLOT.format("hidden", ""), "'hidden' is a curve that is no output"),
+    "an unknown curve": (PLOT.format("heigth", ""), "'heigth' is not a quantity of this machine"),
+    "a curve that is not an output": (PLOT.format("hidden", ""), "'hidden' is a curve that is not an output"),
     "a level at an unknown id": (PLOT.format("height", "levels=(Level(value='top', label='t'),)"), "no number 'top'"),
     "an unknown id": (DRAWING.format("[circle((0, 0), view['top'])]"), "there is no number 'top' in this machine"),
     "what raises": (DRAWING.format("1 / 0"), "ZeroDivisionError: division by zero (disc.py:"),
     "what raises in numpy": (DRAWING.format("np.linalg.inv(np.zeros((2, 2)))"), "Singular matrix (disc.py:"),
-    "a point at NaN": (DRAWING.format("[point((float('nan'), 0))]"), "no finite number"),
+    "a point at NaN": (DRAWING.format("[point((float('nan'), 0))]"), "not a finite number"),
     "an array": (DRAWING.format("[{'shape': 'polyline', 'points': np.zeros((2, 2))}]"), "list of these"),
     "bars of a curve": (
         "Bars(id='lost', title='Lost', caption='', groups=(BarGroup(label='', unit='mm', bars=(('y', 'height'),)),))",
@@ -73,9 +73,9 @@ IN_CALC = {
 IN_DRAWING = {
     "a wrong role": (
         DRAWING.format("[circle((0, 0), view['width'], 'bold')]"),
-        "'bold' is no role of a circle; known: outline",
+        "'bold' is not a role of a circle; known: outline",
     ),
-    "an unknown shape": (DRAWING.format("[{'shape': 'blob', 'at': [0, 0]}]"), "'blob' is no shape"),
+    "an unknown shape": (DRAWING.format("[{'shape': 'blob', 'at': [0, 0]}]"), "'blob' is not a shape"),
     "a shape without its keys": (DRAWING.format("[{'shape': 'circle'}]"), "KeyError: 'center'"),
 }
 
@@ -144,7 +144,7 @@ def test_the_report_shows_a_box_in_the_place_of_a_lost_figure(tmp_path: Path) ->
 @pytest.mark.usefixtures("undeclared")
 @pytest.mark.parametrize(
     ("columns", "words"),
-    [(("width", "height"), "'width' is a number"), (("height", "heigth"), "'heigth' is no quantity")],
+    [(("width", "height"), "'width' is a number"), (("height", "heigth"), "'heigth' is not a quantity")],
 )
 def test_an_export_that_fails_costs_the_export(tmp_path: Path, capfd: Capture, columns: Any, words: str) -> None:
     exports = f"(Profile(id='edge', title='Edge', columns={columns!r}),)"
@@ -161,7 +161,7 @@ def test_an_export_of_what_is_no_length_costs_the_export(tmp_path: Path, capfd: 
     exports = "(Profile(id='edge', title='Edge', columns=('angle', 'height')),)"
     assert run(tmp_path, "report", folder(tmp_path, exports=exports), "--format", "json") == 3
     err = capfd.readouterr().err
-    assert "export 'edge' cannot be drawn: ValueError: angle is no length" in err and "disc.py:" in err
+    assert "export 'edge' cannot be drawn: ValueError: angle is not a length" in err and "disc.py:" in err
 
 
 STEPS = {

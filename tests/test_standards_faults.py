@@ -27,11 +27,11 @@ FAULTS = {
     "twice": ({"values": [1, 2, 2, 3]}, "must ascend without repetition, but 2 follows 2"),
     "range not met": ({"range": [1, 4]}, r"runs from 1 to 3, but its range is \[1, 4\]"),
     "no values": ({"values": []}, "has no values"),
-    "text": ({"values": [1, "2", 3]}, "holds '2', which is no number above 0"),
-    "true": ({"values": [True, 2, 3]}, "holds True, which is no number above 0"),
-    "zero": ({"values": [0, 2, 3]}, "holds 0, which is no number above 0"),
-    "not a number": ({"values": [1, float("nan"), 3]}, "holds nan, which is no number above 0"),
-    "infinite": ({"values": [1, 2, float("inf")]}, "holds inf, which is no number above 0"),
+    "text": ({"values": [1, "2", 3]}, "holds '2', which is not a number above 0"),
+    "true": ({"values": [True, 2, 3]}, "holds True, which is not a number above 0"),
+    "zero": ({"values": [0, 2, 3]}, "holds 0, which is not a number above 0"),
+    "not a number": ({"values": [1, float("nan"), 3]}, "holds nan, which is not a number above 0"),
+    "infinite": ({"values": [1, 2, float("inf")]}, "holds inf, which is not a number above 0"),
     "unknown unit": ({"unit": "furlongz"}, "has no usable unit: .*furlongz"),
     "one source": ({"sources": ["One"]}, "needs two sources that agree"),
     "the same source twice": ({"sources": ["One", "One"]}, "needs two sources that agree"),
@@ -96,7 +96,7 @@ def test_a_table_is_also_the_series_of_its_different_values(tmp_path: Path) -> N
 
 def test_a_bad_value_of_a_table_is_told(tmp_path: Path) -> None:
     write(tmp_path, "rods", {**TABLE, "table": {"a": -1}})
-    with pytest.raises(StandardFault, match="'rods' holds -1, which is no number above 0"):
+    with pytest.raises(StandardFault, match="'rods' holds -1, which is not a number above 0"):
         standard_table("rods", tmp_path)
 
 

@@ -381,7 +381,7 @@ def test_binary_junk_that_is_utf8_is_refused(tmp_path: Path) -> None:
     path.write_bytes(b"PK\x03\x04\x00\x00")
     problem = refused_file(path)
     assert (problem.line, problem.column) == (1, 3)
-    assert "this is no YAML text" in problem.message
+    assert "this is not YAML text" in problem.message
 
 
 def test_an_empty_file_is_refused(tmp_path: Path) -> None:

@@ -53,14 +53,14 @@ SHAPES: dict[str, tuple[type, str]] = {  # key: how it is written
 
 
 def standard_ids(form: str, folder: Path = DATA) -> tuple[str, ...]:
-    """The ids of the files of one form ("values", "table", "by", "from"), in order."""
+    """Return the ids of the files of one form ("values", "table", "by", "from"), in order."""
     names = sorted(path.stem for path in folder.glob("*.json"))
     return tuple(name for name in names if _form(_file(name, folder)) == form)
 
 
 @cache
 def standard_series(id: str, folder: Path = DATA) -> StandardSeries:
-    """The series of that id; a table gives its different values in order."""
+    """Return the series of that id; a table gives its different values in order."""
     data = _file(id, folder)
     if "by" in data:
         _fault(id, "holds one series for each name; use standard_series_by")
@@ -69,7 +69,7 @@ def standard_series(id: str, folder: Path = DATA) -> StandardSeries:
 
 @cache
 def standard_series_by(id: str, folder: Path = DATA) -> Mapping[str, StandardSeries]:
-    """The series of each name (such as the section of a V-belt) in the file of that id."""
+    """Return the series of each name (such as the section of a V-belt) in the file of that id."""
     data = _file(id, folder)
     _need(id, data, "by")
     parts = {name: {**data, **part} for name, part in data["by"].items()}
@@ -80,7 +80,7 @@ def standard_series_by(id: str, folder: Path = DATA) -> Mapping[str, StandardSer
 
 @cache
 def standard_table(id: str, folder: Path = DATA) -> StandardTable:
-    """The table of that id: a number for each name."""
+    """Return the table of that id: a number for each name."""
     data = _file(id, folder)
     _need(id, data, "table")
     values = tuple(_number(id, value) for value in data["table"].values())
@@ -136,7 +136,7 @@ def _in_range(id: str, values: tuple[float, ...], limits: list[float]) -> tuple[
 
 def _number(id: str, value: object) -> float:
     if isinstance(value, bool) or not isinstance(value, int | float) or not math.isfinite(value) or value <= 0:
-        _fault(id, f"holds {value!r}, which is no number above 0")
+        _fault(id, f"holds {value!r}, which is not a number above 0")
     return float(value)
 
 

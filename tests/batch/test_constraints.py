@@ -71,7 +71,7 @@ HELD = [  # text, and the rows above by hand
     ("press.productivity < '9000 1/h'", [True, True, False]),
     ("bore < 0.3 * mechanisms.a.fixed", [True, False, False]),
     ("sqrt(bore - '60 mm') >= 0", [False, True, True]),  # no root of a number below zero
-    ("bore / (height - height) > 1 and bore > 0", [False, False, False]),  # divided by zero is no value
+    ("bore / (height - height) > 1 and bore > 0", [False, False, False]),  # divided by zero is not a value
     ("bore / (height - '90 mm') < 1 or bore > '65 mm'", [False, False, True]),
     ("not 1 / (height - '90 mm') > '1 1/mm'", [True, False, True]),
     ("law < 'd'", [True, False, True]),
@@ -124,7 +124,7 @@ WRONG = [
     ("bore <", "a name, a number or a quantity is missing before the end. (At character 20.)"),
     ("", "the condition is empty"),
     ("mechanisms.a.nothing < 3", "“mechanisms.a.nothing” is unknown"),
-    ("heigth < '3 mm'", "“heigth” is no path of an input; write the whole path of an input, such as mechanisms.NAME.KEY"),
+    ("heigth < '3 mm'", "“heigth” is not a path of an input; write the whole path of an input, such as mechanisms.NAME.KEY"),
     ("sin(speed) < 1", "there is no function 'sin'"),
     ("sqr(bore) < 1", "there is no function 'sqr' (did you mean 'sqrt'?); known: abs, min, max, sqrt."),
     ("min() < height", "min takes one quantity or more; 0 given."),
@@ -138,13 +138,13 @@ WRONG = [
     ("bore.real < height", "“mechanisms.a.bore.real” is unknown"),
     ("(bore).real < height", "'.real < me' is not allowed here"),
     ("abs(bore).__class__ < height", "is not allowed here"),
-    ("abs(x=bore) < height", "“x” is no path of an input"),
+    ("abs(x=bore) < height", "“x” is not a path of an input"),
     ("bore < True", "true is a condition; a quantity is needed"),
     ("1e999 < bore", "holds a number that is too large to calculate with."),
     ("bore < " + "9" * 500, "holds a number that is too large to calculate with."),
     ("(" * 100 + "bore" + ")" * 100 + " < height", "brackets stand too deep in each other. Write several conditions."),
     ("bore < height and " * 120 + "bore < height", "more than 400 words. Write several conditions."),
-    ("path_0_ < height", "“path_0_” is no path of an input"),
+    ("path_0_ < height", "“path_0_” is not a path of an input"),
 ]  # fmt: skip
 
 

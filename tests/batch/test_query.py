@@ -102,7 +102,7 @@ def _inputs(folder: Path) -> tuple[object, object]:
         ("drive.power_peak < '3,5 W'", "comma"),
         ("drive.power_peak < 'abc'", "finite number"),
         ("drive.power_peak < '3 kx'", "'kx' is not a known unit"),
-        ("status = pass", "'pass' is no column"),
+        ("status = pass", "'pass' is not a column"),
         ("status < 3", "put texts in quotes"),
         ("drive.power_peak between 1 and 2 < 3", "use brackets"),
         ("cylinder.mass", "not a condition"),

@@ -373,7 +373,7 @@ def test_part_of_which_some_bytes_have_changed_is_to_be_calculated_again(tmp_pat
 def test_file_that_only_looks_like_a_part_is_told(tmp_path: Path, name: str) -> None:
     store = filled(tmp_path / "out")
     (tmp_path / "out/variants" / name).write_bytes(b"PAR1")
-    with pytest.raises(UserError, match=re.escape(f"{name}: This is no part of the results. Move it")):
+    with pytest.raises(UserError, match=re.escape(f"{name}: This is not a part of the results. Move it")):
         store.done_parts()
 
 

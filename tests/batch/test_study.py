@@ -57,7 +57,7 @@ def test_inputs_that_the_base_leaves_out_may_vary_with_what_they_give(tmp_path: 
     text = varied("[20 mm, 30 mm]", path="mechanisms.a.width", rest="outputs: [a.pressure]\n")
     assert study(tmp_path, text).outputs == ("a.pressure",)
     told = faults(tmp_path, varied("[1 kN]", rest="outputs: [a.pressure]\n"))
-    assert told[0].startswith("study.yaml:6:11: outputs.0: a.pressure is no output.")
+    assert told[0].startswith("study.yaml:6:11: outputs.0: a.pressure is not an output.")
 
 
 VALUES = [  # what is varied, its values, and the SI values of the rows
@@ -307,16 +307,16 @@ WHOLE = [  # a whole study with one fault: sample, rest, what is told
     ("{method: grid}", "constraints: [\"mechanisms.b.width < '3 mm'\"]\n",
      "6:15: constraints.0: “mechanisms.b.width” refers to ${a.length}, which is known only after calculating"),
     ("{method: grid}", "constraints: [\"mechanisms.a.width < '3 mm'\"]\n", "6:15: constraints.0: “mechanisms.a.width” has no value in the base"),
-    ("{method: grid}", "outputs: [a.momnt]\n", "6:11: outputs.0: a.momnt is no output (did you mean 'moment'?)."),
+    ("{method: grid}", "outputs: [a.momnt]\n", "6:11: outputs.0: a.momnt is not an output (did you mean 'moment'?)."),
     ("{method: grid}", "outputs: [mechanisms.a.moment]\n", "6:11: outputs.0: mechanisms.a.moment: outputs are named without mechanisms."),
     ("{method: grid}", "outputs: [c.moment]\n", "6:11: outputs.0: c.moment: there is no mechanism 'c'. Known: a, b."),
     ("{method: grid}", "outputs: [a]\n", "6:11: outputs.0: a names no output; add one, as in a.arm."),
     ("{method: grid}", "outputs: [a.torque]\n", "6:11: outputs.0: a.torque is a curve; only single values are kept here, curves by the key curves."),
-    ("{method: grid}", "outputs: [a.force]\n", "6:11: outputs.0: a.force is no output"),
+    ("{method: grid}", "outputs: [a.force]\n", "6:11: outputs.0: a.force is not an output"),
     ("{method: grid}", "outputs: a.moment\n", "6:10: outputs: is “a.moment”; a list is needed"),
     ("{method: grid}", "curves: [a.moment]\n", "6:10: curves.0: a.moment is a single value; name it in outputs."),
-    ("{method: grid}", "curves: [a.torqe]\n", "6:10: curves.0: a.torqe is no curve (did you mean 'torque'?)."),
-    ("{method: grid}", "objectives: [{minimise: a.momnt}]\n", "6:25: objectives.0.minimise: a.momnt is no output (did you mean 'moment'?)."),
+    ("{method: grid}", "curves: [a.torqe]\n", "6:10: curves.0: a.torqe is not a curve (did you mean 'torque'?)."),
+    ("{method: grid}", "objectives: [{minimise: a.momnt}]\n", "6:25: objectives.0.minimise: a.momnt is not an output (did you mean 'moment'?)."),
     ("{method: grid}", "objectives: [{minimise: a.size}]\n", "6:25: objectives.0.minimise: a.size is a text or a yes/no, which is neither"),
     ("{method: grid}", "objectives: [{}]\n", "6:14: objectives.0: names no outputs; give minimise or maximise with one"),
     ("{method: grid}", "objectives: [{minimize: a.arm}]\n", "6:15: objectives.0.minimize: is an unknown key (did you mean 'minimise'?)"),

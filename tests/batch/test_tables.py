@@ -205,7 +205,7 @@ def test_a_date_in_a_workbook_is_no_number(tmp_path: Path) -> None:
     path = tmp_path / "t.xlsx"
     write_xlsx(path, [["a"], [1.0], [datetime.datetime(2026, 1, 5)], [True]])
     found = faults(lambda: read_table(path).column("a").si("1"))
-    assert "row 3: 2026-01-05 00:00:00 is no number (the cell holds a datetime)" in found[0]
+    assert "row 3: 2026-01-05 00:00:00 is not a number (the cell holds a datetime)" in found[0]
     assert "row 4: true is not a quantity" in found[1]
 
 
@@ -280,8 +280,8 @@ def test_a_csv_in_another_encoding_is_refused(text: str, tmp_path: Path) -> None
 @pytest.mark.parametrize(
     ("name", "words"),
     [
-        ("t.parquet", "is no Parquet file"),
-        ("t.xlsx", "is no XLSX workbook"),
+        ("t.parquet", "is not a Parquet file"),
+        ("t.xlsx", "is not an XLSX workbook"),
         ("t.xls", "the ending .xls is not known; save the table as .csv, .parquet, .xlsx"),
         ("table", "the ending (none) is not known"),
     ],

@@ -21,7 +21,7 @@ SEED = Quantity("", "1", "Seed of the random numbers; equal seeds give equal sam
 
 
 class SampleForm(Block):
-    """How the variants are taken from what is varied."""
+    """Declare how the variants are taken from what is varied."""
 
     method: Annotated[
         Literal["grid", "zip", "latin_hypercube", "sobol", "table"],
@@ -39,7 +39,7 @@ class SampleForm(Block):
 
 
 class ObjectiveForm(Block):
-    """An output that is to be as small or as great as can be."""
+    """Declare an output that is to be as small or as great as can be."""
 
     minimise: Annotated[str | None, Text("An output, such as cylinder.mass, that is to be small")] = None
     maximise: Annotated[str | None, Text("An output that is to be great")] = None
@@ -49,7 +49,7 @@ Texts = Annotated[list[Annotated[str, Field(min_length=1)]], Field(default_facto
 
 
 class StudyDocument(Block):
-    """The whole study file; what is varied is judged path by path."""
+    """Declare the whole study file; what is varied is judged path by path."""
 
     schema_version: Annotated[Literal[1], BeforeValidator(ConfigDocument.a_number)]
     base: Annotated[str, Text("The config that is varied, beside the study file"), Field(min_length=1)]
@@ -71,12 +71,12 @@ class StudyDocument(Block):
 
 
 def value_form(asked: Input) -> type[Block]:
-    """One value of a list."""
+    """Return one value of a list."""
     return create_model("One", __base__=Block, value=(asked.declared_as, ...))
 
 
 def range_form(asked: Input) -> type[Block]:
-    """Values from … to."""
+    """Return values from … to."""
     keys: dict[str, Any] = {"from": (asked.declared_as, ...), "to": (asked.declared_as, ...)}
     keys["count"] = (
         Annotated[int | None, Quantity("", "1", "Number of values", ge=1, le=1e9, integer=True)],
@@ -87,7 +87,7 @@ def range_form(asked: Input) -> type[Block]:
 
 
 def distribution_form(asked: Input, name: str) -> type[Block]:
-    """A distribution with its limits; its standard deviation has the input's unit, but not its bounds."""
+    """Return a distribution with its limits; its standard deviation has the input's unit, but not its bounds."""
     assert isinstance(asked.meta, Quantity)
     value = asked.declared_as
     limit = (Annotated[float | None, *asked.metadata], None)
@@ -103,7 +103,7 @@ def distribution_form(asked: Input, name: str) -> type[Block]:
 
 
 class TableForm(Block):
-    """The values of a column of a file."""
+    """Declare the values of a column of a file."""
 
     table: Annotated[str, Text("A CSV, Parquet or XLSX file beside the study file"), Field(min_length=1)]
     column: Annotated[str | None, Text("The column; without it the one named as the path")] = None

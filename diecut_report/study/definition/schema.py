@@ -12,7 +12,7 @@ LIMITS = {"uniform": ("low", "high"), "normal": ("mean", "sd"), "triangular": ("
 
 
 def study_schema() -> Schema:
-    """Schema of a study; whether its paths are there is known only with its base."""
+    """Return schema of a study; whether its paths are there is known only with its base."""
     keys: Schema = {
         "schema_version": {"const": 1, "description": "Version of this form of the file."},
         "base": _text("The config that is varied, relative to the study."),
