@@ -18,8 +18,8 @@ from diecut_report.study.analysis.query import variants
 from diecut_report.study.analysis.variant_config import variant_config
 from diecut_report.study.definition.study_file import load_study
 from diecut_report.study.execution.study_run import Where, run_study
-from tests.batch.stored_study import many, ten
 from tests.configs import EXAMPLES
+from tests.study.stored_study import many, ten
 
 PRESS = "flat_cylinder_press.yaml"
 STUDY = """\

@@ -25,7 +25,7 @@ from diecut_report.study.summary import data, influence, pareto, questions, summ
 from diecut_report.study.summary.pages import page, sheets
 from diecut_report.study.summary.point_charts import near
 from diecut_report.study.summary.quantity_names import WORST, display, utilised
-from tests.batch.stored_study import BORE, LAW, SPEED, made, many, ten, written
+from tests.study.stored_study import BORE, LAW, SPEED, made, many, ten, written
 
 GLOBAL = np.array([[0.3138, 0.4424, 0.0], [0.5574, 0.4424, 0.2436]])  # Ishigami: first and total indices, closed form
 

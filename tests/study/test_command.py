@@ -16,8 +16,8 @@ import pytest
 
 from diecut_report.cli.main import main
 from diecut_report.study.execution.variant_reports import best
-from tests.batch.studies import BASE, STUDY, varied
 from tests.configs import GOOD, saved
+from tests.study.studies import BASE, STUDY, varied
 
 Capture = pytest.CaptureFixture[str]
 CHECKED = BASE.replace("force: 2 kN,", "force: 2 kN, allowable_moment: 450,")

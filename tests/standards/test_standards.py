@@ -19,7 +19,7 @@ from diecut_report.standards import (
     standard_table,
 )
 
-ROOT = Path(__file__).parents[1]
+ROOT = Path(__file__).parents[2]
 
 
 def numbers(text: str) -> list[float]:

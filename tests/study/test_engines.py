@@ -17,15 +17,15 @@ import pytest
 from diecut_report.errors import UserError
 from diecut_report.study.execution import in_flight
 from diecut_report.study.execution.engines import ChunkFailed, Engine, InProcess, Pool, dask_cluster, results
-from tests.batch.made_store import dies_at_three, fails_at_three, slow_square, square, warm
 from tests.processes import until
+from tests.study.made_store import dies_at_three, fails_at_three, slow_square, square, warm
 
 ROOT = Path(__file__).parents[2]
 RUN = """
 import sys
 from pathlib import Path
 from diecut_report.study.execution.engines import Pool, results
-from tests.batch.made_store import sleeps, warm
+from tests.study.made_store import sleeps, warm
 if __name__ == "__main__":
     folder = Path(sys.argv[1])
     try:

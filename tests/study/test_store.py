@@ -31,14 +31,14 @@ from diecut_report.study.storage import state
 from diecut_report.study.storage.description import Description, ResultColumn
 from diecut_report.study.storage.spreadsheets import export
 from diecut_report.study.storage.store import Store
-from tests.batch.made_store import MASS, SPEED, description, part, source
+from tests.study.made_store import MASS, SPEED, description, part, source
 
 ROOT = Path(__file__).parents[2]
 WRITER = """
 import sys
 from pathlib import Path
 from diecut_report.study.storage.store import Store
-from tests.batch.made_store import part
+from tests.study.made_store import part
 store = Store.open(Path(sys.argv[1]))
 with store.lock():
     for index in range(store.description.parts):

@@ -27,7 +27,7 @@ NEAR = 1.5 * 2 * np.pi / 720  # of places: one-sided limits at a jump lie up to 
 @pytest.fixture(scope="module")
 def both(request: pytest.FixtureRequest) -> Any:
     """Numbers by the kernel, and the engine's calculation of the same variants."""
-    sys.path.insert(0, str(Path(__file__).parents[1] / "benchmarks"))
+    sys.path.insert(0, str(Path(__file__).parents[2] / "benchmarks"))
     request.addfinalizer(lambda: sys.path.pop(0))
     from batch_kernel import variants
     from drive_kernel import Kernel

@@ -19,10 +19,10 @@ from diecut_report.errors import UserError
 from diecut_report.study.execution import dask_cluster as module
 from diecut_report.study.execution.engines import ChunkFailed, InProcess, dask_cluster, results
 from diecut_report.study.execution.study_run import Counts, Where, run_study
-from tests.batch.made_store import dies_at_three, fails_at_three, slow_square, square, warm
-from tests.batch.studies import study
 from tests.configs import GOOD
 from tests.processes import until
+from tests.study.made_store import dies_at_three, fails_at_three, slow_square, square, warm
+from tests.study.studies import study
 
 ROOT = Path(__file__).parents[2]
 

@@ -46,7 +46,7 @@ PLACE = os.environ | {"PYTHONPATH": str(ROOT)}
 
 
 def command(*arguments: str | Path) -> list[str]:
-    return [sys.executable, "-m", "tests.batch.without_summary", "batch", *map(str, arguments), "--plugins", str(GOOD)]
+    return [sys.executable, "-m", "tests.study.without_summary", "batch", *map(str, arguments), "--plugins", str(GOOD)]
 
 
 def finished(*arguments: str | Path) -> subprocess.CompletedProcess[str]:

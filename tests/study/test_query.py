@@ -24,7 +24,7 @@ from diecut_report.study.analysis.stored_variants import StoredColumn as Read
 from diecut_report.study.analysis.variant_config import variant_config
 from diecut_report.study.conditions.where import condition
 from diecut_report.study.storage.description import Kind, ResultColumn
-from tests.batch.stored_study import BORE, SPEED, calculated, many, ten, written
+from tests.study.stored_study import BORE, SPEED, calculated, many, ten, written
 
 
 @pytest.fixture(scope="module")

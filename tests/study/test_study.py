@@ -14,8 +14,8 @@ from diecut_report.errors import PluginError
 from diecut_report.study.definition.schema import study_schema
 from diecut_report.study.definition.study_file import load_study
 from diecut_report.study.definition.wanted_results import Objective, Reports
-from tests.batch.studies import BASE, STUDY, faults, study, varied
 from tests.configs import BROKEN, EXAMPLE, GOOD, HEAD, saved
+from tests.study.studies import BASE, STUDY, faults, study, varied
 
 FORCE, GRADE = "mechanisms.a.force", "mechanisms.a.grade"
 VALIDATOR = jsonschema.Draft202012Validator(study_schema())

@@ -11,8 +11,8 @@ import pytest
 from diecut_report.cli.main import main
 from diecut_report.config.discovery import Discovery
 from diecut_report.study.execution.variant_rows import calculate_rows
-from tests.batch.studies import study, varied
 from tests.configs import LEVER, PLUGINS
+from tests.study.studies import study, varied
 
 FOLDER = PLUGINS / "scalar"
 BASE = """\
