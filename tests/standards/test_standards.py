@@ -10,14 +10,8 @@ from pathlib import Path
 
 import pytest
 
-from diecut_report.standards import (
-    FORMS,
-    StandardSeries,
-    standard_ids,
-    standard_series,
-    standard_series_by,
-    standard_table,
-)
+from diecut_report.standards import StandardSeries, standard_ids, standard_series, standard_series_by, standard_table
+from diecut_report.standards.file_forms import FORMS
 
 ROOT = Path(__file__).parents[2]
 

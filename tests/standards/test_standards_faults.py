@@ -25,7 +25,7 @@ BY: dict[str, Any] = {
 FAULTS = {
     "out of order": ({"values": [1, 3, 2], "range": [1, 2]}, "must ascend without repetition, but 2 follows 3"),
     "twice": ({"values": [1, 2, 2, 3]}, "must ascend without repetition, but 2 follows 2"),
-    "range not met": ({"range": [1, 4]}, r"runs from 1 to 3, but its range is \[1, 4\]"),
+    "range not met": ({"range": [1, 4]}, r"runs from 1 to 3, but its range is 1 to 4"),
     "no values": ({"values": []}, "has no values"),
     "text": ({"values": [1, "2", 3]}, "holds '2', which is not a number above 0"),
     "true": ({"values": [True, 2, 3]}, "holds True, which is not a number above 0"),
@@ -45,6 +45,9 @@ FAULTS = {
     "a number as values": ({"values": 3}, "needs a list as values"),
     "a number as title": ({"title": 3}, "needs a text as title"),
     "a range of three": ({"range": [1, 2, 3]}, "needs the first and the last value as range"),
+    "a range of texts": ({"range": ["1", "3"]}, "needs numbers as range"),
+    "decades of parts": ({"values": None, "from": "rods", "decades": [0.5]}, "needs whole numbers as decades"),
+    "a list by name": ({"values": None, "range": None, "by": [1]}, "needs a table of names as by"),
     "no form": ({"values": None}, "needs exactly one of values, table, by, from"),
     "two forms": ({"table": {}}, "needs exactly one of values, table, by, from"),
 }
