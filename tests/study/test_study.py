@@ -453,6 +453,11 @@ def test_the_example_meets_the_schema() -> None:
     [
         ("[1]", "{method: random}", "", "sample.method"),
         ("[1]", "{method: grid, seeds: 1}", "", "sample"),
+        ("[1]", "{method: sobol, count: 0}", "", "sample.count"),
+        ("[1]", "{method: sobol, count: 8.5}", "", "sample.count"),
+        ("[1]", "{method: sobol, count: '${a.moment}'}", "", "sample.count"),
+        ("[1]", "{method: '${a.grade}'}", "", "sample.method"),
+        ("{table: forces.csv, col: F}", "{method: grid}", "", f"vary.{FORCE}"),
         ("[]", "{method: grid}", "", f"vary.{FORCE}"),
         ("{from: 1}", "{method: grid}", "", f"vary.{FORCE}"),
         ("{distribution: normal, low: 1, high: 2}", "{method: grid}", "", f"vary.{FORCE}"),

@@ -11,13 +11,14 @@ from diecut_report.config.model import ConfigDocument
 from diecut_report.contract.inputs import Block, Quantity, Text
 from diecut_report.study.definition.base_inputs import Input
 
-METHODS = ("grid", "zip", "latin_hypercube", "sobol", "table")
 DRAWN = ("latin_hypercube", "sobol")
 LISTED = ("grid", "zip")
 DISTRIBUTIONS = ("uniform", "normal", "triangular")
 
-COUNT = Quantity("n", "1", "Number of variants", ge=1, le=1e12, integer=True)
-SEED = Quantity("", "1", "Seed of the random numbers; equal seeds give equal samples", ge=0, le=2**53, integer=True)
+COUNT = Quantity("n", "1", "Number of variants of latin_hypercube and sobol", ge=1, le=1e12, integer=True)
+SEED = Quantity(
+    "", "1", "Seed of latin_hypercube and sobol; equal seeds give equal samples", ge=0, le=2**53, integer=True
+)
 
 
 class SampleForm(Block):
@@ -35,7 +36,9 @@ class SampleForm(Block):
     indices: Annotated[
         bool, Text("For sobol: count groups of variants from which first and total Sobol indices follow")
     ] = False
-    file: Annotated[str | None, Text("For table: a CSV, Parquet or XLSX file whose columns are paths")] = None
+    file: Annotated[
+        str | None, Text("For table: a CSV, Parquet or XLSX file with paths and units as heads, `PATH [rpm]`")
+    ] = None
 
 
 class ObjectiveForm(Block):
