@@ -20,12 +20,12 @@ from pathlib import Path
 from types import MappingProxyType
 
 from diecut_report.standards.file_forms import (
-    DataFile,
-    DecadesFile,
-    ListedFile,
-    NamedFile,
+    DecadesData,
+    ListedData,
+    NamedData,
     NamedValues,
-    TableFile,
+    StandardData,
+    TableData,
     data_file,
     fault,
     form_of,
@@ -50,13 +50,13 @@ def standard_ids(form: str, folder: Path = DATA) -> tuple[str, ...]:
 def standard_series(id: str, folder: Path = DATA) -> StandardSeries:
     """Return the series of that id; a table gives its different values in order."""
     match data_file(id, folder):
-        case NamedFile():
+        case NamedData():
             fault(id, "holds one series for each name; use standard_series_by")
-        case ListedFile() as file:
+        case ListedData() as file:
             return _series(id, file, file.values)
-        case TableFile() as file:
+        case TableData() as file:
             return _series(id, file, sorted(set(file.table.values())))
-        case DecadesFile() as file:
+        case DecadesData() as file:
             return _series(id, file, _over_decades(id, file, folder))
 
 
@@ -64,7 +64,7 @@ def standard_series(id: str, folder: Path = DATA) -> StandardSeries:
 def standard_series_by(id: str, folder: Path = DATA) -> Mapping[str, StandardSeries]:
     """Return the series of each name (such as the section of a V-belt) in the file of that id."""
     file = data_file(id, folder)
-    if not isinstance(file, NamedFile):
+    if not isinstance(file, NamedData):
         fault(id, f"is of the form {form_of(file)!r}, not 'by'")
     return MappingProxyType({name: _named(f"{id}.{name}", file, part) for name, part in file.by.items()})
 
@@ -73,22 +73,22 @@ def standard_series_by(id: str, folder: Path = DATA) -> Mapping[str, StandardSer
 def standard_table(id: str, folder: Path = DATA) -> StandardTable:
     """Return the table of that id: a number for each name."""
     file = data_file(id, folder)
-    if not isinstance(file, TableFile):
+    if not isinstance(file, TableData):
         fault(id, f"is of the form {form_of(file)!r}, not 'table'")
     column = Column("", file.unit, tuple(file.table.values()))
     return StandardTable(id, file.title, (column,), tuple(file.sources), file.left_out, tuple(file.table))
 
 
-def _series(id: str, file: DataFile, values: Iterable[float]) -> StandardSeries:
+def _series(id: str, file: StandardData, values: Iterable[float]) -> StandardSeries:
     return StandardSeries(id, file.title, file.unit, tuple(values), tuple(file.sources), file.left_out)
 
 
-def _named(id: str, file: NamedFile, part: NamedValues) -> StandardSeries:
+def _named(id: str, file: NamedData, part: NamedValues) -> StandardSeries:
     own = part.model_dump(include={"sources", "left_out"}, exclude_none=True)
     return _series(id, file.model_copy(update=own), part.values)
 
 
-def _over_decades(id: str, file: DecadesFile, folder: Path) -> list[float]:
+def _over_decades(id: str, file: DecadesData, folder: Path) -> list[float]:
     decade = standard_series(file.decade, folder).values
     if (decade[0], decade[-1]) != (1.0, 10.0):
         fault(id, f"is made from {file.decade}, which does not run from 1 to 10")

@@ -65,7 +65,7 @@ class _Keys(BaseModel):
     model_config = ConfigDict(extra="forbid", strict=True)
 
 
-class DataFile(_Keys):
+class StandardData(_Keys):
     """Hold what stands in every file: its title, the unit of its numbers, where they are from, and what is left out."""
 
     title: Annotated[str, AfterValidator(_said)]
@@ -84,11 +84,11 @@ class _Values(_Keys):
         return self
 
 
-class ListedFile(_Values, DataFile):
+class ListedData(_Values, StandardData):
     """Hold a list of values."""
 
 
-class TableFile(DataFile):
+class TableData(StandardData):
     """Hold a number for each name."""
 
     table: dict[str, Value]
@@ -101,13 +101,13 @@ class NamedValues(_Values):
     left_out: str | None = None
 
 
-class NamedFile(DataFile):
+class NamedData(StandardData):
     """Hold a list of values for each name."""
 
     by: dict[str, NamedValues]
 
 
-class DecadesFile(DataFile):
+class DecadesData(StandardData):
     """Hold which series of one decade is laid over which powers of ten."""
 
     decade: Annotated[str, Field(alias="from")]
@@ -115,8 +115,8 @@ class DecadesFile(DataFile):
     range: Range
 
 
-AnyFile = ListedFile | TableFile | NamedFile | DecadesFile
-FORMS: dict[str, type[AnyFile]] = {"values": ListedFile, "table": TableFile, "by": NamedFile, "from": DecadesFile}
+AnyData = ListedData | TableData | NamedData | DecadesData
+FORMS: dict[str, type[AnyData]] = {"values": ListedData, "table": TableData, "by": NamedData, "from": DecadesData}
 
 
 def in_range(values: Sequence[float], limits: list[float]) -> None:
@@ -131,7 +131,7 @@ def in_range(values: Sequence[float], limits: list[float]) -> None:
 
 
 @cache
-def data_file(id: str, folder: Path) -> AnyFile:
+def data_file(id: str, folder: Path) -> AnyData:
     """Return what stands in the file of an id; StandardFault where there is none or it cannot be trusted."""
     names = {path.stem: path for path in folder.glob("*.json")}
     if id not in names:
@@ -150,7 +150,7 @@ def data_file(id: str, folder: Path) -> AnyFile:
         fault(".".join([id, *where]), what, error)
 
 
-def form_of(file: AnyFile) -> str:
+def form_of(file: AnyData) -> str:
     """Return the key that makes the form of a file."""
     return next(form for form, model in FORMS.items() if isinstance(file, model))
 
