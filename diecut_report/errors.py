@@ -9,7 +9,7 @@ from dataclasses import dataclass
 
 @dataclass(frozen=True)
 class Problem:
-    """One thing that a user must mend, and where.
+    """One thing that a user must fix, and where.
 
     `message` says in whole sentences what is wrong, what was given, what is allowed and what to do.
     `line` and `column` count from 1; `path` is the key path, such as "mechanisms.drive.crank_speed".

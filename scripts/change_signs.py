@@ -28,7 +28,7 @@ ROOT = Path(__file__).parents[1]
 PLUGINS, MECHANICS = ROOT / "plugins", ROOT / "diecut_report" / "mechanics"
 OTHER = {ast.Add: (b"+", b"-"), ast.Sub: (b"-", b"+"), ast.Mult: (b"*", b"/"), ast.Div: (b"/", b"*")}
 SHARED = {"tests.machines", "tests.configs", "tests.plugins.cases"}  # helpers of everything: they tell nothing
-BY_NAME = {"cylinder_drive", "cylinder_sizing"}  # reached through tests.machines: their tests are told by their names
+BY_NAME = {"cylinder_drive", "cylinder_sizing"}  # reached through tests.machines: their tests are found by their names
 THROUGH = {  # modules of mechanics without a test file of their own: what they are tested through
     "mechanics.circular_segment": ("cylinder_sizing", "cylinder_drive", "circular_knife"),
     "mechanics.common": ("cylinder_sizing", "damper", "drive_train", "cylinder_drive", "circular_knife"),

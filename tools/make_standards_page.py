@@ -49,7 +49,7 @@ Write `diecut_report/standards/data/ID.json` with `title`, `unit`, `sources` (tw
 - `from`: the id of a series of one decade from 1 to 10, with `decades`: the powers of ten it is laid over, and `range`.
 
 A value out of order or given twice, a range that is not met, an unknown unit or fewer than two sources raise a `StandardFault`
-that names the series. Type a second source's table into `tests/test_standards.py` and make this page again.
+that names the series. Type a second source's table into `tests/standards/test_standards.py` and make this page again.
 """
 
 

@@ -1,4 +1,4 @@
-"""Write diecut_report/units_table.json: the everyday units with the factors and dimensions that pint gives them.
+"""Write diecut_report/quantities/units_table.json: the everyday units with the factors and dimensions that pint gives them.
 
 Run `python tools/make_units_table.py` after a change to the lists below; tests compare the table with pint.
 """

@@ -52,7 +52,7 @@ def run() -> NoReturn:
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
-    """Run a command; its exit code. What a user can mend is told on standard error."""
+    """Run a command; its exit code. What a user can fix is reported on standard error."""
     # starting makes many lasting objects; to look for garbage among them costs a tenth of a run
     gc.set_threshold(1_000_000)
     try:
@@ -164,7 +164,7 @@ def calc(config: Path, target: Path | None, folders: tuple[Path, ...], quiet: bo
 @click.argument("configs", metavar="CONFIG…", nargs=-1, required=True, type=click.Path(path_type=Path))
 @common
 def check(configs: tuple[Path, ...], folders: tuple[Path, ...], quiet: bool) -> int:
-    """Validate without calculating; all problems of all files are told."""
+    """Validate without calculating; all problems of all files are reported."""
     from diecut_report import pipeline
 
     discovery, codes = Discovery(folders), []

@@ -60,6 +60,6 @@ def common(command: Command) -> Command:
     folders = click.option("--plugins", "folders", metavar="DIR", multiple=True, type=click.Path(path_type=Path),
                            help="A folder with plugins of your own; may be given several times.")  # fmt: skip
     quiet = click.option(
-        "--quiet", is_flag=True, help="Show neither progress nor a summary; errors are told all the same."
+        "--quiet", is_flag=True, help="Show neither progress nor a summary; errors are reported all the same."
     )
     return folders(quiet(command))

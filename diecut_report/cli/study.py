@@ -94,7 +94,7 @@ def _told(outcome: StudyOutcome, target: Path) -> Iterator[str]:
     dropped = more if counts.get("dropped") else ""
     yield f"{counts.get('variants', 0)} variants: {', '.join(named) or 'none'}{dropped}."
     yield from (
-        f"{kind} cannot take arrays and was calculated machine by machine, which is slow: {why}"
+        f"{kind} cannot take arrays and was calculated variant by variant, which is slow: {why}"
         for kind, why in outcome.slow.items()
         if not (outcome.is_broken and kind in outcome.broken)
     )

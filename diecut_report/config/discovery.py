@@ -5,7 +5,7 @@ the name is the kind) of installed packages, and local folders. A folder of plug
 (``KIND: FILE.py`` or ``KIND: FILE.py:ATTRIBUTE``); without it each ``NAME.py`` and each folder ``NAME`` with an
 ``__init__.py`` is the kind NAME. The attribute that holds the mechanism is MECHANISM unless it is named.
 
-A file ``extend_NAME.py`` of a local folder, or an entry point of the group "diecut_report.extensions", is no kind: it is run
+A file ``extend_NAME.py`` of a local folder, or an entry point of the group "diecut_report.extensions", is not a kind: it is run
 before a configuration is read, to add to a registry (such as the motion laws).
 """
 
@@ -100,7 +100,7 @@ class Discovery:
         origins = self.origins.get(kind)
         if not origins:
             raise UnknownKind(
-                f"{kind!r} is no known kind{nearest(kind, self.origins)}. Known: {', '.join(self.origins)}."
+                f"{kind!r} is not a known kind{nearest(kind, self.origins)}. Known: {', '.join(self.origins)}."
             )
         if len(origins) > 1:
             places = " and from ".join(origin.told for origin in origins)
@@ -155,7 +155,7 @@ STANDARD = Path(traceback.__file__).parent
 
 
 def _is_foreign(file: Path) -> bool:
-    """Whether a file is no plugin's: of the program, of the standard library, of a library that plugins use."""
+    """Whether a file is not a plugin's: of the program, of the standard library, of a library that plugins use."""
     of_program = file.is_relative_to(PROGRAM) and not file.is_relative_to(PROGRAM / GROUP.rpartition(".")[2])
     of_library = "site-packages" in file.parts and any(name in file.parts for name in LIBRARIES)
     return of_program or of_library or file.parent == STANDARD

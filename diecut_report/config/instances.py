@@ -92,7 +92,7 @@ class Instance:
         return {name: home for name, home in self.mechanism.axes(self.given).items() if home in lists}
 
     def value(self, key: KeyPath) -> Any:
-        """The value of an input that is no reference: an SI number, a text, true or false, values of a curve, or None."""
+        """The value of an input that is not a reference: an SI number, a text, true or false, values of a curve, or None."""
         slot = max((s for s in slots(self.model, self.data) if s.key == key[: len(s.key)]), key=lambda s: len(s.key))
         value = slot.value
         for part in key[len(slot.key) :]:  # within a block that is there by default

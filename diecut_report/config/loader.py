@@ -1,4 +1,4 @@
-"""A configuration file read, validated and linked, with all that is wrong told at once."""
+"""A configuration file read, validated and linked, with all that is wrong reported at once."""
 
 from __future__ import annotations
 
@@ -140,7 +140,7 @@ def _known_to_press(instance: Instance, kind: str) -> None:
         path = meta.press.path if isinstance(meta, Quantity) and meta.press else ""
         if path and not isinstance(declared(Press, tuple(path.removeprefix(f"{PRESS}.").split("."))), Quantity):
             known = [f"{PRESS}.{name}" for name, each in fields(Press) if isinstance(each, Quantity)]
-            what = f"which is no number of the press{nearest(path, known)}; it has {', '.join(known)}"
+            what = f"which is not a number of the press{nearest(path, known)}; it has {', '.join(known)}"
             place = Path(meta.at).name
             raise PluginError(f"it declares what cannot be: {place}: input {key} takes {path}, {what}", kind)
 
@@ -155,7 +155,7 @@ def _name_fault(name: str) -> str:
     if name in RESERVED:
         return f"the name {name!r} is reserved. Choose another one."
     if not NAME.fullmatch(name):
-        return f"{told(name)} is no name: a letter, then letters, digits, _ and - are allowed."
+        return f"{told(name)} is not a name: a letter, then letters, digits, _ and - are allowed."
     return ""
 
 

@@ -81,7 +81,7 @@ class ConfigDocument(Block):
     @field_validator("schema_version", mode="before")
     @classmethod
     def a_number(cls, given: Any) -> Any:
-        """True equals 1 in Python, but is no version."""
+        """True equals 1 in Python, but is not a version."""
         if isinstance(given, bool | str):
             shown = f"“{given}”" if isinstance(given, str) else str(given).lower()
             raise ValueError(f"is {shown}; the number 1 is needed, without quotes")

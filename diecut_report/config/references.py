@@ -67,7 +67,7 @@ class Linker:
 
     def _not_in_press(self, instance: Instance) -> Iterator[KeyPath]:
         press = self.instances[PRESS]
-        known = press.given if press else frozenset()  # a config without a press has told so already
+        known = press.given if press else frozenset()  # a config without a press has been reported already
         for slot in slots(instance.model, instance.data):
             default = default_of(slot)
             if default and default.optional and default.path.removeprefix(f"{PRESS}.") not in known:
@@ -85,13 +85,13 @@ class Linker:
                 self.problems.append(instance.place.problem(key, str(fault)))
 
     def _within_curve(self, instance: Instance, key: KeyPath, target: Target) -> Target:
-        """The values of a curve given as a list are no inputs of their own, so their kind is judged here."""
+        """The values of a curve given as a list are not inputs of their own, so their kind is judged here."""
         meta = declared(instance.model, key[:-1]) if len(key) > 1 else None
         if isinstance(meta, CurveInput) and not target.is_broken:
             single = target.unit is not None and not target.is_curve
             if not single or unit(str(target.unit)).kind != unit(meta.unit).kind:
                 raise Unresolved(
-                    f"${{{target.path}}} is no single quantity in {pretty(meta.unit)}, as the other values are"
+                    f"${{{target.path}}} is not a single quantity in {pretty(meta.unit)}, as the other values are"
                 )
         return target
 

@@ -7,7 +7,7 @@ from functools import partial
 from typing import Any, get_args
 
 from diecut_report.config.loader import NAME, RESERVED
-from diecut_report.config.model import Press, Project, Revision
+from diecut_report.config.model import Press, Project
 from diecut_report.config.validation import keys_of
 from diecut_report.contract.inputs import Block, CurveInput, Quantity, Text
 from diecut_report.contract.mechanism import Mechanism
@@ -33,7 +33,7 @@ def config_schema(mechanisms: Mapping[str, Mechanism], broken: Mapping[str, str]
         "additionalProperties": False,
         "properties": {
             "schema_version": {"const": 1, "description": "Version of this form of the file."},
-            "project": block_schema(Project),
+            "project": block_schema(Project, refers=False),
             "press": block_schema(Press),
             "mechanisms": {
                 "type": "object",
@@ -75,8 +75,8 @@ def _of_kind(mechanism: Mechanism) -> Schema:
     }
 
 
-def block_schema(model: type[Block]) -> Schema:
-    """Schema of a block of keys."""
+def block_schema(model: type[Block], refers: bool = True) -> Schema:
+    """Return the schema of a block of keys; its texts may be references where it ``refers``."""
     groups = [
         {"anyOf": [{"required": list(group)} for group in rule.groups]} for rule in model.one_of if not rule.optional
     ]
@@ -84,28 +84,27 @@ def block_schema(model: type[Block]) -> Schema:
         "type": "object",
         "required": [name for name, field in model.model_fields.items() if field.is_required()],
         "additionalProperties": False,
-        "properties": {name: _key(model, name) for name in model.model_fields},
+        "properties": {name: _key(model, name, refers) for name in model.model_fields},
     } | ({"allOf": groups} if groups else {})
 
 
-def _key(model: type[Block], name: str) -> Schema:
+def _key(model: type[Block], name: str, refers: bool) -> Schema:
     field, meta, inner, is_list = keys_of(model)[name]
     if inner:
-        block = block_schema(inner)
+        block = block_schema(inner, refers)
         described = {"description": meta.description if isinstance(meta, Text) else (inner.__doc__ or "")}
         return described | ({"type": "array", "items": block} if is_list else block)
     default = None if field.is_required() else field.get_default(call_default_factory=True)
     shown = {} if default is None else {"default": default}
     match meta:
         case Quantity():
-            quantity = _quantity(meta, default) | shown
+            quantity = _quantity(meta, default, refers) | shown
             return quantity | _listed(quantity, len(model.spread[name])) if name in model.spread else quantity
         case CurveInput():
             return _curve(meta)
     described = {"description": f"{meta.description}."} if meta else {}
-    plain = issubclass(model, Project | Revision)  # the title block takes no references
     allowed = {"enum": list(meta.options)} if isinstance(meta, Text) and meta.options else _text(field.annotation)
-    return described | (allowed if plain else {"anyOf": [allowed, _reference()]}) | shown
+    return described | ({"anyOf": [allowed, _reference()]} if refers else allowed) | shown
 
 
 def _listed(quantity: Schema, count: int) -> Schema:
@@ -133,7 +132,7 @@ def _with_unit(number: Any, meta: Quantity) -> str:
     return f"{number} {pretty(meta.unit)}".rstrip()
 
 
-def _quantity(meta: Quantity, default: Any) -> Schema:
+def _quantity(meta: Quantity, default: Any, refers: bool) -> Schema:
     """A bare number counts in the display unit, so the bounds hold for it as they stand."""
     limits = {BOUNDS[name]: getattr(meta, name) for name in BOUNDS if getattr(meta, name) is not None}
     said = [meta.description, f"Unit: {in_all_units(meta, _unit)}"]
@@ -141,7 +140,7 @@ def _quantity(meta: Quantity, default: Any) -> Schema:
     said += [f"Default: {in_all_units(meta, partial(_with_unit, default))}"] if default is not None else []
     said += [f"Default: from {meta.press.path}"] if meta.press else []
     number = {"type": "integer" if meta.integer else "number", **limits}
-    text = {"type": "string", "pattern": f"{REFERENCE}|{NUMBER}"}
+    text = {"type": "string", "pattern": f"{REFERENCE}|{NUMBER}" if refers else NUMBER}
     return {"description": ". ".join(said) + ".", "anyOf": [number, text]}
 
 

@@ -150,7 +150,7 @@ def _parse(text: str, file: str, sha256: str) -> Tree:
     if control := _CONTROL.search(text):
         before = text[: control.start()]
         place = before.count("\n") + 1, len(before) - before.rfind("\n")
-        message = f"The control character U+{ord(control[0]):04X} stands here; this is no YAML text. Give a text file."
+        message = f"The control character U+{ord(control[0]):04X} stands here; this is not YAML text. Give a text file."
         raise UserError(Problem(message, file, *place))
     builder = _Builder(file)
     try:

@@ -14,12 +14,12 @@ from diecut_report.standards import Column, StandardFault, StandardTable
 
 @formula
 def difference(x: Any, row: Any) -> Any:
-    """How far a quantity is beyond a row of a table."""
+    """Return how far a quantity is beyond a row of a table."""
     return x - row
 
 
 class Between(Formula):
-    """The value of a column at ``x``, which the table's rows go by; beyond its ends it goes on as in the last piece.
+    """Declare the value of a column at ``x``, which the table's rows go by; beyond its ends it goes on as in the last piece.
 
     ``x`` and ``y`` are the two columns in SI.
     """
@@ -67,7 +67,7 @@ def straight(x: Node, x_1: Node, y_1: Node, x_2: Node, y_2: Node) -> Node:
 
 def _columns(table: object, column: str) -> tuple[Column, Column]:
     if not isinstance(table, StandardTable):
-        raise StandardFault(f"{table!r} is no table; write one with own_table(…), rows of numbers and its sources.")
+        raise StandardFault(f"{table!r} is not a table; write one with own_table(…), rows of numbers and its sources.")
     if table.names:
         raise StandardFault(f"The table “{table.title}” goes by names; one that goes by numbers is needed.")
     if column == table.columns[0].name:

@@ -14,14 +14,14 @@ from diecut_report.expressions import LAMBDA, Formula
 
 @dataclass(frozen=True, eq=False)
 class Bound:
-    """A formula bound to quantities: each parameter's quantity id, or a plain number."""
+    """Bind a formula to quantities: each parameter's quantity id, or a plain number."""
 
     formula: Formula
     names: Mapping[str, str | float]
 
     @cached_property
     def takes(self) -> tuple[str | float, ...]:
-        """What the parameters take, in their order: ids, or plain numbers as floats."""
+        """Return what the parameters take, in their order: ids, or plain numbers as floats."""
         return tuple(name if isinstance(name, str) else float(name) for name in self.names.values())
 
 
@@ -40,7 +40,7 @@ def bind(formula: Formula | Callable[..., Any], **names: str | float) -> Bound:
 
 
 class ByText:
-    """A formula chosen by a text input: ``formulas[text]``, bound to quantities as by ``bind(formula, **names)``.
+    """Choose a formula by a text input: ``formulas[text]``, bound to quantities as by ``bind(formula, **names)``.
 
     ``formulas`` may be a live view of a registry; all its formulas have the same parameters.
     """
@@ -49,15 +49,15 @@ class ByText:
         self.key, self.formulas, self.names = key, formulas, names
 
     def of(self, text: str) -> Bound:
-        """The bound formula for a value of the text input."""
+        """Return the bound formula for a value of the text input."""
         return bind(self.formulas[text], **self.names)
 
     def options(self) -> tuple[Bound, ...]:
-        """The bound formulas of all values."""
+        """Return the bound formulas of all values."""
         return tuple(map(self.of, self.formulas))
 
     def renamed(self, rename: Callable[[str | float], str | float]) -> ByText:
-        """The same choice with other ids for its quantities."""
+        """Return the same choice with other ids for its quantities."""
         own = self.options()[0].names
         return ByText(self.key, self.formulas, **{parameter: rename(name) for parameter, name in own.items()})
 
@@ -85,7 +85,7 @@ def _formula(function: Any, name: str) -> Formula:
 
 
 def bound(part: Binding) -> Bound:
-    """A formula that is not bound yet takes the quantities of its parameters' own names.
+    """Let a formula that is not bound yet take the quantities of its parameters' own names.
 
     A choice by a text stands here for its first formula: what it takes does not depend on the text.
     """

@@ -42,7 +42,7 @@ from diecut_report.standards import StandardSeries, StandardTable
 
 @dataclass(eq=False)
 class Steps:
-    """Declared steps in the order in which they are calculated; a family of them may be added to several chapters."""
+    """Hold declared steps in the order in which they are calculated; a family of them may be added to several chapters."""
 
     steps: Sequence[Step] = field(default=(), kw_only=True)
 
@@ -290,7 +290,7 @@ class Steps:
 
 @dataclass(eq=False)
 class Chapter(Steps):
-    """A chapter of the calculation: steps under a title; ``absent`` says in words what is missing when its needs are."""
+    """Declare a chapter of the calculation: steps under a title; ``absent`` says in words what is missing when its needs are."""
 
     title: str
     text: str = field(default="", kw_only=True)

@@ -28,7 +28,7 @@ def chart_panel(
     verticals: Sequence[Data] = (),
     range: tuple[float | None, float | None] | None = None,
 ) -> Data:
-    """One diagram of a chart; ``unit`` and ``x_unit`` are display units, ``title`` says what stands upwards.
+    """Return one diagram of a chart; ``unit`` and ``x_unit`` are display units, ``title`` says what stands upwards.
 
     ``range`` is that of the upright axis, (0, None), in ``unit``; None for an end that follows from the lines.
     """
@@ -39,27 +39,27 @@ def chart_panel(
 
 
 def line(x: Values, y: Values, label: str) -> Data:
-    """A line; it is broken where a value is NaN."""
+    """Return a line; it is broken where a value is NaN."""
     return {"x": _plain(x), "y": _plain(y), "label": label}
 
 
 def fill(x: Values, y: Values, label: str) -> Data:
-    """The area between a line and zero."""
+    """Return the area between a line and zero."""
     return line(x, y, label)
 
 
 def mark(x: float, y: float, label: str) -> Data:
-    """A marked point."""
+    """Return a marked point."""
     return {"x": float(x), "y": float(y), "label": label}
 
 
 def level(y: float, label: str) -> Data:
-    """A horizontal line."""
+    """Return a horizontal line."""
     return {"value": float(y), "label": label}
 
 
 def vertical(x: float, label: str) -> Data:
-    """A vertical line."""
+    """Return a vertical line."""
     return {"x": float(x), "label": label}
 
 

@@ -10,7 +10,7 @@ from diecut_report.contract.place import placed
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class Check:
-    """``demand`` ≤ ``limit``, and ``at_least`` ≤ ``demand`` where that is given (ids, or plain numbers in ``unit``).
+    """Demand ``demand`` ≤ ``limit``, and ``at_least`` ≤ ``demand`` where that is given (ids, or plain numbers in ``unit``).
 
     The utilisation is demand / limit, and null where the limit is not above zero; of a two-sided check it is the worse of
     that and at_least / demand. A row over repeated parts is judged part by part, and the worst one governs; a curve where
@@ -40,11 +40,11 @@ class Check:
 
     @property
     def pairs(self) -> tuple[tuple[str | float, str | float], ...]:
-        """What is held against what, the first not above the second: demand and limit, then the lower bound and demand."""
+        """Return what is held against what, the first not above the second: demand and limit, then the lower bound and demand."""
         upper = ((self.demand, self.limit),)
         return upper if self.at_least is None else (*upper, (self.at_least, self.demand))
 
     @property
     def named(self) -> tuple[str, ...]:
-        """The ids of the quantities that are compared, each once."""
+        """Return the ids of the quantities that are compared, each once."""
         return tuple(dict.fromkeys(side for pair in self.pairs for side in pair if isinstance(side, str)))

@@ -15,7 +15,7 @@ Range = tuple[str | float | None, str | float | None]
 
 
 class View(Protocol):
-    """What a drawing may ask of the calculated machine."""
+    """Give a drawing what it may ask of the calculated machine."""
 
     def __getitem__(self, name: str) -> float:
         """A number by its id, SI."""
@@ -24,28 +24,28 @@ class View(Protocol):
         """Whether there is a number of this id."""
 
     def get(self, name: str, default: float) -> float:
-        """A number by its id, or the default where there is none."""
+        """Return a number by its id, or the default where there is none."""
 
     def at(self, curve: str, place: float) -> float:
-        """A curve's value at a place of its abscissa, SI."""
+        """Return a curve's value at a place of its abscissa, SI."""
 
     def text(self, name: str) -> str:
-        """A quantity as it is printed: ``h = 40 mm``."""
+        """Return a quantity as it is printed: ``h = 40 mm``."""
 
     def word(self, name: str) -> str:
-        """A text by its id: an input, or what a choice gave."""
+        """Return a text by its id: an input, or what a choice gave."""
 
     def row(self, name: str) -> list[float]:
-        """The values of all repeated parts, SI."""
+        """Return the values of all repeated parts, SI."""
 
     def words(self, name: str) -> list[str]:
-        """A text input of all repeated parts."""
+        """Return a text input of all repeated parts."""
 
     def curve(self, name: str) -> list[float]:
-        """A curve (or an abscissa) at the samples of the results, SI."""
+        """Return a curve (or an abscissa) at the samples of the results, SI."""
 
     def varied(self, inputs: Mapping[str, Any], *names: str) -> dict[str, Array]:
-        """Numbers of the machine calculated again with other inputs (SI; arrays of one length give arrays of it).
+        """Return numbers of the machine calculated again with other inputs (SI; arrays of one length give arrays of it).
 
         Only what they need is calculated. NaN where the machine is then impossible.
         """
@@ -53,12 +53,12 @@ class View(Protocol):
     def varied_curves(
         self, inputs: Mapping[str, Any], *names: str, points: int = 361
     ) -> tuple[Array, dict[str, Array]]:
-        """Abscissa and values, over the whole abscissa, of curves of the machine calculated again with other inputs."""
+        """Return the abscissa and the values, over the whole abscissa, of curves of the machine calculated again with other inputs."""
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class Series:
-    """One curve in a plot."""
+    """Declare one curve in a plot."""
 
     curve: str
     label: str
@@ -66,7 +66,7 @@ class Series:
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class Level:
-    """A horizontal line at a quantity's value."""
+    """Declare a horizontal line at a quantity's value."""
 
     value: str
     label: str
@@ -74,7 +74,7 @@ class Level:
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class Mark:
-    """A marked point: ids of its place and its value."""
+    """Declare a marked point: ids of its place and its value."""
 
     x: str
     y: str
@@ -83,7 +83,7 @@ class Mark:
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class Span:
-    """A marked range of the abscissa between two quantities."""
+    """Declare a marked range of the abscissa between two quantities."""
 
     start: str
     end: str
@@ -92,7 +92,7 @@ class Span:
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class Panel:
-    """One diagram of a plot: curves of one unit over the abscissa.
+    """Declare one diagram of a plot: curves of one unit over the abscissa.
 
     ``range`` is that of its axis, (0, None): ids or numbers in the panel's unit, None for an end that follows from the curves.
     Without it zero is always shown.
@@ -109,7 +109,7 @@ class Panel:
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class Figure:
-    """What all figures have; ``needs`` names the optional inputs without which it is left out."""
+    """Declare what all figures have; ``needs`` names the optional inputs without which it is left out."""
 
     id: str
     title: str
@@ -120,7 +120,7 @@ class Figure:
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class Plot(Figure):
-    """Diagrams one below the other over a common abscissa."""
+    """Declare diagrams one below the other over a common abscissa."""
 
     abscissa: str
     panels: tuple[Panel, ...]
@@ -128,7 +128,7 @@ class Plot(Figure):
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class Polar(Figure):
-    """Curves over an angle, as distance from the pole; negative values are drawn with another line."""
+    """Declare curves over an angle, as distance from the pole; negative values are drawn with another line."""
 
     abscissa: str
     unit: str
@@ -137,14 +137,14 @@ class Polar(Figure):
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class Bars(Figure):
-    """Bars in groups: each group has its own unit, each bar the id of a quantity."""
+    """Declare bars in groups: each group has its own unit, each bar the id of a quantity."""
 
     groups: tuple[BarGroup, ...]
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class BarGroup:
-    """Bars of one unit; a bar is a label and the id of its quantity, subtracted ones with ``-ID``."""
+    """Declare bars of one unit; a bar is a label and the id of its quantity, subtracted ones with ``-ID``."""
 
     label: str
     unit: str
@@ -153,7 +153,7 @@ class BarGroup:
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class Drawing(Figure):
-    """A drawing to scale: ``build`` gives its shapes from the calculated machine, in metres.
+    """Declare a drawing to scale: ``build`` gives its shapes from the calculated machine, in metres.
 
     ``scaled_by`` names the optional input without which the shapes have relative lengths (``unit`` is then a pure number).
     A ``schematic`` one is not to scale: its coordinates only say what stands beside what.
@@ -167,18 +167,18 @@ class Drawing(Figure):
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class Chart(Figure):
-    """Diagrams of lines that are no curves of the results: ``build`` gives its panels (``chart_panel``) from the machine."""
+    """Declare diagrams of lines that are not curves of the results: ``build`` gives its panels (``chart_panel``) from the machine."""
 
     build: Callable[[View], list[Shape]]
 
 
 def polyline(points: Sequence[Point], role: str = "outline", *, closed: bool = False) -> Shape:
-    """Straight lines from point to point."""
+    """Return straight lines from point to point."""
     return {"shape": "polyline", "points": [list(p) for p in points], "closed": closed, "role": role}
 
 
 def region(outer: Sequence[Point], holes: Sequence[Sequence[Point]] = (), role: str = "section") -> Shape:
-    """A cut area, hatched."""
+    """Return a cut area, hatched."""
     return {
         "shape": "region",
         "outer": [list(p) for p in outer],
@@ -188,37 +188,37 @@ def region(outer: Sequence[Point], holes: Sequence[Sequence[Point]] = (), role: 
 
 
 def circle(center: Point, radius: float, role: str = "outline") -> Shape:
-    """A full circle."""
+    """Return a full circle."""
     return {"shape": "circle", "center": list(center), "radius": radius, "role": role}
 
 
 def arc(center: Point, radius: float, start: float, end: float, role: str = "outline") -> Shape:
-    """An arc, counter-clockwise from ``start`` to ``end`` (rad)."""
+    """Return an arc, counter-clockwise from ``start`` to ``end`` (rad)."""
     return {"shape": "arc", "center": list(center), "radius": radius, "start": start, "end": end, "role": role}
 
 
 def dimension(start: Point, end: Point, offset: float, text: str) -> Shape:
-    """A dimension line between two points, set off to the left of the direction start → end by ``offset`` (m)."""
+    """Return a dimension line between two points, set off to the left of the direction start → end by ``offset`` (m)."""
     return {"shape": "dimension", "from": list(start), "to": list(end), "offset": offset, "text": text}
 
 
 def radius_dimension(center: Point, radius: float, angle: float, text: str) -> Shape:
-    """A radius with its text, drawn at an angle (rad)."""
+    """Return a radius with its text, drawn at an angle (rad)."""
     return {"shape": "radius_dimension", "center": list(center), "radius": radius, "angle": angle, "text": text}
 
 
 def label(at: Point, text: str, anchor: str = "left") -> Shape:
-    """A text in the drawing."""
+    """Return a text in the drawing."""
     return {"shape": "label", "at": list(at), "text": text, "anchor": anchor}
 
 
 def arrow(start: Point, end: Point, role: str = "mark", text: str = "") -> Shape:
-    """A force or a direction."""
+    """Return a force or a direction."""
     return {"shape": "arrow", "from": list(start), "to": list(end), "role": role} | ({"label": text} if text else {})
 
 
 def box(center: Point, width: float, height: float, lines: Sequence[str], role: str = "outline") -> Shape:
-    """A box of a schematic with its lines of text."""
+    """Return a box of a schematic with its lines of text."""
     return {
         "shape": "box",
         "center": list(center),
@@ -230,12 +230,12 @@ def box(center: Point, width: float, height: float, lines: Sequence[str], role: 
 
 
 def point(at: Point, role: str = "mark", text: str = "") -> Shape:
-    """A marked point or pivot."""
+    """Return a marked point or pivot."""
     return {"shape": "point", "at": list(at), "role": role} | ({"label": text} if text else {})
 
 
 def plain(declared: Any, value_of: View) -> dict[str, Any]:
-    """A level, mark or span with its ids replaced by SI values."""
+    """Return a level, mark or span with its ids replaced by SI values."""
     match declared:
         case Level(value=value, label=words):
             return {"value": value_of[value], "label": words}

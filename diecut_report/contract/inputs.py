@@ -27,7 +27,7 @@ BOUNDS = (("gt", ">"), ("ge", "≥"), ("lt", "<"), ("le", "≤"))
 
 @dataclass(frozen=True)
 class Quantity:
-    """A number with a unit: symbol, display unit, description and bounds (in the display unit).
+    """Declare a number with a unit: symbol, display unit, description and bounds (in the display unit).
 
     Put into ``Annotated[float, Quantity(...)]`` of an input model. The validated value is an SI float
     (an int where ``integer``). ``units`` are other units, each with the key beside which it holds: (("mass", "N/m"),).
@@ -47,25 +47,25 @@ class Quantity:
 
     @cached_property
     def parsed_unit(self) -> Unit:
-        """The display unit with its factor and kind."""
+        """Return the display unit with its factor and kind."""
         return unit(self.unit)
 
     @property
     def allowed(self) -> str:
-        """The range in words, for example ``> 0 mm, ≤ 80 mm``; empty without bounds."""
+        """Return the range in words, for example ``> 0 mm, ≤ 80 mm``; empty without bounds."""
         limits = [(sign, getattr(self, name)) for name, sign in BOUNDS]
         shown = pretty(self.unit)
         return ", ".join(f"{sign} {limit:g} {shown}".rstrip() for sign, limit in limits if limit is not None)
 
     def validate(self, given: Any) -> Any:
-        """The SI value of what was given; ValueError in words where it is not allowed."""
+        """Return the SI value of what was given; ValueError in words where it is not allowed."""
         match given:
             case None:
                 raise ValueError(
                     f"has no value; give a number in {pretty(self.unit) or 'plain form'} or remove the key"
                 )
             case Pending(unit=None):
-                raise ValueError(f"${{{given.path}}} is no number; a quantity in {self.unit} is needed")
+                raise ValueError(f"${{{given.path}}} is not a number; a quantity in {self.unit} is needed")
             case Pending(is_curve=True):
                 raise ValueError(f"${{{given.path}}} is a curve; a single number is needed here")
             case Pending(unit=str() as other):
@@ -121,7 +121,7 @@ class Quantity:
         return shown
 
     def holds(self, values: Any) -> Any:
-        """Which numbers (an array, SI) are allowed."""
+        """Return which numbers (an array, SI) are allowed."""
         shown = values / self.parsed_unit.factor
         whole = shown == np.round(shown) if self.integer else True
         return np.isfinite(shown) & self._within(shown) & whole
@@ -139,7 +139,7 @@ def _optional(source: Any, validate: Callable[[Any], Any]) -> Callable[[Any], An
 
 @dataclass(frozen=True)
 class Text:
-    """An input that is a text, a choice or yes/no: its description (the annotation says what is allowed).
+    """Declare an input that is a text, a choice or yes/no: its description (the annotation says what is allowed).
 
     ``options`` are the allowed texts where these are kept in a registry.
     """
@@ -150,7 +150,7 @@ class Text:
     at: str = placed()
 
     def validate(self, given: str | None) -> str | None:
-        """The text, if it is one of the options; ValueError with the known ones in words where it is not."""
+        """Return the text, if it is one of the options; ValueError with the known ones in words where it is not."""
         if given is None or given in self.options:
             return given
         raise ValueError(f"is “{given}”{nearest(given, self.options)}; allowed: {', '.join(self.options)}")
@@ -162,7 +162,7 @@ class Text:
 
 @dataclass(frozen=True)
 class CurveInput:
-    """A curve taken by reference, or (unless ``referred``) a list of equally spaced numbers over one period.
+    """Declare a curve taken by reference, or (unless ``referred``) a list of equally spaced numbers over one period.
 
     The validated value is a ``Pending``, the referred curve, or a tuple of SI floats. ``units`` as for ``Quantity``.
     """
@@ -175,10 +175,10 @@ class CurveInput:
     at: str = placed()
 
     def validate(self, given: Any) -> Any:
-        """What the engine makes a curve of; ValueError in words where it cannot."""
+        """Return what the engine makes a curve of; ValueError in words where it cannot."""
         if isinstance(given, Pending):
             if given.unit is None or unit(given.unit).kind != unit(self.unit).kind or not given.is_curve:
-                raise ValueError(f"${{{given.path}}} is no curve in {self.unit}")
+                raise ValueError(f"${{{given.path}}} is not a curve in {self.unit}")
             return given
         if isinstance(given, list) and not self.referred:
             if len(given) < 4:
@@ -202,7 +202,7 @@ class CurveInput:
 
 
 class Block(BaseModel):
-    """A block of inputs inside a mechanism, or one of a list of repeated parts."""
+    """Declare a block of inputs inside a mechanism, or one of a list of repeated parts."""
 
     model_config = ConfigDict(extra="forbid", validate_default=True, frozen=True)
     one_of: ClassVar[tuple[OneOf, ...]] = ()
@@ -211,7 +211,7 @@ class Block(BaseModel):
 
 
 class Inputs(Block):
-    """Base of a mechanism's inputs: one annotated field for each key of the config."""
+    """Declare the base of a mechanism's inputs: one annotated field for each key of the config."""
 
 
 POINTS = Quantity("N", "1", "Samples of each curve over one turn", ge=36, le=100_000, integer=True)
@@ -220,12 +220,12 @@ Meta = Quantity | Text | CurveInput
 
 
 def meta_of(model: type[Block], name: str) -> Meta | None:
-    """What a field declares of itself."""
+    """Return what a field declares of itself."""
     return next((m for m in model.model_fields[name].metadata if isinstance(m, Quantity | Text | CurveInput)), None)
 
 
 def nested(annotation: Any) -> tuple[type[Block], bool] | None:
-    """The block type behind a field's annotation, and whether the field is a list of it."""
+    """Return the block type behind a field's annotation, and whether the field is a list of it."""
     if isinstance(annotation, type) and issubclass(annotation, Block):
         return annotation, False
     inner = [found for found in map(nested, get_args(annotation)) if found]
@@ -235,7 +235,7 @@ def nested(annotation: Any) -> tuple[type[Block], bool] | None:
 
 
 def fields(model: type[Block], prefix: str = "") -> Iterator[tuple[str, Meta]]:
-    """Each declared input by its path (``gears.driver_teeth`` for a field of a block or of a list's parts)."""
+    """Yield each declared input by its path (``gears.driver_teeth`` for a field of a block or of a list's parts)."""
     for name, field in model.model_fields.items():
         block = nested(field.annotation)
         meta = meta_of(model, name)
@@ -246,7 +246,7 @@ def fields(model: type[Block], prefix: str = "") -> Iterator[tuple[str, Meta]]:
 
 
 def list_inputs(model: type[Block], prefix: str = "") -> dict[str, str]:
-    """The paths of the inputs that come in rows, one for each part of a list, each with the path of its list."""
+    """Return the paths of the inputs that come in rows, one for each part of a list, each with the path of its list."""
     found: dict[str, str] = {}
     for name, field in model.model_fields.items():
         block = nested(field.annotation)
@@ -259,7 +259,7 @@ def list_inputs(model: type[Block], prefix: str = "") -> dict[str, str]:
 
 
 def list_titles(model: type[Block], prefix: str = "") -> dict[str, str]:
-    """What each list of repeated parts is, by its path."""
+    """Return what each list of repeated parts is, by its path."""
     found: dict[str, str] = {}
     for name, field in model.model_fields.items():
         block, meta = nested(field.annotation), meta_of(model, name)
@@ -271,13 +271,13 @@ def list_titles(model: type[Block], prefix: str = "") -> dict[str, str]:
 
 
 def texts_given(values: Mapping[str, Any]) -> set[str]:
-    """For each text (or yes/no) input the token ``key=value``, by which steps may be chosen."""
+    """Return for each text (or yes/no) input the token ``key=value``, by which steps may be chosen."""
     return {f"{name}={str(value).lower() if isinstance(value, bool) else value}" for name, value in values.items()
             if isinstance(value, str | bool)}  # fmt: skip
 
 
 def flatten(block: Block, prefix: str = "") -> dict[str, Any]:
-    """The validated inputs by id, SI; the parts of a list as a tuple for each of their fields; absent ones left out."""
+    """Return the validated inputs by id, SI; the parts of a list as a tuple for each of their fields; absent ones left out."""
     flat: dict[str, Any] = {}
     for name in type(block).model_fields:
         value = getattr(block, name)

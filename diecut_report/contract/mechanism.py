@@ -30,7 +30,7 @@ from diecut_report.quantities.units import unit
 
 
 def axes(steps: tuple[Step, ...], inputs: type[Inputs]) -> dict[str, str]:
-    """For each curve its abscissa, for each row over repeated parts its list; single numbers are left out."""
+    """Return for each curve its abscissa, for each row over repeated parts its list; single numbers are left out."""
     found = list_inputs(inputs)
     for step in steps:
         match step:
@@ -52,7 +52,7 @@ def axes(steps: tuple[Step, ...], inputs: type[Inputs]) -> dict[str, str]:
 
 @dataclass(frozen=True, eq=False)
 class Source:
-    """A publication that formulas come from."""
+    """Declare a publication that formulas come from."""
 
     id: str
     citation: str
@@ -61,7 +61,7 @@ class Source:
 
 @dataclass(frozen=True, eq=False)
 class Erratum:
-    """A mistake found in a source, and the quantities (ids) that it touches."""
+    """Declare a mistake found in a source, and the quantities (ids) that it touches."""
 
     source: str
     text: str
@@ -71,7 +71,7 @@ class Erratum:
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class Profile:
-    """Curves over one abscissa that are written beside the report as tables and drawings: ``columns`` are x, y, and more.
+    """Declare curves over one abscissa that are written beside the report as tables and drawings: ``columns`` are x, y, and more.
 
     ``needs`` as for steps.
     """
@@ -85,7 +85,7 @@ class Profile:
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class Comparison:
-    """What is calculated last, from the results of mechanisms of the named kinds, where a press has one of each.
+    """Declare what is calculated last, from the results of mechanisms of the named kinds, where a press has one of each.
 
     ``takes`` fills the inputs of ``mechanism`` by the kind and the id of an output, input or curve there; what is absent there
     leaves its input without a value.
@@ -104,7 +104,7 @@ class Comparison:
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class Mechanism:
-    """A kind of mechanism: inputs, calculation, checks, figures, and what is said of it in the report.
+    """Declare a kind of mechanism: inputs, calculation, checks, figures, and what is said of it in the report.
 
     ``key_results`` are the ids of the outputs that the report's summary shows.
     """
@@ -128,11 +128,11 @@ class Mechanism:
 
     @cached_property
     def steps(self) -> tuple[tuple[Chapter, Step], ...]:
-        """All steps in the order in which they are calculated, each with its chapter."""
+        """Return all steps in the order in which they are calculated, each with its chapter."""
         return tuple((chapter, step) for chapter in self.chapters for step in chapter.steps)
 
     def active(self, given: frozenset[str]) -> tuple[tuple[Chapter, Step], ...]:
-        """The steps that take part when these optional inputs (and texts, as ``key=value``) are given."""
+        """Return the steps that take part when these optional inputs (and texts, as ``key=value``) are given."""
         if given not in self._active:
             self._active[given] = tuple(self._settled(given))
         return self._active[given]
@@ -147,7 +147,7 @@ class Mechanism:
         return {}
 
     def results_of(self, given: frozenset[str]) -> dict[str, tuple[str | None, bool]]:
-        """What a reference may name, without calculating: the SI unit (None for a text), and whether it is a curve."""
+        """Return what a reference may name, without calculating: the SI unit (None for a text), and whether it is a curve."""
         found: dict[str, tuple[str | None, bool]] = {}
         for _, step in self.active(given):
             if isinstance(step, SILENT):
@@ -162,11 +162,11 @@ class Mechanism:
         return found
 
     def axis_of(self, name: str, given: frozenset[str]) -> str | None:
-        """The abscissa that a quantity runs over, or the list whose parts it has a row for; None for a single number."""
+        """Return the abscissa that a quantity runs over, or the list whose parts it has a row for; None for a single number."""
         return self.axes(given).get(name)
 
     def axes(self, given: frozenset[str]) -> dict[str, str]:
-        """For each curve its abscissa, for each row over repeated parts its list; single numbers are left out."""
+        """Return for each curve its abscissa, for each row over repeated parts its list; single numbers are left out."""
         if given not in self._axes:
             self._axes[given] = axes(tuple(step for _, step in self.active(given)), self.inputs)
         return self._axes[given]
@@ -177,5 +177,5 @@ class Mechanism:
 
     @cached_property
     def curve_inputs(self) -> frozenset[str]:
-        """The inputs that are curves."""
+        """Return the inputs that are curves."""
         return frozenset(name for name, meta in fields(self.inputs) if isinstance(meta, CurveInput))

@@ -13,7 +13,7 @@ Written = Binding | ByText | Callable[..., Any]
 
 
 class Options(TypedDict, total=False):
-    """What any step may say besides; see ``Step``."""
+    """Declare what any step may say besides; see ``Step``."""
 
     source: str
     digits: int
@@ -28,7 +28,7 @@ class Options(TypedDict, total=False):
 
 
 class StepCondition(TypedDict, total=False):
-    """With which optional inputs a step takes part that gives no quantity."""
+    """Declare with which optional inputs a step takes part that gives no quantity."""
 
     needs: tuple[str, ...]
     lacks: tuple[str, ...]

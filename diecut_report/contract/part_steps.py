@@ -15,7 +15,7 @@ from diecut_report.standards import StandardSeries, StandardTable
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class Total(Step):
-    """Sum, product, least or greatest over repeated parts; with ``among`` (a row) only over the parts where that is above zero."""
+    """Declare the sum, product, least or greatest over repeated parts; with ``among`` (a row) only over the parts where that is above zero."""
 
     of: str
     operation: Literal["sum", "product", "min", "max"]
@@ -24,7 +24,7 @@ class Total(Step):
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class Neighbour(Step):
-    """A row: the value of the next part (``shift`` = 1) or of the one before (-1), the parts standing in a closed loop."""
+    """Declare a row: the value of the next part (``shift`` = 1) or of the one before (-1), the parts standing in a closed loop."""
 
     of: str
     shift: Literal[1, -1] = 1
@@ -32,7 +32,7 @@ class Neighbour(Step):
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class Running(Step):
-    """A row: sum or product of a row's parts from the first one up to each."""
+    """Declare a row: sum or product of a row's parts from the first one up to each."""
 
     of: str
     operation: Literal["sum", "product"]
@@ -40,7 +40,7 @@ class Running(Step):
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class Part(Step):
-    """The value of one part of a row: the first (``index`` = 0), the last (-1)."""
+    """Declare the value of one part of a row: the first (``index`` = 0), the last (-1)."""
 
     of: str
     index: int
@@ -48,7 +48,7 @@ class Part(Step):
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class Lookup(Step):
-    """A number from a table by a text input, in the step's display unit; a row where the text is one of repeated parts.
+    """Declare a number from a table by a text input, in the step's display unit; a row where the text is one of repeated parts.
 
     ``column`` names the column of a table that has several. ``given`` is an optional input: where it is given the step has
     its value, and no text is needed.
@@ -68,7 +68,7 @@ class Lookup(Step):
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class Interpolated(Value):
-    """A value between the rows of a table that go by numbers, straight from row to row, by the quantity ``of``.
+    """Declare a value between the rows of a table that go by numbers, straight from row to row, by the quantity ``of``.
 
     It is a number, a row or a curve, as ``of`` is; ``formula`` is a ``Between`` of the table's columns. Outside of the table
     the machine is impossible: ``key`` is then the input to change, else ``of``.
@@ -81,7 +81,7 @@ class Interpolated(Value):
 
     @property
     def between(self) -> Between:
-        """The formula that goes through the table."""
+        """Return the formula that goes through the table."""
         formula = bound(self.formula).formula
         assert isinstance(formula, Between)
         return formula
@@ -97,7 +97,7 @@ class Interpolated(Value):
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class Pick(Step):
-    """A value of a standard series: the next one at or above, at or below, or the nearest to a quantity.
+    """Declare a value of a standard series: the next one at or above, at or below, or the nearest to a quantity.
 
     ``series`` are the standard values: in the display unit, or a standard series; or one for each value of the text
     input ``by``. The neighbours that were not taken are printed too. A quantity beyond the end of the series makes the machine

@@ -1,4 +1,4 @@
-"""Where an author's file declares something: every declared thing carries it, so that what is wrong with it is told there."""
+"""Where an author's file declares something: every declared thing carries it, so that what is wrong with it is reported there."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ def placed() -> Any:
 
 
 class Misdeclared(TypeError):
-    """What a plugin declares cannot be made; the text says so, with the place."""
+    """Report that what a plugin declares cannot be made; the text says so, with the place."""
 
     def __init__(self, text: str) -> None:
         super().__init__(f"{here()}: {text}")

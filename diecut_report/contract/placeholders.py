@@ -11,7 +11,7 @@ from diecut_report.expressions import Array, Formula
 
 @dataclass(frozen=True)
 class SI:
-    """A number (of many machines an array of them) that is already in SI, from a reference or a default of the press.
+    """Hold a number (of many machines an array of them) that is already in SI, from a reference or a default of the press.
 
     ``told`` says from where.
     """
@@ -23,7 +23,7 @@ class SI:
 
 @dataclass(frozen=True)
 class Pending:
-    """A reference whose value is not known yet; ``unit`` is that of what it refers to, None where it is not a number."""
+    """Stand for a reference whose value is not known yet; ``unit`` is that of what it refers to, None where it is not a number."""
 
     path: str
     unit: str | None
@@ -31,19 +31,19 @@ class Pending:
 
 
 class Curve(Protocol):
-    """A curve that an input refers to, over shares of its period."""
+    """Hold a curve that an input refers to, over shares of its period."""
 
     def values(self, share: Array, middle: Array, rows: Array | None) -> Array:
-        """Values at shares, shape (variants, points), each in the smooth piece that the share ``middle`` lies in."""
+        """Return values at shares, shape (variants, points), each in the smooth piece that the share ``middle`` lies in."""
 
     @property
     def breakpoints(self) -> Array:
-        """The inner edges of the curve's smooth pieces, as shares, ascending, shape (variants, places)."""
+        """Return the inner edges of the curve's smooth pieces, as shares, ascending, shape (variants, places)."""
 
 
 @dataclass(frozen=True)
 class FromPress:
-    """A default that the press gives: a press field's path and, where it is not that number itself, a formula of it.
+    """Name a default that the press gives: a press field's path and, where it is not that number itself, a formula of it.
 
     An ``optional`` one leaves the input without a value where the press does not give the field; else that is an error.
     """
@@ -54,7 +54,7 @@ class FromPress:
 
 
 class OneOf:
-    """Inputs of which one group is needed: ``OneOf(("torque",), ("power", "speed"))``.
+    """Name inputs of which one group is needed: ``OneOf(("torque",), ("power", "speed"))``.
 
     One group must be given completely, and nothing of another one, but for the keys that are ``shared``: these have a use
     beside each group. Where it is ``optional`` a default holds without any of the keys.
@@ -64,7 +64,7 @@ class OneOf:
         self.groups, self.shared, self.optional = groups, shared, optional
 
     def fault(self, given: Iterable[str]) -> str:
-        """What is wrong with the keys that are given, in words; empty where nothing is."""
+        """Return what is wrong with the keys that are given, in words; empty where nothing is."""
         known = set(given)
         told = ", or ".join(listed(group) for group in self.groups)
         heads = [group[0] for group in self.groups if group[0] in known]
@@ -84,5 +84,5 @@ class OneOf:
 
 
 def listed(keys: Sequence[str]) -> str:
-    """Keys in words: ``mass, inertia and velocity``."""
+    """Return keys in words: ``mass, inertia and velocity``."""
     return " and ".join([", ".join(keys[:-1]), keys[-1]] if len(keys) > 1 else keys)

@@ -27,7 +27,7 @@ Role = Literal["value", "place", "count", "crossing", "part"]
 
 @dataclass(frozen=True)
 class ResultName:
-    """A name, the id of the step that gives it, and what it is of the step's quantity.
+    """Hold a name, the id of the step that gives it, and what it is of the step's quantity.
 
     A crossing and a part have an ``index``, counted from 0, and the ``number`` that tells them apart in print: the one in
     the name, or counted from 1 where the name is a path (``wraps.0``).
@@ -42,7 +42,7 @@ class ResultName:
 
 @dataclass(frozen=True)
 class Pattern:
-    """How the parts of a row, or the crossings of a curve, are named: a number from ``first`` on between head and tail."""
+    """Describe how the parts of a row, or the crossings of a curve, are named: a number from ``first`` on between head and tail."""
 
     head: str
     tail: str
@@ -50,17 +50,17 @@ class Pattern:
 
     @property
     def is_path(self) -> bool:
-        """Whether the number is a key of its own, as a list's parts have it."""
+        """Return whether the number is a key of its own, as a list's parts have it."""
         return self.head.endswith(".")
 
     @property
     def family(self) -> str:
-        """What is numbered: ``shaft`` of ``shaft_{}_speed``."""
+        """Return what is numbered: ``shaft`` of ``shaft_{}_speed``."""
         return self.head.rstrip("._")
 
     @property
     def quantity(self) -> str:
-        """What is told of each: ``speed`` of ``shaft_{}_speed``; none where the family is of one quantity alone."""
+        """Return what is said of each: ``speed`` of ``shaft_{}_speed``; none where the family is of one quantity alone."""
         return self.tail.lstrip("._")
 
     def name(self, step: Step, index: int) -> ResultName:
@@ -90,7 +90,7 @@ def pattern(step: Step) -> Pattern:
 
 
 def has_own_names(step: Step) -> bool:
-    """Whether the parts or crossings that a step gives are quantities of their own, which formulas and references name."""
+    """Return whether the parts or crossings that a step gives are quantities of their own, which formulas and references name."""
     return bool(step.numbered) or isinstance(step, Crossings)
 
 

@@ -21,7 +21,7 @@ Rename = Callable[[str | float], str | float]
 
 
 def prefixed(prefix: str, steps: Iterable[Step], shared: tuple[str, ...], symbol_suffix: str = "") -> tuple[Step, ...]:
-    """One family of steps for another variant: each id gets the prefix, except what is ``shared`` by all variants."""
+    """Return one family of steps for another variant: each id gets the prefix, except what is ``shared`` by all variants."""
     steps = tuple(steps)
     own_steps = [step for step in steps if step.id not in shared]
     own = {step.id for step in own_steps} | {
@@ -38,7 +38,7 @@ def prefixed(prefix: str, steps: Iterable[Step], shared: tuple[str, ...], symbol
 
 
 def settled(step: Step, given: frozenset[str]) -> Step:
-    """The step with the formulas that a text chooses, where the text is known, and with the unit that holds then."""
+    """Return the step with the formulas that a text chooses, where the text is known, and with the unit that holds then."""
     step = in_unit(step, given)
 
     def settle(part: Any) -> Any:
@@ -73,7 +73,7 @@ def _declared(step: Step) -> list[str]:
 
 @cache
 def taken(step: Step) -> frozenset[str]:
-    """The ids that a step names: inputs, and what earlier steps gave."""
+    """Return the ids that a step names: inputs, and what earlier steps gave."""
     names: set[str] = set()
 
     def note(name: str | float) -> str | float:

@@ -11,7 +11,7 @@ from diecut_report.expressions import Array
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class SpectrumLine:
-    """One curve of a spectrum: ``values`` (SI) at those of the spectrum."""
+    """Declare one curve of a spectrum: ``values`` (SI) at those of the spectrum."""
 
     id: str
     symbol: str
@@ -24,6 +24,6 @@ class SpectrumLine:
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class Spectrum(SpectrumLine):
-    """What ``lines`` run over: its ``values`` ascend. ``lines`` is called when a machine's results are made."""
+    """Declare what ``lines`` run over: its ``values`` ascend. ``lines`` is called when a machine's results are made."""
 
     lines: Callable[[], Sequence[SpectrumLine]]

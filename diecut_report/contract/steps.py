@@ -17,7 +17,7 @@ from diecut_report.expressions import Array
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class Step:
-    """What all steps have: the quantity that it gives, and the inputs without which (or with which) it is left out.
+    """Declare what all steps have: the quantity that it gives, and the inputs without which (or with which) it is left out.
 
     ``needs`` and ``lacks`` name optional inputs: the step is part of the calculation when all of ``needs`` are given
     and none of ``lacks``. ``output`` puts the quantity among the outputs of the results file, else among its values.
@@ -47,7 +47,7 @@ class Step:
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class Value(Step):
-    """A closed formula: a number, a curve where it takes a curve or an abscissa, a row of numbers over repeated parts.
+    """Declare a closed formula: a number, a curve where it takes a curve or an abscissa, a row of numbers over repeated parts.
 
     ``per_piece`` marks a flag of a curve's smooth pieces (direction of motion, cutting): it is taken at the middle
     of the piece, so that one-sided limits at the piece's ends are well defined.
@@ -57,18 +57,18 @@ class Value(Step):
     per_piece: bool = False
 
     def takes(self) -> tuple[str | float, ...]:
-        """The ids (or plain numbers) that the formula takes."""
+        """Return the ids (or plain numbers) that the formula takes."""
         return tuple(bound(self.formula).names.values())
 
     @property
     def is_condition(self) -> bool:
-        """Whether it gives yes or no."""
+        """Return whether it gives yes or no."""
         return bound(self.formula).formula.tree.op in ("cmp", "and", "or", "not")
 
 
 @dataclass(frozen=True, eq=False)
 class Case:
-    """One branch of a choice: taken where the condition holds (the last one has none), and why, in words."""
+    """Declare one branch of a choice: taken where the condition holds (the last one has none), and why, in words."""
 
     value: Binding | str
     words: str
@@ -77,20 +77,20 @@ class Case:
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class Choice(Step):
-    """A value (number, or text where the cases' values are texts) chosen by conditions; the branch taken is printed."""
+    """Declare a value (number, or text where the cases' values are texts) chosen by conditions; the branch taken is printed."""
 
     cases: tuple[Case, ...]
     per_piece: bool = False
 
     def takes(self) -> tuple[str | float, ...]:
-        """The ids (or plain numbers) that the conditions and values take."""
+        """Return the ids (or plain numbers) that the conditions and values take."""
         parts = [p for c in self.cases for p in (c.value, c.condition) if isinstance(p, Binding)]
         return tuple(name for part in parts for name in bound(part).names.values())
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class Root(Step):
-    """A root found in [low, high] of ``equation``, a formula of the unknown (named ``unknown``) that is zero there.
+    """Declare a root found in [low, high] of ``equation``, a formula of the unknown (named ``unknown``) that is zero there.
 
     ``left`` = ``right`` is the relation that is printed and proves the root: another form than the one solved.
     """
@@ -106,7 +106,7 @@ class Root(Step):
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class Abscissa(Step):
-    """What curves run over, [0, period): sampled at ``points`` (an input's id); shown in print at the place ``shown_at``.
+    """Declare what curves run over, [0, period): sampled at ``points`` (an input's id); shown in print at the place ``shown_at``.
 
     ``period`` is a number, or the id of one. ``intervals`` are those of the search grid in each smooth piece: fewer are enough
     where breakpoints leave the pieces short.
@@ -120,10 +120,10 @@ class Abscissa(Step):
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class Breakpoints(Step):
-    """Places on an abscissa where a curve that follows jumps or has a corner: ids of numbers, or of found crossings.
+    """Declare places on an abscissa where a curve that follows jumps or has a corner: ids of numbers, or of found crossings.
 
     ``every`` is the id of a length within which curves turn back at most a few times: extremes and integrals are searched in
-    pieces no longer than that. These are no breakpoints of the results.
+    pieces no longer than that. These are not breakpoints of the results.
     """
 
     abscissa: str
@@ -133,7 +133,7 @@ class Breakpoints(Step):
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class Crossings(Step):
-    """All places where a curve changes its sign, between the breakpoints known so far and at them.
+    """Declare all places where a curve changes its sign, between the breakpoints known so far and at them.
 
     Their number differs from machine to machine; as outputs they are ``ID_count``, ``ID_1``, ``ID_2`` …
     """
@@ -146,7 +146,7 @@ Operation = Literal["max", "min", "abs_max", "range", "mean", "rms", "integral"]
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class Reduction(Step):
-    """One number of a curve over its abscissa; extremes also give their place, the quantity ``ID_at``."""
+    """Declare one number of a curve over its abscissa; extremes also give their place, the quantity ``ID_at``."""
 
     of: str
     operation: Operation
@@ -154,21 +154,21 @@ class Reduction(Step):
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class Accumulated(Step):
-    """A curve: the running integral of another curve over its abscissa, from the abscissa's start."""
+    """Declare a curve: the running integral of another curve over its abscissa, from the abscissa's start."""
 
     of: str
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class Derivative(Step):
-    """A curve: the derivative of another curve by its abscissa, within the smooth pieces."""
+    """Declare a curve: the derivative of another curve by its abscissa, within the smooth pieces."""
 
     of: str
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class Computed(Step):
-    """A number found by plain code where no closed formula tells it; ``method`` says in words how.
+    """Declare a number found by plain code where no closed formula tells it; ``method`` says in words how.
 
     ``function`` takes the quantities ``takes`` by position: numbers as arrays of shape (variants, 1), texts, the handles of
     curve inputs (``Curve`` in ``contract.given``). It gives an array of shape (variants, 1), SI.
@@ -181,7 +181,7 @@ class Computed(Step):
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class CurvePeriod(Step):
-    """The period of what a curve input refers to, a quantity of this step's unit.
+    """Declare the period of what a curve input refers to, a quantity of this step's unit.
 
     Where the curve runs over another kind of quantity, ``otherwise`` says in words what to give.
     """
@@ -192,7 +192,7 @@ class CurvePeriod(Step):
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class Words(Step):
-    """A text made by plain code, for messages (``{id}``): ``function`` takes the numbers (SI) and texts ``takes`` of one machine.
+    """Declare a text made by plain code, for messages (``{id}``): ``function`` takes the numbers (SI) and texts ``takes`` of one machine.
 
     It is made only where a message or a drawing asks for it.
     """
@@ -203,7 +203,7 @@ class Words(Step):
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class FromCurve(Step):
-    """A curve input taken over as a curve of this mechanism, over ``abscissa`` (of the same kind and any period).
+    """Declare a curve input taken over as a curve of this mechanism, over ``abscissa`` (of the same kind and any period).
 
     The one period of what is referred to is laid over one period here, or over ``lasts`` (an id) of the abscissa, so that
     the abscissa begins at the share ``start`` (an id) of it. ``gains`` says that the curve goes on where a period ends,
@@ -219,7 +219,7 @@ class FromCurve(Step):
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class Require(Step):
-    """What must hold for the machine to be possible: where it does not, the message (``{id}`` prints a quantity) and its key.
+    """Declare what must hold for the machine to be possible: where it does not, the message (``{id}`` prints a quantity) and its key.
 
     A condition on rows must hold for each part; message and key may name the first part that fails: ``{part}`` counted
     from 1, ``{next}`` the one after it in the loop, ``{index}`` counted from 0 as in the file.
@@ -232,7 +232,7 @@ class Require(Step):
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class Clash(Step):
-    """Geometry that no printed formula tells: which of repeated parts stand in each other's way.
+    """Declare geometry that no printed formula tells: which of repeated parts stand in each other's way.
 
     ``function`` takes the rows ``takes``, each of shape (variants, parts), and gives for each part the index of the one that
     it clashes with, -1 for none, of the same shape. The message may name ``{part}`` and ``{other}``, counted from 1.

@@ -16,13 +16,13 @@ Declared = TypeVar("Declared", bound="Quantity | Text | CurveInput | Step | None
 
 
 def in_form(model: type[Block], given: Collection[str]) -> type[Block]:
-    """The inputs with the units that hold when these keys are given."""
+    """Return the inputs with the units that hold when these keys are given."""
     keys = form_keys(model).intersection(given)
     return _formed(model, keys) if keys else model
 
 
 def in_unit(declared: Declared, given: Collection[str]) -> Declared:
-    """What is declared, in the unit that holds when these keys are given."""
+    """Return what is declared, in the unit that holds when these keys are given."""
     if not isinstance(declared, Quantity | CurveInput | Step):
         return declared
     other = next((unit for key, unit in declared.units if key in given), None)
@@ -30,14 +30,14 @@ def in_unit(declared: Declared, given: Collection[str]) -> Declared:
 
 
 def in_all_units(declared: Quantity | CurveInput | Step, told: Callable[[Any], str]) -> str:
-    """What is told of a declaration, and of it in its other units with the key of each: ``N·m (with mass: N)``."""
+    """Return what is said of a declaration, and of it in its other units with the key of each: ``N·m (with mass: N)``."""
     others = [f"with {key}: {told(in_unit(declared, [key]))}" for key, _ in declared.units]
     return told(declared) + (f" ({'; '.join(others)})" if others else "")
 
 
 @cache
 def form_keys(model: type[Block]) -> frozenset[str]:
-    """The keys on which units of a model's inputs depend."""
+    """Return the keys on which units of a model's inputs depend."""
     return frozenset(key for name in model.model_fields for key, _ in getattr(meta_of(model, name), "units", ()))
 
 

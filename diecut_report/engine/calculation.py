@@ -26,7 +26,7 @@ CurveStep = Value | Choice | FromCurve | Accumulated | Derivative
 
 
 class Impossible(Exception):
-    """The machine cannot exist: the keys to change, each with the reason in words."""
+    """Report that the machine cannot exist: the keys to change, each with the reason in words."""
 
     def __init__(self, reasons: Sequence[tuple[str, str]]) -> None:
         super().__init__("; ".join(message for _, message in reasons))
@@ -35,28 +35,28 @@ class Impossible(Exception):
 
 
 class Unproven(Exception):
-    """A result did not meet the equation or check that proves it; nothing is printed then."""
+    """Report that a result did not meet the equation or check that proves it; nothing is printed then."""
 
 
 @dataclass(frozen=True)
 class CurveHandle:
-    """A curve of one mechanism as the input of another: function, breakpoints and period travel together."""
+    """Hand a curve of one mechanism to the input of another: function, breakpoints and period travel together."""
 
     calculation: Calculation
     curve_id: str
 
     @property
     def domain(self) -> Domain:
-        """The abscissa that the curve runs over."""
+        """Return the abscissa that the curve runs over."""
         return self.calculation.domains[self.calculation.axis[self.curve_id]]
 
     @property
     def abscissa(self) -> Step:
-        """What the curve runs over, as it is declared."""
+        """Return what the curve runs over, as it is declared."""
         return self.calculation.steps[self.calculation.axis[self.curve_id]]
 
     def values(self, share: Array, middle: Array, rows: Array | None) -> Array:
-        """Values at shares of the period, shape (rows, points), each in the smooth piece of its middle (a share too).
+        """Return values at shares of the period, shape (rows, points), each in the smooth piece of its middle (a share too).
 
         ``rows`` are variants (default all).
         """
@@ -66,7 +66,7 @@ class CurveHandle:
         )
 
     def gain(self, rows: Array | None) -> Array:
-        """What the curve has more at the end of its period than at its start, shape (rows, 1); rows as in ``values``."""
+        """Return what the curve has more at the end of its period than at its start, shape (rows, 1); rows as in ``values``."""
         shares = np.tile([0.0, 1.0], (len(self.domain.edges), 1))
         ends = self.values(shares, shares, None)
         found: Array = ends[:, 1:] - ends[:, :1]
@@ -74,41 +74,41 @@ class CurveHandle:
 
     @property
     def breakpoints(self) -> Array:
-        """The inner edges of the curve's smooth pieces, as shares of the period, shape (variants, places)."""
+        """Return the inner edges of the curve's smooth pieces, as shares of the period, shape (variants, places)."""
         return self.domain.edges[:, 1:-1] / self.domain.period
 
     @property
     def joints(self) -> Array:
-        """Those of them where the curve jumps or has a corner."""
+        """Return those of them where the curve jumps or has a corner."""
         return self.domain.joints[:, 1:-1] / self.domain.period
 
 
 @dataclass(frozen=True)
 class SampledCurve:
-    """A curve given as equally spaced values over one period; between them it runs straight."""
+    """Hold a curve given as equally spaced values over one period; between them it runs straight."""
 
     numbers: tuple[float, ...]
 
     def values(self, share: Array, middle: Array, rows: Array | None) -> Array:
-        """Values at shares of the period, of any shape (all variants have the same curve, which has no jumps)."""
+        """Return values at shares of the period, of any shape (all variants have the same curve, which has no jumps)."""
         places = np.arange(len(self.numbers) + 1) / len(self.numbers)
         found: Array = np.interp(share % 1, places, [*self.numbers, self.numbers[0]])
         return found
 
     @property
     def breakpoints(self) -> Array:
-        """The given places, where the curve has its corners, as shares of the period, shape (1, places)."""
+        """Return the given places, where the curve has its corners, as shares of the period, shape (1, places)."""
         return np.arange(len(self.numbers))[None, :] / len(self.numbers)
 
     joints = breakpoints
 
     def gain(self, rows: Array | None) -> Array:
-        """Nothing: the curve closes."""
+        """Return nothing: the curve closes."""
         return np.zeros((1, 1))
 
 
 class Side(NamedTuple):
-    """What a check on a curve compares, each of shape (variants, 1), SI: where on the abscissa it is furthest beyond."""
+    """Hold what a check on a curve compares, each of shape (variants, 1), SI: where on the abscissa it is furthest beyond."""
 
     demand: Array
     limit: Array
@@ -117,7 +117,7 @@ class Side(NamedTuple):
 
 
 class Calculation:
-    """All that is known of a mechanism's machines; filled by ``engine.run``."""
+    """Hold all that is known of a mechanism's machines; filled by ``engine.run``."""
 
     def __init__(self, mechanism: Mechanism, inputs: Mapping[str, Any], variants: int) -> None:
         self.mechanism = mechanism
@@ -134,7 +134,7 @@ class Calculation:
         self.series: dict[str, PieceSeries] = {}
         self.branch: dict[str, Array] = {}  # for each choice, the case taken by each variant
         self.middle: dict[str, Array] = {}  # for each place of an extreme, the middle of its smooth piece
-        self.proof: dict[str, float] = {}  # for each result that is no closed formula, its greatest residual
+        self.proof: dict[str, float] = {}  # for each result that is not a closed formula, its greatest residual
         self._kept: dict[tuple[str, str], tuple[Array, CurveSampler]] = {}  # curves already known at often used places
         self.ahead: dict[str, tuple[str, ...]] = {}  # for each abscissa the curves that coming steps ask for
         self.searches: dict[str, Any] = {}  # for each abscissa, of jumps in its pieces (switches)
@@ -151,7 +151,7 @@ class Calculation:
         return found
 
     def apply(self, part: Binding) -> Array:
-        """A formula of numbers (or rows over repeated parts), for all variants."""
+        """Return what a formula of numbers (or rows over repeated parts) gives, for all variants."""
         link = bound(part)
         result: Array = link.formula.function(*[self[n] if isinstance(n, str) else n for n in link.takes])
         if np.ndim(result) == 2 and len(result) == self.count:
@@ -159,28 +159,28 @@ class Calculation:
         return np.broadcast_to(result, (self.count, *np.shape(result)[1:]) if np.ndim(result) == 2 else (self.count, 1))
 
     def existing(self, step: Step, values: Array) -> Array:
-        """A quantity's numbers, NaN for the machines that do not have it."""
+        """Return a quantity's numbers, NaN for the machines that do not have it."""
         return values if step.exists is None else np.where(self.apply(step.exists), values, np.nan)
 
     def sample(self, curve: str, x: Array, middle: Array, rows: Array | None = None) -> Array:
-        """A curve at x (rows, points), each x being in the smooth piece whose middle is given; rows are variants (default all)."""
+        """Return a curve at x (rows, points), each x being in the smooth piece whose middle is given; rows are variants (default all)."""
         if self.count >= MANY and rows is not None and middle.shape == (len(x), 1):
             return Curves(self, self.axis[curve], [curve], middle[:, 0], rows).at(x)[0]
         found = self.sampler(curve, x, middle, rows)[curve]
         return np.broadcast_to(found, np.broadcast_shapes(np.shape(found), np.shape(x)))
 
     def sampler(self, curve: str, x: Array, middle: Array, rows: Array | None = None) -> CurveSampler:
-        """All curves over the abscissa of this one, at x as in ``sample``: a mapping from id to values."""
+        """Return all curves over the abscissa of this one, at x as in ``sample``: a mapping from id to values."""
         return CurveSampler(self, self.axis[curve], x, middle, rows)
 
     def sampler_of(self, axis: str, x: Array, middle: Array, rows: Array | None) -> CurveSampler:
-        """All curves over an abscissa at x (rows, points), in pieces of these middles (rows, points) or (rows, 1)."""
+        """Return all curves over an abscissa at x (rows, points), in pieces of these middles (rows, points) or (rows, 1)."""
         return CurveSampler(self, axis, x, middle, rows)
 
     def kept(
         self, use: str, axis: str, places: Callable[[Domain], tuple[Array, Array]], rows: Array | None = None
     ) -> CurveSampler:
-        """A sampler that is used again (for the search grid, the samples, the shown place) until the pieces change."""
+        """Return a sampler that is used again (for the search grid, the samples, the shown place) until the pieces change."""
         domain = self.domains[axis]
         edges, sampler = self._kept.get((use, axis), (None, None))
         if sampler is None or edges is not domain.edges:
@@ -189,7 +189,7 @@ class Calculation:
         return sampler
 
     def curve_samples(self, curve: str) -> Array:
-        """A curve at the samples of its abscissa, shape (variants, points)."""
+        """Return a curve at the samples of its abscissa, shape (variants, points)."""
         sampler = self.kept(
             "samples", self.axis[curve], lambda domain: (domain.samples, domain.middle_of(domain.samples))
         )
@@ -197,7 +197,7 @@ class Calculation:
             return np.broadcast_to(sampler[curve], sampler.x.shape)
 
     def table(self, axis: str) -> SampleCache:
-        """What is known of the curves over an abscissa, piece by piece."""
+        """Return what is known of the curves over an abscissa, piece by piece."""
         if axis not in self._tables:
             self._tables[axis] = SampleCache(self, axis)
         return self._tables[axis]
@@ -209,12 +209,12 @@ class Calculation:
         self._kept.clear()
 
     def on_search_grid(self, curve: str) -> Array:
-        """A curve on the search grid of its smooth pieces, shape (variants, pieces, points); zero in pieces without a width."""
+        """Return a curve on the search grid of its smooth pieces, shape (variants, pieces, points); zero in pieces without a width."""
         table = self.table(self.axis[curve])
         return table.pieces().spread(table.on_grid([curve])[0])
 
     def step_or_input(self, name: str) -> Step | Quantity:
-        """What declares a quantity: its symbol, unit and description."""
+        """Return what declares a quantity: its symbol, unit and description."""
         found = None if name in self.steps else named(name, self.steps)
         if found is not None and found.role != "count":
             step = self.steps[found.id]
@@ -225,7 +225,7 @@ class Calculation:
 
 
 class CurveSampler:
-    """Curves at given places of their abscissa; each is computed once."""
+    """Give curves at given places of their abscissa; each is computed once."""
 
     def __init__(self, owner: Calculation, axis: str, x: Array, middle: Array, rows: Array | None) -> None:
         self.owner, self.axis, self.x, self.mid = owner, axis, x, middle
@@ -252,7 +252,7 @@ class CurveSampler:
         return self.formula_of(step)
 
     def formula_of(self, step: Value | Choice) -> Array:
-        """What a step's formula gives at x itself, of a flag of the pieces too."""
+        """Return what a step's formula gives at x itself, of a flag of the pieces too."""
         if isinstance(step, Value):
             return self._apply(step.formula)
         held = [self._apply(c.condition) for c in step.cases if c.condition is not None]

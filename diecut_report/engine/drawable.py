@@ -14,7 +14,7 @@ Data = dict[str, Any]
 
 
 class Undrawable(ValueError):
-    """A figure or export asks for what is not there, in words."""
+    """Report that a figure or export asks for what is not there, in words."""
 
 
 def guarded(make: Callable[[], Data], lost: Data, place: str) -> Data:
@@ -36,7 +36,7 @@ def _plain(made: Data) -> None:
         json.dumps(made, allow_nan=False)
     except (TypeError, ValueError) as fault:
         raise Undrawable(
-            f"it gives something that is no finite number, text or list of these ({fault}); an absent number in a line is None"
+            f"it gives something that is not a finite number, text or list of these ({fault}); an absent number in a line is None"
         ) from None
 
 
@@ -60,7 +60,7 @@ def _abscissas(calc: Calculation) -> Mapping[str, str]:
 
 def _what(calc: Calculation, name: str) -> str:
     if name in calc.curves:
-        return "a curve that is no output"
+        return "a curve that is not an output"
     if name in calc.values or name in calc.inputs:
         return "a number or a text, not a curve"
-    return "no quantity of this machine"
+    return "not a quantity of this machine"

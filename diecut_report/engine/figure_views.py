@@ -17,7 +17,7 @@ from diecut_report.expressions import Array
 
 
 class MachineView:
-    """What a drawing may ask of the calculated machine (the first variant)."""
+    """Give a drawing what it may ask of the calculated machine (the first variant)."""
 
     def __init__(self, calc: Calculation) -> None:
         self.calc = calc
@@ -33,58 +33,58 @@ class MachineView:
         return name in self.calc.values or name in self.calc.inputs
 
     def get(self, name: str, default: float) -> float:
-        """A number by its id, or the default where there is none."""
+        """Return a number by its id, or the default where there is none."""
         known = name in self
         return self[name] if known else default
 
     def at(self, curve: str, place: float) -> float:
-        """A curve's value at a place of its abscissa, SI."""
+        """Return a curve's value at a place of its abscissa, SI."""
         x = np.array([[place]])
         rows = np.zeros(1, dtype=int)
         middle = self.calc.domains[self.calc.axis[curve]].middle_of(x, rows)
         return float(self.calc.sample(curve, x, middle, rows)[0, 0])
 
     def text(self, name: str) -> str:
-        """A quantity as it is printed: ``h = 40 mm``."""
+        """Return a quantity as it is printed: ``h = 40 mm``."""
         return f"{self.calc.step_or_input(name).symbol} = {printed(self.calc, name)}"
 
     def word(self, name: str) -> str:
-        """A text by its id: an input, or what a choice gave."""
+        """Return a text by its id: an input, or what a choice gave."""
         return printed(self.calc, name)
 
     def row(self, name: str) -> list[float]:
-        """The values of all repeated parts, SI."""
+        """Return the values of all repeated parts, SI."""
         return [float(value) for value in self.calc[name][0]]
 
     def words(self, name: str) -> list[str]:
-        """A text input of all repeated parts."""
+        """Return a text input of all repeated parts."""
         return [str(text) for text in self.calc.inputs[name]]
 
     def curve(self, name: str) -> list[float]:
-        """A curve (or an abscissa) at the samples of the results, SI."""
+        """Return a curve (or an abscissa) at the samples of the results, SI."""
         samples = self.calc.domains[name].samples if name in self.calc.domains else self.calc.curve_samples(name)
         return [float(value) for value in samples[0]]
 
     def heights(self, name: str, abscissa: str) -> list[float]:
-        """A curve of a plot at the places that are drawn, SI; of a spectrum the values of its line."""
+        """Return a curve of a plot at the places that are drawn, SI; of a spectrum the values of its line."""
         spectrum = next((each for each in self.calc.mechanism.spectra if each.id == abscissa), None)
         if spectrum is None:
             return self.curve(name)
         return next([float(v) for v in line.values] for line in spectrum.lines() if line.id == name)
 
     def varied(self, inputs: Mapping[str, Any], *names: str) -> dict[str, Array]:
-        """Numbers of the machine calculated again with other inputs; NaN where it is then impossible."""
+        """Return numbers of the machine calculated again with other inputs; NaN where it is then impossible."""
         return varied(self.calc, inputs, names)
 
     def varied_curves(
         self, inputs: Mapping[str, Any], *names: str, points: int = 361
     ) -> tuple[Array, dict[str, Array]]:
-        """Abscissa and values of curves of the machine calculated again with other inputs."""
+        """Return the abscissa and the values of curves of the machine calculated again with other inputs."""
         return varied_curves(self.calc, inputs, names, points)
 
 
 def figures(calc: Calculation) -> list[dict[str, Any]]:
-    """The figures whose needs are given; one that fails is kept with what went wrong (``error``)."""
+    """Return the figures whose needs are given; one that fails is kept with what went wrong (``error``)."""
     return [_guarded(calc, figure) for figure in calc.mechanism.figures if calc.given.issuperset(figure.needs)]
 
 
@@ -111,7 +111,7 @@ def _figure(calc: Calculation, figure: Figure, head: dict[str, Any]) -> dict[str
             return head | drawn | ({"schematic": True} if schematic else {})
         case Chart(build=build):
             return head | {"type": "chart", "panels": [axis_range.of_lines(panel) for panel in _listed(build, view)]}
-    raise TypeError(f"{figure.id} is no known figure")
+    raise TypeError(f"{figure.id} is not a known figure")
 
 
 def _listed(build: Callable[[MachineView], Any], view: MachineView) -> Any:

@@ -16,7 +16,7 @@ from diecut_report.expressions.tree import Node, substitute
 
 
 class Formula:
-    """A function that computes and prints; see the module's text. ``printed_as`` is the name by which calls of it print."""
+    """Compute and print a function; see the module's text. ``printed_as`` is the name by which calls of it print."""
 
     def __init__(self, function: Callable[..., Any], name: str = "", printed_as: str = "") -> None:
         self._function, self.printed_as = function, printed_as
@@ -48,26 +48,26 @@ class Formula:
 
     @property
     def place(self) -> str:
-        """Where it is written, as ``file:line``."""
+        """Return where it is written, as ``file:line``."""
         return place(self._function)
 
     @property
     def tree(self) -> Node:
-        """The expression that the formula returns; its parameters stand as ``("sym", (name,))``."""
+        """Return the expression that the formula returns; its parameters stand as ``("sym", (name,))``."""
         return self.reading().tree
 
     @property
     def full_tree(self) -> Node:
-        """The expression with all that is said by ``as_number`` and ``as_angle``, which is checked but not printed."""
+        """Return the expression with all that is said by ``as_number`` and ``as_angle``, which is checked but not printed."""
         return self.reading(full=True).tree
 
     @property
     def constants(self) -> dict[str, Constant]:
-        """The physical constants that the body names, by the symbol they print with."""
+        """Return the physical constants that the body names, by the symbol they print with."""
         return self.reading().constants
 
     def reading(self, above: tuple[Formula, ...] = (), *, full: bool = False) -> Reading:
-        """What the body says; ``above`` are the formulas in whose bodies it is called, ``full`` as for ``full_tree``."""
+        """Return what the body says; ``above`` are the formulas in whose bodies it is called, ``full`` as for ``full_tree``."""
         if full not in self._readings:
             if self in above:
                 chain = " → ".join(each.__name__ for each in (*above[above.index(self) :], self))

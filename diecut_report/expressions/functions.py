@@ -16,7 +16,7 @@ ROUNDING = 1e-9  # of a factor of 1; how far beyond ±1 rounding may carry the c
 
 
 class Constant(float):
-    """A physical constant of a formula: an SI value with symbol and unit (pint-readable, coherent SI)."""
+    """Hold a physical constant of a formula: an SI value with symbol and unit (pint-readable, coherent SI)."""
 
     symbol: str
     unit: str
@@ -36,7 +36,7 @@ GRAVITY = Constant(9.80665, "g", "m/s**2")
 
 
 def arccos(cosine: Any) -> Any:
-    """Angle of a cosine, in [0, π] rad; a cosine beyond ±1 by rounding alone counts as ±1, beyond that is NaN."""
+    """Return the angle of a cosine, in [0, π] rad; a cosine beyond ±1 by rounding alone counts as ±1, beyond that is NaN."""
     beyond = (abs(cosine) > 1) & (abs(cosine) < 1 + ROUNDING)
     return np.arccos(np.where(beyond, np.sign(cosine), cosine))
 

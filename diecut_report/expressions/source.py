@@ -47,7 +47,7 @@ def _definition(code: CodeType, lines: list[str]) -> ast.FunctionDef:
         definition = found.body[0]
         if isinstance(definition, ast.FunctionDef):
             return definition
-    raise Unreadable("its lines are no function")
+    raise Unreadable("its lines are not a function")
 
 
 def _returned(code: CodeType, lines: list[str]) -> ast.Return:

@@ -144,7 +144,7 @@ def overlapping(x: Array, y: Array, radius: Array) -> Array:
 
 
 def crossing(x: Array, y: Array, radius: Array) -> Array:
-    """For each pulley the index of one whose run crosses its own run, -1 for none (and where the belt is no loop)."""
+    """For each pulley the index of one whose run crosses its own run, -1 for none (and where the belt is not a loop)."""
     belt = path(x, y, radius)
     leave = belt.leave_x + 1j * belt.leave_y
     meet = belt.meet_x + 1j * belt.meet_y
@@ -156,7 +156,7 @@ def crossing(x: Array, y: Array, radius: Array) -> Array:
 
 
 def pierced(x: Array, y: Array, radius: Array) -> Array:
-    """For each pulley the index of one whose run passes through it, -1 for none (and where the belt is no loop)."""
+    """For each pulley the index of one whose run passes through it, -1 for none (and where the belt is not a loop)."""
     belt = path(x, y, radius)
     heading = np.exp(1j * belt.directions)
     center = (x + 1j * y)[:, :, None]

@@ -148,7 +148,7 @@ class Registry(Mapping[str, MotionLaw]):
         return len(self._laws)
 
     def add(self, law: MotionLaw) -> MotionLaw:
-        """Add a law; ValueError where its name is taken or it is no unit rise."""
+        """Add a law; ValueError where its name is taken or it is not a unit rise."""
         fault = _fault(law) or (f"the name {law.name} is taken" if law.name in self._laws else "")
         if fault:
             raise ValueError(f"motion law {law.name}: {fault}")
@@ -207,7 +207,7 @@ MIDDLE_VELOCITY = PartOf(LAWS, lambda law: float(law.velocity(0.5)))
 
 
 def register(law: MotionLaw) -> MotionLaw:
-    """Add a law to ``LAWS``; ValueError where its name is taken or it is no unit rise."""
+    """Add a law to ``LAWS``; ValueError where its name is taken or it is not a unit rise."""
     return LAWS.add(law)
 
 

@@ -13,7 +13,7 @@ NAMED = re.compile(r"\{([\w.]+)(?::(up|down))?\}")  # what a message names: ``{i
 
 
 def number_text(value: float, digits: int = DIGITS) -> str:
-    """A number with so many significant digits; whole numbers below a million stand as they are."""
+    """Return a number with so many significant digits; whole numbers below a million stand as they are."""
     if abs(value - round(value)) <= 1e-12 * abs(value) and abs(value) < 1e6:
         return f"{round(value)}"
     exponent = math.floor(math.log10(abs(float(f"{value:.{digits - 1}e}"))))
@@ -24,7 +24,7 @@ def number_text(value: float, digits: int = DIGITS) -> str:
 
 
 def outward(value: float, up: bool, digits: int = DIGITS) -> float:
-    """A number with so many significant digits, not below itself (or not above): what advice names must be enough.
+    """Return a number with so many significant digits, not below itself (or not above): what advice names must be enough.
 
     Rounding of the last places of a double apart.
     """
@@ -36,18 +36,18 @@ def outward(value: float, up: bool, digits: int = DIGITS) -> float:
 
 
 def below(value: float, digits: int = DIGITS) -> float:
-    """A number above zero rounded down to so many significant digits, and less than itself."""
+    """Return a number above zero rounded down to so many significant digits, and less than itself."""
     return outward(value * (1 - 1e-9), up=False, digits=digits)
 
 
 def shortest(value: float, digits: int = 6) -> str:
-    """What was typed, without the noise of a unit conversion: as few digits as say it, else ``digits``."""
+    """Return what was typed, without the noise of a unit conversion: as few digits as say it, else ``digits``."""
     short = f"{value:.15g}"
     return number_text(value, digits) if len(short.replace(".", "").lstrip("0-")) > digits else short
 
 
 def shown(value: float, unit_text: str, digits: int = DIGITS) -> dict[str, str]:
-    """An SI value as text in a display unit."""
+    """Return an SI value as text in a display unit."""
     return {"text": number_text(value / unit(unit_text).factor, digits), "unit": unit_text}
 
 
@@ -63,7 +63,7 @@ def rounded(value: float, unit_text: str, digits: int = DIGITS) -> str:
 
 
 def told(value: float, unit_text: str, digits: int = DIGITS, *, up: bool | None = None) -> str:
-    """An SI value as one would say it, ``40 mm``; rounded up or down where ``up`` says so."""
+    """Return an SI value as one would say it, ``40 mm``; rounded up or down where ``up`` says so."""
     number = value / unit(unit_text).factor
     return with_unit(number_text(number if up is None else outward(number, up, digits), digits), unit_text)
 
@@ -86,5 +86,5 @@ def _decimal_text(number: Decimal) -> str:
 
 
 def si(value: float, unit_text: str) -> float:
-    """The SI value of a number in a unit."""
+    """Return the SI value of a number in a unit."""
     return value * unit(unit_text).factor

@@ -90,7 +90,7 @@ _GRAMMAR = re.compile(rf"(?:1/)?{_FACTOR}(?:[*/]{_FACTOR})*")
 def unit(text: str) -> Unit:
     """The unit that a text names, in any usual spelling: "kg*m**2", "kg·m²", "kg m^2", "Nm", "°", "m/s2".
 
-    Raises UnitError, with a suggestion where one is near, for what is no unit or has no fixed zero (degC).
+    Raises UnitError, with a suggestion where one is near, for what is not a unit or has no fixed zero (degC).
     """
     canonical = _canonical(text)
     known = _table()["units"].get(canonical)

@@ -148,14 +148,14 @@ class _Filler:
         )
 
     def _definitions(self, item: Data) -> Iterator[Equation]:
-        """What names in the formula stand for, where that was not told already."""
+        """What names in the formula stand for, where that was not said already."""
         for equation in self.equations.definitions(item):
             if equation.text not in self.defined:
                 self.defined.add(equation.text)
                 yield equation
 
     def _notes(self, item: Data, told: set[str]) -> Iterator[str]:
-        """The method, where it was not told already in this section, what proves the value, and a note."""
+        """The method, where it was not said already in this section, what proves the value, and a note."""
         method, residual = item.get("method", ""), item.get("residual")
         if item["type"] == "lookup":
             yield self._looked_up(item)

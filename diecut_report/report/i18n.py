@@ -34,7 +34,7 @@ ENGLISH: dict[str, str] = {
     "utilisation": "Utilisation", "source": "Source", "number": "No.", "verdict": "Verdict", "quantity": "Quantity", "symbol": "Symbol",
     "value": "Value", "unit": "Unit", "origin": "Origin", "typed": "As typed", "place": "At", "path": "Key",
     "given": "given", "default": "default", "reference": "reference", "refers": "from {path}", "from_press": "default, from {path}",
-    "touches": "Touches", "part": "No.", "nth": "{text}, no. {n}", "like_parts": "{n} like parts", "curves_over": "Curves over: {axis}",
+    "touches": "Touches", "part": "No.", "nth": "{text}, no. {n}", "repeated_parts": "{n} repeated parts", "curves_over": "Curves over: {axis}",
     "file": "File", "content": "Content",
     # items
     "met": "{demand} {operator} {limit} is met", "not_met": "{demand} {operator} {limit} is not met",

@@ -142,7 +142,7 @@ class PrintedSection:
 
 @dataclass
 class PrintedChapter:
-    """All that is told of one mechanism."""
+    """All that is reported of one mechanism."""
 
     letter: str
     name: str
@@ -197,7 +197,7 @@ def quantity_row(row: Data, decimal: str, description: str = "") -> QuantityRow:
 
 
 def is_words(text: str) -> bool:
-    """Whether the text of a value is no number."""
+    """Whether the text of a value is not a number."""
     return parts(text) is None
 
 

@@ -30,7 +30,7 @@ def grouped(whole: str, separator: str = THIN) -> str:
 
 
 def number(text: str, decimal: str = ".") -> str:
-    """A number of the results as it is printed: ``-1.2e-05`` → ``−1.2 × 10⁻⁵``; a text that is no number stands as it is."""
+    """A number of the results as it is printed: ``-1.2e-05`` → ``−1.2 × 10⁻⁵``; a text that is not a number stands as it is."""
     found = parts(text)
     if found is None:
         return text

@@ -95,7 +95,7 @@ def _points(curves: Mapping[str, Data], x: str, y: str) -> list[Point]:
     """Samples of two curves as points in millimetres."""
     strange = [name for name in (x, y) if unit(curves[name]["unit"]).kind != MM.kind]
     if strange:
-        raise ValueError(f"{strange[0]} is no length and cannot be drawn")
+        raise ValueError(f"{strange[0]} is not a length and cannot be drawn")
     return [(MM.from_si(a), MM.from_si(b)) for a, b in zip(curves[x]["values"], curves[y]["values"], strict=True)]
 
 

@@ -22,7 +22,7 @@ PLACE_DIGITS = 6
 
 
 class JudgedCheck(NamedTuple):
-    """A check of all machines, each array of shape (variants, pairs of sides, parts); ``worst`` is the place of the governing one.
+    """Hold a check of all machines, each array of shape (variants, pairs of sides, parts); ``worst`` is the place of the governing one.
 
     ``there`` says where both sides have a value; ``worst`` has shape (variants,) and counts through pairs and parts.
     """
@@ -42,12 +42,12 @@ class JudgedCheck(NamedTuple):
 
 
 def check_results(calc: Calculation) -> list[Data]:
-    """Each check with demand, limit, margin, utilisation and verdict."""
+    """Return each check with demand, limit, margin, utilisation and verdict."""
     return [_check(calc, check) for check in calc.mechanism.checks if applies(calc, check)]
 
 
 def applies(calc: Calculation, check: Check) -> bool:
-    """Whether a check is made. It is left out where an optional input of it is not given, or what it judges is absent."""
+    """Return whether a check is made. It is left out where an optional input of it is not given, or what it judges is absent."""
     if not is_made(calc, check):
         return False
     demand, limit = _compared(calc, check)
@@ -64,7 +64,7 @@ def judged(calc: Calculation, check: Check) -> JudgedCheck:
 
 
 def verdict(check: Check, demand: Any, limit: Any) -> tuple[Any, Any]:
-    """Whether the check holds, and its utilisation (NaN where the limit is not above zero), for arrays of variants."""
+    """Return whether the check holds, and its utilisation (NaN where the limit is not above zero), for arrays of variants."""
     with np.errstate(all="ignore"):
         allowed = limit * (1 + check.tolerance)
         held = demand < allowed if check.operator == "<" else demand <= allowed
@@ -136,7 +136,7 @@ def _check(calc: Calculation, check: Check) -> Data:
 
 
 def _told(check: Check, found: JudgedCheck, pair: int, part: int) -> Data:
-    """What is told of one pair of sides (0: demand and limit, 1: lower bound and demand), of one part."""
+    """What is reported of one pair of sides (0: demand and limit, 1: lower bound and demand), of one part."""
     demand, limit, ratio = (float(side[0, pair, part]) for side in (found.demand, found.limit, found.ratio))
     labels = (check.at_least_label, check.demand_label) if pair else (check.demand_label, check.limit_label)
     return {
@@ -199,7 +199,7 @@ def _further(calc: Calculation, check: Check, found: JudgedCheck, pair: int, par
 def _texts(demand: float, limit: float, display: str) -> dict[str, dict[str, str]]:
     """Demand, limit and margin as texts, with so many digits that the margin can be seen in the two others.
 
-    A demand that is nothing but rounding beside its limit is told as zero.
+    A demand that is nothing but rounding beside its limit is reported as zero.
     """
     demand = 0.0 if abs(demand) < ROUNDING * abs(limit) else demand
     margin = limit - demand

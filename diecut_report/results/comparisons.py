@@ -21,19 +21,19 @@ Data = dict[str, Any]
 
 @dataclass(frozen=True)
 class Found:
-    """A comparison with the instances that it is between, by their kinds."""
+    """Hold a comparison with the instances that it is between, by their kinds."""
 
     comparison: Comparison
     between: Mapping[str, str]
 
     @property
     def name(self) -> str:
-        """What the results know it by: its kind and the instances."""
+        """Return what the results know it by: its kind and the instances."""
         return "-".join([self.comparison.mechanism.kind, *self.between.values()])
 
 
 def found(calculations: Mapping[str, Calculation]) -> Iterator[Found]:
-    """The comparisons that the calculated mechanisms declare, for each choice of one instance of each kind."""
+    """Yield the comparisons that the calculated mechanisms declare, for each choice of one instance of each kind."""
     by_kind: dict[str, list[str]] = {}
     for name, calc in calculations.items():
         by_kind.setdefault(calc.mechanism.kind, []).append(name)
@@ -44,7 +44,7 @@ def found(calculations: Mapping[str, Calculation]) -> Iterator[Found]:
 
 
 def compared(case: Found, calculations: Mapping[str, Calculation]) -> Data:
-    """The results of a comparison, in the form of a mechanism's, and between which instances it is."""
+    """Return the results of a comparison, in the form of a mechanism's, and between which instances it is."""
     values, origins = {}, {}
     for key, (kind, name) in case.comparison.takes.items():
         instance = case.between[kind]

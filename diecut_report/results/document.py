@@ -23,7 +23,7 @@ Data = dict[str, Any]
 
 
 def document(run: Run) -> Data:
-    """All results as plain data; the same config gives the same document, byte for byte."""
+    """Return all results as plain data; the same config gives the same document, byte for byte."""
     config, tree = run.config, run.config.tree
     mechanisms = {name: _mechanism_data(run, name) for name in config.instances if name != PRESS}
     comparisons = {case.name: _comparison_data(run, case) for case in run.cases}
@@ -80,7 +80,7 @@ def _head(kind: str, mechanism: Mechanism | None) -> Data:
 
 
 def governing(mechanisms: Data) -> Data | None:
-    """The check that governs: fail before warn before pass, then the greatest utilisation; a failing null is the greatest."""
+    """Return the check that governs: fail before warn before pass, then the greatest utilisation; a failing null is the greatest."""
 
     def weight(check: Data) -> tuple[int, float]:
         unknown = math.inf if check["status"] != "pass" else -math.inf
@@ -113,7 +113,7 @@ def _press(run: Run) -> Data:
 
 
 def resolved(run: Run) -> Data:
-    """The config with every reference and default put in: SI values as texts that read back exactly."""
+    """Return the config with every reference and default put in: SI values as texts that read back exactly."""
     config = run.config
     mechanisms = {}
     for name, kind in config.kinds.items():

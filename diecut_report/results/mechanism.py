@@ -29,7 +29,7 @@ RANK = {"pass": 0, "warn": 1, "fail": 2, "error": 3, "skipped": 3}
 
 @dataclass(frozen=True)
 class Provenance:
-    """Where an input comes from, the path it refers to, and its text as typed."""
+    """Hold where an input comes from, the path it refers to, and its text as typed."""
 
     origin: Literal["given", "default", "reference"]
     path: str = ""
@@ -37,7 +37,7 @@ class Provenance:
 
 
 def mechanism_results(calc: Calculation, provenance: Mapping[str, Provenance]) -> Data:
-    """The results of one machine's mechanism, as the contract names them."""
+    """Return the results of one machine's mechanism, as the contract names them."""
     mechanism = calc.mechanism
     checks = check_results(calc)
     return {
@@ -63,7 +63,7 @@ def mechanism_results(calc: Calculation, provenance: Mapping[str, Provenance]) -
 
 
 def errata(calc: Calculation) -> Iterator[Data]:
-    """The mistakes of the sources that touch this machine: those whose quantities are all absent are left out."""
+    """Yield the mistakes of the sources that touch this machine: those whose quantities are all absent are left out."""
     for erratum in calc.mechanism.errata:
         touched = [calc.step_or_input(name).description for name in erratum.touches if _is_there(calc, name)]
         if touched or not erratum.touches:
@@ -81,7 +81,7 @@ GIVEN = Provenance("given")
 
 
 def absent(calc: Calculation, provenance: Mapping[str, Provenance]) -> list[Data]:
-    """What is not calculated, and checks for which a limit is given that nothing can be held against, in words."""
+    """Return what is not calculated, and checks for which a limit is given that nothing can be held against, in words."""
     left_out = [
         {"title": s.title, "text": s.absent}
         for s in calc.mechanism.chapters
@@ -102,12 +102,12 @@ def _is_limit_given(calc: Calculation, name: str, provenance: Mapping[str, Prove
 
 
 def worst(statuses: Any) -> str:
-    """The worst of statuses; pass where there are none."""
+    """Return the worst of statuses; pass where there are none."""
     return max(statuses, key=RANK.__getitem__, default="pass")
 
 
 def inputs(calc: Calculation, provenance: Mapping[str, Provenance]) -> Data:
-    """Each input with value, unit, origin and typed text; the parts of a list as ``gears.0.driver_teeth``."""
+    """Return each input with value, unit, origin and typed text; the parts of a list as ``gears.0.driver_teeth``."""
     found: Data = {}
     for name, meta in calc.meta.items():
         if name not in calc.inputs:
@@ -150,7 +150,7 @@ def _input(meta: Any, value: Any) -> Data:
 
 
 def numbers(calc: Calculation) -> Data:
-    """Outputs and intermediate values: each step's number, with the place where an extreme occurs."""
+    """Return outputs and intermediate values: each step's number, with the place where an extreme occurs."""
     groups: dict[bool, Data] = {True: {}, False: {}}
     for step in calc.steps.values():
         if step.id in calc.values and not isinstance(step, SILENT):
@@ -211,7 +211,7 @@ def _number(step: Step, value: Any) -> Data:
 
 
 def curves(calc: Calculation) -> Data:
-    """Each curve at the samples of its abscissa, with its one-sided values at the breakpoints."""
+    """Return each curve at the samples of its abscissa, with its one-sided values at the breakpoints."""
     found: Data = {}
     for name, domain in calc.domains.items():
         step = calc.steps[name]
@@ -259,7 +259,7 @@ def _limits(calc: Calculation, name: str) -> Data:
 
 
 def exports(calc: Calculation) -> list[Data]:
-    """The profiles that are written beside the report; one that fails is kept with what went wrong (``error``)."""
+    """Return the profiles that are written beside the report; one that fails is kept with what went wrong (``error``)."""
     return [_export(calc, p) for p in calc.mechanism.exports if calc.given.issuperset(p.needs)]
 
 

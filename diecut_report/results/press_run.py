@@ -24,11 +24,11 @@ Tell = Callable[[str], None]
 
 
 class Unavailable(LookupError):
-    """A value that a broken or skipped mechanism would have given."""
+    """Stand for a value that a broken or skipped mechanism would have given."""
 
 
 class Absent(LookupError):
-    """A value that this machine does not have; the text says so."""
+    """Stand for a value that this machine does not have; the text says so."""
 
 
 def compute(config: Config, tell: Tell) -> Run:
@@ -43,7 +43,7 @@ def compute(config: Config, tell: Tell) -> Run:
 
 
 class Run:
-    """One way through the config's graph: every value that is referred to, every calculation."""
+    """Go one way through the config's graph: every value that is referred to, every calculation."""
 
     def __init__(self, config: Config, tell: Tell) -> None:
         self.config, self.tell = config, tell
@@ -210,7 +210,7 @@ def number(calc: Calculation, name: str) -> Array | None:
 
 
 def output(calc: Calculation, name: str, target: Target) -> Any:
-    """A result as a reference takes it over: a curve, a number with its SI unit, or a text. Absent where there is none."""
+    """Return a result as a reference takes it over: a curve, a number with its SI unit, or a text. Absent where there is none."""
     if calc.axis.get(name) in calc.domains:
         return CurveHandle(calc, name)
     numbers = number(calc, name)

@@ -96,7 +96,7 @@ def _cells(title: str, rows: Rows) -> tuple[list[str], list[tuple[Any, ...]]]:
     names = [row[0] for row in listed]
     strange = next((name for name in names if not isinstance(name, str) or not name.strip()), None)
     if strange is not None:
-        _fault(title, f"has the name {strange!r} of a row, which is no text")
+        _fault(title, f"has the name {strange!r} of a row, which is not a text")
     twice = next((name for name in names if names.count(name) > 1), None)
     if twice is not None:
         _fault(title, f"has two rows of the name {twice!r}")
@@ -112,7 +112,7 @@ def _row(title: str, where: object, row: tuple[Any, ...], count: int) -> None:
 
 def _number(title: str, where: str, value: object) -> None:
     if isinstance(value, bool) or not isinstance(value, int | float) or not math.isfinite(value):
-        _fault(title, f"holds {value!r} in {where}, which is no finite number")
+        _fault(title, f"holds {value!r} in {where}, which is not a finite number")
 
 
 def _units(title: str, columns: Iterable[Column]) -> None:

@@ -8,12 +8,12 @@ from types import MappingProxyType
 
 
 class StandardFault(ValueError):
-    """A series or table that cannot be trusted, or an id that no file has; the text says which and what to mend."""
+    """Report a series or table that cannot be trusted, or an id that no file has; the text says which and what to fix."""
 
 
 @dataclass(frozen=True)
 class StandardSeries:
-    """Standard values in ascending order, in the display unit ``unit``, and the published tables that agree on them."""
+    """Hold standard values in ascending order, in the display unit ``unit``, and the published tables that agree on them."""
 
     id: str
     title: str
@@ -36,7 +36,7 @@ class Column:
 
 @dataclass(frozen=True)
 class StandardTable:
-    """Rows of standard values, and the published tables that agree on them.
+    """Hold rows of standard values, and the published tables that agree on them.
 
     Each row has a name; where ``names`` is empty the rows go by the numbers of the first column, which ascend.
     ``only_source`` says why there is one source only, ``file`` is where the table was read from.
@@ -53,17 +53,17 @@ class StandardTable:
 
     @property
     def of_values(self) -> tuple[Column, ...]:
-        """The columns but the one whose numbers the rows go by."""
+        """Return the columns but the one whose numbers the rows go by."""
         return self.columns if self.names else self.columns[1:]
 
     @property
     def unit(self) -> str:
-        """The unit of the only column of values."""
+        """Return the unit of the only column of values."""
         return self.column().unit
 
     @property
     def values(self) -> Mapping[str, float]:
-        """The only column of values, by the rows' names."""
+        """Return the only column of values, by the rows' names."""
         return self.by_name()
 
     def column(self, name: str = "") -> Column:

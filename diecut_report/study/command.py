@@ -24,7 +24,7 @@ __all__ = ["Shown", "Where", "run"]
 
 
 class Shown:
-    """How far a run is, on a terminal: done and all, rate, time left, failures so far; silent in pipes."""
+    """Show how far a run is, on a terminal: done and all, rate, time left, failures so far; silent in pipes."""
 
     def __init__(self, quiet: bool) -> None:
         self.is_quiet = quiet or not sys.stderr.isatty()
@@ -51,7 +51,7 @@ class Shown:
             self.bar.update(self.task, total=counts.rows, completed=counts.before + counts.done, told=told)
 
     def doing(self, what: str) -> None:
-        """What is done after the variants, on a line below."""
+        """Show what is done after the variants, on a line below."""
         if self.bar is None:
             return
         if self.after is None:

@@ -39,13 +39,13 @@ def check_mechanism(mechanism: Mechanism) -> None:
 
 
 def quantities(mechanism: Mechanism) -> Iterator[str]:
-    """What is wrong with the numbers of a mechanism in one of its forms."""
+    """Return what is wrong with the numbers of a mechanism in one of its forms."""
     of_steps = chain(dimensions(mechanism), curve_units(mechanism), relations(mechanism), printing(mechanism))
     return chain(of_steps, check_units(mechanism))
 
 
 def forms(mechanism: Mechanism) -> Iterator[Mechanism]:
-    """The mechanism in all units that it may have, each with the steps that are made then."""
+    """Yield the mechanism in all units that it may have, each with the steps that are made then."""
     keys = form_keys(mechanism.inputs).union(*([key for key, _ in step.units] for _, step in mechanism.steps))
     for count in range(len(keys) + 1):
         for given in map(frozenset, combinations(sorted(keys), count)):
@@ -67,7 +67,7 @@ def _in_form(chapter: Chapter, given: frozenset[str], absent: frozenset[str]) ->
 
 
 def printing(mechanism: Mechanism) -> Iterator[str]:
-    """Formulas whose printed expression does not compute what the function computes."""
+    """Yield formulas whose printed expression does not compute what the function computes."""
     random = np.random.default_rng(1)
     for step, part, link in formulas(mechanism):
         taken = dict(zip(link.formula.parameters, random.uniform(0.1, 0.9, len(link.formula.parameters)), strict=True))

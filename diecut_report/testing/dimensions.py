@@ -37,7 +37,7 @@ from diecut_report.testing.kinds import (
 
 
 def formulas(mechanism: Mechanism) -> Iterator[tuple[Step, str, Bound]]:
-    """Every bound formula with its step and its part in it."""
+    """Yield every bound formula with its step and its part in it."""
     for _, step in mechanism.steps:
         for part in ("formula", "condition", "exists", "equation", "low", "high", "left", "right"):
             declared = getattr(step, part, None)
@@ -60,7 +60,7 @@ def _bindings(step: Step, part: str, declared: Any) -> Iterator[tuple[Step, str,
 
 
 def units_of(mechanism: Mechanism) -> dict[str, str]:
-    """The SI unit of each id of numbers, inputs and steps."""
+    """Return the SI unit of each id of numbers, inputs and steps."""
     found = {name: unit(meta.unit).si for name, meta in fields(mechanism.inputs) if hasattr(meta, "unit")}
     found |= {f"inputs.{name}": si for name, si in found.items()}
     for _, step in mechanism.steps:
@@ -75,7 +75,7 @@ def units_of(mechanism: Mechanism) -> dict[str, str]:
 
 
 def dimensions(mechanism: Mechanism) -> Iterator[str]:
-    """Formulas whose dimensions do not balance, or do not give what their step declares."""
+    """Yield formulas whose dimensions do not balance, or do not give what their step declares."""
     units = units_of(mechanism)
     for step, part, link in formulas(mechanism):
         try:
@@ -89,7 +89,7 @@ def dimensions(mechanism: Mechanism) -> Iterator[str]:
 
 
 def curve_units(mechanism: Mechanism) -> Iterator[str]:
-    """Curves and what is laid over an abscissa, in other units than what they are made of has."""
+    """Yield curves and what is laid over an abscissa, in other units than what they are made of has."""
     units = units_of(mechanism)
     axis_of = axes(tuple(step for _, step in mechanism.steps), mechanism.inputs)
     for _, step in mechanism.steps:
@@ -123,7 +123,7 @@ def _made_of(step: Step, units: dict[str, str], axis_of: dict[str, str]) -> Iter
 
 
 def relations(mechanism: Mechanism) -> Iterator[str]:
-    """Roots that are proved by a relation between quantities of unlike dimensions."""
+    """Yield roots that are proved by a relation between quantities of unlike dimensions."""
     units = units_of(mechanism)
     sides: dict[str, list[Found]] = {}
     for step, part, link in formulas(mechanism):
@@ -150,7 +150,7 @@ def _given(link: Bound, units: dict[str, str]) -> Found:
 
 
 def check_units(mechanism: Mechanism) -> Iterator[str]:
-    """Checks that compare quantities of unlike kinds."""
+    """Yield checks that compare quantities of unlike kinds."""
     units = units_of(mechanism)
     for check in mechanism.checks:
         yield from _unlike(check, units)

@@ -1,6 +1,6 @@
 """The kind of what a formula gives, found from the kinds of what it takes: its expression is gone through, nothing is computed.
 
-A kind is the exponents of ``units.DIMENSIONS``, and the plane angle is one of them: rad/s is no 1/s. π is an angle, half a turn.
+A kind is the exponents of ``units.DIMENSIONS``, and the plane angle is one of them: rad/s is not 1/s. π is an angle, half a turn.
 Sine, cosine and tangent take angles, their inverses give them. The radian drops by itself in one place, **beside a length**: an arc is
 radius times angle, a speed radius times angular speed, N·m the same as kg·m²·rad/s². Two kinds that differ by the angle alone are
 alike where they have a length. Everywhere else the formula says it, by ``as_number`` or ``as_angle``.
@@ -28,30 +28,30 @@ TEXT_LENGTH = 60
 
 
 class KindError(ValueError):
-    """A formula that equals, adds or takes quantities of unlike kinds; the text says which, where in the formula."""
+    """Report a formula that equals, adds or takes quantities of unlike kinds; the text says which, where in the formula."""
 
 
 def alike(one: Found, other: Found) -> bool:
-    """Whether two kinds may be equalled: they are the same, or differ by the angle alone beside a length."""
+    """Return whether two kinds may be equalled: they are the same, or differ by the angle alone beside a length."""
     if one is None or other is None or one == other:
         return True
     return bool(one[LENGTH_AT]) and _turned(one, 0) == _turned(other, 0)
 
 
 def times(one: Found, other: Found, power: float = 1) -> Found:
-    """The kind of a product with a power of the other factor."""
+    """Return the kind of a product with a power of the other factor."""
     if one is None or other is None:
         return ANY
     return tuple(round(a + power * b, 9) for a, b in zip(one, other, strict=True))
 
 
 def kind_text(kind: Found) -> str:
-    """The coherent SI unit of a kind, in words for the pure number."""
+    """Return the coherent SI unit of a kind, in words for the pure number."""
     return "zero" if kind is None else "a pure number" if kind == NUMBER else si_text(kind)
 
 
 def kind_given(formula: Formula, taken: Mapping[str, Found | float]) -> Found:
-    """The kind of what a formula gives for the kinds (or plain numbers) that its parameters take; KindError where it has none."""
+    """Return the kind of what a formula gives for the kinds (or plain numbers) that its parameters take; KindError where it has none."""
     numbers = {name: _plain(value) for name, value in taken.items() if isinstance(value, float)}
     constants = {symbol: unit(constant.unit).kind for symbol, constant in formula.constants.items()}
     kinds = {name: value for name, value in taken.items() if not isinstance(value, float)}

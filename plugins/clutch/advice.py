@@ -7,7 +7,7 @@ from math import cbrt, inf, sqrt, tan
 from diecut_report.api import told
 
 LARGEST = 2.0  # radius and width of shoes beyond which no advice is given: nobody builds them, m
-MARGIN = 1e-3  # relative: what has to lie beyond a limit is told a little beyond it
+MARGIN = 1e-3  # relative: what has to lie beyond a limit is named a little beyond it
 
 
 def against_jamming(wedge_angle_limit: float, wedge_friction_limit: float) -> str:

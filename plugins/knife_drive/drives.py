@@ -64,7 +64,7 @@ def _first_order(name: str, symbol: str, unit: str, word: str, approximate: Form
     steps.value(f"{name}_first_order", f"{symbol}_1", unit, f"{word.capitalize()} of the edge to the first order of r/l",
                 bind(approximate, crank_radius=CRANK), source="004 eq. 2, to the first order")
     steps.value(f"{name}_error", f"Δ{symbol}_", unit, f"Exact {word} less the first-order one",
-                bind(common.difference, greater=name, smaller=f"{name}_first_order"), output=False)
+                bind(common.difference, quantity=name, less=f"{name}_first_order"), output=False)
     steps.reduction(f"{name}_difference", f"Δ{symbol}_m", unit, f"Greatest difference of the first-order {word} from the exact one", "abs_max",
                     of=f"{name}_error")
     return steps

@@ -90,7 +90,7 @@ CURVES.value("coupler_speed_ratio", "ω_2i", "1", "Angular speed of the coupler 
 CURVES.value("rocker_acceleration_ratio", "ε_3i", "1", "Angular acceleration of the rocker to the crank's speed squared",
              bind(four_bar.rocker_acceleration_ratio), source="004 eq. 3, corrected", output=False)
 CURVES.add(_either("rocker_angle", "δ_3", "deg", "Angle of the rocker from the dead centre of the lowest point",
-                   bind(common.difference, greater="rocker_direction", smaller="outer_direction"), formulas.angle_from_inner, source="004 eq. 3",
+                   bind(common.difference, quantity="rocker_direction", less="outer_direction"), formulas.angle_from_inner, source="004 eq. 3",
                    output=False))
 CURVES.value("displacement", "S_", "mm", "Height of the edge above its lowest point, along its arc",
              bind(common.product, first="rocker_angle", second=ARM), source="004 eq. 3")

@@ -29,7 +29,7 @@ forces.value("standing_distance", "x_p", "mm", "Distance of the standing platen'
 forces.value("stretched_length", "L", "mm", "Length of the rods while the platen stands", formulas.stretched_length, source="001 eq. 16, exact",
              output=False)
 forces.choice("rod_stretch", "Δl", "mm", "Stretch of the rods",
-              *by_phase(bind(common.difference, greater="stretched_length", smaller="rod_length"), bind(common.zero),
+              *by_phase(bind(common.difference, quantity="stretched_length", less="rod_length"), bind(common.zero),
               bind(formulas.stretch_in_cut)), source="001 eq. 12, 16")
 forces.value("elastic_force", "P", "kN", "Force of the stretched rods, while cutting that of the board",
              lambda cutting_force_max, rod_stretch, drive_deformation: cutting_force_max * rod_stretch / drive_deformation,

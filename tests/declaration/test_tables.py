@@ -115,7 +115,7 @@ def test_a_mistake_is_told_with_its_place(declare: Callable[[Chapter], None], wo
         (BEARINGS, "bore", "“Bearings” goes by names; one that goes by numbers is needed"),
         (FACTORS, "X", "has no column 'X'; it has teeth, Y"),
         (FACTORS, "teeth", "goes by teeth; take another column"),
-        ({1: 2}, "", "is no table; write one with own_table"),
+        ({1: 2}, "", "is not a table; write one with own_table"),
     ],
 )
 def test_what_cannot_be_gone_between_is_told_at_once(table: Any, column: str, words: str) -> None:

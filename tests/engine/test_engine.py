@@ -81,7 +81,7 @@ def test_the_neighbours_that_were_not_taken_are_printed() -> None:
     assert "200" in picked["method"] and "800" in picked["method"] and picked["result"]["text"] == "400"
 
 
-def test_like_parts_make_rows_sums_and_products() -> None:
+def test_repeated_parts_make_rows_sums_and_products() -> None:
     gears = [{"driver_teeth": 20, "driven_teeth": 60}, {"driver_teeth": 18, "driven_teeth": 45}]
     calc = toy(gears=gears)
     np.testing.assert_allclose(calc["pair_ratio"], [[3, 2.5]])
@@ -212,7 +212,7 @@ def test_formula_of_a_plugin_is_callable_alone() -> None:
     assert doubled(21) == 42
 
 
-def test_like_parts_may_differ_in_their_optional_keys() -> None:
+def test_repeated_parts_may_differ_in_their_optional_keys() -> None:
     first, second = {"driver_teeth": 20, "driven_teeth": 60}, {"driver_teeth": 20, "driven_teeth": 60, "label": "slow"}
     for gears in ([first, second], [second, first]):
         assert inputs(MECHANISM, {"gears": gears})["gears.label"] == tuple(g.get("label") for g in gears)

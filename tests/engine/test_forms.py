@@ -117,9 +117,9 @@ def problems_of_machine(tmp_path: Path, text: str, plugins: Discovery) -> str:
     [
         ("mass: 1, lift: '${a.lift}'", "${a.lift} is in rad; a quantity in mm is needed here"),
         ("mass: 1, lift: 1, stiffness: '${a.stiffness}'", "${a.stiffness} is in N*m/rad; a quantity in N/m is needed here"),
-        ("mass: 1, motion: '${a.position}'", "${a.position} is no curve in mm"),
-        ("inertia: 1, motion: '${a.speed}'", "${a.speed} is no curve in deg"),
-        ("inertia: 1, motion: '${a.lift}'", "${a.lift} is no curve in deg"),
+        ("mass: 1, motion: '${a.position}'", "${a.position} is not a curve in mm"),
+        ("inertia: 1, motion: '${a.speed}'", "${a.speed} is not a curve in deg"),
+        ("inertia: 1, motion: '${a.lift}'", "${a.lift} is not a curve in deg"),
     ],
 )  # fmt: skip
 def test_references_between_unlike_forms_are_refused(tmp_path: Path, plugins: Discovery, keys: str, words: str) -> None:

@@ -12,7 +12,7 @@ from diecut_report.contract.inputs import meta_of
 from diecut_report.contract.unit_variants import form_keys, in_all_units, in_form, in_unit
 from diecut_report.testing import check_mechanism
 from tests.engine.swing import MECHANISM, RATIOS, SPECTRUM, Swing
-from tests.test_testing import mechanism as of_steps
+from tests.testing.test_testing import mechanism as of_steps
 
 
 def test_a_form_is_the_model_with_other_units() -> None:

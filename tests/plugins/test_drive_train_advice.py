@@ -151,8 +151,8 @@ def test_each_way_to_run_up_in_time_is_enough(case: str) -> None:
     advised += [{"allowable_run_up_time": float(time)} for time in LONGER.findall(ways)]
     assert len(advised) == len(ways.split("; ")) >= 2
     for way in advised:
-        mended = train(**keys | {key: float(value) for key, value in way.items()})
-        assert {check(mended, n)["status"] for n in ("run_up_torque", "run_up_time")} == {"pass"}, way
+        fixed = train(**keys | {key: float(value) for key, value in way.items()})
+        assert {check(fixed, n)["status"] for n in ("run_up_torque", "run_up_time")} == {"pass"}, way
     assert ("load_inertia" in str(advised)) == ("load" in case or "alone" in case)
 
 
@@ -198,8 +198,8 @@ def test_a_rim_too_fast_gets_a_material_and_a_fluctuation_that_hold(fluctuation:
     greater = re.search(r"speed_fluctuation of at least (\d+(?:\.\d+)?)", told["message"])
     assert told["status"] == "fail" and greater and "flywheel_material: steel" in told["message"]
     for change in ({"speed_fluctuation": float(greater[1])}, {"flywheel_material": "steel"}):
-        mended = train(**fast | {"speed_fluctuation": fluctuation} | change)
-        assert check(mended, "flywheel_rim_speed")["status"] == "pass"
+        fixed = train(**fast | {"speed_fluctuation": fluctuation} | change)
+        assert check(fixed, "flywheel_rim_speed")["status"] == "pass"
 
 
 def test_labels_of_checks_are_short() -> None:

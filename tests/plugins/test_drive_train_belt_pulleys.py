@@ -109,8 +109,8 @@ def test_a_pulley_without_whole_teeth_is_told_and_the_advised_radius_has_them(in
     assert f"radius {radius:.0f} mm" in told["message"] and f"have {teeth:.4f} teeth" in told["message"]
     advised = re.search(r"give it a radius of (\d+\.\d+) mm", told["message"])
     assert advised
-    mended = belt(replaced(OVER, index, float(advised[1])))
-    assert check(mended, "pulley_teeth_whole")["status"] == "pass"
+    fixed = belt(replaced(OVER, index, float(advised[1])))
+    assert check(fixed, "pulley_teeth_whole")["status"] == "pass"
 
 
 def test_a_smooth_pulley_on_the_back_needs_no_whole_teeth() -> None:
@@ -132,8 +132,8 @@ def test_the_cylinder_s_pulley_in_the_list_is_the_driven_one(driven: float) -> N
     assert told["status"] == "warn" and told["demand"] == pytest.approx(abs(2 * pi * driven / 8 - 48), rel=1e-9)
     advised = re.search(r"give both (\d+\.\d+) mm", told["message"])
     assert advised
-    mended = belt(replaced(OVER, 3, float(advised[1])), driven_radius=float(advised[1]))
-    assert {check(mended, n)["status"] for n in ("cylinder_pulley_listed", "pulley_teeth_whole")} == {"pass"}
+    fixed = belt(replaced(OVER, 3, float(advised[1])), driven_radius=float(advised[1]))
+    assert {check(fixed, n)["status"] for n in ("cylinder_pulley_listed", "pulley_teeth_whole")} == {"pass"}
 
 
 def test_a_loaded_pulley_outside_has_teeth_in_mesh_too() -> None:

@@ -21,7 +21,7 @@ Function = Callable[[Array, Array], Array]  # of places and the rows of their br
 def smooth_minimum(
     function: Function, low: Array, centre: Array, high: Array, depths: Array, share: float
 ) -> tuple[Array, Array]:
-    """As ``minimum``; where the function is smooth, the place is far more exact than its values could tell by themselves."""
+    """Find the minimum as ``minimum`` does; where the function is smooth, the place is far more exact than its values could tell by themselves."""
     place, depth = minimum(function, low, centre, high, depths, COARSE)
     place, depth, is_smooth = _at_vertex(function, low, place, high, depth)
     rest = np.flatnonzero(~is_smooth)
@@ -60,7 +60,7 @@ def _at_vertex(function: Function, low: Array, place: Array, high: Array, depth:
 def minimum(
     function: Function, low: Array, centre: Array, high: Array, depths: Array, share: float
 ) -> tuple[Array, Array]:
-    """Place and value of the least value in brackets low < centre < high, to a share of each.
+    """Return the place and the value of the least value in brackets low < centre < high, to a share of each.
 
     ``depths`` are the known values at the three, of shape (3, brackets), the middle one not above the others.
     """
@@ -119,7 +119,7 @@ def _taken(state: Array, u: Array, fu: Array, step: Array, earlier: Array) -> Ar
 
 
 def root(function: Function, low: Array, high: Array, heights: Array) -> tuple[Array, Array]:
-    """Root and what is left there in brackets with a change of sign; ``heights`` (2, brackets) are the values at their ends."""
+    """Return the root and what is left there in brackets with a change of sign; ``heights`` (2, brackets) are the values at their ends."""
     best, value = np.full_like(low, np.nan), np.full_like(low, np.nan)
     row = np.arange(len(low))
     state = np.stack([high, low, low, heights[1], heights[0], heights[0], np.full_like(low, 0.5)])

@@ -13,13 +13,13 @@ from diecut_report.expressions import Array
 
 @dataclass(frozen=True)
 class PieceSeries:
-    """A curve as Chebyshev series: for each variant and smooth piece one over [-1, 1]."""
+    """Hold a curve as Chebyshev series: for each variant and smooth piece one over [-1, 1]."""
 
     edges: Array  # (variants, pieces + 1)
     series: Array  # (order, variants, pieces)
 
     def values(self, x: Array, middle: Array, rows: Array | None) -> Array:
-        """Values at x (rows, points), each in the piece that its middle lies in; rows are variants (default all)."""
+        """Return values at x (rows, points), each in the piece that its middle lies in; rows are variants (default all)."""
         known = np.arange(len(self.edges)) if rows is None else rows
         edges = self.edges if len(self.edges) == 1 else self.edges[known]
         piece = piece_of(edges, np.broadcast_to(middle, (len(x), np.shape(middle)[-1])))  # one a row, or one a place

@@ -22,7 +22,7 @@ SIGNS = {"^": "**", "and": "&", "or": "|"}
 
 
 class Leaf(NamedTuple):
-    """What a program is given: a number, a flag of the piece, a curve of another origin, or the abscissa."""
+    """Hold what a program is given: a number, a flag of the piece, a curve of another origin, or the abscissa."""
 
     kind: str
     name: str
@@ -32,7 +32,7 @@ LEVEL = {"number": NUMBERS, "flag": PIECES, "curve": POINTS, "abscissa": POINTS}
 
 
 class Program:
-    """Curves over one abscissa, compiled; ``at_middle`` for flags of pieces, which are taken where the abscissa is and returned.
+    """Hold curves over one abscissa, compiled; ``at_middle`` for flags of pieces, which are taken where the abscissa is and returned.
 
     ``numbers``, ``pieces`` and ``points`` take the values of their ``leaves`` and what the functions before them gave;
     of curves ``points`` also takes the arrays that its results are put into.
@@ -251,5 +251,5 @@ SPACE: dict[str, Any] = {
 
 @lru_cache(maxsize=512)
 def program(curves: tuple[tuple[str, Step], ...], axis: str, wanted: tuple[str, ...], at_middle: bool) -> Program:
-    """The compiled curves, kept for the next chunk of variants."""
+    """Return the compiled curves, kept for the next chunk of variants."""
     return Program(dict(curves), axis, wanted, at_middle)

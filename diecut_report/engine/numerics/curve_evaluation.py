@@ -17,7 +17,7 @@ MANY = 8  # variants from which compiling pays
 
 
 class CurveValues(Protocol):
-    """Curves at certain places, by id."""
+    """Hold curves at certain places, by id."""
 
     def __getitem__(self, name: str) -> Array:
         """A curve's values."""
@@ -27,25 +27,25 @@ Flags = Callable[[tuple[str, ...]], list[Array]]  # of names, a column (rows, 1)
 
 
 class VariantRows(Protocol):
-    """What curves are evaluated of: a calculation of one machine or of many."""
+    """Hold what curves are evaluated of: a calculation of one machine or of many."""
 
     @property
     def count(self) -> int:
-        """How many machines."""
+        """Return how many machines."""
 
     @property
     def curves(self) -> Mapping[str, Step]:
-        """The curves that are known, as they are declared."""
+        """Return the curves that are known, as they are declared."""
 
     def __getitem__(self, name: str) -> Array:
         """A number of all machines."""
 
     def sampler_of(self, axis: str, x: Array, middle: Array, rows: Array) -> CurveValues:
-        """All curves over an abscissa by the plain formulas, at x in the pieces of these middles."""
+        """Return all curves over an abscissa by the plain formulas, at x in the pieces of these middles."""
 
 
 class Curves:
-    """Curves in smooth pieces, a row for each: the middle (rows,) of the piece and the machine ``variant`` (rows,) it belongs to.
+    """Hold curves in smooth pieces, a row for each: the middle (rows,) of the piece and the machine ``variant`` (rows,) it belongs to.
 
     ``flags`` gives flags of these pieces where they are known already.
     """
@@ -67,7 +67,7 @@ class Curves:
             self.pieces = _Columns(self._of_pieces(self.program, flags) if self.program.carried[PIECES] else ())
 
     def at(self, x: Array, rows: Array | slice = slice(None)) -> list[Array]:
-        """The curves at x (rows, points), in these of the rows (default all)."""
+        """Return the curves at x (rows, points), in these of the rows (default all)."""
         middle, variant = self.middle[rows][:, None], self.variant[rows]
         if self.program is None:
             sampler = self.calc.sampler_of(self.axis, x, middle, variant)
@@ -96,7 +96,7 @@ class Curves:
 
 
 def flags_of(calc: VariantRows, axis: str, names: tuple[str, ...], middle: Array, variant: Array) -> list[Array]:
-    """The flags of pieces, taken at their middles; (rows, 1) each."""
+    """Return the flags of pieces, taken at their middles; (rows, 1) each."""
     if not names:
         return []
     own, places = _program(calc, axis, names, at_middle=True), middle[:, None]

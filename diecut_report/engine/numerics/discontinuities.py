@@ -15,7 +15,7 @@ STEPWISE = {"sign", "ceil", "floor", "round"}  # functions that jump themselves
 
 @lru_cache(maxsize=256)
 def jumping(curves: tuple[tuple[str, Step], ...], axis: str) -> frozenset[str]:
-    """The curves over an abscissa whose formulas hold a condition that may change from place to place within a smooth piece."""
+    """Return the curves over an abscissa whose formulas hold a condition that may change from place to place within a smooth piece."""
     return frozenset(_Curves(dict(curves), axis).found())
 
 

@@ -19,14 +19,14 @@ SAME = 1e-13  # share of the period within which two breakpoints are one
 
 @cache
 def shares(intervals: int) -> Array:
-    """The search grid in a piece from 0 to 1: Chebyshev–Lobatto points, ends included."""
+    """Return the search grid in a piece from 0 to 1: Chebyshev–Lobatto points, ends included."""
     found: Array = (1 - np.cos(np.pi * np.arange(intervals + 1) / intervals)) / 2
     return found
 
 
 @cache
 def grid_weights(intervals: int) -> Array:
-    """Weights of the Clenshaw–Curtis rule on the search grid, for a piece of the width 1."""
+    """Return weights of the Clenshaw–Curtis rule on the search grid, for a piece of the width 1."""
     k, even = np.arange(intervals + 1), np.arange(2, intervals, 2)
     inner = 1 - (2 / (even**2 - 1) * np.cos(np.pi * k[:, None] * even / intervals)).sum(axis=1)
     inner = (inner - np.cos(np.pi * k) / (intervals**2 - 1)) / intervals
@@ -37,7 +37,7 @@ def grid_weights(intervals: int) -> Array:
 
 @cache
 def nodes_of(order: int) -> tuple[Array, Array]:
-    """Gauss–Legendre points in [-1, 1] and their weights."""
+    """Return Gauss–Legendre points in [-1, 1] and their weights."""
     node, weight = leggauss(order)
     return node, weight
 
@@ -48,7 +48,7 @@ FEW_EDGES = 40  # up to which edges are compared with all places at once
 
 
 def piece_of(edges: Array, x: Array) -> Array:
-    """The piece that each x (rows, points) lies in, of pieces with these edges (rows, pieces + 1), or (1, pieces + 1) for all rows."""
+    """Return the piece that each x (rows, points) lies in, of pieces with these edges (rows, pieces + 1), or (1, pieces + 1) for all rows."""
     inner = edges[:, 1:-1]
     if len(inner) == 1:
         return np.searchsorted(inner[0], x, side="right")
@@ -72,7 +72,7 @@ def _all_near(edges: Array, places: Array, within: Array) -> bool:
 
 @dataclass
 class Domain:
-    """The range [0, period) of an abscissa, cut at breakpoints; ``edges`` has shape (variants, pieces + 1), ascending.
+    """Hold the range [0, period) of an abscissa, cut at breakpoints; ``edges`` has shape (variants, pieces + 1), ascending.
 
     ``period`` has shape (variants, 1). Variants may have fewer pieces than others: the missing ones have no width and lie at
     the end of the period. ``joints`` are the edges where curves jump or have a corner; more edges serve the search alone.
@@ -121,21 +121,21 @@ class Domain:
 
     @property
     def proof_order(self) -> int:
-        """Of the Gauss–Legendre points at which what the search grid tells is proved; fewer, as they serve nothing else."""
+        """Return the order of the Gauss–Legendre points at which what the search grid gives is proved; fewer, as they serve nothing else."""
         return self.intervals // 4 + 8
 
     def is_joint(self, places: Array) -> Array:
-        """Which places (variants, any number) are breakpoints of curves."""
+        """Return which places (variants, any number) are breakpoints of curves."""
         apart = np.abs(places[:, :, None] - self.joints[:, None, :])
         near: Array = (apart <= SAME * self.period[:, :, None]).any(axis=2)
         return near
 
     def period_of(self, rows: Array | None) -> Array:
-        """The period of variants (default all), shape (rows, 1)."""
+        """Return the period of variants (default all), shape (rows, 1)."""
         return _of(self.period, rows)
 
     def middle_of(self, x: Array, rows: Array | None = None) -> Array:
-        """The middle of the piece that each x (rows, points) lies in; at a breakpoint the piece that begins there.
+        """Return the middle of the piece that each x (rows, points) lies in; at a breakpoint the piece that begins there.
 
         At the end of the period it is the last piece that has a width.
         """
@@ -145,10 +145,10 @@ class Domain:
 
     @property
     def middles(self) -> Array:
-        """The middle of each piece, shape (variants, pieces)."""
+        """Return the middle of each piece, shape (variants, pieces)."""
         return (self.edges[:, 1:] + self.edges[:, :-1]) / 2
 
     @property
     def widths(self) -> Array:
-        """The width of each piece, shape (variants, pieces)."""
+        """Return the width of each piece, shape (variants, pieces)."""
         return np.diff(self.edges, axis=1)

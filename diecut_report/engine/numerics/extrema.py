@@ -28,7 +28,7 @@ Found = tuple[Array, Array, Array]  # value, place, middle of the smooth piece; 
 
 
 class Candidates(NamedTuple):
-    """Points of the grid that may be an extreme, one row each: which one, piece (its row), number in it, place, height there.
+    """Hold points of the grid that may be an extreme, one row each: which one, piece (its row), number in it, place, height there.
 
     Also their bracket, whether they lie on a plateau, and the heights around them.
     """
@@ -45,7 +45,7 @@ class Candidates(NamedTuple):
 
 
 def extreme(calc: Calculation, curve: str, sign: float) -> Found:
-    """Greatest (sign 1) or least (sign -1) value over the period, one-sided limits included."""
+    """Return the greatest (sign 1) or least (sign -1) value over the period, one-sided limits included."""
     search(calc, [(curve, sign)])
     return calc.extremes[curve, sign][1]
 
@@ -112,7 +112,7 @@ def _at_start(pieces: CachedPieces, found: Found, flat: Array, values: Array, si
 
 
 def outruns(calc: Calculation, curve: str, found: Array, sign: float) -> Array:
-    """How far the curve goes beyond the extreme found at other places, relative to its greatest value: the proof of it.
+    """Return how far the curve goes beyond the extreme found at other places, relative to its greatest value: the proof of it.
 
     These are the samples of a single machine, and Gauss–Legendre points of the pieces of many: neither served the search.
     """

@@ -24,7 +24,7 @@ ALIKE = 1e-12  # share of the height by which rounding may lift a place beside t
 
 
 class Spots(NamedTuple):
-    """Points of the search grid, one each: their number in the piece, the heights around them, left end and width of the piece."""
+    """Hold points of the search grid, one each: their number in the piece, the heights around them, left end and width of the piece."""
 
     k: Array
     around: Array
@@ -33,14 +33,14 @@ class Spots(NamedTuple):
     intervals: int
 
     def place(self, share: Array) -> Array:
-        """Places so many intervals of the grid beside the points, as the grid is spaced there; back from the end at an end."""
+        """Return places so many intervals of the grid beside the points, as the grid is spaced there; back from the end at an end."""
         square = np.tan((self.k + share) * (np.pi / 2 / self.intervals)) ** 2  # NumPy's sine is many times slower
         found: Array = self.left + self.width * (square / (1 + square))
         return found
 
 
 def around(values: Array, piece: Array, k: Array) -> Array:
-    """Values of pieces (rows, points) at points of the grid and their neighbours, shape (spots, 2·REACH + 1).
+    """Return values of pieces (rows, points) at points of the grid and their neighbours, shape (spots, 2·REACH + 1).
 
     The grid's points lie as the cosines of equal angles; over that angle a smooth curve goes on past the ends as in a mirror.
     """
@@ -51,7 +51,7 @@ def around(values: Array, piece: Array, k: Array) -> Array:
 
 
 def vertices(height_of: Function, spots: Spots) -> tuple[Array, Array, Array]:
-    """Place and height of the greatest height about each spot, and whether they hold; at the end of a piece it is the end itself.
+    """Return the place and the height of the greatest height about each spot, and whether they hold; at the end of a piece it is the end itself.
 
     They hold where the curve follows the polynomial at three places, and falls from the end of a piece. Between these places the
     polynomial tells bend and third derivative alone: the slope, so the vertex, is the curve's own.

@@ -28,7 +28,7 @@ NOISE = 1e-10  # share of a curve's greatest value below which its sign is round
 
 
 def root(calc: Calculation, step: Root) -> tuple[Array, Array]:
-    """The root in the bracket, shape (variants, 1), and how far left and right of its relation differ there, relative."""
+    """Return the root in the bracket, shape (variants, 1), and how far left and right of its relation differ there, relative."""
     equation = bound(step.equation)
 
     def residual(x: Array, rows: Array) -> Array:
@@ -49,7 +49,7 @@ def root(calc: Calculation, step: Root) -> tuple[Array, Array]:
 
 
 def integral(calc: Calculation, curve: str, power: int) -> tuple[Array, Array]:
-    """∫ curve^power over the period, piece by piece, and its relative difference to the rule before.
+    """Return ∫ curve^power over the period, piece by piece, and its relative difference to the rule before.
 
     The rules follow each other by what they are exact for; each machine keeps the first that agrees with the one before.
     """
@@ -81,7 +81,7 @@ def _apart(one: Array, other: Array, scale: Array) -> Array:
 
 
 def crossings(calc: Calculation, curve: str) -> tuple[Array, Array]:
-    """Places where the curve changes sign, ascending, padded with NaN, shape (variants, most); and the greatest |curve| at
+    """Return places where the curve changes sign, ascending, padded with NaN, shape (variants, most); and the greatest |curve| at
     those found inside a smooth piece, relative to the curve's greatest value."""
     table = calc.table(calc.axis[curve])
     pieces, heights = table.pieces(), table.on_grid([curve])[0]
@@ -151,7 +151,7 @@ def _height_in(calc: Calculation, curve: str, piece: Array) -> bracketing.Functi
 
 
 def dips(calc: Calculation, curve: str) -> Array:
-    """Places where a curve dips beyond zero and back between two points of the search grid, shape (variants, most), NaN-padded."""
+    """Return places where a curve dips beyond zero and back between two points of the search grid, shape (variants, most), NaN-padded."""
     table = calc.table(calc.axis[curve])
     pieces, heights = table.pieces(), table.on_grid([curve])[0]
     sizes = np.abs(heights)

@@ -24,7 +24,7 @@ EVERY = slice(None)
 
 
 class CachedPieces:
-    """Smooth pieces that have a width, one row each, ascending by variant and place."""
+    """Hold smooth pieces that have a width, one row each, ascending by variant and place."""
 
     def __init__(self, domain: Domain) -> None:
         widths = domain.widths
@@ -38,34 +38,34 @@ class CachedPieces:
 
     @cached_property
     def margin(self) -> Array:
-        """How far inwards from the very end of each piece rounding decides no condition."""
+        """Return how far inwards from the very end of each piece rounding decides no condition."""
         found: Array = np.minimum(INSIDE * self.period, self.width / 4)
         return found
 
     def grid(self, row: Rows) -> Array:
-        """The search grid of these pieces, (rows, points): Chebyshev–Lobatto points, ends included."""
+        """Return the search grid of these pieces, (rows, points): Chebyshev–Lobatto points, ends included."""
         found: Array = self.left[row][:, None] + self.width[row][:, None] * shares(self.intervals)
         found[:, -1] = self.right[row]
         return found
 
     def point(self, row: Array, k: Array) -> Array:
-        """Points of the search grid by their pieces and numbers, any shape."""
+        """Return points of the search grid by their pieces and numbers, any shape."""
         found = self.left[row] + self.width[row] * shares(self.intervals)[k]
         return np.where(k == self.intervals, self.right[row], found)
 
     def gauss(self, order: int, row: Rows) -> Array:
-        """The Gauss–Legendre points of these pieces, (rows, points)."""
+        """Return the Gauss–Legendre points of these pieces, (rows, points)."""
         found: Array = self.middle[row][:, None] + self.width[row][:, None] * (nodes_of(order)[0] / 2)
         return found
 
     def inside(self, x: Array, row: Rows) -> Array:
-        """Places (rows, points) of these pieces, moved inwards from the very ends."""
+        """Return places (rows, points) of these pieces, moved inwards from the very ends."""
         step = self.margin[row][:, None]
         found: Array = np.clip(x, self.left[row][:, None] + step, self.right[row][:, None] - step)
         return found
 
     def of_variants(self, reduce: np.ufunc, values: Array) -> Array:
-        """Values of pieces (rows,) or (rows, points) joined to one a variant, shape (variants, 1); NaN where there is no piece."""
+        """Return values of pieces (rows,) or (rows, points) joined to one a variant, shape (variants, 1); NaN where there is no piece."""
         found = np.full((self.shape[0], 1), np.nan)
         if len(values):
             points = values.size // len(values)
@@ -73,36 +73,36 @@ class CachedPieces:
         return found
 
     def spread(self, values: Array) -> Array:
-        """Values of pieces (rows, points) as (variants, pieces, points), zero where a piece has no width."""
+        """Return values of pieces (rows, points) as (variants, pieces, points), zero where a piece has no width."""
         found = np.zeros((*self.shape, values.shape[1]))
         found[self.variant, self.column] = values
         return found
 
 
 class Owner(VariantRows, Protocol):
-    """The calculation that a table belongs to."""
+    """Hold the calculation that a table belongs to."""
 
     @property
     def domains(self) -> Mapping[str, Domain]:
-        """The abscissas with their pieces."""
+        """Return the abscissas with their pieces."""
 
     @property
     def ahead(self) -> Mapping[str, Sequence[str]]:
-        """For each abscissa the curves that coming steps ask for."""
+        """Return for each abscissa the curves that coming steps ask for."""
 
 
 Places = Callable[[CachedPieces, Rows], Array]  # of pieces, (rows, points)
 
 
 class Known(NamedTuple):
-    """A curve's values, a row for each of the pieces that there were after so many cuts."""
+    """Hold a curve's values, a row for each of the pieces that there were after so many cuts."""
 
     cuts: int
     values: Array
 
 
 class SampleCache:
-    """What is known of the curves over one abscissa."""
+    """Hold what is known of the curves over one abscissa."""
 
     def __init__(self, calc: Owner, axis: str) -> None:
         self.calc: Owner = proxy(
@@ -116,7 +116,7 @@ class SampleCache:
         self._flags: dict[str, Known] = {}
 
     def pieces(self) -> CachedPieces:
-        """The present pieces."""
+        """Return the present pieces."""
         domain = self.calc.domains[self.axis]
         if self._edges is domain.edges:
             return self._pieces
@@ -129,7 +129,7 @@ class SampleCache:
         return new
 
     def curves(self, names: Sequence[str], row: Rows = EVERY) -> Curves:
-        """Curves in these of the present pieces, anywhere."""
+        """Return curves in these of the present pieces, anywhere."""
         pieces = self.pieces()
         return Curves(
             self.calc, self.axis, names, pieces.middle[row], pieces.variant[row], partial(self._flags_in, row)
@@ -143,11 +143,11 @@ class SampleCache:
         return [self._flags[name].values[row] for name in names]
 
     def on_grid(self, curves: Sequence[str]) -> list[Array]:
-        """Curves on the search grid, (pieces, points) each."""
+        """Return curves on the search grid, (pieces, points) each."""
         return self._at("grid", curves, CachedPieces.grid)
 
     def at_gauss(self, curves: Sequence[str], order: int) -> list[Array]:
-        """Curves at the Gauss–Legendre points, (pieces, points) each."""
+        """Return curves at the Gauss–Legendre points, (pieces, points) each."""
         return self._at(f"gauss {order}", curves, lambda pieces, row: pieces.gauss(order, row))
 
     def _at(self, use: str, curves: Sequence[str], places: Places) -> list[Array]:

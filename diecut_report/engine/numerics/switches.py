@@ -2,7 +2,7 @@
 
 A condition is held as the difference of its sides. Where that changes its sign between two points of the search grid, or comes near
 to zero between them, the very place is found; a condition on the abscissa itself has a straight difference, so that no window is
-too narrow. A place at an end of the piece, or one where the curve that is asked for does not jump, is no fault.
+too narrow. A place at an end of the piece, or one where the curve that is asked for does not jump, is not a fault.
 """
 
 from __future__ import annotations
@@ -29,7 +29,7 @@ HALVINGS = 60  # of an interval of the grid: down to the rounding of a place
 
 
 class Decision(NamedTuple):
-    """A part of a formula that decides: a comparison, or a function that takes steps."""
+    """Hold a part of a formula that decides: a comparison, or a function that takes steps."""
 
     step: Value | Choice
     link: Bound
@@ -37,7 +37,7 @@ class Decision(NamedTuple):
 
 
 class JumpFault(NamedTuple):
-    """A curve that jumps: what decides there (None where a flag of the piece varies in it without a jump), and the place (SI)."""
+    """Hold a curve that jumps: what decides there (None where a flag of the piece varies in it without a jump), and the place (SI)."""
 
     curve: str
     decision: Decision | None

@@ -18,7 +18,7 @@ if TYPE_CHECKING:
 
 
 class BetweenRows(Substitution):
-    """The straight line through the two rows on either side of a quantity; its numbers stand in the table's units."""
+    """Describe the straight line through the two rows on either side of a quantity; its numbers stand in the table's units."""
 
     def __init__(
         self,
@@ -35,7 +35,7 @@ class BetweenRows(Substitution):
         ]
 
     def symbolic(self) -> Node:
-        """The line in symbols, those of the rows with 1 and 2."""
+        """Return the line in symbols, those of the rows with 1 and 2."""
         rows = [Node("sym", (symbol,)) for number in (1, 2) for symbol in self._symbols(number)]
         return straight(self._marked(self.step.of), *rows)
 
@@ -51,7 +51,7 @@ class BetweenRows(Substitution):
         return f"Rows of the table: {'; '.join(rows)}. {sources_told(self.step.table)}"
 
     def unit_of(self, declared: str, *, angle: bool) -> str:
-        """The table's unit."""
+        """Return the table's unit."""
         return self.step.between.columns[0].unit
 
     def _at(self, digits: int) -> Node:

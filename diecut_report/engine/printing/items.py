@@ -57,7 +57,7 @@ METHODS = {
 
 
 def section_items(calc: Calculation) -> list[dict[str, Any]]:
-    """The chapters of the calculation with their items, for the first (only) machine."""
+    """Return the chapters of the calculation with their items, for the first (only) machine."""
     chapters: dict[str, dict[str, Any]] = {}
     for section, step in calc.mechanism.active(calc.given):
         chapter = chapters.setdefault(section.title, {"title": section.title, "text": section.text, "items": []})
@@ -69,7 +69,7 @@ def section_items(calc: Calculation) -> list[dict[str, Any]]:
 
 
 def items(calc: Calculation, step: Step) -> list[Item]:
-    """What is printed of a step (nothing of breakpoints and requirements)."""
+    """Return what is printed of a step (nothing of breakpoints and requirements)."""
     if step.exists is not None and step.id in calc.values and calc.values[step.id][0, 0] != calc.values[step.id][0, 0]:
         return [_head(step) | {"type": "note", "text": f"{step.description}: does not apply to this machine."}]
     match step:
@@ -188,7 +188,7 @@ OPPOSITE = {"<": ">=", "<=": ">", ">": "<=", ">=": "<", "==": "!=", "!=": "=="}
 
 
 def negated(condition: Node) -> Node:
-    """The condition that holds where this one does not."""
+    """Return the condition that holds where this one does not."""
     if condition.op != "cmp":
         return Node("not", (condition,))
     sign, *sides = condition.args

@@ -20,7 +20,7 @@ INTEGERS = 2.0**53  # below which an integer of a formula is exact
 
 
 class Bounded(NamedTuple):
-    """A value (a number, or whether a condition holds) and how far rounding may carry it; infinite where nothing is known.
+    """Hold a value (a number, or whether a condition holds) and how far rounding may carry it; infinite where nothing is known.
 
     Of a condition the error is 1 where rounding may turn it, else 0.
     """

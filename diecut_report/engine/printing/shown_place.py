@@ -18,7 +18,7 @@ FIRST = np.zeros(1, dtype=int)  # the variant that is printed
 
 
 def shown_place(calc: Calculation, axis: str) -> tuple[Array, Array]:
-    """The place of an abscissa at which formulas are shown, and the middle of its smooth piece, each of shape (1, 1)."""
+    """Return the place of an abscissa at which formulas are shown, and the middle of its smooth piece, each of shape (1, 1)."""
     step = calc.steps[axis]
     assert isinstance(step, Abscissa)
     if step.shown_at:
@@ -28,7 +28,7 @@ def shown_place(calc: Calculation, axis: str) -> tuple[Array, Array]:
 
 
 def value_at(calc: Calculation, name: str, axis: str | None, *, flag: bool = False) -> float:
-    """A number, or a curve's value where formulas are shown, or the first of a row over repeated parts.
+    """Return a number, or a curve's value where formulas are shown, or the first of a row over repeated parts.
 
     What goes into a flag of smooth pieces is taken at the middle of the piece.
     """
@@ -40,7 +40,7 @@ def value_at(calc: Calculation, name: str, axis: str | None, *, flag: bool = Fal
 
 
 def is_elsewhere(calc: Calculation, step: Value | Choice, axis: str | None) -> bool:
-    """Whether a flag has to be shown in the middle of its smooth piece: where curves are shown its formula gives another."""
+    """Return whether a flag has to be shown in the middle of its smooth piece: where curves are shown its formula gives another."""
     if not step.per_piece or axis not in calc.domains:
         return False
     here, there = (
@@ -56,7 +56,7 @@ def is_elsewhere(calc: Calculation, step: Value | Choice, axis: str | None) -> b
 
 
 def located(calc: Calculation, axis: str, elsewhere: bool) -> Item:
-    """Where a formula over an abscissa is shown, and why where that is not its chapter's place."""
+    """Return where a formula over an abscissa is shown, and why where that is not its chapter's place."""
     place = place_shown(calc, axis, elsewhere)
     if not elsewhere:
         return {"at": place}
@@ -65,7 +65,7 @@ def located(calc: Calculation, axis: str, elsewhere: bool) -> Item:
 
 
 def marks(calc: Calculation, axis: str | None, elsewhere: bool) -> Elsewhere | None:
-    """How curves are marked that are taken elsewhere than the chapter's."""
+    """Return how curves are marked that are taken elsewhere than the chapter's."""
     if not elsewhere or axis is None:
         return None
     place = place_shown(calc, axis, True)

@@ -35,7 +35,7 @@ TRIGONOMETRIC = ("sin", "cos", "tan")
 
 
 def printed(calc: Calculation, name: str, variant: int = 0, part: int = 0, up: bool | None = None) -> str:
-    """A quantity as one would say it: ``40 mm``; of a row the value of one part; rounded up or down where ``up`` says so."""
+    """Return a quantity as one would say it: ``40 mm``; of a row the value of one part; rounded up or down where ``up`` says so."""
     step = calc.steps.get(name)
     if isinstance(step, Words):
         return step.function(*(_plain(calc[taken], variant) for taken in step.takes))
@@ -59,7 +59,7 @@ def _plain(value: Any, variant: int) -> Any:
 
 
 def filled(calc: Calculation, text: str, variant: int = 0, places: Mapping[str, int] = MappingProxyType({})) -> str:
-    """A message with its ``{ids}`` printed; of rows the part at ``places["index"]``; ``places`` stand for themselves.
+    """Return a message with its ``{ids}`` printed; of rows the part at ``places["index"]``; ``places`` stand for themselves.
 
     ``{id:up}`` and ``{id:down}`` are rounded that way: what "at least" and "at most" name must be enough.
     """
@@ -73,14 +73,14 @@ def filled(calc: Calculation, text: str, variant: int = 0, places: Mapping[str, 
 
 
 def formula_unit(display: str) -> str:
-    """The unit in which a number stands inside a formula: the display unit where it is a power of ten of SI, else SI."""
+    """Return the unit in which a number stands inside a formula: the display unit where it is a power of ten of SI, else SI."""
     own = unit(display)
     decade = math.log10(own.factor)
     return display if abs(decade - round(decade)) < 1e-12 else own.si
 
 
 class Contradiction(Exception):
-    """A printed expression does not give the result that is printed, and that is not rounding; both in SI."""
+    """Report that a printed expression does not give the result that is printed, and that is not rounding; both in SI."""
 
     def __init__(self, result: float, printed: float) -> None:
         super().__init__(result, printed)
@@ -91,7 +91,7 @@ Elsewhere = Callable[[str], tuple[Node, Node] | None]  # of a quantity: its absc
 
 
 class Substitution:
-    """A formula with numbers in, so precise that computing what is printed gives the printed result."""
+    """Hold a formula with numbers in, so precise that computing what is printed gives the printed result."""
 
     def __init__(
         self, calc: Calculation, part: Bound, value_of: Callable[[str], float], elsewhere: Elsewhere | None = None
@@ -100,7 +100,7 @@ class Substitution:
         self.constants: Mapping[str, Any] = part.formula.constants
 
     def symbolic(self) -> Node:
-        """The expression in the plugin's symbols."""
+        """Return the expression in the plugin's symbols."""
         return transform(self.part.formula.tree, self._symbol)
 
     def _symbol(self, leaf: Node) -> Node:
@@ -119,7 +119,7 @@ class Substitution:
         return symbol if place is None else Node("at", (symbol, *place))
 
     def numeric(self, target: float, display: str, result_digits: int) -> Node | None:
-        """The expression with numbers and units; computed as printed it gives ``target`` (SI) as printed in ``display``.
+        """Return the expression with numbers and units; computed as printed it gives ``target`` (SI) as printed in ``display``.
 
         None where it is proved that only rounding keeps printed numbers from showing it: the terms that it is the
         difference of are equal, or nearly so. ``Contradiction`` where the expression gives something else.
@@ -144,7 +144,7 @@ class Substitution:
         return math.isfinite(value) and rounded(value, display, digits) == wanted
 
     def unit_of(self, declared: str, *, angle: bool) -> str:
-        """The unit in which a quantity's number stands; ``angle`` where a trigonometric function takes it."""
+        """Return the unit in which a quantity's number stands; ``angle`` where a trigonometric function takes it."""
         return "deg" if angle and unit(declared).si == "rad" else formula_unit(declared)
 
     def _at(self, digits: int) -> Node:
@@ -152,7 +152,7 @@ class Substitution:
         return self._with_numbers(self.part.formula.tree, digits, angle=False)
 
     def comparison(self, holds: bool) -> Node | None:
-        """A condition with numbers, precise enough that it holds (or not) as printed; None where no number of digits shows it."""
+        """Return a condition with numbers, precise enough that it holds (or not) as printed; None where no number of digits shows it."""
         for digits in range(DIGITS, MOST_DIGITS + 1):
             tree = self._at(digits)
             if bool(evaluate(tree, self._printed_value)) is holds:

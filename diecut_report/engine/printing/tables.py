@@ -26,7 +26,7 @@ SERIES_WORDS = {
 
 
 def table(calc: Calculation, step: Step, names: list[str]) -> Item:
-    """A row over repeated parts with what it is made of: a line for each part, numbered."""
+    """Return a row over repeated parts with what it is made of: a line for each part, numbered."""
     declared = [calc.step_or_input(name) for name in names]
     columns = [{"title": "No.", "symbol": "", "unit": "1"}]
     columns += [{"title": d.description, "symbol": d.symbol, "unit": d.unit} for d in declared]
@@ -44,7 +44,7 @@ def _cell(calc: Calculation, name: str, part: int) -> str:
 
 
 def number(calc: Calculation, step: Total | Pick | Lookup | Part) -> Item:
-    """A number taken from rows, from a table, from a series."""
+    """Return a number taken from rows, from a table, from a series."""
     result = shown(float(calc[step.id][0, 0]), step.unit, step.digits)
     match step:
         case Lookup():
@@ -60,7 +60,7 @@ def number(calc: Calculation, step: Total | Pick | Lookup | Part) -> Item:
 
 
 def looked_up(calc: Calculation, step: Lookup) -> Item:
-    """A row taken from a table, beside the texts by which it was taken."""
+    """Return a row taken from a table, beside the texts by which it was taken."""
     found = table(calc, step, [step.id])
     found["columns"].insert(1, {"title": calc.meta[step.by].description, "symbol": "", "unit": "1"})
     for line, text in zip(found["rows"], _texts(calc, step), strict=True):

@@ -20,7 +20,7 @@ from diecut_report.quantities.units import unit
 
 @formula
 def excess(demand: Any, limit: Any) -> Any:
-    """How far a demand is beyond its limit."""
+    """Return how far a demand is beyond its limit."""
     return demand - limit
 
 

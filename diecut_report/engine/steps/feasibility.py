@@ -1,4 +1,4 @@
-"""What must hold for a machine to be possible, and how its reasons are told."""
+"""What must hold for a machine to be possible, and how its reasons are reported."""
 
 from __future__ import annotations
 
@@ -45,7 +45,7 @@ def refuse(calc: Calculation, variant: int, key: str, message: str) -> None:
 
 
 def reasons(calc: Calculation, steps: Sequence[Step]) -> Iterator[tuple[str, str]]:
-    """Why else a machine cannot exist, as far as it can be told from what is known already."""
+    """Yield why else a machine cannot exist, as far as it can be told from what is known already."""
     known = {*calc.inputs, *calc.values, *(f"inputs.{name}" for name in calc.inputs)}
     for step in steps:
         if isinstance(step, Require) and known.issuperset(n for n in bound(step.condition).takes if isinstance(n, str)):

@@ -19,7 +19,7 @@ SAME = 1e-12  # of the table's range: beyond its ends by no more is rounding
 
 
 def interpolated(calc: Calculation, step: Interpolated) -> None:
-    """The value at each machine's quantity, or along its curve; a machine outside of the table is refused, or marked among several."""
+    """Interpolate at each machine's quantity, or along its curve; a machine outside of the table is refused, or marked among several."""
     axis = calc.axis.get(step.id)
     if axis not in calc.domains:
         calc.values[step.id] = calc.existing(step, calc.apply(step.formula))

@@ -20,7 +20,7 @@ SAME = 1e-12  # relative difference within which a quantity is the standard valu
 
 
 def total(calc: Calculation, step: Total) -> None:
-    """Sum, product, least or greatest over the parts that count."""
+    """Calculate the sum, product, least or greatest over the parts that count."""
     parts = calc[step.of]
     if step.among:
         parts = np.where(calc[step.among] > 0, parts, NEUTRAL[step.operation])
@@ -28,18 +28,18 @@ def total(calc: Calculation, step: Total) -> None:
 
 
 def neighbour(calc: Calculation, step: Neighbour) -> None:
-    """The value of the next part, or of the one before, around the loop."""
+    """Take the value of the next part, or of the one before, around the loop."""
     calc.values[step.id] = np.roll(calc[step.of], -step.shift, axis=1)
 
 
 def running(calc: Calculation, step: Running) -> None:
-    """Sum or product from the first part up to each."""
+    """Calculate the sum or product from the first part up to each."""
     cumulate: Any = np.cumsum if step.operation == "sum" else np.cumprod
     calc.values[step.id] = cumulate(calc[step.of], axis=1)
 
 
 def part(calc: Calculation, step: Part) -> None:
-    """The value of one part; a machine whose list is shorter is impossible."""
+    """Take the value of one part; a machine whose list is shorter is impossible."""
     count = calc[step.of].shape[1]
     if not -count <= step.index < count:
         which = f"part {step.index + 1}" if step.index >= 0 else f"part {-step.index} from the last"
@@ -49,7 +49,7 @@ def part(calc: Calculation, step: Part) -> None:
 
 
 def lookup(calc: Calculation, step: Lookup) -> None:
-    """A number from a table by a text, a row where there is a text for each part; or as it is given."""
+    """Take a number from a table by a text, a row where there is a text for each part; or as it is given."""
     given = given_of(calc, step)
     if isinstance(given, np.ndarray):
         calc.values[step.id] = given
@@ -67,12 +67,12 @@ def lookup(calc: Calculation, step: Lookup) -> None:
 
 
 def given_of(calc: Calculation, step: Lookup) -> Any:
-    """What is given in place of the table's number: of all parts, or a tuple with None for those without; None where nothing is."""
+    """Return what is given in place of the table's number: of all parts, or a tuple with None for those without; None where nothing is."""
     return calc.inputs.get(step.given.removeprefix("inputs.")) if step.given else None
 
 
 def series_of(calc: Calculation, step: Pick) -> tuple[tuple[float, ...], str, StandardSeries | None]:
-    """The standard values that a step takes from, ascending; their unit; and the standard series, if it is one."""
+    """Return the standard values that a step takes from, ascending; their unit; and the standard series, if it is one."""
     series = step.series[str(calc.inputs[step.by])] if isinstance(step.series, Mapping) else step.series
     if isinstance(series, StandardSeries):
         return series.values, series.unit, series
@@ -80,7 +80,7 @@ def series_of(calc: Calculation, step: Pick) -> tuple[tuple[float, ...], str, St
 
 
 def pick(calc: Calculation, step: Pick) -> None:
-    """The standard value; beyond the ends of the series its last one, or no machine."""
+    """Take the standard value; beyond the ends of the series its last one, or no machine."""
     values, display, _ = series_of(calc, step)
     series: Array = np.asarray(values) * unit(display).factor
     sought = calc[step.of]

@@ -16,7 +16,7 @@ SIGNS = {"max": (1.0,), "min": (-1.0,), "abs_max": (1.0, -1.0), "range": (1.0, -
 
 
 def look(calc: Calculation, steps: Sequence[Step]) -> None:
-    """Before the first of these steps: note the curves that it and the coming ones ask for, and search their extremes together."""
+    """Note, before the first of these steps, the curves that it and the coming ones ask for, and search their extremes together."""
     first = steps[0]
     if not isinstance(first, Asking):
         return

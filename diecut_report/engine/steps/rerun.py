@@ -18,7 +18,7 @@ from diecut_report.expressions import Array
 
 
 def varied(calc: Calculation, inputs: Mapping[str, Any], names: Sequence[str]) -> dict[str, Array]:
-    """Numbers for other inputs, each of shape (variants,); NaN where the machine is then impossible."""
+    """Return numbers for other inputs, each of shape (variants,); NaN where the machine is then impossible."""
     count = max((np.size(value) for value in inputs.values() if not isinstance(value, str)), default=1)
     again = _calculated(calc, inputs, count, names)
     if again is None:
@@ -31,7 +31,7 @@ def varied(calc: Calculation, inputs: Mapping[str, Any], names: Sequence[str]) -
 def varied_curves(
     calc: Calculation, inputs: Mapping[str, Any], names: Sequence[str], points: int
 ) -> tuple[Array, dict[str, Array]]:
-    """Curves over one abscissa for other inputs, at so many places of the whole of it, ends included.
+    """Return curves over one abscissa for other inputs, at so many places of the whole of it, ends included.
 
     NaN where the machine is then impossible.
     """
@@ -62,7 +62,7 @@ def _repeated(value: Any, count: int) -> Any:
 
 
 def needed(mechanism: Mechanism, given: frozenset[str], names: Sequence[str]) -> set[str]:
-    """The ids of the steps that quantities need, and of what must hold for them."""
+    """Return the ids of the steps that quantities need, and of what must hold for them."""
     steps = [step for _, step in mechanism.active(given)]
     own = {step.id: step for step in steps}
     found: set[str] = set()

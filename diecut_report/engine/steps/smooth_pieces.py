@@ -1,4 +1,4 @@
-"""Refuses what would be told of a curve that jumps inside a smooth piece: its extremes and integrals could be any numbers."""
+"""Refuses what would be reported of a curve that jumps inside a smooth piece: its extremes and integrals could be any numbers."""
 
 from __future__ import annotations
 
@@ -27,15 +27,15 @@ def _words(calc: Calculation, found: switches.JumpFault) -> str:
     assert curve is not None
     place = f"{axis.symbol} = {told(found.place, axis.unit)}"
     where = f"{curve.description} ({curve.id}, {Path(curve.at).name})"
-    mend = f"declare that place among the breakpoints of {axis.id}, above what asks for the curve"
+    fix = f"declare that place among the breakpoints of {axis.id}, above what asks for the curve"
     if found.decision is None:
         return (f"{where} takes a flag of its smooth pieces (per_piece) that is not constant within one, as at {place}: "
-                f"it would be that of the middle of the piece; {mend}, or take per_piece away")  # fmt: skip
+                f"it would be that of the middle of the piece; {fix}, or take per_piece away")  # fmt: skip
     step, link, _ = found.decision
     name = f"the formula {link.formula.__name__}" if isinstance(step, Value) else "the choice"
     decided = written(_in_symbols(calc, found.decision))
     of = "its formula" if step.id == curve.id else f"{name} of {step.id} ({Path(step.at).name})"
-    return f"{where} jumps inside a smooth piece, at {place}, where {decided} changes in {of}; {mend}"
+    return f"{where} jumps inside a smooth piece, at {place}, where {decided} changes in {of}; {fix}"
 
 
 def _in_symbols(calc: Calculation, decision: switches.Decision) -> Node:

@@ -56,7 +56,7 @@ def drawing(figure: Mapping[str, Any], _curves: Mapping[str, Any], words: Catalo
 def _look(shape: Shape) -> dict[str, Any]:
     """The look of a shape's role; ValueError where there is no such role."""
     if shape["role"] not in ROLES:
-        raise ValueError(f"{shape['role']!r} is no role of a {shape['shape']}; known: {', '.join(ROLES)}")
+        raise ValueError(f"{shape['role']!r} is not a role of a {shape['shape']}; known: {', '.join(ROLES)}")
     return ROLES[shape["role"]]
 
 
@@ -67,7 +67,7 @@ class Shapes(DrawingSheet):
         """Draw a shape; ValueError where nothing is known of its kind."""
         way = getattr(self, f"_{shape['shape']}", None)
         if way is None:
-            raise ValueError(f"{shape['shape']!r} is no shape that can be drawn")
+            raise ValueError(f"{shape['shape']!r} is not a shape that can be drawn")
         way(shape)
 
     def _polyline(self, shape: Shape) -> None:

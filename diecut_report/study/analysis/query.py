@@ -33,7 +33,7 @@ Row = tuple[Any, ...]
 
 @dataclass(frozen=True)
 class Question:
-    """What is asked: a condition, the order, how many, and which columns."""
+    """Say what is asked: a condition, the order, how many, and which columns."""
 
     condition: Condition
     order: tuple[tuple[StoredColumn, bool], ...]
@@ -42,12 +42,12 @@ class Question:
 
     @property
     def where(self) -> str:
-        """The condition as SQL."""
+        """Return the condition as SQL."""
         return f"WHERE {self.condition.sql}"
 
     @property
     def sql(self) -> str:
-        """The whole question; variants of equal rank stand in the order of the sample, missing values last."""
+        """Return the whole question; variants of equal rank stand in the order of the sample, missing values last."""
         names = ", ".join(column.sql for column in self.columns)
         order = [f"{column.sql} {'DESC' if falls else 'ASC'} NULLS LAST" for column, falls in self.order]
         limit = "" if self.top is None else f" LIMIT {self.top}"
@@ -63,7 +63,7 @@ def variants(
     columns: Sequence[str] | None = None,
     width: int | None = None,
 ) -> Generator[str, None, None]:
-    """The answer in pieces of text: a ``table`` for people (in the units that they read), ``csv`` or ``json`` (SI, all columns).
+    """Yield the answer in pieces of text: a ``table`` for people (in the units that they read), ``csv`` or ``json`` (SI, all columns).
 
     ``sort`` names columns, parted by commas, with - for the greatest first; without ``columns`` a table shows the varied
     quantities and what the question names. UserError in words for what cannot be asked.
@@ -74,7 +74,7 @@ def variants(
 
 
 def unfinished(directory: Path) -> Iterator[str]:
-    """A warning where a study is not calculated to its end: its best variant may still come."""
+    """Return a warning where a study is not calculated to its end: its best variant may still come."""
     state = read_state(directory)
     if state.get("state") != "complete":
         parts, rows, chunk = len(list((directory / "variants").glob("part-*.parquet"))), state["rows"], state["chunk"]
@@ -88,7 +88,7 @@ def _question(
     stored: Stored, where: str | None, sort: str | None, top: int | None, format: str, columns: Sequence[str] | None
 ) -> Question:
     if format not in FORMATS:
-        raise UserError(Problem(f"{format!r} is no format of variants; known: {', '.join(FORMATS)}."))
+        raise UserError(Problem(f"{format!r} is not a format of variants; known: {', '.join(FORMATS)}."))
     if top is not None and top < 1:
         raise UserError(Problem(f"--top is {top}; a number of variants from 1 on is needed."))
     asked = condition(where, stored.columns) if where and where.strip() else Condition("true", [])

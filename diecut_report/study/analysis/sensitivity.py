@@ -16,7 +16,7 @@ SOURCE = (
 
 @dataclass(frozen=True)
 class Indices:
-    """What part of the variance of a quantity the inputs cause, in the order of the sample's paths.
+    """Hold what part of the variance of a quantity the inputs cause, in the order of the sample's paths.
 
     `first` is the part that an input causes alone, `total` the part in which it takes part at all. Both are estimates
     and may lie a little outside 0 … 1. `points` of the sample's points were complete and served.
@@ -28,7 +28,7 @@ class Indices:
 
 
 def sobol_indices(values: Array) -> Indices | None:
-    """The indices from the values of a quantity, (points, paths + 2) in the order of `Saltelli`; NaN where there is none.
+    """Return the indices from the values of a quantity, (points, paths + 2) in the order of `Saltelli`; NaN where there is none.
 
     A point of which any value is missing is left out whole, since its rows only count together. None where fewer than
     two points remain or the quantity is the same in all of them. See SOURCE for the formulas.

@@ -34,7 +34,7 @@ MEMORY = "400MB"  # of DuckDB
 
 @dataclass(frozen=True)
 class StoredColumn:
-    """A stored quantity: its name, what it holds, its SI unit, the unit that people read, its symbol, and what it is."""
+    """Hold a stored quantity: its name, what it holds, its SI unit, the unit that people read, its symbol, and what it is."""
 
     name: str
     kind: Kind
@@ -45,23 +45,23 @@ class StoredColumn:
 
     @property
     def is_number(self) -> bool:
-        """Whether it has sizes: floats and integers."""
+        """Return whether it has sizes: floats and integers."""
         return self.kind in ("float", "int")
 
     @property
     def sql(self) -> str:
-        """The name for DuckDB."""
+        """Return the name for DuckDB."""
         return quoted(self.name)
 
     @property
     def told(self) -> str:
-        """What people call it."""
+        """Return what people call it."""
         return self.title or self.name.removeprefix("mechanisms.")
 
 
 @dataclass(frozen=True)
 class Stored:
-    """A folder of results: its study, what ``study.json`` says, the columns, and a connection that reads the part files alone."""
+    """Hold a folder of results: its study, what ``study.json`` says, the columns, and a connection that reads the part files alone."""
 
     folder: Path
     description: Description
@@ -71,12 +71,12 @@ class Stored:
 
     @cached_property
     def varied(self) -> list[StoredColumn]:
-        """What the study varies, in its order."""
+        """Return what the study varies, in its order."""
         return [self.columns[path] for path in self.study.get("varied", ()) if path in self.columns]
 
     @cached_property
     def checks(self) -> dict[str, tuple[StoredColumn, StoredColumn]]:
-        """Each check, ``drive.checks.play``, with its columns of utilisation and status."""
+        """Return each check, ``drive.checks.play``, with its columns of utilisation and status."""
         names = [
             name.removesuffix(UTILISATION) for name in self.columns if ".checks." in name and name.endswith(UTILISATION)
         ]
@@ -84,34 +84,34 @@ class Stored:
 
     @cached_property
     def outputs(self) -> list[StoredColumn]:
-        """The kept outputs."""
+        """Return the kept outputs."""
         other = {*FIXED, *(column.name for column in self.varied)}
         return [
             column for column in self.columns.values() if column.name not in other and ".checks." not in column.name
         ]
 
     def check_told(self, check: str) -> str:
-        """What people call a check."""
+        """Return what people call a check."""
         return self.checks[check][1].told if check in self.checks else check
 
     def rows(self, sql: str, parameters: Any = ()) -> list[tuple[Any, ...]]:
-        """The whole answer to a query, which is to be small."""
+        """Return the whole answer to a query, which is to be small."""
         return self.connection.execute(sql, list(parameters)).fetchall()
 
 
 def quoted(name: str) -> str:
-    """A name as DuckDB takes it."""
+    """Return a name as DuckDB takes it."""
     return '"' + name.replace('"', '""') + '"'
 
 
 def text(value: str) -> str:
-    """A text as DuckDB takes it."""
+    """Return a text as DuckDB takes it."""
     return "'" + value.replace("'", "''") + "'"
 
 
 @contextmanager
 def opened(folder: Path) -> Iterator[Stored]:
-    """The stored variants of a study; UserError in words where there are none or they cannot be read.
+    """Open the stored variants of a study; UserError in words where there are none or they cannot be read.
 
     The connection reads the folder's part files and nothing else, and writes nothing.
     """
@@ -156,7 +156,7 @@ def _view(connection: DuckDBPyConnection, folder: Path) -> None:
 
 
 def columns_of(description: Description) -> dict[str, StoredColumn]:
-    """The columns of the part files by name; curves, which are lists, are no quantities to compare."""
+    """Return the columns of the part files by name; curves, which are lists, are not quantities to compare."""
     known = titles(description.all_columns)
     return {
         column.name: StoredColumn(column.name, column.kind, column.unit, _display(column.display, column.unit), column.symbol, known[column.name])

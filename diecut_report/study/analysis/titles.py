@@ -13,7 +13,7 @@ UTILISATION, VERDICT_OF = ".utilisation", ".status"  # ends of the columns of a 
 
 
 def titles(columns: Sequence[ResultColumn]) -> dict[str, str]:
-    """Titles by name: ``Radius of the bore (cylinder)``; longer where two columns would share one, empty without a description."""
+    """Return the titles by name: ``Radius of the bore (cylinder)``; longer where two columns would share one, empty without a description."""
     checks = [column for column in columns if _is_verdict(column)]
     return _titles([column for column in columns if not _is_verdict(column)]) | _titles(checks)
 
@@ -30,7 +30,7 @@ def _titles(columns: Sequence[ResultColumn]) -> dict[str, str]:
 
 
 def home(name: str) -> str:
-    """The mechanism (or ``press``) of a column; nothing for those of the study itself."""
+    """Return the mechanism (or ``press``) of a column; nothing for those of the study itself."""
     first, _, rest = name.removeprefix(MECHANISMS).partition(".")
     return first if rest else ""
 

@@ -41,7 +41,7 @@ def _place(base: Tree, path: KeyPath, discovery: Discovery) -> KeyPath:
         return path
     try:
         spread = discovery.mechanism(str(mechanism.get("kind"))).inputs.spread
-    except (PluginError, UnknownKind, DuplicateKind):  # told where the configuration is read
+    except (PluginError, UnknownKind, DuplicateKind):  # reported where the configuration is read
         return path
     homes = [
         (key, single.index(path[2]))

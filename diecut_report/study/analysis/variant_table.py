@@ -21,7 +21,7 @@ FEWEST = 3  # columns that stand whatever the line holds
 def table_text(
     columns: Sequence[StoredColumn], rows: Sequence[Sequence[Any]], width: int | None
 ) -> tuple[str, list[StoredColumn]]:
-    """The table, and the columns that the line has no room for."""
+    """Return the table, and the columns that the line has no room for."""
     heads = [_head(column) for column in columns]
     texts = [[shown(value, column) for value, column in zip(row, columns, strict=True)] for row in rows]
     wide = [max(map(len, (*head.split("\n"), *column))) for head, *column in zip(heads, *texts, strict=True)]
@@ -77,7 +77,7 @@ def _head(column: StoredColumn) -> str:
 
 
 def shown(value: Any, column: StoredColumn) -> str:
-    """A stored value as people read it, in the column's display unit, without the unit."""
+    """Return a stored value as people read it, in the column's display unit, without the unit."""
     if value is None:
         return "–"
     if isinstance(value, bool):

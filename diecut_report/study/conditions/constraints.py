@@ -22,7 +22,7 @@ EXAMPLE = "mechanisms.NAME.KEY <= '90 mm'"
 
 @dataclass(frozen=True)
 class Term:
-    """What a path stands for in a constraint: its SI unit (None for a text or a yes/no), its value, and the unit that people read.
+    """Hold what a path stands for in a constraint: its SI unit (None for a text or a yes/no), its value, and the unit that people read.
 
     The value is ``sym`` of a varied path, ``qty`` of a value that the base fixes, or an expression of these.
     """
@@ -38,7 +38,7 @@ Find = Callable[[str], Term]
 
 @dataclass(frozen=True)
 class Constraint:
-    """What must hold between the inputs of a variant; ``values`` says what each name in its tree stands for."""
+    """Hold what must hold between the inputs of a variant; ``values`` says what each name in its tree stands for."""
 
     text: str
     tree: Tree
@@ -46,7 +46,7 @@ class Constraint:
 
     @property
     def paths(self) -> tuple[str, ...]:
-        """The varied paths that it names."""
+        """Return the varied paths that it names."""
         return tuple(dict.fromkeys(path for name in names(self.tree) for path in symbols(self.values[name])))
 
     def judged(self, rows: Mapping[str, Any]) -> JudgedRows:
@@ -87,7 +87,7 @@ def parse(text: str, find: Find, known: Collection[str] = ()) -> Constraint:
     def name(path: str) -> Name:
         if "." not in path and path not in known:
             advice = "write the whole path of an input, such as mechanisms.NAME.KEY, and texts in quotes"
-            raise ConditionError(f"“{path}” is no path of an input; {advice}.")
+            raise ConditionError(f"“{path}” is not a path of an input; {advice}.")
         term = find(path)
         found[path] = term.node
         return Name(path, "text") if term.unit is None else Name(path, "number", term.unit, term.display)

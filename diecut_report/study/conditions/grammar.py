@@ -37,7 +37,7 @@ _VALUES = ("number", "text", "name")
 
 @dataclass(frozen=True)
 class Parsed:
-    """A condition as Python parsed it; each name ``_3`` in it stands for the word 3."""
+    """Hold a condition as Python parsed it; each name ``_3`` in it stands for the word 3."""
 
     body: ast.expr
     words: Sequence[Token]
@@ -51,7 +51,7 @@ class Parsed:
 
 
 def parsed(given: str, known: Collection[str]) -> Parsed:
-    """Parse a condition; ConditionError in words, with the place, for what is no condition by its words alone."""
+    """Parse a condition; ConditionError in words, with the place, for what is not a condition by its words alone."""
     words = tokens(given, known)
     pieces = _GrammarWriter(words).pieces()
     starts, at = [], 0

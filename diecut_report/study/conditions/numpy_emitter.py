@@ -33,7 +33,7 @@ ValueOf = Callable[[str], Any]
 
 
 class JudgedRows(NamedTuple):
-    """For each row whether a condition holds and whether it fails; where it does neither it is undecided."""
+    """Hold for each row whether a condition holds and whether it fails; where it does neither it is undecided."""
 
     holds: Array
     fails: Array

@@ -46,7 +46,7 @@ ANGLE = DIMENSIONS.index("angle")
 
 @dataclass(frozen=True)
 class Name:
-    """What a name stands for: a number in its SI ``unit``, a text, or a truth; ``display`` is the unit that people read ("" if unknown)."""
+    """Hold what a name stands for: a number in its SI ``unit``, a text, or a truth; ``display`` is the unit that people read ("" if unknown)."""
 
     name: str
     holds: Literal["number", "text", "truth"]
@@ -55,13 +55,13 @@ class Name:
 
     @property
     def is_read_in_si(self) -> bool:
-        """Whether people read it in SI, so that a number beside it needs no unit."""
+        """Return whether people read it in SI, so that a number beside it needs no unit."""
         return self.unit == (self.display or "1")
 
 
 @dataclass(frozen=True)
 class ConditionPart:
-    """A part of a condition and its place: a quantity of a kind, a text, a condition, or what stands in quotes and may be either.
+    """Hold a part of a condition and its place: a quantity of a kind, a text, a condition, or what stands in quotes and may be either.
 
     A ``bare`` quantity is made of numbers without units. In the ``loose`` product of quantities (angular speed times radius)
     radians may be left out. ``name`` is what it names or scales, ``typed`` what messages call it.
@@ -78,7 +78,7 @@ class ConditionPart:
 
     @property
     def shown(self) -> str:
-        """What messages call it."""
+        """Return what messages call it."""
         return self.typed or "the calculated side"
 
 

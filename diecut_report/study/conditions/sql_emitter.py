@@ -31,7 +31,7 @@ _LEAST = {"min": "<=", "max": ">="}
 
 
 class Sql(NamedTuple):
-    """An expression and what goes into its question marks."""
+    """Hold an expression and what goes into its question marks."""
 
     text: str
     given: tuple[Any, ...] = ()

@@ -20,7 +20,7 @@ from diecut_report.study.definition.base_inputs import (
 
 
 def term(base: Config, varied: Mapping[str, Input], path: str) -> Term:
-    """What a path stands for; ConditionError in words where it is not known before the calculation.
+    """Return what a path stands for; ConditionError in words where it is not known before the calculation.
 
     ``base`` has stand-ins for what is varied, so that its references are those of every variant.
     """

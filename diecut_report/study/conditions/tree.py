@@ -1,6 +1,6 @@
 """The tree of a condition: what was read and judged, with all quantities in SI.
 
-A value that is missing, and a calculated one that is not finite (a division by zero, the root of less than zero), is no value. A
+A value that is missing, and a calculated one that is not finite (a division by zero, the root of less than zero), is not a value. A
 comparison with no value is neither true nor false, and ``and``, ``or``, ``not`` of such follow: ``false and`` anything is false,
 ``true or`` anything is true, else it stays undecided. A condition picks the rows for which it is true.
 """
@@ -16,21 +16,21 @@ from typing import Any, Literal
 
 @dataclass(frozen=True)
 class Number:
-    """A number, in SI."""
+    """Stand for a number, in SI."""
 
     value: float
 
 
 @dataclass(frozen=True)
 class TextLiteral:
-    """A text."""
+    """Stand for a text."""
 
     value: str
 
 
 @dataclass(frozen=True)
 class ColumnName:
-    """What a name stands for in each row; ``holds`` says what that is."""
+    """Stand for what a name stands for in each row; ``holds`` says what that is."""
 
     name: str
     holds: Literal["number", "text", "truth"]
@@ -38,14 +38,14 @@ class ColumnName:
 
 @dataclass(frozen=True)
 class Negative:
-    """A number with the other sign."""
+    """Stand for a number with the other sign."""
 
     of: Node
 
 
 @dataclass(frozen=True)
 class Chain:
-    """Numbers joined from left to right, either by ``+`` and ``-`` or by ``*`` and ``/``."""
+    """Stand for numbers joined from left to right, either by ``+`` and ``-`` or by ``*`` and ``/``."""
 
     first: Node
     rest: tuple[tuple[str, Node], ...]
@@ -53,7 +53,7 @@ class Chain:
 
 @dataclass(frozen=True)
 class Power:
-    """A number raised to another one."""
+    """Stand for a number raised to another one."""
 
     base: Node
     exponent: Node
@@ -61,7 +61,7 @@ class Power:
 
 @dataclass(frozen=True)
 class Call:
-    """A function (abs, sqrt, min, max) of numbers."""
+    """Stand for a function (abs, sqrt, min, max) of numbers."""
 
     name: str
     of: tuple[Node, ...]
@@ -72,14 +72,14 @@ class Call:
 
 @dataclass(frozen=True)
 class Truth:
-    """A condition that always or never holds."""
+    """Stand for a condition that always or never holds."""
 
     value: bool
 
 
 @dataclass(frozen=True)
 class Compared:
-    """A comparison (``== != < <= > >=``) of two numbers, two texts or two conditions."""
+    """Stand for a comparison (``== != < <= > >=``) of two numbers, two texts or two conditions."""
 
     sign: str
     left: Node
@@ -88,7 +88,7 @@ class Compared:
 
 @dataclass(frozen=True)
 class Like:
-    """Whether a text is like a pattern: ``%`` stands for any letters, ``_`` for one."""
+    """Stand for whether a text is like a pattern: ``%`` stands for any letters, ``_`` for one."""
 
     text: Node
     pattern: str
@@ -96,14 +96,14 @@ class Like:
 
 @dataclass(frozen=True)
 class Missing:
-    """Whether there is no value, or a condition is undecided."""
+    """Stand for whether there is no value, or a condition is undecided."""
 
     of: Node
 
 
 @dataclass(frozen=True)
 class Joined:
-    """Conditions joined by ``and`` or by ``or``."""
+    """Stand for conditions joined by ``and`` or by ``or``."""
 
     word: Literal["and", "or"]
     parts: tuple[Node, ...]
@@ -111,7 +111,7 @@ class Joined:
 
 @dataclass(frozen=True)
 class Not:
-    """The contrary of a condition."""
+    """Stand for the contrary of a condition."""
 
     of: Node
 

@@ -20,7 +20,7 @@ SHOWN = 300  # letters of a condition in a message
 
 @dataclass
 class Condition:
-    """A condition for DuckDB with its parameters, and the columns that it names."""
+    """Hold a condition for DuckDB with its parameters, and the columns that it names."""
 
     sql: str
     parameters: list[Any]
@@ -42,14 +42,14 @@ def condition(given: str, columns: Mapping[str, StoredColumn]) -> Condition:
 def column_named(name: str, columns: Mapping[str, StoredColumn]) -> StoredColumn:
     """Return the column of a name; UserError with the nearest where there is none."""
     if name not in columns:
-        raise UserError(Problem(f"{name!r} is no column of these variants{nearest(name, columns)}."))
+        raise UserError(Problem(f"{name!r} is not a column of these variants{nearest(name, columns)}."))
     return columns[name]
 
 
 def _name(name: str, columns: Mapping[str, StoredColumn]) -> Name:
     if name not in columns:
         near = nearest(name, columns) or "; put texts in quotes"
-        raise ConditionError(f"{name!r} is no column of these variants{near}.")
+        raise ConditionError(f"{name!r} is not a column of these variants{near}.")
     column = columns[name]
     if column.is_number:
         return Name(name, "number", column.unit, column.display)

@@ -28,7 +28,7 @@ _TOKEN = re.compile(
 
 
 class ConditionError(ValueError):
-    """A condition that cannot be used: words that say why and what to write instead; ``place`` counts its letters from 0."""
+    """Report a condition that cannot be used: words that say why and what to write instead; ``place`` counts its letters from 0."""
 
     def __init__(self, words: str, place: int | None = None) -> None:
         super().__init__(words)
@@ -41,7 +41,7 @@ class ConditionError(ValueError):
 
 @dataclass(frozen=True)
 class Token:
-    """A word of a condition and where it stands (from 0).
+    """Hold a word of a condition and where it stands (from 0).
 
     ``sort`` is number, text, name, function, keyword, sign or end; ``text`` what it says, without the quotes.
     """
@@ -52,7 +52,7 @@ class Token:
 
     @property
     def shown(self) -> str:
-        """The word as messages name it."""
+        """Return the word as messages name it."""
         return self.text if self.sort == "end" else repr(self.text)
 
 

@@ -21,12 +21,12 @@ MECHANISMS = "mechanisms"
 
 
 class UnknownPath(LookupError):
-    """A path that names no input that can be varied, in words."""
+    """Report a path that names no input that can be varied, in words."""
 
 
 @dataclass(frozen=True, eq=False)
 class Input:
-    """An input of the base: its path in the file, where it is, and what it declares."""
+    """Hold an input of the base: its path in the file, where it is, and what it declares."""
 
     path: str
     instance: str
@@ -37,7 +37,7 @@ class Input:
 
     @property
     def unit(self) -> str | None:
-        """Its SI unit; None for a text, a choice or a yes/no."""
+        """Return its SI unit; None for a text, a choice or a yes/no."""
         return self.meta.parsed_unit.si if isinstance(self.meta, Quantity) else None
 
     @property
@@ -46,12 +46,12 @@ class Input:
 
     @property
     def declared_as(self) -> Any:
-        """The annotation of a field that takes the same values, with the same bounds and messages."""
+        """Return the annotation of a field that takes the same values, with the same bounds and messages."""
         return Annotated[self.annotation, *self.metadata]
 
 
 def find_input(base: Config, path: str) -> Input:
-    """The input that a path names; UnknownPath in words, with the nearest known one, where it names none."""
+    """Return the input that a path names; UnknownPath in words, with the nearest known one, where it names none."""
     instance, keys = _instance(base, path)
     key: KeyPath = tuple(int(part) if part.isdigit() else part for part in keys)
     meta = declared(instance.model, key) if key else None
@@ -111,7 +111,7 @@ def _no_input(base: Config, instance: Instance, keys: list[str]) -> str:
 
 
 def known_paths(base: Config, name: str) -> list[str]:
-    """The paths of all inputs of a mechanism, or of the press; of lists those of the first part."""
+    """Return the paths of all inputs of a mechanism, or of the press; of lists those of the first part."""
     instance = base.instances[name]
     prefix = PRESS if name == PRESS else f"{MECHANISMS}.{name}"
     return [f"{prefix}.{key}" for key in _known(instance)] if instance else []
@@ -147,7 +147,7 @@ def _check_list(data: Any, key: KeyPath) -> None:
 
 
 def with_values(base: Config, values: Mapping[Input, Any]) -> tuple[Config, list[Problem]]:
-    """The base with values of these inputs in the place of what stands there (references too), linked anew.
+    """Return the base with values of these inputs in the place of what stands there (references too), linked anew.
 
     Also what is wrong with that beside the values themselves: keys that cannot be given together, a block that lacks some.
     """

@@ -11,17 +11,18 @@ from diecut_report.config.model import ConfigDocument
 from diecut_report.contract.inputs import Block, Quantity, Text
 from diecut_report.study.definition.base_inputs import Input
 
-METHODS = ("grid", "zip", "latin_hypercube", "sobol", "table")
 DRAWN = ("latin_hypercube", "sobol")
 LISTED = ("grid", "zip")
 DISTRIBUTIONS = ("uniform", "normal", "triangular")
 
-COUNT = Quantity("n", "1", "Number of variants", ge=1, le=1e12, integer=True)
-SEED = Quantity("", "1", "Seed of the random numbers; equal seeds give equal samples", ge=0, le=2**53, integer=True)
+COUNT = Quantity("n", "1", "Number of variants of latin_hypercube and sobol", ge=1, le=1e12, integer=True)
+SEED = Quantity(
+    "", "1", "Seed of latin_hypercube and sobol; equal seeds give equal samples", ge=0, le=2**53, integer=True
+)
 
 
 class SampleForm(Block):
-    """How the variants are taken from what is varied."""
+    """Declare how the variants are taken from what is varied."""
 
     method: Annotated[
         Literal["grid", "zip", "latin_hypercube", "sobol", "table"],
@@ -35,11 +36,13 @@ class SampleForm(Block):
     indices: Annotated[
         bool, Text("For sobol: count groups of variants from which first and total Sobol indices follow")
     ] = False
-    file: Annotated[str | None, Text("For table: a CSV, Parquet or XLSX file whose columns are paths")] = None
+    file: Annotated[
+        str | None, Text("For table: a CSV, Parquet or XLSX file with paths and units as heads, `PATH [rpm]`")
+    ] = None
 
 
 class ObjectiveForm(Block):
-    """An output that is to be as small or as great as can be."""
+    """Declare an output that is to be as small or as great as can be."""
 
     minimise: Annotated[str | None, Text("An output, such as cylinder.mass, that is to be small")] = None
     maximise: Annotated[str | None, Text("An output that is to be great")] = None
@@ -49,7 +52,7 @@ Texts = Annotated[list[Annotated[str, Field(min_length=1)]], Field(default_facto
 
 
 class StudyDocument(Block):
-    """The whole study file; what is varied is judged path by path."""
+    """Declare the whole study file; what is varied is judged path by path."""
 
     schema_version: Annotated[Literal[1], BeforeValidator(ConfigDocument.a_number)]
     base: Annotated[str, Text("The config that is varied, beside the study file"), Field(min_length=1)]
@@ -71,12 +74,12 @@ class StudyDocument(Block):
 
 
 def value_form(asked: Input) -> type[Block]:
-    """One value of a list."""
+    """Return one value of a list."""
     return create_model("One", __base__=Block, value=(asked.declared_as, ...))
 
 
 def range_form(asked: Input) -> type[Block]:
-    """Values from … to."""
+    """Return values from … to."""
     keys: dict[str, Any] = {"from": (asked.declared_as, ...), "to": (asked.declared_as, ...)}
     keys["count"] = (
         Annotated[int | None, Quantity("", "1", "Number of values", ge=1, le=1e9, integer=True)],
@@ -87,7 +90,7 @@ def range_form(asked: Input) -> type[Block]:
 
 
 def distribution_form(asked: Input, name: str) -> type[Block]:
-    """A distribution with its limits; its standard deviation has the input's unit, but not its bounds."""
+    """Return a distribution with its limits; its standard deviation has the input's unit, but not its bounds."""
     assert isinstance(asked.meta, Quantity)
     value = asked.declared_as
     limit = (Annotated[float | None, *asked.metadata], None)
@@ -103,7 +106,7 @@ def distribution_form(asked: Input, name: str) -> type[Block]:
 
 
 class TableForm(Block):
-    """The values of a column of a file."""
+    """Declare the values of a column of a file."""
 
     table: Annotated[str, Text("A CSV, Parquet or XLSX file beside the study file"), Field(min_length=1)]
     column: Annotated[str | None, Text("The column; without it the one named as the path")] = None

@@ -25,7 +25,7 @@ MOST_TEXTS = 50  # values of a text for each of which the names of the results a
 
 @dataclass
 class Sampled:
-    """What is varied: the inputs by path, the sample (None where it has problems), and the files that were read.
+    """Hold what is varied: the inputs by path, the sample (None where it has problems), and the files that were read.
 
     ``bases`` are the base with stand-ins for numbers and, one text at a time, each of its values; never empty.
     """
@@ -37,7 +37,7 @@ class Sampled:
 
 
 class SampleReader:
-    """Reads ``sample`` and ``vary``; gathers ``problems``."""
+    """Read ``sample`` and ``vary``; gathers ``problems``."""
 
     def __init__(self, place: ConfigPlace, find: Callable[[str], Path], base: Config) -> None:
         self.place, self.base = place, base
@@ -46,7 +46,7 @@ class SampleReader:
         self.vary = ConfigPlace(place.tree, ("vary",))
 
     def sampled(self, form: SampleForm | None, vary: Mapping[str, Any]) -> Sampled:
-        """All of it; ``form`` is None where the sample's keys are wrong, so that values alone can be judged."""
+        """Return all of it; ``form`` is None where the sample's keys are wrong, so that values alone can be judged."""
         is_table = form is not None and form.method == "table"
         found = self._tabled(str(form.file)) if form and is_table else self._varied(form, vary)
         self.problems += self.tables.problems
@@ -122,7 +122,7 @@ class SampleReader:
 
 
 def misused(form: SampleForm, has_vary: bool, place: ConfigPlace) -> Iterator[Problem]:
-    """What the method needs and lacks, and keys that have no use with it."""
+    """Yield what the method needs and lacks, and keys that have no use with it."""
     used = {"count": DRAWN, "seed": DRAWN, "indices": ("sobol",), "file": ("table",)}
     for key, users in used.items():
         if getattr(form, key) not in (None, False) and form.method not in users:
@@ -161,5 +161,5 @@ def _texts(given: Any) -> list[str]:
 
 
 def _column_texts(asked: Input, column: ReadColumn) -> list[str]:
-    """The texts of a column, as far as it has any; what is wrong with them is told when they are judged."""
+    """The texts of a column, as far as it has any; what is wrong with them is reported when they are judged."""
     return [] if asked.unit else list(dict.fromkeys(column.cells.texts()))[:MOST_TEXTS]

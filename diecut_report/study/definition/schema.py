@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from diecut_report.config.schema import DRAFT, NUMBER, Schema
-from diecut_report.study.definition.form import DISTRIBUTIONS, METHODS
+from diecut_report.config.schema import DRAFT, NUMBER, Schema, block_schema
+from diecut_report.study.definition.form import DISTRIBUTIONS, SampleForm, TableForm
 
 PATH = r"^(mechanisms\.[A-Za-z][A-Za-z0-9_-]*|press)(\.\w+)+$"
 OUTPUT = r"^[A-Za-z][A-Za-z0-9_-]*(\.\w+)+$"
@@ -12,11 +12,11 @@ LIMITS = {"uniform": ("low", "high"), "normal": ("mean", "sd"), "triangular": ("
 
 
 def study_schema() -> Schema:
-    """Schema of a study; whether its paths are there is known only with its base."""
+    """Return schema of a study; whether its paths are there is known only with its base."""
     keys: Schema = {
         "schema_version": {"const": 1, "description": "Version of this form of the file."},
         "base": _text("The config that is varied, relative to the study."),
-        "sample": _sample(),
+        "sample": block_schema(SampleForm, refers=False) | {"description": "How the variants are taken."},
         "vary": _vary(),
         "constraints": _list({"type": "string"}, "What must hold between inputs; other variants are dropped."),
         "outputs": _list(_output(), "The outputs to keep, such as drive.crank_torque_peak; without the key all."),
@@ -45,24 +45,13 @@ def _whole(least: int, description: str) -> Schema:
     return {"type": "integer", "minimum": least, "description": description}
 
 
-def _sample() -> Schema:
-    keys: Schema = {
-        "method": {"enum": list(METHODS), "description": "How the variants are taken from what varies."},
-        "count": _whole(1, "Number of variants; for latin_hypercube and sobol."),
-        "seed": _whole(0, "Equal seeds give equal samples; for latin_hypercube and sobol. Default: 0."),
-        "indices": {"type": "boolean", "description": "For sobol: groups of variants that give Sobol indices."},
-        "file": _text("For table: CSV, Parquet or XLSX; its columns are paths with units, `PATH [rpm]`."),
-    }
-    return _block(keys, ("method",), "How the variants are taken.")
-
-
 def _vary() -> Schema:
     spread: Schema = {"spacing": {"enum": ["linear", "log"]}, "count": _whole(1, "Number of values.")}
     forms = [
         _list({"type": ["number", "string", "boolean"]}, "These values.") | {"minItems": 1},
         _block({"from": QUANTITY, "to": QUANTITY} | spread, ("from", "to"), "Values from … to."),
         *(_distribution(name) for name in DISTRIBUTIONS),
-        _block({"table": _text("A file."), "column": _text("Its column.")}, ("table",), "The values of a column."),
+        block_schema(TableForm, refers=False) | {"description": "The values of a column."},
     ]
     paths = {"type": "object", "propertyNames": {"pattern": PATH}, "additionalProperties": {"anyOf": forms}}
     return paths | {"description": "For each varied path its values: a list, a range or a distribution."}

@@ -1,4 +1,4 @@
-"""A study file: read and judged as a whole, against its base, with all that is wrong told at once."""
+"""A study file: read and judged as a whole, against its base, with all that is wrong reported at once."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ from diecut_report.study.sampling.methods import Sample
 
 @dataclass(frozen=True)
 class Study:
-    """A valid study. ``inputs`` has each varied path's input, ``units`` its SI unit (None for a text, a choice, a yes/no).
+    """Hold a valid study. ``inputs`` has each varied path's input, ``units`` its SI unit (None for a text, a choice, a yes/no).
 
     ``base`` is the config as it stands in its file; ``bases`` are the base with stand-ins for the varied numbers and, one at
     a time, each varied text, so that all of them have the columns of all variants; ``tables`` holds the
@@ -131,7 +131,7 @@ class _StudyReader:
         try:
             base = load_config(path, self.discovery)
         except UserError as error:
-            words = "the base has problems, which are told with its own name; what is varied in it is judged when they are mended."
+            words = "the base has problems, which are reported with its own name; what is varied in it is judged when they are fixed."
             self.problems += [self.place.problem(("base",), words), *error.problems]
             return None
         if base.broken:  # no variant can be calculated: the author of the plugin must act, not that of the study

@@ -19,7 +19,7 @@ from diecut_report.study.tables.reading import TOLD, ReadColumn, TableFile, read
 
 
 class TableReader:
-    """Reads tables, found by ``find`` by their names in the study; gathers ``problems``, and each one's SHA-256 in ``hashes``."""
+    """Read tables, found by ``find`` by their names in the study; gathers ``problems``, and each one's SHA-256 in ``hashes``."""
 
     def __init__(self, place: ConfigPlace, find: Callable[[str], Path]) -> None:
         self.place, self.find = place, find
@@ -28,7 +28,7 @@ class TableReader:
         self._read: dict[str, TableFile | None] = {}
 
     def table(self, name: str, key: KeyPath) -> TableFile | None:
-        """The table that the study names at this key, or None where it cannot be read."""
+        """Return the table that the study names at this key, or None where it cannot be read."""
         if name not in self._read:
             self._read[name] = self._opened(name, key)
         return self._read[name]
@@ -47,7 +47,7 @@ class TableReader:
         return found
 
     def column(self, asked: Input, name: str, column: str, key: KeyPath) -> Values | None:
-        """A column of a table as the values of an input, or None with the problems."""
+        """Return a column of a table as the values of an input, or None with the problems."""
         table = self.table(name, key)
         try:
             return self.values(asked, table.column(column)) if table else None
@@ -56,7 +56,7 @@ class TableReader:
             return None
 
     def values(self, asked: Input, column: ReadColumn) -> Values | None:
-        """A column as the values of an input: SI numbers within its bounds, or texts that it takes."""
+        """Return a column as the values of an input: SI numbers within its bounds, or texts that it takes."""
         before = len(self.problems)
         try:
             if isinstance(asked.meta, Quantity):

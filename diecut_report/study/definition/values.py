@@ -29,14 +29,14 @@ TEXTS = "is a text or a choice; give a list of values"
 
 
 class ValueReader:
-    """Reads the values of varied paths; gathers ``problems`` (those of tables are gathered there)."""
+    """Read the values of varied paths; gathers ``problems`` (those of tables are gathered there)."""
 
     def __init__(self, place: ConfigPlace, tables: TableReader) -> None:
         self.place, self.tables = place, tables
         self.problems: list[Problem] = []
 
     def variable(self, asked: Input, given: Any) -> Variable | None:
-        """The variable that is given in the file, or None where there are problems."""
+        """Return the variable that is given in the file, or None where there are problems."""
         before = len(self.problems)
         try:
             made = self._made(asked, given)
@@ -131,7 +131,7 @@ class ValueReader:
 
 
 def stored(value: Any) -> float | str:
-    """A value as a sample holds it: a yes/no as the text that YAML has for it, a whole number as a float."""
+    """Return a value as a sample holds it: a yes/no as the text that YAML has for it, a whole number as a float."""
     if isinstance(value, bool):
         return str(value).lower()
     return value if isinstance(value, str) else float(value)

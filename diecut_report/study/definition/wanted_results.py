@@ -20,7 +20,7 @@ SHOWN = 12  # known names that a message lists
 
 @dataclass(frozen=True)
 class Objective:
-    """A quantity that is to be small or great: an output (``cylinder.mass``) or ``NAME.checks.ID.utilisation``."""
+    """Name a quantity that is to be small or great: an output (``cylinder.mass``) or ``NAME.checks.ID.utilisation``."""
 
     output: str
     minimise: bool
@@ -28,7 +28,7 @@ class Objective:
 
 @dataclass(frozen=True)
 class Reports:
-    """Which variants get a full report: none, the failed ones, the best by the objectives, all, or those with these numbers."""
+    """Say which variants get a full report: none, the failed ones, the best by the objectives, all, or those with these numbers."""
 
     which: Literal["none", "failed", "best", "all", "ids"] = "none"
     best: int = 0
@@ -54,29 +54,29 @@ class _Known:
 
 
 class ResultReader:
-    """Reads what is asked of the results; gathers ``problems``."""
+    """Read what is asked of the results; gathers ``problems``."""
 
     def __init__(self, place: ConfigPlace, bases: Sequence[Config]) -> None:
         self.place, self.bases = place, bases
         self.problems: list[Problem] = []
 
     def outputs(self, given: list[str] | None) -> tuple[str, ...] | None:
-        """The outputs to keep; None for all."""
+        """Return the outputs to keep; None for all."""
         if given is None:
             return None
         kept = [name for i, name in enumerate(given) if self._is_number_or_text(("outputs", i), name)]
         return tuple(dict.fromkeys(kept))
 
     def curves(self, given: list[str]) -> tuple[str, ...]:
-        """The curves to keep."""
+        """Return the curves to keep."""
         return tuple(dict.fromkeys(name for i, name in enumerate(given) if self._is_curve(("curves", i), name)))
 
     def objectives(self, given: list[dict[str, Any]]) -> tuple[Objective, ...]:
-        """The objectives in their order."""
+        """Return the objectives in their order."""
         return tuple(made for i, entry in enumerate(given) if (made := self._objective(("objectives", i), entry)))
 
     def reports(self, given: Any, count: int | None, has_objectives: bool) -> Reports:
-        """Which variants get a full report; ``count`` is that of the sample, None where it is not known."""
+        """Return which variants get a full report; ``count`` is that of the sample, None where it is not known."""
         if isinstance(given, list):
             wrong = [number for number in given if number < 0 or (count is not None and number >= count)]
             for number in wrong:
@@ -134,7 +134,7 @@ class ResultReader:
         if inner in known.numbers:
             return True
         among = known.utilisations if inner.startswith("checks.") else known.numbers | known.others
-        words = f"{name} is no output{known.nearest(inner, among)}"
+        words = f"{name} is not an output{known.nearest(inner, among)}"
         if inner in known.rows:
             words = f"{name} has a value for each part of a list; name one, as in {name}.0."
         elif inner in known.curves:
@@ -152,7 +152,7 @@ class ResultReader:
             words = (
                 " is a single value; name it in outputs."
                 if is_single
-                else f" is no curve{known.nearest(inner, known.curves)}"
+                else f" is not a curve{known.nearest(inner, known.curves)}"
             )
             self._report(key, f"{name}{words}")
         return inner in known.curves

@@ -22,7 +22,7 @@ KEPT = "What was finished is kept: continue with --resume."
 
 
 class Dask:
-    """The workers of a scheduler, those that join later too; Dask repeats the chunks of a worker that is lost."""
+    """Calculate on the workers of a scheduler, those that join later too; Dask repeats the chunks of a worker that is lost."""
 
     lost: tuple[type[BaseException], ...] = ()
     gave_up: tuple[type[BaseException], ...] = (KilledWorker,)
@@ -34,7 +34,7 @@ class Dask:
         self._executor: Any = None
 
     def __enter__(self) -> Self:
-        logging.getLogger("distributed").setLevel(logging.CRITICAL)  # what is lost is told in words, not by tracebacks
+        logging.getLogger("distributed").setLevel(logging.CRITICAL)  # losses are reported in words, not by tracebacks
         logging.getLogger("distributed.client").setLevel(logging.CRITICAL)
         self._client = _connected(self._address)
         try:
@@ -69,7 +69,7 @@ class Dask:
 
     @property
     def limit(self) -> int:
-        """How many chunks keep the workers busy that are there now."""
+        """Return how many chunks keep the workers busy that are there now."""
         try:
             return AHEAD * max(1, int(sum(self._client.nthreads().values())))
         except OSError as error:
@@ -81,7 +81,7 @@ class Dask:
         return future
 
     def restart(self) -> None:
-        """Dask itself repeats what was lost."""
+        """Do nothing: Dask itself repeats what was lost."""
 
     def give_up(self, begun: Iterable[Future[Any]]) -> None:
         """Take them from the scheduler."""
@@ -89,7 +89,7 @@ class Dask:
             future.cancel()
 
     def look(self) -> None:
-        """UserError where the scheduler is gone."""
+        """Raise UserError where the scheduler is gone."""
         if self._client.status != "running":
             raise self._gone()
 

@@ -13,7 +13,7 @@ __all__ = ["ChunkFailed", "Engine", "InProcess", "Pool", "Warm", "dask_cluster",
 
 
 def dask_cluster(address: str, warm: Warm) -> Engine:
-    """The workers of the Dask scheduler at this address; UserError where Dask is not installed."""
+    """Return the workers of the Dask scheduler at this address; UserError where Dask is not installed."""
     try:
         from diecut_report.study.execution.dask_cluster import Dask
     except ModuleNotFoundError as error:

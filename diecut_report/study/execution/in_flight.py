@@ -19,7 +19,7 @@ PATIENCE = 1.0  # seconds between looks whether the engine is still there
 
 @dataclass(frozen=True)
 class Warm:
-    """What each worker loads once before its first chunk: ``load(*args)``; ``key`` (a sha256) tells it from others.
+    """Hold what each worker loads once before its first chunk: ``load(*args)``; ``key`` (a sha256) tells it from others.
 
     It is pickled: functions of modules, arguments of plain data. Each thread of a worker loads its own, so that
     work arrays in it are used by one chunk at a time.
@@ -31,7 +31,7 @@ class Warm:
 
 
 class ChunkFailed(Exception):
-    """A chunk could not be calculated: which one, and the exception that came up in it (`cause`)."""
+    """Report that a chunk could not be calculated: which one, and the exception that came up in it (`cause`)."""
 
     def __init__(self, chunk: Chunk, cause: BaseException) -> None:
         super().__init__(chunk, cause)
@@ -42,19 +42,19 @@ class ChunkFailed(Exception):
 
 
 class Engine(Protocol):
-    """A place to calculate; to be entered before its first chunk and left after its last."""
+    """Describe a place to calculate; to be entered before its first chunk and left after its last."""
 
     @property
     def lost(self) -> tuple[type[BaseException], ...]:
-        """What a chunk raises when its process has ended, and the chunk is to be repeated."""
+        """Return what a chunk raises when its process has ended, and the chunk is to be repeated."""
 
     @property
     def gave_up(self) -> tuple[type[BaseException], ...]:
-        """What a chunk raises when the engine itself has repeated it and lost its process too often."""
+        """Return what a chunk raises when the engine itself has repeated it and lost its process too often."""
 
     @property
     def limit(self) -> int:
-        """How many chunks keep it busy."""
+        """Return how many chunks keep it busy."""
 
     def __enter__(self) -> Self: ...
     def __exit__(self, kind: type[BaseException] | None, error: BaseException | None, trace: object) -> None: ...
@@ -65,7 +65,7 @@ class Engine(Protocol):
         """Begin again after a process was lost; chunks begun before are gone."""
 
     def give_up(self, begun: Iterable[Future[Any]]) -> None:
-        """Chunks that were begun are not wanted any more."""
+        """Drop the chunks that were begun."""
 
     def look(self) -> None:
         """Raise UserError in words where the engine is gone."""
@@ -74,22 +74,22 @@ class Engine(Protocol):
 def results(
     engine: Engine, function: Function, chunks: Iterable[Chunk], limit: int | None = None
 ) -> Iterator[tuple[Chunk, Any]]:
-    """The chunks with their results, in the order in which they are ready; to be used within ``with engine:``.
+    """Yield the chunks with their results, in the order in which they are ready; to be used within ``with engine:``.
 
     At most ``limit`` chunks are in flight (default: what keeps the engine busy), so memory stays flat however many there are.
-    Ends with ChunkFailed where a chunk raises, with UserError where its process was lost three times. What is in
-    flight is cancelled when it ends early, by an exception, Ctrl-C or the caller.
+    Ends with ChunkFailed where a chunk raises, with UserError where its process was lost three times. In-flight chunks
+    are cancelled when it ends early, by an exception, Ctrl-C or the caller.
     """
-    flight = _Flight(engine, function, iter(chunks), limit)
+    in_flight = _InFlightChunks(engine, function, iter(chunks), limit)
     try:
-        while flight.fill():
-            yield from flight.landed()
+        while in_flight.fill():
+            yield from in_flight.landed()
     finally:
-        flight.cancel()
+        in_flight.cancel()
 
 
 @dataclass
-class _Flight:
+class _InFlightChunks:
     """The chunks that are being calculated, and those that lost their process and wait for another try."""
 
     engine: Engine
@@ -148,7 +148,7 @@ class _Flight:
         return not future.cancelled() and isinstance(future.exception(), self.engine.lost)
 
     def _restart(self) -> None:
-        """All chunks in flight are begun again; one that has lost too many processes is told."""
+        """Begin all in-flight chunks again; one that has lost too many processes is reported."""
         for chunk, lost in self.waiting.values():
             if lost + 1 >= TRIES:
                 raise _gave_up(chunk)
@@ -157,7 +157,7 @@ class _Flight:
         self.engine.restart()
 
     def cancel(self) -> None:
-        """Give up what is in flight."""
+        """Give up the in-flight chunks."""
         if self.waiting:
             self.engine.give_up(self.waiting)
 
@@ -198,7 +198,7 @@ def work(key: str, function: Function, chunk: Chunk) -> Any:
 
 
 class InProcess:
-    """Each chunk in this process, one after the other."""
+    """Calculate each chunk in this process, one after the other."""
 
     lost: tuple[type[BaseException], ...] = ()
     gave_up: tuple[type[BaseException], ...] = ()
@@ -224,10 +224,10 @@ class InProcess:
         return future
 
     def restart(self) -> None:
-        """Nothing can be lost here."""
+        """Do nothing: no process can be lost here."""
 
     def give_up(self, begun: Iterable[Future[Any]]) -> None:
-        """Each is done already."""
+        """Do nothing: each chunk is done already."""
 
     def look(self) -> None:
-        """It is always there."""
+        """Do nothing: this process is always there."""

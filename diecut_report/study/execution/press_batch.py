@@ -1,4 +1,4 @@
-"""All mechanisms of a config calculated for many machines at once: the same way through the graph, with arrays for numbers."""
+"""All mechanisms of a config calculated for many variants at once: the same way through the graph, with arrays for numbers."""
 
 from __future__ import annotations
 
@@ -26,7 +26,7 @@ Values = Mapping[Input, Array | str]
 
 
 class NotOnArrays(Exception):
-    """A plugin that cannot calculate these machines together, or breaks; its kind and what went wrong."""
+    """Report a plugin that cannot calculate these variants together, or breaks; its kind and what went wrong."""
 
     def __init__(self, kind: str, words: str) -> None:
         super().__init__(kind, words)
@@ -51,7 +51,7 @@ def of_plugin(kind: str) -> Iterator[None]:
 
 @dataclass
 class CalculatedVariants:
-    """What was calculated of a number of machines; ``reasons`` has a text for each that cannot exist."""
+    """Hold what was calculated of a number of variants; ``reasons`` has a text for each that cannot exist."""
 
     count: int
     calculations: dict[str, Calculation]
@@ -64,28 +64,28 @@ class CalculatedVariants:
 
 
 def calculated(base: Config, values: Values, count: int) -> CalculatedVariants:
-    """All mechanisms of the base for so many machines: numbers as arrays of shape (count,), SI; texts the same for all.
+    """Calculate all mechanisms of the base for so many variants: numbers as arrays of shape (count,), SI; texts the same for all.
 
     Raises ``NotOnArrays`` where a plugin cannot take arrays.
     """
     data = {asked: SI(given, asked.unit, asked.path) if asked.unit else given for asked, given in values.items()}
     config, problems = with_values(base, data)
-    machines = CalculatedVariants(count, {})
+    variants = CalculatedVariants(count, {})
     if problems:
-        machines.reasons = dict.fromkeys(range(count), _words(problems[0]))
-        return machines
-    run = _Rows(config, machines)
-    machines.calculations = run.calculations
-    return machines
+        variants.reasons = dict.fromkeys(range(count), _words(problems[0]))
+        return variants
+    run = _Rows(config, variants)
+    variants.calculations = run.calculations
+    return variants
 
 
 class _Rows(Run):
-    """One way through the graph for many machines; what is wrong with one of them is kept as its reason."""
+    """One way through the graph for many variants; what is wrong with one of them is kept as its reason."""
 
     _number = staticmethod(np.asarray)
 
-    def __init__(self, config: Config, machines: CalculatedVariants) -> None:
-        self.machines = machines
+    def __init__(self, config: Config, variants: CalculatedVariants) -> None:
+        self.variants = variants
         super().__init__(config, lambda _: None)
         self._all_wrong(self.problems)
 
@@ -93,25 +93,25 @@ class _Rows(Run):
         """A study compares variants, not mechanisms."""
 
     def _broke(self, instance: Instance, cause: BaseException) -> None:
-        """No mechanism of a machine is left out in silence."""
+        """No mechanism of a variant is left out in silence."""
         raise NotOnArrays(self.config.kinds[instance.name], said(cause)) from cause
 
     def _output(self, calculation: Calculation, name: str, target: Target) -> Any:
-        """A result of all machines; where it is absent that is the machine's reason."""
+        """A result of all variants; where it is absent that is the variant's reason."""
         if calculation.axis.get(name) in calculation.domains:
             return CurveHandle(calculation, name)
         column = number(calculation, name)
         if column is None:
-            raise Absent("does not exist for these machines.")
+            raise Absent("does not exist for these variants.")
         if column.dtype == object:
-            if self.machines.count == 1:
+            if self.variants.count == 1:
                 return column[0]
             raise NotOnArrays(calculation.mechanism.kind, f"its text {name} is referred to")
         return SI(column.astype(float), str(target.unit), target.path)
 
     def _validated(self, name: str, instance: Instance, data: dict[str, Any]) -> bool:
         """Judge the columns by the bounds of their keys; the block then holds arrays that are sound."""
-        sound = _mended(data, lambda key, value: self._sound(instance, key, value))
+        sound = _filled(data, lambda key, value: self._sound(instance, key, value))
         with of_plugin(self.config.kinds.get(name, name)):
             block, problems = validate(instance.model, sound, instance.place)
         self._all_wrong(problems)
@@ -121,10 +121,10 @@ class _Rows(Run):
 
     def _all_wrong(self, problems: list[Any]) -> None:
         for problem in problems[:1]:
-            self._reason(range(self.machines.count), _words(problem))
+            self._reason(range(self.variants.count), _words(problem))
 
     def _sound(self, instance: Instance, key: KeyPath, value: SI) -> Any:
-        """A column without the values that its key refuses: these machines get a reason, and the value of another one."""
+        """A column without the values that its key refuses: these variants get a reason, and the value of another one."""
         meta = declared(instance.model, key)
         if not isinstance(value.value, np.ndarray) or value.value.ndim == 0:
             return value if not isinstance(value.value, np.ndarray) else SI(value.value[()], value.unit, value.told)
@@ -133,11 +133,11 @@ class _Rows(Run):
                 words = f"a curve given as a list refers to {value.told}, which varies"
                 raise NotOnArrays(self.config.kinds[instance.name], words)
             return SI(value.value.item(), value.unit, value.told)
-        column = np.broadcast_to(value.value, (self.machines.count,)).astype(float)
+        column = np.broadcast_to(value.value, (self.variants.count,)).astype(float)
         bad = np.flatnonzero(~meta.holds(column))
         for row in bad:
             self._refused(instance, key, meta, SI(float(column[row]), value.unit, value.told), int(row))
-        good = np.setdiff1d(np.arange(len(column)), [*bad, *self.machines.reasons])
+        good = np.setdiff1d(np.arange(len(column)), [*bad, *self.variants.reasons])
         column[bad] = column[good[0]] if len(good) else np.nan
         return SI(column, value.unit, value.told)
 
@@ -150,15 +150,15 @@ class _Rows(Run):
 
     def _reason(self, rows: Any, words: str) -> None:
         for row in rows:
-            self.machines.reasons.setdefault(int(row), words)
+            self.variants.reasons.setdefault(int(row), words)
 
     def _calculate(self, name: str, instance: Instance, block: Any) -> None:
         assert instance.mechanism is not None
-        if len(self.machines.reasons) == self.machines.count:
+        if len(self.variants.reasons) == self.variants.count:
             return
         try:
             with of_plugin(instance.mechanism.kind):
-                found = calculate(instance.mechanism, flatten(block), self.machines.count)
+                found = calculate(instance.mechanism, flatten(block), self.variants.count)
         except (Impossible, Unproven) as fault:
             self._alone(name, instance, fault)
             return
@@ -167,9 +167,9 @@ class _Rows(Run):
             self._reason([row], _told(instance, key, message))
 
     def _alone(self, name: str, instance: Instance, fault: Impossible | Unproven) -> None:
-        """A single machine that cannot exist."""
+        """A single variant that cannot exist."""
         key, message = fault.reasons[0] if isinstance(fault, Impossible) else ("", str(fault))
-        self._reason(range(self.machines.count), _told(instance, key, message))
+        self._reason(range(self.variants.count), _told(instance, key, message))
 
 
 def _told(instance: Instance, path: str, message: str) -> str:
@@ -178,17 +178,17 @@ def _told(instance: Instance, path: str, message: str) -> str:
 
 
 def _words(problem: Problem) -> str:
-    """Path and message: where the base stands in its file is the same for all machines."""
+    """Path and message: where the base stands in its file is the same for all variants."""
     return ": ".join(part for part in (problem.path, problem.message) if part)
 
 
-def _mended(data: Any, mend: Callable[[KeyPath, SI], Any], key: KeyPath = ()) -> Any:
-    """The data with each number that is known already mended."""
+def _filled(data: Any, sound: Callable[[KeyPath, SI], Any], key: KeyPath = ()) -> Any:
+    """The data with each number that is known already made sound."""
     match data:
         case SI():
-            return mend(key, data)
+            return sound(key, data)
         case dict():
-            return {name: _mended(part, mend, (*key, name)) for name, part in data.items()}
+            return {name: _filled(part, sound, (*key, name)) for name, part in data.items()}
         case list():
-            return [_mended(part, mend, (*key, index)) for index, part in enumerate(data)]
+            return [_filled(part, sound, (*key, index)) for index, part in enumerate(data)]
     return data

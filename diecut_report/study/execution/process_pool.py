@@ -19,7 +19,7 @@ AHEAD = 2  # chunks for each process: one that it works on, one that waits
 
 
 class Pool:
-    """``jobs`` processes, each started anew (spawn), that end with this one; a process that dies is replaced."""
+    """Calculate in ``jobs`` processes, each started anew (spawn), that end with this one; a process that dies is replaced."""
 
     lost: tuple[type[BaseException], ...] = (BrokenProcessPool,)
     gave_up: tuple[type[BaseException], ...] = ()
@@ -34,12 +34,12 @@ class Pool:
 
     @property
     def limit(self) -> int:
-        """How many chunks keep it busy."""
+        """Return how many chunks keep it busy."""
         return AHEAD * self._jobs
 
     @property
     def processes(self) -> list[int]:
-        """The numbers of the processes that are alive."""
+        """Return the numbers of the processes that are alive."""
         return [process.pid for process in self._context.started if process.is_alive() and process.pid is not None]
 
     def __enter__(self) -> Self:
@@ -60,7 +60,7 @@ class Pool:
             return self._executor.submit(work, self._warm.key, function, chunk)
 
     def restart(self) -> None:
-        """New processes; chunks of the old ones are gone."""
+        """Start new processes; chunks of the old ones are gone."""
         self._end()
         self._executor = None
 
@@ -69,7 +69,7 @@ class Pool:
         self.restart()
 
     def look(self) -> None:
-        """A lost process is told by the chunks."""
+        """Do nothing: a lost process is reported by its chunks."""
 
     def _end(self) -> None:
         for process in self._context.started:

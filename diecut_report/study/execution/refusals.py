@@ -11,7 +11,7 @@ LARGEST = 10_000_000  # rows that are calculated without being asked for twice
 
 
 def refuse_huge(study: Study, agreed: bool) -> None:
-    """A sample that is larger than one would calculate by mistake must be agreed to."""
+    """Require a yes to a sample that is larger than one would calculate by mistake."""
     count = study.sample.count
     if count > LARGEST and not agreed:
         words = (
@@ -21,7 +21,7 @@ def refuse_huge(study: Study, agreed: bool) -> None:
 
 
 def refuse_empty(study: Study) -> None:
-    """At least one variant must be left by the constraints."""
+    """Require that the constraints leave at least one variant."""
     if not study.constraints or any(found.holds.any() for found in judged_rows(study)):
         return
     why = why_dropped({"without_value": without_value(study)})

@@ -1,4 +1,4 @@
-"""Columns of results: what is known of each before anything is calculated, and its values for many machines."""
+"""Columns of results: what is known of each before anything is calculated, and its values for many variants."""
 
 from __future__ import annotations
 
@@ -30,7 +30,7 @@ PASS, WARN, FAIL, ERROR = 1, 2, 3, 4
 
 
 def columns_of(config: Config) -> list[ResultColumn]:
-    """The columns of all outputs and checks of a config's mechanisms."""
+    """Return the columns of all outputs and checks of a config's mechanisms."""
     found: list[ResultColumn] = []
     for name, instance in config.instances.items():
         if instance is not None and instance.mechanism is not None and name != PRESS:
@@ -47,7 +47,7 @@ def _declared(name: str, instance: Instance, kind: str) -> list[ResultColumn]:
 
 
 def curve_columns(config: Config, names: Iterable[str]) -> Iterator[ResultColumn]:
-    """The columns of curves, such as ``drive.crank_torque``: a list of numbers for each machine."""
+    """Yield the columns of curves, such as ``drive.crank_torque``: a list of numbers for each variant."""
     for name in names:
         home, _, curve = name.partition(".")
         instance = config.instances[home]
@@ -116,7 +116,7 @@ def _made(checks: tuple[Check, ...], given: frozenset[str]) -> dict[Check, None]
 
 
 def output_values(name: str, calc: Calculation) -> dict[str, Array]:
-    """The outputs of many machines by column; NaN (None for texts and flags) where there is none."""
+    """Return the outputs of many variants by column; NaN (None for texts and flags) where there is none."""
     found: dict[str, Array] = {}
     for step in calc.steps.values():
         if not step.output or isinstance(step, SILENT) or step.id not in calc.values:
@@ -131,7 +131,7 @@ def output_values(name: str, calc: Calculation) -> dict[str, Array]:
 
 
 def curve_values(calculations: Mapping[str, Calculation], names: Iterable[str]) -> dict[str, list[Array]]:
-    """Curves of many machines by column, each at the samples of its abscissa; those that these machines have."""
+    """Return curves of many variants by column, each at the samples of its abscissa; those that these variants have."""
     found = {}
     for name in names:
         home, _, curve = name.partition(".")
@@ -155,7 +155,7 @@ def _wide(places: Array) -> Array:
 
 @dataclass
 class Verdicts:
-    """Of each check the status codes and utilisations of many machines, shape (checks, machines)."""
+    """Hold of each check the status codes and utilisations of many variants, shape (checks, variants)."""
 
     names: list[str]
     codes: Array
@@ -163,7 +163,7 @@ class Verdicts:
 
 
 def verdicts(calculations: Mapping[str, Calculation], count: int) -> Verdicts:
-    """All checks of all mechanisms; code 0 where a check does not apply."""
+    """Return all checks of all mechanisms; code 0 where a check does not apply."""
     names, codes, ratios = [], [], []
     for name, calc in calculations.items():
         for check in calc.mechanism.checks:
@@ -179,7 +179,7 @@ def verdicts(calculations: Mapping[str, Calculation], count: int) -> Verdicts:
 
 
 def governing(found: Verdicts) -> Array:
-    """For each machine the check that governs: fail before warn before pass, then the greatest utilisation; None without checks."""
+    """Return for each variant the check that governs: fail before warn before pass, then the greatest utilisation; None without checks."""
     if not found.names:
         return np.full(found.codes.shape[1], None, dtype=object)
     unknown = np.where(found.codes == PASS, -np.inf, np.inf)

@@ -38,7 +38,7 @@ VALUES = 8_000_000  # numbers of a part file at most, for curves are long
 
 @dataclass
 class Counts:
-    """How far a run is."""
+    """Count how far a run is."""
 
     rows: int
     done: int = 0
@@ -53,7 +53,7 @@ Tell = Callable[[Counts], None]
 
 @dataclass(frozen=True)
 class Where:
-    """Where a study is calculated: so many processes here, or a Dask scheduler's address."""
+    """Say where a study is calculated: so many processes here, or a Dask scheduler's address."""
 
     jobs: int | None = None
     dask: str | None = None
@@ -62,7 +62,7 @@ class Where:
 
 @dataclass
 class StudyOutcome:
-    """What a run left in its folder."""
+    """Hold what a run left in its folder."""
 
     store: Store
     counts: dict[str, int]
@@ -73,12 +73,12 @@ class StudyOutcome:
 
     @property
     def is_failed(self) -> bool:
-        """Whether a variant fails a check; variants that cannot exist do not count."""
+        """Return whether a variant fails a check; variants that cannot exist do not count."""
         return self.counts.get("fail", 0) > 0
 
     @property
     def is_broken(self) -> bool:
-        """Whether a plugin broke for all variants, or in a full report: a single variant in error does not count."""
+        """Return whether a plugin broke for all variants, or in a full report: a single variant in error does not count."""
         return bool(self.broken_reports) or (bool(self.broken) and self.counts["error"] == self.counts["variants"])
 
 
@@ -96,7 +96,7 @@ def run_study(study: Study, directory: Path, where: Where, *, resume: bool, tell
 
         try:
             for done in _calculated(study, store, where, tell):
-                slow |= done.slow  # noted with each part: a run that is killed later has told it
+                slow |= done.slow  # noted with each part: a run that is killed later has reported it
                 broken |= done.broken
                 noted()
         finally:  # an interrupted run has spent its time too
@@ -133,7 +133,7 @@ def _calculated(study: Study, store: Store, where: Where, tell: Tell) -> Iterato
 
 
 def engine_for(study: Study, where: Where, chunks: int) -> Engine:
-    """A Dask cluster where one is named, a pool of processes for a large study, this process for a small one."""
+    """Return a Dask cluster where one is named, a pool of processes for a large study, this process for a small one."""
     warm = Warm(_key(study, where), worker.load, (study.file.read_bytes(), contents(study), tuple(where.plugins)))
     if where.dask:
         return dask_cluster(where.dask, warm)
@@ -147,12 +147,12 @@ def _key(study: Study, where: Where) -> str:
 
 
 def contents(study: Study) -> dict[str, bytes]:
-    """The base and the tables of a study, by their names as it names them."""
+    """Return the base and the tables of a study, by their names as it names them."""
     return {name: path.read_bytes() for name, path in study.files.items()}
 
 
 def described(study: Study) -> Description:
-    """The study as its folder keeps it."""
+    """Return the study as its folder keeps it."""
     files = contents(study)
     base = str(study.data["base"])
     columns = [*varied_columns(study), *result_columns(study)]
@@ -183,7 +183,7 @@ def _versions(study: Study) -> dict[str, str]:
 
 
 def varied_columns(study: Study) -> list[ResultColumn]:
-    """A column for each varied path."""
+    """Return a column for each varied path."""
     return [_varied(path, asked) for path, asked in study.inputs.items()]
 
 
@@ -196,7 +196,7 @@ def _varied(path: str, asked: Input) -> ResultColumn:
 
 
 def result_columns(study: Study) -> list[ResultColumn]:
-    """The outputs that are kept, and all checks, of all texts that the study varies."""
+    """Return the outputs that are kept, and all checks, of all texts that the study varies."""
     found: dict[str, ResultColumn] = {}
     curves: dict[str, ResultColumn] = {}
     for base in study.bases:
@@ -209,7 +209,7 @@ def result_columns(study: Study) -> list[ResultColumn]:
 
 
 def facts(study: Study) -> Mapping[str, Any]:
-    """What else the summary and questions need to know of the study."""
+    """Return what else the summary and questions need to know of the study."""
     objectives = [{"minimise" if each.minimise else "maximise": each.output} for each in study.objectives]
     known: dict[str, Any] = {"varied": list(study.inputs), "objectives": objectives}
     design = getattr(study.sample, "design", None)

@@ -28,7 +28,7 @@ Tell = Callable[[str], None]
 
 @dataclass(frozen=True)
 class Chosen:
-    """The variants that are to have a full report, ascending, and in words what stands against others that were asked for."""
+    """Hold the variants that are to have a full report, ascending, and in words what stands against others that were asked for."""
 
     variants: tuple[int, ...]
     notes: tuple[str, ...] = ()
@@ -36,7 +36,7 @@ class Chosen:
 
 @dataclass(frozen=True)
 class ReportPlace:
-    """What a process needs to make reports: the folder of the study, and folders of plugins."""
+    """Hold what a process needs to make reports: the folder of the study, and folders of plugins."""
 
     directory: Path
     plugins: tuple[str, ...]
@@ -44,7 +44,7 @@ class ReportPlace:
 
 @dataclass(frozen=True)
 class VariantReport:
-    """One full report."""
+    """Hold one full report."""
 
     variant: int
 
@@ -55,7 +55,7 @@ class VariantReport:
 def write_reports(
     study: Study, store: Store, where: Where, *, agreed: bool, tell: Tell
 ) -> tuple[tuple[str, ...], dict[str, str]]:
-    """The full reports that the study asks for, as ``reports/ID.html`` and so on; those that are there already are kept.
+    """Write the full reports that the study asks for, as ``reports/ID.html`` and so on; those that are there already are kept.
 
     Return what was not done, in words, and the plugins that broke, with their faults. ``tell`` hears how far it is. They
     are made side by side in processes of this machine.
@@ -95,7 +95,7 @@ def _write(place: ReportPlace, report: VariantReport) -> dict[str, str]:
 
 
 def wanted(study: Study, store: Store) -> Chosen:
-    """Which variants get a full report; those that cannot exist get none."""
+    """Return which variants get a full report; those that cannot exist get none."""
     asked = study.reports
     if asked.which == "none":
         return Chosen(())
@@ -119,7 +119,7 @@ def _refused(ids: Sequence[int], possible: set[int], stored: Array) -> Iterator[
 
 
 def best(columns: dict[str, Array], objectives: Sequence[tuple[str, bool]], count: int) -> Array:
-    """Rows of the best variants: of those that pass (of all that exist where none does) the least sums of ranks.
+    """Return rows of the best variants: of those that pass (of all that exist where none does) the least sums of ranks.
 
     What is alike to ten digits has one rank, so none of them is worse than another in all objectives.
     """

@@ -1,4 +1,4 @@
-"""Rows of a study: machines in, columns of outputs, verdicts and reasons out."""
+"""Rows of a study: variants in, columns of outputs, verdicts and reasons out."""
 
 from __future__ import annotations
 
@@ -15,13 +15,13 @@ from diecut_report.study.definition.base_inputs import Input
 from diecut_report.study.execution import result_columns
 from diecut_report.study.execution.press_batch import CalculatedVariants, NotOnArrays, calculated
 
-TOGETHER = 1024  # machines that are calculated at a time: fewer cost more per machine, more take more memory
+TOGETHER = 1024  # variants that are calculated at a time: fewer cost more per variant, more take more memory
 Given = Mapping[Input, Array | list[str]]
 
 
 @dataclass
 class Rows:
-    """What was calculated of a number of machines: columns by name, and for each machine status, governing check and reason."""
+    """Hold what was calculated of a number of variants: columns by name, and for each variant status, governing check and reason."""
 
     count: int
     curves: Sequence[str] = ()
@@ -30,7 +30,7 @@ class Rows:
     governing: Array = field(init=False)
     errors: Array = field(init=False)
     slow: dict[str, str] = field(default_factory=dict)
-    broken: dict[str, str] = field(default_factory=dict)  # plugins that broke for a machine alone, and why
+    broken: dict[str, str] = field(default_factory=dict)  # plugins that broke for a variant alone, and why
 
     def __post_init__(self) -> None:
         self.status = np.full(self.count, "pass", dtype=object)
@@ -39,11 +39,11 @@ class Rows:
 
 
 def calculate_rows(base: Config, given: Given, count: int, curves: Sequence[str] = ()) -> Rows:
-    """All outputs and checks of the base, and these curves, with other values: arrays of shape (count,), SI, or texts.
+    """Calculate all outputs and checks of the base, and these curves, with other values: arrays of shape (count,), SI, or texts.
 
-    A machine that cannot exist has the status ``error`` and its reason. Machines with unlike texts are calculated in groups;
-    a plugin that cannot take arrays makes its machines be calculated one by one, which ``slow`` tells. One that breaks for
-    a machine alone leaves it in error, and is in ``broken``.
+    A variant that cannot exist has the status ``error`` and its reason. Variants with unlike texts are calculated in groups;
+    a plugin that cannot take arrays makes its variants be calculated one by one, which ``slow`` reports. One that breaks for
+    a variant alone leaves it in error, and is in ``broken``.
     """
     rows = Rows(count, curves)
     for alike, texts in _groups(given, count):
@@ -54,7 +54,7 @@ def calculate_rows(base: Config, given: Given, count: int, curves: Sequence[str]
 
 
 def _groups(given: Given, count: int) -> Iterator[tuple[Array, dict[Input, Any]]]:
-    """The machines that have the same texts, and as many points of their curves, by index."""
+    """The variants that have the same texts, and as many points of their curves, by index."""
     texts = {asked: np.asarray(values, dtype=object) for asked, values in given.items() if _is_common(asked)}
     if not texts:
         yield np.arange(count), {}
@@ -70,9 +70,9 @@ def _is_common(asked: Input) -> bool:
 
 def _group(base: Config, numbers: Mapping[Input, Array], texts: Mapping[Input, Any], rows: Rows, chosen: Array) -> None:
     try:
-        machines = calculated(base, {**numbers, **texts}, len(chosen))
-        _kept(machines, rows, chosen)
-        machines.release()
+        variants = calculated(base, {**numbers, **texts}, len(chosen))
+        _kept(variants, rows, chosen)
+        variants.release()
     except NotOnArrays as cause:
         if len(chosen) == 1:
             rows.errors[chosen] = str(cause)
@@ -84,34 +84,34 @@ def _group(base: Config, numbers: Mapping[Input, Array], texts: Mapping[Input, A
             _group(base, {asked: values[[index]] for asked, values in numbers.items()}, texts, rows, np.array([row]))
 
 
-def _kept(machines: CalculatedVariants, rows: Rows, chosen: Array) -> None:
-    """Put what was calculated of some machines into their rows."""
-    bad = np.array(sorted(machines.reasons), dtype=int)
-    found = result_columns.verdicts(machines.calculations, machines.count)
+def _kept(variants: CalculatedVariants, rows: Rows, chosen: Array) -> None:
+    """Put what was calculated of some variants into their rows."""
+    bad = np.array(sorted(variants.reasons), dtype=int)
+    found = result_columns.verdicts(variants.calculations, variants.count)
     found.codes[:, bad], found.ratios[:, bad] = 0, np.nan
-    for name, values in _all_columns(machines, found).items():
+    for name, values in _all_columns(variants, found).items():
         column = rows.columns.setdefault(name, _empty(rows.count, values.dtype))
         values = values.copy()
         values[bad] = None if values.dtype == object else np.nan
         column[chosen] = values
     worst = np.maximum(found.codes.max(axis=0, initial=0), result_columns.PASS)
     worst[bad] = result_columns.ERROR
-    for name, lists in result_columns.curve_values(machines.calculations, rows.curves).items():
+    for name, lists in result_columns.curve_values(variants.calculations, rows.curves).items():
         column = rows.columns.setdefault(name, _empty(rows.count, np.dtype(object)))
         for row, values in zip(chosen, lists, strict=True):
             column[row] = values
         column[chosen[bad]] = None
     rows.status[chosen] = result_columns.STATUS[worst]
     rows.governing[chosen] = result_columns.governing(found)
-    rows.errors[chosen[bad]] = [machines.reasons[int(row)] for row in bad]
+    rows.errors[chosen[bad]] = [variants.reasons[int(row)] for row in bad]
 
 
-def _all_columns(machines: CalculatedVariants, found: result_columns.Verdicts) -> dict[str, Array]:
+def _all_columns(variants: CalculatedVariants, found: result_columns.Verdicts) -> dict[str, Array]:
     outputs: dict[str, Array] = {}
-    for name, calc in machines.calculations.items():
+    for name, calc in variants.calculations.items():
         for column, values in result_columns.output_values(name, calc).items():
             plain = values.astype(object) if values.dtype in (bool, object) else values.astype(float)
-            outputs[column] = np.broadcast_to(plain, (machines.count,))
+            outputs[column] = np.broadcast_to(plain, (variants.count,))
     for name, codes, ratios in zip(found.names, found.codes, found.ratios, strict=True):
         outputs |= {f"{name}.utilisation": ratios, f"{name}.status": result_columns.STATUS[codes]}
     return outputs

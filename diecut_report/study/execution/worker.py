@@ -22,7 +22,7 @@ Values = Array | list[str]
 
 @dataclass(frozen=True)
 class Chunk:
-    """A piece of the sample: the part file that it makes, and its rows."""
+    """Hold a piece of the sample: the part file that it makes, and its rows."""
 
     part: int
     start: int
@@ -31,7 +31,7 @@ class Chunk:
 
 @dataclass
 class Done:
-    """A chunk's columns by name, ready for its part file.
+    """Hold a chunk's columns by name, ready for its part file.
 
     ``slow`` names kinds that were calculated one by one, ``broken`` those whose plugin broke, and why.
     """
@@ -42,7 +42,7 @@ class Done:
 
 
 def load(study: bytes, files: Mapping[str, bytes], plugins: Sequence[str]) -> Study:
-    """The study from the contents of its files, which a worker on another machine does not have; cluster-wide plugin folders.
+    """Load the study from the contents of its files, which a worker on another machine does not have; cluster-wide plugin folders.
 
     ``files``: the base and the tables by their names in the study, which may be paths to anywhere.
     """
@@ -57,7 +57,7 @@ def load(study: bytes, files: Mapping[str, bytes], plugins: Sequence[str]) -> St
 
 
 def calculate(study: Study, chunk: Chunk) -> Done:
-    """The variants of a chunk that the constraints leave: their inputs, outputs, verdicts and reasons."""
+    """Calculate the variants of a chunk that the constraints leave: their inputs, outputs, verdicts and reasons."""
     given = study.sample.rows(chunk.start, chunk.stop)
     kept = np.flatnonzero(judged(study, given, chunk.stop - chunk.start).holds)
     given = {path: _taken(values, kept) for path, values in given.items()}

@@ -42,7 +42,7 @@ class _Drawn(Varied):
 
 @dataclass(frozen=True)
 class LatinHypercube(_Drawn):
-    """Each variable's probability is cut into as many equal parts as there are rows; each part is taken once."""
+    """Draw rows where each variable's probability is cut into as many equal parts as there are rows; each part is taken once."""
 
     @property
     def note(self) -> str | None:
@@ -70,7 +70,7 @@ def _hypercube(count: int, dimensions: int, seed: int) -> Array:
 
 @dataclass(frozen=True)
 class Sobol(_Drawn):
-    """Scrambled Sobol points: they fill the space of all variables evenly, also with few rows."""
+    """Draw scrambled Sobol points: they fill the space of all variables evenly, also with few rows."""
 
     def __post_init__(self) -> None:
         super().__post_init__()
@@ -106,14 +106,14 @@ def _sobol(dimensions: int, seed: int, start: int, stop: int) -> Array:
     engine = qmc.Sobol(dimensions, bits=SOBOL_BITS, rng=np.random.default_rng(seed))
     if start > 0:
         engine.fast_forward(start)
-    # The first point alone: scipy warns of a first draw that is no power of two, but `note` tells it, and once.
+    # The first point alone: scipy warns of a first draw that is not a power of two, but `note` reports it, and once.
     shares = np.concatenate([engine.random(1), engine.random(stop - start - 1)])
     return np.asarray(shares + 0.5 / SOBOL_POINTS)
 
 
 @dataclass(frozen=True)
 class SobolIndices(Sobol):
-    """Sobol points in the order that first and total Sobol indices need (Saltelli et al. 2010, doi:10.1016/j.cpc.2009.09.018).
+    """Draw Sobol points in the order that first and total Sobol indices need (Saltelli et al. 2010, doi:10.1016/j.cpc.2009.09.018).
 
     A and B are the halves of points in twice as many dimensions; see `Saltelli` for the rows.
     """

@@ -21,30 +21,30 @@ from diecut_report.study.sampling.variables import ChoiceVariable, RangeVariable
 
 
 class Sample(ABC):
-    """The variants of a study before constraints, numbered from 0."""
+    """Give the variants of a study before constraints, numbered from 0."""
 
     @property
     @abstractmethod
     def count(self) -> int:
-        """Number of rows."""
+        """Return the number of rows."""
 
     @property
     @abstractmethod
     def paths(self) -> tuple[str, ...]:
-        """What each row sets."""
+        """Return what each row sets."""
 
     @property
     def note(self) -> str | None:
-        """What a user should know about this sample before it runs, in a sentence or two."""
+        """Return what a user should know about this sample before it runs, in a sentence or two."""
         return None
 
     @property
     def design(self) -> Saltelli | None:
-        """How the rows belong together where Sobol indices can be calculated from them."""
+        """Return how the rows belong together where Sobol indices can be calculated from them."""
         return None
 
     def rows(self, start: int, stop: int) -> dict[str, Values]:
-        """The rows start … stop − 1: an array of SI floats, or a list of texts, for each path."""
+        """Return the rows start … stop − 1: an array of SI floats, or a list of texts, for each path."""
         if not 0 <= start <= stop <= self.count:
             raise IndexError(f"rows {start} to {stop} of a sample of {self.count}")
         return self._rows(start, stop)
@@ -55,7 +55,7 @@ class Sample(ABC):
 
 @dataclass(frozen=True)
 class Varied(Sample):
-    """A sample over variables, each of another path."""
+    """Sample variables, each of another path."""
 
     variables: tuple[Variable, ...]
 
@@ -101,7 +101,7 @@ class _Listed(Varied):
 
 @dataclass(frozen=True)
 class Grid(_Listed):
-    """Every value of each variable with every value of the others; the first variable changes most slowly."""
+    """Combine every value of each variable with every value of the others; the first variable changes most slowly."""
 
     @property
     def count(self) -> int:
@@ -118,7 +118,7 @@ class Grid(_Listed):
 
 @dataclass(frozen=True)
 class Zip(_Listed):
-    """The first values together, the second values together, and so on."""
+    """Take the first values together, the second values together, and so on."""
 
     method = "zip"
 
@@ -138,7 +138,7 @@ class Zip(_Listed):
 
 @dataclass(frozen=True)
 class TableSample(Sample):
-    """Rows that are given: a column of SI floats, or of texts, for each path."""
+    """Hold rows that are given: a column of SI floats, or of texts, for each path."""
 
     columns: Mapping[str, Values]
 

@@ -13,25 +13,25 @@ __all__ = ["Saltelli", "Sample", "SampleError", "grid", "latin_hypercube", "sobo
 
 
 def grid(variables: Sequence[Variable]) -> Sample:
-    """Every value of each list or range with every value of the others; the first path changes most slowly."""
+    """Return every value of each list or range with every value of the others; the first path changes most slowly."""
     return Grid(tuple(variables))
 
 
 def zipped(variables: Sequence[Variable]) -> Sample:
-    """Lists and ranges of equal lengths: their first values together, their second values together, and so on."""
+    """Return lists and ranges of equal lengths: their first values together, their second values together, and so on."""
     return Zip(tuple(variables))
 
 
 def latin_hypercube(variables: Sequence[Variable], count: int, seed: int = 0) -> Sample:
-    """So many rows; each `1 / count` of the probability of each variable is taken once."""
+    """Return so many rows; each `1 / count` of the probability of each variable is taken once."""
     return LatinHypercube(tuple(variables), count, seed)
 
 
 def sobol(variables: Sequence[Variable], count: int, seed: int = 0, *, indices: bool = False) -> Sample:
-    """So many scrambled Sobol points; with `indices` each is a group of paths + 2 rows (see `Saltelli`)."""
+    """Return so many scrambled Sobol points; with `indices` each is a group of paths + 2 rows (see `Saltelli`)."""
     return (SobolIndices if indices else Sobol)(tuple(variables), count, seed)
 
 
 def table(columns: Mapping[str, Values]) -> Sample:
-    """Given rows: for each path a column of SI floats, or of texts."""
+    """Return given rows: for each path a column of SI floats, or of texts."""
     return TableSample(dict(columns))

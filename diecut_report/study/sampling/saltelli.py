@@ -9,7 +9,7 @@ from diecut_report.expressions import Array
 
 @dataclass(frozen=True)
 class Saltelli:
-    """How the rows of a sample for Sobol indices belong together.
+    """Describe how the rows of a sample for Sobol indices belong together.
 
     Each of `points` has `size` rows in turn: the first from the matrix A, the second from B, then for each of `paths`
     the row of A with this path's value from B. So a row's point is ``row // size`` and its place ``row % size``.
@@ -20,18 +20,18 @@ class Saltelli:
 
     @property
     def size(self) -> int:
-        """Rows of a point."""
+        """Return rows of a point."""
         return len(self.paths) + 2
 
     @property
     def matrices(self) -> tuple[str, ...]:
-        """The names of the matrices by place: A, B, then ``AB PATH``."""
+        """Return the names of the matrices by place: A, B, then ``AB PATH``."""
         return ("A", "B", *(f"AB {path}" for path in self.paths))
 
     def point(self, row: Array) -> Array:
-        """The points to which rows belong."""
+        """Return the points to which rows belong."""
         return row // self.size
 
     def place(self, row: Array) -> Array:
-        """The places of rows in their points: 0 is of A, 1 of B, 2 + i of A with the i-th path from B."""
+        """Return the places of rows in their points: 0 is of A, 1 of B, 2 + i of A with the i-th path from B."""
         return row % self.size

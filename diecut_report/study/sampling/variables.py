@@ -21,7 +21,7 @@ Values = Array | list[str]
 
 
 class SampleError(ValueError):
-    """A variable or a sample that cannot be; `path` is the varied path that it is about, empty for the whole sample.
+    """Report a variable or a sample that cannot be; `path` is the varied path that it is about, empty for the whole sample.
 
     The words name keys (from, to, count, low, mode, high, mean, sd) and no numbers, as these are SI here.
     """
@@ -46,7 +46,7 @@ class _Variable:
 
 @dataclass(frozen=True)
 class ChoiceVariable(_Variable):
-    """A list of values; sampled, each is as probable as any other (write one twice to have it twice as often)."""
+    """Take a list of values; sampled, each is as probable as any other (write one twice to have it twice as often)."""
 
     values: tuple[float, ...] | tuple[str, ...]
 
@@ -66,7 +66,7 @@ class ChoiceVariable(_Variable):
         return np.array(self.values, dtype=object if isinstance(self.values[0], str) else float)
 
     def at(self, number: Array) -> Values:
-        """The values with these numbers, counted from 0."""
+        """Return the values with these numbers, counted from 0."""
         taken = self._array[number]
         return taken.tolist() if self._array.dtype == object else taken
 
@@ -76,7 +76,7 @@ class ChoiceVariable(_Variable):
 
 @dataclass(frozen=True)
 class RangeVariable(_Variable):
-    """Values from `low` to `high`, both included; `high` may be the lower one, then they descend.
+    """Take values from `low` to `high`, both included; `high` may be the lower one, then they descend.
 
     In a grid `count` values with equal steps (equal ratios where `log`). Sampled, every value between, as probable as
     any other (with `log` every ratio); the count then plays no part.
@@ -112,7 +112,7 @@ class RangeVariable(_Variable):
             self._demand(different == count, words)
 
     def at(self, number: Array) -> Array:
-        """The values with these numbers, counted from 0, of the `count` values."""
+        """Return the values with these numbers, counted from 0, of the `count` values."""
         if self.count is None:
             raise SampleError("count is missing; a grid or zip needs to know how many values the range has", self.path)
         steps = max(self.count - 1, 1)
@@ -152,7 +152,7 @@ class _Distribution(_Variable):
 
 @dataclass(frozen=True)
 class Uniform(_Distribution):
-    """Every value between the limits is as probable as any other."""
+    """Draw from the limits' range: every value in it is as probable as any other."""
 
     low: float
     high: float
@@ -172,7 +172,7 @@ class Uniform(_Distribution):
 
 @dataclass(frozen=True)
 class Normal(_Distribution):
-    """Normal about the mean; with a limit the part beyond it is cut off, and what remains counts as the whole."""
+    """Draw from a normal distribution about the mean; with a limit the part beyond it is cut off, and what remains counts as the whole."""
 
     mean: float
     sd: float
@@ -186,7 +186,7 @@ class Normal(_Distribution):
         low, high = self._limits()
         self._demand(low < high, "low must be below high")
         near = (low - self.mean) / self.sd < 8 and (high - self.mean) / self.sd > -8
-        self._demand(near, "the mean lies more than 8 standard deviations outside low … high; mend one of them")
+        self._demand(near, "the mean lies more than 8 standard deviations outside low … high; change one of them")
         if self.integer:
             _whole(self, low=self.low, high=self.high)
 
@@ -211,7 +211,7 @@ class Normal(_Distribution):
 
 @dataclass(frozen=True)
 class Triangular(_Distribution):
-    """Most probable at the mode, less in equal steps towards both limits, where it ends."""
+    """Draw most probably at the mode, less in equal steps towards both limits, where it ends."""
 
     low: float
     mode: float

@@ -21,7 +21,7 @@ Data = dict[str, Any]
 
 @dataclass(frozen=True)
 class ResultColumn:
-    """A column of the results: values in ``unit`` (SI, ASCII; "1" for pure numbers and for what is no number).
+    """Describe a column of the results: values in ``unit`` (SI, ASCII; "1" for pure numbers and for what is not a number).
 
     ``display``: the unit that people read it in, where it is another. A curve holds a list of numbers for each variant.
     """
@@ -36,7 +36,7 @@ class ResultColumn:
 
 @dataclass(frozen=True)
 class StudySource:
-    """A file that the study was read from. With its content a copy is kept in the folder of the results."""
+    """Hold a file that the study was read from. With its content a copy is kept in the folder of the results."""
 
     file: str
     sha256: str
@@ -45,7 +45,7 @@ class StudySource:
 
 @dataclass(frozen=True)
 class Description:
-    """A study as its results see it. ``rows`` counts the sample, before constraints; ``chunk`` of them make one part.
+    """Describe a study as its results see it. ``rows`` counts the sample, before constraints; ``chunk`` of them make one part.
 
     ``columns`` are those of the varied paths, outputs and checks, in their order; the store adds ``variant`` before
     them and ``status``, ``governing``, ``error`` after them. ``plugins``: the version of each kind of mechanism.
@@ -62,17 +62,17 @@ class Description:
 
     @property
     def parts(self) -> int:
-        """How many part files the whole study has."""
+        """Return how many part files the whole study has."""
         return -(-self.rows // self.chunk)
 
     @property
     def all_columns(self) -> tuple[ResultColumn, ...]:
-        """The columns of the part files."""
+        """Return the columns of the part files."""
         return (VARIANT, *self.columns, *VERDICT)
 
 
 def libraries() -> dict[str, str]:
-    """The versions of what calculates: results may differ between them in the last digits."""
+    """Return the versions of what calculates: results may differ between them in the last digits."""
     return {"python": platform.python_version(), **{name: version(name) for name in ("numpy", "scipy")}}
 
 
@@ -85,7 +85,7 @@ VERDICT = (
 
 
 def as_data(description: Description) -> Data:
-    """As it stands in study.json."""
+    """Return it as it stands in study.json."""
     sources = {"study": description.study, "base": description.base}
     return {
         "schema_version": SCHEMA_VERSION,
@@ -123,7 +123,7 @@ def from_data(data: Data) -> Description:
 
 
 def changes(before: Description, now: Description) -> Iterator[Problem]:
-    """What of a study has changed since its results were begun; the parts' size may differ and is no change."""
+    """Yield what of a study has changed since its results were begun; the parts' size may differ and is not a change."""
     yield from _changed("study file", before.study, now.study)
     yield from _changed("base configuration", before.base, now.base)
     yield from _other_tables(before, now)

@@ -29,7 +29,7 @@ DAMAGED = "This part of the results is damaged or not of this study. Calculate i
 
 
 def schema_of(description: Description) -> pa.Schema:
-    """Types of the columns, with unit, symbol and description of each, and where the results come from."""
+    """Return the types of the columns, with unit, symbol and description of each, and where the results come from."""
     fields = []
     for column in description.all_columns:
         about = {"unit": column.unit, "symbol": column.symbol, "description": column.description}
@@ -38,7 +38,7 @@ def schema_of(description: Description) -> pa.Schema:
 
 
 def provenance(description: Description) -> dict[str, str]:
-    """What the schema of each part says of its origin."""
+    """Return what the schema of each part says of its origin."""
     return {
         "program": "diecut-report",
         "version": description.program,
@@ -49,7 +49,7 @@ def provenance(description: Description) -> dict[str, str]:
 
 
 def table_of(schema: pa.Schema, columns: Mapping[str, Values], variants: NDArray[np.int64]) -> pa.Table:
-    """The columns as a table; one that is not given holds nulls, for an output that applies to none of the variants."""
+    """Return the columns as a table; one that is not given holds nulls, for an output that applies to none of the variants."""
     names = [field.name for field in schema]
     strange = [name for name in columns if name not in names]
     if strange or VERDICT[0].name not in columns:
@@ -59,7 +59,7 @@ def table_of(schema: pa.Schema, columns: Mapping[str, Values], variants: NDArray
 
 
 def array_of(field: pa.Field, values: Values | None, count: int) -> pa.Array:
-    """The values of a column in its type; what is missing, not a number or infinite is null."""
+    """Return the values of a column in its type; what is missing, not a number or infinite is null."""
     if values is None:
         return pa.nulls(count, field.type)
     if len(values) != count:
@@ -93,7 +93,7 @@ def _lists(kind: Any, values: Values) -> pa.Array:
 
 
 def write_part(path: Path, table: pa.Table) -> None:
-    """The table as a Parquet file, whole and on the disk, with a checksum for each page."""
+    """Write the table as a Parquet file, whole and on the disk, with a checksum for each page."""
     texts = [field.name for field in table.schema if pa.types.is_dictionary(field.type)]
     sink = pa.BufferOutputStream()
     # numbers that seldom repeat only grow by a dictionary
@@ -104,7 +104,7 @@ def write_part(path: Path, table: pa.Table) -> None:
 
 @contextmanager
 def readable(path: Path) -> Iterator[None]:
-    """What goes wrong in reading a part becomes a UserError that says what to do."""
+    """Turn what goes wrong in reading a part into a UserError that says what to do."""
     try:
         yield
     except pa.ArrowInvalid as error:
@@ -117,17 +117,17 @@ def readable(path: Path) -> Iterator[None]:
 
 
 def has_schema(path: Path, schema: pa.Schema) -> bool:
-    """Whether a part is of this study, as far as its end tells: its origin and columns are the same."""
+    """Return whether a part is of this study, as far as its end tells: its origin and columns are the same."""
     return _is_sound(path, lambda: bool(pq.read_schema(path).equals(schema, check_metadata=True)))
 
 
 def is_whole(path: Path, schema: pa.Schema) -> bool:
-    """Whether a part is of this study and all of it is as it was written, by its checksums."""
+    """Return whether a part is of this study and all of it is as it was written, by its checksums."""
     return has_schema(path, schema) and _is_sound(path, lambda: _is_read(path))
 
 
 def is_within(path: Path, rows: range) -> bool:
-    """Whether a part's variants are of these rows of the sample: a copy of another part is not."""
+    """Return whether a part's variants are of these rows of the sample: a copy of another part is not."""
     with pq.ParquetFile(path) as file:
         groups = [file.metadata.row_group(index) for index in range(file.metadata.num_row_groups)]
         known = [group.column(0).statistics for group in groups if group.num_rows]

@@ -51,7 +51,7 @@ def _sheets(store: Store) -> int:
 
 
 def heads(store: Store) -> dict[str, str]:
-    """The columns but for curves, and their names with units, `drive.crank_torque_peak [N*m]`, as tables of a study have them."""
+    """Return the columns but for curves, and their names with units, `drive.crank_torque_peak [N*m]`, as tables of a study have them."""
     units = {column.name: column.unit for column in store.description.all_columns if column.kind != "curve"}
     return {name: name if unit == "1" else f"{name} [{unit}]" for name, unit in units.items()}
 
@@ -91,7 +91,7 @@ def _closed(book: Workbook) -> Iterator[None]:
         yield
     except BaseException:
         for sheet in book.worksheets:
-            with suppress(Exception):  # the error that is told is the one before
+            with suppress(Exception):  # the error that is reported is the one before
                 sheet.close()
         raise
 
@@ -103,7 +103,7 @@ def _fill(sheet: WriteOnlyWorksheet, names: list[str], rows: Iterable[list[Any]]
 
 
 def _cell(sheet: WriteOnlyWorksheet, text: str) -> Any:
-    """A text as such: "=1" is no formula, and characters that a workbook cannot hold are replaced."""
+    """A text as such: "=1" is not a formula, and characters that a workbook cannot hold are replaced."""
     from openpyxl.cell import WriteOnlyCell
     from openpyxl.cell.cell import ILLEGAL_CHARACTERS_RE
 

@@ -24,7 +24,7 @@ Data = dict[str, Any]
 
 
 def read_state(folder: Path) -> Data:
-    """study.json of the folder; UserError where there is none or it cannot be read."""
+    """Return study.json of the folder; UserError where there is none or it cannot be read."""
     path = folder / STATE
     try:
         return dict(json.loads(path.read_text("utf-8")))
@@ -41,7 +41,7 @@ def write_state(folder: Path, state: Mapping[str, Any]) -> None:
 
 
 def read_description(folder: Path) -> Description:
-    """The study that the folder holds results of, with the copies of its files where they are as they were."""
+    """Return the study that the folder holds results of, with the copies of its files where they are as they were."""
     try:
         found = from_data(read_state(folder))
     except (KeyError, TypeError, ValueError, AttributeError) as error:
@@ -51,14 +51,14 @@ def read_description(folder: Path) -> Description:
 
 
 def copies(folder: Path, description: Description) -> dict[Path, StudySource]:
-    """Where the copies of the study's files are: the study, its base, its tables; numbered, as names may be paths."""
+    """Return where the copies of the study's files are: the study, its base, its tables; numbered, as names may be paths."""
     tables = {f"{TABLES}/{n}-{PurePath(table.file).name}": table for n, table in enumerate(description.tables, 1)}
     files = {STUDY: description.study, BASE: description.base, **tables}
     return {folder / name: source for name, source in files.items()}
 
 
 def kept(folder: Path) -> dict[str, Path]:
-    """The copies of the base and the tables by their names in the study; UserError where a copy is not as it was."""
+    """Return the copies of the base and the tables by their names in the study; UserError where a copy is not as it was."""
     description = read_description(folder)
     found = copies(folder, description)
     for path, source in found.items():
@@ -95,7 +95,7 @@ def begin(folder: Path, description: Description) -> None:
 
 
 def refuse_used(folder: Path) -> None:
-    """A folder that holds anything is not written into."""
+    """Refuse a folder that holds anything."""
     others = sorted(path.name for path in folder.iterdir() if path.name not in (LOCK, HOLDER))
     if STATE in others:
         words = "Results of a study are here already. Continue them with --resume, or choose another folder with -o."
@@ -106,7 +106,7 @@ def refuse_used(folder: Path) -> None:
 
 
 def with_libraries(state: Data) -> Data:
-    """The state with the versions of the libraries of this run; where a run continues with others, with both."""
+    """Return the state with the versions of the libraries of this run; where a run continues with others, with both."""
     before = state.get("libraries", {})
     now = {name: [*before.get(name, ()), version] for name, version in libraries().items()}
     return state | {"libraries": {name: list(dict.fromkeys(versions)) for name, versions in now.items()}}
@@ -141,4 +141,4 @@ def _holder(folder: Path) -> str:
         found = json.loads((folder / HOLDER).read_text("utf-8"))
         return f": process {found['process']} on {found['host']}. Wait for its end, or choose another folder with -o"
     except (OSError, ValueError, KeyError, TypeError):
-        return ", and has not told its name. Wait for its end, or choose another folder with -o"
+        return ", and has not given its name. Wait for its end, or choose another folder with -o"

@@ -42,7 +42,7 @@ BATCH = 4096  # rows read at a time
 
 
 class Store:
-    """Results of one study in one folder. Made by `create` or `open`; written to only within `lock`."""
+    """Keep the results of one study in one folder. Made by `create` or `open`; written to only within `lock`."""
 
     def __init__(self, directory: Path, description: Description) -> None:
         self.directory, self.description = directory, description
@@ -63,7 +63,7 @@ class Store:
 
     @classmethod
     def open(cls, directory: Path, description: Description | None = None) -> Store:
-        """The results in a folder: to read them or, with the study's description, to continue them.
+        """Return the results in a folder: to read them or, with the study's description, to continue them.
 
         Raises UserError where there are none, or where they belong to another study, with what has changed.
         The size of the parts stays that of the folder (`description.chunk`).
@@ -92,11 +92,11 @@ class Store:
         return self.directory / PARTS
 
     def part(self, index: int) -> Path:
-        """The file of a part, whether it is there or not."""
+        """Return the file of a part, whether it is there or not."""
         return self._folder / f"part-{index:05d}.parquet"
 
     def rows(self, index: int) -> range:
-        """The numbers of the sample's rows that make a part."""
+        """Return the numbers of the sample's rows that make a part."""
         chunk = self.description.chunk
         return range(index * chunk, min((index + 1) * chunk, self.description.rows))
 
@@ -124,15 +124,15 @@ class Store:
         return found
 
     def parts(self) -> dict[int, Path]:
-        """The part files that are there, by index; UserError for a file that only looks like one."""
+        """Return the part files that are there, by index; UserError for a file that only looks like one."""
         found = sorted(self._folder.glob("part-*.parquet"))
         for path in found:
             if not (match := NAME.fullmatch(path.name)) or path != self.part(int(match[1])):
-                raise UserError(Problem("This is no part of the results. Move it to another folder.", str(path)))
+                raise UserError(Problem("This is not a part of the results. Move it to another folder.", str(path)))
         return {int(path.stem.partition("-")[2]): path for path in found}
 
     def done_parts(self) -> set[int]:
-        """The parts that are whole to their last byte and belong to this study; the others are to be calculated."""
+        """Return the parts that are whole to their last byte and belong to this study; the others are to be calculated."""
         return {
             index
             for index, path in self.parts().items()
@@ -152,13 +152,13 @@ class Store:
         return list(found.values())
 
     def read(self, columns: Sequence[str] | None = None) -> pyarrow.dataset.Dataset:
-        """The variants stored so far as a dataset of these columns (default: all), in their order."""
+        """Return the variants stored so far as a dataset of these columns (default: all), in their order."""
         names = self.schema.names if columns is None else columns
         wanted = pa.schema([self.schema.field(name) for name in names], self.schema.metadata)
         return pyarrow.dataset.dataset([str(path) for path in self._files()], schema=wanted, format="parquet")
 
     def batches(self, columns: Sequence[str] | None = None) -> Iterator[pa.RecordBatch]:
-        """The variants stored so far, some thousands at a time, in their order; UserError for a part that is damaged."""
+        """Yield the variants stored so far, some thousands at a time, in their order; UserError for a part that is damaged."""
         names = self.schema.names if columns is None else list(columns)
         for path in self._files():
             with readable(path), pq.ParquetFile(path) as file:
@@ -167,11 +167,11 @@ class Store:
                     yield batch.select(names)  # "status" reads "status.mass" too, of a mechanism of that name
 
     def count(self) -> int:
-        """How many variants are stored, by the ends of the part files alone."""
+        """Return how many variants are stored, by the ends of the part files alone."""
         return sum(int(pq.read_metadata(path).num_rows) for path in self._files())
 
     def counts(self) -> dict[str, int]:
-        """How many rows the sample has, how many variants are stored of them, and of each status."""
+        """Return how many rows the sample has, how many variants are stored of them, and of each status."""
         found: Counter[str] = Counter(sample=self.description.rows, variants=0)
         for batch in self.batches(["status"]):
             for each in pyarrow.compute.value_counts(batch.column(0)).to_pylist():
@@ -181,7 +181,7 @@ class Store:
 
     @property
     def state(self) -> dict[str, Any]:
-        """study.json as it is now."""
+        """Return study.json as it is now."""
         return state.read_state(self.directory)
 
     def note(self, facts: Mapping[str, Any]) -> None:

@@ -11,7 +11,7 @@ FORMATS = ("html", "pdf")
 
 
 def summarise(directory: Path, formats: Sequence[str] = FORMATS) -> list[Path]:
-    """Writes ``summary.html`` and ``summary.pdf`` into the folder of a run, from what is stored there; gives the files.
+    """Write ``summary.html`` and ``summary.pdf`` into the folder of a run, from what is stored there; gives the files.
 
     UserError in words where nothing is stored or the files cannot be written; OSError where the system has no pango (PDF).
     """

@@ -13,7 +13,7 @@ INPUTS = 6  # columns of inputs
 
 
 class Best(NamedTuple):
-    """A variant on the front: number, report, status, greatest utilisation and whose it is, and objectives and inputs as texts."""
+    """Hold a variant on the front: number, report, status, greatest utilisation and whose it is, and objectives and inputs as texts."""
 
     variant: int
     href: str
@@ -24,7 +24,7 @@ class Best(NamedTuple):
 
 
 class ListedReport(NamedTuple):
-    """A full report of a variant."""
+    """Hold a full report of a variant."""
 
     variant: int
     href: str
@@ -32,12 +32,12 @@ class ListedReport(NamedTuple):
 
 
 def columns(stored: Stored, goals: Sequence[pareto.StoredObjective]) -> list[StoredColumn]:
-    """Objectives and inputs that the table of the best shows."""
+    """Return objectives and inputs that the table of the best shows."""
     return list(dict.fromkeys([*(goal.column for goal in goals), *stored.varied[:INPUTS]]))
 
 
 def best(stored: Stored, variants: Sequence[int], shown: Sequence[StoredColumn]) -> list[Best]:
-    """The rows of that table, in the order of the variants."""
+    """Return the rows of that table, in the order of the variants."""
     asked = ", ".join(["status", WORST.sql, "governing", *(column.sql for column in shown)])
     rows = {
         row[0]: row[1:] for row in stored.rows(f"SELECT variant, {asked} FROM w WHERE variant IN ({_list(variants)})")
@@ -64,7 +64,7 @@ def _told(value: Any, column: StoredColumn) -> str:
 
 
 def reports(stored: Stored, variants: Sequence[int]) -> list[ListedReport]:
-    """The full reports of these variants."""
+    """Return the full reports of these variants."""
     states = dict(stored.rows(f"SELECT variant, status FROM v WHERE variant IN ({_list(variants)})"))
     return [ListedReport(one, matrix.report_of(stored.folder, one), states[one]) for one in variants if one in states]
 

@@ -27,12 +27,12 @@ MOST_BARS = 15  # inputs of an influence
 
 
 def chart(build: Callable[[], Figure], told: str, key: str) -> Svg:
-    """A drawn chart, named by its text alternative."""
+    """Return a drawn chart, named by its text alternative."""
     return drawn(build, told, key)
 
 
 def panel(sheet: Figure, left: float, bottom: float, wide: float, high: float) -> Axes:
-    """Axes at a place in points."""
+    """Return axes at a place in points."""
     width, height = (float(side) * 72 for side in sheet.get_size_inches())
     return sheet.add_axes((left / width, bottom / height, wide / width, high / height))
 
@@ -41,7 +41,7 @@ def panel(sheet: Figure, left: float, bottom: float, wide: float, high: float) -
 
 
 def shares(counts: dict[str, int], told: str) -> Svg:
-    """One bar: the variants by status."""
+    """Return one bar: the variants by status."""
     return chart(partial(_shares, counts), told, "counts")
 
 
@@ -69,7 +69,7 @@ def _shares(counts: dict[str, int]) -> Figure:
 
 
 class Bar(NamedTuple):
-    """A bar of counts: its name, its parts, and what stands behind it."""
+    """Hold a bar of counts: its name, its parts, and what stands behind it."""
 
     name: str
     parts: Sequence[float]
@@ -77,7 +77,7 @@ class Bar(NamedTuple):
 
 
 def stacked(rows: Sequence[Bar], colours: Sequence[str], told: str, key: str) -> Svg:
-    """Horizontal bars of counts, each of several parts."""
+    """Return horizontal bars of counts, each of several parts."""
     return chart(partial(_stacked, rows, colours), told, key)
 
 
@@ -109,7 +109,7 @@ def _bare(axes: Axes, rows: int) -> None:
 
 
 def influence(found: Influence, told: str, key: str) -> Svg:
-    """The inputs of an influence, as bars; for Sobol indices the total behind the first."""
+    """Return the inputs of an influence, as bars; for Sobol indices the total behind the first."""
     return chart(partial(_influence, found), told, key)
 
 
@@ -145,7 +145,7 @@ def _whisker(colour: str) -> dict[str, Any]:
 
 
 def distributions(found: Sequence[Histogram], told: str) -> Svg:
-    """Histograms three in a row, each by status."""
+    """Return histograms three in a row, each by status."""
     return chart(partial(_distributions, found), told, "distributions")
 
 

@@ -17,7 +17,7 @@ from diecut_report.study.summary.verdict_counts import Failure
 
 SAMPLED = 1_500  # variants in the charts of points
 NUMBERS, FEWEST = 200_000, 400  # that the page carries for the chart of any two quantities; variants of them at least
-TARGETS = 5  # quantities that influence is told of
+TARGETS = 5  # quantities that influence is reported of
 PANELS, CHECKS, RANGES, POINTS = (
     12,
     4,
@@ -28,7 +28,7 @@ PANELS, CHECKS, RANGES, POINTS = (
 
 @dataclass
 class Summary:
-    """The whole page."""
+    """Hold the whole page."""
 
     title: str
     folder: str
@@ -65,28 +65,28 @@ class Summary:
 
     @property
     def example(self) -> int:
-        """A variant to name in a command: the best, else the first of the matrix."""
+        """Return a variant to name in a command: the best, else the first of the matrix."""
         rows = self.matrices[0].rows if self.matrices else []
         return self.best[0].variant if self.best else rows[0].variant if rows else 0
 
     @property
     def calculated(self) -> int:
-        """How many variants can exist."""
+        """Return how many variants can exist."""
         return self.total - self.statuses["error"]
 
     @property
     def sound(self) -> int:
-        """How many variants do not fail."""
+        """Return how many variants do not fail."""
         return self.statuses["pass"] + self.statuses["warn"]
 
     @property
     def status(self) -> str:
-        """What the whole looks like: pass where some variant passes."""
+        """Return what the whole looks like: pass where some variant passes."""
         return "pass" if self.statuses["pass"] else "warn" if self.statuses["warn"] else "fail"
 
 
 def content(stored: Stored) -> Summary:
-    """The summary of the stored variants."""
+    """Return the summary of the stored variants."""
     data.prepare(stored)
     states = data.statuses(stored)
     total = sum(states.values())

@@ -25,7 +25,7 @@ REASONS = 15
 
 
 class Utilisation(NamedTuple):
-    """A check over all variants: how many in each class of utilisation, without one, its statuses, and its greatest value."""
+    """Hold a check over all variants: how many in each class of utilisation, without one, its statuses, and its greatest value."""
 
     check: str
     bands: tuple[int, ...]
@@ -37,12 +37,12 @@ class Utilisation(NamedTuple):
 
     @property
     def is_made(self) -> bool:
-        """Whether any variant has this check."""
+        """Return whether any variant has this check."""
         return self.passing + self.warning + self.failing > 0
 
 
 class Spread(NamedTuple):
-    """The range of a quantity in SI: least, 5 %, median, 95 %, greatest, and how many variants have it."""
+    """Hold the range of a quantity in SI: least, 5 %, median, 95 %, greatest, and how many variants have it."""
 
     column: StoredColumn
     values: tuple[float, float, float, float, float]
@@ -50,13 +50,13 @@ class Spread(NamedTuple):
 
     @property
     def varies(self) -> bool:
-        """Whether its values differ by more than rounding."""
+        """Return whether its values differ by more than rounding."""
         least, greatest = self.values[0], self.values[-1]
         return greatest - least > 1e-9 * max(abs(least), abs(greatest))
 
 
 class Histogram(NamedTuple):
-    """How many variants of each status (rows) lie in each class (columns) between the edges (SI).
+    """Hold how many variants of each status (rows) lie in each class (columns) between the edges (SI).
 
     ``is_open`` says that the last class holds all greater values too.
     """
@@ -68,7 +68,7 @@ class Histogram(NamedTuple):
 
 
 class Density(NamedTuple):
-    """How many variants lie in each cell over two quantities, and how many of them do not fail: shape (cells of y, cells of x)."""
+    """Hold how many variants lie in each cell over two quantities, and how many of them do not fail: shape (cells of y, cells of x)."""
 
     x: StoredColumn
     y: StoredColumn
@@ -79,7 +79,7 @@ class Density(NamedTuple):
 
 
 class Reason(NamedTuple):
-    """Why variants could not be calculated, how many, and one of them."""
+    """Hold why variants could not be calculated, how many, and one of them."""
 
     told: str
     variants: int
@@ -88,7 +88,7 @@ class Reason(NamedTuple):
 
 @dataclass(frozen=True)
 class SampledVariants:
-    """Some variants with some quantities (SI, NaN where absent; words as their number in ``words``)."""
+    """Hold some variants with some quantities (SI, NaN where absent; words as their number in ``words``)."""
 
     variants: Array
     status: Array
@@ -97,7 +97,7 @@ class SampledVariants:
 
 
 def prepare(stored: Stored) -> None:
-    """Names ``w``: the variants with their greatest utilisation of all checks, none where a check fails without one.
+    """Name ``w``: the variants with their greatest utilisation of all checks, none where a check fails without one.
 
     And with the number of checks that fail.
     """
@@ -113,13 +113,13 @@ def prepare(stored: Stored) -> None:
 
 
 def statuses(stored: Stored) -> dict[str, int]:
-    """How many variants have each status."""
+    """Return how many variants have each status."""
     found = dict(stored.rows("SELECT status, count(*) FROM v GROUP BY status"))
     return {status: int(found.get(status, 0)) for status in STATUSES}
 
 
 def utilisations(stored: Stored) -> list[Utilisation]:
-    """Each check over all variants, those with the most failures first."""
+    """Return each check over all variants, those with the most failures first."""
     found = [part for names in chunks(list(stored.checks)) for part in _utilisations(stored, names)]
     return sorted(found, key=lambda row: (-row.failing, -row.warning, -(row.greatest or 0.0), row.check))
 
@@ -145,13 +145,13 @@ def _asked(value: StoredColumn, status: StoredColumn) -> Iterator[str]:
 
 
 def chunks(items: list[Any]) -> Iterator[list[Any]]:
-    """As many columns at a time as a query asks for."""
+    """Yield as many columns at a time as a query asks for."""
     for start in range(0, len(items), AT_ONCE):
         yield items[start : start + AT_ONCE]
 
 
 def spreads(stored: Stored, columns: Sequence[StoredColumn], total: int) -> dict[str, Spread]:
-    """The range of each quantity; those that no variant has are left out."""
+    """Return the range of each quantity; those that no variant has are left out."""
     quantile = "quantile_cont" if total <= EXACT else "approx_quantile"
     found = {}
     for part in chunks([column for column in columns if column.is_number]):
@@ -168,7 +168,7 @@ def spreads(stored: Stored, columns: Sequence[StoredColumn], total: int) -> dict
 
 
 def histogram(stored: Stored, spread: Spread) -> Histogram:
-    """The distribution of a quantity, by status; of a utilisation no class lies on both sides of 1."""
+    """Return the distribution of a quantity, by status; of a utilisation no class lies on both sides of 1."""
     column, low, high = spread.column, spread.values[0], reach(spread.values[0], spread.values[3], spread.values[-1])
     bins = int(np.clip(2 * spread.present**0.5, FEWEST, BINS))
     is_open, at = high < spread.values[-1], ""
@@ -189,7 +189,7 @@ def histogram(stored: Stored, spread: Spread) -> Histogram:
 
 
 def density(stored: Stored, x: Spread, y: Spread) -> Density:
-    """All variants over two quantities, counted in cells."""
+    """Return all variants over two quantities, counted in cells."""
     across, up = CELLS
     (left, right), (low, high) = ((each.values[0], reach(each.values[0], *each.values[3:])) for each in (x, y))
     places = f"{_place(x.column, left, right, across)} AS i, {_place(y.column, low, high, up)} AS j"
@@ -203,7 +203,7 @@ def density(stored: Stored, x: Spread, y: Spread) -> Density:
 
 
 def reach(low: float, most: float, high: float) -> float:
-    """Up to where a chart shows a quantity: its greatest value, or a little over 95 % of them where a few lie far above."""
+    """Return up to where a chart shows a quantity: its greatest value, or a little over 95 % of them where a few lie far above."""
     return most + 0.25 * (most - low) if most > low and high - most > 2 * (most - low) else high
 
 
@@ -214,7 +214,7 @@ def _place(column: StoredColumn, low: float, high: float, cells: int) -> str:
 
 
 def reasons(stored: Stored) -> list[Reason]:
-    """Why variants are in error, without the numbers that differ, the most frequent first."""
+    """Return why variants are in error, without the numbers that differ, the most frequent first."""
     alike = r"regexp_replace(error, '[-+]?[0-9]+[.]?[0-9]*([eE][-+]?[0-9]+)?', '…', 'g')"
     sql = (
         f"SELECT arg_min(error, variant), count(*) AS n, min(variant) FROM v WHERE status = 'error' "
@@ -224,7 +224,7 @@ def reasons(stored: Stored) -> list[Reason]:
 
 
 def sample(stored: Stored, columns: Sequence[StoredColumn], most: int) -> SampledVariants:
-    """So many variants drawn without regard to their values, the same ones each time, in the order of the sample."""
+    """Return so many variants drawn without regard to their values, the same ones each time, in the order of the sample."""
     words = {column.name: _words(stored, column) for column in columns if column.kind == "text"}
     asked = [_number(column, words) for column in columns]
     known = ", ".join(map(text, STATUSES))
@@ -252,5 +252,5 @@ def _number(column: StoredColumn, words: dict[str, list[str]]) -> str:
 
 
 def number_of(stored: Stored, column: StoredColumn) -> str:
-    """SQL that gives a column as a float, words by their number."""
+    """Return SQL that gives a column as a float, words by their number."""
     return _number(column, {column.name: _words(stored, column)} if column.kind == "text" else {})

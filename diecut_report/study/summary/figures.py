@@ -27,7 +27,7 @@ FAR = "Values that lie far above the others stand at the edge."
 
 
 class SummaryFigure(NamedTuple):
-    """A chart, what stands below it, and what it shows in words."""
+    """Hold a chart, what stands below it, and what it shows in words."""
 
     svg: Svg
     caption: str
@@ -36,7 +36,7 @@ class SummaryFigure(NamedTuple):
 
 @dataclass(frozen=True)
 class Figures:
-    """Makes the charts of a study."""
+    """Make the charts of a study."""
 
     stored: Stored
     states: dict[str, int]
@@ -48,7 +48,7 @@ class Figures:
     def all(
         self, failures: Sequence[Failure], spreads: Sequence[Spread], ranked: Sequence[Influence]
     ) -> dict[str, SummaryFigure]:
-        """Every chart that the study has something for, by its key."""
+        """Return every chart that the study has something for, by its key."""
         found = {
             "counts": self.counts(),
             "failures": self.failures(failures) if failures else None,
@@ -60,13 +60,13 @@ class Figures:
         return {key: figure for key, figure in found.items() if figure is not None}
 
     def counts(self) -> SummaryFigure:
-        """The variants by status."""
+        """Return the variants by status."""
         total = sum(self.states.values())
         told = ", ".join(f"{status} {count} ({percent(count, total)})" for status, count in self.states.items())
         return SummaryFigure(charts.shares(self.states, f"Variants by status: {told}."), "Variants by status.", told)
 
     def failures(self, failures: Sequence[Failure]) -> SummaryFigure:
-        """In how many variants the checks fail and govern."""
+        """Return in how many variants the checks fail and govern."""
         rows = failures[:GOVERNING]
         told = "; ".join(
             f"{self.stored.check_told(row.check)} fails in {row.failing}, governs {row.governing} of them, warns in {row.warning}"
@@ -89,7 +89,7 @@ class Figures:
         return SummaryFigure(charts.stacked(bars, colours, f"{told}.", "failures"), caption, told)
 
     def distributions(self, spreads: Sequence[Spread]) -> SummaryFigure:
-        """The distributions of the quantities that matter."""
+        """Return the distributions of the quantities that matter."""
         found = [data.histogram(self.stored, spread) for spread in spreads]
         told = "; ".join(_distributed(each, spread) for each, spread in zip(found, spreads, strict=True))
         caption = (
@@ -101,7 +101,7 @@ class Figures:
         return SummaryFigure(charts.distributions(found, f"{told}."), caption, told)
 
     def influence(self, found: Influence) -> SummaryFigure:
-        """The influence of the inputs on a quantity."""
+        """Return the influence of the inputs on a quantity."""
         if found.is_sobol:
             told = "; ".join(
                 f"{named(share.column)}: first {share.first:.2f}, total {share.total or 0:.2f}"
@@ -117,7 +117,7 @@ class Figures:
         return SummaryFigure(charts.influence(found, f"{told}.", f"influence of {found.target.name}"), caption, told)
 
     def parallel(self) -> SummaryFigure | None:
-        """Parallel coordinates of inputs and of what matters."""
+        """Return parallel coordinates of inputs and of what matters."""
         inputs = [column for column in self.stored.varied if column.name in self.sample.values][: AXES - 2]
         goals = [column for column in self.main if column.name in self.sample.values][: max(2, AXES - len(inputs))]
         columns = [column for column in (*inputs, *goals) if np.isfinite(self.sample.values[column.name]).any()][:AXES]
@@ -150,7 +150,7 @@ class Figures:
         return found
 
     def pair(self) -> SummaryFigure | None:
-        """The first two quantities that matter, with the front."""
+        """Return the first two quantities that matter, with the front."""
         pair = self._goals()
         if pair is None or not self.stored.study.get("objectives"):
             return None
@@ -182,7 +182,7 @@ class Figures:
         return (known[0], known[1]) if len(known) > 1 else None
 
     def grid(self, ranked: Sequence[Influence]) -> SummaryFigure | None:
-        """What matters over the inputs that move it most."""
+        """Return what matters over the inputs that move it most."""
         known = [found for found in ranked[:3] if found.target.name in self.sample.values]
         pairs = [(share.column, found.target) for found in known for share in self._drawable(found)[:2]]
         if not pairs:

@@ -22,13 +22,13 @@ FEWEST = 8  # variants (or points of a Saltelli sample) from which a number says
 DRAWS, REDRAWN = 50, 20_000  # of the points for the intervals, and of how many
 UNSURE = 0.3  # half the width of an interval from which an index says nothing
 COMPLETE = 0.99  # share of a Saltelli sample that must have results
-WEAK = 0.05  # size of a number up to which it is not told
+WEAK = 0.05  # size of a number up to which it is not reported
 ALIKE = 0.999  # correlation of ranks from which two inputs are one
 SURE = 1.96  # standard errors to each side of an interval of 95 %
 
 
 class Share(NamedTuple):
-    """An input's influence: by itself (or its correlation) and in all; half the width of the 95 % interval of each."""
+    """Hold an input's influence: by itself (or its correlation) and in all; half the width of the 95 % interval of each."""
 
     column: StoredColumn
     first: float
@@ -38,18 +38,18 @@ class Share(NamedTuple):
 
     @property
     def is_certain(self) -> bool:
-        """Whether the sample is large enough to tell it."""
+        """Return whether the sample is large enough to tell it."""
         return max(self.first_error or 0.0, self.total_error or 0.0) <= UNSURE
 
     @property
     def is_telling(self) -> bool:
-        """Whether it is more than next to nothing."""
+        """Return whether it is more than next to nothing."""
         return max(abs(self.first), self.total or 0.0) >= WEAK
 
 
 @dataclass(frozen=True)
 class Influence:
-    """The inputs by their influence on a quantity, the greatest first, and from how many variants that is known."""
+    """Hold the inputs by their influence on a quantity, the greatest first, and from how many variants that is known."""
 
     target: StoredColumn
     is_sobol: bool
@@ -58,19 +58,19 @@ class Influence:
 
     @property
     def is_certain(self) -> bool:
-        """Whether the sample is large enough to tell it."""
+        """Return whether the sample is large enough to tell it."""
         return all(share.is_certain for share in self.shares)
 
     @property
     def telling(self) -> tuple[Share, ...]:
-        """The inputs whose influence is more than next to nothing."""
+        """Return the inputs whose influence is more than next to nothing."""
         return tuple(share for share in self.shares if share.is_telling)
 
 
 def is_saltelli(stored: Stored) -> bool:
-    """Whether the sample has the rows that Sobol indices are made from, and (nearly) all of them could be calculated.
+    """Return whether the sample has the rows that Sobol indices are made from, and (nearly) all of them could be calculated.
 
-    Where machines that cannot exist or constraints cut into it, its inputs are no longer independent: indices would sum
+    Where variants that cannot exist or constraints cut into it, its inputs are no longer independent: indices would sum
     to more than 1.
     """
     if stored.study.get("design") != "saltelli" or (points := int(stored.study.get("n") or 0)) < 2:
@@ -80,7 +80,7 @@ def is_saltelli(stored: Stored) -> bool:
 
 
 def influences(stored: Stored, targets: Sequence[StoredColumn]) -> list[Influence]:
-    """The influence of the varied inputs on each target that can be judged."""
+    """Return the influence of the varied inputs on each target that can be judged."""
     judge = _sobol if is_saltelli(stored) else _ranks
     found = [judge(stored, target) for target in targets if stored.varied]
     return [each for each in found if each is not None]
@@ -163,7 +163,7 @@ def _terms(column: StoredColumn, values: Array) -> Array:
 
 
 def partial(inputs: Sequence[Array], goal: Array) -> list[float | None]:
-    """Partial correlation of the goal with each input, the others regressed out; for several columns that of their best sum.
+    """Return the partial correlation of the goal with each input, the others regressed out; for several columns that of their best sum.
 
     An input that goes with another one shares its influence. None where too few variants are there, or nothing is left of an input.
     """

@@ -13,7 +13,7 @@ CHARTED = 3  # quantities that influence is drawn for
 
 
 class Ranked(NamedTuple):
-    """The influence of the inputs: quantities and, for each input, a text for each of them; charts of the first quantities."""
+    """Hold the influence of the inputs: quantities and, for each input, a text for each of them; charts of the first quantities."""
 
     targets: list[str]
     rows: list[tuple[str, list[str]]]
@@ -22,7 +22,7 @@ class Ranked(NamedTuple):
 
 
 def ranked(found: list[Influence], figures: Figures) -> Ranked:
-    """One table for all quantities, its inputs in the order of the first of them."""
+    """Return one table for all quantities, its inputs in the order of the first of them."""
     by_target = [{share.column: share for share in each.shares} for each in found]
     inputs = list(dict.fromkeys(column for shares in by_target for column in shares))
     rows = [(named(column), [_share(shares.get(column)) for shares in by_target]) for column in inputs]

@@ -17,7 +17,7 @@ IDLE = 0.1  # utilisation that a check of the matrix reaches in some variant
 
 
 class MatrixCell(NamedTuple):
-    """A utilisation as text, and its class: u0 … u4 by size, ``none`` without one; ``is_failing`` by the check's status."""
+    """Hold a utilisation as text, and its class: u0 … u4 by size, ``none`` without one; ``is_failing`` by the check's status."""
 
     text: str
     sort: str
@@ -25,7 +25,7 @@ class MatrixCell(NamedTuple):
 
 
 class MatrixRow(NamedTuple):
-    """A variant: its number, the file of its full report (or nothing), its status, and its cells."""
+    """Hold a variant: its number, the file of its full report (or nothing), its status, and its cells."""
 
     variant: int
     href: str
@@ -34,26 +34,26 @@ class MatrixRow(NamedTuple):
 
 
 class Group(NamedTuple):
-    """Variants that stand together in the matrix, under a title that says why."""
+    """Hold variants that stand together in the matrix, under a title that says why."""
 
     title: str
     variants: list[int]
 
 
 class Matrix(NamedTuple):
-    """Part of the matrix: numbers and names of its checks, and its rows in groups."""
+    """Hold part of the matrix: numbers and names of its checks, and its rows in groups."""
 
     checks: list[tuple[int, str]]
     groups: list[tuple[str, list[MatrixRow]]]
 
     @property
     def rows(self) -> list[MatrixRow]:
-        """The rows of all groups."""
+        """Return the rows of all groups."""
         return [row for _, rows in self.groups for row in rows]
 
 
 def report_of(folder: Path, variant: int) -> str:
-    """The full report of a variant, from the summary's place, if there is one."""
+    """Return the full report of a variant, from the summary's place, if there is one."""
     for ending in ("html", "pdf"):
         if (folder / "reports" / f"{variant}.{ending}").is_file():
             return f"reports/{variant}.{ending}"
@@ -61,13 +61,13 @@ def report_of(folder: Path, variant: int) -> str:
 
 
 def reported(folder: Path) -> list[int]:
-    """The variants that have a full report."""
+    """Return the variants that have a full report."""
     files = (folder / "reports").glob("*.*") if (folder / "reports").is_dir() else []
     return sorted({int(file.stem) for file in files if file.stem.isdecimal() and file.suffix in (".html", ".pdf")})
 
 
 def chosen(stored: Stored, total: int, best: Sequence[int]) -> list[Group]:
-    """The best first, then those with reports, then the most overloaded; of a small study all variants. Each stands once."""
+    """Return the best first, then those with reports, then the most overloaded; of a small study all variants. Each stands once."""
     reports = reported(stored.folder)
     first = "first by the objective" if len(_goals(stored)) == 1 else "on the Pareto front"
     groups = [Group(_cut(f"Best: {first}", len(best), BEST), list(best[:BEST]))]
@@ -111,12 +111,12 @@ def _once(groups: Iterable[Group]) -> Iterator[Group]:
 
 
 def telling(used: Sequence[Utilisation]) -> list[Utilisation]:
-    """The checks that stand in the matrix: those that do not always pass with ease."""
+    """Return the checks that stand in the matrix: those that do not always pass with ease."""
     return [row for row in used if row.failing or row.warning or (row.greatest or 0.0) > IDLE]
 
 
 def matrices(stored: Stored, groups: Sequence[Group], checks: Sequence[str]) -> Iterator[Matrix]:
-    """The matrix in parts that fit on paper."""
+    """Yield the matrix in parts that fit on paper."""
     for start in range(0, len(checks), ACROSS):
         part = list(checks[start : start + ACROSS])
         numbers = [(start + index + 1, stored.check_told(name)) for index, name in enumerate(part)]

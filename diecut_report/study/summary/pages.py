@@ -24,12 +24,12 @@ DIGITS = 4  # of the numbers that a browser draws
 
 
 def page(summary: Summary) -> str:
-    """The summary as one self-contained HTML page."""
+    """Return the summary as one self-contained HTML page."""
     return _filled(summary, "screen")
 
 
 def sheets(summary: Summary) -> bytes:
-    """The summary as PDF (A4, PDF/UA-1)."""
+    """Return the summary as PDF (A4, PDF/UA-1)."""
     fetcher = URLFetcher(allowed_protocols={"data"}, allow_redirects=False, fail_on_errors=True)
     source = _filled(summary, "print")
     with pdf._without_collection():

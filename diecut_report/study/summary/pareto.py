@@ -18,20 +18,20 @@ FIRST = 10  # variants that are best by a single objective
 
 @dataclass(frozen=True)
 class StoredObjective:
-    """A quantity that is to be small or great."""
+    """Name a quantity that is to be small or great."""
 
     column: StoredColumn
     is_less: bool
 
     @property
     def told(self) -> str:
-        """The objective in words."""
+        """Return the objective in words."""
         return f"{'least' if self.is_less else 'greatest'} {self.column.told}"
 
 
 @dataclass(frozen=True)
 class Front:
-    """The best variants in the order of the first objective: their numbers, objectives (SI, a column each), and among how many.
+    """Hold the best variants in the order of the first objective: their numbers, objectives (SI, a column each), and among how many.
 
     ``is_passing`` says that only variants without a failing check were compared; ``is_cut`` that the front is longer than kept.
     """
@@ -45,7 +45,7 @@ class Front:
 
 
 def objectives(stored: Stored) -> tuple[StoredObjective, ...]:
-    """The study's objectives, as far as numbers are stored for them."""
+    """Return the study's objectives, as far as numbers are stored for them."""
     found = []
     for given in stored.study.get("objectives") or ():
         for direction, name in given.items():
@@ -56,7 +56,7 @@ def objectives(stored: Stored) -> tuple[StoredObjective, ...]:
 
 
 def front(stored: Stored, wanted: tuple[StoredObjective, ...], passing: int) -> Front | None:
-    """The front of the variants that do not fail; of all calculated ones where all fail. None without objectives or variants.
+    """Return the front of the variants that do not fail; of all calculated ones where all fail. None without objectives or variants.
 
     By a single objective it is the first ten.
     """
@@ -79,7 +79,7 @@ def front(stored: Stored, wanted: tuple[StoredObjective, ...], passing: int) -> 
 
 
 def best(costs: Array) -> Array:
-    """Indices of the rows of which no other row is nowhere greater and somewhere less; equal rows stay together."""
+    """Return the indices of the rows of which no other row is nowhere greater and somewhere less; equal rows stay together."""
     order = np.lexsort(costs.T[::-1])
     kept = np.zeros(0, dtype=int)
     for start in range(0, len(order), BLOCK):

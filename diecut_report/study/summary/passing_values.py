@@ -13,7 +13,7 @@ INPUTS = 12
 
 
 class PassingValue(NamedTuple):
-    """A value or class of an input: how many variants have it, and how many of them do not fail."""
+    """Hold a value or class of an input: how many variants have it, and how many of them do not fail."""
 
     told: str
     variants: int
@@ -21,7 +21,7 @@ class PassingValue(NamedTuple):
 
 
 class PassingValues(NamedTuple):
-    """An input with its values or classes, and how many values are left out."""
+    """Hold an input with its values or classes, and how many values are left out."""
 
     column: StoredColumn
     rows: list[PassingValue]
@@ -29,13 +29,13 @@ class PassingValues(NamedTuple):
 
     @property
     def reach(self) -> float:
-        """How far the shares of its values lie apart."""
+        """Return how far the shares of its values lie apart."""
         shares = [row.passing / row.variants for row in self.rows if row.variants]
         return max(shares) - min(shares)
 
 
 def values(stored: Stored) -> list[PassingValues]:
-    """The varied inputs that have more than one value, in the study's order; of many those whose values differ most."""
+    """Return the varied inputs that have more than one value, in the study's order; of many those whose values differ most."""
     found = [each for column in stored.varied for each in [_values(stored, column)] if len(each.rows) > 1]
     kept = sorted(found, key=lambda each: -each.reach)[:INPUTS]
     return [each for each in found if each in kept]

@@ -35,7 +35,7 @@ def scatter(
     key: str,
     front: Front | None = None,
 ) -> Svg:
-    """Two quantities of each variant, by status; one pair large, several in rows of three."""
+    """Return two quantities of each variant, by status; one pair large, several in rows of three."""
     return chart(partial(_scatter, drawn_from, pairs, front), told, key)
 
 
@@ -83,7 +83,7 @@ def _points(axes: Axes, drawn_from: SampledVariants, x: StoredColumn, y: StoredC
 
 
 def cells(found: Density, told: str, key: str, front: Front | None = None) -> Svg:
-    """Where all variants of a large study lie over two quantities: a square for each cell that has some."""
+    """Return where all variants of a large study lie over two quantities: a square for each cell that has some."""
     return chart(partial(_cells, found, front), told, key)
 
 
@@ -119,12 +119,12 @@ def _legend(sheet: Figure, axes: Axes) -> None:
 
 
 def shade(share: float) -> Any:
-    """From red, where no variant passes, over grey to blue, where all do."""
+    """Return a colour from red, where no variant passes, over grey to blue, where all do."""
     return SHADES(share)
 
 
 def near(values: NDArray[Any]) -> NDArray[Any]:
-    """Values of which a few lie far above the others, with these at the edge."""
+    """Return values of which a few lie far above the others, with these at the edge."""
     there = values[np.isfinite(values)]
     if not len(there):
         return values
@@ -180,7 +180,7 @@ def _titles(axes: Axes, x: StoredColumn, y: StoredColumn, wide: float) -> None:
 
 
 def parallel(drawn_from: SampledVariants, columns: Sequence[StoredColumn], ends: Mapping[str, Ends], told: str) -> Svg:
-    """A line for each variant over an upright axis for each quantity; those that fail behind those that pass.
+    """Return a line for each variant over an upright axis for each quantity; those that fail behind those that pass.
 
     ``ends`` are the ends of the axes, over all variants.
     """

@@ -18,18 +18,18 @@ WORST = StoredColumn("greatest utilisation", "float", title="Greatest utilisatio
 
 
 def named(column: StoredColumn) -> str:
-    """A quantity as people call it: ``Radius of the bore (cylinder)``."""
+    """Return a quantity as people call it: ``Radius of the bore (cylinder)``."""
     return column.told
 
 
 def titled(column: StoredColumn) -> str:
-    """A quantity with the unit that people read."""
+    """Return a quantity with the unit that people read."""
     sign = pretty(column.display)
     return named(column) + (f", {sign}" if sign else "")
 
 
 def wrapped(words: str, wide: float, size: float, most: int) -> str:
-    """A name for matplotlib on lines of a width, broken at its spaces; a word that is too long behind dots and underscores.
+    """Return a name for matplotlib on lines of a width, broken at its spaces; a word that is too long behind dots and underscores.
 
     Of what does not fit on so many lines the last line stays, with the mechanism and the unit.
     """
@@ -60,12 +60,12 @@ def _shortened(words: str, wide: float, size: float) -> str:
 
 
 def factor(column: StoredColumn) -> float:
-    """Display units in an SI unit."""
+    """Return display units in an SI unit."""
     return 1.0 / unit(column.display).factor
 
 
 def display(value: float, column: StoredColumn) -> str:
-    """An SI value in the unit that people read, without the unit."""
+    """Return an SI value in the unit that people read, without the unit."""
     if not math.isfinite(value):
         return "–"
     if is_utilisation(column):
@@ -74,17 +74,17 @@ def display(value: float, column: StoredColumn) -> str:
 
 
 def quantity(value: float, column: StoredColumn) -> str:
-    """An SI value with the unit that people read."""
+    """Return an SI value with the unit that people read."""
     return joined(display(value, column), pretty(column.display))
 
 
 def is_utilisation(column: StoredColumn) -> bool:
-    """Whether 1 is the limit of a quantity."""
+    """Return whether 1 is the limit of a quantity."""
     return column.name == WORST.name or (".checks." in column.name and column.name.endswith(UTILISATION))
 
 
 def utilised(value: float) -> str:
-    """A utilisation; one that is next to 1 shows on which side it is, and a small one that is not none does not print as 0."""
+    """Return a utilisation; one that is next to 1 shows on which side it is, and a small one that is not none does not print as 0."""
     text = f"{value:.2f}"
     if text == "1.00" and value != 1:
         near = f"{value:.4f}"
@@ -95,11 +95,11 @@ def utilised(value: float) -> str:
 
 
 def counted(count: int, one: str, many: str = "") -> str:
-    """A number with its noun."""
+    """Return a number with its noun."""
     return f"{number(str(count))} {one if count == 1 else many or one + 's'}"
 
 
 def percent(part: float, whole: float) -> str:
-    """A share; a small one that is not none does not print as 0."""
+    """Return a share; a small one that is not none does not print as 0."""
     share = 100.0 * part / whole if whole else 0.0
     return "< 0.1 %" if 0 < share < 0.1 else f"{share:.3g} %" if share < 99.95 or part == whole else "> 99.9 %"

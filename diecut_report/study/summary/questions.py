@@ -21,7 +21,7 @@ Path = tuple[str | int, ...]
 
 
 class Asked(NamedTuple):
-    """What was studied: facts, each varied input (title, path, values as written), constraints, and what ``reports`` asks for."""
+    """Hold what was studied: facts, each varied input (title, path, values as written), constraints, and what ``reports`` asks for."""
 
     facts: list[tuple[str, str]]
     inputs: list[tuple[str, str, str]]
@@ -30,7 +30,7 @@ class Asked(NamedTuple):
 
 
 def asked(stored: Stored) -> Asked | None:
-    """What the kept copy of the study file says; None where the copy is gone or changed."""
+    """Return what the kept copy of the study file says; None where the copy is gone or changed."""
     content = stored.description.study.content
     if content is None:
         return None
@@ -76,7 +76,7 @@ def _column(tree: yaml_tree.Tree) -> str:
 
 
 def written(tree: yaml_tree.Tree, path: Path) -> str:
-    """A value as the file says it: lists with commas, a range as ``from A to B``, other keys with their names."""
+    """Return a value as the file says it: lists with commas, a range as ``from A to B``, other keys with their names."""
     value = tree.data
     for step in path:
         value = value[step]

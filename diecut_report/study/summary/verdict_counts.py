@@ -13,7 +13,7 @@ SAME = 1e-6  # relative difference up to which two margins are shared
 
 
 class Failure(NamedTuple):
-    """A check: in how many variants it fails, governs the failure, is the only failing one, and has a warning."""
+    """Hold a check: in how many variants it fails, governs the failure, is the only failing one, and has a warning."""
 
     check: str
     failing: int
@@ -23,7 +23,7 @@ class Failure(NamedTuple):
 
 
 class Governing(NamedTuple):
-    """A check that governs variants which pass: how many, and their least and greatest utilisation."""
+    """Hold a check that governs variants which pass: how many, and their least and greatest utilisation."""
 
     check: str
     variants: int
@@ -32,7 +32,7 @@ class Governing(NamedTuple):
 
 
 class Margin(NamedTuple):
-    """Least utilisation of all that pass: a variant, its governing check, and how many variants share it."""
+    """Hold least utilisation of all that pass: a variant, its governing check, and how many variants share it."""
 
     variant: int
     utilisation: float
@@ -41,7 +41,7 @@ class Margin(NamedTuple):
 
 
 def failures(stored: Stored, used: Sequence[Utilisation]) -> list[Failure]:
-    """The checks that fail or warn in any variant, those with the most failures first."""
+    """Return the checks that fail or warn in any variant, those with the most failures first."""
     sql = "SELECT governing, count(*) FROM v WHERE status = 'fail' AND governing IS NOT NULL GROUP BY governing"
     governed = dict(stored.rows(sql))
     rows = [row for row in used if row.failing or row.warning]
@@ -61,7 +61,7 @@ def _alone(stored: Stored, checks: list[str]) -> dict[str, int]:
 
 
 def governing(stored: Stored) -> list[Governing]:
-    """What governs the variants that pass, the most frequent first."""
+    """Return what governs the variants that pass, the most frequent first."""
     sql = (
         f"SELECT governing, count(*) AS n, min({WORST.sql}), max({WORST.sql}) FROM w "
         f"WHERE {SOUND} AND governing IS NOT NULL GROUP BY governing ORDER BY n DESC, governing"
@@ -70,7 +70,7 @@ def governing(stored: Stored) -> list[Governing]:
 
 
 def margin(stored: Stored) -> Margin | None:
-    """Which of the variants that do not fail keeps most from its limits, and how many keep as much."""
+    """Return which of the variants that do not fail keeps most from its limits, and how many keep as much."""
     there = f"FROM w WHERE {SOUND} AND {WORST.sql} IS NOT NULL"
     least = stored.rows(f"SELECT min({WORST.sql}) {there}")[0][0]
     if least is None:

@@ -24,7 +24,7 @@ Faults = list[tuple[int, str]]
 
 @dataclass(frozen=True, eq=False)
 class Cells:
-    """The cells of a column as a file holds them: an Arrow array of numbers or texts, or a list of Python values.
+    """Hold the cells of a column as a file holds them: an Arrow array of numbers or texts, or a list of Python values.
 
     `first` is the file's row of the first cell; `skipped` are rows of the file without cells, ascending.
     """
@@ -37,23 +37,23 @@ class Cells:
         return len(self.raw)
 
     def row(self, place: int) -> int:
-        """The row of the file, counted from 1, in which a cell stands."""
+        """Return the row of the file, counted from 1, in which a cell stands."""
         behind = [skipped - count for count, skipped in enumerate(self.skipped)]
         return place + self.first + bisect_right(behind, place + self.first)
 
     def floats(self) -> Array | None:
-        """The cells as floats, NaN where a number is missing; None unless all are plain numbers."""
+        """Return the cells as floats, NaN where a number is missing; None unless all are plain numbers."""
         if isinstance(self.raw, list):
             plain = all(isinstance(value, int | float) and not isinstance(value, bool) for value in self.raw)
             return np.array(self.raw, dtype=float) if plain else None
         return _arrow_floats(self.raw)
 
     def items(self) -> list[Any]:
-        """The cells as Python values; None where there is nothing."""
+        """Return the cells as Python values; None where there is nothing."""
         return self.raw if isinstance(self.raw, list) else list(self.raw.to_pylist())
 
     def texts(self) -> list[str]:
-        """The cells as texts without blanks around them, "" where there is nothing; whole numbers without a point."""
+        """Return the cells as texts without blanks around them, "" where there is nothing; whole numbers without a point."""
         return [_text(value) for value in self.items()]
 
 
@@ -65,7 +65,7 @@ def _arrow_floats(raw: Any) -> Array | None:
     trimmed = compute.utf8_trim_whitespace(raw) if is_text else raw
     try:
         return np.array(compute.cast(trimmed, pyarrow.float64(), safe=False).to_numpy(), dtype=float)
-    except pyarrow.ArrowInvalid:  # a text that is no plain number: the cells are read one by one
+    except pyarrow.ArrowInvalid:  # a text that is not a plain number: the cells are read one by one
         return None
 
 
@@ -76,7 +76,7 @@ def _text(value: Any) -> str:
 
 
 def si_numbers(cells: Cells, unit_text: str, *, own: bool) -> tuple[Array, Faults]:
-    """SI values of cells; bare numbers are in `unit_text`, which is the header's where `own`.
+    """Return SI values of cells; bare numbers are in `unit_text`, which is the header's where `own`.
 
     Cells with a unit must all have the same one, and that of the header where it has one.
     """
@@ -132,9 +132,9 @@ def _read(item: Any, unit_text: str) -> tuple[float, str] | str:
     if item is None or (isinstance(item, str) and not item.strip()):
         return EMPTY
     if isinstance(item, str) and item.strip().lower() in ("nan", "null", "na", "n/a", "#n/a"):
-        return f"{item.strip()!r} is no value; every row needs a number"
+        return f"{item.strip()!r} is not a value; every row needs a number"
     if not isinstance(item, str | int | float):
-        return f"{item} is no number (the cell holds a {type(item).__name__}); format the cell as a number"
+        return f"{item} is not a number (the cell holds a {type(item).__name__}); format the cell as a number"
     try:
         value = parse_quantity(item, unit_text)
         own = number_and_unit(item)[1] if isinstance(item, str) else ""

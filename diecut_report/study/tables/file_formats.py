@@ -18,7 +18,7 @@ Read = tuple[list[Header], list[Cells]]
 
 
 class UnreadableTable(Exception):
-    """A file that is no table, in words, each with the row where it is known."""
+    """Report a file that is not a table, in words, each with the row where it is known."""
 
     def __init__(self, faults: str | Iterable[tuple[str, int | None]]) -> None:
         self.faults = [(faults, None)] if isinstance(faults, str) else list(faults)
@@ -26,7 +26,7 @@ class UnreadableTable(Exception):
 
 
 def read_cells(path: Path, sheet: str | None) -> Read:
-    """The headers and the cells of all columns of a file."""
+    """Return the headers and the cells of all columns of a file."""
     readers: dict[str, Callable[[], Read]] = {
         ".csv": lambda: _csv(path),
         ".parquet": lambda: _parquet(path),
@@ -91,7 +91,7 @@ def _csv_header(path: Path) -> tuple[list[str], str]:
 def _csv_fault(message: str) -> str:
     if "UTF8" in message:
         return "is not in UTF-8; save it as “CSV UTF-8”"
-    return NO_ROWS if "Empty" in message or "Could not skip" in message else f"is no CSV: {message}"
+    return NO_ROWS if "Empty" in message or "Could not skip" in message else f"is not a CSV file: {message}"
 
 
 def _without_blank_rows(table: Any) -> tuple[Any, tuple[int, ...]]:
@@ -117,7 +117,7 @@ def _parquet(path: Path) -> Read:
         with path.open("rb") as file:
             table = parquet.ParquetFile(file).read()
     except pyarrow.ArrowException as error:
-        raise UnreadableTable(f"is no Parquet file, or a damaged one: {error}") from error
+        raise UnreadableTable(f"is not a Parquet file, or a damaged one: {error}") from error
     wrong = [field for field in table.schema if not _is_plain(field.type)]
     if wrong:
         words = "column {0.name} holds {0.type}; numbers or texts are needed"
@@ -152,7 +152,7 @@ def _xlsx(path: Path, sheet: str | None) -> Read:
     try:
         book = openpyxl.load_workbook(path, read_only=True, data_only=True)
     except (BadZipFile, KeyError, ValueError) as error:
-        raise UnreadableTable("is no XLSX workbook, or a damaged one; save it again as .xlsx") from error
+        raise UnreadableTable("is not an XLSX workbook, or a damaged one; save it again as .xlsx") from error
     try:
         if sheet is not None and sheet not in book.sheetnames:
             raise UnreadableTable(f"has no sheet “{sheet}”; its sheets: {', '.join(book.sheetnames)}")

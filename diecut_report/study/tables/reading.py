@@ -1,4 +1,4 @@
-"""Tables of variants: CSV, Parquet or XLSX into columns of SI floats or texts, with every fault told by its row.
+"""Tables of variants: CSV, Parquet or XLSX into columns of SI floats or texts, with every fault reported by its row.
 
 A column is headed by its name, with the unit in brackets where the cells have none: ``mechanisms.drive.crank_speed
 [rpm]``. All cells of a column are in one unit: that of the header, of the cells themselves, or the display unit.
@@ -18,13 +18,13 @@ from diecut_report.quantities.units import UnitError, unit
 from diecut_report.study.tables.cells import EMPTY, Cells, si_numbers
 from diecut_report.study.tables.file_formats import NO_ROWS, UnreadableTable, read_cells
 
-TOLD = 5  # faulty cells of a column that are told one by one
+TOLD = 5  # faulty cells of a column that are reported one by one
 _HEADER = re.compile(r"\s*(.*?)\s*(?:\[\s*([^\[\]]*?)\s*\])?\s*", re.DOTALL)
 
 
 @dataclass(frozen=True, eq=False)
 class ReadColumn:
-    """A column of a table as it stands in the file: `unit` is that of its header, `number` its place from 1."""
+    """Hold a column of a table as it stands in the file: `unit` is that of its header, `number` its place from 1."""
 
     file: str
     name: str
@@ -33,21 +33,21 @@ class ReadColumn:
     cells: Cells
 
     def problem(self, message: str, row: int | None = None) -> Problem:
-        """A problem of this column, or of its cell in a row of the file."""
+        """Return a problem of this column, or of its cell in a row of the file."""
         where = f"row {row}: " if row is not None else ""
         return Problem(where + message, self.file, row or 1, self.number, self.name)
 
     def si(self, display: str) -> Array:
-        """The column's SI values; bare numbers without a unit in the header are in the unit `display`.
+        """Return the column's SI values; bare numbers without a unit in the header are in the unit `display`.
 
-        Raises UserError with the cells that are no number, empty, of another dimension or in another unit.
+        Raises UserError with the cells that are empty, not numbers, of another dimension or in another unit.
         """
         values, faults = si_numbers(self.cells, self._unit(display), own=self.unit is not None)
         self._refuse(faults)
         return values
 
     def texts(self) -> list[str]:
-        """The column's texts, without blanks around them; UserError with the cells that are empty."""
+        """Return the column's texts, without blanks around them; UserError with the cells that are empty."""
         if self.unit is not None:
             words = f"the header has the unit [{self.unit}], but {self.name} is a text; remove the unit"
             raise UserError(self.problem(words))
@@ -78,14 +78,14 @@ class ReadColumn:
 
 @dataclass(frozen=True, eq=False)
 class TableFile:
-    """A table that was read: its columns by their names, in the file's order, all with `count` cells."""
+    """Hold a table that was read: its columns by their names, in the file's order, all with `count` cells."""
 
     file: str
     columns: dict[str, ReadColumn]
     count: int
 
     def column(self, name: str) -> ReadColumn:
-        """A column by its name; UserError where there is none."""
+        """Return a column by its name; UserError where there is none."""
         if name not in self.columns:
             raise UserError(self._missing(name))
         return self.columns[name]
@@ -98,7 +98,7 @@ class TableFile:
 
 
 def read_table(path: Path, sheet: str | None = None) -> TableFile:
-    """Reads a table by its file name's ending (.csv, .parquet, .xlsx); `sheet` is of a workbook, else its first one.
+    """Read a table by its file name's ending (.csv, .parquet, .xlsx); `sheet` is of a workbook, else its first one.
 
     Raises UserError for a file that cannot be read, columns without or with equal names, and a table without rows.
     """

@@ -1,0 +1,437 @@
+"""The command line: commands, exit codes, streams, and each bad input told in words with nothing written."""
+
+from __future__ import annotations
+
+import json
+import os
+import pty
+import signal
+import subprocess
+import sys
+from functools import partial
+from pathlib import Path
+
+import pytest
+
+from diecut_report import __version__, plugins
+from diecut_report.cli.main import main
+from diecut_report.cli.progress import Progress
+from tests.configs import BROKEN, EXAMPLE, GOOD, HEAD, LEVER, LISTED, saved
+
+pytestmark = pytest.mark.wheel
+
+FAILS = LEVER.replace("force: 2 kN", "force: 2 kN, allowable_moment: 150")
+Capture = pytest.CaptureFixture[str]
+
+
+def run(*arguments: object) -> int:
+    """The exit code of a command, with the kinds for tests."""
+    return main([*map(str, arguments), "--plugins", str(GOOD)])
+
+
+def program(*arguments: object, **options: object) -> subprocess.CompletedProcess[bytes]:
+    """A command in a process of its own."""
+    command = [sys.executable, "-m", "diecut_report", *map(str, arguments)]
+    return subprocess.run(command, capture_output="stdout" not in options, **options)  # type: ignore[call-overload, no-any-return]
+
+
+# --- exit codes and streams ------------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize(("text", "code"), [(LEVER, 0), (FAILS, 1), (LEVER.replace("2 kN", "2 kg"), 2)])
+@pytest.mark.parametrize("command", ["calc", "report"])
+def test_exit_codes(tmp_path: Path, command: str, text: str, code: int) -> None:
+    where = (
+        ["-o", tmp_path / "out", "--format", "json"] if command == "report" else ["-o", tmp_path / "out" / "press.json"]
+    )
+    assert run(command, saved(tmp_path, text), *where) == code
+    assert (tmp_path / "out" / "press.json").exists() == (code < 2)
+    assert (tmp_path / "out").exists() == (code < 2)
+
+
+def test_calc_prints_the_results_alone_on_standard_output(tmp_path: Path, capfd: Capture) -> None:
+    assert run("calc", saved(tmp_path, FAILS)) == 1
+    out, err = capfd.readouterr()
+    assert json.loads(out)["status"] == "fail" and err == ""
+
+
+def test_calc_to_a_file_tells_the_failing_checks(tmp_path: Path, capfd: Capture) -> None:
+    assert run("calc", str(EXAMPLE), "-o", str(tmp_path / "a.json")) == 1
+    assert "2 of" in capfd.readouterr().err
+    assert run("calc", str(EXAMPLE), "-o", str(tmp_path / "a.json"), "--quiet") == 1
+    assert capfd.readouterr().err == ""
+
+
+def test_calc_to_a_file_is_what_it_prints(tmp_path: Path, capfd: Capture) -> None:
+    config = saved(tmp_path, LEVER)
+    assert run("calc", config) == run("calc", config, "-o", tmp_path / "r.json") == run("calc", config, "-o", "-") == 0
+    text = (tmp_path / "r.json").read_text("utf-8")
+    assert capfd.readouterr().out == 2 * text
+
+
+def test_a_plugin_that_prints_does_not_spoil_the_output(tmp_path: Path) -> None:
+    done = program("calc", saved(tmp_path, HEAD + "  a: {kind: first_kind}\n"), "--plugins", LISTED)
+    assert done.returncode == 0 and json.loads(done.stdout)["status"] == "pass"
+    assert done.stderr == b"hello from a plugin\n"
+
+
+def test_errors_go_to_standard_error_only(tmp_path: Path, capfd: Capture) -> None:
+    config = saved(tmp_path, LEVER.replace("2 kN", "2 kg"))
+    for command in ("calc", "report", "check"):
+        assert run(command, config, *(["-o", tmp_path / "out"] if command == "report" else [])) == 2
+        out, err = capfd.readouterr()
+        assert out == "" and err.startswith(f"{config}:5:27: mechanisms.a.force: 2 kg is a mass; a force is needed")
+    assert not (tmp_path / "out").exists()
+
+
+def test_report_tells_what_it_wrote_and_what_fails(tmp_path: Path, capfd: Capture) -> None:
+    assert run("report", saved(tmp_path, FAILS), "-o", tmp_path, "--format", "json") == 1
+    out, err = capfd.readouterr()
+    assert out == ""
+    assert err.splitlines() == [
+        f"written: {tmp_path / 'press.json'}",
+        "fail a: Moment. Moment 200 N·m, allowed 150 N·m: shorten the arm.",
+        "1 of 1 checks fail.",
+    ]
+
+
+def test_quiet_tells_errors_only(tmp_path: Path, capfd: Capture) -> None:
+    assert run("report", saved(tmp_path, FAILS), "-o", tmp_path, "--format", "json", "--quiet") == 1
+    assert capfd.readouterr() == ("", "")
+    assert run("check", saved(tmp_path, LEVER), "--quiet") == 0
+    assert capfd.readouterr() == ("", "")
+    assert run("calc", tmp_path / "lost.yaml", "--quiet") == 2
+    assert (
+        capfd.readouterr().err == f"{tmp_path / 'lost.yaml'}: There is no such file. Check the name and the folder.\n"
+    )
+
+
+def test_check_reports_all_problems_of_all_files(tmp_path: Path, capfd: Capture) -> None:
+    one = saved(tmp_path, LEVER.replace("2 kN", "2 kg, arm: -1"), "one.yaml")
+    two, three = saved(tmp_path, LEVER, "two.yaml"), saved(tmp_path, "a: [", "three.yaml")
+    assert run("check", one, two, three) == 2
+    out, err = capfd.readouterr()
+    assert out == ""
+    assert [line.split(" ")[0] for line in err.splitlines()] == [
+        f"{one}:5:27:",
+        f"{one}:5:38:",
+        f"{two}:",
+        f"{three}:2:1:",
+    ]
+
+
+def test_a_broken_plugin_gives_3_and_the_results_of_the_others(tmp_path: Path, capfd: Capture) -> None:
+    config = saved(tmp_path, FAILS + "  x: {kind: breaks_in_calculation}\n")
+    assert run("calc", config, "--plugins", BROKEN) == 3
+    out, err = capfd.readouterr()
+    assert json.loads(out)["mechanisms"]["a"]["outputs"]["moment"]["value"] == 200
+    assert err.startswith(
+        "mechanism 'x' of plugin 'breaks_in_calculation': RuntimeError: the plugin fell over (breaks_in_calculation.py:"
+    )
+    assert run("report", config, "--plugins", BROKEN, "-o", tmp_path, "--format", "json") == 3
+    assert json.loads((tmp_path / "press.json").read_text("utf-8"))["status"] == "error"
+
+
+def test_a_broken_comparison_gives_3_and_is_told(tmp_path: Path, capfd: Capture) -> None:
+    config = saved(tmp_path, LEVER + "  x: {kind: breaks_in_comparison}\n")
+    assert run("report", config, "--plugins", GOOD, "--plugins", BROKEN, "-o", tmp_path, "--format", "json") == 3
+    err = capfd.readouterr().err
+    assert "RuntimeError: the comparison fell over (breaks_in_comparison.py:" in err
+    assert "1 of 3 mechanisms and comparisons were not calculated." in err and "No check fails." not in err
+
+
+def test_check_finds_a_plugin_that_cannot_be_loaded(tmp_path: Path, capfd: Capture) -> None:
+    config = saved(tmp_path, LEVER + "  x: {kind: breaks_at_import}\n")
+    assert run("check", config, "--plugins", BROKEN) == 3
+    assert capfd.readouterr().err.startswith("mechanism 'x' of plugin 'breaks_at_import': it cannot be loaded from")
+
+
+def test_plugins_lists_kinds_sources_and_origins(capfd: Capture) -> None:
+    assert run("plugins") == 0
+    out, err = capfd.readouterr()
+    assert err == ""
+    assert "cylinder_sizing 1.0: Impression cylinder" in out and "    source 002: Loizyk" in out
+    assert f"lever 0.1: Lever\n    from {GOOD / 'lever.py'}\n" in out
+
+
+def test_plugins_tells_broken_and_doubled_ones(tmp_path: Path, capfd: Capture) -> None:
+    assert run("plugins", "--plugins", BROKEN) == 3
+    out, err = capfd.readouterr()
+    assert "lever 0.1" in out and "breaks_at_import" not in out
+    assert [line.split("'")[1] for line in err.splitlines()] == ["breaks_at_import", "no_mechanism", "other_name"]
+    (tmp_path / "lever.py").touch()
+    assert run("plugins", "--plugins", tmp_path) == 2
+    assert f"comes from {tmp_path / 'lever.py'} and from {GOOD / 'lever.py'}" in capfd.readouterr().err
+
+
+def test_schema_of_all_and_of_one_kind(capfd: Capture) -> None:
+    assert run("schema") == 0
+    assert "lever" in json.loads(capfd.readouterr().out)["$defs"]
+    assert run("schema", "lever") == 0
+    assert json.loads(capfd.readouterr().out)["properties"]["kind"] == {"const": "lever"}
+    assert run("schema", "levre") == 2
+    own = [entry.parent.name for entry in Path(str(plugins.__file__)).parent.glob("*/__init__.py")]
+    known = ", ".join(sorted(["lever", *own]))
+    assert capfd.readouterr() == ("", f"'levre' is not a known kind (did you mean 'lever'?). Known: {known}.\n")
+    assert run("schema", "--plugins", BROKEN) == 3
+    assert "breaks_at_import" in capfd.readouterr().out
+
+
+@pytest.mark.parametrize(
+    ("arguments", "words"),
+    [
+        (
+            ["report", "x.yaml", "--format", "html,pfd"],
+            "'pfd' is not a format (did you mean 'pdf'?); known: html, pdf, json.",
+        ),
+        (["report", "x.yaml", "--format", ","], "no format is named"),
+        (["report", "x.yaml", "--language", "uk"], "uk; reports in this language wait for its catalogue"),
+        (["calc"], "Missing argument 'CONFIG'"),
+        (["check"], "Missing argument"),
+        (["repotr", "x.yaml"], "No such command 'repotr'"),
+        (["calc", "x.yaml", "--colour"], "No such option"),
+        (["plugins", "--plugins", "/nowhere"], "/nowhere: There is no such folder of plugins."),
+        ([], "Usage: diecut-report"),
+    ],
+)
+def test_wrong_usage_gives_2_with_words(arguments: list[str], words: str, capfd: Capture) -> None:
+    assert main(arguments) == 2
+    out, err = capfd.readouterr()
+    assert out == "" and words in err
+
+
+def test_help_and_version_go_to_standard_output(capfd: Capture) -> None:
+    assert main(["--version"]) == main(["report", "--help"]) == 0
+    out, err = capfd.readouterr()
+    assert __version__ in out and "--plugins DIR" in out and err == ""
+
+
+# --- bad input -------------------------------------------------------------------------------------------------------
+
+BAD: dict[str, tuple[str | bytes, str]] = {
+    "unknown key": (LEVER.replace("force: 2", "forse: 2"), "is an unknown key (did you mean 'force'?)"),
+    "wrong unit": (LEVER.replace("2 kN", "2 mm"), "2 mm is a length; a force is needed"),
+    "out of range": (LEVER.replace("2 kN", "-2 kN"), "-2 kN is out of range; allowed: > 0 kN"),
+    "impossible machine": (LEVER.replace("2 kN", "2, teeth: 120"), "a hundred at most"),
+    "reference loop": (LEVER.replace("2 kN", "'${a.force}'"), "refers to itself: a.force → a.force"),
+    "unknown reference": (LEVER.replace("2 kN", "'${b.force}'"), "there is no mechanism 'b'"),
+    "empty file": ("", "The file is empty"),
+    "comments only": ("# nothing\n", "The file is empty"),
+    "duplicate keys": (LEVER.replace("force: 2 kN", "force: 2 kN, force: 3 kN"), "stands here again"),
+    "tabs": (LEVER.replace("  a:", "\ta:"), "A tab stands here"),
+    "exploding anchors": (
+        "a0: &a0 [x, x]\n" + "".join(f"a{i}: &a{i} [{', '.join([f'*a{i - 1}'] * 9)}]\n" for i in range(1, 12)),
+        "200000 values",
+    ),
+    "not utf-8": (b"\xff\xfe\x00\x01", "not UTF-8"),
+    "binary junk": (bytes(range(256)) * 8, ""),
+    "binary zeros": (b"schema_version: 1\n\0\0\0", "control character"),
+}  # fmt: skip
+
+
+@pytest.mark.parametrize("command", ["report", "calc", "check"])
+@pytest.mark.parametrize("name", BAD)
+def test_bad_input_is_told_and_nothing_is_written(tmp_path: Path, capfd: Capture, name: str, command: str) -> None:
+    content, words = BAD[name]
+    config = tmp_path / "press.yaml"
+    config.write_bytes(content if isinstance(content, bytes) else content.encode())
+    where = {"report": ["-o", tmp_path / "out"], "calc": ["-o", tmp_path / "out" / "r.json"], "check": []}[command]
+    code = run(command, config, *where)
+    out, err = capfd.readouterr()
+    if name == "impossible machine" and command == "check":  # that needs the calculation
+        assert code == 0
+        return
+    assert (code, out) == (2, "")
+    assert err.startswith(f"{config}:") and words in err and "Traceback" not in err
+    assert list(tmp_path.iterdir()) == [config]
+
+
+def test_a_file_of_100_mb_is_refused_unread(tmp_path: Path, capfd: Capture) -> None:
+    config = tmp_path / "press.yaml"
+    with config.open("wb") as stream:
+        stream.truncate(100_000_000)
+    assert run("calc", config) == 2
+    err = capfd.readouterr().err
+    assert err.startswith(f"{config}: The file is too large") and "100.0 MB" in err
+
+
+def test_a_folder_in_place_of_a_file_is_told(tmp_path: Path, capfd: Capture) -> None:
+    assert run("calc", tmp_path) == 2
+    assert capfd.readouterr().err.startswith(f"{tmp_path}: This is a folder.")
+
+
+@pytest.mark.parametrize("target", ["press.yaml/out", "/proc/self/fdinfo", "/dev/null/out"])
+def test_an_unwritable_output_folder_is_told(tmp_path: Path, capfd: Capture, target: str) -> None:
+    config = saved(tmp_path, LEVER)
+    assert run("report", config, "-o", tmp_path / target, "--format", "json") == 2
+    assert "This cannot be written: " in capfd.readouterr().err
+    assert run("calc", config, "-o", tmp_path / target / "r.json") == 2
+    assert "This cannot be written: " in capfd.readouterr().err
+    assert list(tmp_path.iterdir()) == [config]
+
+
+@pytest.mark.skipif(not Path("/dev/full").exists(), reason="needs a device that is always full")
+def test_a_full_disk_is_told(tmp_path: Path, capfd: Capture) -> None:
+    config = saved(tmp_path, LEVER)
+    assert run("calc", config, "-o", "/dev/full") == 2
+    assert "the disk is full" in capfd.readouterr().err
+    with Path("/dev/full").open("wb") as stream:
+        done = program("calc", config, "--plugins", GOOD, stdout=stream, stderr=subprocess.PIPE)
+    assert done.returncode == 2
+    assert (
+        done.stderr.startswith(b"Standard output cannot be written: the disk is full.")
+        and b"Traceback" not in done.stderr
+    )
+
+
+def test_what_is_no_file_is_written_into_and_not_replaced(tmp_path: Path) -> None:
+    assert run("calc", saved(tmp_path, LEVER), "-o", os.devnull) == 0
+    assert not Path(os.devnull).is_file()
+
+
+def test_a_reader_that_closes_early_is_no_error() -> None:
+    reader, writer = os.pipe()
+    os.close(reader)
+    with os.fdopen(writer, "wb") as stream:
+        done = program("schema", stdout=stream, stderr=subprocess.PIPE)
+    assert (done.returncode, done.stderr) == (0, b"")
+
+
+def test_a_fault_of_the_program_is_neither_a_failing_check_nor_bad_input(
+    tmp_path: Path, capfd: Capture, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr("diecut_report.pipeline.results_text", lambda results: 1 / 0)
+    assert run("calc", saved(tmp_path, LEVER)) == 70
+    out, err = capfd.readouterr()
+    assert out == "" and "ZeroDivisionError" in err and "a fault of diecut-report itself" in err
+
+
+# --- terminal --------------------------------------------------------------------------------------------------------
+
+
+def on_terminal(*arguments: object, **environment: str) -> str:
+    """What a command shows on standard error when that is a terminal."""
+    try:
+        parent, child = pty.openpty()
+    except OSError as error:
+        pytest.skip(f"this machine has no pseudo-terminals: {error}")
+    command = [sys.executable, "-m", "diecut_report", *map(str, arguments)]
+    plain = {name: value for name, value in os.environ.items() if name not in ("NO_COLOR", "TERM")}
+    subprocess.run(command, stdout=subprocess.DEVNULL, stderr=child, env=plain | {"TERM": "xterm"} | environment)
+    os.close(child)
+    shown = b""
+    while chunk := _read(parent):
+        shown += chunk
+    os.close(parent)
+    return shown.decode()
+
+
+def _read(terminal: int) -> bytes:
+    try:
+        return os.read(terminal, 65536)
+    except OSError:  # the other end is closed: all has been read
+        return b""
+
+
+def test_colours_only_on_a_terminal_that_wants_them(tmp_path: Path) -> None:
+    call = ["report", saved(tmp_path, FAILS), "-o", tmp_path, "--format", "json", "--plugins", GOOD]
+    assert "\x1b[31mfail\x1b[0m a: Moment." in on_terminal(*call)
+    assert "\x1b[31m" not in on_terminal(*call, NO_COLOR="1")
+    assert "\x1b[31m" not in on_terminal(*call, TERM="dumb")
+    assert b"\x1b" not in program(*call).stderr
+
+
+SLOW = "import time\nfrom diecut_report.api import Inputs, Mechanism\ntime.sleep(2)\n" + (
+    "MECHANISM = Mechanism(kind='slow', version='1', title='Slow', summary='', inputs=Inputs, chapters=())\n"
+)
+
+
+def test_progress_is_shown_when_it_takes_longer_than_a_second(tmp_path: Path) -> None:
+    (tmp_path / "slow.py").write_text(SLOW)
+    call = ["calc", saved(tmp_path, HEAD + "  a: {kind: slow}\n"), "--plugins", tmp_path]
+    assert "reading the configuration" in on_terminal(*call)
+    assert on_terminal(*call, "--quiet") == ""
+    assert program(*call).stderr == b""
+
+
+def test_an_interrupted_run_ends_at_once_and_writes_nothing(tmp_path: Path) -> None:
+    (tmp_path / "slow.py").write_text(
+        SLOW.replace("sleep(2)", "sleep(60)").replace("import time\n", "import time, sys\nprint('here')\n", 1)
+    )
+    config = saved(tmp_path, HEAD + "  a: {kind: slow}\n")
+    command = [
+        sys.executable,
+        "-u",
+        "-m",
+        "diecut_report",
+        "calc",
+        str(config),
+        "--plugins",
+        str(tmp_path),
+        "-o",
+        str(tmp_path / "r.json"),
+    ]
+    attended = partial(
+        signal.signal, signal.SIGINT, signal.SIG_DFL
+    )  # what a background job ignores is ignored here too
+    with subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, preexec_fn=attended) as running:
+        assert running.stderr is not None
+        assert running.stderr.readline() == b"here\n"
+        running.send_signal(signal.SIGINT)
+        _, told = running.communicate(timeout=30)
+    assert (running.returncode, told.strip()) == (130, b"")
+    assert not (tmp_path / "r.json").exists()
+
+
+def test_progress_is_not_shown_when_it_is_quick(capfd: Capture, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr("diecut_report.cli.progress.PATIENCE", 60)
+    monkeypatch.setattr("sys.stderr.isatty", lambda: True, raising=False)
+    with Progress(quiet=False) as progress:
+        progress("doing")
+        assert progress.timer.is_alive()
+    progress.timer.join(10)
+    assert not progress.timer.is_alive() and capfd.readouterr() == ("", "")
+
+
+def test_progress_keeps_quiet_where_there_is_no_terminal() -> None:
+    with Progress(quiet=False) as progress:
+        progress("doing")
+        assert not progress.timer.is_alive()
+
+
+# --- what is imported ------------------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("command", ["calc", "check"])
+def test_calc_and_check_import_nothing_that_draws_or_is_slow(command: str) -> None:
+    code = (
+        f"import sys; from diecut_report.cli.main import main; main(['{command}', {str(EXAMPLE)!r}]); "
+        "print([m for m in ('matplotlib', 'jinja2', 'weasyprint', 'pint', 'rich', 'scipy.stats', 'diecut_report.report') "
+        "if m in sys.modules], file=sys.stderr)"
+    )
+    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
+    assert done.stderr.splitlines()[-1] == "[]"
+
+
+def test_check_does_not_import_the_engine() -> None:
+    code = f"import sys; from diecut_report.cli.main import main; main(['check', {str(EXAMPLE)!r}]); print('diecut_report.engine' in sys.modules)"
+    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
+    assert done.stdout == "False\n"
+
+
+def test_the_example_is_calculated_with_its_two_failing_checks(capfd: Capture) -> None:
+    assert main(["calc", str(EXAMPLE)]) == 1
+    found = json.loads(capfd.readouterr().out)
+    failing = [c["id"] for data in found["mechanisms"].values() for c in data["checks"] if c["status"] == "fail"]
+    assert failing == ["wall_at_flat", "radius"]
+    assert found["governing"] == {"mechanism": "cylinder", "check": "wall_at_flat"}
+
+
+@pytest.mark.parametrize("environment", [{"NO_COLOR": "1"}, {"TERM": "dumb"}])
+def test_a_slow_run_shows_no_moving_sign_where_none_is_wanted(tmp_path: Path, environment: dict[str, str]) -> None:
+    folder = tmp_path / "plugins"
+    folder.mkdir()
+    saved(folder, SLOW, "slow.py")
+    call = ["calc", saved(tmp_path, HEAD + "  a: {kind: slow}\n"), "-o", tmp_path / "r.json", "--plugins", folder]
+    assert "\x1b" not in on_terminal(*call, **environment)
+    assert (tmp_path / "r.json").exists()

@@ -1,0 +1,219 @@
+"""What a fault in a plugin's code costs: a figure's fault the figure, an export's the export, told in words with exit code 3."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from diecut_report import declaration
+from diecut_report.cli.main import main
+from tests.configs import HEAD, saved
+
+Capture = pytest.CaptureFixture[str]
+PLUGIN = """
+import numpy as np
+from diecut_report.api import *
+from diecut_report.api import Annotated
+
+
+class Disc(Inputs):
+    radius: Annotated[float, Quantity("r", "mm", "Radius", gt=0)] = 50
+    n_points: Annotated[int, POINTS] = 36
+
+
+@formula
+def wave(angle, radius):
+    return radius * np.sin(angle)
+
+
+@formula
+def double(radius):
+    return 2 * radius
+
+
+MECHANISM = Mechanism(
+    kind="disc", version="1", title="Disc", summary="A disc.", inputs=Disc,
+    chapters=(Chapter("All", steps=(
+        Value(id="width", symbol="b", unit="mm", description="Width", formula=double),
+        Abscissa(id="angle", symbol="φ", unit="deg", description="Angle", period=2 * np.pi),
+        Value(id="height", symbol="y", unit="mm", description="Height", formula=wave),
+        Value(id="hidden", symbol="z", unit="mm", description="Hidden", formula=wave, output=False),
+        *STEPS,
+    )),),
+    figures=(
+        FIGURE,
+        Plot(id="sound", title="Sound", caption="All is well.", abscissa="angle",
+             panels=(Panel(title="Height", unit="mm", series=(Series(curve="height", label="y"),)),)),
+    ),
+    exports=EXPORTS,
+)
+"""
+PLOT = """Plot(id="lost", title="Lost", caption="Is not there.", abscissa="angle",
+     panels=(Panel(title="Height", unit="mm", series=(Series(curve={!r}, label="y"),), {}),))"""
+DRAWING = "Drawing(id='lost', title='Lost', caption='Is not there.', build=lambda view: {})"
+NONE = "Drawing(id='lost', title='Lost', caption='', build=lambda view: [point((0, 0))])"
+IN_CALC = {
+    "a number for a curve": (PLOT.format("width", ""), "'width' is a number or a text, not a curve"),
+    "an unknown curve": (PLOT.format("heigth", ""), "'heigth' is not a quantity of this machine"),
+    "a curve that is not an output": (PLOT.format("hidden", ""), "'hidden' is a curve that is not an output"),
+    "a level at an unknown id": (PLOT.format("height", "levels=(Level(value='top', label='t'),)"), "no number 'top'"),
+    "an unknown id": (DRAWING.format("[circle((0, 0), view['top'])]"), "there is no number 'top' in this machine"),
+    "what raises": (DRAWING.format("1 / 0"), "ZeroDivisionError: division by zero (disc.py:"),
+    "what raises in numpy": (DRAWING.format("np.linalg.inv(np.zeros((2, 2)))"), "Singular matrix (disc.py:"),
+    "a point at NaN": (DRAWING.format("[point((float('nan'), 0))]"), "not a finite number"),
+    "an array": (DRAWING.format("[{'shape': 'polyline', 'points': np.zeros((2, 2))}]"), "list of these"),
+    "bars of a curve": (
+        "Bars(id='lost', title='Lost', caption='', groups=(BarGroup(label='', unit='mm', bars=(('y', 'height'),)),))",
+        "no number 'height'",
+    ),
+}
+IN_DRAWING = {
+    "a wrong role": (
+        DRAWING.format("[circle((0, 0), view['width'], 'bold')]"),
+        "'bold' is not a role of a circle; known: outline",
+    ),
+    "an unknown shape": (DRAWING.format("[{'shape': 'blob', 'at': [0, 0]}]"), "'blob' is not a shape"),
+    "a shape without its keys": (DRAWING.format("[{'shape': 'circle'}]"), "KeyError: 'center'"),
+}
+
+
+def folder(tmp_path: Path, figure: str = NONE, steps: str = "()", exports: str = "()") -> Path:
+    """A folder with the plugin."""
+    text = PLUGIN.replace("*STEPS", f"*{steps}").replace("FIGURE", figure).replace("EXPORTS", exports)
+    (tmp_path / "plugins").mkdir()
+    saved(tmp_path / "plugins", text, "disc.py")
+    return tmp_path / "plugins"
+
+
+def run(tmp_path: Path, command: str, plugins: Path, *more: str) -> int:
+    config = saved(tmp_path, HEAD + "  a: {kind: disc}\n")
+    target = tmp_path / "out" / ("press.json" if command == "calc" else "")
+    return main([command, str(config), "-o", str(target), "--plugins", str(plugins), *more])
+
+
+def results(tmp_path: Path) -> dict[str, Any]:
+    found: dict[str, Any] = json.loads((tmp_path / "out" / "press.json").read_text("utf-8"))["mechanisms"]["a"]
+    return found
+
+
+@pytest.fixture
+def undeclared(monkeypatch: pytest.MonkeyPatch) -> None:
+    """What declarations tell is not asked: a fault shows where it strikes, as one of the program's own plugins would."""
+    monkeypatch.setattr(declaration, "faults", lambda mechanism: [])
+
+
+@pytest.mark.usefixtures("undeclared")
+@pytest.mark.parametrize("command", ["calc", "report"])
+@pytest.mark.parametrize("fault", IN_CALC)
+def test_a_figure_that_fails_costs_the_figure(tmp_path: Path, capfd: Capture, command: str, fault: str) -> None:
+    figure, words = IN_CALC[fault]
+    assert run(tmp_path, command, folder(tmp_path, figure), *(["--format", "json"] if command == "report" else [])) == 3
+    err = capfd.readouterr().err
+    told = next(line for line in err.splitlines() if line.startswith("mechanism 'a' of plugin 'disc': figure 'lost': "))
+    assert words in told and "disc.py:" in told and "Traceback" not in err
+    found = results(tmp_path)
+    assert found["outputs"]["width"]["value"] == pytest.approx(0.1) and found["status"] == "pass"
+    lost, sound = found["figures"]
+    assert lost["type"] == "failed" and words in lost["error"] and sound["type"] == "plot"
+
+
+@pytest.mark.parametrize("fault", IN_DRAWING)
+def test_a_figure_that_cannot_be_drawn_costs_the_figure(tmp_path: Path, capfd: Capture, fault: str) -> None:
+    figure, words = IN_DRAWING[fault]
+    assert run(tmp_path, "report", folder(tmp_path, figure), "--format", "html,json") == 3
+    err = capfd.readouterr().err
+    told = next(line for line in err.splitlines() if "figure 'lost' cannot be drawn: " in line)
+    assert told.startswith("mechanism 'a' of plugin 'disc'") and words in told and "disc.py:" in told
+    assert "Traceback" not in err and "fault of diecut-report" not in err
+    page = (tmp_path / "out" / "press.html").read_text("utf-8")
+    assert page.count("This figure could not be drawn.") == 1 and page.count("<figure") == 2
+    assert page.count('role="img"') == 1
+
+
+def test_the_report_shows_a_box_in_the_place_of_a_lost_figure(tmp_path: Path, capfd: Capture) -> None:
+    assert run(tmp_path, "report", folder(tmp_path, IN_CALC["what raises"][0]), "--format", "html,pdf") == 3
+    assert "There are no checks." in capfd.readouterr().err
+    page = (tmp_path / "out" / "press.html").read_text("utf-8")
+    assert "This figure could not be drawn." in page and "ZeroDivisionError: division by zero" in page
+    assert "Is not there." in page and "100" in page
+    assert "There are no checks." in page and "All checks pass" not in page and "The mechanisms name no source." in page
+    assert "(disc.py:32)" in page and str(tmp_path) not in page
+    assert (tmp_path / "out" / "press.pdf").read_bytes().startswith(b"%PDF")
+
+
+@pytest.mark.usefixtures("undeclared")
+@pytest.mark.parametrize(
+    ("columns", "words"),
+    [(("width", "height"), "'width' is a number"), (("height", "heigth"), "'heigth' is not a quantity")],
+)
+def test_an_export_that_fails_costs_the_export(tmp_path: Path, capfd: Capture, columns: Any, words: str) -> None:
+    exports = f"(Profile(id='edge', title='Edge', columns={columns!r}),)"
+    assert run(tmp_path, "report", folder(tmp_path, exports=exports), "--format", "html,json") == 3
+    err = capfd.readouterr().err
+    assert "of plugin 'disc': export 'edge': " in err and words in err and "disc.py:" in err
+    assert words in results(tmp_path)["exports"][0]["error"]
+    assert sorted(path.name for path in (tmp_path / "out").iterdir()) == ["press.html", "press.json"]
+    assert "Edge could not be written" in (tmp_path / "out" / "press.html").read_text("utf-8")
+
+
+@pytest.mark.usefixtures("undeclared")
+def test_an_export_of_what_is_no_length_costs_the_export(tmp_path: Path, capfd: Capture) -> None:
+    exports = "(Profile(id='edge', title='Edge', columns=('angle', 'height')),)"
+    assert run(tmp_path, "report", folder(tmp_path, exports=exports), "--format", "json") == 3
+    err = capfd.readouterr().err
+    assert "export 'edge' cannot be drawn: ValueError: angle is not a length" in err and "disc.py:" in err
+
+
+STEPS = {
+    "a formula": "Value(id='x', symbol='x', description='X', formula=bind(double, radius='lost'))",
+    "computed": "Computed(id='x', symbol='x', description='X', function=lambda r: 1 / 0, takes=('radius',), method='m')",
+    "a curve without values": "Value(id='x', symbol='x', unit='mm', description='X', formula=root)",
+    "sys.exit": "Computed(id='x', symbol='x', description='X', function=lambda r: exit(5), takes=('radius',), method='m')",
+    "no text": "Words(id='w', function=lambda r: 5, takes=('radius',)), "
+    "Require(id='q', condition=bind(wrong, radius='radius'), key='radius', message='is {w}')",
+    "a clash": "Clash(id='x', function=lambda r: 1 / 0, takes=('radius',), key='radius', message='m')",
+}
+MORE = """
+@formula
+def root(angle):
+    return np.sqrt(np.sin(angle))
+
+
+@formula
+def wrong(radius):
+    return radius < 0
+
+
+MECHANISM"""
+
+
+@pytest.mark.parametrize("step", STEPS)
+@pytest.mark.parametrize("command", ["calc", "report"])
+def test_what_raises_in_a_calculation_gives_3_in_words(tmp_path: Path, capfd: Capture, command: str, step: str) -> None:
+    plugins = folder(tmp_path, steps=f"({STEPS[step]},)")
+    text = (plugins / "disc.py").read_text("utf-8").replace("\nMECHANISM", MORE, 1)
+    saved(plugins, text, "disc.py")
+    assert run(tmp_path, command, plugins, *(["--format", "json"] if command == "report" else [])) == 3
+    err = capfd.readouterr().err
+    assert "mechanism 'a' of plugin 'disc': " in err and "Traceback" not in err
+    assert results(tmp_path)["status"] == "error"
+
+
+def test_a_validator_that_raises_gives_3_in_words(tmp_path: Path, capfd: Capture) -> None:
+    plugins = folder(tmp_path)
+    text = (plugins / "disc.py").read_text("utf-8")
+    text = text.replace(
+        "class Disc(Inputs):", "class Disc(Inputs):\n    def model_post_init(self, _):\n        1 / 0\n"
+    )
+    saved(plugins, text, "disc.py")
+    assert run(tmp_path, "calc", plugins) == 3
+    err = capfd.readouterr().err
+    assert (
+        "inputs Disc cannot be validated: " in err
+        and "(disc.py:" in err
+        and "ZeroDivisionError" in err
+        and "Traceback" not in err
+    )

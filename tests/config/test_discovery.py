@@ -1,0 +1,186 @@
+"""Where kinds come from, that they are loaded only when asked for, and what happens with those that are broken or doubled."""
+
+from __future__ import annotations
+
+import subprocess
+import sys
+from importlib.metadata import EntryPoint
+from pathlib import Path
+
+import pytest
+
+from diecut_report.config import discovery
+from diecut_report.config.discovery import Discovery, DuplicateKind, UnknownKind
+from diecut_report.errors import PluginError, UserError
+from tests.configs import BROKEN, GOOD, LISTED
+
+pytestmark = pytest.mark.wheel
+
+
+def installed(monkeypatch: pytest.MonkeyPatch, **values: str) -> None:
+    """Pretend that other packages announce these kinds."""
+    entries = [EntryPoint(name, value, discovery.GROUP) for name, value in values.items()]
+    monkeypatch.setattr(discovery, "entry_points", lambda group: [e for e in entries if e.group == group])
+
+
+def test_the_built_in_kinds_are_known_without_importing_them() -> None:
+    code = (
+        "import sys; from diecut_report.config.discovery import Discovery; print(sorted(Discovery().origins)); "
+        "print([m for m in sys.modules if m.startswith('diecut_report.plugins.')])"
+    )
+    shown = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True).stdout.splitlines()
+    assert "cylinder_drive" in shown[0] and "cylinder_sizing" in shown[0]
+    assert shown[1] == "[]"
+
+
+@pytest.mark.parametrize("kind", Discovery().origins)
+def test_a_built_in_kind_gives_its_mechanism(kind: str) -> None:
+    assert Discovery().mechanism(kind).kind == kind
+
+
+def test_each_file_of_a_folder_is_a_kind() -> None:
+    known = Discovery([GOOD])
+    assert known.mechanism("lever").kind == "lever"
+    assert [origin.told for origin in known.origins["lever"]] == [str(GOOD / "lever.py")]
+
+
+def test_a_folder_may_list_several_kinds_of_one_file() -> None:
+    known = Discovery([LISTED])
+    assert (known.mechanism("first_kind").title, known.mechanism("second_kind").title) == ("First", "Second")
+    assert "pair" not in known.origins
+
+
+def test_a_folder_with_an_init_is_a_kind_with_modules_of_its_own(tmp_path: Path) -> None:
+    package = tmp_path / "gadget"
+    package.mkdir()
+    (package / "words.py").write_text("TITLE = 'A gadget'\n")
+    (package / "__init__.py").write_text(
+        "from diecut_report.api import Inputs, Mechanism\nfrom .words import TITLE\n"
+        "MECHANISM = Mechanism(kind='gadget', version='1', title=TITLE, summary='', inputs=Inputs, chapters=())\n"
+    )
+    assert Discovery([tmp_path]).mechanism("gadget").title == "A gadget"
+
+
+def test_files_that_begin_with_an_underscore_are_no_kinds(tmp_path: Path) -> None:
+    (tmp_path / "_shared.py").write_text("raise RuntimeError\n")
+    assert Discovery([tmp_path]).origins.keys() == Discovery().origins.keys()
+
+
+def test_equal_names_in_two_folders_do_not_get_in_each_others_way(tmp_path: Path) -> None:
+    text = (GOOD / "lever.py").read_text("utf-8")
+    (tmp_path / "lever.py").write_text(text.replace('title="Lever"', 'title="Another lever"'), "utf-8")
+    assert Discovery([GOOD]).mechanism("lever").title == "Lever"
+    assert Discovery([tmp_path]).mechanism("lever").title == "Another lever"
+
+
+def test_an_installed_package_announces_kinds_by_entry_points(monkeypatch: pytest.MonkeyPatch) -> None:
+    installed(
+        monkeypatch,
+        again="diecut_report.plugins.cylinder_sizing:MECHANISM",
+        short="diecut_report.plugins.cylinder_sizing",
+    )
+    with pytest.raises(PluginError, match="gives the kind 'cylinder_sizing'; name it 'again' there"):
+        Discovery().mechanism("again")
+    with pytest.raises(PluginError, match="gives the kind 'cylinder_sizing'; name it 'short' there"):
+        Discovery().mechanism("short")
+
+
+def test_a_doubled_kind_names_both_origins_when_it_is_used(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
+    (tmp_path / "lever.py").write_text("raise RuntimeError('is never run')\n")
+    installed(monkeypatch, cylinder_drive="somewhere:MECHANISM")
+    known = Discovery([GOOD, tmp_path])
+    with pytest.raises(DuplicateKind) as caught:
+        known.mechanism("lever")
+    both = f"{GOOD / 'lever.py'} and from {tmp_path / 'lever.py'}"
+    assert str(caught.value) == f"The kind 'lever' comes from {both}. Remove or rename one of them."
+    with pytest.raises(DuplicateKind, match="comes from the program itself and from an installed package"):
+        known.mechanism("cylinder_drive")
+    assert known.mechanism("cylinder_sizing").kind == "cylinder_sizing"
+
+
+def test_the_same_folder_twice_is_one_folder() -> None:
+    assert Discovery([GOOD, GOOD / ".." / "good"]).mechanism("lever").kind == "lever"
+
+
+def test_an_unknown_kind_is_told_with_the_nearest() -> None:
+    with pytest.raises(UnknownKind, match=r"'cylinder_drives' is not a known kind \(did you mean 'cylinder_drive'\?\)"):
+        Discovery().mechanism("cylinder_drives")
+
+
+@pytest.mark.parametrize(
+    ("kind", "words"),
+    [
+        (
+            "breaks_at_import",
+            "ModuleNotFoundError: No module named 'library_that_is_not_there' (breaks_at_import.py:3)",
+        ),
+        ("no_mechanism", "gives a dict, where a Mechanism is needed"),
+        ("other_name", "gives the kind 'quite_other'; name it 'other_name' there"),
+    ],
+)
+def test_a_broken_plugin_names_its_file_and_the_cause(kind: str, words: str) -> None:
+    with pytest.raises(PluginError) as caught:
+        Discovery([BROKEN]).mechanism(kind)
+    assert str(BROKEN / f"{kind}.py") in str(caught.value) and words in str(caught.value)
+
+
+@pytest.mark.parametrize(
+    ("text", "words"),
+    [
+        ("import sys\nsys.exit(1)\n", "SystemExit: 1 (bad.py:2)"),
+        ("def f(:\n", "SyntaxError: invalid syntax (bad.py, line 1)"),
+        ("x = 1\n", "AttributeError: there is no MECHANISM in it"),
+    ],
+)
+def test_whatever_a_plugin_does_wrong_is_told(tmp_path: Path, text: str, words: str) -> None:
+    (tmp_path / "bad.py").write_text(text)
+    with pytest.raises(PluginError) as caught:
+        Discovery([tmp_path]).mechanism("bad")
+    assert words in str(caught.value)
+    assert not [
+        name
+        for name in sys.modules
+        if name.startswith("diecut_report_local") and name.endswith("_bad") and not text.startswith("x")
+    ]
+
+
+def test_a_listed_file_that_is_missing_is_a_broken_plugin(tmp_path: Path) -> None:
+    (tmp_path / "kinds.yaml").write_text("lost: lost.py\n")
+    with pytest.raises(PluginError, match=r"FileNotFoundError.*lost\.py"):
+        Discovery([tmp_path]).mechanism("lost")
+
+
+def test_a_folder_that_is_not_there_and_a_list_that_is_none_are_told(tmp_path: Path) -> None:
+    with pytest.raises(UserError, match="There is no such folder of plugins"):
+        _ = Discovery([tmp_path / "nowhere"]).origins
+    (tmp_path / "kinds.yaml").write_text("- lever\n")
+    with pytest.raises(UserError, match="A list of kinds is needed"):
+        _ = Discovery([tmp_path]).origins
+
+
+def test_an_extension_is_run_once_and_is_no_kind(tmp_path: Path) -> None:
+    (tmp_path / "extend_laws.py").write_text("import sys\nsys.laws_seen = getattr(sys, 'laws_seen', 0) + 1\n", "utf-8")
+    known = Discovery([tmp_path])
+    try:
+        known.extend()
+        known.extend()
+        assert vars(sys)["laws_seen"] == 1 and not any("laws" in kind for kind in known.origins)
+    finally:
+        vars(sys).pop("laws_seen", None)
+
+
+def test_an_extension_of_an_installed_package_is_run(monkeypatch: pytest.MonkeyPatch) -> None:
+    entries = [EntryPoint("laws", "no_such_module_of_laws", discovery.EXTENSIONS)]
+    monkeypatch.setattr(discovery, "entry_points", lambda group: [e for e in entries if e.group == group])
+    with pytest.raises(
+        UserError, match=r"laws of an installed package: This extension cannot be loaded: .*no_such_module"
+    ):
+        Discovery().extend()
+
+
+def test_a_broken_extension_names_its_file_and_the_cause(tmp_path: Path) -> None:
+    (tmp_path / "extend_bad.py").write_text("1 / 0\n", "utf-8")
+    with pytest.raises(
+        UserError, match=r"extend_bad.py: This extension cannot be loaded: ZeroDivisionError.*extend_bad.py:1"
+    ):
+        Discovery([tmp_path]).extend()

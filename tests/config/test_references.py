@@ -1,0 +1,203 @@
+"""References: what they may stand for, the order that they ask for, and the mistakes that are found without calculating."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from diecut_report.errors import UserError
+from diecut_report.pipeline import calc
+from tests.configs import DISCOVERY, HEAD, LEVER, loaded, problems, saved
+
+
+def results(folder: Path, text: str) -> dict[str, Any]:
+    """The results document of a config."""
+    return calc(saved(folder, text), DISCOVERY, lambda doing: None)[0].results
+
+
+def inputs(folder: Path, text: str, name: str = "b") -> dict[str, Any]:
+    """The SI values of a mechanism's inputs."""
+    return {key: item["value"] for key, item in results(folder, text)["mechanisms"][name]["inputs"].items()}
+
+
+def test_a_reference_takes_over_an_output_whatever_the_order_in_the_file(tmp_path: Path) -> None:
+    text = (
+        HEAD
+        + "  b: {kind: lever, force: 1, allowable_moment: '${a.moment}'}\n  a: {kind: lever, force: 2 kN, arm: 300}\n"
+    )
+    assert inputs(tmp_path, text)["allowable_moment"] == pytest.approx(600, rel=1e-15)
+
+
+def test_a_reference_takes_over_an_input(tmp_path: Path) -> None:
+    assert inputs(tmp_path, LEVER + "  b: {kind: lever, force: '${a.force}'}\n")["force"] == 2000
+
+
+def test_a_reference_to_an_input_that_has_a_default_gives_the_default(tmp_path: Path) -> None:
+    assert inputs(tmp_path, LEVER + "  b: {kind: lever, force: 1, teeth: '${a.teeth}'}\n")["teeth"] == 20
+
+
+def test_a_reference_takes_over_what_another_one_takes_from_the_press(tmp_path: Path) -> None:
+    found = inputs(
+        tmp_path, LEVER + "  b: {kind: lever, force: 1, speed: '${a.speed}', arm: '${press.sheet.length}'}\n"
+    )
+    assert found["speed"] == pytest.approx(100 / 60 * 6.283185307179586, rel=1e-15)
+    assert found["arm"] == 0.7
+
+
+def test_a_press_field_may_refer_to_another(tmp_path: Path) -> None:
+    text = (
+        LEVER.replace("thickness: 0.6 mm", "width: '${press.sheet.length}'")
+        + "  b: {kind: lever, force: 1, arm: '${press.sheet.width}'}\n"
+    )
+    assert inputs(tmp_path, text)["arm"] == 0.7
+
+
+def test_where_input_and_output_share_an_id_the_output_is_meant(tmp_path: Path) -> None:
+    config = loaded(tmp_path, LEVER + "  b: {kind: lever, force: 1, arm: '${a.arm}'}\n")
+    assert config.links["b", "arm"].result == "arm"
+
+
+def test_a_reference_stands_inside_blocks_and_lists(tmp_path: Path) -> None:
+    text = HEAD + ("  a: {kind: lever, force: 2, parts: [{length: 3}, {length: 4}], spring: {stiffness: 7}}\n"
+                   "  b: {kind: lever, force: 1, parts: [{length: '${a.parts.1.length}'}], "
+                   "spring: {stiffness: '${a.spring.stiffness}'}}\n")  # fmt: skip
+    found = inputs(tmp_path, text)
+    assert (found["parts.0.length"], found["spring.stiffness"]) == (0.004, 7000)
+
+
+def test_a_reference_may_name_a_curve(tmp_path: Path) -> None:
+    outputs = results(tmp_path, LEVER + "  b: {kind: lever, force: 1, load: '${a.torque}'}\n")["mechanisms"]["b"][
+        "outputs"
+    ]
+    assert outputs["taken_max"]["value"] == pytest.approx(200, rel=1e-9)
+
+
+def test_values_of_a_curve_may_be_references(tmp_path: Path) -> None:
+    outputs = results(tmp_path, LEVER + "  b: {kind: lever, force: 1, load: [1, '${a.moment}', 3, 4]}\n")["mechanisms"][
+        "b"
+    ]["outputs"]
+    assert outputs["taken_max"]["value"] == pytest.approx(200, rel=1e-9)
+
+
+def test_a_reference_may_name_a_text(tmp_path: Path) -> None:
+    found = inputs(tmp_path, LEVER + "  b: {kind: lever, force: 1, remark: '${a.size}', grade: '${a.grade}'}\n")
+    assert (found["remark"], found["grade"]) == ("large", "fine")
+
+
+def test_mechanisms_may_refer_to_each_other_as_long_as_no_input_needs_itself(tmp_path: Path) -> None:
+    text = (
+        HEAD
+        + "  a: {kind: lever, force: 2, allowable_moment: '${b.moment}'}\n  b: {kind: lever, force: '${a.force}'}\n"
+    )
+    assert inputs(tmp_path, text, "a")["allowable_moment"] == 200
+
+
+def test_origin_path_and_text_are_kept(tmp_path: Path) -> None:
+    text = LEVER + "  b: {kind: lever, force: '${ a.force }', arm: 0.30 m}\n"
+    found = results(tmp_path, text)["mechanisms"]["b"]["inputs"]
+    told = {
+        name: (found[name]["origin"], found[name].get("path"), found[name].get("text"))
+        for name in ("force", "arm", "speed", "teeth")
+    }
+    assert told == {
+        "force": ("reference", "a.force", "${ a.force }"),
+        "arm": ("given", None, "0.30 m"),
+        "speed": ("default", "press.productivity", None),
+        "teeth": ("default", None, None),
+    }
+
+
+# each: the inner part of a second lever, and the whole problem
+WRONG = [
+    ("force: '${c.moment}'", "6:27: mechanisms.b.force: ${c.moment}: there is no mechanism 'c'. Known: press, a, b."),
+    ("force: '${pres.name}'", "6:27: mechanisms.b.force: ${pres.name}: there is no mechanism 'pres' (did you mean 'press'?). Known: press, a, b."),
+    ("force: '${project.title}'", "6:27: mechanisms.b.force: ${project.title}: there is no mechanism 'project'. Known: press, a, b."),
+    ("force: '${a.forc}'", "6:27: mechanisms.b.force: ${a.forc}: a has no 'forc' (did you mean 'force'?)."),
+    ("force: '${a.force.x}'", "6:27: mechanisms.b.force: ${a.force.x}: a has no 'force.x' (did you mean 'force'?)."),
+    ("force: '${a}'", "6:27: mechanisms.b.force: ${a} names no value; add an output or input, as in ${a.moment}."),
+    ("force: '${}'", "6:27: mechanisms.b.force: ${}: there is no mechanism ''. Known: press, a, b."),
+    ("force: '${a.arm}'", "6:27: mechanisms.b.force: ${a.arm} is in m; a quantity in kN is needed here"),
+    ("force: '${press.name}'", "6:27: mechanisms.b.force: ${press.name} is not a number; a quantity in kN is needed"),
+    ("force: '${a.torque}'", "6:27: mechanisms.b.force: ${a.torque} is a curve; a single number is needed here"),
+    ("force: 1, speed: '${press.productivity}'", "6:37: mechanisms.b.speed: ${press.productivity} is in 1/s; a quantity in rpm is needed here"),
+    ("force: 1, load: '${a.moment}'", "6:36: mechanisms.b.load: ${a.moment} is not a curve in N*m"),
+    ("force: 1, load: [1, 2, 3, '${a.force}']",
+     "6:46: mechanisms.b.load.3: ${a.force} is not a single quantity in N·m, as the other values are"),
+    ("force: 1, remark: '${a.force}'", "6:38: mechanisms.b.remark: ${a.force} is a number in N; a text is needed here"),
+    ("force: 1, spring: '${a.force}'", "6:38: mechanisms.b.spring: ${a.force} is a number in N; a block of keys is needed here"),
+    ("force: 1, arm: '${press.sheet}'",
+     "6:35: mechanisms.b.arm: ${press.sheet} is a block or a list; refer to one of its values (length, width, thickness)."),
+    ("force: 1, arm: '${press.sheet.width}'",
+     "6:35: mechanisms.b.arm: ${press.sheet.width} is not given; it is optional. Give press.sheet.width, or write the value itself here."),
+    ("force: 1, arm: '${a.width}'", "6:35: mechanisms.b.arm: ${a.width} is not given; it is optional. Give a.width, or write the value itself here."),
+    ("force: 1, arm: '${a.length}'", "6:35: mechanisms.b.arm: ${a.length} is calculated only if parts is given in a."),
+    ("force: 1, arm: '${a.parts.0.length}'", "6:35: mechanisms.b.arm: ${a.parts.0.length} is not given; it is optional. Give a.parts.0.length,"),
+    ("force: 1, arm: '${b.parts.2.length}', parts: [{length: 1}]",
+     "6:35: mechanisms.b.arm: ${b.parts.2.length}: the list has 1 entries, counted from 0."),
+    ("force: 'about ${a.force}'",
+     "6:27: mechanisms.b.force: “about ${a.force}” mixes a reference with text; a reference stands for a whole value, as in ${press.name}."),
+    ("force: '${a.force'", "6:27: mechanisms.b.force: “${a.force” mixes a reference with text;"),
+    ("force: 1, allowable_moment: '${b.moment}'",
+     "6:48: mechanisms.b.allowable_moment: refers to itself: b.allowable_moment → b.moment → b.allowable_moment. Give one of"),
+    ("force: 1, arm: '${b.arm}'", "6:35: mechanisms.b.arm: refers to itself: b.arm → b.arm. Give one of these inputs a value of its own."),
+]  # fmt: skip
+
+
+@pytest.mark.parametrize(("inner", "message"), WRONG, ids=[inner for inner, _ in WRONG])
+def test_a_wrong_reference_is_told_with_its_place(tmp_path: Path, inner: str, message: str) -> None:
+    found = problems(tmp_path, LEVER + f"  b: {{kind: lever, {inner}}}\n")
+    assert [line[: len(message)] for line in found] == [message]
+
+
+def test_an_optional_output_says_what_is_missing(tmp_path: Path) -> None:
+    found = problems(tmp_path, LEVER + "  b: {kind: lever, force: 1, arm: '${a.pressure}'}\n")
+    assert found == ["6:35: mechanisms.b.arm: ${a.pressure} is calculated only if width is given in a."]
+
+
+def test_every_loop_is_shown_whole(tmp_path: Path) -> None:
+    text = HEAD + (
+        "  a: {kind: lever, force: 1, allowable_moment: '${b.moment}'}\n"
+        "  b: {kind: lever, force: 1, allowable_moment: '${c.moment}'}\n"
+        "  c: {kind: lever, force: 1, allowable_moment: '${a.moment}'}\n"
+        "  d: {kind: lever, force: 1, width: '${e.width}'}\n  e: {kind: lever, force: 1, width: '${d.width}'}\n"
+    )
+    around = "a.allowable_moment → b.moment → b.allowable_moment → c.moment → c.allowable_moment → a.moment → a.allowable_moment"
+    assert problems(tmp_path, text) == [
+        f"5:48: mechanisms.a.allowable_moment: refers to itself: {around}. Give one of these inputs a value of its own.",
+        "8:37: mechanisms.d.width: refers to itself: d.width → e.width → d.width. Give one of these inputs a value of its own.",
+    ]
+
+
+def test_a_value_that_a_reference_brings_is_held_to_the_bounds(tmp_path: Path) -> None:
+    text = (
+        LEVER
+        + "  b: {kind: lever, force: 1, arm: '${press.sheet.length}'}\n  c: {kind: lever, force: 1, teeth: '${b.arm}'}\n"
+    )
+    found = problems(tmp_path, text)
+    assert found == ["7:37: mechanisms.c.teeth: ${b.arm} is in m; a quantity in 1 is needed here"]
+    too_long = (
+        LEVER.replace("length: 700 mm", "length: 1.5 m")
+        + "  b: {kind: lever, force: 1, arm: '${press.sheet.length}'}\n"
+    )
+    with pytest.raises(UserError) as caught:
+        results(tmp_path, too_long)
+    (problem,) = caught.value.problems
+    assert (problem.line, problem.column, problem.path) == (6, 35, "mechanisms.b.arm")
+    assert problem.message == "1500 mm (from press.sheet.length) is out of range; allowed: > 0 mm, ≤ 1000 mm"
+
+
+def test_a_text_that_a_reference_brings_is_held_to_the_choices(tmp_path: Path) -> None:
+    with pytest.raises(UserError) as caught:
+        results(tmp_path, LEVER + "  b: {kind: lever, force: 1, grade: '${a.size}'}\n")
+    assert [(p.path, p.message) for p in caught.value.problems] == [
+        ("mechanisms.b.grade", "is “large”; allowed: fine, coarse")
+    ]
+
+
+def test_places_that_a_curve_crosses_are_referred_to_one_by_one(tmp_path: Path) -> None:
+    cylinder = "cylinder_radius: 105 mm, cylinder_length: 700 mm, cylinder_mass: 80 kg, cylinder_inertia: 0.9 kg*m**2"
+    text = HEAD + f"  d: {{kind: cylinder_drive, {cylinder}}}\n  b: {{kind: lever, force: '${{d.torque_reversal}}'}}\n"
+    (problem,) = problems(tmp_path, text)
+    assert "${d.torque_reversal} has several values; refer to one of them, as in ${d.torque_reversal_1}." in problem

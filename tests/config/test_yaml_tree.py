@@ -1,0 +1,390 @@
+"""Reading YAML with positions: what comes out, and that every bad file is refused in words at its place."""
+
+from __future__ import annotations
+
+import hashlib
+import os
+import stat
+from pathlib import Path
+from typing import Any
+
+import pytest
+import yaml
+
+from diecut_report.config import yaml_tree
+from diecut_report.config.yaml_tree import MAX_BYTES, MAX_DEPTH, load, parse
+from diecut_report.errors import Problem, UserError
+
+LOADERS = [yaml.SafeLoader, *([yaml.CSafeLoader] if yaml.__with_libyaml__ else [])]
+
+
+@pytest.fixture(autouse=True, params=LOADERS, ids=lambda loader: str(loader.__name__))
+def loader(request: pytest.FixtureRequest, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Each test runs on the C loader and on the pure one."""
+    monkeypatch.setattr(yaml_tree, "_LOADER", request.param)
+
+
+def problems(text: str) -> tuple[Problem, ...]:
+    with pytest.raises(UserError) as caught:
+        parse(text, "press.yaml")
+    return caught.value.problems
+
+
+def only_problem(text: str) -> Problem:
+    found = problems(text)
+    assert len(found) == 1, found
+    assert found[0].file == "press.yaml"
+    return found[0]
+
+
+def refused_file(path: Path) -> Problem:
+    with pytest.raises(UserError) as caught:
+        load(path)
+    (problem,) = caught.value.problems
+    assert problem.file == str(path)
+    return problem
+
+
+PRESS = """\
+# a press
+schema_version: 1
+press: {name: DCP-700, sheet: {length: 700 mm, width: 470.7}}
+mechanisms:
+  cylinder:
+    segment_height: 40
+    gears:
+      - teeth: 20
+      - teeth: "30"
+"""
+
+
+def test_data_holds_plain_values() -> None:
+    assert parse(PRESS, "press.yaml").data == {
+        "schema_version": 1,
+        "press": {"name": "DCP-700", "sheet": {"length": "700 mm", "width": 470.7}},
+        "mechanisms": {"cylinder": {"segment_height": 40, "gears": [{"teeth": 20}, {"teeth": "30"}]}},
+    }
+
+
+@pytest.mark.parametrize(
+    ("path", "expected"),
+    [
+        ((), (2, 1)),
+        (("schema_version",), (2, 17)),
+        (("press", "sheet", "width"), (3, 55)),
+        (("mechanisms", "cylinder"), (6, 5)),
+        (("mechanisms", "cylinder", "gears", 1, "teeth"), (9, 16)),
+    ],
+)
+def test_position_is_the_place_of_the_value(path: tuple[str | int, ...], expected: tuple[int, int]) -> None:
+    assert parse(PRESS, "press.yaml").position(path) == expected
+
+
+@pytest.mark.parametrize("path", [("mechanisms", "cylinder", "bore"), ("mechanisms", "cylinder", "bore", 3, "x")])
+def test_position_of_an_absent_value_is_its_nearest_parent(path: tuple[str | int, ...]) -> None:
+    tree = parse(PRESS, "press.yaml")
+    assert tree.position(path) == (6, 5)
+    assert tree.key_position(path) == (6, 5)
+
+
+def test_key_position_is_the_place_of_the_key() -> None:
+    tree = parse(PRESS, "press.yaml")
+    assert tree.key_position(("press", "sheet", "width")) == (3, 48)
+    assert tree.key_position(("mechanisms", "cylinder")) == (5, 3)
+    assert tree.key_position(("mechanisms", "cylinder", "gears", 1)) == (9, 9)
+    assert tree.key_position(()) == (2, 1)
+
+
+def test_columns_count_characters_not_bytes() -> None:
+    assert parse("{назва: прес, рік: 5}", "press.yaml").position(("рік",)) == (1, 20)
+
+
+def test_typed_is_the_text_in_the_file() -> None:
+    tree = parse("a: 1e5\nb: '40'\nc: 0.070\nd: [1]\n", "press.yaml")
+    assert [tree.typed((key,)) for key in "abc"] == ["1e5", "40", "0.070"]
+    assert tree.typed(("d",)) is None
+    assert tree.typed(("absent",)) is None
+    assert tree.typed(("d", 0)) == "1"
+
+
+@pytest.mark.parametrize(
+    ("text", "value"),
+    [
+        ("40", 40),
+        ("-7", -7),
+        ("+7", 7),
+        ("010", 10),
+        ("0.6", 0.6),
+        (".5", 0.5),
+        ("1.", 1.0),
+        ("1e5", 100000.0),
+        ("-1.5E-3", -0.0015),
+        ("null", None),
+        ("~", None),
+        ("", None),
+        ("true", True),
+        ("False", False),
+        ("yes", "yes"),
+        ("on", "on"),
+        ("2026-11-21", "2026-11-21"),
+        ("1:30", "1:30"),
+        ("0x10", "0x10"),
+        ("1_000", "1_000"),
+        (".inf", ".inf"),
+        (".nan", ".nan"),
+        ("1e400", "1e400"),
+        ("9" * 5000, "9" * 5000),
+        ("6000 1/h", "6000 1/h"),
+        ("${press.sheet.length}", "${press.sheet.length}"),
+        ("'40'", "40"),
+        ('"true"', "true"),
+        ("''", ""),
+    ],
+)
+def test_scalars_follow_the_core_schema(text: str, value: Any) -> None:
+    found = parse(f"a: {text}\n", "press.yaml").data["a"]
+    assert found == value
+    assert type(found) is type(value)
+
+
+def test_an_alias_repeats_the_value_and_points_to_where_it_is_written() -> None:
+    tree = parse("a: &gear {teeth: 20}\nb: *gear\n", "press.yaml")
+    assert tree.data == {"a": {"teeth": 20}, "b": {"teeth": 20}}
+    assert tree.data["a"] is not tree.data["b"]
+    assert tree.position(("b", "teeth")) == (1, 18)
+    assert tree.typed(("b", "teeth")) == "20"
+
+
+def test_every_duplicate_key_is_reported_with_the_line_of_the_first() -> None:
+    found = problems("a: 1\nb: {c: 1, c: 2}\na: 3\na: {d: 1, d: 2}\n")
+    assert [(p.line, p.column, p.path) for p in found] == [
+        (2, 11, "b.c"),
+        (3, 1, "a"),
+        (4, 1, "a"),
+        (4, 11, "a.d"),
+    ]
+    assert found[1].message == "The key 'a' stands here again; it is first in line 1. Remove one of the two."
+
+
+def test_tab_indentation_is_shown_at_the_tab() -> None:
+    problem = only_problem("press:\n  name: x\n\tsheet: 1\n")
+    assert (problem.line, problem.column) == (3, 1)
+    assert "A tab stands here" in problem.message and "Put spaces" in problem.message
+
+
+def test_a_tab_after_a_dash_is_shown_at_the_tab() -> None:
+    problem = only_problem("- a\n-\tb: 1\n")
+    assert (problem.line, problem.column) == (2, 2)
+    assert "A tab stands here" in problem.message
+
+
+def test_a_syntax_error_names_its_place_and_what_to_check() -> None:
+    problem = only_problem("a: 1\nb: 'open\n")
+    assert problem.line == 3
+    assert "unexpected end of stream while scanning a quoted scalar that begins in line 2" in problem.message
+    assert "Check quotes" in problem.message
+
+
+def test_a_second_colon_is_explained() -> None:
+    problem = only_problem("title: Drive: part one\n")
+    assert (problem.line, problem.column) == (1, 13)
+    assert "a second colon" in problem.message and "in quotes" in problem.message
+
+
+def test_a_bare_reference_within_braces_is_explained() -> None:
+    problem = only_problem("gears: {radius: ${cylinder.radius}}\n")
+    assert (problem.line, problem.column) == (1, 18)
+    assert 'put references in quotes: "${…}"' in problem.message
+
+
+def test_problems_found_before_a_syntax_error_are_kept() -> None:
+    assert [p.line for p in problems("a: 1\na: 2\nb: @x\n")] == [2, 3]
+
+
+@pytest.mark.parametrize("text", ["", "\n\n", "# only a remark\n", "---\n", "--- ''\n"])
+def test_an_empty_document_is_refused(text: str) -> None:
+    problem = only_problem(text)
+    assert problem.message == "The file is empty. Write a YAML document."
+    assert problem.line is None
+
+
+@pytest.mark.parametrize(
+    ("text", "shown", "column"),
+    [("12: x", "12", 1), ("null: x", "null", 1), ("{a: 1, true: 2}", "true", 8), ("? [a, b]\n: 1", "(a list)", 3)],
+)
+def test_a_key_that_is_no_text_is_refused(text: str, shown: str, column: int) -> None:
+    problem = only_problem(text)
+    assert problem.message == f"The key {shown} is not text. Put it in quotes, or rename it."
+    assert (problem.line, problem.column) == (1, column)
+
+
+def test_a_quoted_number_is_a_key() -> None:
+    assert parse("'12': x", "press.yaml").data == {"12": "x"}
+
+
+def test_merge_keys_are_refused() -> None:
+    problem = only_problem("a: &a {x: 1}\nb:\n  <<: *a\n")
+    assert (problem.line, problem.column, problem.path) == (3, 3, "b")
+    assert "Merge keys (<<) are not supported" in problem.message
+
+
+@pytest.mark.parametrize(
+    ("value", "tag"),
+    [
+        ("!!python/object/apply:os.system [ls]", "!!python/object/apply:os.system"),
+        ("!own {b: 1}", "!own"),
+        ("! 5", "!"),
+    ],
+)
+def test_tags_are_refused(value: str, tag: str) -> None:
+    problem = only_problem(f"x: 1\na: {value}\n")
+    assert (problem.line, problem.column, problem.path) == (2, 4, "a")
+    assert problem.message.startswith(f"The tag {tag} is not allowed.")
+
+
+def test_an_alias_bomb_is_refused() -> None:
+    lines = ["a0: &a0 [x, x, x, x, x, x, x, x, x, x]"]
+    lines += [f"a{n}: &a{n} [{', '.join([f'*a{n - 1}'] * 10)}]" for n in range(1, 30)]
+    problem = only_problem("\n".join(lines))
+    # a0 … a4 hold 11, 111, 1 111, 11 111 and 111 111 values; the first *a4 in line 6 makes it more than 200 000
+    assert problem.line == 6
+    assert "More than 200000 values" in problem.message and "aliases" in problem.message
+
+
+def test_a_recursive_anchor_is_refused() -> None:
+    problem = only_problem("a: &a\n  b: [1, *a]\n")
+    assert (problem.line, problem.column, problem.path) == (2, 10, "a.b.1")
+    assert "The alias *a stands in its own anchor, a loop" in problem.message
+
+
+def test_an_alias_without_anchor_is_refused() -> None:
+    problem = only_problem("a: *gear\n")
+    assert (problem.line, problem.column, problem.path) == (1, 4, "a")
+    assert "The alias *gear has no anchor &gear above it" in problem.message
+
+
+def test_nesting_up_to_the_limit_is_read() -> None:
+    data = parse("[" * MAX_DEPTH + "]" * MAX_DEPTH, "press.yaml").data
+    for _ in range(MAX_DEPTH - 1):
+        (data,) = data
+    assert data == []
+
+
+@pytest.mark.parametrize("brackets", [MAX_DEPTH + 1, 100_000])
+def test_deeper_nesting_is_refused(brackets: int) -> None:
+    problem = only_problem("[" * brackets + "]" * brackets)
+    assert (problem.line, problem.column) == (1, MAX_DEPTH + 1)
+    assert "The nesting is deeper than 50 levels" in problem.message
+
+
+def test_nesting_built_up_by_aliases_is_refused() -> None:
+    lines = ["a0: &a0 " + "[" * 30 + "]" * 30]
+    lines += [f"a{n}: &a{n} " + "[" * 30 + f"*a{n - 1}" + "]" * 30 for n in range(1, 100)]
+    problem = only_problem("\n".join(lines))
+    assert (problem.line, problem.column) == (2, 39)
+    assert "aliases included" in problem.message
+
+
+def test_several_documents_are_refused() -> None:
+    problem = only_problem("---\na: 1\n---\nb: 2\n")
+    assert (problem.line, problem.column) == (3, 1)
+    assert problem.message == "A second YAML document begins here. Keep one document in a file."
+
+
+def test_a_control_character_is_shown_at_its_place() -> None:
+    problem = only_problem("a: 1\nb: x\x07\n")
+    assert (problem.line, problem.column) == (2, 5)
+    assert "U+0007" in problem.message
+
+
+# --- files -----------------------------------------------------------------------------------------------------------
+
+
+def test_load_keeps_text_and_hash_of_the_bytes(tmp_path: Path) -> None:
+    path = tmp_path / "press.yaml"
+    raw = b"\xef\xbb\xbfa: 1\r\nb: 2\r\n"
+    path.write_bytes(raw)
+    tree = load(path)
+    assert tree.data == {"a": 1, "b": 2}
+    assert tree.file == str(path)
+    assert tree.text == "a: 1\r\nb: 2\r\n"
+    assert tree.sha256 == hashlib.sha256(raw).hexdigest()
+    assert tree.position(("b",)) == (2, 4)
+
+
+def test_load_reports_like_parse(tmp_path: Path) -> None:
+    path = tmp_path / "press.yaml"
+    path.write_text("a: 1\na: 2\n", encoding="utf-8")
+    assert refused_file(path).line == 2
+
+
+def test_a_missing_file_is_refused(tmp_path: Path) -> None:
+    assert refused_file(tmp_path / "absent.yaml").message.startswith("There is no such file.")
+
+
+def test_a_folder_is_refused(tmp_path: Path) -> None:
+    assert refused_file(tmp_path).message == "This is a folder. Give a YAML file."
+
+
+@pytest.mark.skipif(not hasattr(os, "mkfifo"), reason="no named pipes on this system")
+def test_a_pipe_is_refused_without_waiting_for_it(tmp_path: Path) -> None:
+    path = tmp_path / "pipe.yaml"
+    os.mkfifo(path)
+    assert refused_file(path).message.startswith("This is not a regular file.")
+
+
+def test_an_unreadable_file_is_refused(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    path = tmp_path / "press.yaml"
+    path.write_text("a: 1\n", encoding="utf-8")
+
+    def denied(*_: Any, **__: Any) -> None:
+        raise PermissionError(13, "Permission denied")
+
+    monkeypatch.setattr(Path, "open", denied)  # the superuser may read everything, so rights alone do not show it
+    message = refused_file(path).message
+    assert message == "The file cannot be read: Permission denied. Check its name and its permissions."
+
+
+def test_a_100_mb_file_is_refused_without_reading_it(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    path = tmp_path / "press.yaml"
+    with path.open("wb") as stream:
+        stream.truncate(100_000_000)
+    monkeypatch.setattr(Path, "open", lambda *_: pytest.fail("the file was opened"))
+    assert refused_file(path).message == "The file is too large: 100.0 MB; at most 5 MB are allowed."
+
+
+def test_a_file_that_states_no_size_is_bounded_in_reading(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    path = tmp_path / "press.yaml"
+    path.write_bytes(b"#" * (MAX_BYTES + 5))
+    stated = list(path.stat())
+    stated[stat.ST_SIZE] = 0
+    monkeypatch.setattr(Path, "stat", lambda _: os.stat_result(stated))
+    assert refused_file(path).message.startswith("The file is too large: 5.0 MB;")
+
+
+def test_a_file_of_the_greatest_size_is_read(tmp_path: Path) -> None:
+    path = tmp_path / "press.yaml"
+    path.write_bytes(b"a: 1 #" + b"x" * (MAX_BYTES - 6))
+    assert load(path).data == {"a": 1}
+
+
+def test_a_file_that_is_no_utf8_is_refused(tmp_path: Path) -> None:
+    path = tmp_path / "press.yaml"
+    path.write_bytes(b"a: 1\nb: \xff\xfe\x00\x93\n")
+    problem = refused_file(path)
+    assert problem.message == "The file is not UTF-8 text. Give a YAML file, saved as UTF-8."
+    assert problem.line == 2
+
+
+def test_binary_junk_that_is_utf8_is_refused(tmp_path: Path) -> None:
+    path = tmp_path / "press.yaml"
+    path.write_bytes(b"PK\x03\x04\x00\x00")
+    problem = refused_file(path)
+    assert (problem.line, problem.column) == (1, 3)
+    assert "this is not YAML text" in problem.message
+
+
+def test_an_empty_file_is_refused(tmp_path: Path) -> None:
+    path = tmp_path / "press.yaml"
+    path.touch()
+    assert refused_file(path).message == "The file is empty. Write a YAML document."

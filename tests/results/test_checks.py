@@ -1,0 +1,203 @@
+"""Checks on rows over repeated parts, on curves and with two bounds: every part and every place is judged, alone and in a study."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+import pytest
+
+from diecut_report.api import (
+    POINTS,
+    Abscissa,
+    Annotated,
+    Block,
+    Chapter,
+    Check,
+    Inputs,
+    Mechanism,
+    Quantity,
+    Text,
+    Value,
+    bind,
+    formula,
+)
+from diecut_report.contract.inputs import flatten
+from diecut_report.engine import Calculation, calculate
+from diecut_report.report.chapters import chapter
+from diecut_report.report.equations import Equations
+from diecut_report.report.i18n import Catalogue
+from diecut_report.results.checks import check_results
+from diecut_report.results.mechanism import mechanism_results
+from diecut_report.study.execution import result_columns
+
+
+class Bar(Block):
+    load: Annotated[float, Quantity("F", "N", "Load of the bar")]
+    rated: Annotated[float | None, Quantity("F_r", "N", "Rated load")] = None
+
+
+class Rack(Inputs):
+    bars: Annotated[list[Bar], Text("Bars")]
+    strength: Annotated[float, Quantity("F_z", "N", "Strength")] = 10
+    swing: Annotated[float, Quantity("a", "N", "Amplitude")] = 3
+    phase: Annotated[float, Quantity("α", "rad", "Phase")] = 0.1
+    play: Annotated[float, Quantity("j", "mm", "Play")] = 0.3
+    n_points: Annotated[int, POINTS] = 36
+
+
+@formula
+def doubled(load: Any) -> Any:
+    return 2 * load
+
+
+@formula
+def wave(angle: Any, swing: Any, phase: Any) -> Any:
+    return swing * np.sin(angle - phase)
+
+
+@formula
+def bound_of(angle: Any, swing: Any) -> Any:
+    return swing * (2 + np.cos(angle))
+
+
+def check(demand: Any, limit: Any, **changes: Any) -> Check:
+    texts = {"id": "c", "title": "Bars", "demand_label": "force", "limit_label": "allowed", "consequence": "relieve it"}
+    return Check(**{**texts, "demand": demand, "limit": limit, "unit": "N", **changes})
+
+
+def rack(*checks: Check) -> Mechanism:
+    steps = (
+        Value(id="force", symbol="S", unit="N", description="Force", formula=bind(doubled, load="bars.load")),
+        Abscissa(id="angle", symbol="φ", unit="deg", description="Angle", period=2 * np.pi),
+        Value(id="torque", symbol="T", unit="N", description="Wave", formula=wave),
+        Value(id="bound", symbol="B", unit="N", description="Bound", formula=bound_of),
+    )
+    return Mechanism(
+        kind="rack",
+        version="1",
+        title="Rack",
+        summary="",
+        inputs=Rack,
+        chapters=(Chapter("All", steps=steps),),
+        checks=checks,
+    )
+
+
+def calculated(made: Check, loads: tuple[float, ...] = (1, 6, 4), **values: Any) -> Calculation:
+    bars = [{"load": load} for load in loads]
+    given = flatten(Rack.model_validate({"bars": bars, **values}))
+    return calculate(rack(made), given)
+
+
+def judged(made: Check, **values: Any) -> dict[str, Any]:
+    [found] = check_results(calculated(made, **values))
+    return found
+
+
+def test_a_check_on_a_row_judges_every_part_and_the_worst_governs() -> None:
+    found = judged(check("force", "strength", consequence="relieve bar {part}, that of {bars.load}"))
+    assert [(p["status"], p["utilisation"]) for p in found["parts"]] == [("pass", 0.2), ("fail", 1.2), ("pass", 0.8)]
+    assert (found["status"], found["part"], found["demand"], found["limit"], found["utilisation"]) == ("fail", 2, 12, 10, 1.2)  # fmt: skip
+    assert found["message"] == "Force 12 N, allowed 10 N at part 2 of 3: relieve bar 2, that of 6 N"
+
+
+def test_a_row_may_be_the_limit_too() -> None:
+    found = judged(check(3.0, "force"), loads=(5, 1, 1))
+    assert (found["status"], found["part"], found["limit"]) == ("fail", 2, 2)  # of two alike the first
+    assert [part["limit"] for part in found["parts"]] == [10, 2, 2]
+
+
+def test_of_parts_without_a_utilisation_the_one_furthest_beyond_governs() -> None:
+    found = judged(check("force", 0.0))
+    assert (found["part"], found["utilisation"]) == (2, None)
+
+
+def test_a_part_without_the_quantity_is_not_judged() -> None:
+    rated = check("force", "bars.rated")
+    given = flatten(Rack.model_validate({"bars": [{"load": 9}, {"load": 2, "rated": 5}, {"load": 1, "rated": 1}]}))
+    [found] = check_results(calculate(rack(rated), given))
+    assert [part["status"] for part in found["parts"]] == [None, "pass", "fail"] and found["part"] == 3
+    assert check_results(calculated(rated)) == []
+
+
+def test_a_check_on_a_curve_judges_its_extreme_and_not_its_samples() -> None:
+    found = judged(check("torque", 2.999))
+    assert found["status"] == "fail" and found["demand"] == pytest.approx(
+        3, rel=1e-12
+    )  # of the 36 samples none is above 2.992
+    assert found["message"] == "Force 3 N, allowed 2.999 N at φ = 95.7296°: relieve it"
+    assert found["at"] == {"symbol": "φ", "text": "95.7296", "unit": "deg"}
+
+
+def test_two_curves_are_compared_where_the_one_is_furthest_beyond_the_other() -> None:
+    found = judged(check("torque", "bound"), phase=0.0)
+    place = np.deg2rad(135)  # of the greatest sin φ − cos φ − 2
+    assert found["demand"] == pytest.approx(3 * np.sin(place), rel=1e-6)
+    assert found["limit"] == pytest.approx(3 * (2 + np.cos(place)), rel=1e-6) and found["at"]["text"] == "135"
+
+
+def test_a_curve_may_be_what_there_is() -> None:
+    found = judged(check(-3.5, "torque"))
+    assert found["status"] == "pass" and found["limit"] == pytest.approx(-3, rel=1e-12)
+
+
+BOUNDS = {0.1: ("fail", "Play 0.1000 mm, at least 0.2000 mm (allowed 0.4000 mm): relieve it", 2.0),
+          0.21: ("pass", "Play 0.2100 mm, at least 0.2000 mm (allowed 0.4000 mm).", 0.2 / 0.21),
+          0.39: ("pass", "Play 0.3900 mm, allowed 0.4000 mm (at least 0.2000 mm).", 0.39 / 0.4),
+          0.5: ("fail", "Play 0.5000 mm, allowed 0.4000 mm (at least 0.2000 mm): relieve it", 1.25)}  # fmt: skip
+
+
+@pytest.mark.parametrize("play", BOUNDS)
+def test_a_two_sided_check_is_judged_on_both_sides_and_names_the_one_that_governs(play: float) -> None:
+    found = judged(check("play", 0.4, at_least=0.2, unit="mm", demand_label="play"), play=play)
+    status, message, utilisation = BOUNDS[play]
+    assert (found["status"], found["message"]) == (status, message)
+    assert found["utilisation"] == pytest.approx(utilisation) == found["demand"] / found["limit"]
+
+
+def test_a_two_sided_check_on_a_row_and_on_a_curve() -> None:
+    found = judged(check("force", 20.0, at_least=4.0))
+    assert [part["utilisation"] for part in found["parts"]] == pytest.approx([2, 0.6, 0.5])
+    assert (
+        found["part"] == 1 and found["message"] == "Force 2 N, at least 4 N (allowed 20 N) at part 1 of 3: relieve it"
+    )
+    low = judged(check("torque", 5.0, at_least=-2.0))
+    assert low["status"] == "fail" and low["limit"] == pytest.approx(-3) and low["at"]["text"] == "275.730"
+
+
+CHECKS = (
+    check("force", "strength"), check("torque", 2.5), check("torque", "bound", operator="<"), check(3.0, "force"),
+    check("play", 0.4, at_least=0.2, unit="mm"), check("force", 11.0, at_least=1.0), check("torque", 2.5, at_least=-2.0),
+    check("bars.load", 5.0, severity="warn"),
+)  # fmt: skip
+
+
+@pytest.mark.parametrize("number", range(len(CHECKS)))
+@pytest.mark.parametrize("count", [3, 12])
+def test_a_study_judges_as_each_machine_alone(number: int, count: int) -> None:
+    made = rack(CHECKS[number])
+    random = np.random.default_rng(number)
+    varied = {name: random.uniform(*ends, count) for name, ends in
+              {"strength": (1, 15), "swing": (1, 5), "phase": (0, 6), "play": (1e-4, 5e-4)}.items()}  # fmt: skip
+    loads = random.uniform(0.2, 7, (3, count))
+    together = calculate(made, {"bars": True, "n_points": 36, **varied, "bars.load": tuple(loads)}, count)
+    found = result_columns.verdicts({"rack": together}, count)
+    for i in range(count):
+        one = {name: values[i] for name, values in varied.items()}
+        [single] = check_results(
+            calculate(made, {"bars": True, "n_points": 36, **one, "bars.load": tuple(loads[:, i])})
+        )
+        assert result_columns.STATUS[found.codes[0, i]] == single["status"]
+        expected = np.nan if single["utilisation"] is None else single["utilisation"]
+        np.testing.assert_allclose(found.ratios[0, i], expected, rtol=1e-9)
+
+
+def test_the_report_shows_the_worst_part_and_a_table_of_all() -> None:
+    results = mechanism_results(calculated(check("force", "strength")), {})
+    part = chapter("A", "rack", results, Equations(Catalogue("en"), lambda _: 0.0), Catalogue("en"))
+    [row] = part.checks
+    assert row.title == "Bars, no. 2" and row.demand.startswith("12") and row.parts is not None
+    lines = [(number, *(cell.text for cell in cells)) for number, cells in row.parts.lines]
+    assert [line[0] for line in lines] == ["1", "2", "3"] and [line[1] for line in lines] == ["2", "12", "8"]
+    assert [line[4] for line in lines] == ["pass", "fail", "pass"]

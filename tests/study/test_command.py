@@ -1,0 +1,263 @@
+"""The command ``batch`` from a study file to its folder: what it writes, tells and refuses."""
+
+from __future__ import annotations
+
+import json
+import os
+import pty
+import re
+import subprocess
+import sys
+from pathlib import Path
+
+import numpy as np
+import pyarrow.parquet as pq
+import pytest
+
+from diecut_report.cli.main import main
+from diecut_report.study.execution.variant_reports import best
+from tests.configs import GOOD, saved
+from tests.study.studies import BASE, STUDY, varied
+
+Capture = pytest.CaptureFixture[str]
+CHECKED = BASE.replace("force: 2 kN,", "force: 2 kN, allowable_moment: 450,")
+
+
+def run(*arguments: object) -> int:
+    return main([*map(str, arguments), "--plugins", str(GOOD)])
+
+
+def files(folder: Path, text: str = STUDY, base: str = BASE) -> Path:
+    saved(folder, base)
+    return saved(folder, text, "study.yaml")
+
+
+def rows(folder: Path) -> list[dict[str, object]]:
+    found: list[dict[str, object]] = pq.read_table(folder / "variants").to_pylist()
+    return found
+
+
+@pytest.mark.wheel
+def test_a_study_becomes_a_folder_named_as_it(tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capfd: Capture) -> None:
+    files(tmp_path)
+    (tmp_path / "here").mkdir()
+    monkeypatch.chdir(tmp_path / "here")
+    assert run("batch", "../study.yaml") == 0
+    out, err = capfd.readouterr()
+    assert out == ""
+    assert err.splitlines() == ["written: study, with summary.html and summary.pdf", "6 variants: 6 pass."]
+    assert {path.name for path in Path("study").iterdir()} >= {
+        "study.json",
+        "study.yaml",
+        "base.yaml",
+        "variants",
+        "summary.html",
+        "summary.pdf",
+    }
+    assert [row["mechanisms.a.force"] for row in rows(Path("study"))] == [1000, 1000, 2000, 2000, 3000, 3000]
+    state = json.loads(Path("study/study.json").read_text())
+    assert (state["state"], state["counts"]["variants"]) == ("complete", 6)
+
+
+@pytest.mark.usefixtures("without_summary")
+def test_a_variant_that_fails_gives_1_and_one_in_error_does_not(tmp_path: Path) -> None:
+    assert run("batch", files(tmp_path, base=CHECKED), "-o", tmp_path / "out", "--quiet") == 1
+    assert [row["status"] for row in rows(tmp_path / "out")] == ["pass", "pass", "pass", "pass", "fail", "fail"]
+    assert rows(tmp_path / "out")[5]["governing"] == "a.checks.moment"
+    impossible = varied("[100 mm, 999 mm]", path="mechanisms.a.arm").replace("count", "")
+    assert run("batch", files(tmp_path, impossible), "-o", tmp_path / "other", "--quiet") == 0
+
+
+@pytest.mark.usefixtures("without_summary")
+def test_outputs_and_curves_are_those_that_were_asked_for(tmp_path: Path) -> None:
+    text = varied("[1 kN, 2 kN]", rest="outputs: [a.moment]\ncurves: [a.angle]\n")
+    run("batch", files(tmp_path, text), "-o", tmp_path / "out", "--quiet")
+    schema = pq.read_schema(next((tmp_path / "out" / "variants").iterdir()))
+    assert [name for name in schema.names if ".checks." not in name] == [
+        "variant", "mechanisms.a.force", "a.moment", "a.angle", "status", "governing", "error"]  # fmt: skip
+    assert schema.field("a.moment").metadata[b"unit"] == b"N*m"
+    assert len({len(row["a.angle"]) for row in rows(tmp_path / "out")}) == 1  # type: ignore[arg-type]
+
+
+@pytest.mark.usefixtures("without_summary")
+def test_constraints_that_drop_all_variants_are_told_before_anything_is_written(tmp_path: Path, capfd: Capture) -> None:
+    text = varied("[1 kN, 2 kN]", rest="constraints: [\"mechanisms.a.force > '5 kN'\"]\n")
+    assert run("batch", files(tmp_path, text), "-o", tmp_path / "out") == 2
+    assert (
+        "constraints: the constraints drop all 2 variants of the sample. Loosen one of them" in capfd.readouterr().err
+    )
+    assert not (tmp_path / "out").exists()
+
+
+UNDEFINED = "constraints: [\"'1 kN*m' / (mechanisms.a.force - '2 kN') < '5 m'\", \"mechanisms.a.force < '{limit}'\"]\n"
+NO_VALUE = "1 of them because a constraint has no value there (a division by zero, or the root of a number below zero)"
+
+
+def test_variants_for_which_a_constraint_has_no_value_are_dropped_and_counted(tmp_path: Path, capfd: Capture) -> None:
+    out = tmp_path / "out"
+    text = varied("[1 kN, 2 kN, 3 kN, 4 kN]", rest=UNDEFINED.format(limit="3.5 kN"))
+    assert run("batch", files(tmp_path, text), "-o", out) == 0
+    assert f"; the constraints drop 2 more of the sample, {NO_VALUE}." in capfd.readouterr().err
+    assert [row["variant"] for row in rows(out)] == [0, 2]
+    page = re.sub(r"<[^>]+>", " ", (out / "summary.html").read_text("utf-8"))
+    assert len(re.findall(rf"2\s+variants, {re.escape(NO_VALUE)}", page)) == 2
+    assert run("batch", "--resume", out) == 0
+    assert f"drop 2 more of the sample, {NO_VALUE}." in capfd.readouterr().err
+
+
+def test_variants_that_another_constraint_drops_anyway_are_not_counted_again(tmp_path: Path) -> None:
+    text = varied("[1 kN, 2 kN]", rest=UNDEFINED.format(limit="1.5 kN"))
+    assert run("batch", files(tmp_path, text), "-o", tmp_path / "out", "--quiet") == 0
+    counts = json.loads((tmp_path / "out" / "study.json").read_text())["counts"]
+    assert counts["dropped"] == 1 and "without_value" not in counts
+
+
+def test_constraints_without_any_value_say_so(tmp_path: Path, capfd: Capture) -> None:
+    text = varied("[2 kN, 4 kN]", rest=UNDEFINED.format(limit="3.5 kN"))
+    assert run("batch", files(tmp_path, text), "-o", tmp_path / "out") == 2
+    assert f"drop all 2 variants of the sample, {NO_VALUE}. Loosen one of them" in capfd.readouterr().err
+
+
+@pytest.mark.usefixtures("without_summary")
+def test_a_huge_grid_says_its_size_and_asks(tmp_path: Path, capfd: Capture) -> None:
+    text = (
+        varied("{from: 1 kN, to: 2 kN, count: 1000000}")
+        + "  mechanisms.a.arm: {from: 1 mm, to: 900 mm, count: 1000000}\n"
+    )
+    assert run("batch", files(tmp_path, text), "-o", tmp_path / "out") == 2
+    assert (
+        "the sample has 1,000,000,000,000 variants, more than 10,000,000. Vary less, or give --yes"
+        in capfd.readouterr().err
+    )
+    assert not (tmp_path / "out").exists()
+
+
+@pytest.mark.usefixtures("without_summary")
+def test_reports_of_some_variants(tmp_path: Path, capfd: Capture) -> None:
+    text = varied(
+        "[1 kN, 2 kN, 3 kN, 4 kN]", rest="reports: [0, 3]\nconstraints: [\"mechanisms.a.force < '3.5 kN'\"]\n"
+    )
+    assert run("batch", files(tmp_path, text), "-o", tmp_path / "out") == 0
+    assert sorted(path.name for path in (tmp_path / "out" / "reports").iterdir()) == ["0.html", "0.json", "0.pdf"]
+    assert "variant 3 gets no full report: a constraint drops it." in capfd.readouterr().err
+
+
+@pytest.mark.usefixtures("without_summary")
+def test_reports_are_the_same_from_several_processes(tmp_path: Path) -> None:
+    study = files(tmp_path, varied("[1 kN, 2 kN]", rest="reports: all\n"))
+    made = []
+    for jobs in (1, 2):
+        assert run("batch", study, "-o", tmp_path / f"{jobs}", "--jobs", f"{jobs}", "--quiet") == 0
+        made.append({path.name: path.read_bytes() for path in (tmp_path / f"{jobs}" / "reports").iterdir()})
+    assert len(made[0]) == 6
+    assert made[0] == made[1]
+
+
+@pytest.mark.usefixtures("without_summary")
+def test_the_failed_ones_get_a_report(tmp_path: Path) -> None:
+    text = varied("[2 kN, 3 kN]", rest="reports: failed\n")
+    assert run("batch", files(tmp_path, text, CHECKED), "-o", tmp_path / "out", "--quiet") == 1
+    found = json.loads((tmp_path / "out" / "reports" / "1.json").read_text())
+    assert found["status"] == "fail"
+    assert found["mechanisms"]["a"]["inputs"]["force"]["value"] == 3000
+    assert not (tmp_path / "out" / "reports" / "0.json").exists()
+
+
+@pytest.mark.usefixtures("without_summary")
+def test_one_stored_variant_is_a_config_for_other_commands(tmp_path: Path, capfd: Capture) -> None:
+    run("batch", files(tmp_path), "-o", tmp_path / "out", "--quiet")
+    assert run("calc", f"{tmp_path / 'out'}#4") == 0
+    found = json.loads(capfd.readouterr().out)
+    assert found["mechanisms"]["a"]["inputs"]["force"]["value"] == 3000
+    assert run("report", f"{tmp_path / 'out'}#4", "-o", tmp_path / "one", "--format", "html", "--quiet") == 0
+    assert [path.name for path in (tmp_path / "one").iterdir()] == ["out-4.html"]
+    assert run("calc", f"{tmp_path / 'out'}#9") == 2
+    assert "There is no variant 9 here" in capfd.readouterr().err
+
+
+@pytest.mark.usefixtures("without_summary")
+def test_a_copy_of_the_base_that_was_edited_is_no_base_of_these_variants(tmp_path: Path, capfd: Capture) -> None:
+    run("batch", files(tmp_path), "-o", tmp_path / "out", "--quiet")
+    copy = tmp_path / "out" / "base.yaml"
+    copy.write_text(copy.read_text().replace("200 mm", "300 mm"))
+    assert run("calc", f"{tmp_path / 'out'}#4") == 2
+    assert "This copy of press.yaml is missing or has changed." in capfd.readouterr().err
+
+
+@pytest.mark.usefixtures("without_summary")
+def test_other_formats_stand_beside_the_parts(tmp_path: Path) -> None:
+    run("batch", files(tmp_path), "-o", tmp_path / "out", "--quiet", "--format", "csv,xlsx")
+    assert {"variants.csv", "variants.xlsx"} <= {path.name for path in (tmp_path / "out").iterdir()}
+    header = (tmp_path / "out" / "variants.csv").read_text().splitlines()[0]
+    assert "mechanisms.a.force [N]" in header
+
+
+@pytest.mark.usefixtures("without_summary")
+def test_a_study_given_to_another_command_is_told(tmp_path: Path, capfd: Capture) -> None:
+    assert run("calc", files(tmp_path)) == 2
+    assert "This is a study: calculate it with diecut-report batch" in capfd.readouterr().err
+
+
+@pytest.mark.usefixtures("without_summary")
+def test_a_refused_folder_and_a_cluster_that_is_not_there_leave_nothing(tmp_path: Path, capfd: Capture) -> None:
+    (tmp_path / "full").mkdir()
+    (tmp_path / "full" / "mine").touch()
+    assert run("batch", files(tmp_path), "-o", tmp_path / "full") == 2
+    assert [path.name for path in (tmp_path / "full").iterdir()] == ["mine"]
+    assert run("batch", files(tmp_path), "-o", tmp_path / "out", "--dask", "tcp://127.0.0.1:1") == 2
+    assert "cannot be reached" in capfd.readouterr().err
+    assert not (tmp_path / "out").exists()
+
+
+def test_rounding_makes_no_variant_better(tmp_path: Path) -> None:
+    columns = {
+        "status": np.array(["pass"] * 3, object),
+        "a.x": np.array([2.0, 1.0, 1 + 1e-15]),
+        "a.y": np.array([1.0, 1 + 2e-16, 1.0]),
+    }
+    assert list(best(columns, [("a.x", True), ("a.y", True)], 1)) == [1]
+
+
+@pytest.mark.parametrize(
+    ("arguments", "words"),
+    [
+        (["batch"], "Name a study file, or a folder to continue with --resume DIR."),
+        (["batch", "s.yaml", "--resume", "x", "-o", "y"], "--resume names the folder; leave -o out."),
+        (["batch", "s.yaml", "--format", "cvs"], "'cvs' is not a format (did you mean 'csv'?); known: csv, xlsx."),
+        (["batch", "absent.yaml"], "absent.yaml"),
+        (["batch", "--resume", "absent"], "There are no results of a study here"),
+        (["variants", "absent"], "There are no results of a study here"),
+    ],
+)
+def test_wrong_usage_gives_2_with_words(
+    arguments: list[str], words: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capfd: Capture
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    assert run(*arguments) == 2
+    assert words in capfd.readouterr().err
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_progress_on_a_terminal(tmp_path: Path) -> None:
+    command = [sys.executable, "-m", "diecut_report", "batch", str(files(tmp_path)), "--plugins", str(GOOD), "-o"]
+    parent, child = pty.openpty()
+    environment = {**os.environ, "TERM": "xterm", "COLUMNS": "120"}
+    shown = subprocess.Popen([*command, str(tmp_path / "one")], stderr=child, env=environment)
+    os.close(child)
+    told = b""
+    while True:
+        try:
+            told += os.read(parent, 4096)
+        except OSError:  # the program has closed its end
+            break
+    os.close(parent)
+    assert shown.wait() == 0
+    assert b"6/6" in told
+    assert b"0 of 6 fail" in told
+    assert b"summary" in told
+
+
+@pytest.mark.usefixtures("without_summary")
+def test_quiet_says_nothing(tmp_path: Path, capfd: Capture) -> None:
+    assert run("batch", files(tmp_path), "-o", tmp_path / "out", "--quiet") == 0
+    assert capfd.readouterr() == ("", "")

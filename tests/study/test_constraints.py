@@ -1,0 +1,170 @@
+"""Constraints between inputs: what they hold on arrays, what they may say, and the words where they say something else."""
+
+from __future__ import annotations
+
+import pickle
+from typing import Any
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from diecut_report.expressions import Node
+from diecut_report.study.conditions.constraints import Constraint, Term, parse
+from diecut_report.study.conditions.words import ConditionError
+
+UNITS: dict[str, str | None] = {
+    "mechanisms.a.bore": "m", "mechanisms.a.height": "m", "mechanisms.a.speed": "rad/s", "mechanisms.a.law": None,
+    "mechanisms.my-drive.gears.0.teeth": "1", "press.productivity": "1/s",
+}  # fmt: skip
+FIXED = {"mechanisms.a.fixed": ("m", 0.2), "mechanisms.a.grade": (None, "fine")}
+ROWS: dict[str, Any] = {
+    "mechanisms.a.bore": np.array([0.05, 0.06, 0.07]),
+    "mechanisms.a.height": np.array([0.1, 0.09, 0.08]),
+    "mechanisms.a.speed": np.array([4.0, 9.0, 11.0]),
+    "mechanisms.a.law": ["cycloidal", "harmonic", "cycloidal"],
+    "mechanisms.my-drive.gears.0.teeth": np.array([18.0, 20.0, 22.0]),
+    "press.productivity": np.array([1.0, 2.0, 3.0]),
+}
+
+
+def find(path: str) -> Term:
+    if path in UNITS:
+        return Term(UNITS[path], Node("sym", (path,)))
+    if path in FIXED:
+        si, value = FIXED[path]
+        return Term(si, Node("qty", (value,)))
+    raise ConditionError(f"“{path}” is unknown")
+
+
+def read(text: str) -> Constraint:
+    return parse(text.replace("bore", "mechanisms.a.bore").replace("height", "mechanisms.a.height")
+                 .replace("speed", "mechanisms.a.speed").replace("law", "mechanisms.a.law"), find)  # fmt: skip
+
+
+HELD = [  # text, and the rows above by hand
+    ("bore <= 0.7 * height", [True, True, False]),
+    ("bore < '60 mm'", [True, False, False]),
+    ("bore <= '60 mm'", [True, True, False]),
+    ("'55 mm' < bore < '0.065 m'", [False, True, False]),
+    ("speed < '90 rpm'", [True, True, False]),  # 90 rpm are 9.42 rad/s
+    ("bore > '55 mm' and speed < '90 rpm'", [False, True, False]),
+    ("bore < '55 mm' or speed > '90 rpm'", [True, False, True]),
+    ("not bore < '55 mm'", [False, True, True]),
+    ("abs(bore - height) < '35 mm'", [False, True, True]),
+    ("max(bore, height) > '85 mm'", [True, True, False]),
+    ("min(bore, height, '55 mm') >= '52 mm'", [False, True, True]),
+    ("sqrt(bore ** 2 + height ** 2) < '0.11 m'", [False, True, True]),
+    ("bore * height > '52 cm**2'", [False, True, True]),
+    ("bore / height < 2 / 3", [True, False, False]),
+    ("-bore > -'65 mm'", [True, True, False]),
+    ("bore > 0", [True, True, True]),
+    ("bore - '60 mm' > 0", [False, False, True]),
+    ("speed * bore < '0.6 m/s'", [True, True, False]),  # the angle of an angular speed may be left out in a product
+    ("speed ** 2 * bore < '6 m/s**2'", [True, True, False]),
+    ("law == 'cycloidal'", [True, False, True]),
+    ("'cycloidal' != law", [False, True, False]),
+    ("mechanisms.my-drive.gears.0.teeth >= 20", [False, True, True]),
+    ("mechanisms.my-drive.gears.0.teeth-2 == 18", [False, True, False]),
+    ("2 ** mechanisms.my-drive.gears.0.teeth > 1e6", [False, True, True]),
+    ("press.productivity < '9000 1/h'", [True, True, False]),
+    ("bore < 0.3 * mechanisms.a.fixed", [True, False, False]),
+    ("sqrt(bore - '60 mm') >= 0", [False, True, True]),  # no root of a number below zero
+    ("bore / (height - height) > 1 and bore > 0", [False, False, False]),  # divided by zero is not a value
+    ("bore / (height - '90 mm') < 1 or bore > '65 mm'", [False, False, True]),
+    ("not 1 / (height - '90 mm') > '1 1/mm'", [True, False, True]),
+    ("law < 'd'", [True, False, True]),
+    ("bore = height - '30 mm'", [False, True, False]),
+    ("bore <= '0.06'", [True, True, False]),  # nothing says in which unit people read it, so SI
+    ("min(bore) < '55 mm'", [True, False, False]),
+]
+
+
+@pytest.mark.parametrize(("text", "held"), HELD, ids=[text for text, _ in HELD])
+def test_a_constraint_holds_row_by_row(text: str, held: list[bool]) -> None:
+    assert read(text).holds(ROWS).tolist() == held
+
+
+def test_a_constraint_that_names_one_text_gives_a_value_for_each_row() -> None:
+    assert read("law == mechanisms.a.grade").holds(ROWS).tolist() == [False] * 3
+
+
+def test_the_varied_paths_of_a_constraint_are_told_once() -> None:
+    assert read("bore < height * 2 and bore > '1 mm'").paths == ("mechanisms.a.bore", "mechanisms.a.height")
+
+
+def test_a_constraint_goes_to_another_process() -> None:
+    there: Constraint = pickle.loads(pickle.dumps(read("bore <= 0.7 * height")))
+    assert there.holds(ROWS).tolist() == [True, True, False]
+
+
+WRONG = [
+    ("bore < 90 mm", "“90 mm”: put a quantity in quotes: '90 mm'."),
+    ("bore < 1.5e-3m", "“1.5e-3m”: put a quantity in quotes: '1.5e-3 m'."),
+    ("bore < 90", "mechanisms.a.bore is a length and 90 is a pure number; < needs the same kind on both sides. "
+     "Put the quantity with its unit in quotes."),
+    ("speed < '50 1/min'", "mechanisms.a.speed is an angular speed and '50 1/min' is a frequency; < needs the same kind"),
+    ("2 * speed < '50 1/min'", "the calculated side is an angular speed and '50 1/min' is a frequency"),
+    ("bore + speed < '1 m'", "mechanisms.a.bore is a length and mechanisms.a.speed is an angular speed; + needs"),
+    ("min(bore, '3 kg') < height", "mechanisms.a.bore is a length and '3 kg' is a mass; min needs the same kind"),
+    ("bore < 'wide'", "'wide' does not begin with a finite number; a length is needed, for example"),
+    ("bore < '3 mn'", "'mn' is not a known unit."),
+    ("bore < ''", "'' does not begin with a finite number; a length is needed"),
+    ("bore ** height < 1", "the exponent mechanisms.a.height is a length; a number is needed."),
+    ("bore ** 1000 < 1", "the exponent of mechanisms.a.bore must be a number between -20 and 20."),
+    ("bore", "mechanisms.a.bore is not a condition; a comparison is needed, such as mechanisms.NAME.KEY <= '90 mm'."),
+    ("bore and height", "mechanisms.a.bore is not a condition; 'and' stands between conditions; compare both sides"),
+    ("law and bore < height", "mechanisms.a.law stands alone; compare it with a text in quotes."),
+    ("1 < 2", "“1 < 2” names no varied path, so it would keep all variants or none; name one of vary."),
+    ("mechanisms.a.fixed < '1 m'", "names no varied path"),
+    ("law == bore", "mechanisms.a.law and mechanisms.a.bore are a text and a quantity; put texts in quotes."),
+    ("law * 2 < 1", "mechanisms.a.law is a text; a quantity is needed to calculate with or to compare by size."),
+    ("(bore < height) + 1 < 2", "the calculated side is a condition; a quantity is needed"),
+    ("bore <", "a name, a number or a quantity is missing before the end. (At character 20.)"),
+    ("", "the condition is empty"),
+    ("mechanisms.a.nothing < 3", "“mechanisms.a.nothing” is unknown"),
+    ("heigth < '3 mm'", "“heigth” is not a path of an input; write the whole path of an input, such as mechanisms.NAME.KEY"),
+    ("sin(speed) < 1", "there is no function 'sin'"),
+    ("sqr(bore) < 1", "there is no function 'sqr' (did you mean 'sqrt'?); known: abs, min, max, sqrt."),
+    ("min() < height", "min takes one quantity or more; 0 given."),
+    ("sqrt(bore, height) < height", "sqrt takes one quantity; 2 given."),
+    ("bore % height < height", "'% mechanis' is not allowed here; allowed: names, numbers, quantities and texts in quotes"),
+    ("bore in [1, 2]", "is not allowed here; allowed"),
+    ("bore < height if bore else height", "'if' is not expected here."),
+    ("[x for x in (1, 2)] < bore", "is not allowed here"),
+    ("(lambda: 1)() < bore", "is not allowed here"),
+    ("__import__('os') == bore", "there is no function '__import__'"),
+    ("bore.real < height", "“mechanisms.a.bore.real” is unknown"),
+    ("(bore).real < height", "'.real < me' is not allowed here"),
+    ("abs(bore).__class__ < height", "is not allowed here"),
+    ("abs(x=bore) < height", "“x” is not a path of an input"),
+    ("bore < True", "true is a condition; a quantity is needed"),
+    ("1e999 < bore", "holds a number that is too large to calculate with."),
+    ("bore < " + "9" * 500, "holds a number that is too large to calculate with."),
+    ("(" * 100 + "bore" + ")" * 100 + " < height", "brackets stand too deep in each other. Write several conditions."),
+    ("bore < height and " * 120 + "bore < height", "more than 400 words. Write several conditions."),
+    ("path_0_ < height", "“path_0_” is not a path of an input"),
+]  # fmt: skip
+
+
+@pytest.mark.parametrize(("text", "words"), WRONG, ids=[text[:40] for text, _ in WRONG])
+def test_what_a_constraint_may_not_say_is_told_in_words(text: str, words: str) -> None:
+    with pytest.raises(ConditionError) as raised:
+        read(text)
+    assert words in str(raised.value)
+
+
+@given(st.text("0123456789.+-*/()<>=!'\" abehimorst_", max_size=60))
+def test_no_text_breaks_the_reading(text: str) -> None:
+    try:
+        parse(text + " < mechanisms.a.bore", find)
+    except ConditionError as fault:
+        assert str(fault)
+
+
+@given(st.lists(st.floats(1e-3, 1e3), min_size=3, max_size=3), st.lists(st.floats(1e-3, 1e3), min_size=3, max_size=3))
+def test_arrays_give_what_single_rows_give(bores: list[float], heights: list[float]) -> None:
+    rows = {"mechanisms.a.bore": np.array(bores), "mechanisms.a.height": np.array(heights)}
+    held = read("sqrt(bore * height) <= 0.6 * max(bore, height) or bore < '3 m'").holds(rows)
+    assert held.tolist() == [(b * h) ** 0.5 <= 0.6 * max(b, h) or b < 3 for b, h in zip(bores, heights, strict=True)]

@@ -1,0 +1,197 @@
+"""Engines in this process and in a pool: the same results, nothing lost with a process, little in flight, a clean end."""
+
+from __future__ import annotations
+
+import os
+import signal
+import subprocess
+import sys
+import time
+from collections.abc import Callable, Iterator
+from contextlib import suppress
+from pathlib import Path
+
+import psutil
+import pytest
+
+from diecut_report.errors import UserError
+from diecut_report.study.execution import in_flight
+from diecut_report.study.execution.engines import ChunkFailed, Engine, InProcess, Pool, dask_cluster, results
+from tests.processes import until
+from tests.study.made_store import dies_at_three, fails_at_three, slow_square, square, warm
+
+ROOT = Path(__file__).parents[2]
+RUN = """
+import sys
+from pathlib import Path
+from diecut_report.study.execution.engines import Pool, results
+from tests.study.made_store import sleeps, warm
+if __name__ == "__main__":
+    folder = Path(sys.argv[1])
+    try:
+        with Pool(2, warm(folder)) as pool:
+            list(results(pool, sleeps, range(100)))
+    except KeyboardInterrupt:
+        print("interrupted", flush=True)
+"""
+Make = Callable[[Path], Engine]
+ENGINES = [lambda folder: InProcess(warm(folder)), lambda folder: Pool(2, warm(folder))]
+
+
+def begun(folder: Path) -> set[int]:
+    return {int(path.name.split(".")[1]) for path in folder.glob("begun.*")}
+
+
+@pytest.mark.parametrize("make", ENGINES)
+def test_each_chunk_gives_its_result_once(tmp_path: Path, make: Make) -> None:
+    with make(tmp_path) as engine:
+        found = list(results(engine, square, range(50)))
+    assert sorted(found) == [(n, n * n) for n in range(50)]
+
+
+@pytest.mark.parametrize("make", ENGINES)
+def test_no_chunks_give_no_results(tmp_path: Path, make: Make) -> None:
+    with make(tmp_path) as engine:
+        assert list(results(engine, square, [])) == []
+
+
+@pytest.mark.parametrize(("make", "most"), list(zip(ENGINES, (1, 2), strict=True)))
+def test_a_worker_loads_once(tmp_path: Path, make: Make, most: int) -> None:
+    with make(tmp_path) as engine:
+        list(results(engine, square, range(40)))
+    loaded = [path.name.split(".")[1] for path in tmp_path.glob("loaded.*")]
+    assert 1 <= len(loaded) == len(set(loaded)) <= most
+
+
+def test_another_study_is_loaded_anew(tmp_path: Path) -> None:
+    for key in ("one", "other"):
+        with InProcess(warm(tmp_path, key)) as engine:
+            list(results(engine, square, range(3)))
+    assert len(list(tmp_path.glob("loaded.*"))) == 2
+
+
+@pytest.mark.parametrize("limit", [1, 5])
+def test_chunks_are_taken_only_as_they_are_needed(tmp_path: Path, limit: int) -> None:
+    taken = 0
+
+    def chunks() -> Iterator[int]:
+        nonlocal taken
+        while taken < 300:
+            taken += 1
+            yield taken
+
+    with Pool(2, warm(tmp_path)) as pool:
+        for given, _ in enumerate(results(pool, square, chunks(), limit)):
+            assert taken - given <= limit
+    assert taken == 300
+
+
+def test_memory_stays_flat_over_many_chunks(tmp_path: Path) -> None:
+    with InProcess(warm(tmp_path)) as engine:
+        found = results(engine, lambda _, chunk: bytes(1_000_000), iter(range(2000)))
+        next(found)
+        early = psutil.Process().memory_info().rss
+        assert sum(1 for _ in found) == 1999
+    assert psutil.Process().memory_info().rss - early < 20e6  # 2 GB went by
+
+
+@pytest.mark.parametrize("make", ENGINES)
+def test_exception_names_its_chunk(tmp_path: Path, make: Make) -> None:
+    with (
+        pytest.raises(ChunkFailed, match=r"^3: ZeroDivisionError: nothing to divide by$") as caught,
+        make(tmp_path) as engine,
+    ):
+        list(results(engine, fails_at_three, range(10)))
+    assert caught.value.chunk == 3 and isinstance(caught.value.cause, ZeroDivisionError)
+
+
+def test_killed_process_loses_nothing(tmp_path: Path) -> None:
+    found, killed = [], 0
+    with Pool(2, warm(tmp_path)) as pool:
+        for chunk, (value, _) in results(pool, slow_square, range(20)):
+            found.append((chunk, value))
+            if len(found) in (4, 9):  # in the middle of other chunks
+                os.kill(pool.processes[0], signal.SIGKILL)
+                killed += 1
+        assert killed == 2 and len(pool.processes) == 2
+    assert sorted(found) == [(n, n * n) for n in range(20)]
+    assert len(begun(tmp_path)) > 2  # new processes took over
+
+
+def test_chunk_that_ends_its_process_is_told_after_three_times_and_no_other_is_blamed(tmp_path: Path) -> None:
+    found = []
+    with (
+        pytest.raises(UserError, match=r"calculates 3 ended by itself 3 times.*fewer --jobs"),
+        Pool(2, warm(tmp_path)) as pool,
+    ):
+        found.extend(chunk for chunk, _ in results(pool, dies_at_three, range(12)))
+    assert len(list(tmp_path.glob("call.3.*"))) == in_flight.TRIES
+    assert 3 not in found
+
+
+def test_early_end_leaves_no_process(tmp_path: Path) -> None:
+    with pytest.raises(ChunkFailed), Pool(2, warm(tmp_path)) as pool:
+        list(results(pool, fails_at_three, range(1000)))
+    assert pool.processes == []
+    assert [child for child in psutil.Process().children() if "spawn_main" in " ".join(child.cmdline())] == []
+
+
+@pytest.mark.parametrize("sent", [signal.SIGINT, signal.SIGKILL])
+def test_ended_run_leaves_no_process(tmp_path: Path, sent: signal.Signals) -> None:
+    script = tmp_path / "run.py"
+    script.write_text(RUN)
+    command, paths = [sys.executable, str(script), str(tmp_path)], os.environ | {"PYTHONPATH": str(ROOT)}
+    run = subprocess.Popen(
+        command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, env=paths, process_group=0
+    )
+    until(lambda: len(begun(tmp_path)) == 2)
+    workers = begun(tmp_path)
+    os.killpg(run.pid, sent) if sent is signal.SIGINT else run.kill()  # Ctrl-C goes to all processes of a terminal
+    said, errors = run.communicate(timeout=20)
+    until(lambda: not any(psutil.pid_exists(worker) for worker in workers), 10)
+    assert (said, errors) == (("interrupted\n", "") if sent is signal.SIGINT else ("", errors))
+
+
+@pytest.mark.parametrize("later", [0, 0.05, 0.1])
+def test_interrupt_while_the_processes_begin_is_silent(tmp_path: Path, later: float) -> None:
+    script = tmp_path / "run.py"
+    script.write_text(RUN)
+    command, paths = [sys.executable, str(script), str(tmp_path)], os.environ | {"PYTHONPATH": str(ROOT)}
+    run = subprocess.Popen(
+        command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, env=paths, process_group=0
+    )
+    until(lambda: workers_of(run.pid))
+    workers = workers_of(run.pid)
+    time.sleep(later)  # in another place of their beginning
+    os.killpg(run.pid, signal.SIGINT)
+    assert run.communicate(timeout=20) == ("interrupted\n", "")
+    until(lambda: not any(psutil.pid_exists(worker) for worker in workers), 10)
+
+
+def workers_of(run: int) -> list[int]:
+    """Processes of a pool, which may have begun just now."""
+    found = []
+    for child in psutil.Process(run).children(recursive=True):
+        with suppress(psutil.NoSuchProcess):
+            found += [child.pid] if "spawn_main" in " ".join(child.cmdline()) else []
+    return found
+
+
+def test_interrupt_in_this_process_goes_through(tmp_path: Path) -> None:
+    def interrupted(_: object, chunk: int) -> int:
+        raise KeyboardInterrupt
+
+    with pytest.raises(KeyboardInterrupt), InProcess(warm(tmp_path)) as engine:
+        list(results(engine, interrupted, range(3)))
+
+
+def test_missing_dask_is_told(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setitem(sys.modules, "distributed", None)
+    monkeypatch.delitem(sys.modules, "diecut_report.study.execution.dask_cluster", raising=False)
+    with pytest.raises(UserError, match=r"pip install 'diecut-report\[cluster\]'"):
+        dask_cluster("tcp://127.0.0.1:1", warm(tmp_path))
+
+
+def test_dask_is_imported_only_for_a_cluster() -> None:
+    code = "import sys, diecut_report.study.execution.engines; print({'dask', 'distributed', 'pyarrow'} & set(sys.modules))"
+    assert subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True).stdout == "set()\n"

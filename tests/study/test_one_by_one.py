@@ -1,0 +1,62 @@
+"""A plugin that can only calculate one machine at a time works in a study, and the user is told that it is slow."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from diecut_report.cli.main import main
+from diecut_report.config.discovery import Discovery
+from diecut_report.study.execution.variant_rows import calculate_rows
+from tests.configs import LEVER, PLUGINS
+from tests.study.studies import study, varied
+
+FOLDER = PLUGINS / "scalar"
+BASE = """\
+schema_version: 1
+project: {title: Test}
+press: {name: P, productivity: 6000 1/h, sheet: {length: 700 mm, thickness: 0.6 mm}}
+mechanisms:
+  alley: {kind: ladder}
+"""
+STUDY = """\
+schema_version: 1
+base: press.yaml
+sample: {method: grid}
+vary: {mechanisms.alley.crossing: {from: 0.5 m, to: 1.9 m, count: 8}}
+"""
+
+
+def test_each_machine_is_calculated_and_the_kind_is_named(tmp_path: Path) -> None:
+    known = study(tmp_path, STUDY, BASE, Discovery([FOLDER]))
+    crossing = known.sample.rows(0, 8)["mechanisms.alley.crossing"]
+    rows = calculate_rows(known.base, {known.inputs["mechanisms.alley.crossing"]: crossing}, 8)
+    assert list(rows.slow) == ["ladder"]
+    w, is_high = rows.columns["alley.width"], np.asarray(crossing) > 12 / 7  # the ladders' feet would have to meet
+    assert list(rows.status == "error") == list(is_high)
+    np.testing.assert_allclose(
+        (1 / np.sqrt(16 - w**2) + 1 / np.sqrt(9 - w**2))[~is_high], 1 / crossing[~is_high], rtol=1e-9
+    )
+    assert list(rows.status[~is_high]) == ["pass" if width >= 2 else "fail" for width in w[~is_high]]
+
+
+@pytest.mark.usefixtures("with_html_summary")
+def test_the_command_and_its_summary_tell_it(tmp_path: Path, capfd: pytest.CaptureFixture[str]) -> None:
+    study(tmp_path, STUDY, BASE, Discovery([FOLDER]))
+    assert main(["batch", str(tmp_path / "study.yaml"), "-o", str(tmp_path / "out"), "--plugins", str(FOLDER)]) == 1
+    assert "ladder cannot take arrays and was calculated variant by variant, which is slow" in capfd.readouterr().err
+    assert list(json.loads((tmp_path / "out" / "study.json").read_text())["slow"]) == ["ladder"]
+    assert "ladder" in (tmp_path / "out" / "summary.html").read_text()
+
+
+def test_machines_that_refer_to_a_calculated_text_are_calculated_one_by_one(tmp_path: Path) -> None:
+    base = LEVER + "  b: {kind: lever, force: 1, remark: '${a.size}'}\n"
+    known = study(tmp_path, varied("[14, 30]", path="mechanisms.a.teeth"), base)
+    rows = calculate_rows(
+        known.base, {known.inputs["mechanisms.a.teeth"]: known.sample.rows(0, 2)["mechanisms.a.teeth"]}, 2
+    )
+    assert list(rows.errors) == [None, None]
+    assert list(rows.columns["a.size"]) == ["small", "large"]

@@ -1,0 +1,303 @@
+"""Questions to stored variants: conditions with units, order, formats, refusals in words; the configuration of one variant."""
+
+from __future__ import annotations
+
+import csv
+import io
+import json
+import math
+from collections.abc import Callable
+from hashlib import sha256
+from pathlib import Path
+from typing import Any
+
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from diecut_report.config import yaml_tree
+from diecut_report.config.discovery import Discovery
+from diecut_report.config.yaml_tree import Tree
+from diecut_report.errors import UserError
+from diecut_report.study.analysis.query import variants
+from diecut_report.study.analysis.stored_variants import StoredColumn as Read
+from diecut_report.study.analysis.variant_config import variant_config
+from diecut_report.study.conditions.where import condition
+from diecut_report.study.storage.description import Kind, ResultColumn
+from tests.study.stored_study import BORE, SPEED, calculated, many, ten, written
+
+
+@pytest.fixture(scope="module")
+def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    return ten(tmp_path_factory.mktemp("a[1] 'study'") / "out")
+
+
+def ids(folder: Path, where: str | None = None, sort: str | None = None, top: int | None = None) -> list[int]:
+    text = "".join(variants(folder, where, sort, top, "json"))
+    return [row["variant"] for row in json.loads(text)["variants"]]
+
+
+def told(folder: Path, where: str) -> str:
+    with pytest.raises(UserError) as caught:
+        ids(folder, where)
+    return str(caught.value)
+
+
+@pytest.mark.parametrize(
+    ("where", "expected"),
+    [
+        (None, list(range(10))),
+        (f"{SPEED} < '41 rpm' and {BORE} > '60 mm'", [3, 6, 7]),
+        (f"{SPEED} < '41 rpm' and {BORE} between '60 mm' and '7 cm'", [3, 6]),
+        ("status = 'pass'", [0, 3, 6]),
+        ("status in ('error', 'pass') and not variant = 3", [0, 6, 9]),
+        ("status not in ('error', 'fail')", [0, 3, 6]),
+        ("governing like '%wall' or error is not null", [7, 9]),
+        ("cylinder.checks.wall.utilisation is null", [7, 9]),
+        ("drive.slip", [1, 2, 5]),
+        ("drive.slip = true AND variant >= 2", [2, 5]),
+        ('"drive.slip" and variant <> 5', [1, 2]),
+        (f"{BORE} + '1 cm' > \"0.1 m\"", [7, 9]),
+        (f"{BORE} * 2 > '180 mm'", [7, 9]),
+        (f"max({BORE}, '94 mm') > '95.5 mm' or abs(-variant) = 1", [1, 9]),
+        ("variant ** 2 = 49 or -variant = -8", [7, 8]),
+        (f"drive.crank_torque_peak * {SPEED} < '0.1 kW'", [7]),
+        (f"sqrt({BORE} * {BORE}) = {BORE} and variant < 2", [0, 1]),
+        (f"{BORE} > 0 and variant <= 1", [0, 1]),
+        (" * ".join(["variant"] * 25) + " > 1", list(range(2, 10))),  # more than a whole number of 64 bits holds
+        ("variant ** variant > 3 and variant < 4", [2, 3]),
+        (f"'60 mm' < {BORE} < '70 mm'", [3, 4, 5]),
+        ("sqrt(1 - variant) > 0.5 or sqrt(1 - variant) < 0.5", [0, 1]),
+        ("cylinder.mass > 110 and cylinder.mass < '130 kg'", [3, 4, 5]),
+    ],
+)
+def test_a_condition_picks_the_variants_that_fulfil_it(folder: Path, where: str | None, expected: list[int]) -> None:
+    assert ids(folder, where) == expected
+
+
+def test_the_order_is_by_the_named_columns_and_missing_values_stand_last(folder: Path) -> None:
+    power = calculated(*_inputs(folder), ["harmonic"] * 10)["drive.power_peak"].tolist()
+    there = [index for index in range(10) if index != 9]
+    rising = sorted(there, key=lambda index: power[index])
+    assert ids(folder, sort="drive.power_peak") == [*rising, 9]
+    assert ids(folder, sort="-drive.power_peak") == [*rising[::-1], 9]
+    assert ids(folder, sort="-drive.power_peak", top=2) == rising[:-3:-1]
+    assert ids(folder, sort=f"-{BORE}, variant", top=4) == [9, 7, 8, 6]
+
+
+def _inputs(folder: Path) -> tuple[object, object]:
+    import numpy as np
+
+    rows = json.loads("".join(variants(folder, format="json")))["variants"]
+    return np.array([row[SPEED] for row in rows]), np.array([row[BORE] for row in rows])
+
+
+@pytest.mark.parametrize(
+    ("where", "words"),
+    [
+        ("drive.crank_torqe_peak < 3", "did you mean 'drive.crank_torque_peak'?"),
+        ("cylinder.radius < 105", "needs mm, for example '105 mm'"),
+        ("drive.power_peak < '3 kg'", "drive.power_peak is a power and '3 kg' is a mass"),
+        (f"{SPEED} < '50 1/min'", "an angular speed"),
+        ("drive.power_peak < '3,5 W'", "comma"),
+        ("drive.power_peak < 'abc'", "finite number"),
+        ("drive.power_peak < '3 kx'", "'kx' is not a known unit"),
+        ("status = pass", "'pass' is not a column"),
+        ("status < 3", "put texts in quotes"),
+        ("drive.power_peak between 1 and 2 < 3", "use brackets"),
+        ("cylinder.mass", "not a condition"),
+        ("cylinder.mass + drive.slip > 1", "drive.slip is a condition"),
+        ("cylinder.mass + cylinder.radius > 1", "is a mass and cylinder.radius is a length; + needs"),
+        ("((variant < 1)", "')' is missing"),
+        ("variant < 1)", "')' is not expected"),
+        ("variant <", "missing before the end"),
+        ("variant in 3", "'(' is missing"),
+        ("variant is 3", "'null' is missing"),
+        ("variant not 3", "after 'not'"),
+        ("variant like '3'", "column of words"),
+        ("variant and variant", "stands between conditions"),
+        ("not variant", "before a condition"),
+        ("variant ** cylinder.mass > 3", "a number is needed"),
+        ("abs(variant, 2) > 1", "abs takes one quantity; 2 given"),
+        ("(" * 60 + "variant", "too deep"),
+        ("not " * 500 + "drive.slip", "more than 400 words"),
+    ],
+)
+def test_what_cannot_be_asked_is_told_in_words(folder: Path, where: str, words: str) -> None:
+    assert words in told(folder, where)
+
+
+@pytest.mark.parametrize(
+    "attack",
+    [
+        "variant < 1; COPY v TO '/tmp/x.csv'",
+        "variant < (SELECT 1)",
+        "read_text('/etc/passwd') = 'x'",
+        "variant = getenv('HOME')",
+        "status = 'x' UNION SELECT 1",
+        "status = 'x'' OR 1=1 --'' ) ; ATTACH '/tmp/x'",
+        "status /* */ = 'pass'",
+    ],
+)
+def test_a_condition_reaches_nothing_but_the_columns(folder: Path, attack: str) -> None:
+    assert "The condition" in told(folder, attack)
+
+
+def test_a_text_that_looks_like_sql_is_a_text(folder: Path) -> None:
+    assert ids(folder, "status = 'x'' OR 1=1 --'") == []
+
+
+COLUMNS = {"a.b": Read("a.b", "float", "m", "mm"), "status": Read("status", "text")}
+
+
+PIECES = ["a.b", "status", "<", "'1 mm'", "'x'", "(", ")", "and", "not", "-", "2", "in", ",", "sqrt"]
+
+
+@given(st.text(max_size=40) | st.lists(st.sampled_from(PIECES)).map(" ".join))
+def test_any_text_is_a_condition_or_a_fault_in_words(text: str) -> None:
+    try:
+        found = condition(text, COLUMNS)
+    except UserError as error:
+        assert str(error)
+        return
+    outside = found.sql.replace('"a.b"', "").replace('"status"', "").replace("'NaN'", "")
+    assert "'" not in outside and '"' not in outside and outside.count("?") == len(found.parameters)
+
+
+def test_the_csv_has_si_numbers_and_units_in_its_header(folder: Path) -> None:
+    rows = list(csv.DictReader(io.StringIO("".join(variants(folder, format="csv")))))
+    assert len(rows) == 10
+    assert float(rows[3][f"{BORE} [m]"]) == 0.065
+    assert float(rows[3][f"{SPEED} [rad/s]"]) == 2 * math.pi / 60 * 40
+    assert (rows[9]["status"], rows[9]["cylinder.mass [kg]"], rows[1]["drive.slip"]) == ("error", "", "true")
+
+
+def test_the_json_has_si_numbers_units_and_nulls(folder: Path) -> None:
+    data = json.loads("".join(variants(folder, "variant = 9", format="json")))
+    assert data["units"]["drive.power_peak"] == "W"
+    assert data["variants"][0]["drive.power_peak"] is None
+    assert "leaves no wall" in data["variants"][0]["error"]
+
+
+def test_the_table_is_in_the_units_that_people_read(folder: Path) -> None:
+    text = "".join(variants(folder, "variant = 3", width=160))
+    row = next(line for line in text.splitlines() if line.split()[:1] == ["3"])
+    assert [row.split()[index] for index in (0, 1, -2, -1)] == ["3", "pass", "40", "65"]
+    assert " rpm" in text and " mm" in text
+    assert "Fulfilling the condition: 1 of 10 variants." in text
+
+
+def test_a_long_table_says_what_it_leaves_out(tmp_path: Path) -> None:
+    text = "".join(variants(many(tmp_path / "out", 300), width=160))
+    assert "300 of 300 variants; 20 are shown" in text
+
+
+WRONG = [({"sort": "-drive.pwr"}, "drive.pwr"), ({"top": 0}, "--top"), ({"format": "xml"}, "table, csv, json")]
+
+
+@pytest.mark.parametrize(("options", "words"), WRONG)
+def test_wrong_options_are_told(folder: Path, options: dict[str, object], words: str) -> None:
+    with pytest.raises(UserError, match=words):
+        list(variants(folder, **options))  # type: ignore[arg-type]
+
+
+def _no_study(folder: Path) -> None:
+    (folder / "study.json").unlink()
+
+
+def _no_parts(folder: Path) -> None:
+    for part in (folder / "variants").iterdir():
+        part.unlink()
+
+
+def _broken_part(folder: Path) -> None:
+    (folder / "variants" / "part-00001.parquet").write_bytes(b"PAR1 not at all")
+
+
+@pytest.mark.parametrize(
+    ("harm", "words"),
+    [(_no_study, "no results of a study"), (_no_parts, "No variants are stored"), (_broken_part, "cannot be read")],
+)
+def test_a_folder_that_cannot_be_read_is_told(tmp_path: Path, harm: Callable[[Path], None], words: str) -> None:
+    out = ten(tmp_path / "out")
+    harm(out)
+    with pytest.raises(UserError, match=words):
+        list(variants(out, format="csv"))
+
+
+def test_asking_writes_nothing(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    out = ten(tmp_path / "out")
+    monkeypatch.chdir(tmp_path)
+    before = {path: path.stat().st_mtime_ns for path in tmp_path.rglob("*")}
+    list(variants(out, "status = 'pass'", "-drive.power_peak"))
+    assert before == {path: path.stat().st_mtime_ns for path in tmp_path.rglob("*")}
+
+
+# --- the configuration of a variant ----------------------------------------------------------------------------------
+
+
+def taken(folder: Path, variant: int) -> Tree:
+    """The configuration of a variant; what it is as text reads back as the same."""
+    tree = variant_config(folder, variant, Discovery([]), f"study-{variant}.yaml")
+    assert yaml_tree.parse(tree.text, "variant").data == tree.data
+    return tree
+
+
+def test_a_variants_configuration_is_the_base_with_its_values(folder: Path) -> None:
+    tree = taken(folder, 4)
+    base, data = yaml_tree.load(folder / "base.yaml").data, tree.data
+    assert tree.text.startswith("# Variant 4 of study.yaml: ")
+    assert (tree.name, tree.file) == ("study-4.yaml", str(folder / "base.yaml"))
+    assert data["mechanisms"]["cylinder"].pop("bore_radius") == "0.065 m"
+    assert data["mechanisms"]["drive"].pop("crank_speed") == f"{2 * math.pi / 60 * 50!r} rad/s"
+    del base["mechanisms"]["cylinder"]["bore_radius"], base["mechanisms"]["drive"]["crank_speed"]
+    assert data.pop("project") == {"title": "Two mechanisms – variant 4 of study"}
+    del base["project"]
+    assert data == base
+
+
+def test_problems_of_a_variant_name_the_line_of_the_base(folder: Path) -> None:
+    tree, path = taken(folder, 4), ("mechanisms", "cylinder", "bore_radius")
+    assert tree.position(path) == (9, 18)
+    assert tree.typed(path) == "0.065 m"
+    assert tree.position(("mechanisms", "cylinder", "segment_height")) == (10, 21)
+
+
+BASES: dict[str, tuple[str, Kind, Any, Any]] = {
+    "lists and blocks": ("mechanisms.drive.gears.1.driver_teeth", "int", 24, 24),
+    "a flow block in a list": ("mechanisms.drive.gears.0.driver_teeth", "float", 24.0, 24),
+    "a key in %": ("mechanisms.drive.slip", "float", 0.07, "7 %"),
+    "a key in %, 100 of them": ("mechanisms.drive.slip", "float", 1.0, "100 %"),
+    "a key that the base leaves out": ("mechanisms.drive.n_points", "int", 720, 720),
+    "a field of the press": ("press.sheet.thickness", "float", 0.0008, "0.0008 m"),
+    "a block that the base leaves out": ("press.rollers.first.width", "float", 0.5, "0.5 m"),
+    "a text": ("mechanisms.drive.motion_law", "text", "modified_sine", "modified_sine"),
+    "a text that looks like a number": ("mechanisms.drive.motion_law", "text", "12", "12"),
+}
+
+
+@pytest.mark.parametrize("name", BASES)
+def test_a_value_goes_where_its_path_leads(tmp_path: Path, name: str) -> None:
+    path, kind, value, expected = BASES[name]
+    column = ResultColumn(path, kind, "m" if path.startswith("press") else "1", "%" if path.endswith("slip") else "")
+    out = written(tmp_path / "out", [column], {path: [value], "status": ["pass"]}, varied=[path])
+    data = taken(out, 0).data
+    for key in path.split("."):
+        data = data[int(key)] if key.isdecimal() else data[key]
+    assert data == expected and type(data) is type(expected)
+
+
+def test_a_value_beside_an_anchor_changes_one_place_only(tmp_path: Path) -> None:
+    out = ten(tmp_path / "out", varied=[BORE])
+    base = "mechanisms:\n  a: &a {bore_radius: 70 mm}\n  cylinder: *a\n"
+    (out / "base.yaml").write_text(base, encoding="utf-8")
+    state = json.loads((out / "study.json").read_text("utf-8"))
+    state["sha256"]["base"] = sha256(base.encode()).hexdigest()
+    (out / "study.json").write_text(json.dumps(state), encoding="utf-8")
+    data = taken(out, 3).data
+    assert data["mechanisms"] == {"a": {"bore_radius": "70 mm"}, "cylinder": {"bore_radius": "0.065 m"}}
+
+
+def test_a_variant_that_is_not_stored_is_told(folder: Path) -> None:
+    with pytest.raises(UserError, match=r"no variant 17 here.*0 … 9"):
+        taken(folder, 17)

@@ -1,0 +1,583 @@
+"""The summary of stored variants: its numbers against counting by hand, influence and Pareto front against other ways, its pages."""
+
+from __future__ import annotations
+
+import io
+import json
+import re
+from html.parser import HTMLParser
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+import scipy.stats
+from pypdf import PdfReader
+
+from diecut_report.config import yaml_tree
+from diecut_report.errors import UserError
+from diecut_report.study.analysis.query import variants
+from diecut_report.study.analysis.stored_variants import STATUSES, opened
+from diecut_report.study.analysis.titles import titles
+from diecut_report.study.storage.description import ResultColumn
+from diecut_report.study.summary import content as contents
+from diecut_report.study.summary import data, influence, pareto, questions, summarise
+from diecut_report.study.summary.pages import page, sheets
+from diecut_report.study.summary.point_charts import near
+from diecut_report.study.summary.quantity_names import WORST, display, utilised
+from tests.study.stored_study import BORE, LAW, SPEED, made, many, ten, written
+
+GLOBAL = np.array([[0.3138, 0.4424, 0.0], [0.5574, 0.4424, 0.2436]])  # Ishigami: first and total indices, closed form
+
+
+@pytest.fixture(scope="module")
+def large(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    return many(
+        tmp_path_factory.mktemp("large") / "out", 3000, slow={"my_kind": "its functions take one number at a time"}
+    )
+
+
+def rows_of(folder: Path) -> list[dict[str, Any]]:
+    rows: list[dict[str, Any]] = json.loads("".join(variants(folder, format="json")))["variants"]
+    return rows
+
+
+@pytest.fixture(scope="module")
+def large_summary(large: Path) -> contents.Summary:
+    return summary_of(large)
+
+
+def summary_of(folder: Path) -> contents.Summary:
+    with opened(folder) as stored:
+        return contents.content(stored)
+
+
+# --- numbers ---------------------------------------------------------------------------------------------------------
+
+
+def test_counts_failures_and_utilisations_are_those_of_the_rows(large: Path, large_summary: contents.Summary) -> None:
+    rows, found = rows_of(large), large_summary
+    assert found.statuses == {status: sum(row["status"] == status for row in rows) for status in STATUSES}
+    lost = [[check for check in found.checks if row[f"{check}.status"] == "fail"] for row in rows]
+    assert {failure.check for failure in found.failures} == {check for each in lost for check in each}
+    for failure in found.failures:
+        assert failure.failing == sum(failure.check in each for each in lost)
+        assert failure.only == sum(each == [failure.check] for each in lost)
+        assert failure.governing == sum(row["status"] == "fail" and row["governing"] == failure.check for row in rows)
+        assert failure.warning == sum(row[f"{failure.check}.status"] == "warn" for row in rows)
+    assert sum(failure.governing for failure in found.failures) == found.statuses["fail"]
+    assert found.failures == sorted(found.failures, key=lambda failure: -failure.failing)
+    for used in found.utilisations:
+        values = [row[f"{used.check}.utilisation"] for row in rows if row[f"{used.check}.status"]]
+        there = np.array([value for value in values if value is not None])
+        assert list(used.bands) == np.histogram(there, [0, *data.BANDS, np.inf])[0].tolist()
+        assert used.without == values.count(None)
+        assert used.greatest == there.max()
+        states = [row[f"{used.check}.status"] for row in rows]
+        assert (used.passing, used.warning, used.failing) == tuple(
+            states.count(one) for one in ("pass", "warn", "fail")
+        )
+
+
+def test_ranges_and_histograms_are_those_of_the_rows(large: Path) -> None:
+    rows = rows_of(large)
+    power = np.array([row["drive.power_peak"] for row in rows if row["drive.power_peak"] is not None])
+    with opened(large) as stored:
+        data.prepare(stored)
+        spread = data.spreads(stored, [stored.columns["drive.power_peak"], WORST], len(rows))
+        histogram = data.histogram(stored, spread["drive.power_peak"])
+    assert spread["drive.power_peak"].values == pytest.approx(np.quantile(power, [0, 0.05, 0.5, 0.95, 1]), rel=1e-12)
+    assert spread["drive.power_peak"].present == len(power)
+    assert histogram.counts.sum(axis=0).tolist() == np.histogram(power, histogram.edges)[0].tolist()
+    failing = [row["drive.power_peak"] for row in rows if row["status"] == "fail"]
+    assert histogram.counts[STATUSES.index("fail")].tolist() == np.histogram(failing, histogram.edges)[0].tolist()
+    checks = [(row["drive.checks.play.utilisation"], row["cylinder.checks.wall.utilisation"]) for row in rows]
+    worst = max(max(pair) for pair in checks if None not in pair)  # a wall without a utilisation fails
+    assert spread[WORST.name].values[-1] == worst
+
+
+def test_reasons_that_differ_in_numbers_alone_are_counted_together(
+    large: Path, large_summary: contents.Summary
+) -> None:
+    rows = [row for row in rows_of(large) if row["error"]]
+    (reason,) = large_summary.reasons
+    assert (reason.variants, reason.example) == (len(rows), rows[0]["variant"])
+    assert reason.told == rows[0]["error"]
+
+
+def test_the_sample_is_the_same_each_time_and_holds_rows_as_they_are(large: Path) -> None:
+    rows = rows_of(large)
+    with opened(large) as stored:
+        data.prepare(stored)
+        columns = [stored.columns[name] for name in (SPEED, LAW, "drive.power_peak")]
+        one, two = (data.sample(stored, columns, 200) for _ in range(2))
+    assert one.variants.tolist() == two.variants.tolist()
+    assert len(set(one.variants.tolist())) == 200
+    for place, variant in enumerate(one.variants):
+        assert one.values[SPEED][place] == rows[variant][SPEED]
+        assert one.words[LAW][int(one.values[LAW][place])] == rows[variant][LAW]
+        assert STATUSES[one.status[place]] == rows[variant]["status"]
+        np.testing.assert_equal(one.values["drive.power_peak"][place], rows[variant]["drive.power_peak"] or np.nan)
+
+
+def test_shares_that_pass_are_those_of_the_rows_by_value_and_by_class(
+    large: Path, large_summary: contents.Summary
+) -> None:
+    rows = rows_of(large)
+    found = {each.column.name: each.rows for each in large_summary.passing}
+    assert list(found) == [SPEED, BORE, LAW]
+    for name in (SPEED, BORE):
+        values = np.array([row[name] for row in rows])
+        good = np.array([row["status"] in ("pass", "warn") for row in rows])
+        edges = np.linspace(values.min(), values.max(), 6)
+        assert [row.variants for row in found[name]] == np.histogram(values, edges)[0].tolist()
+        assert [row.passing for row in found[name]] == np.histogram(values[good], edges)[0].tolist()
+    for row in found[LAW]:
+        mine = [each["status"] for each in rows if each[LAW] == row.told]
+        assert (row.variants, row.passing) == (len(mine), mine.count("pass") + mine.count("warn"))
+    assert {row.told for row in found[LAW]} == {"harmonic", "cycloidal"}
+
+
+def test_a_value_at_which_nothing_passes_is_marked(small: Path) -> None:
+    found = summary_of(small)
+    speeds = next(each.rows for each in found.passing if each.column.name == SPEED)
+    assert [(row.told, row.variants, row.passing) for row in speeds] == [
+        ("35", 1, 0),
+        ("40", 3, 3),
+        ("50", 2, 0),
+        ("60", 4, 0),
+    ]
+    empty = sum(not row.passing for each in found.passing for row in each.rows)
+    assert page(found).count("none passes</strong>") == empty > 3
+
+
+def test_what_governs_those_that_pass_and_the_most_margin_are_those_of_the_rows(
+    large: Path, large_summary: contents.Summary
+) -> None:
+    good = [row for row in rows_of(large) if row["status"] in ("pass", "warn")]
+    worst = [max(row["drive.checks.play.utilisation"], row["cylinder.checks.wall.utilisation"]) for row in good]
+    assert sum(row.variants for row in large_summary.governing) == len(good)
+    for row in large_summary.governing:
+        mine = [used for used, each in zip(worst, good, strict=True) if each["governing"] == row.check]
+        assert (row.variants, row.least, row.greatest) == (len(mine), min(mine), max(mine))
+    assert (
+        f"variant {good[int(np.argmin(worst))]['variant']}: utilisation {utilised(min(worst))} at most"
+        in dict(large_summary.facts)["Most margin"]
+    )
+
+
+def test_variants_with_the_same_margin_are_counted(tmp_path: Path) -> None:
+    found = summary_of(made(tmp_path / "out", [3.0, 3.0, 3.0, 4.0], [0.06, 0.06, 0.06, 0.06]))
+    assert dict(found.facts)["Most margin"].startswith("variant 0, and 2 other variants with the same: utilisation")
+
+
+def test_a_check_that_fails_everywhere_is_told(tmp_path: Path) -> None:
+    found = summary_of(made(tmp_path / "out", [6.3] * 3, [0.055, 0.06, 0.065]))
+    text = " ".join(re.sub(r"<[^>]+>", "", page(found)).split())
+    assert "No variant can pass because of it: Play of the joints (drive) fails in all of them." in text
+    assert "No variant passes, so no value of an input does." in text
+    assert "among all that were calculated, since none passes" in text
+
+
+def test_classes_of_a_utilisation_do_not_lie_on_both_sides_of_one(large: Path) -> None:
+    rows = rows_of(large)
+    name = "drive.checks.play.utilisation"
+    with opened(large) as stored:
+        data.prepare(stored)
+        found = data.histogram(stored, data.spreads(stored, [stored.columns[name]], len(rows))[name])
+    (at,) = np.flatnonzero(np.isclose(found.edges, 1.0, rtol=0, atol=1e-12))
+    sizes = [row[name] for row in rows if row[name] is not None]
+    assert found.counts[:, :at].sum() == sum(size <= 1 for size in sizes)
+    assert found.counts[:, at:].sum() == sum(size > 1 for size in sizes)
+
+
+def test_what_was_studied_stands_there_as_it_is_written(tmp_path: Path) -> None:
+    folder = many(tmp_path / "out", 20, counts={"sample": 13, "variants": 10, "dropped": 3})
+    found = summary_of(folder)
+    assert found.asked is not None
+    assert [values for _, _, values in found.asked.inputs] == [
+        "from 30 rpm to 6.6e1 rpm", "normal, mean 70 mm, sd 5 mm, low 50 mm", "harmonic, cycloidal",
+    ]  # fmt: skip
+    assert found.asked.constraints == ["mechanisms.cylinder.bore_radius <= mechanisms.cylinder.radius - '1 mm'"]
+    facts = dict(found.asked.facts)
+    assert (facts["Sample"], facts["Count"], facts["Seed"]) == ("Latin hypercube", "13", "4")
+    assert facts["Dropped by the constraints"] == "3 variants"
+    (folder / "study.yaml").write_text("changed", "utf-8")
+    changed = summary_of(folder)
+    assert changed.asked is None and "is gone or has changed" in page(changed)
+
+
+def test_a_table_is_told_by_its_file() -> None:
+    text = "vary: {a.b: {table: motors.csv, column: n}, a.c: {from: 1, to: 9, count: 3, spacing: log}}"
+    tree = yaml_tree.parse(text, "study.yaml")
+    assert questions.written(tree, ("vary", "a.b")) == "column n of the table motors.csv"
+    assert questions.written(tree, ("vary", "a.c")) == "from 1 to 9, count 3, spacing log"
+
+
+def test_inputs_of_a_table_name_its_file(tmp_path: Path) -> None:
+    study = "schema_version: 1\nbase: press.yaml\nsample: {method: table, file: motors.csv}\n"
+    found = summary_of(made(tmp_path / "out", [3.0, 4.0], [0.06, 0.06], text=study)).asked
+    assert found is not None and dict(found.facts)["Sample"] == "rows of a table: motors.csv"
+    assert [values for _, _, values in found.inputs] == ["a column of motors.csv"] * 2
+
+
+def test_the_matrix_begins_with_the_best_and_each_variant_stands_once(
+    small: Path, large_summary: contents.Summary
+) -> None:
+    assert large_summary.front is not None
+    titles_ = [title for title, _ in large_summary.matrices[0].groups]
+    assert titles_ == ["Best: on the Pareto front", "Fail: the 10 most overloaded variants"]
+    best = large_summary.front.variants.tolist()
+    assert [row.variant for row in large_summary.matrices[0].groups[0][1]] == best[:15]
+    rows = [row.variant for row in summary_of(small).matrices[0].rows]
+    assert sorted(rows) == list(range(10))
+
+
+def test_best_variants_tell_status_and_what_governs(large: Path, large_summary: contents.Summary) -> None:
+    rows = rows_of(large)
+    assert large_summary.best
+    for each in large_summary.best:
+        mine = rows[each.variant]
+        used = max(mine["drive.checks.play.utilisation"], mine["cylinder.checks.wall.utilisation"])
+        assert (each.status, each.utilisation) == (mine["status"], utilised(used))
+        assert each.governing == large_summary.checks[mine["governing"]]
+
+
+# --- Pareto front ----------------------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("objectives", [1, 2, 3, 4])
+def test_the_front_is_what_comparing_all_pairs_gives(objectives: int) -> None:
+    costs = np.random.default_rng(objectives).integers(0, 9, (600, objectives)).astype(float)
+    beaten = [any((other <= row).all() and (other < row).any() for other in costs) for row in costs]
+    assert sorted(pareto.best(costs)) == [index for index, lost in enumerate(beaten) if not lost]
+
+
+def test_the_front_over_several_blocks_is_a_staircase() -> None:
+    x = np.random.default_rng(0).permutation(5 * pareto.BLOCK) / 1000.0
+    on_front = np.column_stack([x, -x])
+    behind = on_front + np.array([0.5, 0.5])
+    assert sorted(pareto.best(np.concatenate([behind, on_front]))) == list(range(len(x), 2 * len(x)))
+
+
+def test_only_variants_that_do_not_fail_are_on_the_front(large: Path, large_summary: contents.Summary) -> None:
+    rows, found = rows_of(large), large_summary
+    good = [row for row in rows if row["status"] in ("pass", "warn")]
+    assert found.front is not None and found.front.is_passing and found.front.among == len(good)
+    for variant in found.front.variants:
+        mine = rows[variant]
+        assert mine["status"] in ("pass", "warn")
+        better = [
+            row
+            for row in good
+            if row["drive.power_peak"] < mine["drive.power_peak"] and row["cylinder.mass"] <= mine["cylinder.mass"]
+        ]
+        assert not better
+    cheapest = min(good, key=lambda row: row["drive.power_peak"])
+    assert found.front.variants[0] == cheapest["variant"]
+
+
+def test_where_none_passes_all_calculated_variants_are_compared(tmp_path: Path) -> None:
+    found = summary_of(
+        made(tmp_path / "out", [6.3] * 3, [0.055, 0.06, 0.065], objectives=[{"maximise": "cylinder.mass"}])
+    )
+    assert found.front is not None and not found.front.is_passing
+    assert found.front.variants.tolist() == [0, 1, 2]
+
+
+# --- influence -------------------------------------------------------------------------------------------------------
+
+
+def ishigami(points: Any) -> Any:
+    one, two, three = points
+    return np.sin(one) + 7 * np.sin(two) ** 2 + 0.1 * three**4 * np.sin(one)
+
+
+def saltelli(folder: Path, n: int, lost: int = 0) -> Path:
+    """A stored Saltelli sample of the Ishigami function, some of the second matrix in error."""
+    draw = scipy.stats.qmc.Sobol(6, seed=1).random(n) * 2 * np.pi - np.pi
+    a, b = draw[:, :3], draw[:, 3:]
+    mixed = [np.column_stack([b[:, k] if k == i else a[:, k] for k in range(3)]) for i in range(3)]
+    points = np.stack([a, b, *mixed], axis=1).reshape(-1, 3)  # the rows of a point lie one after the other
+    gone = np.isin(np.arange(len(points)), 5 * np.arange(lost) + 1)
+    names = [f"mechanisms.m.x{index}" for index in range(3)]
+    values: dict[str, Any] = {name: points[:, index] for index, name in enumerate(names)}
+    values |= {
+        "m.f": np.where(gone, np.nan, ishigami(points.T)),
+        "status": np.where(gone, "error", "pass").astype(object),
+    }
+    values |= {"error": np.where(gone, "cannot be", None).astype(object)}
+    columns = [*(ResultColumn(name) for name in names), ResultColumn("m.f")]
+    return written(folder, columns, values, varied=names, design="saltelli", n=n, objectives=[{"minimise": "m.f"}])
+
+
+def test_sobol_indices_are_those_of_the_closed_form_and_of_scipy(tmp_path: Path) -> None:
+    with opened(saltelli(tmp_path / "out", 1 << 13)) as stored:
+        data.prepare(stored)
+        (found,) = influence.influences(stored, [stored.columns["m.f"]])
+    assert found.is_sobol
+    shares = {share.column.name[-1]: share for share in found.shares}
+    ours = np.array([[shares[name].first, shares[name].total] for name in "012"], dtype=float).T
+    np.testing.assert_allclose(ours, GLOBAL, atol=0.02)
+    uniform = scipy.stats.uniform(loc=-np.pi, scale=2 * np.pi)
+    other = scipy.stats.sobol_indices(func=ishigami, n=1 << 13, dists=[uniform] * 3, rng=3)
+    np.testing.assert_allclose(ours, [other.first_order, other.total_order], atol=0.02)
+    for share, first in ((shares["0"], GLOBAL[0, 0]), (shares["1"], GLOBAL[0, 1])):
+        assert share.first_error is not None and abs(share.first - first) < 2 * share.first_error
+
+
+def test_sobol_indices_leave_out_base_rows_that_miss_a_variant(tmp_path: Path) -> None:
+    with opened(saltelli(tmp_path / "out", 1 << 12, lost=96)) as stored:
+        data.prepare(stored)
+        (found,) = influence.influences(stored, [stored.columns["m.f"]])
+    assert found.variants == 5 * ((1 << 12) - 96)
+    np.testing.assert_allclose(sorted(share.total or 0 for share in found.shares), sorted(GLOBAL[1]), atol=0.06)
+
+
+def test_without_such_a_sample_partial_rank_correlation_is_told(large: Path) -> None:
+    rows = [row for row in rows_of(large) if row["status"] != "error"]
+    with opened(large) as stored:
+        data.prepare(stored)
+        (found,) = influence.influences(stored, [stored.columns["drive.power_peak"]])
+    assert not found.is_sobol and found.variants == len(rows)
+    shares = {share.column.name: share.first for share in found.shares}
+    ranked = [scipy.stats.rankdata([row[name] for row in rows]) for name in (SPEED, BORE, "drive.power_peak")]
+    is_first = [float(row[LAW] == "cycloidal") for row in rows]
+    inverse = np.linalg.inv(np.corrcoef([*ranked[:2], is_first, ranked[2]]))  # gives partial correlations too
+    expected = -inverse[3, :3] / np.sqrt(np.diag(inverse)[:3] * inverse[3, 3])
+    assert shares[SPEED] == pytest.approx(expected[0], abs=1e-9)
+    assert shares[BORE] == pytest.approx(expected[1], abs=1e-9)
+    assert shares[LAW] == pytest.approx(abs(expected[2]), abs=1e-9)  # words have no sign
+
+
+def test_an_input_that_a_constraint_ties_to_another_gets_no_influence_of_its_own() -> None:
+    draw = np.random.default_rng(5)
+    one = draw.uniform(size=4000)
+    two = one + draw.uniform(-0.3, 0.3, 4000)  # goes with the first, and moves nothing
+    goal = influence.ranks(one + draw.normal(0, 0.05, 4000))
+    assert scipy.stats.spearmanr(two, goal).statistic > 0.8
+    first, second = influence.partial([influence.ranks(one)[:, None], influence.ranks(two)[:, None]], goal)
+    assert first is not None and first > 0.9
+    assert second is not None and abs(second) < influence.WEAK
+
+
+def test_inputs_that_go_together_share_their_influence_and_few_variants_tell_nothing() -> None:
+    ranks = np.random.default_rng(6).permutation(50).astype(float)[:, None]
+    assert influence.partial([ranks, -ranks], ranks[:, 0]) == pytest.approx([1.0, -1.0])
+    assert influence.partial([ranks[:5], ranks[:5] ** 2], ranks[:5, 0]) == [None, None]
+
+
+def test_an_influence_next_to_nothing_is_neither_printed_nor_drawn(large_summary: contents.Summary) -> None:
+    assert large_summary.ranked is not None
+    texts = dict(large_summary.ranked.rows)
+    mass = large_summary.ranked.targets.index("Mass of the cylinder (cylinder)")
+    assert texts["Speed of the crank (drive)"][mass] == "–"
+    assert texts["Radius of the bore (cylinder)"][mass] == "−1.00"
+    drawn = next(each for each in large_summary.ranked.figures if "on Mass of the cylinder" in each.alternative)
+    assert "Speed of the crank" not in drawn.alternative
+    assert "Mass of the cylinder (cylinder) over Speed" not in large_summary.figures["grid"].alternative
+
+
+def test_equal_values_share_their_rank() -> None:
+    np.testing.assert_array_equal(influence.ranks(np.array([3.0, 1.0, 3.0, 2.0, 3.0])), [4, 1, 4, 2, 4])
+
+
+# --- pages -----------------------------------------------------------------------------------------------------------
+
+
+class Tags(HTMLParser):
+    """All start tags with their attributes."""
+
+    def __init__(self, text: str) -> None:
+        super().__init__()
+        self.found: list[tuple[str, dict[str, str | None]]] = []
+        self.feed(text)
+
+    def handle_starttag(self, tag: str, attrs: list[tuple[str, str | None]]) -> None:
+        self.found.append((tag, dict(attrs)))
+
+
+@pytest.fixture(scope="module")
+def small(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    folder = ten(
+        tmp_path_factory.mktemp("small") / "out",
+        title="Ten <variants>",
+        state="running",
+        counts={"sample": 13, "variants": 10, "dropped": 3},
+    )
+    (folder / "reports").mkdir()
+    (folder / "reports" / "6.html").write_text("the report")
+    (folder / "reports" / "3.pdf").write_text("the report")
+    return folder
+
+
+@pytest.fixture(scope="module")
+def small_page(small: Path) -> str:
+    return page(summary_of(small))
+
+
+def test_the_pages_are_written_and_say_the_counts(small: Path) -> None:
+    assert summarise(small) == [small / "summary.html", small / "summary.pdf"]
+    text = re.sub(r"<[^>]+>", "", (small / "summary.html").read_text("utf-8"))
+    assert "3 of 10 variants pass all checks, 6 fail, 1 cannot exist." in text
+    assert "The run is not complete." in text
+    assert re.search(r"Left out by constraints\s*3 variants", text)
+    assert "bore_radius 0.104 m leaves no wall" in text
+    paper = " ".join("\n".join(sheet.extract_text() for sheet in PdfReader(small / "summary.pdf").pages).split())
+    assert "3 of 10 variants pass all checks" in paper
+    assert "Partial rank correlation" in paper
+
+
+def test_links_lead_to_the_reports_that_exist(small_page: str) -> None:
+    tags = Tags(small_page).found
+    links = {a["href"] for tag, a in tags if tag == "a" and "href" in a}
+    assert {link for link in links if link and not link.startswith("#")} == {"reports/6.html", "reports/3.pdf"}
+    anchors = {a.get("id") for _, a in tags}
+    assert all(link and link[1:] in anchors for link in links if link and link.startswith("#"))
+
+
+@pytest.fixture(scope="module")
+def large_page(large_summary: contents.Summary) -> str:
+    return page(large_summary)
+
+
+def test_the_html_page_needs_nothing_from_elsewhere(large_page: str) -> None:
+    for tag, attributes in Tags(large_page).found:
+        for name in ("src", "href", "xlink:href"):
+            value = attributes.get(name) or "#"
+            assert value.startswith(("#", "data:")), (tag, value)
+
+
+def test_what_a_user_wrote_cannot_end_a_script_or_a_tag(tmp_path: Path) -> None:
+    law = ["</script><b>", "harmonic"] * 5
+    text = page(
+        summary_of(made(tmp_path / "out", np.linspace(3, 7, 10), np.linspace(0.05, 0.09, 10), law, title="<i>x</i>"))
+    )
+    assert "<b>" not in text and "<i>x" not in text
+    data_ = text.split('id="any-data">')[1].split("</script>")[0]
+    assert json.loads(data_)["columns"][2]["words"] == ["</script><b>", "harmonic"]
+
+
+def test_every_chart_has_a_text_alternative(large_summary: contents.Summary, small: Path) -> None:
+    found = large_summary
+    charts = [*found.figures.values(), *(found.ranked.figures if found.ranked else [])]
+    assert len(charts) == 9
+    for figure in charts:
+        assert len(figure.alternative) > 20
+        assert re.search(r"<title>[^<]{20,}</title>", figure.svg.text)
+    document = PdfReader(io.BytesIO(sheets(summary_of(small))))
+    assert "/StructTreeRoot" in document.trailer["/Root"]
+
+
+def test_a_large_study_is_aggregated_and_says_so(large_summary: contents.Summary, large_page: str) -> None:
+    found = large_summary
+    assert len(found.any_two.variants) == contents.SAMPLED
+    assert "a sample of 1500 variants is drawn" in found.figures["pair"].caption
+    assert not found.is_whole and len(found.matrices[0].rows) < 45
+    assert len(large_page) < 3_000_000
+    assert "its functions take one number at a time" in large_page
+
+
+def test_objectives_and_failing_checks_come_before_other_outputs(tmp_path: Path) -> None:
+    names = [column.name for column in summary_of(ten(tmp_path / "out")).choices]
+    assert names[2:6] == ["drive.power_peak", "cylinder.mass", "greatest utilisation", "drive.checks.play.utilisation"]
+    assert {"drive.crank_torque_peak", "drive.idle_ratio"} <= set(names[6:])
+
+
+def test_what_people_read_are_titles_and_units_not_names(small_page: str) -> None:
+    text = re.sub(r"<[^>]+>", " ", small_page)
+    assert (
+        "Fails most often: Play of the joints (drive) (in 5 of 9 variants, 55.6 %); the only failing check in 5."
+        in " ".join(text.split())
+    )
+    assert "Speed of the crank (drive), rpm" in text and "Mass of the cylinder (cylinder), kg" in text
+    assert re.search(r"diecut-report report &#34;out#\d&#34;|diecut-report report \"out#\d\"", text)
+
+
+def test_titles_are_unlike_each_other() -> None:
+    gear = [ResultColumn(f"mechanisms.train.gears.{i}.teeth", description="Teeth of the gear") for i in range(2)]
+    force = [ResultColumn(f"{name}.force", description=f"Force ({end})") for name, end in (("a", "up"), ("b", "up"))]
+    both = [ResultColumn(f"a.force_{end}", description=f"Force ({end})") for end in ("mean", "peak")]
+    found = titles([*gear, *force, *both, ResultColumn("status", description="Status")])
+    assert list(found.values()) == [
+        "Teeth of the gear: no. 1 of gears (train)", "Teeth of the gear: no. 2 of gears (train)",
+        "Force (up) (a)", "Force (b)", "Force (mean) (a)", "Force (peak) (a)", "",
+    ]  # fmt: skip
+
+
+@pytest.mark.parametrize(
+    ("value", "text"),
+    [
+        (0.0, "0.00"),
+        (1e-9, "< 0.01"),
+        (0.996, "0.9960"),
+        (1.0, "1.00"),
+        (1.0003, "1.0003"),
+        (120, "120"),
+        (0.99999998, "< 1"),
+        (1.00000002, "> 1"),
+        (1.02, "1.02"),
+    ],
+)
+def test_a_utilisation_shows_on_which_side_of_one_it_is(value: float, text: str) -> None:
+    assert utilised(value) == text
+    assert display(value, WORST) == text
+
+
+def test_cells_count_every_variant_once(large: Path) -> None:
+    rows = [row for row in rows_of(large) if row["status"] != "error"]
+    with opened(large) as stored:
+        data.prepare(stored)
+        mass, power = (stored.columns[name] for name in ("cylinder.mass", "drive.power_peak"))
+        spread = data.spreads(stored, [mass, power], len(rows))
+        found = data.density(stored, spread[mass.name], spread[power.name])
+    points = np.array([(row["drive.power_peak"], row["cylinder.mass"]) for row in rows])
+    expected = np.histogram2d(*points.T, [found.y_edges, found.x_edges])[0]
+    np.testing.assert_array_equal(found.counts, expected)
+    assert found.sound.sum() == sum(row["status"] in ("pass", "warn") for row in rows)
+
+
+def test_a_few_values_far_out_do_not_press_the_others_together() -> None:
+    values = np.r_[np.linspace(0, 1, 99), 60.0]
+    assert near(values).max() == pytest.approx(data.reach(0, float(np.quantile(values, 0.95)), 60.0))
+    assert near(values).max() < 1.3
+    np.testing.assert_array_equal(near(values[:-1]), values[:-1])
+
+
+def test_the_same_variants_give_the_same_page(small: Path, small_page: str) -> None:
+    assert page(summary_of(small)) == small_page
+
+
+@pytest.mark.parametrize("count", [1, *(pytest.param(count, marks=pytest.mark.nightly) for count in (2, 3))])
+def test_few_variants_have_a_summary_too(tmp_path: Path, count: int) -> None:
+    folder = many(tmp_path / "out", count, seed=3)
+    summarise(folder)
+    assert (folder / "summary.pdf").read_bytes().startswith(b"%PDF")
+
+
+def test_a_study_of_errors_alone_has_a_summary(tmp_path: Path) -> None:
+    folder = made(tmp_path / "out", [3.0, 4.0, 5.0], [0.104] * 3)
+    summarise(folder, ["html"])
+    text = re.sub(r"<[^>]+>", "", (folder / "summary.html").read_text("utf-8"))
+    assert "0 of 3 variants pass all checks, 3 cannot exist" in text
+    assert "No variant was calculated that has the objectives." in text
+
+
+def test_a_folder_without_variants_has_no_summary(tmp_path: Path) -> None:
+    with pytest.raises(UserError, match="no results of a study"):
+        summarise(tmp_path)
+    assert not list(tmp_path.iterdir())
+
+
+@pytest.mark.nightly
+def test_three_hundred_thousand_variants_stay_within_memory(tmp_path: Path) -> None:
+    import subprocess
+    import sys
+
+    folder = many(tmp_path / "out", 300_000)
+    code = (
+        "import resource, sys; from pathlib import Path; from diecut_report.study.summary import summarise; "
+        "summarise(Path(sys.argv[1])); print(resource.getrusage(resource.RUSAGE_SELF).ru_maxrss)"
+    )
+    done = subprocess.run([sys.executable, "-c", code, str(folder)], capture_output=True, text=True, check=True)
+    assert int(done.stdout) < 1_000_000  # kB

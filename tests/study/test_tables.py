@@ -1,0 +1,320 @@
+"""Tables of variants from CSV, Parquet and XLSX files, and what is said where they are wrong."""
+
+from __future__ import annotations
+
+import csv
+import math
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import openpyxl
+import pyarrow as pa
+import pyarrow.parquet as pq
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from diecut_report.errors import UserError
+from diecut_report.quantities.units import parse_quantity
+from diecut_report.study.tables.cells import Cells, si_numbers
+from diecut_report.study.tables.reading import read_table
+
+HEADERS = ["drive.crank_speed [rpm]", "cylinder.bore_radius", "drive.motion_law", "train.teeth"]
+ROWS: list[list[Any]] = [[60, "55 mm", "cycloidal", 17], [90.5, "60.5 mm", "harmonic", 23]]
+
+
+def write_csv(path: Path, rows: list[list[Any]]) -> None:
+    with path.open("w", encoding="utf-8", newline="") as file:
+        csv.writer(file).writerows(rows)
+
+
+def write_parquet(path: Path, rows: list[list[Any]]) -> None:
+    names, *cells = rows
+    columns = [pa.array([float(c) if isinstance(c, int) else c for c in column]) for column in zip(*cells, strict=True)]
+    pq.write_table(pa.Table.from_arrays(columns, names=names), path)
+
+
+def write_xlsx(path: Path, rows: list[list[Any]]) -> None:
+    book = openpyxl.Workbook()
+    for row in rows:
+        book.worksheets[0].append(row)
+    book.save(path)
+
+
+WRITERS: dict[str, Callable[[Path, list[list[Any]]], None]] = {
+    "csv": write_csv,
+    "parquet": write_parquet,
+    "xlsx": write_xlsx,
+}
+
+
+def faults(read: Callable[[], object]) -> list[str]:
+    with pytest.raises(UserError) as caught:
+        read()
+    return [str(problem) for problem in caught.value.problems]
+
+
+def fault(read: Callable[[], object]) -> str:
+    (found,) = faults(read)
+    return found
+
+
+def csv_of(folder: Path, text: str, encoding: str = "utf-8") -> Path:
+    path = folder / "t.csv"
+    path.write_text(text, encoding=encoding, newline="")
+    return path
+
+
+# --- what is read ----------------------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("kind", WRITERS)
+def test_a_table_becomes_si_values_and_texts(kind: str, tmp_path: Path) -> None:
+    path = tmp_path / f"variants.{kind}"
+    WRITERS[kind](path, [HEADERS, *ROWS])
+    table = read_table(path)
+    assert table.count == 2
+    assert list(table.columns) == ["drive.crank_speed", "cylinder.bore_radius", "drive.motion_law", "train.teeth"]
+    np.testing.assert_allclose(table.column("drive.crank_speed").si("rad/s"), np.array([60, 90.5]) * 2 * math.pi / 60)
+    assert list(table.column("cylinder.bore_radius").si("mm")) == [0.055, 0.0605]
+    assert table.column("drive.motion_law").texts() == ["cycloidal", "harmonic"]
+    assert list(table.column("train.teeth").si("1")) == [17.0, 23.0]
+    assert table.column("train.teeth").texts() == ["17", "23"]
+
+
+@pytest.mark.parametrize("delimiter", [",", ";", "\t"])
+def test_a_csv_may_be_of_any_spreadsheet(delimiter: str, tmp_path: Path) -> None:
+    text = "\ufeffa [mm],b\r\n 1.5 , x \r\n\r\n2e1,y\r\n\r\n".replace(",", delimiter)
+    table = read_table(csv_of(tmp_path, text))
+    assert list(table.column("a").si("m")) == [0.0015, 0.02]
+    assert table.column("b").texts() == ["x", "y"]
+
+
+def test_a_csv_of_one_column_may_end_in_blank_lines(tmp_path: Path) -> None:
+    assert list(read_table(csv_of(tmp_path, "a\n1\n2\n\n\n")).column("a").si("1")) == [1.0, 2.0]
+
+
+def test_a_parquet_column_may_store_its_unit_beside_it(tmp_path: Path) -> None:
+    field = pa.field("a", pa.float32(), metadata={b"unit": b"mm"})
+    path = tmp_path / "t.parquet"
+    pq.write_table(pa.Table.from_arrays([pa.array([1.5, 2.0], pa.float32())], schema=pa.schema([field])), path)
+    assert list(read_table(path).column("a").si("m")) == [0.0015, 0.002]
+
+
+def test_a_parquet_column_may_hold_repeated_texts_as_a_dictionary(tmp_path: Path) -> None:
+    path = tmp_path / "t.parquet"
+    pq.write_table(pa.table({"a": pa.array(["x", "y", "x"]).dictionary_encode()}), path)
+    assert read_table(path).column("a").texts() == ["x", "y", "x"]
+
+
+def test_a_sheet_may_be_named(tmp_path: Path) -> None:
+    book = openpyxl.Workbook()
+    book.create_sheet("Second").append(["a"])
+    book["Second"].append([4])
+    path = tmp_path / "t.xlsx"
+    book.save(path)
+    assert list(read_table(path, "Second").column("a").si("1")) == [4.0]
+    assert "has no sheet “Third”; its sheets: Sheet, Second" in fault(lambda: read_table(path, "Third"))
+
+
+@given(st.lists(st.floats(-1e6, 1e6), min_size=1), st.sampled_from(["mm", "kN", "rpm", "1/h", "deg", "1", "kg*m**2"]))
+def test_columns_are_converted_as_single_values_are(values: list[float], unit_text: str) -> None:
+    expected = [parse_quantity(value, unit_text) for value in values]
+    plain, no_faults = si_numbers(Cells(values), unit_text, own=False)
+    typed = [f"{value!r} {unit_text}" if unit_text != "1" else repr(value) for value in values]
+    with_units, none_either = si_numbers(Cells(typed), unit_text, own=False)
+    assert no_faults == none_either == []
+    assert list(plain) == list(with_units) == expected
+
+
+def test_millimetres_are_rounded_once_as_in_a_config(tmp_path: Path) -> None:
+    values = [i / 10 for i in range(1, 2000)]
+    path = csv_of(tmp_path, "a [mm]\n" + "\n".join(map(repr, values)))
+    assert list(read_table(path).column("a").si("m")) == [parse_quantity(f"{value!r} mm", "m") for value in values]
+
+
+# --- what is wrong with cells ----------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("kind", WRITERS)
+def test_an_empty_cell_is_told_with_its_row(kind: str, tmp_path: Path) -> None:
+    path = tmp_path / f"t.{kind}"
+    WRITERS[kind](path, [["x", "a [mm]", "b"], [0.5, 1.5, "x"], [0.5, None, "y"], [0.5, 3.5, None]])
+    table, first = read_table(path), 1 if kind == "parquet" else 2
+    assert f"{path}:{first + 1}:2: a: row {first + 1}: the cell is empty" in fault(lambda: table.column("a").si("m"))
+    assert f"{path}:{first + 2}:3: b: row {first + 2}: the cell is empty" in fault(table.column("b").texts)
+
+
+@pytest.mark.parametrize("cell", ["nan", "NaN", "inf", "-inf", "#N/A", "null"])
+@pytest.mark.parametrize("other", ["1", "1 mm"])
+def test_a_cell_that_is_no_finite_number_is_refused(cell: str, other: str, tmp_path: Path) -> None:
+    table = read_table(csv_of(tmp_path, f"a,b\n{other},x\n{cell},x\n"))
+    assert "t.csv:3:1: a: row 3: " in fault(lambda: table.column("a").si("mm"))
+
+
+def test_nan_in_a_parquet_column_is_refused(tmp_path: Path) -> None:
+    path = tmp_path / "t.parquet"
+    pq.write_table(pa.table({"a": [1.0, math.nan, math.inf]}), path)
+    found = faults(lambda: read_table(path).column("a").si("1"))
+    assert ["row 2" in found[0], "row 3: the number is infinite" in found[1]] == [True, True]
+
+
+@pytest.mark.parametrize(
+    ("cells", "words"),
+    [
+        ("55 mm\n6 cm", "row 3: the cell is in cm, but row 2 is in mm; a column has one unit"),
+        ("55\n6 cm", "row 3: the cell is in cm, but row 2 has no unit"),
+        ("55 mm\n6", "row 3: the cell has no unit, but row 2 is in mm"),
+        ("55 mm\n6 kg", "row 3: 6 kg is a mass; a length is needed"),
+        ("55 mm\n6 furlogs", "row 3: 'furlogs' is not a known unit"),
+        ("1\n\"2,5\"", "row 3: '2,5' holds a comma"),
+        ("1\nabc", "row 3: 'abc' does not begin with a finite number"),
+    ],
+)  # fmt: skip
+def test_mixed_and_wrong_units_are_told_with_their_row(cells: str, words: str, tmp_path: Path) -> None:
+    table = read_table(csv_of(tmp_path, f"a\n{cells}\n"))
+    assert words in fault(lambda: table.column("a").si("mm"))
+
+
+def test_a_cell_may_repeat_the_unit_of_its_header_but_no_other(tmp_path: Path) -> None:
+    table = read_table(csv_of(tmp_path, "a [cm],b [cm]\n1 cm,1\n2,2 mm\n"))
+    assert list(table.column("a").si("mm")) == [0.01, 0.02]
+    assert "row 3: the cell is in mm, but the header is in cm" in fault(lambda: table.column("b").si("mm"))
+
+
+@pytest.mark.parametrize(
+    ("header", "words"),
+    [
+        ("a [kg]", "the header's unit [kg] is of another kind; give one such as [mm]"),
+        ("a [furlogs]", "the header's unit: 'furlogs' is not a known unit"),
+    ],
+)
+def test_a_wrong_unit_in_the_header_is_refused(header: str, words: str, tmp_path: Path) -> None:
+    assert words in fault(lambda: read_table(csv_of(tmp_path, f"{header}\n1\n")).column("a").si("mm"))
+
+
+def test_a_text_has_no_unit(tmp_path: Path) -> None:
+    assert "remove the unit" in fault(read_table(csv_of(tmp_path, "law [mm]\nx\n")).column("law").texts)
+
+
+def test_a_date_in_a_workbook_is_no_number(tmp_path: Path) -> None:
+    import datetime
+
+    path = tmp_path / "t.xlsx"
+    write_xlsx(path, [["a"], [1.0], [datetime.datetime(2026, 1, 5)], [True]])
+    found = faults(lambda: read_table(path).column("a").si("1"))
+    assert "row 3: 2026-01-05 00:00:00 is not a number (the cell holds a datetime)" in found[0]
+    assert "row 4: true is not a quantity" in found[1]
+
+
+def test_many_faults_are_told_as_a_few_and_their_number(tmp_path: Path) -> None:
+    table = read_table(csv_of(tmp_path, "a,b\n" + ",x\n" * 100))
+    found = faults(lambda: table.column("a").si("1"))
+    assert len(found) == 6
+    assert "95 more cells of this column are wrong" in found[-1]
+
+
+def test_rows_are_counted_with_the_blank_lines_between_them(tmp_path: Path) -> None:
+    table = read_table(csv_of(tmp_path, "a,b\n1,x\n\n2,x\n\n\n,x\n"))
+    assert "t.csv:7:1: a: row 7" in fault(lambda: table.column("a").si("1"))
+
+
+# --- what is wrong with tables ---------------------------------------------------------------------------------------
+
+
+def test_a_missing_column_is_told_with_the_nearest_name(tmp_path: Path) -> None:
+    table = read_table(csv_of(tmp_path, "drive.crank_sped,press.name\n1,2\n"))
+    assert "no column drive.crank_speed (did you mean 'drive.crank_sped'?)" in fault(
+        lambda: table.column("drive.crank_speed")
+    )
+    assert "Its columns: drive.crank_sped, press.name" in fault(lambda: table.column("x"))
+
+
+def test_rows_of_another_length_are_all_told(tmp_path: Path) -> None:
+    path = csv_of(tmp_path, "a,b\n1,2\n\n1,2,3\n4,5\n6\n")
+    found = faults(lambda: read_table(path))
+    assert ["t.csv:4: row 4 has 3 cells, the header 2" in found[0], "t.csv:6: row 6 has 1 cells" in found[1]] == [
+        True
+    ] * 2
+
+
+@pytest.mark.parametrize("kind", WRITERS)
+def test_columns_of_one_name_or_none_are_refused(kind: str, tmp_path: Path) -> None:
+    path = tmp_path / f"t.{kind}"
+    WRITERS[kind](path, [["a [mm]", "", "a [cm]"], [1, 2, 3]])
+    found = faults(lambda: read_table(path))
+    assert "column 2 has no name" in found[0]
+    assert "columns 1 and 3 have the same name" in found[1]
+
+
+@pytest.mark.parametrize(
+    ("text", "words"),
+    [
+        ("", "row 1 is empty"),
+        ("\n1,2\n", "row 1 is empty"),
+        ("a,b\n", "no rows below its header"),
+        ("a,b\n\n", "no rows below its header"),
+        ("a,b", "no rows below its header"),
+        ("a\n\n", "no rows below its header"),
+    ],
+)
+def test_a_table_without_rows_is_refused(text: str, words: str, tmp_path: Path) -> None:
+    assert words in fault(lambda: read_table(csv_of(tmp_path, text)))
+
+
+@pytest.mark.parametrize(("kind", "rows"), [("xlsx", [["a", "b"]]), ("xlsx", [["a", "b"], [None, None]])])
+def test_a_workbook_without_rows_is_refused(kind: str, rows: list[list[Any]], tmp_path: Path) -> None:
+    path = tmp_path / f"t.{kind}"
+    WRITERS[kind](path, rows)
+    assert "no rows below its header" in fault(lambda: read_table(path))
+
+
+@pytest.mark.parametrize("text", ["a,b\n1,я\n", "я,b\n1,2\n"])
+def test_a_csv_in_another_encoding_is_refused(text: str, tmp_path: Path) -> None:
+    path = csv_of(tmp_path, text, encoding="cp1251")
+    assert "is not in UTF-8" in fault(lambda: read_table(path))
+
+
+@pytest.mark.parametrize(
+    ("name", "words"),
+    [
+        ("t.parquet", "is not a Parquet file"),
+        ("t.xlsx", "is not an XLSX workbook"),
+        ("t.xls", "the ending .xls is not known; save the table as .csv, .parquet, .xlsx"),
+        ("table", "the ending (none) is not known"),
+    ],
+)
+def test_a_file_of_another_kind_is_refused(name: str, words: str, tmp_path: Path) -> None:
+    path = tmp_path / name
+    path.write_bytes(b"something else, long enough to be no table at all")
+    assert words in fault(lambda: read_table(path))
+
+
+@pytest.mark.parametrize("name", ["none.csv", "none.parquet", "none.xlsx"])
+def test_a_file_that_is_not_there_is_told(name: str, tmp_path: Path) -> None:
+    assert "cannot be read: No such file or directory" in fault(lambda: read_table(tmp_path / name))
+
+
+def test_a_parquet_column_of_another_kind_is_refused(tmp_path: Path) -> None:
+    path = tmp_path / "t.parquet"
+    pq.write_table(pa.table({"a": [[1.0], [2.0]], "b": [True, False], "c": [1, 2]}), path)
+    found = faults(lambda: read_table(path))
+    assert [text.split(": ", 1)[1].split("; ")[0] for text in found] == [
+        "column a holds list<element: double>",
+        "column b holds bool",
+    ]
+
+
+def test_only_a_workbook_has_sheets(tmp_path: Path) -> None:
+    assert "only a workbook" in fault(lambda: read_table(csv_of(tmp_path, "a\n1\n"), "Second"))
+
+
+def test_a_table_of_many_rows_is_read_by_column(tmp_path: Path) -> None:
+    values = np.random.default_rng(0).random((50_000, 3))
+    path = tmp_path / "t.csv"
+    np.savetxt(path, values, delimiter=",", header="a [mm],b [rpm],c", comments="", fmt="%.17g")
+    table = read_table(path)
+    np.testing.assert_allclose(table.column("a").si("m"), values[:, 0] / 1000, rtol=1e-15)
+    np.testing.assert_array_equal(table.column("c").si("1"), values[:, 2])
