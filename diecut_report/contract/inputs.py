@@ -204,7 +204,12 @@ class CurveInput:
 class Block(BaseModel):
     """A block of inputs inside a mechanism, or one of a list of repeated parts."""
 
-    model_config = ConfigDict(extra="forbid", validate_default=True, frozen=True)
+    model_config = ConfigDict(
+        extra="forbid",
+        validate_default=True,
+        frozen=True,
+        arbitrary_types_allowed=True,  # refused by the declaration check
+    )
     one_of: ClassVar[tuple[OneOf, ...]] = ()
     spread: ClassVar[Mapping[str, tuple[str, ...]]] = {}
     """Keys whose value may be a list, each with the single keys that the values of the list stand for, in order."""

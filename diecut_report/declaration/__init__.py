@@ -22,6 +22,7 @@ from diecut_report.declaration import (
     tables,
     tokens,
     units,
+    unknown_units,
 )
 from diecut_report.declaration.names import DeclaredNames
 from diecut_report.declaration.words import Fault
@@ -61,8 +62,8 @@ def faults_at_load(mechanism: Mechanism) -> list[Fault]:
 
 def faults(mechanism: Mechanism) -> list[Fault]:
     """Return every mistake in what a mechanism declares, and in its comparisons; in the order of reading."""
-    found = shape.faults(mechanism) or list(formulas.unmarked(mechanism))
-    if found:  # nothing can be asked of what is no formula
+    found = shape.faults(mechanism) or list(formulas.unmarked(mechanism)) or list(unknown_units.faults(mechanism))
+    if found:  # nothing can be asked of what is no formula, or in a unit that is none
         return found
     names = DeclaredNames(mechanism)
     found = [fault for part in PARTS for fault in part.faults(mechanism, names)]

@@ -17,8 +17,7 @@ GRAVITY = 'case("by gravity", "the pole is above the buckets", lambda head_diame
 LAMBDAS = (
     load("a lambda's parameter is misspelt", WASTE, WASTE.replace("belt_speed", "belt_sped"), "waste_line_mass", "belt_sped", "belt_speed"),
     load("a lambda takes more than its parameters", WASTE, "lambda mass_rate: mass_rate / belt_speed)", "waste_line_mass", "'belt_speed'"),
-    load("a default in a lambda", RATIO, RATIO.replace("large_pulley:", "large_pulley=280:"), "ratio_of_speeds", "large_pulley", "default",
-         now="silent: the default is never used"),
+    load("a default in a lambda", RATIO, RATIO.replace("large_pulley:", "large_pulley=280:"), "ratio_of_speeds", "large_pulley", "default"),
     load("a lambda over a number of a loop", RATIO,
          f'for factor in (1, 2):\n    {RATIO}'.replace('"ratio_of_speeds", "i"', 'f"ratio_{factor}", f"i_{factor}"')
          .replace(": large_pulley", ": factor * large_pulley"), "ratio_1", "'factor'", "constants"),
