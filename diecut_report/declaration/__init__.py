@@ -11,6 +11,8 @@ from diecut_report.declaration import (
     doubled,
     figures,
     formulas,
+    idle_chapters,
+    imports,
     inputs,
     kinds,
     messages,
@@ -38,6 +40,7 @@ PARTS = (
     units,
     tables,
     doubled,
+    idle_chapters,
     messages,
     checks,
     figures,
@@ -50,11 +53,14 @@ __all__ = ["Fault", "faults", "faults_at_load"]
 
 
 def faults_at_load(mechanism: Mechanism) -> list[Fault]:
-    """Return what ``faults`` returns; a plugin that was found sound before is not judged again until one of its files changes."""
+    """Return what ``faults`` returns, and what a plugin imports that is none of its business.
+
+    One that was found sound before is not judged again until one of its files changes.
+    """
     key = "" if shape.faults(mechanism) or list(formulas.unmarked(mechanism)) else remembered.content(mechanism)
     if key and remembered.is_sound(key):
         return []
-    found = faults(mechanism)
+    found = [*faults(mechanism), *imports.faults(mechanism)]
     if key and not found:
         remembered.remember(key)
     return found
