@@ -44,7 +44,7 @@ INPUTS = (
     tested("symbol and unit exchanged", 'Quantity("H", "m", "Height of lift"', 'Quantity("m", "H", "Height of lift"',
          "height|hanging_weight"),
     tested("an input that nothing takes", "    height: Annotated[",
-         '    slope: Annotated[float, Quantity("β", "deg", "Slope", ge=0)] = 0\n    height: Annotated[', "slope", now="silent"),
+         '    slope: Annotated[float, Quantity("β", "deg", "Slope", ge=0)] = 0\n    height: Annotated[', "slope"),
 )
 
 MODULE = (
