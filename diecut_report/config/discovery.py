@@ -124,10 +124,11 @@ def _loaded(origin: Origin) -> Mechanism | PluginError:
 
 def _sound(origin: Origin, mechanism: Mechanism) -> Mechanism | PluginError:
     """A mechanism of which nothing that it declares is wrong."""
+    from diecut_report.config import press_defaults
     from diecut_report.declaration import faults_at_load
 
     try:
-        found = [str(fault) for fault in faults_at_load(mechanism)]
+        found = [str(fault) for fault in faults_at_load(mechanism) or press_defaults.faults(mechanism)]
     except Exception as cause:
         error = PluginError(f"what {origin.told} declares cannot be read: {said(cause)}", origin.kind)
         error.__cause__ = cause

@@ -12,13 +12,13 @@ from diecut_report.config import yaml_tree
 from diecut_report.config.dependency_order import ordered
 from diecut_report.config.discovery import Discovery, DuplicateKind, UnknownKind, said
 from diecut_report.config.instances import Instance
-from diecut_report.config.model import ConfigDocument, Press, Project
-from diecut_report.config.references import PRESS, Linker, Node, Target, texts
+from diecut_report.config.model import PRESS, ConfigDocument, Press, Project
+from diecut_report.config.references import Linker, Node, Target, texts
 from diecut_report.config.validation import ConfigPlace, declared, keys_of, spread_out, told, validate
 from diecut_report.config.yaml_tree import KeyPath, Tree
-from diecut_report.contract.inputs import SI, Block, CurveInput, Pending, Quantity, Text, fields
+from diecut_report.contract.inputs import SI, Block, CurveInput, Pending, Text
 from diecut_report.contract.unit_variants import in_form
-from diecut_report.errors import PluginError, Problem, UserError, nearest
+from diecut_report.errors import PluginError, Problem, UserError
 
 NAME = re.compile(r"[A-Za-z][A-Za-z0-9_-]*")
 RESERVED = (PRESS, "project")
@@ -131,18 +131,6 @@ class _ConfigReader:
             _ = instance.given, instance.results
         except Exception as cause:
             raise PluginError(f"it declares what cannot be: {said(cause)}", kind) from cause
-        _known_to_press(instance, kind)
-
-
-def _known_to_press(instance: Instance, kind: str) -> None:
-    """Refuse a plugin with a default that the press can never give."""
-    for key, meta in fields(instance.model):
-        path = meta.press.path if isinstance(meta, Quantity) and meta.press else ""
-        if path and not isinstance(declared(Press, tuple(path.removeprefix(f"{PRESS}.").split("."))), Quantity):
-            known = [f"{PRESS}.{name}" for name, each in fields(Press) if isinstance(each, Quantity)]
-            what = f"which is not a number of the press{nearest(path, known)}; it has {', '.join(known)}"
-            place = Path(meta.at).name
-            raise PluginError(f"it declares what cannot be: {place}: input {key} takes {path}, {what}", kind)
 
 
 def _of_instance(error: PluginError, name: str) -> PluginError:

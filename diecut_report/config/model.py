@@ -8,6 +8,7 @@ from pydantic import AfterValidator, Field, field_validator
 
 from diecut_report.contract.inputs import Annotated, Block, Quantity, Text
 
+PRESS = "press"  # the name of the press in references, beside those of the mechanisms
 LANGUAGES = ("en",)  # whose catalogues are complete
 
 

@@ -12,6 +12,7 @@ from dataclasses import dataclass
 from typing import Any
 
 from diecut_report.config.instances import Instance, Slot, default_of, slots
+from diecut_report.config.model import PRESS
 from diecut_report.config.validation import declared
 from diecut_report.config.yaml_tree import KeyPath
 from diecut_report.contract.inputs import CurveInput, FromPress, Quantity, fields
@@ -20,7 +21,6 @@ from diecut_report.errors import Problem, nearest
 from diecut_report.expressions import Formula
 from diecut_report.quantities.units import pretty, unit
 
-PRESS = "press"
 WHOLE = re.compile(r"\$\{([^${}]*)\}")
 
 Node = KeyPath  # (instance,) is its calculation, (instance, key, …) one of its inputs

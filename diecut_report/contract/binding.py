@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from functools import cache, cached_property
+from inspect import signature
 from types import FunctionType
 from typing import Any
 
@@ -77,9 +78,11 @@ def _formula(function: Any, name: str) -> Formula:
         raise Misdeclared(
             f"{name} needs a formula, and {function!r} is none; write a lambda, or a def with @formula above it"
         )
-    if function.__defaults__ or function.__kwdefaults__:
+    optional = [p.name for p in signature(function).parameters.values() if p.default is not p.empty]
+    if optional:
         raise Misdeclared(
-            f"the formula of {name} has parameters with a default; it takes all that it needs from quantities: remove it"
+            f"the formula of {name} has a default for {', '.join(optional)}, which is never used: each parameter takes a quantity; "
+            f"remove it, or bind a number: bind(…, {optional[0]}=2)"
         )
     return Formula(function, name)
 

@@ -204,7 +204,8 @@ class CurveInput:
 class Block(BaseModel):
     """Declare a block of inputs inside a mechanism, or one of a list of repeated parts."""
 
-    model_config = ConfigDict(extra="forbid", validate_default=True, frozen=True)
+    # arbitrary types are refused by the declaration check
+    model_config = ConfigDict(extra="forbid", validate_default=True, frozen=True, arbitrary_types_allowed=True)
     one_of: ClassVar[tuple[OneOf, ...]] = ()
     spread: ClassVar[Mapping[str, tuple[str, ...]]] = {}
     """Keys whose value may be a list, each with the single keys that the values of the list stand for, in order."""

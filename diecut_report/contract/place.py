@@ -23,7 +23,7 @@ def placed() -> Any:
 
 
 class Misdeclared(TypeError):
-    """Report that what a plugin declares cannot be made; the text says so, with the place."""
+    """Report that what a plugin declares cannot be made; the text says so with the place that is named, or where it is declared now."""
 
-    def __init__(self, text: str) -> None:
-        super().__init__(f"{here()}: {text}")
+    def __init__(self, text: str, at: str = "") -> None:
+        super().__init__(f"{at or here()}: {text}")

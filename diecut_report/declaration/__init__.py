@@ -11,6 +11,8 @@ from diecut_report.declaration import (
     doubled,
     figures,
     formulas,
+    idle_chapters,
+    imports,
     inputs,
     kinds,
     messages,
@@ -22,6 +24,7 @@ from diecut_report.declaration import (
     tables,
     tokens,
     units,
+    unknown_units,
 )
 from diecut_report.declaration.names import DeclaredNames
 from diecut_report.declaration.words import Fault
@@ -37,6 +40,7 @@ PARTS = (
     units,
     tables,
     doubled,
+    idle_chapters,
     messages,
     checks,
     figures,
@@ -49,11 +53,14 @@ __all__ = ["Fault", "faults", "faults_at_load"]
 
 
 def faults_at_load(mechanism: Mechanism) -> list[Fault]:
-    """Return what ``faults`` returns; a plugin that was found sound before is not judged again until one of its files changes."""
+    """Return what ``faults`` returns, and what a plugin imports that is none of its business.
+
+    One that was found sound before is not judged again until one of its files changes.
+    """
     key = "" if shape.faults(mechanism) or list(formulas.unmarked(mechanism)) else remembered.content(mechanism)
     if key and remembered.is_sound(key):
         return []
-    found = faults(mechanism)
+    found = [*faults(mechanism), *imports.faults(mechanism)]
     if key and not found:
         remembered.remember(key)
     return found
@@ -61,8 +68,8 @@ def faults_at_load(mechanism: Mechanism) -> list[Fault]:
 
 def faults(mechanism: Mechanism) -> list[Fault]:
     """Return every mistake in what a mechanism declares, and in its comparisons; in the order of reading."""
-    found = shape.faults(mechanism) or list(formulas.unmarked(mechanism))
-    if found:  # nothing can be asked of what is no formula
+    found = shape.faults(mechanism) or list(formulas.unmarked(mechanism)) or list(unknown_units.faults(mechanism))
+    if found:  # nothing can be asked of what is no formula, or in a unit that is none
         return found
     names = DeclaredNames(mechanism)
     found = [fault for part in PARTS for fault in part.faults(mechanism, names)]

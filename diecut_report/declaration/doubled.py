@@ -4,12 +4,12 @@ from __future__ import annotations
 
 import ast
 from collections.abc import Iterator
-from functools import lru_cache
 from pathlib import Path
 
 from diecut_report.contract.mechanism import Mechanism
 from diecut_report.declaration.names import DeclaredNames
 from diecut_report.declaration.remembered import files
+from diecut_report.declaration.sources import parsed
 from diecut_report.declaration.words import Fault
 
 Defined = ast.FunctionDef | ast.AsyncFunctionDef | ast.ClassDef
@@ -25,17 +25,7 @@ MEANT = {
 def faults(mechanism: Mechanism, names: DeclaredNames) -> Iterator[Fault]:
     """Yield functions, classes and fields that are defined twice at one level of a file."""
     for file in sorted(file for file in files(mechanism) if file.suffix == ".py"):
-        yield from _in_file(file, file.stat().st_mtime_ns)
-
-
-@lru_cache(maxsize=512)
-def _in_file(file: Path, changed: int) -> tuple[Fault, ...]:
-    """The faults of a file as it is since it was changed."""
-    try:
-        tree = ast.parse(file.read_bytes())
-    except (SyntaxError, ValueError):  # a file of the package that is never imported
-        return ()
-    return tuple(_twice(file, tree))
+        yield from _twice(file, parsed(file))
 
 
 def _twice(file: Path, scope: ast.Module | Defined) -> Iterator[Fault]:

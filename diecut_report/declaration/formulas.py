@@ -16,7 +16,6 @@ from diecut_report.declaration.tables import rows_of
 from diecut_report.declaration.words import Fault
 from diecut_report.declaration.world import When
 from diecut_report.expressions import Formula
-from diecut_report.quantities.units import unit
 
 PARTS = ("formula", "exists", "condition", "equation", "low", "high", "left", "right")
 
@@ -53,14 +52,9 @@ def _place(function: Any, otherwise: str) -> str:
 
 
 def faults(mechanism: Mechanism, names: DeclaredNames) -> Iterator[Fault]:
-    """Yield the formulas that cannot be printed, texts without a formula or a row, and units that are none."""
+    """Yield the formulas that cannot be printed, and texts without a formula or a row."""
     seen: set[Formula] = set()
     for number, (_, step) in enumerate(mechanism.steps):
-        try:
-            for other in (step.unit, *(text for _, text in step.units)):
-                unit(other)
-        except ValueError as unknown:
-            yield Fault(step.at, f"step {step.id}", f"has the unit {other!r}: {unknown}")
         for part, declared in _declared(step):
             options = (
                 declared.options() if isinstance(declared, ByText) else (declared,) if declared is not None else ()

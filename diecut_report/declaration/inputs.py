@@ -2,19 +2,25 @@
 
 from __future__ import annotations
 
-import inspect
+import math
 from collections.abc import Iterator
-from typing import Any
+from inspect import get_annotations
+from types import UnionType
+from typing import Any, Union, get_args, get_origin
 
+from pydantic import PydanticSchemaGenerationError, TypeAdapter
 from pydantic.fields import FieldInfo
 
-from diecut_report.contract.inputs import Block, CurveInput, Meta, Quantity, Text, meta_of, nested
+from diecut_report.contract.inputs import BOUNDS, Block, Meta, Quantity, Text, meta_of, nested
 from diecut_report.contract.mechanism import Mechanism
+from diecut_report.declaration.input_places import of_class, of_field
 from diecut_report.declaration.names import DeclaredNames
 from diecut_report.declaration.words import Fault
 from diecut_report.declaration.world import Key, allowed
 from diecut_report.errors import nearest
-from diecut_report.quantities.units import unit
+
+RESERVED = ("kind",)  # keys of each mechanism in a configuration
+PLAIN = ("builtins", "typing", "types")  # where the classes of plain values stand
 
 
 def faults(mechanism: Mechanism, names: DeclaredNames) -> Iterator[Fault]:
@@ -44,12 +50,17 @@ def _form(place: str, subject: str, form: tuple[str, str], keys: dict[str, Key])
 
 def _block(model: type[Block], place: str, prefix: str = "") -> Iterator[Fault]:
     for name, declared in model.model_fields.items():
-        meta, inner = meta_of(model, name), nested(declared.annotation)
+        inner, subject = nested(declared.annotation), f"input {prefix}{name}"
+        for text in (*_absent(declared), *(() if inner else _wrong(name, declared, meta_of(model, name)))):
+            yield Fault(of_field(model, name, place), subject, text)
+        if name in RESERVED and not prefix:
+            text = f"has the name of a key that the program reads itself ({', '.join(RESERVED)}), so that nobody can give it; name it otherwise"
+            yield Fault(of_field(model, name, place), subject, text)
+        for kind in _strange(declared.annotation):
+            text = f"is made of {kind.__name__}, which is no block of inputs; write class {kind.__name__}(Block)"
+            yield Fault(of_class(kind, place), subject, text)
         if inner:
             yield from _block(inner[0], place, f"{prefix}{name}.")
-            continue
-        for text in _wrong(name, declared, meta):
-            yield Fault(_place(model, name, place), f"input {prefix}{name}", text)
     for rule in model.one_of:
         for key in sorted(set().union(*rule.groups, rule.shared) - set(model.model_fields)):
             yield Fault(place, f"one_of of {model.__name__}", f"names {key}, which is no input{nearest(key, model.model_fields)}")  # fmt: skip
@@ -57,18 +68,55 @@ def _block(model: type[Block], place: str, prefix: str = "") -> Iterator[Fault]:
         yield Fault(place, f"spread of {model.__name__}", f"names {key}, which is no input{nearest(key, model.model_fields)}")  # fmt: skip
 
 
-def _place(model: type[Block], name: str, otherwise: str) -> str:
-    """Return the line that declares an input: annotations may be texts that pydantic reads, so that they know no place themselves."""
-    for owner in model.__mro__:
-        if name in inspect.get_annotations(owner):
-            try:
-                lines, first = inspect.getsourcelines(owner)
-            except OSError:  # made without a file
-                return otherwise
-            for number, line in enumerate(lines, first):
-                if line.strip().startswith(f"{name}:"):
-                    return f"{inspect.getsourcefile(owner)}:{number}"
-    return otherwise
+def _absent(declared: FieldInfo) -> Iterator[str]:
+    """What is wrong with an input that is left out: None must be allowed where it is the default, and be the default where it is allowed."""
+    kinds = _kinds(declared.annotation)
+    said = " | ".join(_said(kind) for kind in kinds if kind is not type(None))
+    may_be_none = type(None) in kinds or Any in kinds
+    if declared.is_required() and type(None) in kinds:
+        yield f"may be None, but has no default, so that it must be given all the same; write = None behind it, or annotate it as {said}"
+    if not declared.is_required() and declared.get_default(call_default_factory=True) is None and not may_be_none:
+        yield f"has the default None, but may not be None; annotate it as {said} | None, or give it a value"
+
+
+def _kinds(annotation: Any) -> tuple[Any, ...]:
+    """The kinds that a union allows; of any other annotation itself."""
+    return get_args(annotation) if get_origin(annotation) in (Union, UnionType) else (annotation,)
+
+
+def _said(kind: Any) -> str:
+    return kind.__name__ if isinstance(kind, type) else str(kind).removeprefix("typing.")
+
+
+def _strange(annotation: Any) -> Iterator[type]:
+    """Classes with keys of their own that are no blocks, of which nothing is known, and those that no text of a file can be."""
+    if isinstance(annotation, type):
+        is_plain = annotation.__module__ in PLAIN or issubclass(annotation, Block)
+        if not is_plain and (get_annotations(annotation) or not _is_readable(annotation)):
+            yield annotation
+    for part in get_args(annotation):
+        yield from _strange(part)
+
+
+def _is_readable(kind: type) -> bool:
+    try:
+        TypeAdapter(kind)
+    except PydanticSchemaGenerationError:
+        return False
+    return True
+
+
+def _bounds(meta: Quantity) -> Iterator[str]:
+    """Bounds that are no numbers, and those that no number keeps."""
+    given = {name: getattr(meta, name) for name, _ in BOUNDS if getattr(meta, name) is not None}
+    for name, bound in given.items():
+        if isinstance(bound, bool) or not isinstance(bound, int | float):
+            yield f"has the bound {name}={bound!r}; write a plain number, which counts in its unit ({meta.unit}): {name}=0"
+            return
+    low = max((given[name] for name in ("gt", "ge") if name in given), default=-math.inf)
+    high = min((given[name] for name in ("lt", "le") if name in given), default=math.inf)
+    if low > high or (low == high and low in (meta.gt, meta.lt)):
+        yield f"has bounds that no number keeps: {meta.allowed}; exchange or widen them"
 
 
 def _wrong(name: str, declared: FieldInfo, meta: Meta | None) -> Iterator[str]:
@@ -79,12 +127,13 @@ def _wrong(name: str, declared: FieldInfo, meta: Meta | None) -> Iterator[str]:
         value = "" if declared.is_required() else f" = {default!r}"
         yield f"is a plain {kind}, of which nothing is known; write {name}: Annotated[{kind}, {what}]{value}"
         return
-    if isinstance(meta, Quantity | CurveInput):
-        try:
-            unit(meta.unit)
-        except ValueError as unknown:
-            yield f"has the unit {meta.unit!r}: {unknown}"
+    if isinstance(meta, Quantity):
+        wrong = list(_bounds(meta))
+        if wrong:  # no number can be held against them
+            yield from wrong
             return
+        if int in _kinds(declared.annotation) and not meta.integer:
+            yield "is annotated as int, but takes any number; write integer=True in its Quantity, or annotate it as float"
     if isinstance(meta, Quantity) and meta.integer and (meta.unit != "1" or meta.units):
         yield f"is a whole number in {meta.unit}; a count has the unit 1"
     if declared.is_required() or default is None:

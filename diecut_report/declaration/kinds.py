@@ -57,6 +57,13 @@ def faults(mechanism: Mechanism, names: DeclaredNames) -> Iterator[Fault]:
                 text = f"{field} is {name}, {_said(kinds)}; {wanted or SAID[allowed]} is wanted"
                 yield Fault(step.at, f"step {step.id}", text)
         yield from _mixed(step, names)
+        if isinstance(step, Value | Choice) and step.per_piece and not _is_curve(step, names):
+            text = "has per_piece=True, which marks a flag of a curve's smooth pieces, but takes no curve and no abscissa; take it away"
+            yield Fault(step.at, f"step {step.id}", text)
+
+
+def _is_curve(step: Step, names: DeclaredNames) -> bool:
+    return any(giver.step is step and giver.kind == "curve" for giver in names.known.get(step.id, ()))
 
 
 def _said(kinds: set[str]) -> str:

@@ -6,6 +6,7 @@ from collections.abc import Iterator
 from itertools import combinations
 from typing import Any
 
+from diecut_report.contract.chapters import Chapter
 from diecut_report.contract.mechanism import Mechanism
 from diecut_report.contract.part_steps import Lookup
 from diecut_report.contract.sections import taken
@@ -18,6 +19,7 @@ from diecut_report.declaration.world import When, told
 def faults(mechanism: Mechanism, names: DeclaredNames) -> Iterator[Fault]:
     """Yield the ids that are doubled, never made, not given, or taken too early."""
     yield from _doubled(mechanism, names)
+    yield from _in_two_chapters(mechanism, names)
     for number, (_, step) in enumerate(mechanism.steps):
         when = names.when(number)
         if names.world.example(when) is None:
@@ -72,6 +74,27 @@ def _doubled(mechanism: Mechanism, names: DeclaredNames) -> Iterator[Fault]:
     yield from pairs(names, "step", steps)
     yield from pairs(names, "figure", [(figure, When(frozenset(figure.needs))) for figure in mechanism.figures])
     yield from pairs(names, "export", [(profile, When(frozenset(profile.needs))) for profile in mechanism.exports])
+
+
+def _in_two_chapters(mechanism: Mechanism, names: DeclaredNames) -> Iterator[Fault]:
+    """Steps that stand in two chapters which are both calculated."""
+    for first, second in combinations(mechanism.chapters, 2):
+        shared = (
+            [step for step in second.steps if any(step is other for other in first.steps)]
+            if first is not second
+            else []
+        )
+        doubled = [step.id for step in shared if names.world.example(_together(first, second, step)) is not None]
+        if doubled:
+            text = (
+                f"has {', '.join(doubled)} of another chapter too, {first.title!r} (at {short(first.at)}), so that they are calculated twice; "
+                "add them to one of the two, or let their needs exclude each other"
+            )
+            yield Fault(second.at, f"chapter {second.title!r}", text)
+
+
+def _together(first: Chapter, second: Chapter, step: Step) -> When:
+    return When(frozenset(first.needs + second.needs + step.needs), frozenset(step.lacks))
 
 
 def pairs(names: DeclaredNames, what: str, declared: list[tuple[Any, When]]) -> Iterator[Fault]:

@@ -14,6 +14,7 @@ from diecut_report.contract.inputs import Inputs
 from diecut_report.contract.mechanism import Erratum, Mechanism, Profile, Source
 from diecut_report.contract.part_steps import Lookup, Pick
 from diecut_report.contract.steps import Abscissa, Breakpoints, Case, Choice, Step
+from diecut_report.declaration.input_places import of_class
 from diecut_report.declaration.words import Fault
 from diecut_report.expressions import Formula
 from diecut_report.standards import StandardTable
@@ -33,7 +34,7 @@ FORMULAS = ("formula", "condition", "exists", "equation", "low", "high", "left",
 
 def faults(mechanism: Mechanism) -> list[Fault]:
     """Return what has not the shape that the contract names."""
-    own = [Fault(mechanism.at, f"mechanism {mechanism.kind}", text) for text in _of_mechanism(mechanism)]
+    own = [Fault(place, f"mechanism {mechanism.kind}", text) for place, text in _of_mechanism(mechanism)]
     if own:
         return own
     found = list(own)
@@ -44,17 +45,24 @@ def faults(mechanism: Mechanism) -> list[Fault]:
     return found
 
 
-def _of_mechanism(mechanism: Mechanism) -> Iterator[str]:
+def _of_mechanism(mechanism: Mechanism) -> Iterator[tuple[str, str]]:
+    """What has another shape, each with its place: that of the thing itself, where it knows one."""
     for name in TEXTS:
         if not isinstance(getattr(mechanism, name), str):
-            yield f"has {name}={getattr(mechanism, name)!r}; write a text in quotes"
+            yield mechanism.at, f"has {name}={getattr(mechanism, name)!r}; write a text in quotes"
     model: Any = mechanism.inputs
     if not (isinstance(model, type) and issubclass(model, Inputs)):
-        yield f"has inputs={model!r}; give the class of its inputs, which is a subclass of Inputs"
+        kind = model if isinstance(model, type) else type(model)
+        given = kind.__name__ if kind is model else repr(model)
+        text = f"has inputs={given}; give the class of its inputs, which is a subclass of Inputs: class {kind.__name__}(Inputs)"
+        yield of_class(kind, mechanism.at) if kind is model else mechanism.at, text
     for name, kind in HOLDS.items():
-        given: Any = getattr(mechanism, name)
-        if not isinstance(given, tuple | list) or not all(isinstance(each, kind) for each in given):
-            yield f"has {name} of another kind; write a tuple of {kind.__name__}, with a comma behind a single one: {name}=(…,)"
+        given = getattr(mechanism, name)
+        several = given if isinstance(given, tuple | list) else None
+        strange = [given] if several is None else [each for each in several if not isinstance(each, kind)]
+        if strange:
+            text = f"has {name} of another kind; write a tuple of {kind.__name__}, with a comma behind a single one: {name}=(…,)"
+            yield str(getattr(strange[0], "at", mechanism.at)), text
 
 
 def _of_step(step: Step) -> Iterator[str]:
@@ -126,4 +134,5 @@ def _of_table(table: Any) -> Iterator[str]:
         return
     wrong = [key for key, value in table.items() if isinstance(value, bool) or not isinstance(value, int | float)]
     if wrong:
-        yield f"has no number in its table for {', '.join(map(str, wrong))}; write numbers in the step's unit"
+        told = ", ".join(f"{key} ({table[key]!r})" for key in wrong)
+        yield f"has no number in its table for {told}; write numbers in the step's unit"

@@ -27,6 +27,7 @@ def _wrong(step: Step, names: DeclaredNames) -> Iterator[str]:
     match step:
         case Lookup():
             yield from _column(step)
+            yield from _idle(step, names)
             yield from _given(step, names)
         case Interpolated():
             across, upwards = step.between.columns
@@ -65,6 +66,19 @@ def _column(step: Lookup) -> Iterator[str]:
     yield from _unlike(
         "the table" if not own.name else f"the column {own.name} of the table", own.unit, _units(step), "the step"
     )
+
+
+def _idle(step: Lookup, names: DeclaredNames) -> Iterator[str]:
+    """Rows of a step's own table that no text asks for; a published table may have more rows than a mechanism allows."""
+    key = names.world.keys.get(step.by)
+    if key is None or not key.texts or isinstance(step.table, StandardTable):
+        return
+    for row in step.table:
+        if row not in key.texts:
+            yield (
+                f"has a row for {row!r}{nearest(row, key.texts)}, which {step.by} can never be; allowed: {', '.join(key.texts)}; "
+                "take the row away, or allow its text"
+            )
 
 
 def _given(step: Lookup, names: DeclaredNames) -> Iterator[str]:

@@ -10,11 +10,11 @@ from weakref import proxy
 import numpy as np
 
 from diecut_report.contract.binding import Binding, bound
-from diecut_report.contract.inputs import CurveInput, Meta, Quantity, fields, texts_given
+from diecut_report.contract.inputs import Meta, Quantity, fields, texts_given
 from diecut_report.contract.mechanism import Mechanism
-from diecut_report.contract.result_names import named
 from diecut_report.contract.steps import Accumulated, Choice, Derivative, FromCurve, Step, Value
 from diecut_report.contract.unit_variants import in_form
+from diecut_report.engine import named_quantity
 from diecut_report.engine.numerics.chebyshev import PieceSeries
 from diecut_report.engine.numerics.curve_evaluation import MANY, Curves
 from diecut_report.engine.numerics.domain import Domain
@@ -215,13 +215,7 @@ class Calculation:
 
     def step_or_input(self, name: str) -> Step | Quantity:
         """Return what declares a quantity: its symbol, unit and description."""
-        found = None if name in self.steps else named(name, self.steps)
-        if found is not None and found.role != "count":
-            step = self.steps[found.id]
-            return self.steps[self.axis[step.of]] if found.role == "place" else step  # type: ignore[attr-defined]
-        meta = self.steps[name] if name in self.steps else self.meta[name.removeprefix("inputs.")]
-        assert isinstance(meta, Step | Quantity | CurveInput)
-        return meta  # type: ignore[return-value]
+        return named_quantity.declared(name, self.steps, self.axis, self.meta, self.mechanism.at)
 
 
 class CurveSampler:

@@ -10,7 +10,7 @@ from typing import Any, NamedTuple, overload
 
 import numpy as np
 
-from diecut_report.expressions.functions import BINARY, COMPARE, FUNCTIONS, PI, SAID, Constant
+from diecut_report.expressions.functions import BINARY, COMPARE, FUNCTIONS, OF_TWO, PI, SAID, Constant
 from diecut_report.expressions.source import FormulaError, Unreadable, body, given_to, perhaps_named, place
 from diecut_report.expressions.tree import Node, substitute
 
@@ -176,10 +176,20 @@ class _BodyReader:
         if callee is np.clip and len(args) == 3:
             return Node("call", ("minimum", Node("call", ("maximum", *args[:2])), args[2]))
         if callee in FUNCTIONS:
+            self._counted(FUNCTIONS[callee], args, at)
             return Node("call", (FUNCTIONS[callee], *args))
         if callee in SAID and len(args) == 1:
             return Node("call", (SAID[callee], *args)) if self.full else args[0]
         raise self._refuse(at)
+
+    def _counted(self, name: str, args: tuple[Node, ...], at: ast.Call) -> None:
+        """FormulaError where a function is called with more or fewer than it takes."""
+        wanted = 2 if name in OF_TWO else 1
+        if len(args) != wanted:
+            raise FormulaError(
+                f"{self._place(at)}: formula {self.owner.__name__} calls {ast.unparse(at.func)} with {len(args)}, in {ast.unparse(at)!r}; "
+                f"it takes {wanted}"
+            )
 
     def _called(self, callee: Formula, args: tuple[Node, ...], at: ast.Call) -> Node:
         """A call of another formula: its expression in place of the call, or its name with what it is given."""

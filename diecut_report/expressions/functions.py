@@ -64,6 +64,7 @@ FUNCTIONS: dict[Any, str] = {
     np.sinh: "sinh", np.cosh: "cosh", np.tanh: "tanh", np.arcsinh: "arcsinh", np.arccosh: "arccosh", np.arctanh: "arctanh",
     np.log10: "log10",
 }  # fmt: skip
+OF_TWO = ("arctan2", "minimum", "maximum")  # what takes two numbers; all others take one
 NUMERIC: dict[str, Callable[..., Any]] = {name: function for function, name in FUNCTIONS.items()}
 AS_NUMBER, AS_ANGLE = "as_number", "as_angle"
 SAID: dict[Any, str] = {as_number: AS_NUMBER, as_angle: AS_ANGLE}

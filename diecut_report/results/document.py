@@ -8,8 +8,7 @@ from typing import Any
 
 from diecut_report import __version__
 from diecut_report.config.instances import Instance
-from diecut_report.config.model import Press
-from diecut_report.config.references import PRESS
+from diecut_report.config.model import PRESS, Press
 from diecut_report.config.validation import declared, keys_of
 from diecut_report.contract.inputs import Block, CurveInput, Quantity, flatten
 from diecut_report.contract.mechanism import Mechanism

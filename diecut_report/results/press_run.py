@@ -9,7 +9,8 @@ from typing import Any
 from diecut_report.config.discovery import said
 from diecut_report.config.instances import Instance, slots
 from diecut_report.config.loader import Config, substituted
-from diecut_report.config.references import PRESS, Node, Target
+from diecut_report.config.model import PRESS
+from diecut_report.config.references import Node, Target
 from diecut_report.config.validation import declared, validate
 from diecut_report.contract.inputs import SI, Block, Quantity, flatten
 from diecut_report.contract.result_names import named

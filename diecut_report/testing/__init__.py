@@ -28,12 +28,14 @@ from diecut_report.testing.dimensions import (
     formulas,
     relations,
 )
+from diecut_report.testing.idle import idle_inputs
 
 
 def check_mechanism(mechanism: Mechanism) -> None:
     """Raise AssertionError, listing every flaw of a mechanism's declaration."""
     problems = [str(fault) for fault in faults(mechanism)] or [
-        problem for form in forms(mechanism) for problem in quantities(form)
+        *idle_inputs(mechanism),
+        *(problem for form in forms(mechanism) for problem in quantities(form)),
     ]
     assert not problems, f"{mechanism.kind}:\n" + "\n".join(problems)
 

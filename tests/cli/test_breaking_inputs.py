@@ -67,7 +67,7 @@ def test_a_default_of_an_unknown_field_of_the_press_is_told(tmp_path: Path, capf
     assert main(["calc", str(tmp_path / "press.yaml"), "--plugins", str(GOOD), "--plugins", str(tmp_path)]) == 3
     err = capfd.readouterr().err
     assert (
-        "input speed takes press.productivty, which is not a number of the press (did you mean 'press.productivity'?)"
+        "input speed: takes press.productivty, which is not a number of the press (did you mean 'press.productivity'?)"
         in err
     )
 

@@ -10,7 +10,7 @@ import pytest
 
 from diecut_report.config.discovery import Discovery
 from diecut_report.config.loader import Config, load_config
-from diecut_report.config.references import PRESS
+from diecut_report.config.model import PRESS
 from diecut_report.contract.inputs import Quantity
 from diecut_report.contract.steps import Choice, Value
 from diecut_report.engine import Calculation

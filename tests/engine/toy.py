@@ -29,6 +29,7 @@ from diecut_report.api import (
     Text,
     Total,
     Value,
+    Words,
     bind,
     formula,
     prefixed,
@@ -42,7 +43,6 @@ LONG = Constant(0.5, "a_l", "m")
 class Pair(Block):
     driver_teeth: Annotated[int, Quantity("z_1", "1", "Teeth of the driver", ge=12, integer=True)]
     driven_teeth: Annotated[int, Quantity("z_2", "1", "Teeth of the driven gear", ge=12, integer=True)]
-    efficiency: Annotated[float, Quantity("η", "1", "Efficiency", gt=0, le=1)] = 0.97
     label: Annotated[str | None, Text("Name of the pair")] = None
 
 
@@ -205,6 +205,7 @@ MECHANISM = Mechanism(
 )  # fmt: skip
 
 
+READ = Words(id="samples_told", function="{:.0f} samples".format, takes=("n_points",))
 ROOTED = Mechanism(
     kind="rooted",
     version="1",
@@ -217,6 +218,7 @@ ROOTED = Mechanism(
             steps=(
                 Root(id="x", symbol="x", description="Cube root", equation=cube, unknown="x", low=bind(zero), high=plus_one,
                      left=cubed, right=bind(same, quantity="target")),
+                READ,
             ),
         ),
     ),

@@ -95,7 +95,7 @@ NAMES = (
     load("a key of an optional block without needs", 'needs=("backstop",), absent', "absent", "pawl_force", "backstop", "needs"),
     load("an unknown field of the press", 'Quantity("ω", "rpm", "Speed of the head drum", gt=0)',
          'Quantity("ω", "rpm", "Speed of the head drum", gt=0, press=FromPress("press.speed"))', "head_speed", r"press\.speed",
-         also=(("    Erratum,\n", "    Erratum,\n    FromPress,\n"),), now="silent"),
+         also=(("    Erratum,\n", "    Erratum,\n    FromPress,\n"),)),
     load("points of an abscissa are not declared", "    n_points: Annotated[int, POINTS] = 360",
          "    samples: Annotated[int, POINTS] = 360", "angle", "n_points", placed=False),
 )

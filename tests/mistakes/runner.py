@@ -37,7 +37,7 @@ class Mistake:
 
     ``told`` is the first place that tells it, ``words`` are patterns that the message holds, beside the plugin's name.
     ``placed`` says that the message names the plugin's file and the line, or one near to it. ``kept`` says that the numbers
-    are calculated all the same. ``keys`` are changes of the machine. ``now`` says what happens today where that is not yet so.
+    are calculated all the same. ``keys`` are changes of the machine.
     """
 
     what: str
@@ -48,7 +48,6 @@ class Mistake:
     placed: bool = True
     kept: bool = False
     keys: dict[str, Any] = field(default_factory=dict)
-    now: str = ""
 
     @property
     def source(self) -> str:

@@ -12,7 +12,7 @@ import pytest
 from diecut_report.config.discovery import Discovery
 from diecut_report.config.instances import slots
 from diecut_report.config.loader import Config, load_config
-from diecut_report.config.references import PRESS
+from diecut_report.config.model import PRESS
 from diecut_report.contract.inputs import SI, Quantity
 from diecut_report.errors import UserError
 from diecut_report.results.document import document

@@ -30,6 +30,7 @@ from diecut_report.api import (
     Root,
     Step,
     Value,
+    Words,
     arccos,
     as_angle,
     as_number,
@@ -68,8 +69,9 @@ class Wheel(Inputs):
 
 
 def wheel(*steps: Step, checks: tuple[Check, ...] = ()) -> Mechanism:
-    """A mechanism of these steps."""
-    chapters = (Chapter("Steps", steps=steps),)
+    """A mechanism of these steps, and of a text that takes all inputs, so that none is without a use."""
+    told = Words(id="inputs_told", function=lambda *given: str(given), takes=tuple(Wheel.model_fields))
+    chapters = (Chapter("Steps", steps=(*steps, told)),)
     return Mechanism(kind="wheel", version="1", title="Wheel", summary="", inputs=Wheel, chapters=chapters, checks=checks)  # fmt: skip
 
 

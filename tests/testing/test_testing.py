@@ -9,7 +9,7 @@ import pytest
 
 from diecut_report.api import Chapter, Check, Formula, Mechanism, Step, Value, bind, formula
 from diecut_report.testing import check_mechanism
-from tests.engine.toy import MECHANISM, ROOTED, Toy, same
+from tests.engine.toy import MECHANISM, READ, ROOTED, Toy, same
 
 
 @formula
@@ -24,7 +24,7 @@ def moment(force: Any, arm: Any) -> Any:
 
 def mechanism(*steps: Step, checks: tuple[Check, ...] = ()) -> Mechanism:
     """A mechanism of these steps on the toy's inputs."""
-    return replace(MECHANISM, inputs=Toy, chapters=(Chapter("Steps", steps=steps),), checks=checks, figures=())
+    return replace(MECHANISM, inputs=Toy, chapters=(Chapter("Steps", steps=(*steps, READ)),), checks=checks, figures=())
 
 
 def value(**changes: Any) -> Value:

@@ -15,6 +15,7 @@ from diecut_report.contract.binding import Bound
 from diecut_report.contract.result_names import named
 from diecut_report.contract.steps import Words
 from diecut_report.engine.printing.rounding import bounded
+from diecut_report.engine.steps import plain_code
 from diecut_report.expressions import Node, evaluate, transform
 from diecut_report.quantities.formatting import (
     DIGITS,
@@ -38,7 +39,7 @@ def printed(calc: Calculation, name: str, variant: int = 0, part: int = 0, up: b
     """Return a quantity as one would say it: ``40 mm``; of a row the value of one part; rounded up or down where ``up`` says so."""
     step = calc.steps.get(name)
     if isinstance(step, Words):
-        return step.function(*(_plain(calc[taken], variant) for taken in step.takes))
+        return plain_code.text(step, step.function(*(_plain(calc[taken], variant) for taken in step.takes)))
     row: Any = calc[name]
     if isinstance(row, str | tuple):
         return row if isinstance(row, str) else str(row[part])

@@ -10,6 +10,7 @@ from diecut_report.contract.binding import bound
 from diecut_report.contract.steps import Clash, Require, Step
 from diecut_report.engine.calculation import Calculation, Impossible
 from diecut_report.engine.printing.substitution import filled
+from diecut_report.engine.steps import plain_code
 
 
 def require(calc: Calculation, step: Require) -> None:
@@ -22,7 +23,8 @@ def require(calc: Calculation, step: Require) -> None:
 
 def clash(calc: Calculation, step: Clash) -> None:
     """Mark each variant of which a part clashes with another; a single machine is refused."""
-    others = step.function(*(calc[name] for name in step.takes))
+    rows = [calc[name] for name in step.takes]
+    others = plain_code.partners(step, step.function(*rows), np.broadcast_shapes(*(np.shape(row) for row in rows)))
     for variant in np.flatnonzero((others >= 0).any(axis=1)):
         part = int(np.argmax(others[variant] >= 0))
         _said(calc, step, int(variant), {"part": part + 1, "other": int(others[variant, part]) + 1, "index": part})

@@ -37,6 +37,7 @@ from diecut_report.engine.steps import (
     feasibility,
     interpolation,
     part_rows,
+    plain_code,
     prefetch,
     smooth_pieces,
 )
@@ -225,7 +226,7 @@ def _computed(calc: Calculation, step: Computed) -> None:
     found = step.function(*taken)
     if calc.count > 1 and np.shape(found)[:1] != (calc.count,) and any(isinstance(each, np.ndarray) for each in taken):
         raise TypeError(f"{step.id} was given {calc.count} machines and has one value for all")
-    calc.values[step.id] = calc.existing(step, np.broadcast_to(found, (calc.count, 1)))
+    calc.values[step.id] = calc.existing(step, plain_code.number(step, found, calc.count))
 
 
 RUN: dict[type[Step], Callable[[Calculation, Any], None]] = {

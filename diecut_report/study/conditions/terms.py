@@ -6,7 +6,8 @@ import math
 from collections.abc import Mapping
 
 from diecut_report.config.loader import Config
-from diecut_report.config.references import PRESS, Target
+from diecut_report.config.model import PRESS
+from diecut_report.config.references import Target
 from diecut_report.contract.inputs import Quantity
 from diecut_report.expressions import Formula, Node, transform
 from diecut_report.study.conditions.constraints import Term

@@ -9,8 +9,8 @@ from typing import Annotated, Any
 from diecut_report.config.dependency_order import ordered
 from diecut_report.config.instances import Instance
 from diecut_report.config.loader import Config, substituted
-from diecut_report.config.model import Press
-from diecut_report.config.references import PRESS, Linker, Target
+from diecut_report.config.model import PRESS, Press
+from diecut_report.config.references import Linker, Target
 from diecut_report.config.validation import declared, keys_of, validate
 from diecut_report.config.yaml_tree import KeyPath
 from diecut_report.contract.inputs import SI, Block, CurveInput, Pending, Quantity, Text, fields, list_inputs

@@ -9,7 +9,7 @@ from functools import cached_property
 from typing import Any, Literal
 
 from diecut_report.config.loader import Config
-from diecut_report.config.references import PRESS
+from diecut_report.config.model import PRESS
 from diecut_report.config.validation import ConfigPlace, told
 from diecut_report.errors import Problem, nearest
 from diecut_report.study.execution.result_columns import columns_of

@@ -11,7 +11,7 @@ import numpy as np
 from diecut_report.config.discovery import said
 from diecut_report.config.instances import Instance
 from diecut_report.config.loader import Config
-from diecut_report.config.references import PRESS
+from diecut_report.config.model import PRESS
 from diecut_report.contract.checks import Check
 from diecut_report.contract.inputs import list_inputs
 from diecut_report.contract.result_names import CROSSING_COLUMNS, ResultName, count_name, result_names

@@ -12,7 +12,7 @@ from typing import Any
 
 import numpy as np
 
-from diecut_report.config.references import PRESS
+from diecut_report.config.model import PRESS
 from diecut_report.contract.inputs import Quantity
 from diecut_report.study.definition.base_inputs import Input
 from diecut_report.study.definition.study_file import Study

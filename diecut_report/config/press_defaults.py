@@ -1,0 +1,34 @@
+"""Defaults that inputs take from the press: each names a number that a press may give, of the input's kind."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from diecut_report.config.model import PRESS, Press
+from diecut_report.contract.inputs import FromPress, Quantity, fields
+from diecut_report.contract.mechanism import Mechanism
+from diecut_report.declaration.input_places import of_input
+from diecut_report.declaration.words import Fault
+from diecut_report.errors import nearest
+from diecut_report.quantities.units import unit
+
+NUMBERS = {f"{PRESS}.{path}": meta for path, meta in fields(Press) if isinstance(meta, Quantity)}
+
+
+def faults(mechanism: Mechanism) -> Iterator[Fault]:
+    """Yield the inputs with a default that the press can never give."""
+    for path, meta in fields(mechanism.inputs):
+        if isinstance(meta, Quantity) and meta.press is not None:
+            for text in _wrong(meta, meta.press):
+                yield Fault(of_input(mechanism.inputs, path, mechanism.at), f"input {path}", text)
+
+
+def _wrong(meta: Quantity, press: FromPress) -> Iterator[str]:
+    given = NUMBERS.get(press.path)
+    if given is None:
+        known = ", ".join(NUMBERS)
+        yield f"takes {press.path}, which is not a number of the press{nearest(press.path, NUMBERS)}; it has {known}"
+        return
+    units = [meta.unit, *(other for _, other in meta.units)]
+    if press.formula is None and all(unit(given.unit).kind != unit(other).kind for other in units):
+        yield f"in {meta.unit} takes {press.path}, which is in {given.unit}; name a formula between them: FromPress(…, formula)"

@@ -1,0 +1,47 @@
+"""What declares a quantity of a calculation: the step that gives it, or the input; of one crossing and their number what follows from it."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import replace
+from typing import cast
+
+from diecut_report.contract.inputs import Meta, Quantity
+from diecut_report.contract.place import Misdeclared
+from diecut_report.contract.result_names import ResultName, named, names_ahead
+from diecut_report.contract.steps import Reduction, Step
+from diecut_report.errors import nearest
+
+
+def declared(calc: Calculation, name: str) -> Step | Quantity:
+    """Return the step or input with a quantity's symbol, unit and description; Misdeclared where there is none of this name."""
+    if name in calc.steps:
+        return calc.steps[name]
+    found = named(name, calc.steps)
+    if found is not None:
+        return _of_step(found, calc.steps, calc.axis)
+    path = name.removeprefix("inputs.")
+    if path not in calc.meta:
+        given = [each.name for step in calc.steps.values() for each in names_ahead(step)]
+        words = (
+            f"{name!r} is not a quantity of this machine{nearest(path, [*given, *calc.meta])}; name a step or an input"
+        )
+        raise Misdeclared(words, calc.mechanism.at)
+    return cast(Quantity, calc.meta[path])
+
+
+def _of_step(found: ResultName, steps: Mapping[str, Step], axis: Mapping[str, str]) -> Step:
+    step = steps[found.id]
+    match found.role:
+        case "place":
+            return steps[axis[cast(Reduction, step).of]]
+        case "count":
+            many = f"{step.description}: how many"
+            return replace(
+                step, id=found.name, symbol=f"n_{step.symbol.replace('_', ',')}", unit="1", units=(), description=many
+            )
+        case "crossing":
+            return replace(
+                step, id=found.name, symbol=f"{step.symbol}{',' if '_' in step.symbol else '_'}{found.number}"
+            )
+    return step

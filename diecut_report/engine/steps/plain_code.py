@@ -1,0 +1,54 @@
+"""What a plugin's plain code gives back: numbers of the right shape, or a text; all else is told of the step and its function."""
+
+from __future__ import annotations
+
+import reprlib
+from collections.abc import Callable
+from numbers import Real
+from typing import Any
+
+import numpy as np
+
+from diecut_report.contract.place import Misdeclared
+from diecut_report.contract.steps import Clash, Computed, Step, Words
+from diecut_report.expressions import Array
+
+
+def number(step: Computed, found: Any, count: int) -> Array:
+    """Return what a function gives as an array of shape (variants, 1); Misdeclared where it is none."""
+    given = _numbers(step, step.function, found, "a number")
+    if given.shape not in ((), (1,), (1, 1), (count, 1)):
+        raise _told(step, step.function, f"an array of shape {given.shape}", f"a number, shape ({count}, 1)")
+    return np.broadcast_to(given, (count, 1))
+
+
+def partners(step: Clash, found: Any, shape: tuple[int, ...]) -> Array:
+    """Return which part each part clashes with, of the shape of the rows that it takes; Misdeclared where it is none."""
+    given = _numbers(step, step.function, found, "an array of indices")
+    if given.shape != shape:
+        raise _told(step, step.function, f"an array of shape {given.shape}", f"an index for each part, shape {shape}")
+    return given
+
+
+def text(step: Words, found: Any) -> str:
+    """Return the text that a function gives; Misdeclared where it is none."""
+    if not isinstance(found, str):
+        raise _told(step, step.function, reprlib.repr(found), 'a text, f"…"')
+    return found
+
+
+def _numbers(step: Step, function: Callable[..., Any], found: Any, wanted: str) -> Array:
+    try:
+        given = np.asarray(found)
+    except ValueError:  # a list of lists of unlike lengths
+        given = np.array(None)
+    if given.dtype == object and all(isinstance(each, Real) for each in given.flat):
+        return given.astype(float)
+    if given.dtype.kind not in "biuf":
+        raise _told(step, function, reprlib.repr(found), wanted)
+    return given
+
+
+def _told(step: Step, function: Callable[..., Any], given: str, wanted: str) -> Misdeclared:
+    name = getattr(function, "__name__", repr(function))
+    return Misdeclared(f"step {step.id}: its function {name} gives {given}; it must return {wanted}", step.at)

@@ -1,0 +1,60 @@
+"""Each quantity that a formula, message or drawing may name has a symbol and a unit of its own; a name that none has is told."""
+
+from __future__ import annotations
+
+from typing import Annotated, Any
+
+import numpy as np
+import pytest
+
+from diecut_report.api import POINTS, Chapter, Inputs, Mechanism, Quantity
+from diecut_report.contract.place import Misdeclared
+from diecut_report.declaration import faults
+from diecut_report.engine import Calculation, calculate
+from diecut_report.engine.printing.substitution import filled
+from diecut_report.expressions import Node
+from diecut_report.results.mechanism import mechanism_results
+
+
+class Wave(Inputs):
+    height: Annotated[float, Quantity("h", "mm", "Height", gt=0)] = 2
+    n_points: Annotated[int, POINTS] = 36
+
+
+wave = Chapter("Wave")
+wave.abscissa("angle", "φ", "deg", "Angle", period=2 * np.pi)
+wave.value("rise", "y", "mm", "Rise", lambda angle, height: height * np.cos(angle))
+wave.crossings("zero", "φ_0", "deg", "Where it is level", of="rise")
+wave.value("doubled", "z_2", "1", "Twice as many", lambda zero_count: 2 * zero_count)
+wave.value("between", "Δφ", "deg", "Angle between them", lambda zero_1, zero_2: zero_2 - zero_1)
+
+MECHANISM = Mechanism(kind="wave", version="1", title="Wave", summary="Wave.", inputs=Wave, chapters=(wave,))
+
+
+def made() -> Calculation:
+    return calculate(MECHANISM, {"height": 0.002, "n_points": 36})
+
+
+def test_how_many_crossings_there_are_is_a_number_with_symbol_and_unit() -> None:
+    calc = made()
+    declared = calc.step_or_input("zero_count")
+    assert (declared.symbol, declared.unit) == ("n_φ,0", "1") and "how many" in declared.description
+    assert filled(calc, "it is level {zero_count} times") == "it is level 2 times"
+
+
+def test_formulas_of_crossings_and_of_their_number_are_printed_with_symbols_of_their_own() -> None:
+    assert not faults(MECHANISM)
+    items: dict[str, Any] = {item["id"]: item for item in mechanism_results(made(), {})["sections"][0]["items"]}
+    assert items["doubled"]["equation"] == Node("*", (Node("num", ("2",)), Node("sym", ("n_φ,0",)))).to_json()
+    assert items["doubled"]["result"]["text"] == "4"  # cos is zero at 90° and at 270°
+    assert items["between"]["equation"] == Node("-", (Node("sym", ("φ_0,2",)), Node("sym", ("φ_0,1",)))).to_json()
+    assert items["between"]["result"] == {"text": "180", "unit": "deg"}
+
+
+def test_a_name_that_nothing_has_is_told_with_the_plugin_and_the_nearest() -> None:
+    with pytest.raises(Misdeclared, match=r"test_named_quantity\.py:\d+: 'zero_cuont' is not a quantity .*'zero_count'"):
+        made().step_or_input("zero_cuont")
+    with pytest.raises(
+        Misdeclared, match=r"'inputs\.hieght' is not a quantity of this machine \(did you mean 'height'\?\)"
+    ):
+        made().step_or_input("inputs.hieght")

@@ -1,0 +1,64 @@
+"""What plain code gives back is a number for each machine, an index for each part, or a text; all else is told with its step."""
+
+from __future__ import annotations
+
+from fractions import Fraction
+from typing import Annotated, Any
+
+import numpy as np
+import pytest
+
+from diecut_report.api import Block, Chapter, Inputs, Mechanism, Quantity
+from diecut_report.contract.place import Misdeclared
+from diecut_report.engine import Calculation, Impossible, calculate
+
+
+class Peg(Block):
+    place: Annotated[float, Quantity("x_i", "mm", "Place")]
+
+
+class Row(Inputs):
+    width: Annotated[float, Quantity("b", "mm", "Width", gt=0)]
+    pegs: Annotated[list[Peg], Quantity("", "1", "Pegs")]
+
+
+def calculated(number: Any = 1.0, clash: Any = None, machines: int = 1) -> Calculation:
+    chapter = Chapter("Row")
+    chapter.computed("found", "f", "mm", "Found", lambda width: number, takes=("width",), method="plain code")
+    chapter.clash("meet", lambda x: -np.ones(x.shape) if clash is None else clash, takes=("pegs.place",), key="pegs",
+                  message="peg {part} meets peg {other}")  # fmt: skip
+    mechanism = Mechanism(kind="row", version="1", title="Row", summary="Row.", inputs=Row, chapters=(chapter,))
+    width = np.full(machines, 0.5) if machines > 1 else 0.5
+    return calculate(mechanism, {"width": width, "pegs": True, "pegs.place": (0.1, 0.2, 0.3)}, machines)
+
+
+@pytest.mark.parametrize("number", [2, 2.0, [2], [[2.0]], np.float64(2), np.array([[Fraction(2)]], dtype=object), True])
+def test_numbers_of_any_kind_are_numbers(number: Any) -> None:
+    assert calculated(number)["found"] == np.array([[float(number is not True) + 1]])
+
+
+@pytest.mark.parametrize(
+    ("number", "words"),
+    [(None, "gives None"), ("long", "gives 'long'"), (np.zeros(3), r"gives an array of shape \(3,\)"), ([[1], [2, 3]], r"gives \[\[1\]"),
+     (2j, "gives 2j"), ({"a": 1}, "gives {'a': 1}"), (np.array([[None]]), "gives array"), ([], r"gives an array of shape \(0,\)")],
+)  # fmt: skip
+def test_what_is_no_number_is_told(number: Any, words: str) -> None:
+    with pytest.raises(Misdeclared, match=rf"test_plain_code\.py:\d+: step found: its function <lambda> {words}.*"):
+        calculated(number)
+
+
+def test_several_machines_have_a_number_each() -> None:
+    assert calculated(np.array([[1.0], [2.0]]), machines=2)["found"].tolist() == [[1.0], [2.0]]
+    with pytest.raises(Misdeclared, match=r"gives an array of shape \(2,\); it must return a number, shape \(2, 1\)"):
+        calculated(np.array([1.0, 2.0]), machines=2)
+
+
+def test_parts_that_meet_are_told_by_their_number() -> None:
+    with pytest.raises(Impossible, match="peg 2 meets peg 3"):
+        calculated(clash=np.array([[-1, 2, 1]]))
+
+
+@pytest.mark.parametrize(("clash", "words"), [(np.zeros(3), r"an array of shape \(3,\)"), ("none", "gives 'none'")])
+def test_an_index_is_needed_for_each_part(clash: Any, words: str) -> None:
+    with pytest.raises(Misdeclared, match=f"step meet: .*{words}.*must return an"):
+        calculated(clash=clash)
