@@ -144,10 +144,10 @@ def changes(before: Description, now: Description) -> Iterator[Problem]:
 def _other_code(before: Description, now: Description) -> Iterator[Problem]:
     """Tell what calculates by other code than before, though its version may be the same."""
     for name in sorted(before.sources.keys() | now.sources.keys()):
-        old, new = (code.get(name, "absent")[:SHORT] for code in (before.sources, now.sources))
+        old, new = (code.get(name, "none")[:SHORT] for code in (before.sources, now.sources))
         if before.sources.get(name) != now.sources.get(name):
             words = (
-                f"The source of {name} has changed since the results were begun (SHA-256 {old} … then, {new} … now): "
+                f"The source of the {name} has changed since the results were begun (SHA-256 {old} then, {new} now): "
                 "variants of both would be mixed. Put it back as it was, or calculate all variants anew in another folder."
             )
             yield Problem(words, now.study.file)
