@@ -10,14 +10,13 @@ from typing import Any, NamedTuple
 
 import numpy as np
 import pyarrow as pa
-import pyarrow.parquet as pq
 
 from diecut_report.study.storage.description import VARIANT, VERDICT, Description
-from diecut_report.study.storage.part_files import DAMAGED, FOREIGN, has_schema, readable, schema_of
+from diecut_report.study.storage.part_files import DAMAGED, FOREIGN, columns_of_part, readable, schema_of
+from diecut_report.study.storage.state_form import STATUSES
 from diecut_report.study.storage.verified_parts import Verified, mark
 
 STATUS = VERDICT[0].name
-STATUSES = ("pass", "warn", "fail", "error")
 Entry = Mapping[str, Any]  # of study.json: the hash of a part and how many variants it holds
 
 
@@ -51,7 +50,8 @@ class PartChecks:
             return Judged(FOREIGN, {})
         with readable(path):
             seen = mark(path)
-            if known := self._verified.counts(path, entry["sha256"], seen):
+            known = self._verified.counts(path, entry["sha256"], seen)
+            if known is not None:
                 return Judged("", known)
             judged = self._read(index, path, entry)
         if not judged.fault:
@@ -61,17 +61,13 @@ class PartChecks:
     def _read(self, index: int, path: Path, entry: Entry) -> Judged:
         with path.open("rb") as file:
             is_whole = hashlib.file_digest(file, "sha256").hexdigest() == entry["sha256"]
-        if not is_whole or not has_schema(path, self._schema):
+        read = columns_of_part(path, self._schema, [VARIANT.name, STATUS]) if is_whole else None
+        if read is None:
             return Judged(DAMAGED, {})
-        with pq.ParquetFile(path) as part:
-            read = part.read(columns=[VARIANT.name, STATUS])
         numbers, rows = read[VARIANT.name].to_numpy(), self.rows(index)
         counts = Counter(map(str, read[STATUS].cast(pa.string()).to_pylist()))
         if len(numbers) != entry["variants"] or not set(counts) <= set(STATUSES):
             return Judged(DAMAGED, {})
-        inside = not len(numbers) or (
-            rows.start <= numbers[0] and numbers[-1] < rows.stop and (np.diff(numbers) > 0).all()
-        )
-        return Judged(
-            "" if inside else f"{DAMAGED} It is to hold variants {rows.start} to {rows.stop - 1}, once each.", counts
-        )
+        inside = (numbers >= rows.start).all() and (numbers < rows.stop).all() and (np.diff(numbers) > 0).all()
+        other = f"{DAMAGED} It may hold the variants {rows.start} to {rows.stop - 1}, each once, in their order."
+        return Judged("" if inside else other, counts)

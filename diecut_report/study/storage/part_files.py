@@ -117,13 +117,14 @@ def readable(path: Path) -> Iterator[None]:
         raise UserError(Problem(words, str(path))) from error
 
 
-def has_schema(path: Path, schema: pa.Schema) -> bool:
-    """Return whether a part is of this study, as far as its end tells: its origin and columns are the same."""
+def columns_of_part(path: Path, schema: pa.Schema, names: Sequence[str]) -> pa.Table | None:
+    """Return some columns of a part, nothing where it is none or of another origin or other columns than the schema."""
     try:
-        return bool(pq.read_schema(path).equals(schema, check_metadata=True))
+        with pq.ParquetFile(path) as part:
+            return part.read(columns=list(names)) if part.schema_arrow.equals(schema, check_metadata=True) else None
     except pa.ArrowException:
-        return False
+        return None
     except OSError as error:
         if error.errno is None:  # Parquet says so too of a damaged file
-            return False
-        raise UserError(Problem(f"This part cannot be read: {error.strerror}.", str(path))) from error
+            return None
+        raise

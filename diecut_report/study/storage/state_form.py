@@ -104,7 +104,7 @@ def check_form(data: Any, file: Path) -> None:
     try:
         found = StateForm.model_validate(data)
     except ValidationError as error:
-        raise _told([_of_pydantic(one, data) for one in error.errors()], file) from None
+        raise _told([_of_pydantic(one) for one in error.errors()], file) from None
     if disagreeing := list(_disagreeing(found)):
         raise _told(disagreeing, file)
 
@@ -134,7 +134,7 @@ NEEDED = {
 }
 
 
-def _of_pydantic(found: Mapping[str, Any], data: Any) -> tuple[str, str]:
+def _of_pydantic(found: Mapping[str, Any]) -> tuple[str, str]:
     key = ".".join(str(part) for part in found["loc"] if part != "[key]")
     kind, given = found["type"], _given(found["input"])
     if kind == "missing":
@@ -148,10 +148,11 @@ def _of_pydantic(found: Mapping[str, Any], data: Any) -> tuple[str, str]:
 
 def _given(value: Any) -> str:
     """A value of the file, shortened."""
-    names: dict[Any, str] = {None: "null", True: "true", False: "false"}
     if value is None or isinstance(value, bool):
-        return names[value]
-    return {dict: "a block of keys", list: "a list"}.get(type(value)) or reprlib.repr(value)
+        return "null" if value is None else str(value).lower()
+    if isinstance(value, dict | list):
+        return "a block of keys" if isinstance(value, dict) else "a list"
+    return reprlib.repr(value)
 
 
 # --- keys that must agree --------------------------------------------------------------------------------------------

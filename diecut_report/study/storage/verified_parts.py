@@ -79,6 +79,6 @@ def _read(file: Path | None) -> dict[str, dict[str, Any]]:
 
 
 def _is_known(known: Any) -> bool:
-    return (
-        isinstance(known, dict) and known.keys() == {"sha256", "mark", "counts"} and isinstance(known["counts"], dict)
-    )
+    if not isinstance(known, dict) or known.keys() != {"sha256", "mark", "counts"}:
+        return False
+    return isinstance(known["counts"], dict) and all(isinstance(count, int) for count in known["counts"].values())
