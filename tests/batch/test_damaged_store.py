@@ -298,6 +298,8 @@ def test_any_single_edit_of_the_state_is_told_in_words(folder: Path) -> None:
         ("chunk", 3, "part_files.part-00002.parquet: This key is missing."),
         ("stat", 1, "stat: This key is unknown (did you mean 'state'?)."),
         ("counts", {"sample": 10, "variants": 2, "dropped": 8}, "counts.variants: 2 is given; the other keys make 10."),
+        ("a\nstudy.json: rows: fine", 1, r"'a\nstudy.json: rows: fine': This key is unknown"),
+        ("x" * 10_000, 1, "'xxxxxxxxxxxx...xxxxxxxxxxxxx': This key is unknown"),
         ("seconds", 2.5, "This file has been changed since the program wrote it"),
     ],
 )
@@ -353,6 +355,9 @@ REPAIRED: dict[str, Edit] = {
     "varied": _edit_state(varied=["mechanisms.a.force"]),
     "objectives": _edit_state(objectives=[{"minimise": "a.moment"}]),
     "seconds": _edit_state(seconds=1e9),
+    "counts": _edit_state(counts={"sample": 6, "variants": 6, "pass": 6, "dropped": 512}),
+    "part_files": _edit_state(part_files={}),
+    "parts": _edit_state(parts=3),
 }
 
 

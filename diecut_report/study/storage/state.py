@@ -48,7 +48,7 @@ def read_state(folder: Path, *, sealed: bool = True) -> Data:
         raise UserError(Problem(f"The state of the study is nested too deep. {MEND}", str(path))) from None
     except (OSError, ValueError) as error:
         raise UserError(Problem(f"The state of the study cannot be read: {error}. {MEND}", str(path))) from error
-    check_form(found, path)
+    check_form(found, path, is_final=sealed)
     if sealed and not is_sealed(found):
         words = (
             "This file has been changed since the program wrote it, so that what it says of the results may be wrong. Put it "

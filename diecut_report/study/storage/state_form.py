@@ -93,8 +93,11 @@ class StateForm(_Form):
     counts: Counts | None = None
 
 
-def check_form(data: Any, file: Path) -> None:
-    """Refuse what is no study.json: UserError with the file, the key, what was given and what is allowed."""
+def check_form(data: Any, file: Path, *, is_final: bool = True) -> None:
+    """Refuse what is no study.json: UserError with the file, the key, what was given and what is allowed.
+
+    Without ``is_final`` the keys that a run writes at its end need not agree: it is to be continued.
+    """
     if isinstance(data, dict) and not any(key in data for key in EARLIER) and "columns" in data:
         words = (
             "An earlier version of diecut-report wrote these results, without the hashes that prove them unchanged. "
@@ -107,10 +110,12 @@ def check_form(data: Any, file: Path) -> None:
         raise _told([_of_pydantic(one) for one in error.errors()], file) from None
     if disagreeing := list(_disagreeing(found)):
         raise _told(disagreeing, file)
+    if is_final and found.state == "complete" and (faults := list(_incomplete(found))):
+        raise _told(faults, file, f"Let the program mend it: diecut-report batch --resume {file.parent}")
 
 
-def _told(faults: list[tuple[str, str]], file: Path) -> UserError:
-    shown = [Problem(f"{words} {MEND}", str(file), path=key) for key, words in faults[:MOST]]
+def _told(faults: list[tuple[str, str]], file: Path, mend: str = MEND) -> UserError:
+    shown = [Problem(f"{words} {mend}", str(file), path=_short(key)) for key, words in faults[:MOST]]
     more = len(faults) - len(shown)
     return UserError([*shown, *([Problem(f"{more} more keys are wrong.", str(file))] if more else [])])
 
@@ -155,6 +160,11 @@ def _given(value: Any) -> str:
     return reprlib.repr(value)
 
 
+def _short(key: str) -> str:
+    """A key, which a hand may have written too."""
+    return key if key.isprintable() and len(key) < 200 else reprlib.repr(key)
+
+
 # --- keys that must agree --------------------------------------------------------------------------------------------
 
 
@@ -167,9 +177,6 @@ def _disagreeing(form: StateForm) -> Iterator[tuple[str, str]]:
     yield from _other_keys("sha256", form.sha256, sources)
     for name in (name for name in form.varied or () if name not in form.columns):
         yield "varied", f"{_given(name)} is given; the name of a column is needed{nearest(name, names)}."
-    parts = {part_name(index) for index in range(min(-(-form.rows // form.chunk), len(form.part_files) + 1))}
-    if form.state == "complete":
-        yield from _incomplete(form, parts)
 
 
 def part_name(index: int) -> str:
@@ -177,10 +184,11 @@ def part_name(index: int) -> str:
     return f"part-{index:05d}.parquet"
 
 
-def _incomplete(form: StateForm, parts: set[str]) -> Iterator[tuple[str, str]]:
+def _incomplete(form: StateForm) -> Iterator[tuple[str, str]]:
     """Return what of a study that is called complete does not add up."""
-    yield from _other_keys("part_files", form.part_files, parts)
     whole = -(-form.rows // form.chunk)
+    first = range(min(whole, len(form.part_files) + 1))  # one that is missing is enough
+    yield from _other_keys("part_files", form.part_files, {part_name(index) for index in first})
     if form.parts != whole:
         yield "parts", f"{_given(form.parts)} is given; {form.rows} rows in parts of {form.chunk} make {whole}."
     if form.counts is None:
