@@ -27,14 +27,14 @@ class _Form(BaseModel):
     model_config = ConfigDict(strict=True, extra="forbid", allow_inf_nan=False, hide_input_in_errors=True)
 
 
-class Program(_Form):
+class NotedProgram(_Form):
     """The program that calculated the variants."""
 
     name: Literal["diecut-report"]
     version: str
 
 
-class Column(_Form):
+class NotedColumn(_Form):
     """A column of the part files; its name is the key."""
 
     kind: Kind = "float"
@@ -44,14 +44,14 @@ class Column(_Form):
     description: str = ""
 
 
-class PartFile(_Form):
+class NotedPart(_Form):
     """A part file: the hash of its bytes, and how many variants it holds."""
 
     sha256: Digest
     variants: Count
 
 
-class Counts(_Form):
+class NotedCounts(_Form):
     """How many rows the sample has, how many of them are stored, and of each status."""
 
     sample: Count
@@ -68,7 +68,7 @@ class StateForm(_Form):
     """All that stands in study.json."""
 
     schema_version: Literal[1]  # of the description
-    program: Program
+    program: NotedProgram
     plugins: dict[str, str]
     source_sha256: dict[str, Digest]
     study: str
@@ -77,8 +77,8 @@ class StateForm(_Form):
     sha256: dict[str, Digest]
     rows: Count
     chunk: Annotated[int, Field(ge=1, le=10**6)]
-    columns: dict[str, Column]
-    part_files: dict[str, PartFile]
+    columns: dict[str, NotedColumn]
+    part_files: dict[str, NotedPart]
     state: Literal["running", "complete"]
     seal: Digest
     varied: Annotated[list[str], Field(min_length=1)] | None = None
@@ -90,7 +90,7 @@ class StateForm(_Form):
     seconds: Annotated[float, Field(ge=0)] = 0.0
     libraries: dict[str, list[str]] = {}
     parts: Count | None = None
-    counts: Counts | None = None
+    counts: NotedCounts | None = None
 
 
 def check_form(data: Any, file: Path, *, is_final: bool = True) -> None:
