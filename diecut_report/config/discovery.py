@@ -25,6 +25,7 @@ from types import ModuleType
 from typing import Any
 
 from diecut_report.config import yaml_tree
+from diecut_report.config.source_hashes import file_of, module_hash, note_plugin
 from diecut_report.contract.mechanism import Mechanism
 from diecut_report.contract.place import Misdeclared
 from diecut_report.errors import PluginError, Problem, UserError, nearest
@@ -52,6 +53,7 @@ class Origin:
     kind: str
     told: str
     load: Callable[[], Any]
+    file: Callable[[], Path]  # of the module, when it is loaded
     is_own: bool = False  # of the program itself, whose declarations its tests check
 
 
@@ -61,6 +63,7 @@ class Discovery:
     def __init__(self, folders: Iterable[Path] = ()) -> None:
         self._folders = tuple({folder.resolve(): folder for folder in folders}.values())
         self._loaded: dict[str, Mechanism | PluginError] = {}
+        self.extended: dict[str, str] = {}  # the extensions that were run, with the hashes of their code
 
     @cached_property
     def origins(self) -> dict[str, list[Origin]]:
@@ -80,6 +83,7 @@ class Discovery:
             origin = self._extensions.pop()
             try:
                 origin.load()
+                self.extended[origin.kind] = module_hash(origin.file())
             except (Exception, SystemExit) as cause:
                 raise UserError(Problem(f"This extension cannot be loaded: {said(cause)}.", origin.told)) from cause
 
@@ -111,6 +115,7 @@ class Discovery:
 def _loaded(origin: Origin) -> Mechanism | PluginError:
     try:
         found = origin.load()
+        digest = module_hash(origin.file())
     except (Exception, SystemExit) as cause:
         error = PluginError(f"it cannot be loaded from {origin.told}: {said(cause)}", origin.kind)
         error.__cause__ = cause
@@ -119,6 +124,7 @@ def _loaded(origin: Origin) -> Mechanism | PluginError:
         return PluginError(f"{origin.told} gives a {type(found).__name__}, where a Mechanism is needed", origin.kind)
     if found.kind != origin.kind:
         return PluginError(f"{origin.told} gives the kind {found.kind!r}; name it {origin.kind!r} there", origin.kind)
+    note_plugin(found, digest)
     return found if origin.is_own else _sound(origin, found)
 
 
@@ -168,23 +174,26 @@ def _is_foreign(file: Path) -> bool:
 def _built_in() -> Iterator[Origin]:
     package = import_module(GROUP)
     for kind in _names_in(Path(package.__path__[0])):
-        yield Origin(kind, "the program itself", partial(_of_module, f"{GROUP}.{kind}"), is_own=True)
+        name = f"{GROUP}.{kind}"
+        yield Origin(kind, "the program itself", partial(_of_module, name), partial(_file_of_module, name), is_own=True)
 
 
 def _installed() -> Iterator[Origin]:
     for entry in entry_points(group=GROUP):
         package = f"the package {entry.dist.name} {entry.dist.version}" if entry.dist else "an installed package"
-        yield Origin(entry.name, package, entry.load if entry.attr else partial(_of_module, entry.module))
+        load = entry.load if entry.attr else partial(_of_module, entry.module)
+        yield Origin(entry.name, package, load, partial(file_of, entry.module))
 
 
 def _installed_extensions() -> Iterator[Origin]:
     for entry in entry_points(group=EXTENSIONS):
-        yield Origin(entry.name, f"{entry.name} of an installed package", entry.load)
+        told = f"{entry.name} of an installed package"
+        yield Origin(entry.name, told, entry.load, partial(file_of, entry.module))
 
 
 def _extensions(folder: Path) -> Iterator[Origin]:
     for file in sorted(folder.glob(f"{EXTENSION}*.py")):
-        yield Origin(file.stem, str(file), partial(_module_of, file))
+        yield Origin(file.stem, str(file), partial(_module_of, file), partial(Path, file))
 
 
 def _local(folder: Path) -> Iterator[Origin]:
@@ -195,7 +204,7 @@ def _local(folder: Path) -> Iterator[Origin]:
     listed = _listed(folder) if (folder / LIST).is_file() else {name: (name, ATTRIBUTE) for name in _names_in(folder)}
     for kind, (name, attribute) in listed.items():
         file = _file_of(folder, name)
-        yield Origin(kind, str(file), partial(_of_file, file, attribute))
+        yield Origin(kind, str(file), partial(_of_file, file, attribute), partial(Path, file))
 
 
 def _names_in(folder: Path) -> list[str]:
@@ -241,6 +250,10 @@ def _module_of(file: Path) -> ModuleType:
 
 def _of_module(name: str) -> Any:
     return _attribute(import_module(name), ATTRIBUTE)
+
+
+def _file_of_module(name: str) -> Path:
+    return Path(str(sys.modules[name].__file__))
 
 
 def _of_file(file: Path, attribute: str) -> Any:

@@ -14,6 +14,7 @@ from diecut_report.config.discovery import Discovery, DuplicateKind, UnknownKind
 from diecut_report.config.instances import Instance
 from diecut_report.config.model import PRESS, ConfigDocument, Press, Project
 from diecut_report.config.references import Linker, Node, Target, texts
+from diecut_report.config.source_hashes import plugin_hash, program_hash
 from diecut_report.config.validation import ConfigPlace, declared, keys_of, spread_out, told, validate
 from diecut_report.config.yaml_tree import KeyPath, Tree
 from diecut_report.contract.inputs import SI, Block, CurveInput, Pending, Text
@@ -29,7 +30,8 @@ class Config:
     """A valid configuration: the press and the mechanisms with what their references stand for.
 
     ``instances`` holds the press and, in the order of the file, the mechanisms; None stands for one whose plugin cannot
-    be loaded (``broken`` tells why). ``order`` is the order in which inputs and calculations can be known.
+    be loaded (``broken`` tells why). ``order`` is the order in which inputs and calculations can be known. ``extensions`` were
+    run before, each with the hash of its code.
     """
 
     tree: Tree
@@ -39,6 +41,15 @@ class Config:
     links: Mapping[Node, Target]
     order: tuple[Node, ...]
     broken: Mapping[str, PluginError]
+    extensions: Mapping[str, str] = field(default_factory=dict)
+
+    @property
+    def source_hashes(self) -> dict[str, str]:
+        """The SHA-256 of the code of all that calculates this configuration, by its name in words."""
+        made = [instance.mechanism for instance in self.instances.values() if instance and instance.mechanism]
+        plugins = {f"plugin {mechanism.kind}": plugin_hash(mechanism) for mechanism in made}
+        extensions = {f"extension {name}": digest for name, digest in self.extensions.items()}
+        return {"program": program_hash(), **dict(sorted((plugins | extensions).items()))}
 
 
 def load_config(given: Path | Tree, discovery: Discovery) -> Config:
@@ -56,7 +67,8 @@ def load_config(given: Path | Tree, discovery: Discovery) -> Config:
         ]
         raise UserError(sorted(dict.fromkeys(problems), key=lambda p: (p.line or 0, p.column or 0)))
     assert reader.project is not None
-    return Config(tree, reader.project, reader.instances, reader.kinds, linker.links, tuple(order), reader.broken)
+    return Config(tree, reader.project, reader.instances, reader.kinds, linker.links, tuple(order), reader.broken,
+                  dict(sorted(discovery.extended.items())))  # fmt: skip
 
 
 def _refuse_study(tree: Tree) -> None:

@@ -13,21 +13,24 @@ from diecut_report.contract.steps import Reduction, Step
 from diecut_report.errors import nearest
 
 
-def declared(calc: Calculation, name: str) -> Step | Quantity:
-    """Return the step or input with a quantity's symbol, unit and description; Misdeclared where there is none of this name."""
-    if name in calc.steps:
-        return calc.steps[name]
-    found = named(name, calc.steps)
+def declared(
+    name: str, steps: Mapping[str, Step], axis: Mapping[str, str], inputs: Mapping[str, Meta], at: str
+) -> Step | Quantity:
+    """Return the step or input with a quantity's symbol, unit and description.
+
+    ``axis`` is the abscissa of each curve, ``at`` the mechanism's place. Misdeclared where there is nothing of this name.
+    """
+    if name in steps:
+        return steps[name]
+    found = named(name, steps)
     if found is not None:
-        return _of_step(found, calc.steps, calc.axis)
+        return _of_step(found, steps, axis)
     path = name.removeprefix("inputs.")
-    if path not in calc.meta:
-        given = [each.name for step in calc.steps.values() for each in names_ahead(step)]
-        words = (
-            f"{name!r} is not a quantity of this machine{nearest(path, [*given, *calc.meta])}; name a step or an input"
-        )
-        raise Misdeclared(words, calc.mechanism.at)
-    return cast(Quantity, calc.meta[path])
+    if path not in inputs:
+        given = [each.name for step in steps.values() for each in names_ahead(step)]
+        near = nearest(path, [*given, *inputs])
+        raise Misdeclared(f"{name!r} is not a quantity of this machine{near}; name a step or an input", at)
+    return cast(Quantity, inputs[path])
 
 
 def _of_step(found: ResultName, steps: Mapping[str, Step], axis: Mapping[str, str]) -> Step:

@@ -39,6 +39,7 @@ def chapter(
         title=mechanism.get("title") or name,
         kind=mechanism["kind"],
         version=mechanism.get("plugin_version", ""),
+        source_sha256=mechanism.get("plugin_sha256", ""),
         status=mechanism["status"],
         error=mechanism.get("error", ""),
     )

@@ -51,6 +51,7 @@ ENGLISH: dict[str, str] = {
     "drawing_scale": "scale bar", "positive": "positive", "negative": "negative",
     # programme
     "calculated_by": "Calculated by", "version": "version", "plugin": "Mechanism", "plugin_version": "Version", "kind": "Kind",
+    "source_hash": "source", "extension": "Extension",
     "config_file": "Configuration file", "sha256": "SHA-256",
     "failed_text": "This mechanism could not be calculated.", "failed_comparison": "This comparison could not be calculated.",
     "skipped_text": "This mechanism was not calculated, since one that it refers to is in error.",

@@ -151,6 +151,7 @@ class PrintedChapter:
     kind: str
     version: str
     status: str
+    source_sha256: str = ""
     error: str = ""
     summary: str = ""
     assumptions: list[str] = field(default_factory=list)

@@ -8,7 +8,9 @@ from typing import Any
 
 from diecut_report import __version__
 from diecut_report.config.instances import Instance
+from diecut_report.config.loader import Config
 from diecut_report.config.model import PRESS, Press
+from diecut_report.config.source_hashes import plugin_hash, program_hash
 from diecut_report.config.validation import declared, keys_of
 from diecut_report.contract.inputs import Block, CurveInput, Quantity, flatten
 from diecut_report.contract.mechanism import Mechanism
@@ -29,7 +31,7 @@ def document(run: Run) -> Data:
     status = worst(data["status"] for data in mechanisms.values())
     return {
         "schema_version": 1,
-        "program": {"name": "diecut-report", "version": __version__},
+        "program": {"name": "diecut-report", "version": __version__, **_code(config)},
         "config": {
             "file": tree.name.replace("\\", "/").rsplit("/", 1)[-1],
             "sha256": tree.sha256,
@@ -42,6 +44,11 @@ def document(run: Run) -> Data:
         "governing": governing(mechanisms),
         "mechanisms": mechanisms,
     } | ({"comparisons": comparisons} if comparisons else {})
+
+
+def _code(config: Config) -> Data:
+    """Return the hash of the program's code, and of each extension that was run."""
+    return {"source_sha256": program_hash()} | ({"extensions": dict(config.extensions)} if config.extensions else {})
 
 
 EMPTY: Data = {
@@ -75,6 +82,7 @@ def _head(kind: str, mechanism: Mechanism | None) -> Data:
         "kind": kind,
         "title": mechanism.title if mechanism else kind,
         "plugin_version": mechanism.version if mechanism else "",
+        "plugin_sha256": plugin_hash(mechanism),
     }
 
 

@@ -105,13 +105,17 @@ def _without_broken(columns: Mapping[str, Any], bore: Any) -> dict[str, Any]:
 
 
 def written(
-    folder: Path, columns: Sequence[ResultColumn], values: Mapping[str, Any], parts: int = 1, text: str = STUDY, **facts: Any
+    folder: Path, columns: Sequence[ResultColumn], values: Mapping[str, Any], parts: int = 1, text: str = STUDY,
+    base: str = BASE, dropped: int = 0, **facts: Any,
 ) -> Path:  # fmt: skip
-    """A study's folder with these values, through the store; ``text`` is its study file, ``facts`` are what a run notes in study.json."""
-    count = len(values["status"])
+    """A study's folder with these values, through the store; ``facts`` are what a run notes in study.json.
+
+    ``text`` is the study's file, ``base`` its base; ``dropped`` rows of the sample, the last ones, break a constraint.
+    """
+    count = len(values["status"]) + dropped
     every = max(1, -(-count // parts))
     study = StudySource("study.yaml", sha256(text.encode()).hexdigest(), text.encode())
-    kept = StudySource("press.yaml", sha256(BASE.encode()).hexdigest(), BASE.encode())
+    kept = StudySource("press.yaml", sha256(base.encode()).hexdigest(), base.encode())
     store = Store.create(folder, Description(study, kept, tuple(columns), count, every))
     with store.lock():
         for index in range(store.description.parts):

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import glob
 import tempfile
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass
 from functools import cached_property
@@ -15,7 +15,7 @@ from diecut_report.errors import Problem, UserError
 from diecut_report.quantities.units import UnitError, unit
 from diecut_report.study.analysis.titles import UTILISATION, VERDICT_OF, titles
 from diecut_report.study.storage.description import VARIANT, VERDICT, Description, Kind
-from diecut_report.study.storage.state import read_description, read_state
+from diecut_report.study.storage.store import Store
 
 if TYPE_CHECKING:
     from duckdb import DuckDBPyConnection
@@ -117,8 +117,12 @@ def opened(folder: Path) -> Iterator[Stored]:
     """
     import duckdb
 
-    study = _study(folder)
-    description = read_description(folder)
+    store = Store.open(folder)
+    paths = store.whole_parts()
+    if not paths:
+        words = "No variants are stored here yet. Continue the run with `batch --resume`."
+        raise UserError(Problem(words, str(folder)))
+    description = store.description
     config: dict[str, str | bool | int | float | list[str]] = {
         "memory_limit": MEMORY,
         "temp_directory": tempfile.gettempdir(),
@@ -126,31 +130,27 @@ def opened(folder: Path) -> Iterator[Stored]:
     }
     with duckdb.connect(":memory:", config=config) as connection:
         try:
-            _view(connection, folder)
-            yield Stored(folder, description, study, columns_of(description), connection)
-        except (duckdb.IOException, duckdb.InvalidInputException) as error:
-            words = f"The stored variants cannot be read ({_first(error)}). Run the study again, or put the file back."
-            raise UserError(Problem(words, str(folder / "variants"))) from error
+            _view(connection, paths)
+            yield Stored(folder, description, store.state, columns_of(description), connection)
+        except duckdb.InterruptException as error:
+            raise KeyboardInterrupt from error
+        except (
+            duckdb.Error
+        ) as error:  # the parts are as they were written: what is asked gives no answer, or there is no room
+            words = f"The stored variants give no answer to this ({_first(error)}). Ask for something else, or for less at a time."
+            raise UserError(Problem(words, str(folder))) from error
 
 
 def _first(error: Exception) -> str:
     return str(error).splitlines()[0]
 
 
-def _study(folder: Path) -> Mapping[str, Any]:
-    study = read_state(folder)
-    if not any((folder / "variants").glob("part-*.parquet")):
-        words = "No variants are stored here yet. Continue the run with `batch --resume`."
-        raise UserError(Problem(words, str(folder)))
-    return study
-
-
-def _view(connection: DuckDBPyConnection, folder: Path) -> None:
-    """Names the part files ``v`` and shuts everything else."""
-    place = str((folder / "variants").absolute())
-    escaped = glob.escape(place)  # a folder may be called a[1]
-    connection.execute(f"CREATE VIEW v AS SELECT * FROM read_parquet({text(f'{escaped}/part-*.parquet')})")
-    connection.execute(f"SET allowed_directories = [{text(place)}, {text(escaped)}]")
+def _view(connection: DuckDBPyConnection, paths: Sequence[Path]) -> None:
+    """Name the part files ``v`` and shut everything else."""
+    files = [str(path.absolute()) for path in paths]
+    named = ", ".join(text(glob.escape(file)) for file in files)  # a folder may be called a[1]
+    connection.execute(f"CREATE VIEW v AS SELECT * FROM read_parquet([{named}])")
+    connection.execute(f"SET allowed_paths = [{', '.join(map(text, files))}]")
     connection.execute("SET enable_external_access = false")
     connection.execute("SET lock_configuration = true")
 

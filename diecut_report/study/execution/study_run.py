@@ -133,8 +133,12 @@ def _calculated(study: Study, store: Store, where: Where, tell: Tell) -> Iterato
 
 
 def engine_for(study: Study, where: Where, chunks: int) -> Engine:
-    """Return a Dask cluster where one is named, a pool of processes for a large study, this process for a small one."""
-    warm = Warm(_key(study, where), worker.load, (study.file.read_bytes(), contents(study), tuple(where.plugins)))
+    """A Dask cluster where one is named, a pool of processes for a large study, this process for a small one."""
+    warm = Warm(
+        _key(study, where),
+        worker.load,
+        (study.file.read_bytes(), contents(study), tuple(where.plugins), study.base.source_hashes),
+    )
     if where.dask:
         return dask_cluster(where.dask, warm)
     jobs = min(where.jobs or os.cpu_count() or 1, chunks)
@@ -142,7 +146,13 @@ def engine_for(study: Study, where: Where, chunks: int) -> Engine:
 
 
 def _key(study: Study, where: Where) -> str:
-    known = [study.sha256, study.base.tree.sha256, *study.tables.values(), *where.plugins]
+    known = [
+        study.sha256,
+        study.base.tree.sha256,
+        *study.tables.values(),
+        *where.plugins,
+        *study.base.source_hashes.values(),
+    ]
     return sha256("\n".join(known).encode()).hexdigest()
 
 
@@ -165,6 +175,7 @@ def described(study: Study) -> Description:
         chunk=chunk,
         tables=tuple(StudySource(name, digest, files[name]) for name, digest in study.tables.items()),
         plugins=_versions(study),
+        sources=study.base.source_hashes,
     )
 
 

@@ -11,6 +11,7 @@ from typing import Any
 import numpy as np
 
 from diecut_report.config.discovery import Discovery
+from diecut_report.errors import Problem, UserError
 from diecut_report.expressions import Array
 from diecut_report.study.conditions.numpy_emitter import JudgedRows
 from diecut_report.study.definition.study_file import Study, load_study
@@ -41,10 +42,11 @@ class Done:
     broken: dict[str, str] = field(default_factory=dict)
 
 
-def load(study: bytes, files: Mapping[str, bytes], plugins: Sequence[str]) -> Study:
-    """Load the study from the contents of its files, which a worker on another machine does not have; cluster-wide plugin folders.
+def load(study: bytes, files: Mapping[str, bytes], plugins: Sequence[str], sources: Mapping[str, str]) -> Study:
+    """The study from the contents of its files, which a worker on another machine does not have; cluster-wide plugin folders.
 
-    ``files``: the base and the tables by their names in the study, which may be paths to anywhere.
+    ``files``: the base and the tables by their names in the study, which may be paths to anywhere. ``sources``: the hashes of
+    the code that the run was begun with; UserError where this process, which may have been started later, has another.
     """
     settle()
     with tempfile.TemporaryDirectory() as folder:
@@ -53,7 +55,20 @@ def load(study: bytes, files: Mapping[str, bytes], plugins: Sequence[str]) -> St
             places[name].write_bytes(content)
         file = Path(folder) / "study.yaml"
         file.write_bytes(study)
-        return load_study(file, Discovery([Path(plugin) for plugin in plugins]), places)
+        loaded = load_study(file, Discovery([Path(plugin) for plugin in plugins]), places)
+    _refuse_other_code(sources, loaded.base.source_hashes)
+    return loaded
+
+
+def _refuse_other_code(begun: Mapping[str, str], here: Mapping[str, str]) -> None:
+    other = [name for name in sorted(begun.keys() | here.keys()) if begun.get(name) != here.get(name)]
+    if other:
+        words = (
+            f"The source of the {other[0]} is not the one that this run was begun with: it was changed meanwhile, or another "
+            "machine of the cluster has another version. What is calculated is kept; put the source back and continue with "
+            "--resume, or calculate all variants anew in another folder."
+        )
+        raise UserError(Problem(words))
 
 
 def calculate(study: Study, chunk: Chunk) -> Done:

@@ -15,6 +15,7 @@ from diecut_report.errors import Problem
 SCHEMA_VERSION = 1
 CHUNK = 8192  # variants a part file
 LINES = 3  # changed lines that a message shows
+SHORT = 12  # digits of a SHA-256 that people read
 Kind = Literal["float", "int", "bool", "text", "curve"]
 Data = dict[str, Any]
 
@@ -49,6 +50,7 @@ class Description:
 
     ``columns`` are those of the varied paths, outputs and checks, in their order; the store adds ``variant`` before
     them and ``status``, ``governing``, ``error`` after them. ``plugins``: the version of each kind of mechanism.
+    ``sources``: the SHA-256 of the code of all that calculates, by its name in words (`config.sources`).
     """
 
     study: StudySource
@@ -59,6 +61,7 @@ class Description:
     tables: tuple[StudySource, ...] = ()
     plugins: Mapping[str, str] = field(default_factory=dict)
     program: str = __version__
+    sources: Mapping[str, str] = field(default_factory=dict)
 
     @property
     def parts(self) -> int:
@@ -91,6 +94,7 @@ def as_data(description: Description) -> Data:
         "schema_version": SCHEMA_VERSION,
         "program": {"name": "diecut-report", "version": description.program},
         "plugins": dict(description.plugins),
+        "source_sha256": dict(description.sources),
         **{role: source.file for role, source in sources.items()},
         "tables": [table.file for table in description.tables],
         "sha256": {role: source.sha256 for role, source in sources.items()}
@@ -106,19 +110,18 @@ def _about(column: ResultColumn) -> Data:
 
 
 def from_data(data: Data) -> Description:
-    """Read again from study.json; raises KeyError, TypeError or ValueError where it is none."""
+    """Return the description that stands in study.json, whose form has been checked."""
     columns = tuple(ResultColumn(name, **about) for name, about in data["columns"].items())
-    if data["schema_version"] != SCHEMA_VERSION:
-        raise ValueError(f"its schema_version is {data['schema_version']}; this program reads {SCHEMA_VERSION}")
     return Description(
         study=StudySource(data["study"], data["sha256"]["study"]),
         base=StudySource(data["base"], data["sha256"]["base"]),
         columns=columns[1 : -len(VERDICT)],
-        rows=int(data["rows"]),
-        chunk=int(data["chunk"]),
+        rows=data["rows"],
+        chunk=data["chunk"],
         tables=tuple(StudySource(file, data["sha256"][f"table {n}"]) for n, file in enumerate(data["tables"], 1)),
         plugins=data["plugins"],
         program=data["program"]["version"],
+        sources=data["source_sha256"],
     )
 
 
@@ -134,7 +137,20 @@ def changes(before: Description, now: Description) -> Iterator[Problem]:
         old, new = (versions.get(kind, "absent") for versions in (before.plugins, now.plugins))
         if old != new:
             yield Problem(f"The plugin {kind!r} was {old} when the results were begun; it is {new}.", now.study.file)
+    yield from _other_code(before, now)
     yield from _other_rows(before, now)
+
+
+def _other_code(before: Description, now: Description) -> Iterator[Problem]:
+    """Tell what calculates by other code than before, though its version may be the same."""
+    for name in sorted(before.sources.keys() | now.sources.keys()):
+        old, new = (code.get(name, "none")[:SHORT] for code in (before.sources, now.sources))
+        if before.sources.get(name) != now.sources.get(name):
+            words = (
+                f"The source of the {name} has changed since the results were begun (SHA-256 {old} then, {new} now): "
+                "variants of both would be mixed. Put it back as it was, or calculate all variants anew in another folder."
+            )
+            yield Problem(words, now.study.file)
 
 
 def _other_tables(before: Description, now: Description) -> Iterator[Problem]:

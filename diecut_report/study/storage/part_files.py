@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
@@ -13,7 +13,6 @@ import pyarrow.parquet as pq
 from numpy.typing import NDArray
 
 from diecut_report.errors import Problem, UserError
-from diecut_report.files import write
 from diecut_report.study.storage.description import SCHEMA_VERSION, VARIANT, VERDICT, Description, Kind
 
 Values = NDArray[Any] | Sequence[Any]
@@ -26,6 +25,8 @@ TYPES: dict[Kind, Any] = {
 }
 COMPRESSION = "zstd"
 DAMAGED = "This part of the results is damaged or not of this study. Calculate it again with --resume."
+FOREIGN = "No run of this study has written this part. Move it to another folder, or let --resume remove it."
+MISSING = "This part of the results is missing. Calculate it again with --resume."
 
 
 def schema_of(description: Description) -> pa.Schema:
@@ -92,14 +93,14 @@ def _lists(kind: Any, values: Values) -> pa.Array:
     return pa.ListArray.from_arrays(np.append(0, ends).astype(np.int32), numbers, kind, mask=pa.array(missing))
 
 
-def write_part(path: Path, table: pa.Table) -> None:
-    """Write the table as a Parquet file, whole and on the disk, with a checksum for each page."""
+def part_content(table: pa.Table) -> memoryview:
+    """Return the table as the content of a Parquet file, with a checksum for each page."""
     texts = [field.name for field in table.schema if pa.types.is_dictionary(field.type)]
     sink = pa.BufferOutputStream()
     # numbers that seldom repeat only grow by a dictionary
     pq.write_table(table, sink, compression=COMPRESSION, use_dictionary=texts, row_group_size=max(len(table), 1),
                    write_page_checksum=True)  # fmt: skip
-    write(path, memoryview(sink.getvalue()))
+    return memoryview(sink.getvalue())
 
 
 @contextmanager
@@ -107,7 +108,7 @@ def readable(path: Path) -> Iterator[None]:
     """Turn what goes wrong in reading a part into a UserError that says what to do."""
     try:
         yield
-    except pa.ArrowInvalid as error:
+    except pa.ArrowException as error:
         raise UserError(Problem(DAMAGED, str(path))) from error
     except OSError as error:
         words = (
@@ -116,36 +117,14 @@ def readable(path: Path) -> Iterator[None]:
         raise UserError(Problem(words, str(path))) from error
 
 
-def has_schema(path: Path, schema: pa.Schema) -> bool:
-    """Return whether a part is of this study, as far as its end tells: its origin and columns are the same."""
-    return _is_sound(path, lambda: bool(pq.read_schema(path).equals(schema, check_metadata=True)))
-
-
-def is_whole(path: Path, schema: pa.Schema) -> bool:
-    """Return whether a part is of this study and all of it is as it was written, by its checksums."""
-    return has_schema(path, schema) and _is_sound(path, lambda: _is_read(path))
-
-
-def is_within(path: Path, rows: range) -> bool:
-    """Return whether a part's variants are of these rows of the sample: a copy of another part is not."""
-    with pq.ParquetFile(path) as file:
-        groups = [file.metadata.row_group(index) for index in range(file.metadata.num_row_groups)]
-        known = [group.column(0).statistics for group in groups if group.num_rows]
-    return all(rows.start <= told.min and told.max < rows.stop for told in known)
-
-
-def _is_read(path: Path) -> bool:
-    with pq.ParquetFile(path, page_checksum_verification=True) as file:
-        found: int = sum(batch.num_rows for batch in file.iter_batches())
-        return found == int(file.metadata.num_rows)
-
-
-def _is_sound(path: Path, look: Callable[[], bool]) -> bool:
+def columns_of_part(path: Path, schema: pa.Schema, names: Sequence[str]) -> pa.Table | None:
+    """Return some columns of a part, nothing where it is none or of another origin or other columns than the schema."""
     try:
-        return look()
-    except pa.ArrowInvalid:
-        return False
+        with pq.ParquetFile(path) as part:
+            return part.read(columns=list(names)) if part.schema_arrow.equals(schema, check_metadata=True) else None
+    except pa.ArrowException:
+        return None
     except OSError as error:
         if error.errno is None:  # Parquet says so too of a damaged file
-            return False
-        raise UserError(Problem(f"This part cannot be read: {error.strerror}.", str(path))) from error
+            return None
+        raise

@@ -16,36 +16,76 @@ from filelock import FileLock, Timeout
 
 from diecut_report.errors import Problem, UserError
 from diecut_report.files import in_words, write
-from diecut_report.study.storage.description import Description, StudySource, as_data, changes, from_data, libraries
+from diecut_report.study.storage.description import (
+    Data,
+    Description,
+    StudySource,
+    as_data,
+    changes,
+    from_data,
+    libraries,
+)
+from diecut_report.study.storage.state_form import MEND, check_form
 
 STATE, STUDY, BASE, TABLES = "study.json", "study.yaml", "base.yaml", "tables"
 LOCK, HOLDER = ".lock", ".lock.json"
-Data = dict[str, Any]
+SEAL = "seal"
 
 
-def read_state(folder: Path) -> Data:
-    """Return study.json of the folder; UserError where there is none or it cannot be read."""
+def read_state(folder: Path, *, sealed: bool = True) -> Data:
+    """Return study.json of the folder; UserError where there is none, or where it is not what the program has written.
+
+    Without ``sealed`` a file that a hand has changed is read too, as far as each key is possible: for a run that writes
+    anew what follows from the study.
+    """
     path = folder / STATE
     try:
-        return dict(json.loads(path.read_text("utf-8")))
+        found = json.loads(path.read_text("utf-8"), parse_constant=_no_number)
     except FileNotFoundError:
         words = "There are no results of a study here: study.json is missing. Give a folder that batch wrote, or begin one with -o."
         raise UserError(Problem(words, str(folder))) from None
-    except (OSError, ValueError, TypeError) as error:
-        raise UserError(Problem(f"The state of the study cannot be read: {error}", str(path))) from error
+    except RecursionError:
+        raise UserError(Problem(f"The state of the study is nested too deep. {MEND}", str(path))) from None
+    except (OSError, ValueError) as error:
+        raise UserError(Problem(f"The state of the study cannot be read: {error}. {MEND}", str(path))) from error
+    check_form(found, path, is_final=sealed)
+    if sealed and not is_sealed(found):
+        words = (
+            "This file has been changed since the program wrote it, so that what it says of the results may be wrong. Put it "
+            f"back as it was, or let the program write it anew: diecut-report batch --resume {folder}"
+        )
+        raise UserError(Problem(words, str(path)))
+    return dict(found)
+
+
+def _no_number(name: str) -> None:
+    raise ValueError(f"{name} is not a number of JSON")
 
 
 def write_state(folder: Path, state: Mapping[str, Any]) -> None:
-    """Put study.json into the folder, whole; other programs may read it at any time."""
-    write(folder / STATE, (json.dumps(state, indent=1, ensure_ascii=False, allow_nan=False) + "\n").encode())
+    """Put study.json into the folder, whole and sealed; other programs may read it at any time."""
+    content = {key: value for key, value in state.items() if key != SEAL}
+    text = json.dumps(content | {SEAL: _seal(content)}, indent=1, ensure_ascii=False, allow_nan=False)
+    write(folder / STATE, f"{text}\n".encode())
 
 
-def read_description(folder: Path) -> Description:
+def is_sealed(state: Data) -> bool:
+    """Return whether nothing was changed since the program wrote it."""
+    return bool(state[SEAL] == _seal({key: value for key, value in state.items() if key != SEAL}))
+
+
+def _seal(content: Data) -> str:
+    """Return the hash of all other keys, in their order."""
+    return sha256(json.dumps(content, allow_nan=False).encode()).hexdigest()
+
+
+def read_description(folder: Path, *, sealed: bool = True) -> Description:
     """Return the study that the folder holds results of, with the copies of its files where they are as they were."""
-    try:
-        found = from_data(read_state(folder))
-    except (KeyError, TypeError, ValueError, AttributeError) as error:
-        raise UserError(Problem(f"This is not the state of a study: {error}", str(folder / STATE))) from error
+    return with_copies(folder, from_data(read_state(folder, sealed=sealed)))
+
+
+def with_copies(folder: Path, found: Description) -> Description:
+    """Return the description with the contents of the study's files, where their copies are as they were."""
     study, base, *tables = (_with_copy(source, path) for path, source in copies(folder, found).items())
     return replace(found, study=study, base=base, tables=tuple(tables))
 
@@ -58,8 +98,8 @@ def copies(folder: Path, description: Description) -> dict[Path, StudySource]:
 
 
 def kept(folder: Path) -> dict[str, Path]:
-    """Return the copies of the base and the tables by their names in the study; UserError where a copy is not as it was."""
-    description = read_description(folder)
+    """The copies of the base and the tables by their names in the study; UserError where a copy is not as it was."""
+    description = read_description(folder, sealed=False)  # each copy is proved by its own hash
     found = copies(folder, description)
     for path, source in found.items():
         if source.content is None:
@@ -90,7 +130,7 @@ def write_copies(folder: Path, description: Description) -> None:
 def begin(folder: Path, description: Description) -> None:
     """Make a folder the place of a study's results; it must hold nothing yet."""
     refuse_used(folder)
-    write_state(folder, as_data(description) | {"state": "running"})
+    write_state(folder, as_data(description) | {"part_files": {}, "state": "running"})
     write_copies(folder, description)
 
 

@@ -10,6 +10,7 @@ from collections import Counter
 from collections.abc import Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from dataclasses import replace
+from hashlib import sha256
 from pathlib import Path
 from typing import Any
 
@@ -21,24 +22,17 @@ import pyarrow.parquet as pq
 from filelock import FileLock
 
 from diecut_report.errors import Problem, UserError
-from diecut_report.files import in_words, remove_stale
+from diecut_report.files import in_words, remove_stale, write
 from diecut_report.study.storage import state
-from diecut_report.study.storage.description import VARIANT, Description
-from diecut_report.study.storage.part_files import (
-    DAMAGED,
-    Values,
-    has_schema,
-    is_whole,
-    is_within,
-    readable,
-    schema_of,
-    table_of,
-    write_part,
-)
+from diecut_report.study.storage.description import VARIANT, Description, as_data
+from diecut_report.study.storage.part_checks import Judged, PartChecks
+from diecut_report.study.storage.part_files import MISSING, Values, part_content, readable, schema_of, table_of
+from diecut_report.study.storage.state_form import part_name
 
 PARTS = "variants"
 NAME = re.compile(r"part-(\d+)\.parquet")
 BATCH = 4096  # rows read at a time
+TOLD = 5  # parts that are told to be wrong, each by itself
 
 
 class Store:
@@ -47,6 +41,7 @@ class Store:
     def __init__(self, directory: Path, description: Description) -> None:
         self.directory, self.description = directory, description
         self.schema = schema_of(description)
+        self._checks = PartChecks(directory, description)
         self._lock = FileLock(directory / state.LOCK)
 
     @classmethod
@@ -68,7 +63,7 @@ class Store:
         Raises UserError where there are none, or where they belong to another study, with what has changed.
         The size of the parts stays that of the folder (`description.chunk`).
         """
-        before = state.read_description(directory)
+        before = state.read_description(directory, sealed=description is None)
         if description is not None:
             state.same_study(directory, before, description)
             now = description
@@ -85,20 +80,27 @@ class Store:
     def start(self, facts: Mapping[str, Any]) -> None:
         """Begin or continue a run: keep what the study is made of, and note facts of it in study.json."""
         state.write_copies(self.directory, self.description)
-        self.note(state.with_libraries(self.state) | dict(facts) | {"state": "running"})
+        before = state.read_state(self.directory, sealed=False)
+        if not state.is_sealed(
+            before
+        ):  # what follows from the study is written anew, the parts have hashes of their own
+            before = {key: before[key] for key in ("part_files", "libraries") if key in before}
+        names = {part_name(index) for index in range(self.description.parts)}
+        files = {"part_files": {name: told for name, told in before["part_files"].items() if name in names}}
+        known = state.with_libraries(before | as_data(self.description) | files)
+        state.write_state(self.directory, known | dict(facts) | {"state": "running"})
 
     @property
     def _folder(self) -> Path:
         return self.directory / PARTS
 
     def part(self, index: int) -> Path:
-        """Return the file of a part, whether it is there or not."""
-        return self._folder / f"part-{index:05d}.parquet"
+        """The file of a part, whether it is there or not."""
+        return self._folder / part_name(index)
 
     def rows(self, index: int) -> range:
-        """Return the numbers of the sample's rows that make a part."""
-        chunk = self.description.chunk
-        return range(index * chunk, min((index + 1) * chunk, self.description.rows))
+        """The numbers of the sample's rows that make a part."""
+        return self._checks.rows(index)
 
     def write_part(self, index: int, columns: Mapping[str, Values]) -> None:
         """Write the variants of one part, whole or not at all.
@@ -111,7 +113,11 @@ class Store:
         table = table_of(self.schema, columns, self._variants(index, columns))
         with in_words(self._folder):
             self._folder.mkdir(exist_ok=True)
-        write_part(self.part(index), table)
+        content = part_content(table)
+        known = {"sha256": sha256(content).hexdigest(), "variants": len(table)}
+        # first its hash: a run that is killed in between leaves no part that nobody knows
+        self.note({"part_files": self.state["part_files"] | {self.part(index).name: known}})
+        write(self.part(index), content)
 
     def _variants(self, index: int, columns: Mapping[str, Values]) -> Any:
         rows = self.rows(index)
@@ -127,48 +133,68 @@ class Store:
         """Return the part files that are there, by index; UserError for a file that only looks like one."""
         found = sorted(self._folder.glob("part-*.parquet"))
         for path in found:
-            if not (match := NAME.fullmatch(path.name)) or path != self.part(int(match[1])):
+            match = NAME.fullmatch(path.name)
+            if not match or path != self.part(int(match[1])) or not path.is_file():
                 raise UserError(Problem("This is not a part of the results. Move it to another folder.", str(path)))
         return {int(path.stem.partition("-")[2]): path for path in found}
 
-    def done_parts(self) -> set[int]:
-        """Return the parts that are whole to their last byte and belong to this study; the others are to be calculated."""
-        return {
-            index
-            for index, path in self.parts().items()
-            if index < self.description.parts and is_whole(path, self.schema) and is_within(path, self.rows(index))
-        }
-
-    def _files(self) -> list[Path]:
-        """The part files, in their order; UserError where one of them is damaged or of another study."""
+    def _judged(self) -> dict[int, Judged]:
+        """Return what the part files are. A run may go on meanwhile: it notes each part before it writes it."""
         found = self.parts()
-        damaged = [
-            path
-            for index, path in found.items()
-            if index >= self.description.parts or not has_schema(path, self.schema)
-        ]
-        if damaged:
-            raise UserError(Problem(DAMAGED, str(path)) for path in damaged)
-        return list(found.values())
+        return self._checks.judged(found, self.state["part_files"])
+
+    def done_parts(self) -> set[int]:
+        """Return the parts that are as they were written and belong to this study; the others are to be calculated."""
+        return {index for index, judged in self._judged().items() if not judged.fault}
+
+    def whole_parts(self) -> list[Path]:
+        """Return the part files, in their order.
+
+        UserError where one of them is not as it was written or, in a study that is called complete, where one is missing.
+        """
+        told = self.state
+        judged = self._judged()
+        wrong = {index: each.fault for index, each in judged.items() if each.fault}
+        if told["state"] == "complete":
+            wrong |= dict.fromkeys(set(range(self.description.parts)) - judged.keys(), MISSING)
+        if wrong:
+            raise UserError(self._told(wrong))
+        if told["state"] == "complete":
+            self._check_counts(told["counts"], judged)
+        return [self.part(index) for index in judged]
+
+    def _told(self, wrong: Mapping[int, str]) -> Iterator[Problem]:
+        for index in sorted(wrong)[:TOLD]:
+            yield Problem(wrong[index], str(self.part(index)))
+        if len(wrong) > TOLD:
+            yield Problem(f"{len(wrong) - TOLD} more parts are wrong or missing.", str(self._folder))
+
+    def _check_counts(self, told: Mapping[str, int], judged: Mapping[int, Judged]) -> None:
+        stored = sum((Counter(each.counts) for each in judged.values()), Counter[str]())
+        for status, count in stored.items():
+            if told.get(status, 0) != count:
+                words = f"{told.get(status, 0)} is given; the parts hold {count}. Let --resume count them again."
+                raise UserError(Problem(words, str(self.directory / state.STATE), path=f"counts.{status}"))
 
     def read(self, columns: Sequence[str] | None = None) -> pyarrow.dataset.Dataset:
         """Return the variants stored so far as a dataset of these columns (default: all), in their order."""
         names = self.schema.names if columns is None else columns
         wanted = pa.schema([self.schema.field(name) for name in names], self.schema.metadata)
-        return pyarrow.dataset.dataset([str(path) for path in self._files()], schema=wanted, format="parquet")
+        return pyarrow.dataset.dataset([str(path) for path in self.whole_parts()], schema=wanted, format="parquet")
 
     def batches(self, columns: Sequence[str] | None = None) -> Iterator[pa.RecordBatch]:
         """Yield the variants stored so far, some thousands at a time, in their order; UserError for a part that is damaged."""
         names = self.schema.names if columns is None else list(columns)
-        for path in self._files():
+        for path in self.whole_parts():
             with readable(path), pq.ParquetFile(path) as file:
                 found = file.iter_batches(BATCH, columns=names)
                 while (batch := next(found, None)) is not None:
                     yield batch.select(names)  # "status" reads "status.mass" too, of a mechanism of that name
 
     def count(self) -> int:
-        """Return how many variants are stored, by the ends of the part files alone."""
-        return sum(int(pq.read_metadata(path).num_rows) for path in self._files())
+        """How many variants are stored."""
+        entries = self.state["part_files"]
+        return sum(int(entries[path.name]["variants"]) for path in self.whole_parts())
 
     def counts(self) -> dict[str, int]:
         """Return how many rows the sample has, how many variants are stored of them, and of each status."""

@@ -198,6 +198,7 @@ def _margin(stored: Stored) -> list[tuple[str, str]]:
 
 
 def _files(stored: Stored) -> list[tuple[str, str]]:
-    """The files that the study was made from, with their SHA-256."""
+    """The files that the study was made from, and the code that calculated it, with their SHA-256."""
     made = stored.description
-    return [(source.file, source.sha256) for source in (made.study, made.base, *made.tables)]
+    code = [(f"the source of the {name}", digest) for name, digest in made.sources.items()]
+    return [*((source.file, source.sha256) for source in (made.study, made.base, *made.tables)), *code]

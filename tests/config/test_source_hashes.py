@@ -1,0 +1,153 @@
+"""The hash of the code that calculates: the same wherever it lies, another where a formula or a table is another."""
+
+from __future__ import annotations
+
+import json
+import os
+import re
+import shutil
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+from diecut_report.cli.main import main
+from diecut_report.config.discovery import Discovery
+from diecut_report.config.source_hashes import PACKAGE, plugin_hash, program_hash
+from diecut_report.errors import UserError
+from diecut_report.report.rendering import render_html
+from diecut_report.study.execution import worker
+from tests.study.studies import STUDY
+from tests.configs import GOOD, LEVER, saved
+
+TELL = "from diecut_report.config.source_hashes import *; import diecut_report; print(program_hash(), diecut_report.__file__)"
+
+
+def copy_of_program(place: Path) -> Path:
+    """The program as a wheel installs it, at another place."""
+    import diecut_report.plugins as plugins
+
+    ignored = shutil.ignore_patterns("__pycache__", "plugins", "configs", "templates")
+    package = Path(shutil.copytree(PACKAGE, place / "diecut_report", ignore=ignored))
+    shutil.copytree(plugins.__path__[0], package / "plugins")
+    return package
+
+
+def hash_at(place: Path) -> str:
+    """What a process tells that runs the copy."""
+    done = subprocess.run(
+        [sys.executable, "-c", TELL],
+        cwd=place,
+        env=os.environ | {"PYTHONPATH": str(place)},
+        capture_output=True,
+        text=True,
+        check=True,
+    )
+    digest, file = done.stdout.split()
+    assert Path(file).is_relative_to(place)
+    return digest
+
+
+def test_the_hash_of_the_program_does_not_depend_on_its_place_or_on_compiled_files(tmp_path: Path) -> None:
+    package = copy_of_program(tmp_path)
+    assert hash_at(tmp_path) == program_hash()
+    assert list(package.rglob("*.pyc")) and hash_at(tmp_path) == program_hash()
+
+
+@pytest.mark.parametrize(
+    "name",
+    ["mechanics/common.py", "standards/data/renard_r10.json", "quantities/units_table.json", "plugins/__init__.py"],
+)
+def test_another_formula_or_table_is_another_program(tmp_path: Path, name: str) -> None:
+    path = copy_of_program(tmp_path) / name
+    path.write_bytes(path.read_bytes() + b"\n")
+    assert hash_at(tmp_path) != program_hash()
+
+
+def test_a_plugin_of_the_program_is_hashed_by_itself(tmp_path: Path) -> None:
+    path = copy_of_program(tmp_path) / "plugins" / "clutch" / "__init__.py"
+    path.write_bytes(path.read_bytes() + b"\n")
+    assert hash_at(tmp_path) == program_hash()
+
+
+def lever(folder: Path, *more: str) -> Path:
+    """A folder with a copy of the plugin lever, with more lines."""
+    folder.mkdir()
+    text = (GOOD / "lever.py").read_text("utf-8")
+    saved(folder, "\n".join([text, *more]), "lever.py")
+    return folder
+
+
+def hash_of_lever(folder: Path) -> str:
+    return plugin_hash(Discovery([folder]).mechanism("lever"))
+
+
+def test_a_plugin_has_the_hash_of_its_code_and_of_its_tables(tmp_path: Path) -> None:
+    whole = hash_of_lever(lever(tmp_path / "a"))
+    assert re.fullmatch("[0-9a-f]{64}", whole) and whole == hash_of_lever(lever(tmp_path / "b"))
+    assert hash_of_lever(lever(tmp_path / "c", "# more")) != whole
+    tables = [lever(tmp_path / name, 'TABLE = "steels.csv"') for name in ("d", "e", "f")]
+    for folder, text in zip(tables, ("1\n", "2\n", "1\n"), strict=True):
+        saved(folder, text, "steels.csv")
+    saved(tables[2], "of nobody", "other.csv")
+    one, other, again = map(hash_of_lever, tables)
+    assert one == again != other
+
+
+def test_a_plugin_that_is_a_folder_has_the_hash_of_all_its_modules(tmp_path: Path) -> None:
+    found = []
+    for name, text in (("a", "x = 1\n"), ("b", "x = 2\n"), ("c", "x = 1\n")):
+        package = tmp_path / name / "lever"
+        (package / "more").mkdir(parents=True)
+        shutil.copy(GOOD / "lever.py", package / "__init__.py")
+        saved(package / "more", text, "deep.py")
+        found.append(hash_of_lever(tmp_path / name))
+    assert found[0] == found[2] != found[1]
+
+
+def test_results_and_report_tell_the_hashes(tmp_path: Path, capfd: pytest.CaptureFixture[str]) -> None:
+    folder = lever(tmp_path / "plugins")
+    saved(folder, "import sys\n", "extend_laws.py")
+    config = saved(tmp_path, LEVER)
+    assert main(["calc", str(config), "--plugins", str(folder), "--quiet"]) in (0, 1)
+    found = json.loads(capfd.readouterr().out)
+    assert found["program"]["source_sha256"] == program_hash()
+    assert list(found["program"]["extensions"]) == ["extend_laws"]
+    digest = found["mechanisms"]["a"]["plugin_sha256"]
+    assert digest == hash_of_lever(folder)
+    page = re.sub(r"<[^>]+>", " ", render_html(found))
+    for told in (program_hash(), digest, found["program"]["extensions"]["extend_laws"]):
+        assert re.search(rf"source\s+{told[:12]}\s", page)
+
+
+def run(*arguments: str | Path) -> subprocess.CompletedProcess[str]:
+    """A command in a process of its own, which reads the plugins anew."""
+    command = [sys.executable, "-m", "tests.study.without_summary", *map(str, arguments)]
+    place = os.environ | {"PYTHONPATH": str(Path(__file__).parents[2])}
+    return subprocess.run(command, capture_output=True, text=True, check=False, env=place)
+
+
+def test_a_run_is_not_continued_with_other_code_of_the_same_version(tmp_path: Path) -> None:
+    folder, out = lever(tmp_path / "plugins"), tmp_path / "out"
+    saved(tmp_path, LEVER)
+    study = saved(tmp_path, STUDY.replace("  mechanisms.a.grade: [fine, coarse]\n", ""), "study.yaml")
+    assert run("batch", study, "-o", out, "--plugins", folder).returncode in (0, 1)
+    before = (out / "study.json").read_bytes()
+    (out / "variants/part-00000.parquet").unlink()
+    (folder / "lever.py").write_text((folder / "lever.py").read_text("utf-8") + "\n# other\n", "utf-8")
+    for given in ([study], []):
+        refused = run("batch", *given, "--resume", out, "--plugins", folder)
+        assert refused.returncode == 2, refused.stderr
+        assert "The source of the plugin lever has changed since the results were begun (SHA-256 " in refused.stderr
+        assert "in another folder" in refused.stderr
+    assert (out / "study.json").read_bytes() == before and not (out / "variants/part-00000.parquet").exists()
+
+
+def test_a_process_with_other_code_than_the_run_calculates_nothing(tmp_path: Path) -> None:
+    base, study = saved(tmp_path, LEVER), STUDY.replace("  mechanisms.a.grade: [fine, coarse]\n", "").encode()
+    files, plugins = {"press.yaml": base.read_bytes()}, [str(GOOD)]
+    known = {"program": program_hash(), "plugin lever": plugin_hash(Discovery([GOOD]).mechanism("lever"))}
+    assert worker.load(study, files, plugins, known)
+    with pytest.raises(UserError, match=r"The source of the plugin lever is not the one that this run was begun with"):
+        worker.load(study, files, plugins, known | {"plugin lever": "0" * 64})

@@ -1,0 +1,383 @@
+"""A folder of results that is not as the run wrote it: told in words before any row, whatever was done to it, and repaired."""
+
+from __future__ import annotations
+
+import copy
+import hashlib
+import json
+import os
+import random
+import shutil
+from collections.abc import Callable, Iterator
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pyarrow.parquet as pq
+import pytest
+
+from diecut_report.cli.main import main
+from diecut_report.errors import UserError
+from diecut_report.study.analysis.query import variants
+from diecut_report.study.analysis.stored_variants import opened
+from diecut_report.study.execution.study_run import Where, run_study
+from diecut_report.study.storage import state, verified_parts
+from diecut_report.study.storage.store import Store
+from tests.study.made_store import description, part
+from tests.study.stored_study import ten
+from tests.study.studies import study
+from tests.configs import GOOD
+
+Edit = Callable[[Path], None]
+
+
+@pytest.fixture(scope="module")
+def whole(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    return ten(tmp_path_factory.mktemp("whole") / "out")
+
+
+@pytest.fixture
+def folder(whole: Path, tmp_path: Path) -> Path:
+    return Path(shutil.copytree(whole, tmp_path / "out"))
+
+
+def answer(folder: Path) -> str:
+    """All that is told of the variants, as a table and as numbers."""
+    return "".join([*variants(folder, width=200), *variants(folder, format="csv")])
+
+
+def answer_or_words(folder: Path) -> str:
+    """The answer, or why there is none; any other exception fails the test."""
+    try:
+        return answer(folder)
+    except UserError as error:
+        assert 20 < len(str(error)) < 4000
+        return f"refused: {error}"
+
+
+def refused(folder: Path) -> str:
+    told = answer_or_words(folder)
+    assert told.startswith("refused: "), told[:300]
+    return told
+
+
+# --- part files ------------------------------------------------------------------------------------------------------
+
+
+def check_flipped_bits(folder: Path, count: int) -> None:
+    """Each of so many bits, over all parts, changes no number without a word."""
+    right, draw = answer(folder), random.Random(7)
+    for path in sorted((folder / "variants").iterdir()):
+        content = path.read_bytes()
+        for _ in range(count):
+            at, bit = draw.randrange(len(content)), draw.randrange(8)
+            path.write_bytes(content[:at] + bytes([content[at] ^ 1 << bit]) + content[at + 1 :])
+            assert path.name in refused(folder), (path.name, at, bit)
+        path.write_bytes(content)
+    assert answer(folder) == right
+
+
+def test_a_flipped_bit_of_a_part_is_told_before_any_row(folder: Path) -> None:
+    check_flipped_bits(folder, 40)
+
+
+@pytest.mark.nightly
+def test_a_flipped_bit_anywhere_is_told_before_any_row(folder: Path) -> None:
+    check_flipped_bits(folder, 2000)
+
+
+def _missing(folder: Path) -> None:
+    (folder / "variants/part-00001.parquet").unlink()
+
+
+def _extra(folder: Path) -> None:
+    shutil.copy(folder / "variants/part-00001.parquet", folder / "variants/part-00002.parquet")
+
+
+def _doubled(folder: Path) -> None:
+    shutil.copy(folder / "variants/part-00000.parquet", folder / "variants/part-00001.parquet")
+
+
+def _rewritten(change: Callable[[Any], Any]) -> Edit:
+    """Write a part again with other rows: its own checksums are valid."""
+
+    def edit(folder: Path) -> None:
+        path = folder / "variants/part-00001.parquet"
+        pq.write_table(change(pq.read_table(path)), path, write_page_checksum=True)
+
+    return edit
+
+
+def _other_version(table: Any) -> Any:
+    return table.replace_schema_metadata({**table.schema.metadata, b"version": b"0.0.9"})
+
+
+def _folder(folder: Path) -> None:
+    _missing(folder)
+    (folder / "variants/part-00001.parquet").mkdir()
+
+
+HARM: dict[str, Edit] = {
+    "missing": _missing,
+    "extra": _extra,
+    "doubled": _doubled,
+    "cut rows": _rewritten(lambda table: table.slice(0, 3)),
+    "doubled rows": _rewritten(lambda table: table.take([0, 0, 1, 2, 3])),
+    "other order": _rewritten(lambda table: table.take([1, 0, 2, 3, 4])),
+    "other version": _rewritten(_other_version),
+    "same rows, other bytes": _rewritten(lambda table: table),
+    "a folder": _folder,
+}
+
+
+@pytest.mark.parametrize("name", HARM)
+def test_a_part_that_the_run_did_not_write_is_told_by_its_name(folder: Path, name: str) -> None:
+    HARM[name](folder)
+    assert "part-0000" in refused(folder)
+
+
+@pytest.mark.parametrize("name", HARM)
+def test_a_part_whose_hash_was_noted_by_hand_is_told_too(folder: Path, name: str) -> None:
+    """As if the program had been misled: what the part holds is judged beside its bytes."""
+    HARM[name](folder)
+    known = state.read_state(folder)
+    for path in (path for path in (folder / "variants").iterdir() if path.is_file()):
+        rows = pq.read_metadata(path).num_rows
+        known["part_files"][path.name] = {"sha256": _sha256(path), "variants": rows}
+    state.write_state(folder, known)
+    if name == "same rows, other bytes":
+        assert answer(folder)
+    else:
+        refused(folder)
+
+
+def _sha256(path: Path) -> str:
+    return hashlib.sha256(path.read_bytes()).hexdigest()
+
+
+def test_part_of_another_study_is_told(folder: Path, tmp_path: Path) -> None:
+    other = ten(tmp_path / "other", text="schema_version: 1\n")
+    shutil.copy(other / "variants/part-00001.parquet", folder / "variants/part-00001.parquet")
+    assert "part-00001.parquet: This part of the results is damaged or not of this study" in refused(folder)
+
+
+def test_a_report_of_a_variant_is_refused_too(folder: Path, capfd: pytest.CaptureFixture[str]) -> None:
+    path = folder / "variants/part-00000.parquet"
+    content = path.read_bytes()
+    path.write_bytes(content[:99] + bytes([content[99] ^ 1]) + content[100:])
+    assert main(["calc", f"{folder}#3"]) == 2
+    assert "part-00000.parquet: This part of the results is damaged" in capfd.readouterr().err
+
+
+def test_a_question_that_the_database_refuses_is_told_in_words(folder: Path) -> None:
+    with pytest.raises(UserError, match="give no answer to this"), opened(folder) as stored:
+        stored.rows("SELECT variant * 9223372036854775807 * 9 FROM v")
+
+
+# --- what was verified is remembered -----------------------------------------------------------------------------------
+
+
+def test_large_parts_are_read_once(folder: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path / "cache"))
+    monkeypatch.setattr(verified_parts, "LARGE", 1)
+    monkeypatch.setattr(verified_parts, "SETTLED", 0)
+    right, read = answer(folder), []
+    assert list((tmp_path / "cache").rglob("*.json"))
+    monkeypatch.setattr("hashlib.file_digest", lambda *_: read.append(1))
+    assert answer(folder) == right and read == []
+    monkeypatch.undo()
+    monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path / "cache"))
+    path = folder / "variants/part-00001.parquet"
+    content, times = path.read_bytes(), path.stat()
+    path.write_bytes(content[:99] + bytes([content[99] ^ 1]) + content[100:])
+    os.utime(path, ns=(times.st_atime_ns, times.st_mtime_ns))  # size and time of change are as before
+    assert "part-00001" in refused(folder)
+
+
+@pytest.mark.parametrize("text", ["", "[]", "{", '{"part-00000.parquet": 1}', '{"part-00000.parquet": {"sha256": 1}}'])
+def test_a_memory_that_cannot_be_read_remembers_nothing(
+    folder: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, text: str
+) -> None:
+    monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path / "cache"))
+    monkeypatch.setattr(verified_parts, "LARGE", 1)
+    monkeypatch.setattr(verified_parts, "SETTLED", 0)
+    right = answer(folder)
+    for path in (tmp_path / "cache").rglob("*.json"):
+        path.write_text(text)
+    assert answer(folder) == right
+
+
+def test_no_place_for_a_memory_costs_nothing(folder: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    (tmp_path / "file").touch()
+    monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path / "file"))
+    monkeypatch.setattr(verified_parts, "LARGE", 1)
+    monkeypatch.setattr(verified_parts, "SETTLED", 0)
+    assert answer(folder)
+
+
+# --- study.json --------------------------------------------------------------------------------------------------------
+
+VALUES = (None, True, -1, 0, 1, 7, 10**30, 1.5, "", "x", "m", [], ["x"], {}, {"x": 1})
+
+
+def edits(data: Any) -> Iterator[tuple[str, Any]]:
+    """Each single edit of study.json: a key deleted, added, given another value, swapped with its neighbour."""
+    for path in places(data):
+        for value in (*VALUES, *_near(_at(data, path))):
+            yield (
+                f"{path} = {value!r}",
+                _edited(data, path, lambda home, key, value=value: home.__setitem__(key, value)),
+            )
+        yield f"{path} deleted", _edited(data, path, lambda home, key: home.__delitem__(key))
+        yield f"{path} swapped", _edited(data, path, _swap)
+    yield "a key more", data | {"strange": 1}
+
+
+def _near(value: Any) -> tuple[Any, ...]:
+    if isinstance(value, bool | float | int):
+        return (value + 1, value - 1, float(value))
+    return (f"{value}x", value[::-1], value.upper()) if isinstance(value, str) else ()
+
+
+def places(data: Any, path: tuple[Any, ...] = ()) -> Iterator[tuple[Any, ...]]:
+    inner = data.items() if isinstance(data, dict) else enumerate(data) if isinstance(data, list) else ()
+    for key, value in inner:
+        yield (*path, key)
+        yield from places(value, (*path, key))
+
+
+def _at(data: Any, path: tuple[Any, ...]) -> Any:
+    for key in path:
+        data = data[key]
+    return data
+
+
+def _edited(data: Any, path: tuple[Any, ...], edit: Callable[[Any, Any], None]) -> Any:
+    made = copy.deepcopy(data)
+    edit(_at(made, path[:-1]), path[-1])
+    return made
+
+
+def _swap(home: Any, key: Any) -> None:
+    """Exchange a value with the next one of its block or list."""
+    keys = list(home) if isinstance(home, dict) else list(range(len(home)))
+    other = keys[(keys.index(key) + 1) % len(keys)]
+    home[key], home[other] = home[other], home[key]
+
+
+def check_edits(folder: Path, every: int) -> None:
+    """Ask with each of these edits: the answer is the same, or there is none, in words that name the file."""
+    file = folder / "study.json"
+    right, data = answer(folder), json.loads(file.read_text())
+    for name, edited in list(edits(data))[::every]:
+        file.write_text(json.dumps(edited))
+        found = answer_or_words(folder)
+        assert found == right or (found.startswith("refused: ") and "study.json" in found), name
+        assert (edited == data and json.dumps(edited) == json.dumps(data)) or found != right, name
+
+
+def test_a_single_edit_of_the_state_is_told_in_words(folder: Path) -> None:
+    check_edits(folder, 7)
+
+
+@pytest.mark.nightly
+def test_any_single_edit_of_the_state_is_told_in_words(folder: Path) -> None:
+    check_edits(folder, 1)
+
+
+@pytest.mark.parametrize(
+    ("key", "value", "words"),
+    [
+        ("rows", "ten", "study.json: rows: 'ten' is given; a whole number is needed."),
+        ("rows", -1, "rows: -1 is given; at least 0 is needed."),
+        ("state", "done", "state: 'done' is given; allowed is 'running' or 'complete'."),
+        ("columns", None, "columns: null is given; a block of keys is needed."),
+        ("varied", [], "varied: a list is given; at least one entry is needed."),
+        ("varied", ["drive.sped"], "varied: 'drive.sped' is given; the name of a column is needed"),
+        ("schema_version", 2, "schema_version: 2 is given; allowed is 1."),
+        ("chunk", 3, "part_files.part-00002.parquet: This key is missing."),
+        ("stat", 1, "stat: This key is unknown (did you mean 'state'?)."),
+        ("counts", {"sample": 10, "variants": 2, "dropped": 8}, "counts.variants: 2 is given; the other keys make 10."),
+        ("a\nstudy.json: rows: fine", 1, r"'a\nstudy.json: rows: fine': This key is unknown"),
+        ("x" * 10_000, 1, "'xxxxxxxxxxxx...xxxxxxxxxxxxx': This key is unknown"),
+        ("seconds", 2.5, "This file has been changed since the program wrote it"),
+    ],
+)
+def test_the_words_say_the_key_what_was_given_and_what_is_allowed(
+    folder: Path, key: str, value: Any, words: str
+) -> None:
+    data = json.loads((folder / "study.json").read_text())
+    (folder / "study.json").write_text(json.dumps(data | {key: value}))
+    assert words in refused(folder)
+
+
+@pytest.mark.parametrize(
+    "text",
+    ["", "null", "7", "[]", '"x"', "{" * 9, "[" * 100_000, '{"rows": NaN}', '{"rows": ' + "9" * 5000 + "}", "\ufeff{}"],
+)
+def test_what_is_no_state_is_told(folder: Path, text: str) -> None:
+    (folder / "study.json").write_text(text, "utf-8")
+    assert "study.json" in refused(folder)
+
+
+def test_results_of_an_earlier_version_say_so(folder: Path) -> None:
+    data = json.loads((folder / "study.json").read_text())
+    for key in ("seal", "part_files", "source_sha256"):
+        del data[key]
+    (folder / "study.json").write_text(json.dumps(data))
+    assert "An earlier version of diecut-report wrote these results" in refused(folder)
+
+
+# --- repaired ------------------------------------------------------------------------------------------------------------
+
+
+def resumed(place: Path) -> Path:
+    """The small study of levers of this place, run or continued in its folder."""
+    out = place / "out"
+    run_study(study(place), out, Where(1, plugins=(str(GOOD),)), resume=out.exists(), tell=lambda _: None)
+    return out
+
+
+def _edit_state(**changed: Any) -> Edit:
+    def edit(folder: Path) -> None:
+        data = json.loads((folder / "study.json").read_text())
+        (folder / "study.json").write_text(json.dumps(data | changed))
+
+    return edit
+
+
+REPAIRED: dict[str, Edit] = {
+    "missing": lambda folder: (folder / "variants/part-00000.parquet").unlink(),
+    "damaged": lambda folder: (folder / "variants/part-00000.parquet").write_bytes(b"PAR1"),
+    "extra": lambda folder: (
+        shutil.copy(folder / "variants/part-00000.parquet", folder / "variants/part-00001.parquet") and None
+    ),
+    "varied": _edit_state(varied=["mechanisms.a.force"]),
+    "objectives": _edit_state(objectives=[{"minimise": "a.moment"}]),
+    "seconds": _edit_state(seconds=1e9),
+    "counts": _edit_state(counts={"sample": 6, "variants": 6, "pass": 6, "dropped": 512}),
+    "part_files": _edit_state(part_files={}),
+    "parts": _edit_state(parts=3),
+}
+
+
+@pytest.mark.parametrize("name", REPAIRED)
+def test_a_run_that_is_continued_repairs(tmp_path: Path, name: str) -> None:
+    out = resumed(tmp_path)
+    right, known = answer(out), state.read_state(out)
+    REPAIRED[name](out)
+    refused(out)
+    assert resumed(tmp_path) == out and answer(out) == right
+    of_time = {"seconds": 0, "seal": ""}
+    assert state.read_state(out) | of_time == known | of_time
+
+
+def test_a_part_between_its_hash_and_its_file_is_no_fault_of_a_run(tmp_path: Path) -> None:
+    """A run that was killed there, or goes on meanwhile: the part is to be calculated, the others can be asked."""
+    store = Store.create(tmp_path / "out", description(20))
+    with store.lock():
+        store.write_part(0, part(0, 10))
+        store.write_part(1, part(10, 10))
+    store.part(1).unlink()
+    assert store.done_parts() == {0}
+    assert np.array_equal(store.read(["variant"]).to_table()["variant"], np.arange(10))
