@@ -202,14 +202,9 @@ class CurveInput:
 
 
 class Block(BaseModel):
-    """A block of inputs inside a mechanism, or one of a list of repeated parts."""
+    """A block of inputs inside a mechanism, or one of a list of repeated parts; other classes are told at load, in words."""
 
-    model_config = ConfigDict(
-        extra="forbid",
-        validate_default=True,
-        frozen=True,
-        arbitrary_types_allowed=True,  # refused by the declaration check
-    )
+    model_config = ConfigDict(extra="forbid", validate_default=True, frozen=True, arbitrary_types_allowed=True)
     one_of: ClassVar[tuple[OneOf, ...]] = ()
     spread: ClassVar[Mapping[str, tuple[str, ...]]] = {}
     """Keys whose value may be a list, each with the single keys that the values of the list stand for, in order."""

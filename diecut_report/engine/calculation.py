@@ -215,7 +215,7 @@ class Calculation:
 
     def step_or_input(self, name: str) -> Step | Quantity:
         """What declares a quantity: its symbol, unit and description."""
-        return named_quantity.declared(self, name)
+        return named_quantity.declared(name, self.steps, self.meta, self.axis, self.mechanism.at)
 
 
 class CurveSampler:

@@ -4,31 +4,33 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import replace
-from typing import TYPE_CHECKING, cast
+from typing import cast
 
-from diecut_report.contract.inputs import Quantity
+from diecut_report.contract.inputs import Meta, Quantity
 from diecut_report.contract.place import Misdeclared
 from diecut_report.contract.result_names import ResultName, named, names_ahead
 from diecut_report.contract.steps import Reduction, Step
 from diecut_report.errors import nearest
 
-if TYPE_CHECKING:
-    from diecut_report.engine.calculation import Calculation
 
+def declared(
+    name: str, steps: Mapping[str, Step], inputs: Mapping[str, Meta], axis: Mapping[str, str], at: str
+) -> Step | Quantity:
+    """Return the step or input with a quantity's symbol, unit and description.
 
-def declared(calc: Calculation, name: str) -> Step | Quantity:
-    """Return the step or input with a quantity's symbol, unit and description; Misdeclared where there is none of this name."""
-    if name in calc.steps:
-        return calc.steps[name]
-    found = named(name, calc.steps)
+    ``axis`` tells the abscissa of each curve. Misdeclared, with the mechanism's place ``at``, where nothing has this name.
+    """
+    if name in steps:
+        return steps[name]
+    found = named(name, steps)
     if found is not None:
-        return _of_step(found, calc.steps, calc.axis)
+        return _of_step(found, steps, axis)
     path = name.removeprefix("inputs.")
-    if path not in calc.meta:
-        given = [each.name for step in calc.steps.values() for each in names_ahead(step)]
-        words = f"{name!r} is no quantity of this machine{nearest(path, [*given, *calc.meta])}; name a step or an input"
-        raise Misdeclared(words, calc.mechanism.at)
-    return cast(Quantity, calc.meta[path])
+    if path not in inputs:
+        given = [each.name for step in steps.values() for each in names_ahead(step)]
+        words = f"{name!r} is no quantity of this machine{nearest(path, [*given, *inputs])}; name a step or an input"
+        raise Misdeclared(words, at)
+    return cast(Quantity, inputs[path])
 
 
 def _of_step(found: ResultName, steps: Mapping[str, Step], axis: Mapping[str, str]) -> Step:
