@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from diecut_report.config.model import PRESS, Press
+from diecut_report.config.model import Press
 from diecut_report.contract.inputs import FromPress, Quantity, fields
 from diecut_report.contract.mechanism import Mechanism
 from diecut_report.declaration.input_places import of_input
@@ -12,7 +12,7 @@ from diecut_report.declaration.words import Fault
 from diecut_report.errors import nearest
 from diecut_report.quantities.units import unit
 
-NUMBERS = {f"{PRESS}.{path}": meta for path, meta in fields(Press) if isinstance(meta, Quantity)}
+NUMBERS = {f"press.{path}": meta for path, meta in fields(Press) if isinstance(meta, Quantity)}
 
 
 def faults(mechanism: Mechanism) -> Iterator[Fault]:

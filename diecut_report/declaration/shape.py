@@ -15,7 +15,7 @@ from diecut_report.contract.mechanism import Erratum, Mechanism, Profile, Source
 from diecut_report.contract.part_steps import Lookup, Pick
 from diecut_report.contract.steps import Abscissa, Breakpoints, Case, Choice, Step
 from diecut_report.declaration.input_places import of_class
-from diecut_report.declaration.words import Fault
+from diecut_report.declaration.words import Fault, short
 from diecut_report.expressions import Formula
 from diecut_report.standards import StandardTable
 
@@ -46,7 +46,7 @@ def faults(mechanism: Mechanism) -> list[Fault]:
 
 
 def _of_mechanism(mechanism: Mechanism) -> Iterator[tuple[str, str]]:
-    """What has another shape, each with its place: that of the thing itself, where it knows one."""
+    """What has another shape, each with its place: of a class that is no Inputs its own, else that of the mechanism."""
     for name in TEXTS:
         if not isinstance(getattr(mechanism, name), str):
             yield mechanism.at, f"has {name}={getattr(mechanism, name)!r}; write a text in quotes"
@@ -61,8 +61,10 @@ def _of_mechanism(mechanism: Mechanism) -> Iterator[tuple[str, str]]:
         several = given if isinstance(given, tuple | list) else None
         strange = [given] if several is None else [each for each in several if not isinstance(each, kind)]
         if strange:
-            text = f"has {name} of another kind; write a tuple of {kind.__name__}, with a comma behind a single one: {name}=(…,)"
-            yield str(getattr(strange[0], "at", mechanism.at)), text
+            at = getattr(strange[0], "at", "")
+            where = f", {type(strange[0]).__name__}" + (f" (at {short(at)})" if at else "")
+            text = f"has {name} of another kind{where}; write a tuple of {kind.__name__}, with a comma behind a single one: {name}=(…,)"
+            yield mechanism.at, text
 
 
 def _of_step(step: Step) -> Iterator[str]:

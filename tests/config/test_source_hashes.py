@@ -18,8 +18,8 @@ from diecut_report.config.source_hashes import PACKAGE, plugin_hash, program_has
 from diecut_report.errors import UserError
 from diecut_report.report.rendering import render_html
 from diecut_report.study.execution import worker
-from tests.study.studies import STUDY
 from tests.configs import GOOD, LEVER, saved
+from tests.study.studies import STUDY
 
 TELL = "from diecut_report.config.source_hashes import *; import diecut_report; print(program_hash(), diecut_report.__file__)"
 

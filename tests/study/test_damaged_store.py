@@ -23,10 +23,10 @@ from diecut_report.study.analysis.stored_variants import opened
 from diecut_report.study.execution.study_run import Where, run_study
 from diecut_report.study.storage import state, verified_parts
 from diecut_report.study.storage.store import Store
+from tests.configs import GOOD
 from tests.study.made_store import description, part
 from tests.study.stored_study import ten
 from tests.study.studies import study
-from tests.configs import GOOD
 
 Edit = Callable[[Path], None]
 
