@@ -330,7 +330,7 @@ def test_a_folder_is_refused(tmp_path: Path) -> None:
 def test_a_pipe_is_refused_without_waiting_for_it(tmp_path: Path) -> None:
     path = tmp_path / "pipe.yaml"
     os.mkfifo(path)
-    assert refused_file(path).message.startswith("This is not a regular file.")
+    assert refused_file(path).message.startswith("This is a pipe and no regular file.")
 
 
 def test_an_unreadable_file_is_refused(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
@@ -340,7 +340,7 @@ def test_an_unreadable_file_is_refused(tmp_path: Path, monkeypatch: pytest.Monke
     def denied(*_: Any, **__: Any) -> None:
         raise PermissionError(13, "Permission denied")
 
-    monkeypatch.setattr(Path, "open", denied)  # the superuser may read everything, so rights alone do not show it
+    monkeypatch.setattr(os, "open", denied)  # the superuser may read everything, so rights alone do not show it
     message = refused_file(path).message
     assert message == "The file cannot be read: Permission denied. Check its name and its permissions."
 
@@ -349,7 +349,7 @@ def test_a_100_mb_file_is_refused_without_reading_it(tmp_path: Path, monkeypatch
     path = tmp_path / "press.yaml"
     with path.open("wb") as stream:
         stream.truncate(100_000_000)
-    monkeypatch.setattr(Path, "open", lambda *_: pytest.fail("the file was opened"))
+    monkeypatch.setattr(os, "open", lambda *_: pytest.fail("the file was opened"))
     assert refused_file(path).message == "The file is too large: 100.0 MB; at most 5 MB are allowed."
 
 
@@ -359,6 +359,7 @@ def test_a_file_that_states_no_size_is_bounded_in_reading(tmp_path: Path, monkey
     stated = list(path.stat())
     stated[stat.ST_SIZE] = 0
     monkeypatch.setattr(Path, "stat", lambda _: os.stat_result(stated))
+    monkeypatch.setattr(os, "fstat", lambda _: os.stat_result(stated))
     assert refused_file(path).message.startswith("The file is too large: 5.0 MB;")
 
 

@@ -13,7 +13,6 @@ from __future__ import annotations
 import hashlib
 import math
 import re
-import stat
 from collections.abc import Iterator
 from dataclasses import dataclass, field
 from pathlib import Path
@@ -22,6 +21,7 @@ from typing import Any, NoReturn
 import yaml
 
 from diecut_report.errors import Problem, UserError
+from diecut_report.given_files import content
 
 MAX_BYTES = 5_000_000
 MAX_DEPTH = 50
@@ -108,7 +108,7 @@ class Tree:
 
 def load(path: Path) -> Tree:
     """Read a YAML file. UserError with all that is wrong with it, or the reason why it cannot be read."""
-    raw = _read(path)
+    raw = content(path, MAX_BYTES, "a YAML file")
     try:
         text = raw.decode("utf-8-sig")
     except UnicodeDecodeError as error:
@@ -124,26 +124,6 @@ def parse(text: str, file: str) -> Tree:
 
 def _refuse(path: Path, message: str, line: int | None = None) -> NoReturn:
     raise UserError(Problem(message, str(path), line))
-
-
-def _read(path: Path) -> bytes:
-    try:
-        status = path.stat()
-        if not stat.S_ISREG(status.st_mode):
-            found = "a folder" if stat.S_ISDIR(status.st_mode) else "not a regular file"
-            _refuse(path, f"This is {found}. Give a YAML file.")
-        raw = b""
-        if status.st_size <= MAX_BYTES:
-            with path.open("rb") as stream:
-                raw = stream.read(MAX_BYTES + 1)  # bounded too: a file may grow, and some system files state no size
-    except FileNotFoundError:
-        _refuse(path, "There is no such file. Check the name and the folder.")
-    except OSError as error:
-        _refuse(path, f"The file cannot be read: {error.strerror or error}. Check its name and its permissions.")
-    size = max(status.st_size, len(raw))
-    if size > MAX_BYTES:
-        _refuse(path, f"The file is too large: {size / 1e6:.1f} MB; at most {MAX_BYTES / 1e6:g} MB are allowed.")
-    return raw
 
 
 def _parse(text: str, file: str, sha256: str) -> Tree:

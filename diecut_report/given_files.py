@@ -1,0 +1,84 @@
+"""Reads files that a user gives: regular ones only, and of each no more than is bearable.
+
+A pipe would be waited for without end, and a device such as /dev/zero has no end; neither is opened.
+"""
+
+from __future__ import annotations
+
+import os
+import stat
+from collections.abc import Iterator
+from contextlib import contextmanager
+from pathlib import Path
+from typing import BinaryIO, NoReturn
+
+from diecut_report.errors import Problem, UserError
+
+KINDS = {
+    stat.S_IFDIR: "a folder",
+    stat.S_IFIFO: "a pipe and no regular file",
+    stat.S_IFCHR: "a device and no regular file",
+    stat.S_IFBLK: "a device and no regular file",
+    stat.S_IFSOCK: "a socket and no regular file",
+}
+
+
+def content(path: Path, most: int, wanted: str) -> bytes:
+    """Return what a regular file holds; UserError where it is none, is larger than ``most`` bytes, or cannot be read.
+
+    ``wanted`` says what to give instead: "a YAML file".
+    """
+    with opened(path, most, wanted) as file, _in_words(path):
+        found = file.read(most + 1)  # bounded too: a file may grow, and some of the system's state no size
+    if len(found) > most:
+        _refuse_size(path, len(found), most)
+    return found
+
+
+@contextmanager
+def opened(path: Path, most: int, wanted: str) -> Iterator[BinaryIO]:
+    """Give a regular file, open for reading; UserError where it is none, is larger than ``most`` bytes, or cannot be opened."""
+    with _in_words(path):
+        _judge(path, path.stat(), most, wanted)
+        # it may have been exchanged for a pipe since: that is not waited for, and is judged again
+        descriptor = os.open(path, os.O_RDONLY | os.O_NONBLOCK)
+    with os.fdopen(descriptor, "rb") as file:
+        _judge(path, os.fstat(descriptor), most, wanted)
+        yield file
+
+
+def refuse_special(path: Path, words: str) -> None:
+    """Refuse what is there by this name but is no regular file; ``words`` say what to do."""
+    with _in_words(path):
+        mode = path.lstat().st_mode
+    if not stat.S_ISREG(mode):
+        found = "a link" if stat.S_ISLNK(mode) else _kind(mode)
+        raise UserError(Problem(f"This is {found}. {words}", str(path)))
+
+
+def _judge(path: Path, status: os.stat_result, most: int, wanted: str) -> None:
+    if not stat.S_ISREG(status.st_mode):
+        raise UserError(Problem(f"This is {_kind(status.st_mode)}. Give {wanted}.", str(path)))
+    if status.st_size > most:
+        _refuse_size(path, status.st_size, most)
+
+
+def _kind(mode: int) -> str:
+    return KINDS.get(stat.S_IFMT(mode), "no regular file")
+
+
+def _refuse_size(path: Path, size: int, most: int) -> NoReturn:
+    words = f"The file is too large: {size / 1e6:.1f} MB; at most {most / 1e6:g} MB are allowed."
+    raise UserError(Problem(words, str(path)))
+
+
+@contextmanager
+def _in_words(path: Path) -> Iterator[None]:
+    try:
+        yield
+    except FileNotFoundError as error:
+        raise UserError(Problem("There is no such file. Check the name and the folder.", str(path))) from error
+    except (OSError, ValueError) as error:  # a name with a zero byte is a ValueError
+        told = getattr(error, "strerror", None) or error
+        words = f"The file cannot be read: {told}. Check its name and its permissions."
+        raise UserError(Problem(words, str(path))) from error

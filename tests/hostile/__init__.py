@@ -1,0 +1,1 @@
+"""Hostile files: what a stranger may hand to the program. They are generated (``made_tables``), large ones as holes or packed."""
