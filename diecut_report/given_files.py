@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import os
 import stat
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from contextlib import contextmanager
 from pathlib import Path
 from typing import BinaryIO, NoReturn
@@ -15,7 +15,9 @@ from typing import BinaryIO, NoReturn
 from diecut_report.errors import Problem, UserError
 
 KINDS = {
+    stat.S_IFREG: "a file",
     stat.S_IFDIR: "a folder",
+    stat.S_IFLNK: "a link",
     stat.S_IFIFO: "a pipe and no regular file",
     stat.S_IFCHR: "a device and no regular file",
     stat.S_IFBLK: "a device and no regular file",
@@ -47,13 +49,28 @@ def opened(path: Path, most: int, wanted: str) -> Iterator[BinaryIO]:
         yield file
 
 
-def refuse_special(path: Path, words: str) -> None:
-    """Refuse what is there by this name but is no regular file; ``words`` say what to do."""
-    with _in_words(path):
-        mode = path.lstat().st_mode
-    if not stat.S_ISREG(mode):
-        found = "a link" if stat.S_ISLNK(mode) else _kind(mode)
-        raise UserError(Problem(f"This is {found}. {words}", str(path)))
+def refuse_special(paths: Iterable[Path], words: str, *, folders: bool = False) -> None:
+    """Refuse what is there by these names but is no regular file (or, with ``folders``, no folder), with what to do about it."""
+    wanted = stat.S_IFDIR if folders else stat.S_IFREG
+    problems = []
+    for path in paths:
+        if not os.path.lexists(path):
+            continue
+        with _in_words(path):
+            mode = path.lstat().st_mode
+        if stat.S_IFMT(mode) != wanted:
+            problems.append(Problem(f"This is {_kind(mode)}. {words}", str(path)))
+    if problems:
+        raise UserError(problems)
+
+
+def refuse_unreadable_name(folder: Path) -> None:
+    """Refuse a folder whose name is no UTF-8: Parquet files in it cannot be named."""
+    try:
+        str(folder.absolute()).encode()
+    except UnicodeEncodeError as error:
+        words = "The name of this folder, or of one above it, is not UTF-8. Choose another one."
+        raise UserError(Problem(words, str(folder))) from error
 
 
 def _judge(path: Path, status: os.stat_result, most: int, wanted: str) -> None:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import ast
 import hashlib
 import os
 import stat
@@ -300,6 +301,32 @@ def test_a_control_character_is_shown_at_its_place() -> None:
 # --- files -----------------------------------------------------------------------------------------------------------
 
 
+@pytest.mark.parametrize(
+    "escape", ["\\0", "\\a", "\\e", "\\x7f", "\\x9b", "\\N", "\\L", "\\P", "\\u202E", "\\u2066", "\\uFFFE"]
+)
+def test_escapes_bring_no_control_characters(escape: str) -> None:
+    code = {"0": 0, "a": 7, "e": 27, "N": 0x85, "L": 0x2028, "P": 0x2029}.get(escape[1]) or int(escape[2:] or "0", 16)
+    words = f"holds the control character U+{code:04X}. Write it without."
+    assert [str(p) for p in problems(f'a:\n  b: "x{escape}y"\n')] == [f"press.yaml:2:6: a.b: This text {words}"]
+    below = problems(f'a:\n  "x{escape}y": {{b: "{escape}"}}\n')
+    assert [str(p) for p in below] == [
+        f"press.yaml:2:3: a: This key {words}",
+        f"press.yaml:2:{len(escape) + 13}: a.x\N{REPLACEMENT CHARACTER}y.b: This text {words}",
+    ]
+
+
+@pytest.mark.parametrize("escape", ["\\n", "\\r", "\\t"])
+def test_a_text_may_have_lines_but_a_key_may_not(escape: str) -> None:
+    assert parse(f'a: "x{escape}y"', "press.yaml").data == {"a": f"x{ast.literal_eval(f'{chr(34)}{escape}{chr(34)}')}y"}
+    assert "This key holds the control character" in problems(f'"x{escape}y": 1')[0].message
+
+
+@pytest.mark.parametrize("mark", ["\u202a", "\u202e", "\u2069"])
+def test_letters_that_turn_others_around_are_refused_in_comments_too(mark: str) -> None:
+    problem = only_problem(f"a: 1\n# x{mark}\n")
+    assert (problem.line, problem.column) == (2, 4) and f"U+{ord(mark):04X} stands here. Write it" in problem.message
+
+
 def test_load_keeps_text_and_hash_of_the_bytes(tmp_path: Path) -> None:
     path = tmp_path / "press.yaml"
     raw = b"\xef\xbb\xbfa: 1\r\nb: 2\r\n"
@@ -382,7 +409,7 @@ def test_binary_junk_that_is_utf8_is_refused(tmp_path: Path) -> None:
     path.write_bytes(b"PK\x03\x04\x00\x00")
     problem = refused_file(path)
     assert (problem.line, problem.column) == (1, 3)
-    assert "this is no YAML text" in problem.message
+    assert "This is no YAML text" in problem.message
 
 
 def test_an_empty_file_is_refused(tmp_path: Path) -> None:

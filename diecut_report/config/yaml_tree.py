@@ -31,7 +31,11 @@ KeyPath = tuple[str | int, ...]
 Position = tuple[int, int]
 
 _LOADER: Any = getattr(yaml, "CSafeLoader", yaml.SafeLoader)
-_CONTROL = re.compile("[^\t\n\r\x20-\x7e\x85\xa0-\ud7ff\ue000-\ufffd\U00010000-\U0010ffff]")
+_BIDI = "\u202a-\u202e\u2066-\u2069"  # they make a text look like another one
+_CONTROL = re.compile(f"[^\t\n\r\x20-\x7e\x85\xa0-\ud7ff\ue000-\ufffd\U00010000-\U0010ffff]|[{_BIDI}]")
+# what an escape within quotes may bring too: NEL, and separators that end a line for some readers and not for others
+_HIDDEN = re.compile(f"{_CONTROL.pattern}|[\x85\u2028\u2029]")
+_HIDDEN_IN_KEY = re.compile(f"{_HIDDEN.pattern}|[\t\n\r]")
 _WORDS: dict[str, bool | None] = dict.fromkeys(["", "~", "null", "Null", "NULL"])
 _WORDS |= {word: word.lower() == "true" for word in ("true", "True", "TRUE", "false", "False", "FALSE")}
 _INTEGER = re.compile(r"[-+]?[0-9]{1,300}")
@@ -122,6 +126,12 @@ def parse(text: str, file: str) -> Tree:
     return _parse(text, file, hashlib.sha256(text.encode("utf-8")).hexdigest())
 
 
+def hidden(text: str) -> str:
+    """Return the name of a control character that the text of a value may not hold, such as U+001B; "" where there is none."""
+    found = _HIDDEN.search(text)
+    return f"U+{ord(found[0]):04X}" if found else ""
+
+
 def _refuse(path: Path, message: str, line: int | None = None) -> NoReturn:
     raise UserError(Problem(message, str(path), line))
 
@@ -130,7 +140,8 @@ def _parse(text: str, file: str, sha256: str) -> Tree:
     if control := _CONTROL.search(text):
         before = text[: control.start()]
         place = before.count("\n") + 1, len(before) - before.rfind("\n")
-        message = f"The control character U+{ord(control[0]):04X} stands here; this is no YAML text. Give a text file."
+        advice = "Write it without." if control[0] > " " else "This is no YAML text. Give a text file."
+        message = f"The control character U+{ord(control[0]):04X} stands here. {advice}"
         raise UserError(Problem(message, file, *place))
     builder = _Builder(file)
     try:
@@ -192,7 +203,7 @@ class _Builder:
         self._report(message, place, path)
         raise UserError(self.problems)
 
-    def _node(self, event: Any, path: KeyPath) -> YamlNode:
+    def _node(self, event: Any, path: KeyPath, *, is_key: bool = False) -> YamlNode:
         if isinstance(event, yaml.AliasEvent):
             return self._alias(event, path)
         self._count(1, event, path)
@@ -200,6 +211,8 @@ class _Builder:
         if event.anchor is not None:
             self._anchors[event.anchor] = None
         if isinstance(event, yaml.ScalarEvent):
+            if not is_key:
+                self._refuse_hidden("text", _HIDDEN.search(event.value), event, path)
             node = YamlNode(_position(event), resolved(event.value) if event.implicit[0] else event.value, event.value)
         else:
             node = self._collection(event, path)
@@ -218,6 +231,12 @@ class _Builder:
             tag = event.tag.replace("tag:yaml.org,2002:", "!!")
             advice = "Remove it; put the value in quotes where text is meant."
             self._report(f"The tag {tag} is not allowed. {advice}", _position(event), path)
+
+    def _refuse_hidden(self, what: str, found: re.Match[str] | None, event: Any, path: KeyPath) -> None:
+        """Report what a text holds when it is decoded: escapes within quotes bring what the file itself may not hold."""
+        if found:
+            message = f"This {what} holds the control character U+{ord(found[0]):04X}. Write it without."
+            self._report(message, _position(event), path)
 
     def _alias(self, event: Any, path: KeyPath) -> YamlNode:
         name, place = event.anchor, _position(event)
@@ -250,8 +269,10 @@ class _Builder:
 
     def _key(self, event: Any, node: YamlNode, path: KeyPath) -> str:
         """The key as text, with a problem reported if it is not text, a merge key, or a duplicate."""
-        key, place = self._node(event, (*path, "?")), _position(event)
+        key, place = self._node(event, (*path, "?"), is_key=True), _position(event)
         text = key.typed if key.typed is not None else "(a list)" if key.is_list else "(a mapping)"
+        self._refuse_hidden("key", _HIDDEN_IN_KEY.search(text), event, path)
+        text = _HIDDEN_IN_KEY.sub("\N{REPLACEMENT CHARACTER}", text)  # in what is told of values below it
         if not isinstance(key.scalar, str):
             self._report(f"The key {text or '(empty)'} is not text. Put it in quotes, or rename it.", place, path)
         elif text == "<<" and isinstance(event, yaml.ScalarEvent) and event.implicit[0]:

@@ -32,7 +32,7 @@ def document(run: Run) -> Data:
         "schema_version": 1,
         "program": {"name": "diecut-report", "version": __version__},
         "config": {
-            "file": tree.name.replace("\\", "/").rsplit("/", 1)[-1],
+            "file": _printable(tree.name.replace("\\", "/").rsplit("/", 1)[-1]),
             "sha256": tree.sha256,
             "resolved": resolved(run),
             "source_text": tree.text,
@@ -43,6 +43,11 @@ def document(run: Run) -> Data:
         "governing": governing(mechanisms),
         "mechanisms": mechanisms,
     } | ({"comparisons": comparisons} if comparisons else {})
+
+
+def _printable(name: str) -> str:
+    """A file's name without what no document can hold: control characters, and bytes that are not UTF-8."""
+    return "".join(letter if letter.isprintable() else "\N{REPLACEMENT CHARACTER}" for letter in name)
 
 
 EMPTY: Data = {

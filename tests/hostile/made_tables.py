@@ -136,7 +136,11 @@ QUICK: dict[str, Made] = {
     "far row.xlsx": lambda path: workbook(sheet(HEAD + b'<row r="99999999999"><c><v>1</v></c></row>'), path),
     "far column.xlsx": lambda path: workbook(sheet(HEAD + b'<row r="2"><c r="ZZZZZZ2"><v>1</v></c></row>'), path),
     "negative row.xlsx": lambda path: workbook(sheet(HEAD + b'<row r="-5"><c r="A-5"><v>1</v></c></row>'), path),
-    "empty rows.xlsx": lambda path: workbook(sheet(HEAD + b"<row/>" * 6_000_000), path),
+    "empty rows.xlsx": lambda path: workbook(sheet(HEAD + b"<row/>" * 2_100_000), path),
+    "many fonts.xlsx": lambda path: workbook(
+        {STYLES: b'<styleSheet xmlns="%s"><fonts>' % MAIN.encode() + b"<font/>" * 300_000 + b"</fonts></styleSheet>"},
+        path,
+    ),
     "entities.xlsx": lambda path: workbook(sheet(inline(b"&e;"), LAUGHS), path),
     "strings with entities.xlsx": lambda path: workbook(
         {STRINGS: LAUGHS + b'<sst xmlns="%s"><si><t>&e;</t></si></sst>' % MAIN.encode()}, path
@@ -173,30 +177,26 @@ QUICK: dict[str, Made] = {
 # as large as it may be, and made of what takes most memory
 LARGEST: dict[str, Made] = {
     "rows.xlsx": lambda path: workbook(sheet(HEAD + b"<row/>" * 1_000_000), path),
-    "cells.xlsx": lambda path: workbook(sheet(HEAD + (b"<row>" + b"<c/>" * 4_000 + b"</row>") * 600), path),
+    "cells.xlsx": lambda path: workbook(sheet(HEAD + (b"<row>" + b"<c/>" * 4_000 + b"</row>") * 480), path),
     "strings.xlsx": lambda path: workbook(
-        {STRINGS: b'<sst xmlns="%s">' % MAIN.encode() + b"<si/>" * 2_490_000 + b"</sst>"}, path
+        {STRINGS: b'<sst xmlns="%s">' % MAIN.encode() + b"<si/>" * 1_990_000 + b"</sst>"}, path
     ),
     "styles.xlsx": lambda path: workbook(
-        {STYLES: b'<styleSheet xmlns="%s"><fonts>' % MAIN.encode() + b"<font/>" * 2_490_000 + b"</fonts></styleSheet>"},
+        {STYLES: b'<styleSheet xmlns="%s"><fonts>' % MAIN.encode() + b"<font/>" * 190_000 + b"</fonts></styleSheet>"},
         path,
     ),
     "formats.xlsx": lambda path: workbook(
-        {
-            STYLES: b'<styleSheet xmlns="%s"><cellXfs>' % MAIN.encode()
-            + b"<xf/>" * 2_490_000
-            + b"</cellXfs></styleSheet>"
-        },
+        {STYLES: b'<styleSheet xmlns="%s"><cellXfs>' % MAIN.encode() + b"<xf/>" * 190_000 + b"</cellXfs></styleSheet>"},
         path,
     ),
     "sheets.xlsx": lambda path: workbook(
-        {BOOK: b'<workbook xmlns="%s"><sheets>' % MAIN.encode() + b"<sheet/>" * 2_490_000 + b"</sheets></workbook>"},
+        {BOOK: b'<workbook xmlns="%s"><sheets>' % MAIN.encode() + b"<sheet/>" * 190_000 + b"</sheets></workbook>"},
         path,
     ),
     "merged.xlsx": lambda path: workbook(
         {
             SHEET: b'<worksheet xmlns="%s"><mergeCells>' % MAIN.encode()
-            + b"<mergeCell ref='A1'/>" * 2_490_000
+            + b"<mergeCell ref='A1'/>" * 190_000
             + b"</mergeCells></worksheet>"
         },
         path,

@@ -27,7 +27,7 @@ def test_each_is_read_or_refused_in_words_and_soon(told: Told) -> None:
     assert told.keys() == QUICK.keys()
     assert {name: seconds for name, (_, seconds, _) in told.items() if seconds > 8} == {}
     words = [line for lines, _, _ in told.values() for line in lines]
-    assert [line for line in words if len(line) > 5000 or re.search(r"Traceback|Error\(|Exception", line)] == []
+    assert [line for line in words if len(line) > 5000 or re.search(r"Traceback|Error\(", line)] == []
 
 
 def test_none_takes_much_memory(told: Told) -> None:
@@ -55,7 +55,8 @@ def test_none_takes_much_memory(told: Told) -> None:
         ("packed cell.xlsx", "holds 120.0 MB when it is unpacked; at most 100 MB are allowed."),
         ("far cell.xlsx", "has a cell far from the others"),
         ("far row.xlsx", "has a cell far from the others"),
-        ("empty rows.xlsx", "has more than 500,000 cells or as many other parts."),
+        ("empty rows.xlsx", "has more than 500,000 cells, or as many other parts."),
+        ("many fonts.xlsx", "or as many other parts."),
         ("entities.xlsx", "is no XLSX workbook, or a damaged one"),
         ("strings with entities.xlsx", "is no XLSX workbook, or a damaged one"),
         ("other letters.xlsx", "is no XLSX workbook, or a damaged one"),
@@ -63,7 +64,7 @@ def test_none_takes_much_memory(told: Told) -> None:
         ("string 9.xlsx", "is no XLSX workbook, or a damaged one"),
         ("letters.xlsx", "holds a text of more than a million letters"),
         ("attributes.xlsx", "holds a text of more than a million letters"),
-        ("comment.xlsx", "has more than 500,000 cells, or as many other parts."),
+        ("comment.xlsx", "holds a text of more than a million letters"),
         ("two bytes.xlsx", "is no XLSX workbook, or a damaged one"),
         ("members.xlsx", "files within; a workbook has some dozens."),
         ("text.parquet", "when it is unpacked; at most 500 MB are allowed."),

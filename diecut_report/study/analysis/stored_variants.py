@@ -12,6 +12,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from diecut_report.errors import Problem, UserError
+from diecut_report.given_files import refuse_special
 from diecut_report.quantities.units import UnitError, unit
 from diecut_report.study.analysis.titles import UTILISATION, VERDICT_OF, titles
 from diecut_report.study.storage.description import VARIANT, VERDICT, Description, Kind
@@ -29,6 +30,7 @@ DISPLAY = {
 }  # as designers say it, where a column does not
 FIXED = (VARIANT.name, *(column.name for column in VERDICT))
 STATUSES = ("pass", "warn", "fail", "error")
+PARTS = "part-*.parquet"
 MEMORY = "400MB"  # of DuckDB
 
 
@@ -139,7 +141,9 @@ def _first(error: Exception) -> str:
 
 def _study(folder: Path) -> Mapping[str, Any]:
     study = read_state(folder)
-    if not any((folder / "variants").glob("part-*.parquet")):
+    parts = list((folder / "variants").glob(PARTS))
+    refuse_special(parts, "It is no part of the results. Move it to another folder.")
+    if not parts:
         words = "No variants are stored here yet. Continue the run with `batch --resume`."
         raise UserError(Problem(words, str(folder)))
     return study
@@ -149,7 +153,9 @@ def _view(connection: DuckDBPyConnection, folder: Path) -> None:
     """Names the part files ``v`` and shuts everything else."""
     place = str((folder / "variants").absolute())
     escaped = glob.escape(place)  # a folder may be called a[1]
-    connection.execute(f"CREATE VIEW v AS SELECT * FROM read_parquet({text(f'{escaped}/part-*.parquet')})")
+    # each by its name: in a pattern a folder called a\\b would be two folders
+    parts = ", ".join(text(glob.escape(str(path.absolute()))) for path in sorted((folder / "variants").glob(PARTS)))
+    connection.execute(f"CREATE VIEW v AS SELECT * FROM read_parquet([{parts}])")
     connection.execute(f"SET allowed_directories = [{text(place)}, {text(escaped)}]")
     connection.execute("SET enable_external_access = false")
     connection.execute("SET lock_configuration = true")

@@ -16,9 +16,11 @@ from filelock import FileLock, Timeout
 
 from diecut_report.errors import Problem, UserError
 from diecut_report.files import in_words, write
+from diecut_report.given_files import content, refuse_unreadable_name
 from diecut_report.study.storage.description import Description, StudySource, as_data, changes, from_data, libraries
 
 STATE, STUDY, BASE, TABLES = "study.json", "study.yaml", "base.yaml", "tables"
+MAX_STATE = 100_000_000  # bytes of study.json; ten thousand columns take some two million
 LOCK, HOLDER = ".lock", ".lock.json"
 Data = dict[str, Any]
 
@@ -26,12 +28,13 @@ Data = dict[str, Any]
 def read_state(folder: Path) -> Data:
     """study.json of the folder; UserError where there is none or it cannot be read."""
     path = folder / STATE
-    try:
-        return dict(json.loads(path.read_text("utf-8")))
-    except FileNotFoundError:
+    refuse_unreadable_name(folder)
+    if not os.path.lexists(path):
         words = "There are no results of a study here: study.json is missing. Give a folder that batch wrote, or begin one with -o."
-        raise UserError(Problem(words, str(folder))) from None
-    except (OSError, ValueError, TypeError) as error:
+        raise UserError(Problem(words, str(folder)))
+    try:
+        return dict(json.loads(content(path, MAX_STATE, "the file that batch wrote").decode("utf-8")))
+    except (ValueError, TypeError, RecursionError) as error:
         raise UserError(Problem(f"The state of the study cannot be read: {error}", str(path))) from error
 
 

@@ -22,6 +22,7 @@ from filelock import FileLock
 
 from diecut_report.errors import Problem, UserError
 from diecut_report.files import in_words, remove_stale
+from diecut_report.given_files import refuse_special, refuse_unreadable_name
 from diecut_report.study.storage import state
 from diecut_report.study.storage.description import VARIANT, Description
 from diecut_report.study.storage.part_files import (
@@ -37,6 +38,9 @@ from diecut_report.study.storage.part_files import (
 )
 
 PARTS = "variants"
+FOLDERS = (PARTS, state.TABLES, "reports")
+OWN_FOLDER = "Results are written into folders of their own; put a folder in its place."
+NO_PART = "It is no part of the results. Move it to another folder."
 NAME = re.compile(r"part-(\d+)\.parquet")
 BATCH = 4096  # rows read at a time
 
@@ -52,6 +56,7 @@ class Store:
     @classmethod
     def create(cls, directory: Path, description: Description) -> Store:
         """Begin the results of a study in a folder that is new or empty."""
+        refuse_unreadable_name(directory)
         with in_words(directory):
             directory.mkdir(parents=True, exist_ok=True)
             if not (directory / state.STATE).exists():
@@ -79,6 +84,7 @@ class Store:
     def lock(self) -> Iterator[None]:
         """Keep other runs out of the folder; what a killed run left half-written is removed."""
         with state.held(self._lock, self.directory):
+            refuse_special((self.directory / name for name in FOLDERS), OWN_FOLDER, folders=True)
             remove_stale(self.directory)
             yield
 
@@ -129,6 +135,7 @@ class Store:
         for path in found:
             if not (match := NAME.fullmatch(path.name)) or path != self.part(int(match[1])):
                 raise UserError(Problem("This is no part of the results. Move it to another folder.", str(path)))
+        refuse_special(found, NO_PART)
         return {int(path.stem.partition("-")[2]): path for path in found}
 
     def done_parts(self) -> set[int]:

@@ -12,6 +12,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from pathlib import Path
 
+from diecut_report.config.yaml_tree import hidden
 from diecut_report.errors import Problem, UserError, nearest
 from diecut_report.expressions import Array
 from diecut_report.quantities.units import UnitError, unit
@@ -53,6 +54,9 @@ class ReadColumn:
             raise UserError(self.problem(words))
         found = self.cells.texts()
         self._refuse(Faults.of((place for place, text in enumerate(found) if not text), lambda _: EMPTY))
+        held = {text: letter for text in set(found) if (letter := hidden(text))}
+        places = (place for place, text in enumerate(found) if text in held)
+        self._refuse(Faults.of(places, lambda place: f"the text holds the control character {held[found[place]]}"))
         return found
 
     def _unit(self, display: str) -> str:

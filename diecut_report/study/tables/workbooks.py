@@ -5,6 +5,7 @@ from __future__ import annotations
 import warnings
 from collections.abc import Iterable, Iterator
 from contextlib import contextmanager
+from dataclasses import dataclass
 from typing import Any, BinaryIO
 from xml.parsers import expat
 from zipfile import ZipFile
@@ -22,7 +23,9 @@ from diecut_report.study.tables.limits import (
 KIND = ".xlsx"
 DAMAGED = "is no XLSX workbook, or a damaged one; save it again as .xlsx"
 MAX_MEMBERS = 10_000
-MAX_TAGS = 5 * MAX_CELLS[KIND]  # a cell has four: <c><v>…</v></c>
+MAX_ELEMENTS = 4 * MAX_CELLS[KIND]  # a cell has up to three
+MAX_OTHERS = 200_000  # that are no part of a cell or a text: styles, widths, merged cells
+OF_CELLS = {"row", "c", "v", "f", "is", "si", "t", "r"}
 MAX_ROWS = 1_048_576  # of a sheet
 MAX_PLACES = 20 * MAX_CELLS[KIND]  # with the empty ones before the last cell of each row
 ENCODINGS = {"", "utf-8", "us-ascii", "iso-8859-1"}  # in which "<" is the byte that it is in ASCII
@@ -68,66 +71,57 @@ def _damaged() -> Iterator[None]:
 
 
 def _judge_archive(file: BinaryIO) -> None:
-    """Refuse what would unpack to too much, by the archive's directory, and by the tags of its members."""
+    """Refuse what would unpack to too much, by the archive's directory, and by the elements of its members."""
     with ZipFile(file) as archive:
         members = archive.infolist()
         if len(members) > MAX_MEMBERS:
             raise UnreadableTable(f"has {len(members)} files within; a workbook has some dozens. Save it again")
         judge_unpacked(KIND, sum(member.file_size for member in members))
-        tags = 0
+        seen = _Seen()
         for member in members:
             with archive.open(member) as unpacked:
-                tags += _tags(unpacked)
-            if tags > MAX_TAGS:
-                raise UnreadableTable(MANY)
+                _look(unpacked, seen)
 
 
-def _tags(unpacked: Any) -> int:
-    """How many tags a member has at most; each element takes memory, however short it is."""
-    member, found = _Member(), 0
-    while (chunk := unpacked.read(CHUNK)) and found <= MAX_TAGS:
-        found += chunk.count(b"<")
-        member.feed(chunk)
-    return found
+@dataclass
+class _Seen:
+    """How many elements the members have so far; each takes memory, however short it is."""
+
+    elements: int = 0
+    others: int = 0
+
+    def __call__(self, name: str, _attributes: Any) -> None:
+        """Count one more; UnreadableTable where they are too many."""
+        self.elements += 1
+        self.others += name.rpartition(":")[2] not in OF_CELLS
+        if self.elements > MAX_ELEMENTS or self.others > MAX_OTHERS:
+            raise UnreadableTable(MANY)
 
 
-class _Member:
-    """A member, looked at before it is parsed: nothing in it declares entities or another encoding, and no text or comment is endless."""
-
-    def __init__(self) -> None:
-        self.is_begun = self.has_prolog = False
-        self.open: list[bytes] = []  # ends of comments that are awaited
-        self.parser = expat.ParserCreate()
-        self.parser.XmlDeclHandler = self._declared
-        self.parser.StartDoctypeDeclHandler = self._refuse
-        self.parser.StartElementHandler = self._after_prolog
-
-    def feed(self, chunk: bytes) -> None:
-        """Look at the next bytes; UnreadableTable where they hold what a workbook never does."""
-        if not self.is_begun and (b"\0" in chunk[:4] or chunk.startswith(UTF_16)):
-            self._refuse()
-        self.is_begun = True
-        if not self.has_prolog:
-            self._look(chunk)
-        if len(chunk) == CHUNK and (b"<" not in chunk or any(end not in chunk for end in self.open)):
+def _look(unpacked: Any, seen: _Seen) -> None:
+    """Look at a member: nothing in it declares entities or another encoding, and no text or comment is endless."""
+    parser = expat.ParserCreate()
+    parser.XmlDeclHandler, parser.StartDoctypeDeclHandler, parser.StartElementHandler = _declared, _refuse, seen
+    begun, awaited = False, list[bytes]()
+    while chunk := unpacked.read(CHUNK):
+        if not begun and (b"\0" in chunk[:4] or chunk.startswith(UTF_16)):
+            _refuse()
+        if len(chunk) == CHUNK and (b"<" not in chunk or any(end not in chunk for end in awaited)):
             raise UnreadableTable(LONG)
-        self.open = [end for begin, end in COMMENTS if chunk.rfind(begin) > chunk.rfind(end)]
-
-    def _look(self, chunk: bytes) -> None:
+        begun, awaited = True, [end for begin, end in COMMENTS if chunk.rfind(begin) > chunk.rfind(end)]
         try:
-            self.parser.Parse(chunk, False)
-        except expat.ExpatError:  # a picture, or what openpyxl will call damaged
-            self.has_prolog = True
+            parser.Parse(chunk, False)
+        except expat.ExpatError:  # a picture, or what openpyxl will call damaged when it comes to it
+            return
 
-    def _declared(self, _version: str, encoding: str | None, _standalone: int) -> None:
-        if (encoding or "").lower() not in ENCODINGS:
-            self._refuse()
 
-    def _after_prolog(self, *_: Any) -> None:
-        self.has_prolog = True
+def _declared(_version: str, encoding: str | None, _standalone: int) -> None:
+    if (encoding or "").lower() not in ENCODINGS:
+        _refuse()
 
-    def _refuse(self, *_: Any) -> None:
-        raise UnreadableTable(DAMAGED)
+
+def _refuse(*_: Any) -> None:
+    raise UnreadableTable(DAMAGED)
 
 
 # --- rows --------------------------------------------------------------------------------------------------------------
