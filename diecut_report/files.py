@@ -24,7 +24,7 @@ KEPT = "What was finished is kept: make room, then continue with --resume."
 
 
 MISNAMED = {
-    errno.EACCES, errno.EPERM, errno.EROFS, errno.ENOTDIR, errno.EEXIST, errno.EISDIR, errno.ENAMETOOLONG, errno.ENOENT,
+    errno.EACCES, errno.EPERM, errno.EROFS, errno.ENOTDIR, errno.EEXIST, errno.EISDIR, errno.ENAMETOOLONG, errno.ENOENT, errno.ELOOP,
 }  # fmt: skip
 """Faults of the name that was given: another one helps. The others are faults of the disk."""
 

@@ -9,8 +9,9 @@ import os
 import stat
 from collections.abc import Iterable, Iterator
 from contextlib import contextmanager
+from io import BufferedReader
 from pathlib import Path
-from typing import BinaryIO, NoReturn
+from typing import NoReturn
 
 from diecut_report.errors import Problem, UserError
 
@@ -38,7 +39,7 @@ def content(path: Path, most: int, wanted: str) -> bytes:
 
 
 @contextmanager
-def opened(path: Path, most: int, wanted: str) -> Iterator[BinaryIO]:
+def opened(path: Path, most: int, wanted: str) -> Iterator[BufferedReader]:
     """Give a regular file, open for reading; UserError where it is none, is larger than ``most`` bytes, or cannot be opened."""
     with _in_words(path):
         _judge(path, path.stat(), most, wanted)

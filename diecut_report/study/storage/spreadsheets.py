@@ -90,18 +90,25 @@ def _write_xlsx(store: Store, temporary: Path, path: Path) -> None:
 class _Archive(ZipFile):
     """An archive of which no member bears the time: one before 1980 cannot be written, and a clock may be wrong."""
 
-    def writestr(self, name: ZipInfo | str, data: Any, *arguments: Any, **options: Any) -> None:
+    def writestr(
+        self,
+        zinfo_or_arcname: str | ZipInfo,
+        data: Any,
+        compress_type: int | None = None,
+        compresslevel: int | None = None,
+    ) -> None:
         """Write a member, dated as early as can be."""
-        if isinstance(name, str):
-            member = ZipInfo(name)
+        member = ZipInfo(zinfo_or_arcname) if isinstance(zinfo_or_arcname, str) else zinfo_or_arcname
+        if member is not zinfo_or_arcname:
             member.compress_type, member.external_attr = self.compression, 0o600 << 16
-            name = member
-        super().writestr(name, data, *arguments, **options)
+        super().writestr(member, data, compress_type, compresslevel)
 
-    def write(self, filename: Any, arcname: Any = None, *arguments: Any, **options: Any) -> None:
+    def write(
+        self, filename: Any, arcname: Any = None, compress_type: int | None = None, compresslevel: int | None = None
+    ) -> None:
         """Write a file as a member, dated as early as can be."""
         os.utime(filename, (0, 0))
-        super().write(filename, arcname, *arguments, **options)
+        super().write(filename, arcname, compress_type, compresslevel)
 
 
 @contextmanager
