@@ -8,7 +8,6 @@ does not take are lost; that changes no code.
 from __future__ import annotations
 
 import gc
-import io
 import json
 import os
 import sys
@@ -37,6 +36,7 @@ from diecut_report.cli.output import (
     open_streams,
     tell,
     tell_problems,
+    usage,
 )
 from diecut_report.cli.progress import Progress
 from diecut_report.cli.study import batch, source, variants
@@ -72,7 +72,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
     except click.Abort:
         return INTERRUPTED
     except click.ClickException as error:
-        tell(_usage(error))
+        tell(usage(error))
         return BAD_INPUT
     except UserError as error:
         tell_problems(error.problems)
@@ -84,14 +84,6 @@ def main(arguments: Sequence[str] | None = None) -> int:
         tell(traceback.format_exc().splitlines())
         tell(["This is a fault of diecut-report itself. Please report it with the lines above and the configuration."])
         return FAULT
-
-
-def _usage(error: click.ClickException) -> list[str]:
-    """What click says of wrong usage; of its last part, which repeats what was given, no line stands for itself."""
-    said = io.StringIO()
-    error.show(said)
-    head, found, _ = f"\n{said.getvalue()}".partition("\nError: ")
-    return [*head[1:].splitlines(), *([f"Error: {error.format_message()}"] if found else [])]
 
 
 # --- options ---------------------------------------------------------------------------------------------------------

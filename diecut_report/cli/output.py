@@ -53,6 +53,14 @@ def tell_problems(problems: Sequence[Problem]) -> None:
         tell([f"{len(problems) - TOLD} more problems of the same run are not shown; mend these first."])
 
 
+def usage(error: click.ClickException) -> list[str]:
+    """Return what click says of wrong usage; of its last part, which repeats what was given, no line stands for itself."""
+    said = io.StringIO()
+    error.show(said)
+    head, found, _ = f"\n{said.getvalue()}".partition("\nError: ")
+    return [*head[1:].splitlines(), *([f"Error: {error.format_message()}"] if found else [])]
+
+
 def _told(text: str) -> str:
     return text if isinstance(text, Coloured) else re.sub(r"\n(?! )", "\n    ", shown(cut(text)))
 

@@ -20,6 +20,7 @@ from typing import Any, NoReturn
 
 import yaml
 
+from diecut_report.config.hidden_letters import CONTROL, HIDDEN, HIDDEN_IN_KEY
 from diecut_report.errors import Problem, UserError
 from diecut_report.given_files import content
 
@@ -31,11 +32,6 @@ KeyPath = tuple[str | int, ...]
 Position = tuple[int, int]
 
 _LOADER: Any = getattr(yaml, "CSafeLoader", yaml.SafeLoader)
-_BIDI = "\u202a-\u202e\u2066-\u2069"  # they make a text look like another one
-_CONTROL = re.compile(f"[^\t\n\r\x20-\x7e\x85\xa0-\ud7ff\ue000-\ufffd\U00010000-\U0010ffff]|[{_BIDI}]")
-# what an escape within quotes may bring too: NEL, and separators that end a line for some readers and not for others
-_HIDDEN = re.compile(f"{_CONTROL.pattern}|[\x85\u2028\u2029]")
-_HIDDEN_IN_KEY = re.compile(f"{_HIDDEN.pattern}|[\t\n\r]")
 _WORDS: dict[str, bool | None] = dict.fromkeys(["", "~", "null", "Null", "NULL"])
 _WORDS |= {word: word.lower() == "true" for word in ("true", "True", "TRUE", "false", "False", "FALSE")}
 _INTEGER = re.compile(r"[-+]?[0-9]{1,300}")
@@ -117,7 +113,8 @@ def load(path: Path) -> Tree:
         text = raw.decode("utf-8-sig")
     except UnicodeDecodeError as error:
         line = raw.count(b"\n", 0, error.start) + 1
-        _refuse(path, "The file is not UTF-8 text. Give a YAML file, saved as UTF-8.", line)
+        words = "The file is not UTF-8 text. Give a YAML file, saved as UTF-8."
+        raise UserError(Problem(words, str(path), line)) from error
     return _parse(text, str(path), hashlib.sha256(raw).hexdigest())
 
 
@@ -126,18 +123,8 @@ def parse(text: str, file: str) -> Tree:
     return _parse(text, file, hashlib.sha256(text.encode("utf-8")).hexdigest())
 
 
-def hidden(text: str) -> str:
-    """Return the name of a control character that the text of a value may not hold, such as U+001B; "" where there is none."""
-    found = _HIDDEN.search(text)
-    return f"U+{ord(found[0]):04X}" if found else ""
-
-
-def _refuse(path: Path, message: str, line: int | None = None) -> NoReturn:
-    raise UserError(Problem(message, str(path), line))
-
-
 def _parse(text: str, file: str, sha256: str) -> Tree:
-    if control := _CONTROL.search(text):
+    if control := CONTROL.search(text):
         before = text[: control.start()]
         place = before.count("\n") + 1, len(before) - before.rfind("\n")
         advice = "Write it without." if control[0] > " " else "This is no YAML text. Give a text file."
@@ -212,7 +199,7 @@ class _Builder:
             self._anchors[event.anchor] = None
         if isinstance(event, yaml.ScalarEvent):
             if not is_key:
-                self._refuse_hidden("text", _HIDDEN.search(event.value), event, path)
+                self._refuse_hidden("text", HIDDEN.search(event.value), event, path)
             node = YamlNode(_position(event), resolved(event.value) if event.implicit[0] else event.value, event.value)
         else:
             node = self._collection(event, path)
@@ -271,8 +258,8 @@ class _Builder:
         """The key as text, with a problem reported if it is not text, a merge key, or a duplicate."""
         key, place = self._node(event, (*path, "?"), is_key=True), _position(event)
         text = key.typed if key.typed is not None else "(a list)" if key.is_list else "(a mapping)"
-        self._refuse_hidden("key", _HIDDEN_IN_KEY.search(text), event, path)
-        text = _HIDDEN_IN_KEY.sub("\N{REPLACEMENT CHARACTER}", text)  # in what is told of values below it
+        self._refuse_hidden("key", HIDDEN_IN_KEY.search(text), event, path)
+        text = HIDDEN_IN_KEY.sub("\N{REPLACEMENT CHARACTER}", text)  # in what is told of values below it
         if not isinstance(key.scalar, str):
             self._report(f"The key {text or '(empty)'} is not text. Put it in quotes, or rename it.", place, path)
         elif text == "<<" and isinstance(event, yaml.ScalarEvent) and event.implicit[0]:

@@ -10,11 +10,11 @@ from typing import Any
 
 import yaml
 
+from diecut_report.config.hidden_letters import hidden
 from diecut_report.config.yaml_tree import (
     KeyPath,
     Tree,
     YamlNode,
-    hidden,
     resolved,
 )
 from diecut_report.errors import Problem, UserError

@@ -12,7 +12,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from pathlib import Path
 
-from diecut_report.config.yaml_tree import hidden
+from diecut_report.config.hidden_letters import hidden
 from diecut_report.errors import Problem, UserError, nearest
 from diecut_report.expressions import Array
 from diecut_report.quantities.units import UnitError, unit
