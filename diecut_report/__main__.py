@@ -1,10 +1,32 @@
-"""``python -m diecut_report`` is the command line."""
+"""``python -m diecut_report`` is the command line; so is the installed program ``diecut-report``."""
+
+from __future__ import annotations
 
 import sys
 
 if __name__ == "__main__" and not sys.flags.safe_path:
     del sys.path[0]  # the current folder, which -m puts first: what lies beside a config is not imported
 
-from diecut_report.cli.main import run
+import os
+import signal
+from typing import NoReturn
 
-run()
+INTERRUPTED = 130  # as shells have it
+
+
+def run() -> NoReturn:
+    """Run the command line. While its modules are loaded Ctrl-C ends it at once: there is nothing yet to be put in order."""
+    is_usual = (
+        signal.getsignal(signal.SIGINT) is signal.default_int_handler
+    )  # in the background of a shell it is ignored
+    if is_usual:
+        signal.signal(signal.SIGINT, lambda *_: os._exit(INTERRUPTED))
+    from diecut_report.cli import main
+
+    if is_usual:
+        signal.signal(signal.SIGINT, signal.default_int_handler)
+    main.run()
+
+
+if __name__ == "__main__":
+    run()

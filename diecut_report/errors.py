@@ -42,6 +42,10 @@ class UserError(Exception):
         return "\n".join(str(problem) for problem in self.problems)
 
 
+class Unwritable(UserError):
+    """What was asked for cannot be written: the disk is full, or standard output is closed (exit code 74)."""
+
+
 class PluginError(Exception):
     """A plugin broke (exit code 3). Raise it `from` the cause; it names the kind and, where known, the instance."""
 

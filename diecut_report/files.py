@@ -1,5 +1,6 @@
 """Writes files so that none is ever half-written: each is complete beside its place before it takes that place.
 
+A link by that name is replaced, not what it points to.
 `write_all` writes the files of a run, all or none; `write` and `replaced` a file of a study's folder, on the disk when they return.
 """
 
@@ -7,31 +8,40 @@ from __future__ import annotations
 
 import errno
 import os
+import re
 import shutil
 import tempfile
 from collections.abc import Iterator, Mapping
 from contextlib import ExitStack, contextmanager
 from pathlib import Path
 
-from diecut_report.errors import Problem, UserError
+from diecut_report.errors import Problem, Unwritable, UserError
 
+_OPEN = re.compile(r"/proc/(self|thread-self|\d+)(/task/\d+)?/fd")
 TEMPORARY = ".*.part"  # what a killed run may leave behind
 NOTHING = "Nothing was written; make room and try again."
 KEPT = "What was finished is kept: make room, then continue with --resume."
 
 
-def write_all(files: Mapping[Path, bytes], keep: Path) -> None:
+MISNAMED = {
+    errno.EACCES, errno.EPERM, errno.EROFS, errno.ENOTDIR, errno.EEXIST, errno.EISDIR, errno.ENAMETOOLONG, errno.ENOENT, errno.ELOOP,
+}  # fmt: skip
+"""Faults of the name that was given: another one helps. The others are faults of the disk."""
+
+
+def write_all(files: Mapping[Path, bytes], keep: Path, *, through: bool = False) -> None:
     """Write all files, or none and raise UserError in words; folders that are missing are made.
 
-    ``keep`` is a file that must not be written over: the config itself.
+    ``keep`` is a file that must not be written over: the config itself. With ``through`` a device or a pipe that the user
+    names is written into; else it is replaced, as a link always is.
     """
     with ExitStack() as stack:
         ready = []
         for path, content in files.items():
             with in_words(path, NOTHING):
-                place = path.resolve()
+                place = _place(path)
                 _refuse_config(path, keep)
-                ready.append((stack.enter_context(_beside(place, content)), place, path))
+                ready.append((stack.enter_context(_beside(place, content, through)), place, path))
         for temporary, place, path in ready:
             with in_words(path, NOTHING):
                 if temporary == place:
@@ -40,17 +50,39 @@ def write_all(files: Mapping[Path, bytes], keep: Path) -> None:
                     temporary.replace(place)
 
 
+def _place(path: Path) -> Path:
+    """Where a file is written: the path itself with its folder resolved, so that a link there is replaced."""
+    folder = path if path.name in ("", "..") else path.parent
+    return Path(os.path.realpath(folder)) / (path.name if folder != path else "")
+
+
+def _is_stream(place: Path) -> bool:
+    """Whether it stands for itself: a device, a pipe, or a file that is open already (/dev/stdout, /dev/fd/3)."""
+    if not place.exists():
+        return False
+    opened = any(_OPEN.fullmatch(str(step.parent)) for step in _steps(place))
+    return opened or not (place.is_file() or place.is_dir())
+
+
+def _steps(place: Path) -> Iterator[Path]:
+    """The place, and where its links lead one after the other."""
+    yield place
+    while place.is_symlink() and not _OPEN.fullmatch(str(place.parent)):
+        place = _place(place.parent / place.readlink())
+        yield place
+
+
 def _refuse_config(path: Path, keep: Path) -> None:
-    if path.exists() and path.samefile(keep):
+    if path.exists() and keep.exists() and path.samefile(keep):
         words = "This is the configuration itself; it would be written over. Choose another place with -o."
         raise UserError(Problem(words, str(path)))
 
 
 @contextmanager
-def _beside(place: Path, content: bytes) -> Iterator[Path]:
+def _beside(place: Path, content: bytes, through: bool) -> Iterator[Path]:
     """The content in a temporary file beside ``place``; gone on leaving, with the folders made for it if nothing is in them.
 
-    What is not a regular file (/dev/null, a pipe) stands for itself.
+    With ``through``, what is not a regular file (/dev/null, a pipe) stands for itself.
     """
     made: list[Path] = []
     temporary = place
@@ -58,7 +90,7 @@ def _beside(place: Path, content: bytes) -> Iterator[Path]:
         _make_folder(place.parent, made)
         if place.is_dir():
             raise IsADirectoryError(errno.EISDIR, "a folder has this name")
-        if place.is_file() or not place.exists():
+        if not (through and _is_stream(place)):
             temporary = _temporary(place)
             temporary.write_bytes(content)
         yield temporary
@@ -84,11 +116,12 @@ def _temporary(place: Path) -> Path:
 
 @contextmanager
 def in_words(path: Path, after: str = KEPT) -> Iterator[None]:
-    """Turn an OSError into a UserError that says what could not be written, why, and what to do."""
+    """Turn an OSError into a UserError, or Unwritable, that says what could not be written, why, and what to do."""
     try:
         yield
     except OSError as error:
-        raise UserError(Problem(f"This cannot be written: {reason(error, after)}", str(path))) from error
+        kind = UserError if error.errno in MISNAMED else Unwritable
+        raise kind(Problem(f"This cannot be written: {reason(error, after)}", str(path))) from error
 
 
 def reason(error: OSError, after: str = NOTHING) -> str:
@@ -147,7 +180,7 @@ def remove_stale(folder: Path) -> None:
     """Remove what a run that was killed has left half-written, here and in the folders below."""
     for path in list(folder.rglob(TEMPORARY)):
         with in_words(path):
-            if path.is_dir():
+            if path.is_dir() and not path.is_symlink():
                 shutil.rmtree(path)
             else:
                 path.unlink(missing_ok=True)  # it may have stood in a folder that is gone

@@ -61,7 +61,7 @@ def calc(config: Source, discovery: Discovery, tell: Tell, target: Path | None =
     results, broken, _ = _calculated(config, discovery, tell)
     text = results_text(results)
     if target is not None:
-        _write({target: text.encode()}, config)
+        _write({target: encoded(text)}, config, through=True)
     return ReportOutcome(results, (target,) if target else (), broken), text
 
 
@@ -123,14 +123,14 @@ def _broken(results: Data, places: Places, lost: Lost) -> PluginError:
 def _rendered(results: Data, formats: Sequence[str], tell: Tell) -> tuple[dict[str, bytes], list[Lost]]:
     """The content of each format, all complete before anything is written; and the figures that could not be drawn."""
     undrawn: list[Lost] = []
-    contents = {"json": results_text(results).encode()} if "json" in formats else {}
+    contents = {"json": encoded(results_text(results))} if "json" in formats else {}
     if {"html", "pdf"} & set(formats):
         tell("drawing the report")
         from diecut_report.report import Rendering
 
         rendering = Rendering(results)
         if "html" in formats:
-            contents["html"] = rendering.html().encode()
+            contents["html"] = encoded(rendering.html())
         if "pdf" in formats:
             tell("setting the pages")
             contents["pdf"] = _pdf(rendering)
@@ -167,15 +167,20 @@ def _pdf(rendering: Any) -> bytes:
     return content
 
 
-def _write(files: dict[Path, bytes], config: Source) -> None:
+def _write(files: dict[Path, bytes], config: Source, *, through: bool = False) -> None:
     from diecut_report.files import write_all
 
-    write_all(files, keep=Path(config.file) if isinstance(config, Tree) else config)
+    write_all(files, keep=Path(config.file) if isinstance(config, Tree) else config, through=through)
 
 
 def results_text(results: Data) -> str:
     """The results file: floats in their shortest exact form, never NaN or Infinity, the same bytes for the same results."""
     return _lines(results, LINES_TO_DEPTH) + "\n"
+
+
+def encoded(text: str) -> bytes:
+    """The text as UTF-8; what a name of a file that is not UTF-8 has brought stands as an escape, which JSON has too."""
+    return text.encode(errors="backslashreplace")
 
 
 def _lines(data: Any, depth: int, indent: str = "\n") -> str:

@@ -1,5 +1,6 @@
 #!/bin/sh
-# Renews requirements.lock (what a report needs) and requirements-dev.lock (that, and what the tests need).
+# Renews requirements.lock (what a report needs), requirements-dev.lock (that, and what the tests need) and
+# requirements-cluster.lock (what a report needs, and what a cluster needs).
 #
 #   scripts/renew-locks.sh [OPTIONS]   the options are those of pip-compile, such as --upgrade
 #
@@ -22,3 +23,4 @@ compile() {
 }
 compile --all-build-deps --output-file=requirements.lock "$@"
 compile --all-build-deps --extra=dev --extra=cluster --constraint=requirements.lock --output-file=requirements-dev.lock "$@"
+compile --extra=cluster --constraint=requirements-dev.lock --output-file=requirements-cluster.lock "$@"

@@ -324,14 +324,13 @@ def test_the_config_is_never_written_over(tmp_path: Path) -> None:
 
 
 @pytest.mark.usefixtures("painted")
-def test_a_link_stays_a_link_and_its_file_is_replaced(tmp_path: Path) -> None:
+def test_a_link_is_replaced_and_not_what_it_points_to(tmp_path: Path) -> None:
     out = tmp_path / "out"
     out.mkdir()
     (out / "press.json").symlink_to(tmp_path / "kept.json")
     made(saved(tmp_path, LEVER), out, ("json",))
-    assert (out / "press.json").is_symlink() and json.loads((tmp_path / "kept.json").read_text("utf-8"))[
-        "status"
-    ] == "pass"
+    assert not (out / "press.json").is_symlink() and not (tmp_path / "kept.json").exists()
+    assert json.loads((out / "press.json").read_text("utf-8"))["status"] == "pass"
 
 
 def test_a_report_of_a_broken_plugin_is_written_all_the_same(tmp_path: Path) -> None:

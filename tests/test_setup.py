@@ -17,7 +17,7 @@ ROOT = Path(__file__).parents[1]
 PROJECT = tomllib.loads((ROOT / "pyproject.toml").read_text("utf-8"))
 SETUPTOOLS = PROJECT["tool"]["setuptools"]
 FOLDERS = {folder: package for package, folder in SETUPTOOLS["package-dir"].items()}
-LOCKS = ["requirements.lock", "requirements-dev.lock"]
+LOCKS = ["requirements.lock", "requirements-dev.lock", "requirements-cluster.lock"]
 
 
 def pins(lock: str) -> dict[str, str]:
@@ -48,6 +48,8 @@ def test_every_data_file_is_package_data(folder: str) -> None:
         (LOCKS[0], PROJECT["project"]["dependencies"]),
         (LOCKS[0], PROJECT["build-system"]["requires"]),
         (LOCKS[1], PROJECT["project"]["optional-dependencies"]["dev"]),
+        (LOCKS[2], PROJECT["project"]["dependencies"]),
+        (LOCKS[2], PROJECT["project"]["optional-dependencies"]["cluster"]),
     ],
 )
 def test_a_lock_meets_what_the_project_asks_for(lock: str, requirements: list[str]) -> None:
@@ -58,6 +60,11 @@ def test_a_lock_meets_what_the_project_asks_for(lock: str, requirements: list[st
 
 def test_the_tests_run_with_the_versions_that_a_report_is_made_with() -> None:
     assert pins(LOCKS[0]).items() <= pins(LOCKS[1]).items()
+
+
+def test_a_cluster_runs_with_the_versions_that_the_tests_run_with() -> None:
+    assert pins(LOCKS[2]).items() <= pins(LOCKS[1]).items()
+    assert pins(LOCKS[0]).items() - pins(LOCKS[2]).items() <= {("setuptools", pins(LOCKS[0])["setuptools"])}
 
 
 @pytest.mark.parametrize("lock", LOCKS)

@@ -1,6 +1,8 @@
 """The command line: commands, exit codes, and all that is printed.
 
-Exit codes: 0 all checks pass, 1 a check fails, 2 bad input or usage (nothing is written), 3 a plugin broke.
+Exit codes: 0 all checks pass, 1 a check fails, 2 bad input or usage (nothing is written), 3 a plugin broke,
+74 what was asked for could not be written, 130 interrupted, 70 a fault of the program itself. Messages that standard error
+does not take are lost; that changes no code.
 """
 
 from __future__ import annotations
@@ -25,15 +27,21 @@ from diecut_report.cli.output import (
     INTERRUPTED,
     PASSED,
     PLUGIN_BROKE,
+    UNWRITABLE,
+    HelpfulGroup,
+    Line,
     coloured,
     common,
     emit,
+    open_streams,
     tell,
+    tell_problems,
+    usage,
 )
 from diecut_report.cli.progress import Progress
 from diecut_report.cli.study import batch, source, variants
 from diecut_report.config.discovery import Discovery, DuplicateKind, UnknownKind
-from diecut_report.errors import PluginError, Problem, UserError, nearest
+from diecut_report.errors import PluginError, Problem, Unwritable, UserError, nearest
 
 if TYPE_CHECKING:
     from diecut_report.pipeline import ReportOutcome
@@ -44,7 +52,11 @@ def run() -> NoReturn:
 
     Nothing is left to do then: files are closed, output is flushed, no thread has work.
     """
-    code = main()
+    open_streams()
+    try:
+        code = main()
+    except KeyboardInterrupt:  # while an error was told
+        code = INTERRUPTED
     for stream in filter(None, (sys.stdout, sys.stderr)):  # a stream may be closed from outside
         with suppress(OSError):  # whoever read it has gone
             stream.flush()
@@ -60,16 +72,16 @@ def main(arguments: Sequence[str] | None = None) -> int:
     except click.Abort:
         return INTERRUPTED
     except click.ClickException as error:
-        error.show()
+        tell(usage(error))
         return BAD_INPUT
     except UserError as error:
-        tell(str(problem) for problem in error.problems)
-        return BAD_INPUT
+        tell_problems(error.problems)
+        return UNWRITABLE if isinstance(error, Unwritable) else BAD_INPUT
     except PluginError as error:
         tell([str(error)])
         return PLUGIN_BROKE
     except Exception:
-        traceback.print_exc()
+        tell(traceback.format_exc().splitlines())
         tell(["This is a fault of diecut-report itself. Please report it with the lines above and the configuration."])
         return FAULT
 
@@ -97,8 +109,16 @@ def _language(_: click.Context, __: click.Parameter, given: str | None) -> str |
         raise click.BadParameter(f"{error}") from None
 
 
-@click.group(context_settings={"help_option_names": ["-h", "--help"]})
-@click.version_option(__version__, prog_name="diecut-report")
+def _version(context: click.Context, _: click.Parameter, asked: bool) -> None:
+    if asked and not context.resilient_parsing:
+        emit(f"diecut-report, version {__version__}\n")
+        context.exit()
+
+
+@click.group(cls=HelpfulGroup, context_settings={"help_option_names": ["-h", "--help"]})
+@click.option(
+    "--version", is_flag=True, is_eager=True, expose_value=False, callback=_version, help="Show the version and exit."
+)
 def program() -> None:
     """Design reports for die-cutting presses, from a YAML description to a checked calculation document."""
 
@@ -175,7 +195,7 @@ def check(configs: tuple[Path, ...], folders: tuple[Path, ...], quiet: bool) -> 
             tell(str(error) if len(configs) == 1 else f"{config}: {error}" for error in broken)
             codes.append(PLUGIN_BROKE if broken else PASSED)
         except UserError as error:
-            tell(str(problem) for problem in error.problems)
+            tell_problems(error.problems)
             codes.append(BAD_INPUT)
         if codes[-1] == PASSED and not quiet:
             tell([f"{config}: valid"])
@@ -248,25 +268,24 @@ def _verdict(outcome: ReportOutcome, quiet: bool) -> int:
     return CHECK_FAILED if outcome.results["status"] == "fail" else PASSED
 
 
-def _summary(results: dict[str, Any]) -> list[str]:
+def _summary(results: dict[str, Any]) -> list[Line]:
     """The checks that do not pass, in words, the worst first; or that all pass."""
-    lines = []
+    lines: list[tuple[int, Line]] = []
     for name, data in results["mechanisms"].items():
         if data["status"] == "skipped":
-            lines.append((2, f"{coloured('skipped', 'skipped')} {name}: {data['error']}"))
+            lines.append((2, (coloured("skipped", "skipped"), f" {name}: {data['error']}")))
         for made in data["checks"]:
             if made["status"] != "pass":
                 rank = ("fail", "warn").index(made["status"])
-                lines.append(
-                    (rank, f"{coloured(made['status'], made['status'])} {name}: {made['title']}. {made['message']}")
-                )
+                told = f" {name}: {made['title']}. {made['message']}"
+                lines.append((rank, (coloured(made["status"], made["status"]), told)))
     count = sum(len(data["checks"]) for data in results["mechanisms"].values())
     failed = sum(rank == 0 for rank, _ in lines)
     calculated = [*results["mechanisms"].values(), *results.get("comparisons", {}).values()]
     lost = sum("error" in data for data in calculated)
-    told = "mechanisms and comparisons" if "comparisons" in results else "mechanisms"
+    calculations = "mechanisms and comparisons" if "comparisons" in results else "mechanisms"
     passed = coloured("No check fails.", "pass") if count else "There are no checks."
     if lost:
-        passed = f"{lost} of {len(calculated)} {told} were not calculated."
+        passed = f"{lost} of {len(calculated)} {calculations} were not calculated."
     verdict = f"{failed} of {count} checks fail." if failed else passed
     return [line for _, line in sorted(lines, key=lambda pair: pair[0])] + [verdict]

@@ -2,35 +2,87 @@
 
 from __future__ import annotations
 
+import io
 import os
+import re
 import sys
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Sequence
 from pathlib import Path
 from typing import Any, TypeVar
 
 import click
 
 from diecut_report.cli.progress import is_styled
-from diecut_report.errors import Problem, UserError
+from diecut_report.errors import Problem, Unwritable
 
 PASSED, CHECK_FAILED, BAD_INPUT, PLUGIN_BROKE = 0, 1, 2, 3
-INTERRUPTED, FAULT = 130, 70  # as shells and sysexits have it: Ctrl-C, a fault of the program itself
+INTERRUPTED, FAULT, UNWRITABLE = (
+    130,
+    70,
+    74,
+)  # as shells and sysexits have it: Ctrl-C, a fault of the program, of writing
 COLOURS = {"fail": "31", "error": "31", "skipped": "33", "warn": "33", "pass": "32"}
+TOLD = 20  # problems of a file
+LETTERS, END = 2_000, 500  # of a message, and of its end where it is longer
+# what may make a terminal do something, end a line, or show a text as another one
+_ACTIVE = re.compile("[\0-\x08\x0b-\x1f\x7f-\x9f\u2028\u2029\u202a-\u202e\u2066-\u2069\ud800-\udfff]")
 
 Command = TypeVar("Command", bound=Callable[..., Any])
 
 
-def tell(lines: Iterable[str]) -> None:
-    """Messages, on standard error."""
+class Coloured(str):
+    """A text with the escapes of its colour, which the program itself has put there."""
+
+    __slots__ = ()
+
+
+Line = str | tuple[str, ...]
+"""A message: a text, or the parts of it, of which some are coloured."""
+
+
+def tell(lines: Iterable[Line]) -> None:
+    """Messages, on standard error: each in a line of its own, which it cannot leave but for lines that are indented."""
     for line in lines:
-        click.echo(line, err=True)
+        click.echo("".join(map(_told, (line,) if isinstance(line, str) else line)), err=True)
+
+
+def tell_problems(problems: Sequence[Problem]) -> None:
+    """What is wrong with a file: the first problems, and how many more there are."""
+    tell(str(problem) for problem in problems[:TOLD])
+    if len(problems) > TOLD:
+        tell([f"{len(problems) - TOLD} more problems of the same run are not shown; mend these first."])
+
+
+def usage(error: click.ClickException) -> list[str]:
+    """Return what click says of wrong usage; of its last part, which repeats what was given, no line stands for itself."""
+    said = io.StringIO()
+    error.show(said)
+    head, found, _ = f"\n{said.getvalue()}".partition("\nError: ")
+    return [*head[1:].splitlines(), *([f"Error: {error.format_message()}"] if found else [])]
+
+
+def _told(text: str) -> str:
+    return text if isinstance(text, Coloured) else re.sub(r"\n(?! )", "\n    ", shown(cut(text)))
+
+
+def cut(text: str) -> str:
+    """The text, without its middle where it is very long."""
+    if len(text) <= LETTERS:
+        return text
+    left_out = len(text) - LETTERS
+    return f"{text[: LETTERS - END]} […{left_out} more letters…] {text[-END:]}"
+
+
+def shown(text: str) -> str:
+    """The text with all that is active on a terminal as an escape, but for the ends of lines."""
+    return _ACTIVE.sub(lambda found: ascii(found[0])[1:-1], text)
 
 
 def emit(text: str) -> bool:
     """What was asked for, on standard output; always UTF-8. Says whether the reader is still there."""
     if sys.stdout is None:
-        raise UserError(Problem("Standard output is closed; name a file with -o."))
-    left = memoryview(text.encode())
+        raise Unwritable(Problem("Standard output is closed; name a file with -o."))
+    left = memoryview((shown(text) if sys.stdout.isatty() else text).encode(errors="backslashreplace"))
     try:
         while left:  # an unbuffered output may take less than all
             left = left[sys.stdout.buffer.write(left) :]
@@ -42,7 +94,7 @@ def emit(text: str) -> bool:
         from diecut_report.files import reason
 
         _close_output()
-        raise UserError(Problem(f"Standard output cannot be written: {reason(error)}")) from error
+        raise Unwritable(Problem(f"Standard output cannot be written: {reason(error)}")) from error
     return True
 
 
@@ -50,15 +102,73 @@ def _close_output() -> None:
     os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())  # what is still buffered goes nowhere
 
 
+class Messages(io.TextIOWrapper):
+    """Standard error that may be full or gone: what it does not take is lost, for there is nowhere to tell of it."""
+
+    def write(self, text: str) -> int:
+        """Write the text, or lose it."""
+        try:
+            return super().write(text)
+        except OSError:
+            self._lose()
+            return len(text)
+
+    def flush(self) -> None:
+        """Write what is held back, or lose it."""
+        try:
+            super().flush()
+        except OSError:
+            self._lose()
+
+    def _lose(self) -> None:
+        os.dup2(os.open(os.devnull, os.O_WRONLY), 2)
+        super().flush()
+
+
+def open_streams() -> None:
+    """Make standard error one that never fails, and occupy the places of closed streams, or the next file would get one."""
+    for number in range(3):
+        try:
+            os.fstat(number)
+        except OSError:
+            os.dup2(os.open(os.devnull, os.O_RDWR), number)
+    encoding = getattr(sys.stderr, "encoding", None) or "utf-8"
+    stream = open(2, "wb", closefd=False)  # noqa: SIM115 it stays open as long as the program runs
+    sys.stderr = Messages(stream, encoding=encoding, errors="backslashreplace", line_buffering=True)
+
+
+class HelpfulCommand(click.Command):
+    """A command whose help goes the way of all that is asked for, and fails as that does."""
+
+    def get_help_option(self, ctx: click.Context) -> click.Option | None:
+        """The option --help."""
+        option = super().get_help_option(ctx)
+        if option is not None:
+            option.callback = _help
+        return option
+
+
+class HelpfulGroup(HelpfulCommand, click.Group):
+    """The commands, with the same help."""
+
+    command_class = HelpfulCommand
+
+
+def _help(context: click.Context, _: click.Parameter, asked: bool) -> None:
+    if asked and not context.resilient_parsing:
+        emit(f"{context.get_help()}\n")
+        context.exit()
+
+
 def coloured(text: str, status: str) -> str:
     """The text in the status's colour where standard error is a terminal that wants colours."""
-    return f"\x1b[{COLOURS[status]}m{text}\x1b[0m" if is_styled() else text
+    return Coloured(f"\x1b[{COLOURS[status]}m{text}\x1b[0m") if is_styled() else text
 
 
 def common(command: Command) -> Command:
     """The options that every command has."""
     folders = click.option("--plugins", "folders", metavar="DIR", multiple=True, type=click.Path(path_type=Path),
-                           help="A folder with plugins of your own; may be given several times.")  # fmt: skip
+                           help="A folder with plugins: programs that run with your rights; may be given several times.")  # fmt: skip
     quiet = click.option(
         "--quiet", is_flag=True, help="Show neither progress nor a summary; errors are reported all the same."
     )

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 import sys
 from collections.abc import Iterator
 from contextlib import closing, redirect_stdout
@@ -10,7 +11,18 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from diecut_report.cli.output import CHECK_FAILED, INTERRUPTED, PASSED, PLUGIN_BROKE, coloured, common, emit, tell
+from diecut_report.cli.output import (
+    CHECK_FAILED,
+    INTERRUPTED,
+    PASSED,
+    PLUGIN_BROKE,
+    HelpfulCommand,
+    Line,
+    coloured,
+    common,
+    emit,
+    tell,
+)
 from diecut_report.errors import nearest
 
 if TYPE_CHECKING:
@@ -35,7 +47,7 @@ def _exports(_: click.Context, __: click.Parameter, given: str) -> list[str]:
 path_of = click.Path(path_type=Path)
 
 
-@click.command()
+@click.command(cls=HelpfulCommand)
 @click.argument("study", required=False, type=path_of)
 @click.option("-o", "folder", metavar="DIR", type=path_of, help="Where to write (default: the study's name, here).")
 @click.option(
@@ -80,19 +92,20 @@ def _target(study: Path | None, folder: Path | None, resume: Path | None) -> Pat
     return resume or folder or Path(Path(str(study)).stem)
 
 
-def _told(outcome: StudyOutcome, target: Path) -> Iterator[str]:
+def _told(outcome: StudyOutcome, target: Path) -> Iterator[Line]:
     from diecut_report.study.conditions.constraints import why_dropped
 
     counts = outcome.counts
     yield f"written: {target}, with summary.html and summary.pdf" + _reports(target)
     named = [
-        f"{counts[status]} {coloured(status, status)}"
+        part
         for status in ("pass", "warn", "fail", "error")
         if counts.get(status)
+        for part in (", ", f"{counts[status]} ", coloured(status, status))
     ]
     more = f"; the constraints drop {counts['dropped']} more of the sample{why_dropped(counts)}"
     dropped = more if counts.get("dropped") else ""
-    yield f"{counts.get('variants', 0)} variants: {', '.join(named) or 'none'}{dropped}."
+    yield (f"{counts.get('variants', 0)} variants: ", *(named[1:] or ["none"]), f"{dropped}.")
     yield from (
         f"{kind} cannot take arrays and was calculated variant by variant, which is slow: {why}"
         for kind, why in outcome.slow.items()
@@ -113,7 +126,7 @@ def _reports(target: Path) -> str:
     return f", and {made} full report{'s' if made > 1 else ''} in reports/" if made else ""
 
 
-@click.command()
+@click.command(cls=HelpfulCommand)
 @click.argument("folder", metavar="DIR", type=path_of)
 @click.option(
     "--where", metavar="CONDITION", help="Such as \"drive.crank_torque_peak < '40 N*m' and status = 'pass'\"."
@@ -149,7 +162,7 @@ def variants(
 def source(config: Path, discovery: Discovery) -> Source:
     """Return the configuration that a command names: its file, or for DIR#ID that of a stored variant, ``DIR-ID.yaml``."""
     folder, _, number = str(config).rpartition("#")
-    if not folder or not number.isdigit() or config.exists() or not (Path(folder) / RESULTS).exists():
+    if not folder or not number.isdigit() or os.path.exists(config) or not os.path.exists(Path(folder) / RESULTS):
         return config
     from diecut_report.study.analysis.variant_config import variant_config
 

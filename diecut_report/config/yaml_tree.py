@@ -13,7 +13,6 @@ from __future__ import annotations
 import hashlib
 import math
 import re
-import stat
 from collections.abc import Iterator
 from dataclasses import dataclass, field
 from pathlib import Path
@@ -21,7 +20,9 @@ from typing import Any, NoReturn
 
 import yaml
 
+from diecut_report.config.hidden_letters import CONTROL, HIDDEN, HIDDEN_IN_KEY
 from diecut_report.errors import Problem, UserError
+from diecut_report.given_files import content
 
 MAX_BYTES = 5_000_000
 MAX_DEPTH = 50
@@ -31,7 +32,6 @@ KeyPath = tuple[str | int, ...]
 Position = tuple[int, int]
 
 _LOADER: Any = getattr(yaml, "CSafeLoader", yaml.SafeLoader)
-_CONTROL = re.compile("[^\t\n\r\x20-\x7e\x85\xa0-\ud7ff\ue000-\ufffd\U00010000-\U0010ffff]")
 _WORDS: dict[str, bool | None] = dict.fromkeys(["", "~", "null", "Null", "NULL"])
 _WORDS |= {word: word.lower() == "true" for word in ("true", "True", "TRUE", "false", "False", "FALSE")}
 _INTEGER = re.compile(r"[-+]?[0-9]{1,300}")
@@ -108,12 +108,13 @@ class Tree:
 
 def load(path: Path) -> Tree:
     """Read a YAML file. UserError with all that is wrong with it, or the reason why it cannot be read."""
-    raw = _read(path)
+    raw = content(path, MAX_BYTES, "a YAML file")
     try:
         text = raw.decode("utf-8-sig")
     except UnicodeDecodeError as error:
         line = raw.count(b"\n", 0, error.start) + 1
-        _refuse(path, "The file is not UTF-8 text. Give a YAML file, saved as UTF-8.", line)
+        words = "The file is not UTF-8 text. Give a YAML file, saved as UTF-8."
+        raise UserError(Problem(words, str(path), line)) from error
     return _parse(text, str(path), hashlib.sha256(raw).hexdigest())
 
 
@@ -122,35 +123,12 @@ def parse(text: str, file: str) -> Tree:
     return _parse(text, file, hashlib.sha256(text.encode("utf-8")).hexdigest())
 
 
-def _refuse(path: Path, message: str, line: int | None = None) -> NoReturn:
-    raise UserError(Problem(message, str(path), line))
-
-
-def _read(path: Path) -> bytes:
-    try:
-        status = path.stat()
-        if not stat.S_ISREG(status.st_mode):
-            found = "a folder" if stat.S_ISDIR(status.st_mode) else "not a regular file"
-            _refuse(path, f"This is {found}. Give a YAML file.")
-        raw = b""
-        if status.st_size <= MAX_BYTES:
-            with path.open("rb") as stream:
-                raw = stream.read(MAX_BYTES + 1)  # bounded too: a file may grow, and some system files state no size
-    except FileNotFoundError:
-        _refuse(path, "There is no such file. Check the name and the folder.")
-    except OSError as error:
-        _refuse(path, f"The file cannot be read: {error.strerror or error}. Check its name and its permissions.")
-    size = max(status.st_size, len(raw))
-    if size > MAX_BYTES:
-        _refuse(path, f"The file is too large: {size / 1e6:.1f} MB; at most {MAX_BYTES / 1e6:g} MB are allowed.")
-    return raw
-
-
 def _parse(text: str, file: str, sha256: str) -> Tree:
-    if control := _CONTROL.search(text):
+    if control := CONTROL.search(text):
         before = text[: control.start()]
         place = before.count("\n") + 1, len(before) - before.rfind("\n")
-        message = f"The control character U+{ord(control[0]):04X} stands here; this is not YAML text. Give a text file."
+        advice = "Write it without." if control[0] > " " else "This is not YAML text. Give a text file."
+        message = f"The control character U+{ord(control[0]):04X} stands here. {advice}"
         raise UserError(Problem(message, file, *place))
     builder = _Builder(file)
     try:
@@ -212,7 +190,7 @@ class _Builder:
         self._report(message, place, path)
         raise UserError(self.problems)
 
-    def _node(self, event: Any, path: KeyPath) -> YamlNode:
+    def _node(self, event: Any, path: KeyPath, *, is_key: bool = False) -> YamlNode:
         if isinstance(event, yaml.AliasEvent):
             return self._alias(event, path)
         self._count(1, event, path)
@@ -220,6 +198,8 @@ class _Builder:
         if event.anchor is not None:
             self._anchors[event.anchor] = None
         if isinstance(event, yaml.ScalarEvent):
+            if not is_key:
+                self._refuse_hidden("text", HIDDEN.search(event.value), event, path)
             node = YamlNode(_position(event), resolved(event.value) if event.implicit[0] else event.value, event.value)
         else:
             node = self._collection(event, path)
@@ -238,6 +218,12 @@ class _Builder:
             tag = event.tag.replace("tag:yaml.org,2002:", "!!")
             advice = "Remove it; put the value in quotes where text is meant."
             self._report(f"The tag {tag} is not allowed. {advice}", _position(event), path)
+
+    def _refuse_hidden(self, what: str, found: re.Match[str] | None, event: Any, path: KeyPath) -> None:
+        """Report what a text holds when it is decoded: escapes within quotes bring what the file itself may not hold."""
+        if found:
+            message = f"This {what} holds the control character U+{ord(found[0]):04X}. Write it without."
+            self._report(message, _position(event), path)
 
     def _alias(self, event: Any, path: KeyPath) -> YamlNode:
         name, place = event.anchor, _position(event)
@@ -270,8 +256,10 @@ class _Builder:
 
     def _key(self, event: Any, node: YamlNode, path: KeyPath) -> str:
         """The key as text, with a problem reported if it is not text, a merge key, or a duplicate."""
-        key, place = self._node(event, (*path, "?")), _position(event)
+        key, place = self._node(event, (*path, "?"), is_key=True), _position(event)
         text = key.typed if key.typed is not None else "(a list)" if key.is_list else "(a mapping)"
+        self._refuse_hidden("key", HIDDEN_IN_KEY.search(text), event, path)
+        text = HIDDEN_IN_KEY.sub("\N{REPLACEMENT CHARACTER}", text)  # in what is told of values below it
         if not isinstance(key.scalar, str):
             self._report(f"The key {text or '(empty)'} is not text. Put it in quotes, or rename it.", place, path)
         elif text == "<<" and isinstance(event, yaml.ScalarEvent) and event.implicit[0]:

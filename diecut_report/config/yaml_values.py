@@ -10,12 +10,14 @@ from typing import Any
 
 import yaml
 
+from diecut_report.config.hidden_letters import hidden
 from diecut_report.config.yaml_tree import (
     KeyPath,
     Tree,
     YamlNode,
     resolved,
 )
+from diecut_report.errors import Problem, UserError
 
 Scalar = str | int | float
 
@@ -27,6 +29,9 @@ def with_values(tree: Tree, values: Mapping[KeyPath, Scalar], name: str, heading
     """
     root = tree.root
     for path, value in values.items():
+        if isinstance(value, str) and (found := hidden(value)):
+            words = f"The value that is to stand here holds the control character {found}; it is not taken."
+            raise UserError(Problem(words, tree.file, path=".".join(map(str, path))))
         root = _with_value(root, path, value)
     text = f"# {heading}\n{as_text(root)}"
     return Tree(root, tree.file, text, hashlib.sha256(text.encode()).hexdigest(), name)

@@ -5,6 +5,7 @@ from __future__ import annotations
 import base64
 from collections.abc import Callable
 from functools import cache
+from hashlib import sha256
 from importlib import import_module
 from pathlib import Path
 from typing import Any, Protocol
@@ -24,6 +25,9 @@ FACES = {  # family, weight, style: file
     ("Report Mono", 400, "normal"): "report-mono",
     ("Report Symbols", 400, "italic"): "report-symbols",
 }
+POLICY = (
+    "default-src 'none'", "style-src 'unsafe-inline'", "font-src data:", "img-src data:", "base-uri 'none'", "form-action 'none'",
+)  # fmt: skip
 MATH = {("Report Math", 400, "normal"): "report-math"}
 
 
@@ -65,8 +69,16 @@ def filled(material: Material, medium: Medium, kind: str) -> str:
     faces = FACES | (MATH if kind == "screen" else {})
     style = "\n".join([_font_faces(tuple(faces.items())), _read("report.css"), _read(f"{kind}.css")])
     return _environment().get_template("report.html.j2").render(
-        doc=document, t=document.words, kind=kind, style=Markup(style), math=medium.math, figure=medium.figure, failed=material.failed,
+        doc=document, t=document.words, kind=kind, style=Markup(style), policy=policy(),
+        math=medium.math, figure=medium.figure, failed=material.failed,
     )  # fmt: skip
+
+
+def policy(*scripts: str) -> str:
+    """What a browser may load and run for a page: its own styles, fonts and pictures, and of scripts only these."""
+    hashes = (base64.b64encode(sha256(script.encode()).digest()).decode() for script in scripts)
+    allowed = " ".join(["script-src", *(f"'sha256-{found}'" for found in hashes)])
+    return "; ".join([*POLICY, allowed] if scripts else POLICY)
 
 
 def folder() -> Path:

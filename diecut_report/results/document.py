@@ -33,7 +33,7 @@ def document(run: Run) -> Data:
         "schema_version": 1,
         "program": {"name": "diecut-report", "version": __version__, **_code(config)},
         "config": {
-            "file": tree.name.replace("\\", "/").rsplit("/", 1)[-1],
+            "file": _printable(tree.name.replace("\\", "/").rsplit("/", 1)[-1]),
             "sha256": tree.sha256,
             "resolved": resolved(run),
             "source_text": tree.text,
@@ -49,6 +49,11 @@ def document(run: Run) -> Data:
 def _code(config: Config) -> Data:
     """Return the hash of the program's code, and of each extension that was run."""
     return {"source_sha256": program_hash()} | ({"extensions": dict(config.extensions)} if config.extensions else {})
+
+
+def _printable(name: str) -> str:
+    """Return a file's name without what no document can hold: control characters, and bytes that are not UTF-8."""
+    return "".join(letter if letter.isprintable() else "\N{REPLACEMENT CHARACTER}" for letter in name)
 
 
 EMPTY: Data = {

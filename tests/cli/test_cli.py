@@ -273,11 +273,11 @@ def test_an_unwritable_output_folder_is_told(tmp_path: Path, capfd: Capture, tar
 @pytest.mark.skipif(not Path("/dev/full").exists(), reason="needs a device that is always full")
 def test_a_full_disk_is_told(tmp_path: Path, capfd: Capture) -> None:
     config = saved(tmp_path, LEVER)
-    assert run("calc", config, "-o", "/dev/full") == 2
+    assert run("calc", config, "-o", "/dev/full") == 74
     assert "the disk is full" in capfd.readouterr().err
     with Path("/dev/full").open("wb") as stream:
         done = program("calc", config, "--plugins", GOOD, stdout=stream, stderr=subprocess.PIPE)
-    assert done.returncode == 2
+    assert done.returncode == 74
     assert (
         done.stderr.startswith(b"Standard output cannot be written: the disk is full.")
         and b"Traceback" not in done.stderr

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import ast
 import hashlib
 import os
 import stat
@@ -300,6 +301,32 @@ def test_a_control_character_is_shown_at_its_place() -> None:
 # --- files -----------------------------------------------------------------------------------------------------------
 
 
+@pytest.mark.parametrize(
+    "escape", ["\\0", "\\a", "\\e", "\\x7f", "\\x9b", "\\N", "\\L", "\\P", "\\u202E", "\\u2066", "\\uFFFE"]
+)
+def test_escapes_bring_no_control_characters(escape: str) -> None:
+    code = {"0": 0, "a": 7, "e": 27, "N": 0x85, "L": 0x2028, "P": 0x2029}.get(escape[1]) or int(escape[2:] or "0", 16)
+    words = f"holds the control character U+{code:04X}. Write it without."
+    assert [str(p) for p in problems(f'a:\n  b: "x{escape}y"\n')] == [f"press.yaml:2:6: a.b: This text {words}"]
+    below = problems(f'a:\n  "x{escape}y": {{b: "{escape}"}}\n')
+    assert [str(p) for p in below] == [
+        f"press.yaml:2:3: a: This key {words}",
+        f"press.yaml:2:{len(escape) + 13}: a.x\N{REPLACEMENT CHARACTER}y.b: This text {words}",
+    ]
+
+
+@pytest.mark.parametrize("escape", ["\\n", "\\r", "\\t"])
+def test_a_text_may_have_lines_but_a_key_may_not(escape: str) -> None:
+    assert parse(f'a: "x{escape}y"', "press.yaml").data == {"a": f"x{ast.literal_eval(f'{chr(34)}{escape}{chr(34)}')}y"}
+    assert "This key holds the control character" in problems(f'"x{escape}y": 1')[0].message
+
+
+@pytest.mark.parametrize("mark", ["\u202a", "\u202e", "\u2069"])
+def test_letters_that_turn_others_around_are_refused_in_comments_too(mark: str) -> None:
+    problem = only_problem(f"a: 1\n# x{mark}\n")
+    assert (problem.line, problem.column) == (2, 4) and f"U+{ord(mark):04X} stands here. Write it" in problem.message
+
+
 def test_load_keeps_text_and_hash_of_the_bytes(tmp_path: Path) -> None:
     path = tmp_path / "press.yaml"
     raw = b"\xef\xbb\xbfa: 1\r\nb: 2\r\n"
@@ -330,7 +357,7 @@ def test_a_folder_is_refused(tmp_path: Path) -> None:
 def test_a_pipe_is_refused_without_waiting_for_it(tmp_path: Path) -> None:
     path = tmp_path / "pipe.yaml"
     os.mkfifo(path)
-    assert refused_file(path).message.startswith("This is not a regular file.")
+    assert refused_file(path).message.startswith("This is a pipe and no regular file.")
 
 
 def test_an_unreadable_file_is_refused(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
@@ -340,7 +367,7 @@ def test_an_unreadable_file_is_refused(tmp_path: Path, monkeypatch: pytest.Monke
     def denied(*_: Any, **__: Any) -> None:
         raise PermissionError(13, "Permission denied")
 
-    monkeypatch.setattr(Path, "open", denied)  # the superuser may read everything, so rights alone do not show it
+    monkeypatch.setattr(os, "open", denied)  # the superuser may read everything, so rights alone do not show it
     message = refused_file(path).message
     assert message == "The file cannot be read: Permission denied. Check its name and its permissions."
 
@@ -349,7 +376,7 @@ def test_a_100_mb_file_is_refused_without_reading_it(tmp_path: Path, monkeypatch
     path = tmp_path / "press.yaml"
     with path.open("wb") as stream:
         stream.truncate(100_000_000)
-    monkeypatch.setattr(Path, "open", lambda *_: pytest.fail("the file was opened"))
+    monkeypatch.setattr(os, "open", lambda *_: pytest.fail("the file was opened"))
     assert refused_file(path).message == "The file is too large: 100.0 MB; at most 5 MB are allowed."
 
 
@@ -359,6 +386,7 @@ def test_a_file_that_states_no_size_is_bounded_in_reading(tmp_path: Path, monkey
     stated = list(path.stat())
     stated[stat.ST_SIZE] = 0
     monkeypatch.setattr(Path, "stat", lambda _: os.stat_result(stated))
+    monkeypatch.setattr(os, "fstat", lambda _: os.stat_result(stated))
     assert refused_file(path).message.startswith("The file is too large: 5.0 MB;")
 
 
@@ -381,7 +409,7 @@ def test_binary_junk_that_is_utf8_is_refused(tmp_path: Path) -> None:
     path.write_bytes(b"PK\x03\x04\x00\x00")
     problem = refused_file(path)
     assert (problem.line, problem.column) == (1, 3)
-    assert "this is not YAML text" in problem.message
+    assert "This is not YAML text" in problem.message
 
 
 def test_an_empty_file_is_refused(tmp_path: Path) -> None:

@@ -1,1 +1,1 @@
-"""Inputs and surroundings that would do harm."""
+"""Hostile files: what a stranger may hand to the program. They are generated (``made_tables``), large ones as holes or packed."""

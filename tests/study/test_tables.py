@@ -125,7 +125,7 @@ def test_columns_are_converted_as_single_values_are(values: list[float], unit_te
     plain, no_faults = si_numbers(Cells(values), unit_text, own=False)
     typed = [f"{value!r} {unit_text}" if unit_text != "1" else repr(value) for value in values]
     with_units, none_either = si_numbers(Cells(typed), unit_text, own=False)
-    assert no_faults == none_either == []
+    assert no_faults.count == none_either.count == 0
     assert list(plain) == list(with_units) == expected
 
 
@@ -197,6 +197,12 @@ def test_a_wrong_unit_in_the_header_is_refused(header: str, words: str, tmp_path
 
 def test_a_text_has_no_unit(tmp_path: Path) -> None:
     assert "remove the unit" in fault(read_table(csv_of(tmp_path, "law [mm]\nx\n")).column("law").texts)
+
+
+def test_a_text_has_no_control_characters(tmp_path: Path) -> None:
+    path = tmp_path / "t.parquet"
+    pq.write_table(pa.table({"law": ["x", "a\x1b[2J", "y"]}), path)
+    assert "law: row 2: the text holds the control character U+001B" in fault(read_table(path).column("law").texts)
 
 
 def test_a_date_in_a_workbook_is_no_number(tmp_path: Path) -> None:
@@ -294,7 +300,7 @@ def test_a_file_of_another_kind_is_refused(name: str, words: str, tmp_path: Path
 
 @pytest.mark.parametrize("name", ["none.csv", "none.parquet", "none.xlsx"])
 def test_a_file_that_is_not_there_is_told(name: str, tmp_path: Path) -> None:
-    assert "cannot be read: No such file or directory" in fault(lambda: read_table(tmp_path / name))
+    assert "There is no such file. Check the name and the folder." in fault(lambda: read_table(tmp_path / name))
 
 
 def test_a_parquet_column_of_another_kind_is_refused(tmp_path: Path) -> None:

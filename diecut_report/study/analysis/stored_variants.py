@@ -29,6 +29,7 @@ DISPLAY = {
 }  # as designers say it, where a column does not
 FIXED = (VARIANT.name, *(column.name for column in VERDICT))
 STATUSES = ("pass", "warn", "fail", "error")
+PARTS = "part-*.parquet"
 MEMORY = "400MB"  # of DuckDB
 
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-import hashlib
+import os
 from collections.abc import Callable, Iterable, Iterator
 from pathlib import Path
 
@@ -15,7 +15,10 @@ from diecut_report.errors import Problem, UserError
 from diecut_report.study.definition.base_inputs import Input
 from diecut_report.study.definition.form import value_form
 from diecut_report.study.sampling.variables import Values
-from diecut_report.study.tables.reading import TOLD, ReadColumn, TableFile, read_table
+from diecut_report.study.tables.cells import Faults
+from diecut_report.study.tables.reading import ReadColumn, TableFile, read_table
+
+DIFFERENT = 100  # wrong texts of a column after which no further ones are judged
 
 
 class TableReader:
@@ -36,11 +39,11 @@ class TableReader:
     def _opened(self, name: str, key: KeyPath) -> TableFile | None:
         path = self.find(name)
         try:
-            if not path.exists():
+            if not os.path.exists(path):  # false also for a name that can be none
                 words = f"there is no file {path}. The table is sought from the study's folder; check its name."
                 raise UserError(self.place.problem(key, words))
             found = read_table(path)
-            self.hashes[name] = hashlib.sha256(path.read_bytes()).hexdigest()
+            self.hashes[name] = found.sha256
         except UserError as error:
             self.problems += error.problems
             return None
@@ -73,16 +76,22 @@ class TableReader:
 
     def _wrong_texts(self, asked: Input, column: ReadColumn) -> Iterator[Problem]:
         form, texts = value_form(asked), column.texts()
-        faults = {text: validate(form, {"value": text}, self.place)[1] for text in dict.fromkeys(texts)}
-        wrong = [(place, faults[text][0].message) for place, text in enumerate(texts) if faults[text]]
-        return _told(column, wrong)
+        wrong: dict[str, str] = {}
+        for text in dict.fromkeys(texts):
+            if found := validate(form, {"value": text}, self.place)[1]:
+                wrong[text] = found[0].message
+            if len(wrong) > DIFFERENT:
+                words = f"more than {DIFFERENT} different texts are none that {asked.path} takes: {wrong[text]}"
+                return iter([column.problem(words, column.cells.row(texts.index(text)))])
+        places = (place for place, text in enumerate(texts) if text in wrong)
+        return column.faulty(Faults.of(places, lambda place: wrong[texts[place]]))
 
 
 def _outside(meta: Quantity, column: ReadColumn, values: Iterable[float]) -> Iterator[Problem]:
     """Cells that the input's bounds refuse, with the words that a config has for them."""
     numbers = np.asarray(values)
     places = np.flatnonzero(~meta.holds(numbers))
-    return _told(column, [(int(place), _refusal(meta, float(numbers[place]))) for place in places])
+    return column.faulty(Faults.of(places, lambda place: _refusal(meta, float(numbers[place]))))
 
 
 def _refusal(meta: Quantity, value: float) -> str:
@@ -91,11 +100,3 @@ def _refusal(meta: Quantity, value: float) -> str:
     except ValueError as fault:
         return str(fault)
     raise AssertionError(f"{value} is refused in a column, but not alone")
-
-
-def _told(column: ReadColumn, faults: list[tuple[int, str]]) -> Iterator[Problem]:
-    for place, message in faults[:TOLD]:
-        yield column.problem(message, column.cells.row(place))
-    if len(faults) > TOLD:
-        more = f"{len(faults) - TOLD} more cells of this column are wrong"
-        yield column.problem(more, column.cells.row(faults[TOLD][0]))

@@ -19,6 +19,6 @@ def dask_cluster(address: str, warm: Warm) -> Engine:
     except ModuleNotFoundError as error:
         if error.name not in ("dask", "distributed"):
             raise
-        words = "Dask is not installed. Install it with: pip install 'diecut-report[cluster]'"
+        words = "Dask is not installed. Install it with: pip install --require-hashes -r requirements-cluster.lock"
         raise UserError(Problem(words)) from error
     return Dask(address, warm)

@@ -3,11 +3,13 @@
 from __future__ import annotations
 
 import math
+import os
 from collections.abc import Callable, Iterable, Iterator
 from contextlib import contextmanager, suppress
 from itertools import chain, islice
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
+from zipfile import ZIP_DEFLATED, ZipFile, ZipInfo
 
 from diecut_report.errors import Problem, UserError, nearest
 from diecut_report.files import replaced, room
@@ -71,6 +73,7 @@ def _write_csv(store: Store, temporary: Path, path: Path) -> None:
 def _write_xlsx(store: Store, temporary: Path, path: Path) -> None:
     """A workbook; as many sheets as the rows need, each with its heads, which stay in view."""
     from openpyxl import Workbook
+    from openpyxl.writer.excel import ExcelWriter
 
     names = heads(store)
     if len(names) > SHEET_COLUMNS:
@@ -81,7 +84,31 @@ def _write_xlsx(store: Store, temporary: Path, path: Path) -> None:
     with room(store.directory), _closed(book):  # it keeps each sheet in a temporary file
         for sheet in range(_sheets(store)):
             _fill(book.create_sheet(f"{NAME} {sheet + 1}"), list(names.values()), islice(rows, SHEET_ROWS - 1))
-        book.save(temporary)
+        ExcelWriter(book, _Archive(temporary, "w", ZIP_DEFLATED, strict_timestamps=False)).save()
+
+
+class _Archive(ZipFile):
+    """An archive of which no member bears the time: one before 1980 cannot be written, and a clock may be wrong."""
+
+    def writestr(
+        self,
+        zinfo_or_arcname: str | ZipInfo,
+        data: Any,
+        compress_type: int | None = None,
+        compresslevel: int | None = None,
+    ) -> None:
+        """Write a member, dated as early as can be."""
+        member = ZipInfo(zinfo_or_arcname) if isinstance(zinfo_or_arcname, str) else zinfo_or_arcname
+        if member is not zinfo_or_arcname:
+            member.compress_type, member.external_attr = self.compression, 0o600 << 16
+        super().writestr(member, data, compress_type, compresslevel)
+
+    def write(
+        self, filename: Any, arcname: Any = None, compress_type: int | None = None, compresslevel: int | None = None
+    ) -> None:
+        """Write a file as a member, dated as early as can be."""
+        os.utime(filename, (0, 0))
+        super().write(filename, arcname, compress_type, compresslevel)
 
 
 @contextmanager

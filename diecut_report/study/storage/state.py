@@ -16,6 +16,7 @@ from filelock import FileLock, Timeout
 
 from diecut_report.errors import Problem, UserError
 from diecut_report.files import in_words, write
+from diecut_report.given_files import content, refuse_unreadable_name
 from diecut_report.study.storage.description import (
     Data,
     Description,
@@ -28,6 +29,7 @@ from diecut_report.study.storage.description import (
 from diecut_report.study.storage.state_form import MEND, check_form
 
 STATE, STUDY, BASE, TABLES = "study.json", "study.yaml", "base.yaml", "tables"
+MAX_STATE = 100_000_000  # bytes of study.json; ten thousand columns take some two million
 LOCK, HOLDER = ".lock", ".lock.json"
 SEAL = "seal"
 
@@ -39,14 +41,17 @@ def read_state(folder: Path, *, sealed: bool = True) -> Data:
     anew what follows from the study.
     """
     path = folder / STATE
-    try:
-        found = json.loads(path.read_text("utf-8"), parse_constant=_no_number)
-    except FileNotFoundError:
+    refuse_unreadable_name(folder)
+    if not os.path.lexists(path):
         words = "There are no results of a study here: study.json is missing. Give a folder that batch wrote, or begin one with -o."
-        raise UserError(Problem(words, str(folder))) from None
+        raise UserError(Problem(words, str(folder)))
+    try:
+        found = json.loads(
+            content(path, MAX_STATE, "the file that batch wrote").decode("utf-8"), parse_constant=_no_number
+        )
     except RecursionError:
         raise UserError(Problem(f"The state of the study is nested too deep. {MEND}", str(path))) from None
-    except (OSError, ValueError) as error:
+    except ValueError as error:
         raise UserError(Problem(f"The state of the study cannot be read: {error}. {MEND}", str(path))) from error
     check_form(found, path, is_final=sealed)
     if sealed and not is_sealed(found):

@@ -23,6 +23,7 @@ from filelock import FileLock
 
 from diecut_report.errors import Problem, UserError
 from diecut_report.files import in_words, remove_stale, write
+from diecut_report.given_files import refuse_special, refuse_unreadable_name
 from diecut_report.study.storage import state
 from diecut_report.study.storage.description import VARIANT, Description, as_data
 from diecut_report.study.storage.part_checks import Judged, PartChecks
@@ -30,6 +31,9 @@ from diecut_report.study.storage.part_files import MISSING, Values, part_content
 from diecut_report.study.storage.state_form import part_name
 
 PARTS = "variants"
+FOLDERS = (PARTS, state.TABLES, "reports")
+OWN_FOLDER = "Results are written into folders of their own; put a folder in its place."
+NO_PART = "It is not a part of the results. Move it to another folder."
 NAME = re.compile(r"part-(\d+)\.parquet")
 BATCH = 4096  # rows read at a time
 TOLD = 5  # parts that are told to be wrong, each by itself
@@ -47,6 +51,7 @@ class Store:
     @classmethod
     def create(cls, directory: Path, description: Description) -> Store:
         """Begin the results of a study in a folder that is new or empty."""
+        refuse_unreadable_name(directory)
         with in_words(directory):
             directory.mkdir(parents=True, exist_ok=True)
             if not (directory / state.STATE).exists():
@@ -74,6 +79,7 @@ class Store:
     def lock(self) -> Iterator[None]:
         """Keep other runs out of the folder; what a killed run left half-written is removed."""
         with state.held(self._lock, self.directory):
+            refuse_special((self.directory / name for name in FOLDERS), OWN_FOLDER, folders=True)
             remove_stale(self.directory)
             yield
 
@@ -134,8 +140,9 @@ class Store:
         found = sorted(self._folder.glob("part-*.parquet"))
         for path in found:
             match = NAME.fullmatch(path.name)
-            if not match or path != self.part(int(match[1])) or not path.is_file():
+            if not match or path != self.part(int(match[1])):
                 raise UserError(Problem("This is not a part of the results. Move it to another folder.", str(path)))
+        refuse_special(found, NO_PART)
         return {int(path.stem.partition("-")[2]): path for path in found}
 
     def _judged(self) -> dict[int, Judged]:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import base64
 import json
 import math
+import re
 from functools import partial
 from typing import Any
 
@@ -45,10 +46,18 @@ def _filled(summary: Summary, kind: str) -> str:
         ]
     )
     return html._environment().get_template("summary.html.j2").render(
-        s=summary, t=Catalogue("en"), kind=kind, style=Markup(style), version=__version__, figure=partial(_figure, summary, kind),
+        s=summary, t=Catalogue("en"), kind=kind, policy=html.policy(_script()),
+        style=Markup(style), version=__version__, figure=partial(_figure, summary, kind),
         points=Markup(_points(summary)) if kind == "screen" else "", named=named, titled=titled, display=display, counted=counted,
         percent=percent, utilised=utilised, number=number, pretty=pretty,
     )  # fmt: skip
+
+
+def _script() -> str:
+    """The page's own script, to the letter: it is no template, and all that it tells of a study is data beside it."""
+    found = re.search(r"<script>(.*?)</script>", html._read("summary_scatter.html.j2"), re.DOTALL)
+    assert found is not None
+    return found[1]
 
 
 def _figure(summary: Summary, kind: str, key: str | Any) -> Markup:
@@ -76,6 +85,7 @@ def _points(summary: Summary) -> str:
     )
     data = {
         "upwards": upwards,
+        "total": summary.total,
         "variants": sample.variants.tolist(),
         "status": sample.status.tolist(),
         "columns": columns,

@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 from bisect import bisect_right
-from dataclasses import dataclass
+from collections.abc import Callable, Iterable, Iterator
+from dataclasses import dataclass, field
 from typing import Any
 
 import numpy as np
@@ -18,8 +19,31 @@ from diecut_report.quantities.units import (
 
 EMPTY = "the cell is empty (or a formula without a stored value); every row needs a value"
 
-Faults = list[tuple[int, str]]
-"""Places of cells, counted from 0, and what is wrong with them."""
+TOLD = 5  # faulty cells of a column that are told one by one
+KNOWN = 65_536  # different cells that are remembered while a column is read
+SLICE = 65_536  # cells that are Python values at a time
+
+
+@dataclass
+class Faults:
+    """Cells that are wrong: the places, counted from 0, of as many as are told and one more, why, and how many there are."""
+
+    told: list[tuple[int, str]] = field(default_factory=list)
+    count: int = 0
+
+    @classmethod
+    def of(cls, places: Iterable[int], words: Callable[[int], str]) -> Faults:
+        """Of these places; ``words`` says what is wrong with one, and is asked only where that is told."""
+        found = cls()
+        for place in places:
+            found.add(int(place), words)
+        return found
+
+    def add(self, place: int, words: Callable[[int], str]) -> None:
+        """Count one more."""
+        if len(self.told) <= TOLD:
+            self.told.append((place, words(place)))
+        self.count += 1
 
 
 @dataclass(frozen=True, eq=False)
@@ -48,13 +72,18 @@ class Cells:
             return np.array(self.raw, dtype=float) if plain else None
         return _arrow_floats(self.raw)
 
-    def items(self) -> list[Any]:
-        """Return the cells as Python values; None where there is nothing."""
-        return self.raw if isinstance(self.raw, list) else list(self.raw.to_pylist())
+    def items(self) -> Iterator[Any]:
+        """Yield the cells as Python values, some of them at a time; None where there is nothing."""
+        if isinstance(self.raw, list):
+            yield from self.raw
+            return
+        for start in range(0, len(self.raw), SLICE):
+            yield from self.raw.slice(start, SLICE).to_pylist()
 
     def texts(self) -> list[str]:
         """Return the cells as texts without blanks around them, "" where there is nothing; whole numbers without a point."""
-        return [_text(value) for value in self.items()]
+        once: dict[str, str] = {}  # a text that repeats is kept once
+        return [once.setdefault(text, text) for text in map(_text, self.items())]
 
 
 def _arrow_floats(raw: Any) -> Array | None:
@@ -84,7 +113,7 @@ def si_numbers(cells: Cells, unit_text: str, *, own: bool) -> tuple[Array, Fault
     if floats is None:
         return _one_by_one(cells, unit_text, own)
     wrong = np.flatnonzero(~np.isfinite(floats))
-    return _to_si(floats, unit_text), [(int(place), _not_finite(floats[place])) for place in wrong]
+    return _to_si(floats, unit_text), Faults.of(wrong, lambda place: _not_finite(floats[place]))
 
 
 def _to_si(values: Array, unit_text: str) -> Array:
@@ -110,16 +139,22 @@ def _one_by_one(cells: Cells, unit_text: str, own: bool) -> tuple[Array, Faults]
         key = (type(item), item)
         read = known.get(key)
         if read is None:
+            if len(known) == KNOWN:
+                known.clear()
             read = known[key] = _read(item, unit_text)
         if isinstance(read, str):
-            faults.append((place, read))
+            faults.add(place, _said(read))
             continue
         values[place], given = read
         if agreed is None:
             agreed = (given, f"row {cells.row(place)}")
         elif given != agreed[0] and not (own and not given):
-            faults.append((place, _unlike(given, *agreed)))
+            faults.add(place, _said(_unlike(given, *agreed)))
     return values, faults
+
+
+def _said(words: str) -> Callable[[int], str]:
+    return lambda _: words
 
 
 def _unlike(given: str, agreed: str, where: str) -> str:

@@ -3,94 +3,144 @@
 from __future__ import annotations
 
 import csv
-from collections.abc import Callable, Iterable
+import hashlib
+import re
 from pathlib import Path
-from typing import Any
+from typing import Any, BinaryIO, NamedTuple
 
+from diecut_report.given_files import opened
+from diecut_report.study.tables import parquet_files, workbooks
 from diecut_report.study.tables.cells import Cells
+from diecut_report.study.tables.limits import MAX_BYTES, MAX_COLUMNS, UnreadableTable, judge_size
 
 DELIMITERS = ",;\t"
 NO_ROWS = "the table has no rows below its header; give at least one"
+NOT_UTF8 = "is not in UTF-8; save it as “CSV UTF-8”"
+LINE = 1_000_000  # bytes of a row at most
+KEPT = 100  # rows of another length that are told one by one
+CHUNK = 1 << 20
 
 Header = tuple[str, str | None]
 """What heads a column, and the unit that the file stores beside it."""
-Read = tuple[list[Header], list[Cells]]
 
 
-class UnreadableTable(Exception):
-    """Report a file that is not a table, in words, each with the row where it is known."""
+class Read(NamedTuple):
+    """Hold what a file gives: its columns' headers and cells, and the SHA-256 of the very bytes that were read."""
 
-    def __init__(self, faults: str | Iterable[tuple[str, int | None]]) -> None:
-        self.faults = [(faults, None)] if isinstance(faults, str) else list(faults)
-        super().__init__(self.faults)
+    headers: list[Header]
+    cells: list[Cells]
+    sha256: str
 
 
 def read_cells(path: Path, sheet: str | None) -> Read:
-    """Return the headers and the cells of all columns of a file."""
-    readers: dict[str, Callable[[], Read]] = {
-        ".csv": lambda: _csv(path),
-        ".parquet": lambda: _parquet(path),
-        ".xlsx": lambda: _xlsx(path, sheet),
-    }
-    reader = readers.get(path.suffix.lower())
-    if reader is None:
-        raise UnreadableTable(
-            f"the ending {path.suffix or '(none)'} is not known; save the table as {', '.join(readers)}"
-        )
-    if sheet is not None and path.suffix.lower() != ".xlsx":
+    """Return the headers and the cells of all columns of a file.
+
+    UnreadableTable in words for what is not a table or too large a one, UserError for what is no regular file or too large a one.
+    """
+    kind = path.suffix.lower()
+    if kind not in MAX_BYTES:
+        known = ", ".join(MAX_BYTES)
+        raise UnreadableTable(f"the ending {path.suffix or '(none)'} is not known; save the table as {known}")
+    if sheet is not None and kind != ".xlsx":
         raise UnreadableTable("sheet is given, but only a workbook (.xlsx) has sheets; remove it")
-    try:
-        return reader()
-    except OSError as error:
-        raise UnreadableTable(f"cannot be read: {error.strerror or error}") from error
+    with opened(path, MAX_BYTES[kind], f"a table ({kind})") as file:
+        try:
+            digest = hashlib.file_digest(file, "sha256").hexdigest()
+            file.seek(0)
+            return Read(*_read(kind, file, sheet), digest)
+        except OSError as error:
+            raise UnreadableTable(f"cannot be read: {error.strerror or error}") from error
 
 
-# --- CSV -------------------------------------------------------------------------------------------------------------
+def _read(kind: str, file: BinaryIO, sheet: str | None) -> tuple[list[Header], list[Cells]]:
+    if kind == ".xlsx":
+        return workbooks.read(file, sheet)
+    return parquet_files.read(file) if kind == ".parquet" else _csv(file)
 
 
-def _csv(path: Path) -> Read:
+def _csv(file: BinaryIO) -> tuple[list[Header], list[Cells]]:
     import pyarrow
     from pyarrow import csv as arrow_csv
 
-    names, delimiter = _csv_header(path)
-    faults: list[tuple[str, int | None]] = []
-
-    def invalid(row: Any) -> str:
-        told = f"row {row.number} has {row.actual_columns} cells, the header {row.expected_columns}; fill up or quote"
-        faults.append((told, row.number))
-        return "skip"
-
+    names, delimiter = _csv_header(file)
+    judge_size(".csv", _lines(file), len(names))
+    other = _OtherRows()
     try:
         table = arrow_csv.read_csv(
-            path,
+            file,
             arrow_csv.ReadOptions(use_threads=False, skip_rows=1, column_names=[str(i) for i in range(len(names))]),
-            arrow_csv.ParseOptions(delimiter=delimiter, ignore_empty_lines=False, invalid_row_handler=invalid),
+            arrow_csv.ParseOptions(delimiter=delimiter, ignore_empty_lines=False, invalid_row_handler=other),
             arrow_csv.ConvertOptions(column_types={str(i): pyarrow.string() for i in range(len(names))}),
         )
-    except pyarrow.ArrowInvalid as error:
+    except pyarrow.ArrowMemoryError as error:
+        raise UnreadableTable("needs more memory than there is. Give fewer rows or columns") from error
+    except pyarrow.ArrowException as error:
         raise UnreadableTable(_csv_fault(str(error))) from error
-    if faults:
-        raise UnreadableTable(faults)
+    other.refuse()
     kept, blank = _without_blank_rows(table)
     return [(name, None) for name in names], [Cells(column, 2, blank) for column in kept.columns]
 
 
-def _csv_header(path: Path) -> tuple[list[str], str]:
+class _OtherRows:
+    """Gathers the rows that have not as many cells as the header, as many of them as are told one by one."""
+
+    def __init__(self) -> None:
+        self.faults: list[tuple[str, int | None]] = []
+        self.more = 0
+
+    def __call__(self, row: Any) -> str:
+        """Note a row; Arrow leaves it out."""
+        words = f"row {row.number} has {row.actual_columns} cells, the header {row.expected_columns}; fill up or quote"
+        if len(self.faults) < KEPT:
+            self.faults.append((words, row.number))
+        else:
+            self.more += 1
+        return "skip"
+
+    def refuse(self) -> None:
+        """UnreadableTable where there are any."""
+        if self.faults:
+            told = [(f"{self.more} more rows have not as many cells as the header", None)] if self.more else []
+            raise UnreadableTable([*self.faults, *told])
+
+
+def _csv_header(file: BinaryIO) -> tuple[list[str], str]:
     """The cells of the first row, and what separates them: the comma, or what the first row has more of."""
+    line = re.split(rb"[\r\n]", file.readline(LINE), maxsplit=1)[0]
+    if len(line) == LINE:
+        raise UnreadableTable([("row 1 is too long; it must hold the names of the columns", 1)])
     try:
-        with path.open(encoding="utf-8-sig", newline="") as file:
-            first = file.readline().rstrip("\r\n")
+        first = line.decode("utf-8-sig")
     except UnicodeDecodeError as error:
-        raise UnreadableTable("is not in UTF-8; save it as “CSV UTF-8”") from error
+        raise UnreadableTable(NOT_UTF8) from error
     if not first.strip():
         raise UnreadableTable([("row 1 is empty; it must hold the names of the columns", 1)])
     delimiter = max(DELIMITERS, key=first.count)
-    return next(csv.reader([first], delimiter=delimiter)), delimiter
+    if first.count(delimiter) >= 2 * MAX_COLUMNS:  # before it is parted; some may stand in quotes
+        judge_size(".csv", 0, first.count(delimiter) + 1)
+    try:
+        return next(csv.reader([first], delimiter=delimiter)), delimiter
+    except csv.Error as error:
+        raise UnreadableTable([(f"row 1 cannot be read: {error}; it must hold the names of the columns", 1)]) from error
+
+
+def _lines(file: BinaryIO) -> int:
+    """How many rows there may be; the file stands at its beginning again."""
+    file.seek(0)
+    feeds = returns = 0
+    while chunk := file.read(CHUNK):
+        feeds, returns = feeds + chunk.count(b"\n"), returns + chunk.count(b"\r")
+    file.seek(0)
+    return max(feeds, returns)
 
 
 def _csv_fault(message: str) -> str:
     if "UTF8" in message:
-        return "is not in UTF-8; save it as “CSV UTF-8”"
+        return NOT_UTF8
+    if "straddling" in message or "out of sync" in message:
+        return (
+            "has a row that ends in another line, or is longer than 1 MB; look for a quotation mark that is not closed"
+        )
     return NO_ROWS if "Empty" in message or "Could not skip" in message else f"is not a CSV file: {message}"
 
 
@@ -104,76 +154,3 @@ def _without_blank_rows(table: Any) -> tuple[Any, tuple[int, ...]]:
     if table.num_columns == 1:
         blank[: np.max(np.flatnonzero(~blank), initial=-1) + 1] = False
     return table.filter(~blank), tuple((np.flatnonzero(blank) + 2).tolist())
-
-
-# --- Parquet ---------------------------------------------------------------------------------------------------------
-
-
-def _parquet(path: Path) -> Read:
-    import pyarrow
-    from pyarrow import parquet
-
-    try:
-        with path.open("rb") as file:
-            table = parquet.ParquetFile(file).read()
-    except pyarrow.ArrowException as error:
-        raise UnreadableTable(f"is not a Parquet file, or a damaged one: {error}") from error
-    wrong = [field for field in table.schema if not _is_plain(field.type)]
-    if wrong:
-        words = "column {0.name} holds {0.type}; numbers or texts are needed"
-        raise UnreadableTable((words.format(field), None) for field in wrong)
-    units = [((field.metadata or {}).get(b"unit") or b"").decode() or None for field in table.schema]
-    columns = (column.combine_chunks() for column in table.columns)
-    return list(zip(table.column_names, units, strict=True)), [Cells(_decoded(column), 1) for column in columns]
-
-
-def _is_plain(kind: Any) -> bool:
-    from pyarrow import types
-
-    kind = kind.value_type if types.is_dictionary(kind) else kind
-    tests = (types.is_integer, types.is_floating, types.is_decimal, types.is_string, types.is_large_string)
-    return any(test(kind) for test in tests)
-
-
-def _decoded(column: Any) -> Any:
-    from pyarrow import types
-
-    return column.dictionary_decode() if types.is_dictionary(column.type) else column
-
-
-# --- XLSX ------------------------------------------------------------------------------------------------------------
-
-
-def _xlsx(path: Path, sheet: str | None) -> Read:
-    from zipfile import BadZipFile
-
-    import openpyxl
-
-    try:
-        book = openpyxl.load_workbook(path, read_only=True, data_only=True)
-    except (BadZipFile, KeyError, ValueError) as error:
-        raise UnreadableTable("is not an XLSX workbook, or a damaged one; save it again as .xlsx") from error
-    try:
-        if sheet is not None and sheet not in book.sheetnames:
-            raise UnreadableTable(f"has no sheet “{sheet}”; its sheets: {', '.join(book.sheetnames)}")
-        worksheet = book[sheet] if sheet is not None else book.worksheets[0]
-        worksheet.reset_dimensions()  # the stored size may be wrong
-        rows = [list(row) for row in worksheet.iter_rows(values_only=True)]
-    finally:
-        book.close()
-    return _from_rows(rows)
-
-
-def _from_rows(rows: list[list[Any]]) -> Read:
-    while rows and all(value is None for value in rows[-1]):
-        rows.pop()
-    if not rows or all(value is None for value in rows[0]):
-        raise UnreadableTable([("row 1 is empty; it must hold the names of the columns", 1)])
-    width = max(max((i + 1 for i, value in enumerate(row) if value is not None), default=0) for row in rows)
-    full = [(row + [None] * width)[:width] for row in rows]
-    headers: list[Header] = [("" if value is None else str(value), None) for value in full[0]]
-    blank = tuple(place for place, row in enumerate(full, 1) if width > 1 and all(value is None for value in row))
-    left_out = set(blank)
-    kept = [row for place, row in enumerate(full, 1) if place not in left_out]
-    columns = list(zip(*kept[1:], strict=True)) or [()] * width
-    return headers, [Cells(list(column), 2, blank) for column in columns]

@@ -8,17 +8,18 @@ Rows count as a spreadsheet shows them, the header being row 1; in Parquet from 
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterator
 from dataclasses import dataclass
 from pathlib import Path
 
+from diecut_report.config.hidden_letters import hidden
 from diecut_report.errors import Problem, UserError, nearest
 from diecut_report.expressions import Array
 from diecut_report.quantities.units import UnitError, unit
-from diecut_report.study.tables.cells import EMPTY, Cells, si_numbers
-from diecut_report.study.tables.file_formats import NO_ROWS, UnreadableTable, read_cells
+from diecut_report.study.tables.cells import EMPTY, TOLD, Cells, Faults, si_numbers
+from diecut_report.study.tables.file_formats import NO_ROWS, read_cells
+from diecut_report.study.tables.limits import UnreadableTable
 
-TOLD = 5  # faulty cells of a column that are reported one by one
 _HEADER = re.compile(r"\s*(.*?)\s*(?:\[\s*([^\[\]]*?)\s*\])?\s*", re.DOTALL)
 
 
@@ -52,7 +53,10 @@ class ReadColumn:
             words = f"the header has the unit [{self.unit}], but {self.name} is a text; remove the unit"
             raise UserError(self.problem(words))
         found = self.cells.texts()
-        self._refuse((place, EMPTY) for place, text in enumerate(found) if not text)
+        self._refuse(Faults.of((place for place, text in enumerate(found) if not text), lambda _: EMPTY))
+        held = {text: letter for text in set(found) if (letter := hidden(text))}
+        places = (place for place, text in enumerate(found) if text in held)
+        self._refuse(Faults.of(places, lambda place: f"the text holds the control character {held[found[place]]}"))
         return found
 
     def _unit(self, display: str) -> str:
@@ -67,22 +71,27 @@ class ReadColumn:
             raise UserError(self.problem(words))
         return self.unit
 
-    def _refuse(self, faults: Iterable[tuple[int, str]]) -> None:
-        found = list(faults)
-        if found:
-            told = [self.problem(message, self.cells.row(place)) for place, message in found[:TOLD]]
-            more = f"{len(found) - TOLD} more cells of this column are wrong"
-            last = [self.problem(more, self.cells.row(found[TOLD][0]))] if len(found) > TOLD else []
-            raise UserError(told + last)
+    def faulty(self, faults: Faults) -> Iterator[Problem]:
+        """The cells that are wrong, the first ones in words."""
+        for place, message in faults.told[:TOLD]:
+            yield self.problem(message, self.cells.row(place))
+        if faults.count > TOLD:
+            more = f"{faults.count - TOLD} more cells of this column are wrong"
+            yield self.problem(more, self.cells.row(faults.told[TOLD][0]))
+
+    def _refuse(self, faults: Faults) -> None:
+        if faults.count:
+            raise UserError(self.faulty(faults))
 
 
 @dataclass(frozen=True, eq=False)
 class TableFile:
-    """Hold a table that was read: its columns by their names, in the file's order, all with `count` cells."""
+    """Hold a table that was read: its columns by their names, in the file's order, all with `count` cells, and its SHA-256."""
 
     file: str
     columns: dict[str, ReadColumn]
     count: int
+    sha256: str
 
     def column(self, name: str) -> ReadColumn:
         """Return a column by its name; UserError where there is none."""
@@ -103,7 +112,7 @@ def read_table(path: Path, sheet: str | None = None) -> TableFile:
     Raises UserError for a file that cannot be read, columns without or with equal names, and a table without rows.
     """
     try:
-        headers, cells = read_cells(path, sheet)
+        headers, cells, sha256 = read_cells(path, sheet)
     except UnreadableTable as error:
         raise UserError([Problem(message, str(path), row) for message, row in error.faults]) from None
     numbered = enumerate(zip(headers, cells, strict=True), 1)
@@ -114,7 +123,7 @@ def read_table(path: Path, sheet: str | None = None) -> TableFile:
         problems.append(Problem(NO_ROWS, str(path)))
     if problems:
         raise UserError(problems)
-    return TableFile(str(path), {column.name: column for column in columns}, count)
+    return TableFile(str(path), {column.name: column for column in columns}, count, sha256)
 
 
 def _column(file: str, number: int, header: tuple[str, str | None], cells: Cells) -> ReadColumn:

@@ -1,0 +1,20 @@
+"""Letters that no text of a user may hold: they act on a terminal, break a document, or make a text look like another one."""
+
+from __future__ import annotations
+
+import re
+
+_BIDI = "\u202a-\u202e\u2066-\u2069"  # they turn the letters after them around
+
+CONTROL = re.compile(f"[^\t\n\r\x20-\x7e\x85\xa0-\ud7ff\ue000-\ufffd\U00010000-\U0010ffff]|[{_BIDI}]")
+"""What a file as a whole may not hold."""
+HIDDEN = re.compile(f"{CONTROL.pattern}|[\x85\u2028\u2029]")
+"""What a decoded text may not hold: an escape may bring NEL, and separators that end a line for some readers and not for others."""
+HIDDEN_IN_KEY = re.compile(f"{HIDDEN.pattern}|[\t\n\r]")
+"""What a decoded key may not hold."""
+
+
+def hidden(text: str) -> str:
+    """Return the name of a letter that the text of a value may not hold, such as U+001B; "" where there is none."""
+    found = HIDDEN.search(text)
+    return f"U+{ord(found[0]):04X}" if found else ""

@@ -1,0 +1,124 @@
+"""Links, pipes and devices where files are to be written: what they point to stays as it is."""
+
+from __future__ import annotations
+
+import os
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+from diecut_report.cli.main import main
+from diecut_report.files import remove_stale, write, write_all
+from tests.study.studies import BASE, STUDY
+from tests.configs import GOOD, LEVER, saved
+
+SECRET = b"not to be touched"
+
+
+@pytest.fixture
+def secret(tmp_path: Path) -> Path:
+    """A file of somebody else."""
+    path = tmp_path / "elsewhere" / "secret"
+    path.parent.mkdir()
+    path.write_bytes(SECRET)
+    return path
+
+
+def calc(config: Path, target: object) -> int:
+    return main(["calc", str(config), "-o", str(target), "--plugins", str(GOOD), "--quiet"])
+
+
+def test_calc_replaces_a_link_and_not_its_target(tmp_path: Path, secret: Path) -> None:
+    link = tmp_path / "link.json"
+    link.symlink_to(secret)
+    assert calc(saved(tmp_path, LEVER), link) == 0
+    assert secret.read_bytes() == SECRET and link.is_file() and not link.is_symlink()
+
+
+def test_a_link_to_nothing_is_replaced(tmp_path: Path) -> None:
+    link = tmp_path / "link.json"
+    link.symlink_to(tmp_path / "none")
+    assert calc(saved(tmp_path, LEVER), link) == 0
+    assert not link.is_symlink() and not (tmp_path / "none").exists()
+
+
+def test_a_loop_of_links_is_replaced(tmp_path: Path) -> None:
+    link = tmp_path / "link.json"
+    link.symlink_to(link)
+    assert calc(saved(tmp_path, LEVER), link) == 0 and link.is_file()
+
+
+def test_a_second_name_of_a_file_keeps_the_content(tmp_path: Path, secret: Path) -> None:
+    twin = tmp_path / "twin.json"
+    twin.hardlink_to(secret)
+    assert calc(saved(tmp_path, LEVER), twin) == 0
+    assert secret.read_bytes() == SECRET
+
+
+@pytest.mark.parametrize("kind", ["link", "pipe", "device"])
+def test_files_of_a_folder_are_replaced_whatever_stands_there(tmp_path: Path, secret: Path, kind: str) -> None:
+    place = tmp_path / "summary.html"
+    if kind == "pipe":
+        os.mkfifo(place)
+    else:
+        place.symlink_to(secret if kind == "link" else "/dev/full")
+    write_all({place: b"new"}, keep=tmp_path / "study.json")
+    assert place.read_bytes() == b"new" and not place.is_symlink() and secret.read_bytes() == SECRET
+    place.unlink()
+    place.symlink_to(secret)
+    write(place, b"newer")
+    assert place.read_bytes() == b"newer" and secret.read_bytes() == SECRET
+
+
+def test_a_link_to_a_folder_is_not_taken_for_a_file(
+    tmp_path: Path, secret: Path, capfd: pytest.CaptureFixture[str]
+) -> None:
+    link = tmp_path / "link.json"
+    link.symlink_to(secret.parent)
+    assert calc(saved(tmp_path, LEVER), link) == 2
+    assert "a folder has this name" in capfd.readouterr().err and link.is_symlink()
+
+
+@pytest.mark.parametrize("name", ["/dev/stdout", "/dev/fd/1", "/proc/self/fd/1"])
+@pytest.mark.parametrize("to_file", [True, False])
+def test_the_names_of_standard_output_are_written_into(tmp_path: Path, name: str, to_file: bool) -> None:
+    config, out = saved(tmp_path, LEVER), tmp_path / "out"
+    command = [sys.executable, "-m", "diecut_report", "calc", str(config), "-o", name, "--plugins", str(GOOD)]
+    if to_file:
+        with out.open("wb") as file:
+            assert subprocess.run(command, stdout=file).returncode == 0
+        told = out.read_bytes()
+    else:
+        done = subprocess.run(command, stdout=subprocess.PIPE)
+        assert done.returncode == 0
+        told = done.stdout
+    assert told.startswith(b"{\n") and told.endswith(b"}\n")
+    assert Path("/dev/stdout").is_symlink() and not Path(name).name.endswith(".part")
+
+
+def test_a_link_among_what_a_killed_run_left_is_removed_alone(tmp_path: Path, secret: Path) -> None:
+    folder = tmp_path / "study"
+    folder.mkdir()
+    (folder / ".a.part").symlink_to(secret.parent)
+    (folder / ".b.part").symlink_to(secret)
+    remove_stale(folder)
+    assert list(folder.iterdir()) == [] and secret.read_bytes() == SECRET
+
+
+@pytest.mark.parametrize("name", ["variants", "reports", "tables"])
+def test_a_folder_of_a_study_that_is_a_link_is_refused(
+    tmp_path: Path, secret: Path, capfd: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch, name: str
+) -> None:
+    monkeypatch.setattr("diecut_report.study.command.summarise", lambda _: None)
+    folder = tmp_path / "out"
+    saved(tmp_path, BASE)
+    study = saved(tmp_path, STUDY, "study.yaml")
+    assert main(["batch", str(study), "-o", str(folder), "--jobs", "1", "--plugins", str(GOOD), "--quiet"]) == 0
+    if (folder / name).exists():
+        (folder / name).rename(tmp_path / "moved")
+    (folder / name).symlink_to(secret.parent)
+    assert main(["batch", "--resume", str(folder), "--plugins", str(GOOD), "--quiet"]) == 2
+    assert f"{folder / name}: This is a link." in capfd.readouterr().err
+    assert sorted(secret.parent.iterdir()) == [secret]

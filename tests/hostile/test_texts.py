@@ -1,0 +1,35 @@
+"""Control characters in texts that are no YAML: a stored study brings its own."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+
+import pytest
+
+from diecut_report.cli.main import main
+from diecut_report.config.yaml_tree import parse
+from diecut_report.config.yaml_values import with_values
+from diecut_report.errors import UserError
+from tests.study.studies import BASE, STUDY
+from tests.configs import GOOD, saved
+
+
+@pytest.mark.parametrize("text", ["a\0b", "a\x1b]0;t\a", "a\u202eb", "a\u2028b", "a\ufffe"])
+def test_a_value_that_is_put_into_a_tree_is_judged_as_one_that_is_read(text: str) -> None:
+    with pytest.raises(UserError, match=r"press.yaml: project.title: The value .* holds the control character U\+"):
+        with_values(parse("project: {title: a}", "press.yaml"), {("project", "title"): text}, "name", "heading")
+
+
+def test_a_stored_study_brings_no_control_characters_into_a_report(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capfd: pytest.CaptureFixture[str]
+) -> None:
+    monkeypatch.setattr("diecut_report.study.command.summarise", lambda _: None)
+    saved(tmp_path, BASE)
+    out = tmp_path / "out"
+    command = ["batch", saved(tmp_path, STUDY, "study.yaml"), "-o", out, "--jobs", 1, "--plugins", GOOD, "--quiet"]
+    assert main([*map(str, command)]) == 0
+    state = json.loads((out / "study.json").read_text("utf-8"))
+    (out / "study.json").write_text(json.dumps(state | {"study": "\x1b[2J\n\u202ex.yaml"}), "utf-8")
+    assert main(["calc", f"{out}#1", "--plugins", str(GOOD)]) == 2
+    assert "holds the control character U+001B" in capfd.readouterr().err
