@@ -20,6 +20,7 @@ from diecut_report.plugins.cam_gear_transport import MECHANISM as CAM
 from diecut_report.plugins.geneva_transport import MECHANISM as GENEVA
 from diecut_report.results.comparisons import compared, found
 from tests.configs import HEAD, saved
+from tests.examples import examples
 from tests.machines import inputs, number
 
 STEPPER: dict[str, Any] = {"dwell_angle": "160 deg", "center_distance": "300 mm", "cycles_per_hour": 6000}
@@ -142,6 +143,7 @@ def test_no_other_sweep_asks_for_less_acceleration_at_the_geneva_drives_dwell(la
     assert tried.min() * relative >= together["best_acceleration"] * (1 - 1e-9)
 
 
+@examples(40)
 @given(slots=st.integers(3, 18), held=st.floats(20, 120))
 def test_the_best_sweep_is_below_the_limit_for_any_number_of_slots(slots: int, held: float) -> None:
     together = outputs(
