@@ -62,12 +62,6 @@ def test_nor_as_a_module_where_python_itself_leaves_the_choice(folder: Path) -> 
     assert ran(folder, [sys.executable, "-m", "diecut_report", "calc", "press.yaml", "-o", "out.json"]) == ""
 
 
-def test_nor_do_the_processes_of_a_study(folder: Path) -> None:
-    script = shutil.which("diecut-report", path=str(Path(sys.executable).parent))
-    assert script is not None
-    assert ran(folder, [script, "batch", "study.yaml", "-o", "out", "--jobs", "2", "--quiet"]) == ""
-
-
 def test_new_processes_are_told_to_leave_the_current_folder_alone(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.delenv("PYTHONSAFEPATH", raising=False)
     Pool(1, None)  # type: ignore[arg-type]  # nothing is begun
@@ -101,7 +95,9 @@ def test_a_report_is_the_same_in_all_surroundings(folder: Path, notebook: dict[s
         assert (folder / f"noted/press.{ending}").read_bytes() == (folder / f"plain/press.{ending}").read_bytes()
 
 
-def test_nor_does_the_summary_of_a_study_obey_them(folder: Path, notebook: dict[str, str]) -> None:
+def test_nor_do_the_processes_and_the_summary_of_a_study_obey_them(folder: Path, notebook: dict[str, str]) -> None:
     saved(folder, "text.usetex: True\n", "matplotlibrc")
-    assert ran(folder, [*PROGRAM, "batch", "study.yaml", "-o", "out", "--jobs", "1", "--quiet"], **notebook) == ""
+    script = shutil.which("diecut-report", path=str(Path(sys.executable).parent))
+    assert script is not None
+    assert ran(folder, [script, "batch", "study.yaml", "-o", "out", "--jobs", "2", "--quiet"], **notebook) == ""
     assert (folder / "out/summary.pdf").stat().st_size > 10_000

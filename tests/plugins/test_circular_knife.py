@@ -176,10 +176,10 @@ def entering(calc: Calculation) -> Array:
     depth, face, stress = sizes(calc)
     front, found = number(calc, "front_distance"), []
     levels = np.linspace(face, depth, 20_001)
-    for angle in np.linspace(number(calc, "angle_entry"), number(calc, "angle_start"), 31):
-        x = crossing(calc, angle, levels)
+    for angle in np.linspace(number(calc, "angle_entry"), number(calc, "angle_start"), 16):
+        x = crossing(calc, angle, levels, 40_001)
         within = np.maximum(x, front)
-        rate = (crossing(calc, angle + 1e-6, levels) - crossing(calc, angle - 1e-6, levels)) / 2e-6
+        rate = (crossing(calc, angle + 1e-6, levels, 40_001) - crossing(calc, angle - 1e-6, levels, 40_001)) / 2e-6
         left = np.sum((depth - (levels[1:] + levels[:-1]) / 2) * -np.diff(within))
         torque = np.trapezoid(np.where(x > front, (depth - levels) * rate, 0.0), levels)
         found.append((np.trapezoid(within - front, levels), left, torque))

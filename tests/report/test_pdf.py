@@ -110,14 +110,14 @@ def test_a_picture_from_outside_stops_the_rendering(results: dict[str, Any], mon
 
 @pytest.mark.parametrize("ending", few(["html", "pdf"], keep=lambda ending: ending == "html"))
 def test_equal_results_give_equal_bytes_in_another_process(
-    results: dict[str, Any], html: str, pdf: Path, tmp_path: Path, ending: str
+    results: dict[str, Any], html: str, request: pytest.FixtureRequest, tmp_path: Path, ending: str
 ) -> None:
     """Each kind of item and figure as HTML; tests/hostile/test_surroundings.py has the PDF of a small report too."""
     file = tmp_path / "results.json"
     file.write_text(json.dumps(results), encoding="utf-8")
     command, environment = [sys.executable, "-c", AGAIN, str(file), ending], os.environ | {"PYTHONHASHSEED": "4711"}
     there = subprocess.run(command, env=environment, capture_output=True, text=True, check=True).stdout
-    here = [html.encode(), *([pdf.read_bytes()] if ending == "pdf" else [])]
+    here = [html.encode(), *([request.getfixturevalue("pdf").read_bytes()] if ending == "pdf" else [])]
     assert there.split() == [sha256(content).hexdigest() for content in here]
 
 
