@@ -56,9 +56,10 @@ def test_calc_prints_the_results_alone_on_standard_output(tmp_path: Path, capfd:
 
 
 def test_calc_to_a_file_tells_the_failing_checks(tmp_path: Path, capfd: Capture) -> None:
-    assert run("calc", str(EXAMPLE), "-o", str(tmp_path / "a.json")) == 1
-    assert "2 of" in capfd.readouterr().err
-    assert run("calc", str(EXAMPLE), "-o", str(tmp_path / "a.json"), "--quiet") == 1
+    config = saved(tmp_path, FAILS)
+    assert run("calc", config, "-o", tmp_path / "a.json") == 1
+    assert "1 of 1 checks fail." in capfd.readouterr().err
+    assert run("calc", config, "-o", tmp_path / "a.json", "--quiet") == 1
     assert capfd.readouterr().err == ""
 
 
@@ -333,25 +334,28 @@ def _read(terminal: int) -> bytes:
         return b""
 
 
-def test_colours_only_on_a_terminal_that_wants_them(tmp_path: Path) -> None:
-    call = ["report", saved(tmp_path, FAILS), "-o", tmp_path, "--format", "json", "--plugins", GOOD]
-    assert "\x1b[31mfail\x1b[0m a: Moment." in on_terminal(*call)
-    assert "\x1b[31m" not in on_terminal(*call, NO_COLOR="1")
-    assert "\x1b[31m" not in on_terminal(*call, TERM="dumb")
-    assert b"\x1b" not in program(*call).stderr
-
-
 SLOW = "import time\nfrom diecut_report.api import Inputs, Mechanism\ntime.sleep(2)\n" + (
     "MECHANISM = Mechanism(kind='slow', version='1', title='Slow', summary='', inputs=Inputs, chapters=())\n"
 )
 
 
-def test_progress_is_shown_when_it_takes_longer_than_a_second(tmp_path: Path) -> None:
-    (tmp_path / "slow.py").write_text(SLOW)
-    call = ["calc", saved(tmp_path, HEAD + "  a: {kind: slow}\n"), "--plugins", tmp_path]
-    assert "reading the configuration" in on_terminal(*call)
-    assert on_terminal(*call, "--quiet") == ""
-    assert program(*call).stderr == b""
+def test_colours_and_what_it_does_are_shown_only_on_a_terminal_that_wants_them(tmp_path: Path) -> None:
+    """What it does is shown when that takes longer than a second."""
+    saved(tmp_path, SLOW, "slow.py")
+    kinds = ["--plugins", GOOD, "--plugins", tmp_path]
+    call = [
+        "report",
+        saved(tmp_path, FAILS + "  x: {kind: slow}\n"),
+        "-o",
+        tmp_path / "out",
+        "--format",
+        "json",
+        *kinds,
+    ]
+    shown = on_terminal(*call)
+    assert "reading the configuration" in shown and "\x1b[31mfail\x1b[0m a: Moment." in shown
+    for plain in (on_terminal(*call, NO_COLOR="1"), on_terminal(*call, TERM="dumb"), program(*call).stderr.decode()):
+        assert "fail a: Moment." in plain and "\x1b" not in plain
 
 
 def test_an_interrupted_run_ends_at_once_and_writes_nothing(tmp_path: Path) -> None:
@@ -393,8 +397,12 @@ def test_progress_is_not_shown_when_it_is_quick(capfd: Capture, monkeypatch: pyt
     assert not progress.timer.is_alive() and capfd.readouterr() == ("", "")
 
 
-def test_progress_keeps_quiet_where_there_is_no_terminal() -> None:
-    with Progress(quiet=False) as progress:
+@pytest.mark.parametrize(("quiet", "terminal"), [(False, False), (True, True)])
+def test_progress_keeps_quiet_where_it_is_told_to_and_where_there_is_no_terminal(
+    quiet: bool, terminal: bool, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr("sys.stderr.isatty", lambda: terminal, raising=False)
+    with Progress(quiet=quiet) as progress:
         progress("doing")
         assert not progress.timer.is_alive()
 
@@ -402,21 +410,19 @@ def test_progress_keeps_quiet_where_there_is_no_terminal() -> None:
 # --- what is imported ------------------------------------------------------------------------------------------------
 
 
-@pytest.mark.parametrize("command", ["calc", "check"])
-def test_calc_and_check_import_nothing_that_draws_or_is_slow(command: str) -> None:
+SLOW_TO_IMPORT = ("matplotlib", "jinja2", "weasyprint", "pint", "rich", "ezdxf", "scipy.stats", "diecut_report.report")
+
+
+@pytest.mark.parametrize(
+    ("command", "unwanted"), [("calc", SLOW_TO_IMPORT), ("check", (*SLOW_TO_IMPORT, "diecut_report.engine"))]
+)
+def test_calc_and_check_import_nothing_that_draws_or_is_slow(command: str, unwanted: tuple[str, ...]) -> None:
     code = (
         f"import sys; from diecut_report.cli.main import main; main(['{command}', {str(EXAMPLE)!r}]); "
-        "print([m for m in ('matplotlib', 'jinja2', 'weasyprint', 'pint', 'rich', 'scipy.stats', 'diecut_report.report') "
-        "if m in sys.modules], file=sys.stderr)"
+        f"print([m for m in {unwanted!r} if m in sys.modules], file=sys.stderr)"
     )
     done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
     assert done.stderr.splitlines()[-1] == "[]"
-
-
-def test_check_does_not_import_the_engine() -> None:
-    code = f"import sys; from diecut_report.cli.main import main; main(['check', {str(EXAMPLE)!r}]); print('diecut_report.engine' in sys.modules)"
-    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
-    assert done.stdout == "False\n"
 
 
 def test_the_example_is_calculated_with_its_two_failing_checks(capfd: Capture) -> None:
@@ -425,13 +431,3 @@ def test_the_example_is_calculated_with_its_two_failing_checks(capfd: Capture) -
     failing = [c["id"] for data in found["mechanisms"].values() for c in data["checks"] if c["status"] == "fail"]
     assert failing == ["wall_at_flat", "radius"]
     assert found["governing"] == {"mechanism": "cylinder", "check": "wall_at_flat"}
-
-
-@pytest.mark.parametrize("environment", [{"NO_COLOR": "1"}, {"TERM": "dumb"}])
-def test_a_slow_run_shows_no_moving_sign_where_none_is_wanted(tmp_path: Path, environment: dict[str, str]) -> None:
-    folder = tmp_path / "plugins"
-    folder.mkdir()
-    saved(folder, SLOW, "slow.py")
-    call = ["calc", saved(tmp_path, HEAD + "  a: {kind: slow}\n"), "-o", tmp_path / "r.json", "--plugins", folder]
-    assert "\x1b" not in on_terminal(*call, **environment)
-    assert (tmp_path / "r.json").exists()

@@ -390,10 +390,13 @@ def test_a_file_that_states_no_size_is_bounded_in_reading(tmp_path: Path, monkey
     assert refused_file(path).message.startswith("The file is too large: 5.0 MB;")
 
 
-def test_a_file_of_the_greatest_size_is_read(tmp_path: Path) -> None:
+def test_a_file_of_the_greatest_size_is_read(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(yaml_tree, "MAX_BYTES", 50_000)
     path = tmp_path / "press.yaml"
-    path.write_bytes(b"a: 1 #" + b"x" * (MAX_BYTES - 6))
+    path.write_bytes(b"a: 1 #" + b"x" * (50_000 - 6))
     assert load(path).data == {"a": 1}
+    path.write_bytes(b"a: 1 #" + b"x" * (50_000 - 5))
+    assert refused_file(path).message.startswith("The file is too large: ")
 
 
 def test_a_file_that_is_no_utf8_is_refused(tmp_path: Path) -> None:

@@ -11,8 +11,8 @@ import pytest
 
 from diecut_report.cli.main import main
 from diecut_report.files import remove_stale, write, write_all
-from tests.study.studies import BASE, STUDY
 from tests.configs import GOOD, LEVER, saved
+from tests.study.studies import BASE, STUDY
 
 SECRET = b"not to be touched"
 

@@ -13,9 +13,9 @@ from pathlib import Path
 import pytest
 
 from diecut_report.cli.main import main
-from tests.study.studies import BASE, STUDY
 from tests.configs import GOOD, saved
 from tests.shared import once
+from tests.study.studies import BASE, STUDY
 
 META = re.compile(r'<meta http-equiv="Content-Security-Policy" content="([^"]*)">')
 CHROMIUM = shutil.which("chromium") or shutil.which("chromium-browser") or shutil.which("google-chrome")

@@ -12,9 +12,9 @@ import openpyxl
 import pytest
 
 from diecut_report.cli.main import main
-from tests.study.studies import BASE, STUDY
 from tests.configs import GOOD, saved
 from tests.shared import once
+from tests.study.studies import BASE, STUDY
 
 pytestmark = pytest.mark.usefixtures("no_summary")
 Capture = pytest.CaptureFixture[str]

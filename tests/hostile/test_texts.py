@@ -11,8 +11,8 @@ from diecut_report.cli.main import main
 from diecut_report.config.yaml_tree import parse
 from diecut_report.config.yaml_values import with_values
 from diecut_report.errors import UserError
-from tests.study.studies import BASE, STUDY
 from tests.configs import GOOD, saved
+from tests.study.studies import BASE, STUDY
 
 
 @pytest.mark.parametrize("text", ["a\0b", "a\x1b]0;t\a", "a\u202eb", "a\u2028b", "a\ufffe"])

@@ -92,8 +92,13 @@ def test_all_laws_as_scipy_integrates_them(law: MotionLaw) -> None:
     for low, high in pairwise((0.0, *law.breakpoints, 1.0)):
         top, state = stretch(law, True, low, high, state, drives)
         rise = np.maximum(rise, top)
-    longest = np.pi / np.min(drives[0] * np.sqrt(1 - damping**2))
-    residual, _ = stretch(law, False, 1.0, 1.0 + longest, state, drives)
+    residual = np.zeros(ratio.size)
+    for each in RATIOS:  # one by one: the slow ones need the time, the quick ones the small steps
+        part = ratio == each
+        longest = np.pi / np.min(drives[0, part] * np.sqrt(1 - damping[part] ** 2))
+        residual[part], _ = stretch(
+            law, False, 1.0, 1.0 + longest, state.reshape(2, -1)[:, part].ravel(), drives[:, part]
+        )
     found = peaks(law, ratio, damping)
     np.testing.assert_allclose(found.rise, rise / law.A, rtol=1e-9)
     np.testing.assert_allclose(found.residual, residual / law.A, rtol=1e-9, atol=1e-10)
@@ -121,11 +126,11 @@ def test_no_place_exceeds_the_peak_and_the_best_of_many_comes_near(name: str, ra
 
 
 def test_arrays_give_what_single_numbers_give() -> None:
-    ratios, dampings = np.geomspace(0.1, 100, 31)[:, None], np.array([0, 0.02, 0.05, 0.2, 0.9])
+    ratios, dampings = np.geomspace(0.1, 100, 7)[:, None], np.array([0, 0.05, 0.9])
     for law in LAWS.values():
         together = peaks(law, ratios, dampings)
         single = np.array([[peaks(law, ratio, damping) for damping in dampings] for ratio in ratios[:, 0]])
-        assert together.rise.shape == together.residual.shape == (31, 5)
+        assert together.rise.shape == together.residual.shape == (7, 3)
         np.testing.assert_allclose(np.moveaxis(together, 0, -1), single, rtol=1e-11, atol=1e-12)
 
 

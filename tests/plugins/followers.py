@@ -16,7 +16,7 @@ from diecut_report.contract.unit_variants import in_form
 from diecut_report.engine import Calculation, CurveHandle, calculate
 from diecut_report.expressions import Array
 from diecut_report.plugins.elastic_follower import MECHANISM
-from diecut_report.results.checks import check_results
+from diecut_report.results.checks import applies, check_results, judged
 
 SHAFT: dict[str, Any] = {
     "inertia": "0.8 kg*m**2",
@@ -41,6 +41,15 @@ def driven(source: Calculation, curve: str, **changes: Any) -> Calculation:
 def checks(calc: Calculation) -> dict[str, dict[str, Any]]:
     """The checks of a follower by their id."""
     return {check["id"]: check for check in check_results(calc)}
+
+
+def verdicts(calc: Calculation) -> dict[str, str]:
+    """The verdicts of a follower's checks by their id, without their messages, which take most of the time."""
+    return {
+        check.id: "pass" if bool(judged(calc, check).held.all()) else check.severity
+        for check in calc.mechanism.checks
+        if applies(calc, check)
+    }
 
 
 def at(calc: Calculation, curve: str, places: Any) -> Array:
@@ -167,7 +176,7 @@ def _one(stretch: Stretch, start: Array, omega: float, damping: float, fine: int
     inside = np.clip(time, stretch.start + 1e-12 * length, stretch.end - 1e-12 * length)  # not on a joint
 
     def rates(t: float, s: Array) -> list[float]:
-        driving = float(stretch.acceleration(np.clip(t, inside[0], inside[-1])))
+        driving = float(stretch.acceleration(min(max(t, inside[0]), inside[-1])))  # type: ignore[arg-type]  # one place
         return [s[1], driving, s[3], -driving - 2 * damping * omega * s[3] - omega**2 * s[2]]
 
     size = np.abs(stretch.acceleration(inside)).max() * np.array([1, 1, omega**-2, omega**-1]) + 1e-30

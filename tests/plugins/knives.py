@@ -64,8 +64,8 @@ def edge_points(calc: Calculation, angle: float, points: int = 200_001) -> Array
     return found
 
 
-def crossing(calc: Calculation, angle: float, depth: Any) -> Array:
+def crossing(calc: Calculation, angle: float, depth: Any, points: int = 200_001) -> Array:
     """Where the polygon crosses depths."""
-    x, y = edge_points(calc, angle).T
+    x, y = edge_points(calc, angle, points).T
     found: Array = np.interp(depth, y, x)
     return found

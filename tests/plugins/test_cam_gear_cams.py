@@ -1,4 +1,7 @@
-"""The stepper's cams: rollers tangent to the profiles, undercut, pressure angles, hollow flanks."""
+"""The stepper's cams: rollers tangent to the profiles, undercut, pressure angles, hollow flanks.
+
+In CI each cam runs with a law of many joints and one that jumps; at night with all.
+"""
 
 from __future__ import annotations
 
@@ -14,7 +17,7 @@ from scipy.optimize import minimize_scalar
 from diecut_report.engine import Calculation, Impossible
 from diecut_report.expressions import Array
 from diecut_report.mechanics.motion_laws import LAWS
-from tests.examples import examples
+from tests.examples import examples, few
 from tests.machines import number
 from tests.plugins.steppers import CAMS, at, checks, slope, smooth_places, stepper
 
@@ -44,11 +47,11 @@ def nearest(calc: Calculation, n: str, phi: float) -> float:
     return float(min(found))
 
 
-@pytest.mark.parametrize("law", list(LAWS))
+@pytest.mark.parametrize("law", few(LAWS, keep=lambda law: law in ("modified_trapezoidal", "parabolic")))
 @pytest.mark.parametrize("n", ["1", "2"])
 def test_the_rollers_stay_tangent_to_their_profiles(n: str, law: str) -> None:
     calc = stepper(**CAMS, motion_law=law, n_points=36)
-    for phi in np.linspace(0.05, 6.2, 11):
+    for phi in np.linspace(0.05, 6.2, 7):
         assert nearest(calc, n, phi) == pytest.approx(0.025, abs=1e-9 * 0.025)
 
 
@@ -61,7 +64,7 @@ def test_the_rollers_stay_tangent_to_their_profiles(n: str, law: str) -> None:
     dwell=st.floats(60, 190),
 )
 @example(arm=150.0, roller=5.0, one=40.0, other=200.0, phi=0.0, dwell=60.0)  # a roller that stands still on its cam
-@examples(60)
+@examples(30)
 def test_the_checks_tell_whether_the_rollers_touch_their_profiles_once(
     arm: float, roller: float, one: float, other: float, phi: float, dwell: float
 ) -> None:

@@ -71,7 +71,9 @@ def test_a_knife_of_another_size_has_the_same_angles_and_its_force_grows_with_th
 
 @examples(25)
 @given(board=SHARE, cut=SHARE, low=SHARE)
-def test_the_figures_of_any_knife_are_drawn(board: float, cut: float, low: float) -> None:
+def test_the_figures_of_any_knife_are_drawn_and_its_three_positions_beside_one_another(
+    board: float, cut: float, low: float
+) -> None:
     calc = calculate(MECHANISM, any_knife(0.1, 0.2, low, board, cut, 0.5))
     figures = {figure["id"]: figure for figure in mechanism_results(calc, {})["figures"]}
     assert list(figures) == ["positions", "front", "motion", "load", "placement"]
@@ -87,16 +89,9 @@ def test_the_figures_of_any_knife_are_drawn(board: float, cut: float, low: float
     assert reached[0] == pytest.approx(number(calc, "front_distance"), rel=1e-9)
     assert reached[2] == pytest.approx(number(calc, "cut_end"), rel=1e-9)
     assert {mark[1] for mark in marks} == {-number(calc, "depth")}
-
-
-@examples(25)
-@given(board=SHARE, cut=SHARE, low=SHARE)
-def test_the_three_positions_are_drawn_beside_one_another(board: float, cut: float, low: float) -> None:
-    calc = calculate(MECHANISM, any_knife(0.1, 0.2, low, board, cut, 0.5))
-    (figure,) = (figure for figure in mechanism_results(calc, {})["figures"] if figure["id"] == "positions")
     blades = [
         np.array(shape["points"])[:, 0]
-        for shape in figure["shapes"]
+        for shape in figures["positions"]["shapes"]
         if shape["shape"] == "polyline" and shape["role"] == "body"
     ]
     assert len(blades) == 3

@@ -134,7 +134,7 @@ SHARE = st.floats(0.03, 0.97)
 @example(
     ecc=0.9375, low=0.96484375, board=0.5, cut=0.5, thin=8.0, friction=0.0
 )  # turns back before it is at the counter-knife
-@examples(150)
+@examples(60)
 @given(ecc=SHARE, low=SHARE, board=SHARE, cut=SHARE, thin=st.floats(0.05, 10), friction=st.floats(0, 0.5))
 def test_what_a_failing_check_advises_makes_it_pass_as_printed_and_breaks_no_other(
     ecc: float, low: float, board: float, cut: float, thin: float, friction: float

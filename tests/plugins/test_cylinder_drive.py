@@ -221,3 +221,9 @@ def test_the_energy_balance_holds_for_random_linkages(
     except Impossible:
         return
     assert number(calc, "energy_residual") < 1e-10
+
+
+def test_a_cut_over_the_whole_stroke_ends_a_turn_after_the_outer_dead_centre() -> None:
+    calc = drive(cutting_arc_fraction=1)
+    assert number(calc, "cut_begin_forward") == number(calc, "dead_center_outer")
+    assert number(calc, "cut_end_return") == pytest.approx(number(calc, "dead_center_outer") + 2 * np.pi, rel=1e-15)

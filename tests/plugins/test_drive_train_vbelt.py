@@ -24,7 +24,7 @@ from tests.plugins.drive_trains import EXAMPLE, PAIRS, check, train
 
 def hull_length(first: float, second: float, apart: float) -> float:
     """Length of a string around two discs: the convex hull of many points on their rims."""
-    phi = np.linspace(0, 2 * pi, 200_000, endpoint=False)
+    phi = np.linspace(0, 2 * pi, 50_000, endpoint=False)
     rims = [np.column_stack([x + r * np.cos(phi), r * np.sin(phi)]) for x, r in ((0, first), (apart, second))]
     return float(ConvexHull(np.concatenate(rims)).area)  # in the plane: the circumference
 

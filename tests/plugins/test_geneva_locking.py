@@ -10,6 +10,7 @@ from hypothesis import strategies as st
 from diecut_report.engine import Calculation
 from diecut_report.engine.figure_views import MachineView
 from diecut_report.plugins.geneva_transport.drawing import disc_outline, wheel_outline
+from tests.examples import examples
 from tests.machines import number
 from tests.plugins.test_geneva_transport import SHEET, SLOTS, engaged, geneva, wheel_from_middle, with_slots
 
@@ -141,6 +142,7 @@ def test_the_usual_proportions_of_stop_arc_and_clearance_arc() -> None:
     assert (number(calc, "slot_length") - 0.002) * 1e3 == pytest.approx(23.2457, abs=5e-5)
 
 
+@examples(50)
 @given(slots=st.integers(3, 18), share=st.floats(0.001, 0.999))
 def test_the_default_locking_arc_lies_between_rim_and_slots_wherever_there_is_room(slots: int, share: float) -> None:
     ratio = np.sin(np.pi / slots)

@@ -11,6 +11,7 @@ import pytest
 from diecut_report.engine import Impossible
 from diecut_report.plugins.knife_drive import advice
 from diecut_report.results.checks import check_results
+from tests.examples import few
 from tests.plugins.test_knife_drive import INNER, LINKAGE, OUTER, PLANETARY, SLIDER, knife
 
 LIMIT = re.compile(r"a (roller_ratio|cylinder_rate) of at (?:most|least) ([\d.e+-]+)")
@@ -43,7 +44,7 @@ def random_knife(draw: np.random.Generator) -> Keys:
     return keys | ({"signature_length": u(100, 900)} if draw.random() < 0.7 else {})
 
 
-@pytest.mark.parametrize(("count", "least"), [(50, 7), pytest.param(120, 20, marks=pytest.mark.nightly)])
+@pytest.mark.parametrize(("count", "least"), few([(20, 2), (120, 20)], keep=lambda tried: tried[0] == 20))
 def test_followed_advice_makes_its_check_pass_and_spoils_none(count: int, least: int) -> None:
     draw, followed = np.random.default_rng(5), {"paper": 0, "grip": 0, "time": 0}
     for _ in range(count):

@@ -20,6 +20,7 @@ from diecut_report.plugins.cam_gear_transport import MECHANISM as CAM
 from diecut_report.plugins.geneva_transport import MECHANISM as GENEVA
 from diecut_report.results.comparisons import compared, found
 from tests.configs import HEAD, saved
+from tests.examples import examples
 from tests.machines import inputs, number
 
 STEPPER: dict[str, Any] = {"dwell_angle": "160 deg", "center_distance": "300 mm", "cycles_per_hour": 6000}
@@ -142,6 +143,22 @@ def test_no_other_sweep_asks_for_less_acceleration_at_the_geneva_drives_dwell(la
     assert tried.min() * relative >= together["best_acceleration"] * (1 - 1e-9)
 
 
+def test_the_chart_of_all_sweeps_is_what_machines_with_them_do() -> None:
+    """Stop and start ask for most where the sweep is narrow, the return where it is wide."""
+    data = results(cam(dwell_angle="150 deg"), geneva())
+    (chart,) = (figure for figure in data["figures"] if figure["id"] == "same_dwell")
+    stopping, returning = chart["panels"][0]["lines"]
+    (speed,) = chart["panels"][1]["lines"]
+    for place, governing in ((0, stopping), (20, stopping), (120, returning), (180, returning)):
+        built = dwelling(sector_stop_sweep=f"{governing['x'][place]!r} rad", n_points=36)
+        peak = number(built, "gear_acceleration_peak") * 0.6**2 / (2 * np.pi)
+        assert (
+            governing["y"][place] == max(stopping["y"][place], returning["y"][place]) == pytest.approx(peak, rel=1e-9)
+        )
+        assert speed["y"][place] == pytest.approx(number(built, "gear_speed_ratio_peak"), rel=1e-9)
+
+
+@examples(40)
 @given(slots=st.integers(3, 18), held=st.floats(20, 120))
 def test_the_best_sweep_is_below_the_limit_for_any_number_of_slots(slots: int, held: float) -> None:
     together = outputs(

@@ -146,7 +146,7 @@ def test_equal_results_give_equal_bytes_in_another_process(tmp_path: Path) -> No
 
     first = digests("1", "UTC")
     assert first.count("\n") == 2
-    assert {digests("4", "UTC"), digests("4711", "Asia/Tokyo")} == {first}
+    assert digests("4711", "Asia/Tokyo") == first
 
 
 # what cannot be written

@@ -20,6 +20,7 @@ from weasyprint.urls import FatalURLFetchingError
 from diecut_report.report import Rendering
 from diecut_report.report.pdf_math import operators
 from diecut_report.report.typeset import Typesetter
+from tests.examples import few
 from tests.report.conftest import Printed
 
 AGAIN = """
@@ -28,7 +29,8 @@ from functools import cache
 from hashlib import sha256
 from diecut_report.report import Rendering
 report = Rendering(json.load(open(sys.argv[1], encoding="utf-8")))
-print(sha256(report.html().encode()).hexdigest(), sha256(report.pdf()).hexdigest())
+contents = [report.html().encode(), *([report.pdf()] if sys.argv[2] == "pdf" else [])]
+print(*(sha256(content).hexdigest() for content in contents))
 """
 
 
@@ -106,14 +108,17 @@ def test_a_picture_from_outside_stops_the_rendering(results: dict[str, Any], mon
         Rendering(results).pdf()
 
 
+@pytest.mark.parametrize("ending", few(["html", "pdf"], keep=lambda ending: ending == "html"))
 def test_equal_results_give_equal_bytes_in_another_process(
-    results: dict[str, Any], html: str, pdf: Path, tmp_path: Path
+    results: dict[str, Any], html: str, request: pytest.FixtureRequest, tmp_path: Path, ending: str
 ) -> None:
+    """Each kind of item and figure as HTML; tests/hostile/test_surroundings.py has the PDF of a small report too."""
     file = tmp_path / "results.json"
     file.write_text(json.dumps(results), encoding="utf-8")
-    command, environment = [sys.executable, "-c", AGAIN, str(file)], os.environ | {"PYTHONHASHSEED": "4711"}
+    command, environment = [sys.executable, "-c", AGAIN, str(file), ending], os.environ | {"PYTHONHASHSEED": "4711"}
     there = subprocess.run(command, env=environment, capture_output=True, text=True, check=True).stdout
-    assert there.split() == [sha256(content).hexdigest() for content in (html.encode(), pdf.read_bytes())]
+    here = [html.encode(), *([request.getfixturevalue("pdf").read_bytes()] if ending == "pdf" else [])]
+    assert there.split() == [sha256(content).hexdigest() for content in here]
 
 
 def test_a_formula_is_the_same_in_both_formats_of_one_report(printed: Printed) -> None:

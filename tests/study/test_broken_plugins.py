@@ -15,6 +15,7 @@ from diecut_report.errors import PluginError
 from tests.configs import saved
 
 Capture = pytest.CaptureFixture[str]
+pytestmark = pytest.mark.usefixtures("without_summary")
 PLUGIN = """
 from typing import Any, Literal
 

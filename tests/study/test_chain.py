@@ -92,7 +92,7 @@ def rounding(mechanism: dict[str, Any], unit: str) -> float:
     return 1e-12 * max(alike, default=0.0)
 
 
-@pytest.mark.parametrize(("name", "count"), [("flat_cylinder_press.yaml", 6), ("elastic_transport.yaml", 3)])
+@pytest.mark.parametrize(("name", "count"), [("flat_cylinder_press.yaml", 3), ("elastic_transport.yaml", 2)])
 def test_each_machine_among_many_is_the_one_alone(name: str, count: int) -> None:
     """Through references from mechanism to mechanism; each kind on its own is held to it in tests/plugins/test_contract.py."""
     check_rows(name, count)

@@ -15,6 +15,7 @@ import pyarrow.parquet as pq
 import pytest
 
 from diecut_report.cli.main import main
+from diecut_report.study.execution import dask_cluster, variant_reports
 from diecut_report.study.execution.variant_reports import best
 from tests.configs import GOOD, saved
 from tests.study.studies import BASE, STUDY, varied
@@ -93,6 +94,7 @@ UNDEFINED = "constraints: [\"'1 kN*m' / (mechanisms.a.force - '2 kN') < '5 m'\",
 NO_VALUE = "1 of them because a constraint has no value there (a division by zero, or the root of a number below zero)"
 
 
+@pytest.mark.usefixtures("with_html_summary")
 def test_variants_for_which_a_constraint_has_no_value_are_dropped_and_counted(tmp_path: Path, capfd: Capture) -> None:
     out = tmp_path / "out"
     text = varied("[1 kN, 2 kN, 3 kN, 4 kN]", rest=UNDEFINED.format(limit="3.5 kN"))
@@ -105,6 +107,7 @@ def test_variants_for_which_a_constraint_has_no_value_are_dropped_and_counted(tm
     assert f"drop 2 more of the sample, {NO_VALUE}." in capfd.readouterr().err
 
 
+@pytest.mark.usefixtures("without_summary")
 def test_variants_that_another_constraint_drops_anyway_are_not_counted_again(tmp_path: Path) -> None:
     text = varied("[1 kN, 2 kN]", rest=UNDEFINED.format(limit="1.5 kN"))
     assert run("batch", files(tmp_path, text), "-o", tmp_path / "out", "--quiet") == 0
@@ -133,28 +136,25 @@ def test_a_huge_grid_says_its_size_and_asks(tmp_path: Path, capfd: Capture) -> N
 
 
 @pytest.mark.usefixtures("without_summary")
-def test_reports_of_some_variants(tmp_path: Path, capfd: Capture) -> None:
-    text = varied(
-        "[1 kN, 2 kN, 3 kN, 4 kN]", rest="reports: [0, 3]\nconstraints: [\"mechanisms.a.force < '3.5 kN'\"]\n"
-    )
-    assert run("batch", files(tmp_path, text), "-o", tmp_path / "out") == 0
-    assert sorted(path.name for path in (tmp_path / "out" / "reports").iterdir()) == ["0.html", "0.json", "0.pdf"]
+def test_reports_of_some_variants_are_the_same_from_several_processes(
+    tmp_path: Path, capfd: Capture, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(variant_reports, "FORMATS", ("html", "json"))  # here; other processes make the PDF too
+    few = "reports: [0, 3]\nconstraints: [\"mechanisms.a.force < '3.5 kN'\"]\n"
+    made = []
+    for jobs, rest in ((1, few), (2, "reports: all\n")):
+        study = files(tmp_path, varied("[1 kN, 2 kN, 3 kN, 4 kN]" if jobs == 1 else "[1 kN, 2 kN]", rest=rest))
+        assert run("batch", study, "-o", tmp_path / f"{jobs}", "--jobs", f"{jobs}") == 0
+        made.append({path.name: path.read_bytes() for path in (tmp_path / f"{jobs}" / "reports").iterdir()})
+    assert sorted(made[0]) == ["0.html", "0.json"]
+    assert sorted(made[1]) == [f"{variant}.{ending}" for variant in (0, 1) for ending in ("html", "json", "pdf")]
+    assert made[0].items() <= made[1].items()
     assert "variant 3 gets no full report: a constraint drops it." in capfd.readouterr().err
 
 
 @pytest.mark.usefixtures("without_summary")
-def test_reports_are_the_same_from_several_processes(tmp_path: Path) -> None:
-    study = files(tmp_path, varied("[1 kN, 2 kN]", rest="reports: all\n"))
-    made = []
-    for jobs in (1, 2):
-        assert run("batch", study, "-o", tmp_path / f"{jobs}", "--jobs", f"{jobs}", "--quiet") == 0
-        made.append({path.name: path.read_bytes() for path in (tmp_path / f"{jobs}" / "reports").iterdir()})
-    assert len(made[0]) == 6
-    assert made[0] == made[1]
-
-
-@pytest.mark.usefixtures("without_summary")
-def test_the_failed_ones_get_a_report(tmp_path: Path) -> None:
+def test_the_failed_ones_get_a_report(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(variant_reports, "FORMATS", ("json",))
     text = varied("[2 kN, 3 kN]", rest="reports: failed\n")
     assert run("batch", files(tmp_path, text, CHECKED), "-o", tmp_path / "out", "--quiet") == 1
     found = json.loads((tmp_path / "out" / "reports" / "1.json").read_text())
@@ -199,7 +199,10 @@ def test_a_study_given_to_another_command_is_told(tmp_path: Path, capfd: Capture
 
 
 @pytest.mark.usefixtures("without_summary")
-def test_a_refused_folder_and_a_cluster_that_is_not_there_leave_nothing(tmp_path: Path, capfd: Capture) -> None:
+def test_a_refused_folder_and_a_cluster_that_is_not_there_leave_nothing(
+    tmp_path: Path, capfd: Capture, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(dask_cluster, "PATIENCE", 1)
     (tmp_path / "full").mkdir()
     (tmp_path / "full" / "mine").touch()
     assert run("batch", files(tmp_path), "-o", tmp_path / "full") == 2
@@ -239,9 +242,10 @@ def test_wrong_usage_gives_2_with_words(
 
 
 def test_progress_on_a_terminal(tmp_path: Path) -> None:
-    command = [sys.executable, "-m", "diecut_report", "batch", str(files(tmp_path)), "--plugins", str(GOOD), "-o"]
+    program = [sys.executable, "-m", "tests.study.without_summary"]
+    command = [*program, "batch", str(files(tmp_path)), "--plugins", str(GOOD), "-o"]
     parent, child = pty.openpty()
-    environment = {**os.environ, "TERM": "xterm", "COLUMNS": "120"}
+    environment = {**os.environ, "TERM": "xterm", "COLUMNS": "120", "PYTHONPATH": str(Path(__file__).parents[2])}
     shown = subprocess.Popen([*command, str(tmp_path / "one")], stderr=child, env=environment)
     os.close(child)
     told = b""

@@ -18,18 +18,19 @@ import psutil
 import pyarrow.parquet as pq
 import pytest
 
+from diecut_report.cli.main import main
 from tests.configs import GOOD, LEVER, saved
 from tests.processes import until
 
-ROWS = 120_000
+ROWS = 64_000
 SPENT = 60  # seconds after which a run hangs
-PARTS = 16  # files, of at most 8192 variants
+PARTS = 16  # files
 STUDY = """\
 schema_version: 1
 base: press.yaml
 sample: {method: grid}
 vary:
-  mechanisms.a.force: {from: 1 kN, to: 3 kN, count: 120000}
+  mechanisms.a.force: {from: 1 kN, to: 3 kN, count: 64000}
 """
 TABLE = """\
 schema_version: 1
@@ -45,13 +46,19 @@ ROOT = Path(__file__).parents[2]
 PLACE = os.environ | {"PYTHONPATH": str(ROOT)}
 
 
-def command(*arguments: str | Path) -> list[str]:
-    return [sys.executable, "-m", "tests.study.without_summary", "batch", *map(str, arguments), "--plugins", str(GOOD)]
+pytestmark = pytest.mark.usefixtures("without_summary")
+Run = Callable[..., tuple[int, str, str]]
 
 
-def finished(*arguments: str | Path) -> subprocess.CompletedProcess[str]:
-    """The command, run to its end."""
-    return subprocess.run(command(*arguments), capture_output=True, text=True, timeout=SPENT, check=False, env=PLACE)
+@pytest.fixture
+def finished(capfd: pytest.CaptureFixture[str]) -> Run:
+    """Give the command, run to its end in this process: its exit code, standard output and error."""
+
+    def run(*arguments: str | Path) -> tuple[int, str, str]:
+        code = main(["batch", *map(str, arguments), "--plugins", str(GOOD)])
+        return code, *capfd.readouterr()
+
+    return run
 
 
 @contextmanager
@@ -59,7 +66,8 @@ def begun(folder: Path, parts: int) -> Iterator[subprocess.Popen[str]]:
     """A run of the study in two processes that has finished some parts, in a process group of its own."""
     saved(folder, LEVER)
     study = saved(folder, STUDY, "study.yaml")
-    asked = command(study, "-o", folder / "out", "--jobs", "2")
+    program = [sys.executable, "-m", "tests.study.without_summary"]
+    asked = [*program, "batch", study, "-o", folder / "out", "--jobs", "2", "--plugins", GOOD]
     pipes = {"stdout": subprocess.PIPE, "stderr": subprocess.PIPE}
     with subprocess.Popen(asked, **pipes, text=True, process_group=0, env=PLACE) as run:
         try:
@@ -102,9 +110,9 @@ def end(run: subprocess.Popen[str], by: Callable[[], None]) -> tuple[str, str]:
     return said
 
 
-def test_killed_run_is_continued_without_its_study(tmp_path: Path) -> None:
+def test_killed_run_is_continued_without_its_study(tmp_path: Path, finished: Run) -> None:
     out = tmp_path / "out"
-    with begun(tmp_path, 5) as run:
+    with begun(tmp_path, 3) as run:
         end(run, run.kill)
     before = stored(out)
     damaged = sorted(before)[2]
@@ -112,74 +120,63 @@ def test_killed_run_is_continued_without_its_study(tmp_path: Path) -> None:
     (out / "variants/.0123456789abcdef.part").write_bytes(b"PAR1")
     (tmp_path / "study.yaml").unlink()
     (tmp_path / "press.yaml").unlink()
-    assert 5 <= len(before) < PARTS
-    run_again = finished("--resume", out)
+    assert 3 <= len(before) < PARTS
+    code, told, said = finished("--resume", out, "--jobs", "2")
     after = stored(out)
-    assert (run_again.returncode, run_again.stdout) == (0, "") and "120000 variants: 120000 pass" in run_again.stderr
+    assert (code, told) == (0, "") and f"{ROWS} variants: {ROWS} pass" in said
     assert {name for name in before if after[name] != before[name]} == {damaged}
     assert len(after) == PARTS and are_complete(out)
 
 
 @pytest.mark.parametrize("whole_group", [True, pytest.param(False, marks=pytest.mark.nightly)])
-def test_interrupted_run_says_how_to_continue_and_is_continued(tmp_path: Path, whole_group: bool) -> None:
+def test_interrupted_run_says_how_to_continue_and_is_continued_by_its_own_study_alone(
+    tmp_path: Path, whole_group: bool, finished: Run
+) -> None:
     """Ctrl-C reaches all processes of a terminal; `kill -INT` only the one that it names."""
     out = tmp_path / "out"
-    with begun(tmp_path, 3) as run:
+    with begun(tmp_path, 2) as run:
         said = end(run, lambda: (os.killpg if whole_group else os.kill)(run.pid, signal.SIGINT))
     assert run.returncode == 130
     assert said == ("", f"stopped; what is finished is kept. Continue with: diecut-report batch --resume {out}\n")
     before = stored(out)
-    assert 3 <= len(before) < PARTS and list(out.rglob(".*.part")) == []
-    run_again = finished(tmp_path / "study.yaml", "--resume", out)
-    assert run_again.returncode == 0
+    assert 2 <= len(before) < PARTS and list(out.rglob(".*.part")) == []
+    study = saved(tmp_path, STUDY.replace("3 kN", "4 kN"), "study.yaml")
+    code, _, told = finished(study, "--resume", out)
+    assert code == 2 and "study.yaml: The study file has changed since the results were begun." in told
+    assert f"+  mechanisms.a.force: {{from: 1 kN, to: 4 kN, count: {ROWS}}}" in told
+    assert stored(out) == before
+    assert finished(saved(tmp_path, STUDY, "study.yaml"), "--resume", out, "--jobs", "1")[0] == 0
     assert before.items() <= stored(out).items() and are_complete(out)
 
 
-def test_second_run_in_a_folder_is_refused_and_the_first_goes_on(tmp_path: Path) -> None:
+def test_second_run_in_a_folder_is_refused_and_the_first_goes_on_even_without_a_worker(
+    tmp_path: Path, finished: Run
+) -> None:
     out = tmp_path / "out"
     with begun(tmp_path, 2) as run:
         os.killpg(run.pid, signal.SIGSTOP)  # it holds the folder as long as this takes
         for second in (finished(tmp_path / "study.yaml", "-o", out), finished("--resume", out)):
-            assert (second.returncode, second.stdout) == (2, "")
-            assert second.stderr.startswith(f"{out}: Another run uses this folder: process {run.pid} on ")
+            assert second[:2] == (2, "")
+            assert second[2].startswith(f"{out}: Another run uses this folder: process {run.pid} on ")
+        workers = [each for each in psutil.Process(run.pid).children() if "spawn_main" in " ".join(each.cmdline())]
+        workers[0].kill()
         os.killpg(run.pid, signal.SIGCONT)
-        run.communicate(timeout=SPENT)
-    assert run.returncode == 0 and are_complete(out)
-
-
-def test_changed_study_is_refused_with_what_changed(tmp_path: Path) -> None:
-    out = tmp_path / "out"
-    with begun(tmp_path, 2) as run:
-        end(run, run.kill)
-    before = stored(out)
-    study = saved(tmp_path, STUDY.replace("3 kN", "4 kN"), "study.yaml")
-    refused = finished(study, "--resume", out)
-    assert refused.returncode == 2
-    assert "study.yaml: The study file has changed since the results were begun." in refused.stderr
-    assert "+  mechanisms.a.force: {from: 1 kN, to: 4 kN, count: 120000}" in refused.stderr
-    assert stored(out) == before
+        said = run.communicate(timeout=SPENT)
+    assert run.returncode == 0 and f"{ROWS} variants" in said[1] and are_complete(out)
 
 
 @pytest.mark.nightly
 @pytest.mark.parametrize("after", [1, 3, 5, 8, 10])
-def test_run_killed_at_any_time_is_continued(tmp_path: Path, after: int) -> None:
+def test_run_killed_at_any_time_is_continued(tmp_path: Path, after: int, finished: Run) -> None:
     out = tmp_path / "out"
     with begun(tmp_path, after) as run:
         end(run, run.kill)
     before = stored(out)
-    assert finished("--resume", out).returncode == 0
+    assert finished("--resume", out)[0] == 0
     assert before.items() <= stored(out).items() and are_complete(out)
 
 
-def test_killed_worker_is_replaced(tmp_path: Path) -> None:
-    with begun(tmp_path, 2) as run:
-        workers = [each for each in psutil.Process(run.pid).children() if "spawn_main" in " ".join(each.cmdline())]
-        workers[0].kill()
-        said = run.communicate(timeout=SPENT)
-    assert run.returncode == 0 and "120000 variants" in said[1] and are_complete(tmp_path / "out")
-
-
-def test_tables_are_kept_with_the_results(tmp_path: Path) -> None:
+def test_tables_are_kept_with_the_results(tmp_path: Path, finished: Run) -> None:
     """Two tables of one name, one of them outside of the study's folder; workers get them too."""
     place = tmp_path / "studies"
     for folder in (place, tmp_path / "data"):
@@ -189,7 +186,7 @@ def test_tables_are_kept_with_the_results(tmp_path: Path) -> None:
     saved(place, "arm [mm]\n" + "".join(f"{n / 10}\n" for n in range(1000, 3000)), "x.csv")
     study = saved(place, TABLE, "study.yaml")
     out = tmp_path / "out"
-    assert finished(study, "-o", out, "--jobs", "2").returncode == 0
+    assert finished(study, "-o", out, "--jobs", "2")[0] == 0
     whole = pq.read_table(out / "variants").drop_columns(["error"])
     assert whole["a.moment"].to_numpy() == pytest.approx([n * n / 1e4 for n in range(1000, 3000)], rel=1e-14)
     for part in (0, 3):
@@ -197,11 +194,11 @@ def test_tables_are_kept_with_the_results(tmp_path: Path) -> None:
     for kept in (place, tmp_path / "data"):
         shutil.rmtree(kept)
     (tmp_path / "press.yaml").unlink()
-    again = finished("--resume", out, "--jobs", "2")
-    assert again.returncode == 0, again.stderr
+    code, _, told = finished("--resume", out, "--jobs", "2")
+    assert code == 0, told
     assert pq.read_table(out / "variants").drop_columns(["error"]).equals(whole)
     assert sorted(path.name for path in (out / "tables").iterdir()) == ["1-x.csv", "2-x.csv"]
     (out / "variants/part-00001.parquet").unlink()
     (out / "tables/2-x.csv").write_text("arm [mm]\n1\n")
-    refused = finished("--resume", out)
-    assert refused.returncode == 2 and "2-x.csv: This copy of x.csv is missing or has changed" in refused.stderr
+    code, _, told = finished("--resume", out)
+    assert code == 2 and "2-x.csv: This copy of x.csv is missing or has changed" in told

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import io
 import json
 import re
 from html.parser import HTMLParser
@@ -22,7 +21,7 @@ from diecut_report.study.analysis.titles import titles
 from diecut_report.study.storage.description import ResultColumn
 from diecut_report.study.summary import content as contents
 from diecut_report.study.summary import data, influence, pareto, questions, summarise
-from diecut_report.study.summary.pages import page, sheets
+from diecut_report.study.summary.pages import page
 from diecut_report.study.summary.point_charts import near
 from diecut_report.study.summary.quantity_names import WORST, display, utilised
 from tests.study.stored_study import BORE, LAW, SPEED, made, many, ten, written
@@ -138,8 +137,8 @@ def test_shares_that_pass_are_those_of_the_rows_by_value_and_by_class(
     assert {row.told for row in found[LAW]} == {"harmonic", "cycloidal"}
 
 
-def test_a_value_at_which_nothing_passes_is_marked(small: Path) -> None:
-    found = summary_of(small)
+def test_a_value_at_which_nothing_passes_is_marked(small_summary: contents.Summary) -> None:
+    found = small_summary
     speeds = next(each.rows for each in found.passing if each.column.name == SPEED)
     assert [(row.told, row.variants, row.passing) for row in speeds] == [
         ("35", 1, 0),
@@ -222,14 +221,14 @@ def test_inputs_of_a_table_name_its_file(tmp_path: Path) -> None:
 
 
 def test_the_matrix_begins_with_the_best_and_each_variant_stands_once(
-    small: Path, large_summary: contents.Summary
+    small_summary: contents.Summary, large_summary: contents.Summary
 ) -> None:
     assert large_summary.front is not None
     titles_ = [title for title, _ in large_summary.matrices[0].groups]
     assert titles_ == ["Best: on the Pareto front", "Fail: the 10 most overloaded variants"]
     best = large_summary.front.variants.tolist()
     assert [row.variant for row in large_summary.matrices[0].groups[0][1]] == best[:15]
-    rows = [row.variant for row in summary_of(small).matrices[0].rows]
+    rows = [row.variant for row in small_summary.matrices[0].rows]
     assert sorted(rows) == list(range(10))
 
 
@@ -411,18 +410,26 @@ def small(tmp_path_factory: pytest.TempPathFactory) -> Path:
 
 
 @pytest.fixture(scope="module")
-def small_page(small: Path) -> str:
-    return page(summary_of(small))
+def small_summary(small: Path) -> contents.Summary:
+    return summary_of(small)
+
+
+@pytest.fixture(scope="module")
+def small_page(small_summary: contents.Summary) -> str:
+    return page(small_summary)
 
 
 def test_the_pages_are_written_and_say_the_counts(small: Path) -> None:
+    """The PDF, which takes longest, has the tags of its alternative texts too."""
     assert summarise(small) == [small / "summary.html", small / "summary.pdf"]
     text = re.sub(r"<[^>]+>", "", (small / "summary.html").read_text("utf-8"))
     assert "3 of 10 variants pass all checks, 6 fail, 1 cannot exist." in text
     assert "The run is not complete." in text
     assert re.search(r"Left out by constraints\s*3 variants", text)
     assert "bore_radius 0.104 m leaves no wall" in text
-    paper = " ".join("\n".join(sheet.extract_text() for sheet in PdfReader(small / "summary.pdf").pages).split())
+    document = PdfReader(small / "summary.pdf")
+    assert "/StructTreeRoot" in document.trailer["/Root"]
+    paper = " ".join("\n".join(sheet.extract_text() for sheet in document.pages).split())
     assert "3 of 10 variants pass all checks" in paper
     assert "Partial rank correlation" in paper
 
@@ -455,15 +462,13 @@ def test_what_a_user_wrote_cannot_end_a_script_or_a_tag(tmp_path: Path) -> None:
     assert json.loads(data_)["columns"][2]["words"] == ["</script><b>", "harmonic"]
 
 
-def test_every_chart_has_a_text_alternative(large_summary: contents.Summary, small: Path) -> None:
+def test_every_chart_has_a_text_alternative(large_summary: contents.Summary) -> None:
     found = large_summary
     charts = [*found.figures.values(), *(found.ranked.figures if found.ranked else [])]
     assert len(charts) == 9
     for figure in charts:
         assert len(figure.alternative) > 20
         assert re.search(r"<title>[^<]{20,}</title>", figure.svg.text)
-    document = PdfReader(io.BytesIO(sheets(summary_of(small))))
-    assert "/StructTreeRoot" in document.trailer["/Root"]
 
 
 def test_a_large_study_is_aggregated_and_says_so(large_summary: contents.Summary, large_page: str) -> None:
@@ -475,8 +480,8 @@ def test_a_large_study_is_aggregated_and_says_so(large_summary: contents.Summary
     assert "its functions take one number at a time" in large_page
 
 
-def test_objectives_and_failing_checks_come_before_other_outputs(tmp_path: Path) -> None:
-    names = [column.name for column in summary_of(ten(tmp_path / "out")).choices]
+def test_objectives_and_failing_checks_come_before_other_outputs(small_summary: contents.Summary) -> None:
+    names = [column.name for column in small_summary.choices]
     assert names[2:6] == ["drive.power_peak", "cylinder.mass", "greatest utilisation", "drive.checks.play.utilisation"]
     assert {"drive.crank_torque_peak", "drive.idle_ratio"} <= set(names[6:])
 

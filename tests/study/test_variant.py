@@ -17,7 +17,9 @@ from diecut_report.config import yaml_tree
 from diecut_report.config.discovery import Discovery
 from diecut_report.config.loader import load_config
 from diecut_report.config.yaml_values import as_text, with_values
+from diecut_report.study import command
 from diecut_report.study.analysis.variant_config import variant_config
+from diecut_report.study.execution import variant_reports
 from tests.configs import EXAMPLES, PLUGINS, saved
 
 SHARES = PLUGINS / "shares"
@@ -56,7 +58,10 @@ def out(tmp_path_factory: pytest.TempPathFactory) -> Path:
     folder = tmp_path_factory.mktemp("study")
     saved(folder, BASE)
     study = saved(folder, STUDY, "study.yaml")
-    assert main(["batch", str(study), "-o", str(folder / "out"), "--plugins", str(SHARES), "--quiet"]) in (0, 1)
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(command, "summarise", lambda _: None)
+        patch.setattr(variant_reports, "FORMATS", ("json",))
+        assert main(["batch", str(study), "-o", str(folder / "out"), "--plugins", str(SHARES), "--quiet"]) in (0, 1)
     return folder / "out"
 
 
@@ -123,6 +128,7 @@ def test_a_fault_of_a_variant_names_the_base_that_is_kept(
     assert "is out of range; allowed: > 0 %, ≤ 1 %" in told
 
 
+@pytest.mark.usefixtures("without_summary")
 def test_a_value_that_the_base_gives_in_a_list_stands_in_that_list(tmp_path: Path) -> None:
     text = next(path for path in EXAMPLES if path.stem == "platen_press_zppt30").read_text("utf-8")
     saved(tmp_path, text.replace("friction: 0.1 ", "friction: [0.1, 0.11, 0.12, 0.13] "))
