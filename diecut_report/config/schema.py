@@ -138,6 +138,7 @@ def _quantity(meta: Quantity, default: Any) -> Schema:
     limits = {BOUNDS[name]: getattr(meta, name) for name in BOUNDS if getattr(meta, name) is not None}
     said = [meta.description, f"Unit: {in_all_units(meta, _unit)}"]
     said += [f"Allowed: {in_all_units(meta, lambda form: form.allowed)}"] if meta.allowed else []
+    said += [f"Plausible: {in_all_units(meta, lambda form: form.sizes.told)}"]
     said += [f"Default: {in_all_units(meta, partial(_with_unit, default))}"] if default is not None else []
     said += [f"Default: from {meta.press.path}"] if meta.press else []
     number = {"type": "integer" if meta.integer else "number", **limits}
