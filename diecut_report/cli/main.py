@@ -266,5 +266,6 @@ def _summary(results: dict[str, Any]) -> list[str]:
     lost = sum("error" in data for data in calculated)
     told = "mechanisms and comparisons" if "comparisons" in results else "mechanisms"
     passed = f"{lost} of {len(calculated)} {told} were not calculated." if lost else coloured("No check fails.", "pass")
+    note = [results["comparisons_left_out"]["message"]] if "comparisons_left_out" in results else []
     verdict = f"{failed} of {count} checks fail." if failed else passed
-    return [line for _, line in sorted(lines, key=lambda pair: pair[0])] + [verdict]
+    return [line for _, line in sorted(lines, key=lambda pair: pair[0])] + note + [verdict]
