@@ -63,6 +63,12 @@ class Plausible:
     least: str
     most: str
 
+    def __post_init__(self) -> None:
+        if not isinstance(self.least, str) or not isinstance(self.most, str):
+            raise UnitError(
+                f"{self.least!r} and {self.most!r} are no plausible sizes; give two texts, such as 1 mm and 10 m."
+            )
+
     @cached_property
     def kind(self) -> Kind:
         """The kind of quantity that both ends are of; UnitError where they differ."""

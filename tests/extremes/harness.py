@@ -43,8 +43,8 @@ def extremes(kind: str, *, short: bool = False) -> Iterator[Extreme]:
     """Every single extreme of the machines of a kind (``short``: of one): each numeric input of it, of the press and its sheet."""
     for machine, keys in list(FULL[kind].items())[: 1 if short else None]:
         config = _config(kind, keys)
-        for key, quantity in (*_quantities(OF_KINDS[kind].inputs, config["mechanisms"]["a"], ("mechanisms", "a")),
-                              *(_quantities(Press, config["press"], ("press",)) if from_press(kind) else ())):  # fmt: skip
+        for key, quantity in (*quantities(OF_KINDS[kind].inputs, config["mechanisms"]["a"], ("mechanisms", "a")),
+                              *(quantities(Press, config["press"], ("press",)) if from_press(kind) else ())):  # fmt: skip
             for value in dict.fromkeys(map(repr, values(quantity))):
                 yield Extreme(kind, machine, key, json.loads(value))
 
@@ -64,15 +64,15 @@ def values(quantity: Quantity) -> Iterator[float | int]:
     yield from (-each for each in (*sizes, *BEYOND))
 
 
-def _quantities(model: type[Block], data: dict[str, Any], prefix: KeyPath) -> Iterator[tuple[KeyPath, Quantity]]:
+def quantities(model: type[Block], data: dict[str, Any], prefix: KeyPath) -> Iterator[tuple[KeyPath, Quantity]]:
     """The numeric inputs of a block and of the blocks that are given in it, the first of each list of them."""
     for name in model.model_fields:
         meta, block = meta_of(model, name), nested(model.model_fields[name].annotation)
         given, key = data.get(name), (*prefix, name)
         if block and isinstance(given, list) and given:
-            yield from _quantities(block[0], given[0], (*key, 0))
+            yield from quantities(block[0], given[0], (*key, 0))
         elif block and isinstance(given, dict):
-            yield from _quantities(block[0], given, key)
+            yield from quantities(block[0], given, key)
         elif isinstance(meta, Quantity):
             yield key, in_unit(meta, list(data))
 

@@ -8,7 +8,9 @@ import pytest
 
 from diecut_report.contract.inputs import Quantity
 from diecut_report.quantities.plausible import Plausible
+from tests.extremes.examples import example_extremes, example_fault
 from tests.extremes.harness import FULL, extremes, fault, values
+from tests.plugins.cases import CONFIGS
 
 SAMPLE = 16  # of a kind
 FEW = {"elastic_follower": 4, "platen_press": 6, "circular_knife": 8}  # of those that take longest
@@ -25,6 +27,13 @@ def test_a_sample_of_single_extremes_is_numbers_or_words(kind: str) -> None:
 @pytest.mark.parametrize("kind", FULL)
 def test_every_single_extreme_is_numbers_or_words(kind: str) -> None:
     assert [f"{case.name}: {found}" for case in extremes(kind) if (found := fault(case))] == []
+
+
+@pytest.mark.nightly
+@pytest.mark.parametrize("stem", CONFIGS)
+def test_every_single_extreme_of_an_example_is_numbers_or_words(stem: str) -> None:
+    cases = example_extremes(stem)
+    assert [f"{case.name}: {found}" for case in cases if (found := example_fault(case))] == []
 
 
 def test_a_fault_is_seen(monkeypatch: pytest.MonkeyPatch) -> None:
