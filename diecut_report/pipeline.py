@@ -9,9 +9,10 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 from diecut_report.config.discovery import Discovery
-from diecut_report.config.loader import load_config
+from diecut_report.config.loader import Config, load_config
 from diecut_report.config.yaml_tree import Tree
 from diecut_report.errors import PluginError, Problem, UserError
+from diecut_report.limits import MAX_PRINTED_MECHANISMS
 
 if TYPE_CHECKING:
     from diecut_report.results.press_run import Run
@@ -69,7 +70,7 @@ def report(
     config: Source, discovery: Discovery, tell: Tell, folder: Path, formats: Sequence[str], language: str | None = None
 ) -> ReportOutcome:
     """The report in the asked formats, as ``NAME.html``, ``NAME.pdf``, ``NAME.json`` in the folder, and the exports beside it."""
-    results, broken, places = _calculated(config, discovery, tell)
+    results, broken, places = _calculated(config, discovery, tell, formats)
     if language is not None:
         results["project"]["language"] = language
     contents, undrawn = _rendered(results, formats, tell)
@@ -83,9 +84,23 @@ def report(
     )
 
 
-def _calculated(source: Source, discovery: Discovery, tell: Tell) -> tuple[Data, tuple[PluginError, ...], Places]:
+def _refuse_many_sheets(config: Config, formats: Sequence[str]) -> None:
+    """A PDF's memory grows with its sheets, by 25 to 80 MB for each mechanism; UserError where there are too many."""
+    count = len(config.kinds)
+    if "pdf" in formats and count > MAX_PRINTED_MECHANISMS:
+        words = (
+            f"There are {count} mechanisms; the PDF of a report has at most {MAX_PRINTED_MECHANISMS}. "
+            "Leave the PDF out with --format html,json, or split the configuration."
+        )
+        raise UserError(Problem(words, config.tree.file))
+
+
+def _calculated(
+    source: Source, discovery: Discovery, tell: Tell, formats: Sequence[str] = ()
+) -> tuple[Data, tuple[PluginError, ...], Places]:
     tell("reading the configuration")
     config = load_config(source, discovery)
+    _refuse_many_sheets(config, formats)
     from diecut_report.results.document import document  # with the engine, which checking alone does not need
     from diecut_report.results.press_run import compute
 

@@ -84,7 +84,9 @@ def _unit(meta: Meta) -> str:
 
 def _allowed(meta: Meta, annotation: object) -> str:
     if isinstance(meta, Quantity):
-        return in_all_units(meta, lambda form: form.allowed) if meta.allowed else ""
+        bounds = in_all_units(meta, lambda form: form.allowed) if meta.allowed else ""
+        own = f"plausible {meta.sizes.told}" if meta.plausible else ""
+        return "; ".join(filter(None, (bounds, own)))
     known = meta.options if isinstance(meta, Text) and meta.options else get_args(annotation)
     return ", ".join(f"`{option}`" for option in known if isinstance(option, str))
 

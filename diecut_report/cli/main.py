@@ -287,5 +287,6 @@ def _summary(results: dict[str, Any]) -> list[Line]:
     passed = coloured("No check fails.", "pass") if count else "There are no checks."
     if lost:
         passed = f"{lost} of {len(calculated)} {calculations} were not calculated."
+    note = [results["comparisons_left_out"]["message"]] if "comparisons_left_out" in results else []
     verdict = f"{failed} of {count} checks fail." if failed else passed
-    return [line for _, line in sorted(lines, key=lambda pair: pair[0])] + [verdict]
+    return [line for _, line in sorted(lines, key=lambda pair: pair[0])] + note + [verdict]

@@ -9,6 +9,7 @@ from pathlib import Path
 from typing import Any, get_args
 
 from diecut_report.config import yaml_tree
+from diecut_report.config.caps import too_much
 from diecut_report.config.dependency_order import ordered
 from diecut_report.config.discovery import Discovery, DuplicateKind, UnknownKind, said
 from diecut_report.config.instances import Instance
@@ -56,6 +57,8 @@ def load_config(given: Path | Tree, discovery: Discovery) -> Config:
     """Read and validate a configuration; UserError with all its problems. A broken plugin is kept in ``broken``."""
     tree = given if isinstance(given, Tree) else yaml_tree.load(given)
     _refuse_study(tree)
+    if excess := too_much(tree):
+        raise UserError(excess)
     discovery.extend()
     reader = _ConfigReader(tree, discovery)
     linker = Linker(reader.instances)

@@ -12,6 +12,7 @@ from diecut_report.config.validation import keys_of
 from diecut_report.contract.inputs import Block, CurveInput, Quantity, Text
 from diecut_report.contract.mechanism import Mechanism
 from diecut_report.contract.unit_variants import in_all_units
+from diecut_report.limits import MAX_CURVE_VALUES, MAX_MECHANISMS, MAX_PARTS, MAX_TEXT
 from diecut_report.quantities.units import pretty
 
 Schema = dict[str, Any]
@@ -39,6 +40,7 @@ def config_schema(mechanisms: Mapping[str, Mechanism], broken: Mapping[str, str]
                 "type": "object",
                 "description": "The mechanisms by their names, which references use: ${NAME.output}.",
                 "minProperties": 1,
+                "maxProperties": MAX_MECHANISMS,
                 "propertyNames": {"pattern": f"^{NAME.pattern}$", "not": {"enum": list(RESERVED)}},
                 "additionalProperties": {"$ref": "#/$defs/mechanism"},
             },
@@ -93,7 +95,7 @@ def _key(model: type[Block], name: str, refers: bool) -> Schema:
     if inner:
         block = block_schema(inner, refers)
         described = {"description": meta.description if isinstance(meta, Text) else (inner.__doc__ or "")}
-        return described | ({"type": "array", "items": block} if is_list else block)
+        return described | ({"type": "array", "maxItems": MAX_PARTS, "items": block} if is_list else block)
     default = None if field.is_required() else field.get_default(call_default_factory=True)
     shown = {} if default is None else {"default": default}
     match meta:
@@ -119,7 +121,12 @@ def _reference() -> Schema:
 
 def _curve(meta: CurveInput) -> Schema:
     ways = "A reference to a curve" + ("" if meta.referred else ", or its values over a turn")
-    values = {"type": "array", "minItems": 4, "items": {"type": ["number", "string"]}}
+    values = {
+        "type": "array",
+        "minItems": 4,
+        "maxItems": MAX_CURVE_VALUES,
+        "items": {"type": ["number", "string"]},
+    }
     allowed = [_reference()] if meta.referred else [_reference(), values]
     return {"description": f"{meta.description}. Unit: {in_all_units(meta, _unit)}. {ways}.", "anyOf": allowed}
 
@@ -137,10 +144,11 @@ def _quantity(meta: Quantity, default: Any, refers: bool) -> Schema:
     limits = {BOUNDS[name]: getattr(meta, name) for name in BOUNDS if getattr(meta, name) is not None}
     said = [meta.description, f"Unit: {in_all_units(meta, _unit)}"]
     said += [f"Allowed: {in_all_units(meta, lambda form: form.allowed)}"] if meta.allowed else []
+    said += [f"Plausible: {in_all_units(meta, lambda form: form.sizes.told)}"]
     said += [f"Default: {in_all_units(meta, partial(_with_unit, default))}"] if default is not None else []
     said += [f"Default: from {meta.press.path}"] if meta.press else []
     number = {"type": "integer" if meta.integer else "number", **limits}
-    text = {"type": "string", "pattern": f"{REFERENCE}|{NUMBER}" if refers else NUMBER}
+    text = {"type": "string", "maxLength": MAX_TEXT, "pattern": f"{REFERENCE}|{NUMBER}" if refers else NUMBER}
     return {"description": ". ".join(said) + ".", "anyOf": [number, text]}
 
 
@@ -150,4 +158,4 @@ def _text(annotation: Any) -> Schema:
         return {"type": "boolean"}
     if all(isinstance(option, str) for option in options):
         return {"enum": options}
-    return {"type": ["string", "number"]}  # a number is taken as it was typed
+    return {"type": ["string", "number"], "maxLength": MAX_TEXT}  # a number is taken as it was typed

@@ -6,8 +6,7 @@ Values are SI floats once validated. Defaults and bounds are written in the disp
 from __future__ import annotations
 
 import math
-import operator
-from collections.abc import Callable, Collection, Iterator, Mapping
+from collections.abc import Collection, Iterator, Mapping
 from dataclasses import dataclass
 from functools import cached_property
 from typing import Annotated, Any, ClassVar, get_args, get_origin
@@ -16,13 +15,13 @@ import numpy as np
 from pydantic import BaseModel, ConfigDict, GetCoreSchemaHandler
 from pydantic_core import CoreSchema, core_schema
 
+from diecut_report.contract.bounds import BOUNDS, within
+from diecut_report.contract.curve_inputs import CurveInput, optional
 from diecut_report.contract.place import placed
 from diecut_report.contract.placeholders import SI, FromPress, OneOf, Pending
 from diecut_report.errors import nearest
+from diecut_report.quantities.plausible import Plausible, plausible
 from diecut_report.quantities.units import Unit, parse_quantity, pretty, to_display, unit
-
-SAME = 1e-15  # share of a bound by which converting a unit and back may move a number
-BOUNDS = (("gt", ">"), ("ge", "≥"), ("lt", "<"), ("le", "≤"))
 
 
 @dataclass(frozen=True)
@@ -31,6 +30,8 @@ class Quantity:
 
     Put into ``Annotated[float, Quantity(...)]`` of an input model. The validated value is an SI float
     (an int where ``integer``). ``units`` are other units, each with the key beside which it holds: (("mass", "N/m"),).
+    ``plausible`` are the least and the greatest size that a machine may have, zero aside, where they are not those of
+    the kind of quantity (``quantities.plausible``): ("1 mm", "10 m").
     """
 
     symbol: str
@@ -43,6 +44,7 @@ class Quantity:
     integer: bool = False
     press: FromPress | None = None
     units: tuple[tuple[str, str], ...] = ()
+    plausible: tuple[str, str] | None = None
     at: str = placed()
 
     @cached_property
@@ -100,41 +102,35 @@ class Quantity:
             raise ValueError(f"{told.strip()} is not a finite number")
         if not self._within(shown):
             raise ValueError(f"{told.strip()} is out of range; allowed: {self.allowed}")
+        if not self.sizes.holds(value):
+            raise ValueError(f"{told.strip()} is not plausible; {self.plausible_sizes}")
         if self.integer and not float(shown).is_integer():
             raise ValueError(f"{told.strip()} is not a whole number")
-        return int(shown) if self.integer else value
+        return int(shown) if self.integer else value + 0.0  # no minus zero
 
     def _within(self, shown: Any) -> Any:
         """Whether numbers in the display unit keep the bounds."""
-        shown = self._as_typed(shown)
-        limits = ((self.gt, operator.gt), (self.ge, operator.ge), (self.lt, operator.lt), (self.le, operator.le))
-        return np.logical_and.reduce(
-            [held(shown, limit) for limit, held in limits if limit is not None] or [shown == shown]
-        )
+        return within(shown, [getattr(self, name) for name, _ in BOUNDS])
 
-    def _as_typed(self, shown: Any) -> Any:
-        """Numbers that are a bound but for the rounding of a unit's factor, as that bound: 7 % in SI is not quite 0.07 · 100 %."""
-        for bound in (self.gt, self.ge, self.lt, self.le):
-            if bound is not None:
-                near = np.abs(shown - bound) <= SAME * abs(bound)
-                shown = np.where(near, bound, shown) if isinstance(shown, np.ndarray) else bound if near else shown
-        return shown
+    @cached_property
+    def sizes(self) -> Plausible:
+        """The plausible sizes: those declared, else those of the kind of quantity."""
+        own = Plausible(*self.plausible) if self.plausible else None
+        return own if own and own.kind == self.parsed_unit.kind else plausible(self.unit)
+
+    @property
+    def plausible_sizes(self) -> str:
+        """The plausible sizes in words, with the zero where the bounds allow it."""
+        return f"plausible: {self.sizes.told}" + (", or 0" if self._within(0.0) else "")
 
     def holds(self, values: Any) -> Any:
         """Return which numbers (an array, SI) are allowed."""
         shown = values / self.parsed_unit.factor
         whole = shown == np.round(shown) if self.integer else True
-        return np.isfinite(shown) & self._within(shown) & whole
+        return np.isfinite(shown) & self._within(shown) & whole & self.sizes.holds(values)
 
     def __get_pydantic_core_schema__(self, source: Any, handler: GetCoreSchemaHandler) -> CoreSchema:
-        return core_schema.no_info_plain_validator_function(_optional(source, self.validate))
-
-
-def _optional(source: Any, validate: Callable[[Any], Any]) -> Callable[[Any], Any]:
-    """A validator that lets None pass where the annotation does."""
-    if type(None) not in get_args(source):
-        return validate
-    return lambda given: None if given is None else validate(given)
+        return core_schema.no_info_plain_validator_function(optional(source, self.validate))
 
 
 @dataclass(frozen=True)
@@ -158,47 +154,6 @@ class Text:
     def __get_pydantic_core_schema__(self, source: Any, handler: GetCoreSchemaHandler) -> CoreSchema:
         schema = handler(source)
         return core_schema.no_info_after_validator_function(self.validate, schema) if self.options else schema
-
-
-@dataclass(frozen=True)
-class CurveInput:
-    """Declare a curve taken by reference, or (unless ``referred``) a list of equally spaced numbers over one period.
-
-    The validated value is a ``Pending``, the referred curve, or a tuple of SI floats. ``units`` as for ``Quantity``.
-    """
-
-    symbol: str
-    unit: str
-    description: str
-    referred: bool = False
-    units: tuple[tuple[str, str], ...] = ()
-    at: str = placed()
-
-    def validate(self, given: Any) -> Any:
-        """Return what the engine makes a curve of; ValueError in words where it cannot."""
-        if isinstance(given, Pending):
-            if given.unit is None or unit(given.unit).kind != unit(self.unit).kind or not given.is_curve:
-                raise ValueError(f"${{{given.path}}} is not a curve in {self.unit}")
-            return given
-        if isinstance(given, list) and not self.referred:
-            if len(given) < 4:
-                raise ValueError(f"has {len(given)} values; a curve over one turn needs at least 4")
-            return tuple(self._listed(value) for value in given)
-        if hasattr(given, "curve_id"):
-            return given
-        or_list = "" if self.referred else " or a list of values"
-        raise ValueError(f"is {given!r}; a reference to a curve{or_list} in {self.unit} is needed")
-
-    def _listed(self, given: Any) -> float:
-        """Return one value of a list in SI; one that is referred to is in SI already."""
-        if not isinstance(given, SI):
-            return parse_quantity(given, self.unit)
-        if unit(given.unit).kind != unit(self.unit).kind:
-            raise ValueError(f"{given.told} is in {given.unit}; a quantity in {self.unit} is needed here")
-        return float(given.value)
-
-    def __get_pydantic_core_schema__(self, source: Any, handler: GetCoreSchemaHandler) -> CoreSchema:
-        return core_schema.no_info_plain_validator_function(_optional(source, self.validate))
 
 
 class Block(BaseModel):

@@ -18,6 +18,8 @@ from diecut_report.declaration.names import DeclaredNames
 from diecut_report.declaration.words import Fault
 from diecut_report.declaration.world import Key, allowed
 from diecut_report.errors import nearest
+from diecut_report.quantities.plausible import Plausible
+from diecut_report.quantities.units import unit
 
 RESERVED = ("kind",)  # keys of each mechanism in a configuration
 PLAIN = ("builtins", "typing", "types")  # where the classes of plain values stand
@@ -134,11 +136,24 @@ def _wrong(name: str, declared: FieldInfo, meta: Meta | None) -> Iterator[str]:
             return
         if int in _kinds(declared.annotation) and not meta.integer:
             yield "is annotated as int, but takes any number; write integer=True in its Quantity, or annotate it as float"
+    if isinstance(meta, Quantity) and meta.plausible:
+        yield from _sizes(meta, meta.plausible)
     if isinstance(meta, Quantity) and meta.integer and (meta.unit != "1" or meta.units):
         yield f"is a whole number in {meta.unit}; a count has the unit 1"
     if declared.is_required() or default is None:
         return
     yield from _default(default, declared.annotation, meta)
+
+
+def _sizes(meta: Quantity, ends: tuple[str, str]) -> Iterator[str]:
+    """Plausible sizes that are none, or of another kind of quantity."""
+    try:
+        own = Plausible(*ends)
+        kinds = [unit(text).kind for text in (meta.unit, *(other for _, other in meta.units))]
+        if own.ends and own.kind not in kinds:
+            yield f"has plausible sizes {ends[0]} to {ends[1]}; a quantity in {meta.unit} is needed"
+    except (TypeError, ValueError) as why:
+        yield f"has plausible sizes that are none: {why}"
 
 
 def _default(default: Any, annotation: Any, meta: Meta) -> Iterator[str]:

@@ -14,6 +14,7 @@ _GLUED = re.compile(r"(/?)(?<!\w)((?:[kMm]?N|kg|g)(?=mm|cm|m))(m|mm|cm)(\*\*-?\d
 
 def normalised(text: str) -> str:
     """Return a unit's text in the one spelling that the table of units and pint know."""
+    text = " ".join(text.split())  # a run of blanks would be searched again from each of them
     text = text.translate(_CHARACTERS).replace("°C", "degC").replace("°F", "degF").replace("°", "deg")
     text = _SUPERSCRIPT.sub(_plain_exponent, text)
     text = re.sub(r"\s*(\*\*|[*/()])\s*", r"\1", text.strip())

@@ -17,6 +17,7 @@ from functools import cache, lru_cache
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from diecut_report.limits import MAX_QUANTITY
 from diecut_report.quantities.unit_spelling import normalised
 
 if TYPE_CHECKING:
@@ -232,6 +233,9 @@ def number_and_unit(text: str, wanted: Unit | None = None) -> tuple[Decimal, str
 
     Raises UnitError, which names the `wanted` unit, for a text that does not begin with one finite number.
     """
+    if len(text) > MAX_QUANTITY:
+        given = f"{_shortened(text)} has {len(text)} characters; a number with a unit has at most {MAX_QUANTITY}"
+        raise UnitError(f"{given}. {_needed(wanted)[0].upper()}{_needed(wanted)[1:]}.")
     text = text.strip().replace("−", "-")
     match = _QUANTITY.fullmatch(text)
     if re.match(r"[+-]?[0-9]*,[0-9]", text) or (match and re.match(r",\s*[0-9]", match[2])):

@@ -63,7 +63,7 @@ def document(results: Data, equations: Equations, words: Catalogue) -> ReportDoc
         press=results["press"],
         status=results["status"],
         verdict=words[_verdict(results, checks)],
-        counts=list(_counts(checks, chapters, words)),
+        counts=[*_counts(checks, chapters, words), *_left_out(results)],
         governing=_governing(results, checks),
         checks=checks,
         failures=[row for row in checks if row.status == "fail"],
@@ -128,6 +128,12 @@ def _counts(checks: list[CheckRow], chapters: list[PrintedChapter], words: Catal
         yield words.say("count_warn", n=found["warn"])
     if found["pass"]:
         yield words.say("count_pass" if found["pass"] > 1 else "count_pass_one", n=found["pass"])
+
+
+def _left_out(results: Data) -> Iterator[str]:
+    """Words on the comparisons that are not made."""
+    if "comparisons_left_out" in results:
+        yield results["comparisons_left_out"]["message"].removesuffix(".")
 
 
 def _governing(results: Data, checks: list[CheckRow]) -> CheckRow | None:

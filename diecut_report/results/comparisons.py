@@ -8,8 +8,9 @@ from itertools import product
 from typing import Any
 
 import numpy as np
+from pydantic import ValidationError
 
-from diecut_report.contract.inputs import SI, flatten
+from diecut_report.contract.inputs import SI, Block, flatten
 from diecut_report.contract.mechanism import Comparison
 from diecut_report.contract.unit_variants import in_form
 from diecut_report.engine import Calculation, CurveHandle, calculate
@@ -17,6 +18,10 @@ from diecut_report.quantities.units import unit
 from diecut_report.results.mechanism import Provenance, mechanism_results
 
 Data = dict[str, Any]
+
+
+class Uncomparable(ValueError):
+    """A result that a comparison cannot be made with, in words."""
 
 
 @dataclass(frozen=True)
@@ -51,9 +56,21 @@ def compared(case: Found, calculations: Mapping[str, Calculation]) -> Data:
         value = _taken(calculations[instance], name)
         if value is not None:
             values[key], origins[key] = value, Provenance("reference", f"{instance}.{name}")
-    block = in_form(case.comparison.mechanism.inputs, values).model_validate(values)
+    block = _block(case, values)
     calculation = calculate(case.comparison.mechanism, flatten(block))
     return mechanism_results(calculation, origins) | {"between": list(case.between.values())}
+
+
+def _block(case: Found, values: Mapping[str, Any]) -> Block:
+    """Return the validated inputs; Uncomparable in words where a result is none that they may have."""
+    try:
+        return in_form(case.comparison.mechanism.inputs, values).model_validate(values)
+    except ValidationError as error:
+        fault = error.errors(include_url=False)[0]
+        kind, name = case.comparison.takes[str(fault["loc"][0])]
+        raise Uncomparable(
+            f"The comparison {case.name} takes {case.between[kind]}.{name}: {fault['msg'].removeprefix('Value error, ')}."
+        ) from error
 
 
 def _taken(calc: Calculation, name: str) -> Any:

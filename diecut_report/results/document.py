@@ -15,6 +15,7 @@ from diecut_report.config.validation import declared, keys_of
 from diecut_report.contract.inputs import Block, CurveInput, Quantity, flatten
 from diecut_report.contract.mechanism import Mechanism
 from diecut_report.engine import CurveHandle
+from diecut_report.limits import MAX_COMPARISONS
 from diecut_report.quantities.formatting import as_given, shortest
 from diecut_report.results.comparisons import Found
 from diecut_report.results.mechanism import RANK, worst
@@ -43,7 +44,18 @@ def document(run: Run) -> Data:
         "status": "error" if run.errors else status,
         "governing": governing(mechanisms),
         "mechanisms": mechanisms,
-    } | ({"comparisons": comparisons} if comparisons else {})
+    } | ({"comparisons": comparisons} | _left_out(run) if comparisons else {})
+
+
+def _left_out(run: Run) -> Data:
+    """The comparisons beyond the most that a config gets, with words on how to get them."""
+    if not run.left_out:
+        return {}
+    words = (
+        f"{len(run.left_out)} comparisons are left out, the first is {run.left_out[0]}: at most {MAX_COMPARISONS} are made. "
+        "To get one, let its mechanisms be the first of their kinds in the configuration, or put them into one of their own."
+    )
+    return {"comparisons_left_out": {"message": words, "names": run.left_out}}
 
 
 def _code(config: Config) -> Data:

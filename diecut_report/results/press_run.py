@@ -17,7 +17,8 @@ from diecut_report.contract.result_names import named
 from diecut_report.engine import Calculation, CurveHandle, Impossible, calculate
 from diecut_report.errors import PluginError, Problem, UserError
 from diecut_report.expressions import Array
-from diecut_report.results.comparisons import Found, compared, found
+from diecut_report.limits import MAX_COMPARISONS
+from diecut_report.results.comparisons import Found, Uncomparable, compared, found
 from diecut_report.results.mechanism import Provenance, mechanism_results
 
 Data = dict[str, Any]
@@ -57,6 +58,7 @@ class Run:
         self.problems: list[Problem] = []
         self.comparisons: dict[str, Data] = {}
         self.cases: list[Found] = []
+        self.left_out: list[str] = []
         for node in config.order:
             if len(node) == 1:
                 self._mechanism(str(node[0]))
@@ -65,8 +67,10 @@ class Run:
         self._comparisons()
 
     def _comparisons(self) -> None:
-        for case in found(self.calculations) if not self.problems else ():
+        cases = list(found(self.calculations)) if not self.problems else []
+        for case in cases[:MAX_COMPARISONS]:
             self._compare(case)
+        self.left_out = [case.name for case in cases[MAX_COMPARISONS:]]
 
     # --- values that are referred to ---------------------------------------------------------------------------------
 
@@ -180,6 +184,8 @@ class Run:
         self.cases.append(case)
         try:
             self.comparisons[case.name] = compared(case, self.calculations)
+        except Uncomparable as fault:
+            self.problems.append(Problem(str(fault), self.config.tree.file))
         except (Exception, SystemExit) as cause:
             error = PluginError(said(cause), case.comparison.mechanism.kind, case.name)
             error.__cause__ = cause

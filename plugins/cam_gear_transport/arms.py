@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from functools import lru_cache
 from math import acos, cos, pi
 from typing import Any, NamedTuple
 
@@ -19,6 +20,7 @@ CLEAR = 0.01 * DEGREE  # by which a pressure angle keeps its limit
 DIGITS = 3  # of lengths and sweeps that are named
 SOUND = 1.01  # by which radii keep theirs
 PLACES = np.linspace(0, 1, 121)  # of the samples over a rise; the laws' joints are among them
+TRIED = np.arange(1, 1800) / 10 * DEGREE  # every angle that ``_best`` may try, from the line O₁O₃ on one side of it
 EIGHTHS = np.linspace(0, 1, 9)  # where the usual laws jump
 
 
@@ -116,6 +118,17 @@ def _sound(rocker: Rocker, cycle: ArmMotion, length: float, direction: Any) -> A
     return (SOUND * rocker.roller_radius * curvature < 1) & (distance > SOUND * rocker.roller_radius)
 
 
+def _ends_allow(rocker: Rocker, cycle: ArmMotion, length: float, arms: Any) -> bool:
+    """Whether any of these arm angles keeps the accepted pressure angle where the rocker moves with the disc alone.
+
+    These are a few samples of the cycle, so that where none does the search over all of it is spared.
+    """
+    ends = np.unique(cycle.angle[cycle.turn == 1])
+    with np.errstate(divide="ignore"):  # an arm on the line O₁O₃
+        found = cam.pressure_angle(rocker.center_distance, length, arms[:, None] + ends, 1.0).max(axis=1)
+    return bool(found.min() <= rocker.accepted)
+
+
 def _best(rocker: Rocker, cycle: ArmMotion, length: float, arm: float, left: bool) -> tuple[float, float]:
     """An arm's angle that passes, in °, and its pressure angle: as it is, or the best; infinite where none passes."""
     limit = rocker.accepted - CLEAR
@@ -123,6 +136,8 @@ def _best(rocker: Rocker, cycle: ArmMotion, length: float, arm: float, left: boo
         own = float(pressure_angles(rocker, cycle, length, np.array([arm]))[0])
         if own <= limit:
             return in_degrees(arm), own
+    if not _ends_allow(rocker, cycle, length, TRIED + (0 if left else pi)):
+        return np.nan, np.inf
     angles = np.arange(1.0, 180.0) + (0 if left else 180) - 360 * (arm < 0)
     found = pressure_angles(rocker, cycle, length, angles * DEGREE)
     near = angles[np.argmin(found)] + np.arange(-9, 10) / 10
@@ -147,8 +162,10 @@ def fitting(rocker: Rocker) -> tuple[dict[str, str], float] | None:
         if factor < 1 and length <= rocker.roller_radius:
             return None  # the roller would cover the pin
         one, first = _best(rocker, cycle, length, rocker.arm_angle_1, left)
+        if first == np.inf:
+            continue
         other, second = _best(rocker, cycle, length, rocker.arm_angle_2, not left)
-        if max(first, second) < np.inf:
+        if second < np.inf:
             values = (("arm_length", length * 1000, rocker.arm_length * 1000, " mm"), ("arm_angle_1", one, in_degrees(rocker.arm_angle_1), "°"),
                       ("arm_angle_2", other, in_degrees(rocker.arm_angle_2), "°"))  # fmt: skip
             changed = {key: f"{new:.6g}{sign}" for key, new, old, sign in values if new != old}
@@ -178,6 +195,7 @@ def _told(values: dict[str, str], greatest: float) -> str:
     return f"take {', '.join(words)}: the greatest pressure angle is then {in_degrees(greatest):.3g}°{loaded}"
 
 
+@lru_cache(maxsize=64)  # three checks ask for the same words
 def arms_that_fit(*numbers: float) -> str:
     """Words on arms with which pressure angles, curvature and the way round the shaft pass; on narrower sweeps where none do."""
     rocker = Rocker(*numbers)

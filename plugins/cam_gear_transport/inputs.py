@@ -5,6 +5,8 @@ from __future__ import annotations
 from diecut_report.api import POINTS, Annotated, FromPress, Inputs, Quantity, Text
 from diecut_report.mechanics.motion_laws import LAWS
 
+TURNS = ("0.01 deg", "3600 deg")
+
 
 def _arm_angle(number: str) -> Quantity:
     return Quantity(
@@ -20,14 +22,21 @@ class CamGearTransport(Inputs):
     """Keys of ``cam_gear_transport``."""
 
     dwell_angle: Annotated[
-        float, Quantity("φ_22", "deg", "Dwell of the gear, in angle of the disc (phase II)", gt=0, lt=360)
+        float,
+        Quantity("φ_22", "deg", "Dwell of the gear, in angle of the disc (phase II)", gt=0, lt=360, plausible=TURNS),
     ]
     sector_dwell_sweep: Annotated[
-        float, Quantity("γ_32", "deg", "Sweep of the sector during the dwell (phase II)", gt=0)
+        float, Quantity("γ_32", "deg", "Sweep of the sector during the dwell (phase II)", gt=0, plausible=TURNS)
     ] = 60
     sector_stop_sweep: Annotated[
         float,
-        Quantity("γ_3(3+1)", "deg", "Sweep of the sector while it stops and starts, phases III and I together", gt=0),
+        Quantity(
+            "γ_3(3+1)",
+            "deg",
+            "Sweep of the sector while it stops and starts, phases III and I together",
+            gt=0,
+            plausible=TURNS,
+        ),
     ] = 20
     motion_law: Annotated[str, Text("Law of motion by which the sector stops, returns and starts", options=LAWS)] = (
         "cycloidal"

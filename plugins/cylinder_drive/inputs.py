@@ -37,7 +37,13 @@ class CylinderDrive(Inputs):
     ] = None
     sector_ratio: Annotated[
         float | None,
-        Quantity("u", "1", "Ratio of sector to pinion; default: the full swing turns the cylinder once", gt=0),
+        Quantity(
+            "u",
+            "1",
+            "Ratio of sector to pinion; default: the full swing turns the cylinder once",
+            gt=0,
+            plausible=("0.01", "500"),
+        ),
     ] = None
     cylinder_radius: Annotated[float, Quantity("R", "mm", "Radius of the cylinder", gt=0)]
     cylinder_length: Annotated[float, Quantity("L", "mm", "Length of the cylinder's generatrix", gt=0)]

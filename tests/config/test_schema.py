@@ -57,6 +57,9 @@ def test_what_the_program_takes_the_schema_takes() -> None:
         ("force: 2 kN", "force: '1,5 kN'", "mechanisms.a.force"),
         ("force: 2 kN", "force: [1]", "mechanisms.a.force"),
         ("force: 2 kN", "force: 1, arm: 1001", "mechanisms.a.arm"),
+        ("title: Test", f"title: {'T' * 501}", "project.title"),
+        ("force: 2 kN", f"force: 2{'0' * 501} kN", "mechanisms.a.force"),
+        ("force: 2 kN", f"force: 1, load: [{'1, ' * 10_001}]", "mechanisms.a.load"),
         ("force: 2 kN", "force: 1, teeth: 20.5", "mechanisms.a.teeth"),
         ("force: 2 kN", "force: 1, grade: medium", "mechanisms.a.grade"),
         ("force: 2 kN", "force: 1, hard: 3", "mechanisms.a.hard"),
@@ -74,9 +77,15 @@ def test_a_mistake_is_caught(old: str, new: str, where: str) -> None:
 
 def test_descriptions_tell_unit_range_and_default() -> None:
     keys = kind_schema(DISCOVERY.mechanism("lever"))["properties"]
-    assert keys["arm"]["description"] == "Arm. Unit: mm. Allowed: > 0 mm, ≤ 1000 mm. Default: 100 mm."
-    assert keys["speed"]["description"] == "Speed. Unit: rpm. Allowed: > 0 rpm. Default: from press.productivity."
-    assert keys["teeth"]["description"] == "Teeth. Unit: none (a pure number). Allowed: ≥ 12. Default: 20."
+    assert (
+        keys["arm"]["description"]
+        == "Arm. Unit: mm. Allowed: > 0 mm, ≤ 1000 mm. Plausible: 1 µm to 100 m. Default: 100 mm."
+    )
+    plausible = "Plausible: 0.0001 rpm to 1000000 rpm"
+    told = f"Speed. Unit: rpm. Allowed: > 0 rpm. {plausible}. Default: from press.productivity."
+    assert keys["speed"]["description"] == told
+    told = "Teeth. Unit: none (a pure number). Allowed: ≥ 12. Plausible: 1e-06 to 1000000. Default: 20."
+    assert keys["teeth"]["description"] == told
 
 
 def test_the_schema_of_a_kind_is_that_of_its_block() -> None:

@@ -14,6 +14,7 @@ import pytest
 
 from diecut_report.engine import Impossible
 from diecut_report.mechanics.motion_laws import LAWS
+from diecut_report.plugins.cam_gear_transport import arms
 from diecut_report.plugins.cam_gear_transport.advice import smaller_roller
 from tests.examples import few
 from tests.machines import number
@@ -64,6 +65,31 @@ def test_arms_are_named_for_each_law(law: str) -> None:
     advised = told(checks(stepper(**machine))["pressure_angle"]["message"])
     again = checks(stepper(**machine | advised))
     assert {again[name]["status"] for name in CAM_CHECKS} == {"pass"}
+
+
+@pytest.mark.parametrize(
+    "changes", [{"arm_length": "9000 mm"}, {"max_pressure_angle": "30 deg"}, {"motion_law": "harmonic"}]
+)
+def test_a_search_that_is_spared_would_have_found_nothing(
+    changes: dict[str, Any], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    machine = stepper(**CAMS | changes | {"n_points": 36})
+    rocker = [number(machine, name) for name in arms.TAKES]
+    found = arms.arms_that_fit.__wrapped__(*rocker)
+    monkeypatch.setattr(arms, "FACTORS", arms.FACTORS[::6])
+    thin = arms.arms_that_fit.__wrapped__(*rocker)
+    monkeypatch.setattr(arms, "_ends_allow", lambda *_: True)
+    assert arms.arms_that_fit.__wrapped__(*rocker) == thin and found
+
+
+def test_arms_that_are_far_too_long_are_judged_without_a_search(monkeypatch: pytest.MonkeyPatch) -> None:
+    machine = stepper(**CAMS | {"arm_length": "9000 mm", "n_points": 36})
+    rocker = [number(machine, name) for name in arms.TAKES]
+    tried: list[float] = []
+    searched = arms.pressure_angles
+    monkeypatch.setattr(arms, "pressure_angles", lambda *of: tried.append(of[2]) or searched(*of))
+    assert arms.arms_that_fit.__wrapped__(*rocker) == "no arms pass with this dwell; take a shorter dwell_angle"
+    assert len(tried) <= 400  # the arm as it is, for each length and each sweep; 7200 with the search
 
 
 def test_where_narrower_sweeps_are_advised_no_arms_pass_as_the_sweeps_are() -> None:

@@ -126,8 +126,11 @@ class Domain:
 
     def is_joint(self, places: Array) -> Array:
         """Return which places (variants, any number) are breakpoints of curves."""
-        apart = np.abs(places[:, :, None] - self.joints[:, None, :])
-        near: Array = (apart <= SAME * self.period[:, :, None]).any(axis=2)
+        last = self.joints.shape[1] - 1
+        rows = zip(self.joints, places, strict=True)
+        above = np.stack([np.searchsorted(joints, row) for joints, row in rows]).reshape(places.shape)
+        beside = (np.take_along_axis(self.joints, np.clip(above - before, 0, last), axis=1) for before in (0, 1))
+        near: Array = np.logical_or(*(np.abs(places - joint) <= SAME * self.period for joint in beside))
         return near
 
     def period_of(self, rows: Array | None) -> Array:

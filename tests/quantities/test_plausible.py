@@ -1,0 +1,141 @@
+"""Plausible sizes: what no machine has is refused in words, whoever gives it; what a machine has is not."""
+
+from __future__ import annotations
+
+import subprocess
+import sys
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from diecut_report.api import CurveInput, Quantity
+from diecut_report.config.loader import load_config
+from diecut_report.contract.inputs import SI, fields
+from diecut_report.errors import UserError
+from diecut_report.quantities.plausible import SIZES, Plausible, plausible
+from diecut_report.quantities.units import UnitError, unit
+from diecut_report.results.press_run import compute
+from tests.configs import DISCOVERY, HEAD, problems, saved
+from tests.plugins.cases import COMPARISONS, OF_KINDS
+
+LENGTH = Quantity("l", "mm", "Length")
+SHARE = Quantity("s", "1", "Share", ge=0, plausible=("0.01", "50"))
+
+
+@pytest.mark.parametrize("text", SIZES)
+def test_each_line_of_the_table_is_a_range_of_its_kind(text: str) -> None:
+    own = Plausible(*SIZES[text])
+    assert own.kind == unit(text).kind and 0 < own.ends[0] < own.ends[1] and plausible(text).ends == own.ends
+
+
+def test_the_table_is_read_without_pint() -> None:
+    code = (
+        "import sys; from diecut_report.quantities import plausible as p; "
+        "[p.Plausible(*ends).ends for ends in p.SIZES.values()]; print('pint' in sys.modules)"
+    )
+    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
+    assert done.stdout == "False\n"
+
+
+def test_the_page_tells_each_line() -> None:
+    page = (Path(__file__).parents[1] / "docs" / "limits.md").read_text("utf-8")
+    for ends in SIZES.values():
+        assert f"| {Plausible(*ends).told} |" in page
+
+
+def test_every_quantity_of_every_kind_has_a_line_in_the_table() -> None:
+    known = {unit(text).kind for text in SIZES}
+    for mechanism in (*OF_KINDS.values(), *COMPARISONS.values()):
+        for name, meta in fields(mechanism.inputs):
+            units = [meta.unit, *(other for _, other in meta.units)] if isinstance(meta, Quantity | CurveInput) else []
+            assert {unit(each).kind for each in units} <= known, f"{mechanism.kind}.{name}"
+
+
+@pytest.mark.parametrize("given", ["1 um", "-1 um", "100 m", 0, "-0.0 mm", "1e5 mm", "0.001 mm", 1e5, 0.001])
+def test_both_ends_and_zero_are_plausible(given: float | str) -> None:
+    assert str(LENGTH.validate(given)) != "-0.0"
+
+
+@pytest.mark.parametrize("given", [1e-300, "1e-300 mm", "0.999 um", "-0.999 um", "100.1 m", "-1e300 m", 1e12])
+def test_what_is_not_plausible_is_told_with_what_is(given: float | str) -> None:
+    with pytest.raises(ValueError, match=r"^.*m is not plausible; plausible: 1 µm to 100 m, or 0$"):
+        LENGTH.validate(given)
+
+
+def test_zero_is_named_only_where_the_bounds_allow_it() -> None:
+    with pytest.raises(ValueError, match=r"plausible: 1 µm to 100 m$"):
+        Quantity("l", "mm", "Length", gt=0).validate("200 m")
+
+
+def test_a_key_may_declare_sizes_of_its_own() -> None:
+    assert SHARE.validate("0.01") == 0.01 and SHARE.validate(50) == 50
+    with pytest.raises(ValueError, match=r"51 is not plausible; plausible: 0.01 to 50, or 0$"):
+        SHARE.validate(51)
+
+
+def test_the_sizes_of_a_key_hold_for_their_kind_of_quantity_alone() -> None:
+    turned = Quantity("h", "m", "Rise", plausible=("1 deg", "90 deg"))
+    assert turned.validate("3 m") == 3
+
+
+def test_columns_are_judged_as_single_values_are() -> None:
+    values = np.array([0, 1e-6, 9e-7, -9e-7, 100, 101, np.inf, np.nan, 1e-6 * (1 - 1e-16), 0.1 + 0.2])
+    assert LENGTH.holds(values).tolist() == [True, True, False, False, True, False, False, False, True, True]
+
+
+@pytest.mark.parametrize("ends", [("1 mm", "1 kg"), ("0 mm", "1 m"), ("2 m", "1 m"), ("-1 m", "1 m"), ("one", "2 m")])
+def test_ends_that_are_no_range_are_refused(ends: tuple[str, str]) -> None:
+    with pytest.raises(UnitError):
+        _ = Plausible(*ends).kind, Plausible(*ends).ends
+
+
+def test_a_kind_without_a_line_has_a_wide_range() -> None:
+    assert plausible("A*m**5").ends == (1e-12, 1e12)
+
+
+def test_a_typed_value_is_told_with_line_and_key(tmp_path: Path) -> None:
+    assert problems(tmp_path, HEAD + "  a: {kind: lever, force: 1e-300 kN}\n") == [
+        "5:27: mechanisms.a.force: 1e-300 kN is not plausible; plausible: 1 mN to 100 MN"
+    ]
+
+
+def test_the_press_is_judged_too(tmp_path: Path) -> None:
+    text = HEAD.replace("6000 1/h", "1e300 1/h") + "  a: {kind: lever, force: 2 kN}\n"
+    (told,) = problems(tmp_path, text)
+    assert told.startswith("3:") and "press.productivity: 1e300 1/h is not plausible; plausible: 0.001 1/h" in told
+
+
+def test_a_value_of_a_curve_is_judged(tmp_path: Path) -> None:
+    (told,) = problems(tmp_path, HEAD + "  a: {kind: lever, force: 2 kN, load: [1, 2, 0, 1e-300, 4]}\n")
+    assert (
+        "mechanisms.a.load: holds 1e-300 N·m, which is not plausible; plausible: 1e-06 N·m to 1000 MN·m, or 0" in told
+    )
+
+
+def test_a_value_that_is_referred_to_is_judged_when_it_is_known(tmp_path: Path) -> None:
+    text = HEAD + (
+        "  a: {kind: lever, force: 100 MN, arm: 1000 mm}\n"
+        "  b: {kind: lever, force: 2 kN, load: ['${a.moment}', '${a.moment}', '${a.moment}', '${a.moment}']}\n"
+    )  # fmt: skip
+    compute(load_config(saved(tmp_path, text), DISCOVERY), lambda _: None)
+    quantity = Quantity("M", "N*m", "Moment", gt=0)
+    with pytest.raises(
+        ValueError, match=r"2e\+09 N·m \(from a.moment\) is not plausible; plausible: 1e-06 N·m to 1000 MN·m$"
+    ):
+        quantity.validate(SI(2e9, "N*m", "a.moment"))
+
+
+def test_a_result_that_a_comparison_cannot_take_is_told(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    text = HEAD + (
+        "  cam: {kind: cam_gear_transport, dwell_angle: 160 deg, sector_dwell_sweep: 60 deg, sector_stop_sweep: 20 deg,"
+        " center_distance: 300 mm}\n"
+        "  geneva: {kind: geneva_transport, slots: 6, center_distance: 200 mm, roller_radius: 10 mm}\n"
+    )
+    comparison = COMPARISONS["transport_comparison"]
+    crank_speed = dict(fields(comparison.inputs))["crank_speed"]
+    monkeypatch.setitem(crank_speed.__dict__, "sizes", Plausible("0.001 rpm", "1 rpm"))
+    config = load_config(saved(tmp_path, text), DISCOVERY)
+    told = r"transport_comparison-cam-geneva takes geneva.crank_speed: .* plausible: 0.001 rpm to 1 rpm"
+    with pytest.raises(UserError, match=told):
+        compute(config, lambda _: None)
