@@ -14,7 +14,7 @@ TOLD = 20  # problems, so that the message itself stays short
 
 def too_much(tree: Tree) -> list[Problem]:
     """Return what a config holds too much of, in words; the first of them where there are many."""
-    found = []
+    found: list[Problem] = []
     for path, message in _excess(tree.data, ()):
         if len(found) == TOLD:
             return found

@@ -149,8 +149,9 @@ def _sizes(meta: Quantity, ends: tuple[str, str]) -> Iterator[str]:
     """Plausible sizes that are none, or of another kind of quantity."""
     try:
         own = Plausible(*ends)
+        _ = own.ends  # which are judged when they are read
         kinds = [unit(text).kind for text in (meta.unit, *(other for _, other in meta.units))]
-        if own.ends and own.kind not in kinds:
+        if own.kind not in kinds:
             yield f"has plausible sizes {ends[0]} to {ends[1]}; a quantity in {meta.unit} is needed"
     except (TypeError, ValueError) as why:
         yield f"has plausible sizes that are none: {why}"
