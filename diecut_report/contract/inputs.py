@@ -114,13 +114,13 @@ class Quantity:
 
     @cached_property
     def sizes(self) -> Plausible:
-        """The plausible sizes: those declared, else those of the kind of quantity."""
+        """Return the plausible sizes: those declared, else those of the kind of quantity."""
         own = Plausible(*self.plausible) if self.plausible else None
         return own if own and own.kind == self.parsed_unit.kind else plausible(self.unit)
 
     @property
     def plausible_sizes(self) -> str:
-        """The plausible sizes in words, with the zero where the bounds allow it."""
+        """Return the plausible sizes in words, with the zero where the bounds allow it."""
         return f"plausible: {self.sizes.told}" + (", or 0" if self._within(0.0) else "")
 
     def holds(self, values: Any) -> Any:

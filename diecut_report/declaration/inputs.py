@@ -11,7 +11,8 @@ from typing import Any, Union, get_args, get_origin
 from pydantic import PydanticSchemaGenerationError, TypeAdapter
 from pydantic.fields import FieldInfo
 
-from diecut_report.contract.inputs import BOUNDS, Block, Meta, Quantity, Text, meta_of, nested
+from diecut_report.contract.bounds import BOUNDS
+from diecut_report.contract.inputs import Block, Meta, Quantity, Text, meta_of, nested
 from diecut_report.contract.mechanism import Mechanism
 from diecut_report.declaration.input_places import of_class, of_field
 from diecut_report.declaration.names import DeclaredNames

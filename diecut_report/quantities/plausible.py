@@ -64,9 +64,10 @@ class Plausible:
     most: str
 
     def __post_init__(self) -> None:
-        if not isinstance(self.least, str) or not isinstance(self.most, str):
+        given: tuple[object, ...] = (self.least, self.most)  # by an author, who may have written numbers
+        if not all(isinstance(text, str) for text in given):
             raise UnitError(
-                f"{self.least!r} and {self.most!r} are no plausible sizes; give two texts, such as 1 mm and 10 m."
+                f"{self.least!r} and {self.most!r} are not plausible sizes; give two texts, such as 1 mm and 10 m."
             )
 
     @cached_property
@@ -83,7 +84,9 @@ class Plausible:
         wanted = [number_and_unit(text)[1] or "1" for text in (self.least, self.most)]
         least, most = (parse_quantity(text, own) for text, own in zip((self.least, self.most), wanted, strict=True))
         if not 0 < least < most:
-            raise UnitError(f"{self.least} to {self.most} is no range of sizes; give two above zero, the lesser first.")
+            raise UnitError(
+                f"{self.least} to {self.most} is not a range of sizes; give two above zero, the lesser first."
+            )
         return least, most
 
     def holds(self, values: Any) -> Any:

@@ -19,7 +19,7 @@ from diecut_report.results.document import document
 from diecut_report.results.press_run import compute
 from tests.configs import DISCOVERY, HEAD, LEVER, problems, saved
 
-PAGE = Path(__file__).parents[1] / "docs" / "limits.md"
+PAGE = Path(__file__).parents[2] / "docs" / "limits.md"
 CAM = "{kind: cam_gear_transport, dwell_angle: 160 deg, sector_dwell_sweep: 60 deg, sector_stop_sweep: 20 deg, center_distance: 300 mm, n_points: 36}"
 GENEVA = "{kind: geneva_transport, slots: 6, center_distance: 200 mm, roller_radius: 10 mm, n_points: 36}"
 

@@ -39,7 +39,7 @@ def test_the_table_is_read_without_pint() -> None:
 
 
 def test_the_page_tells_each_line() -> None:
-    page = (Path(__file__).parents[1] / "docs" / "limits.md").read_text("utf-8")
+    page = (Path(__file__).parents[2] / "docs" / "limits.md").read_text("utf-8")
     for ends in SIZES.values():
         assert f"| {Plausible(*ends).told} |" in page
 

@@ -34,7 +34,7 @@ def read(file: BinaryIO) -> tuple[list[Header], list[Cells]]:
         if getattr(error, "errno", None):
             raise
         told = " ".join(str(error).split())
-        raise UnreadableTable(f"is no Parquet file, or a damaged one: {told}") from error
+        raise UnreadableTable(f"is not a Parquet file, or a damaged one: {told}") from error
     return list(zip(table.column_names, units, strict=True)), columns
 
 

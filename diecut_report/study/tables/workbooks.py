@@ -21,7 +21,7 @@ from diecut_report.study.tables.limits import (
 )
 
 KIND = ".xlsx"
-DAMAGED = "is no XLSX workbook, or a damaged one; save it again as .xlsx"
+DAMAGED = "is not an XLSX workbook, or a damaged one; save it again as .xlsx"
 MAX_MEMBERS = 10_000
 MAX_ELEMENTS = 4 * MAX_CELLS[KIND]  # a cell has up to three
 MAX_OTHERS = 200_000  # that are no part of a cell or a text: styles, widths, merged cells
