@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 from pydantic import ValidationError
 
-from diecut_report.contract.inputs import SI, Block, flatten
+from diecut_report.contract.inputs import SI, Block, Quantity, flatten, meta_of
 from diecut_report.contract.mechanism import Comparison
 from diecut_report.contract.unit_variants import in_form
 from diecut_report.engine import Calculation, CurveHandle, calculate
@@ -67,10 +67,19 @@ def _block(case: Found, values: Mapping[str, Any]) -> Block:
         return in_form(case.comparison.mechanism.inputs, values).model_validate(values)
     except ValidationError as error:
         fault = error.errors(include_url=False)[0]
-        kind, name = case.comparison.takes[str(fault["loc"][0])]
+        key = str(fault["loc"][0])
+        if not _is_of_its_kind(case, key, values.get(key)):
+            raise  # a fault of what is declared
+        kind, name = case.comparison.takes[key]
         raise Uncomparable(
             f"The comparison {case.name} takes {case.between[kind]}.{name}: {fault['msg'].removeprefix('Value error, ')}."
         ) from error
+
+
+def _is_of_its_kind(case: Found, key: str, value: Any) -> bool:
+    """Return whether a result is a number of the kind that an input takes."""
+    meta = meta_of(case.comparison.mechanism.inputs, key)
+    return isinstance(meta, Quantity) and isinstance(value, SI) and unit(value.unit).kind == meta.parsed_unit.kind
 
 
 def _taken(calc: Calculation, name: str) -> Any:

@@ -39,7 +39,7 @@ def test_a_number_of_the_press_is_taken_as_it_is_or_by_a_formula() -> None:
 @pytest.mark.parametrize("path", ["press.speed", "productivity", "press.sheet", "press.name"])
 def test_what_is_no_number_of_the_press_is_told_at_its_line(path: str) -> None:
     (text,) = told("1/min", FromPress(path))
-    assert text.startswith("test_press_defaults.py:") and f"input speed: takes {path}, which is no number of" in text
+    assert text.startswith("test_press_defaults.py:") and f"input speed: takes {path}, which is not a number of" in text
 
 
 def test_a_number_of_another_kind_is_told() -> None:

@@ -150,10 +150,14 @@ def test_the_schema_tells_each_unit_and_its_key() -> None:
     keys = kind_schema(MECHANISM)["properties"]
     assert keys["stiffness"]["description"] == (
         "Stiffness. Unit: N·m/rad (with mass: N/m). Allowed: > 0 N·m/rad (with mass: > 0 N/m). "
+        "Plausible: 0.001 N·m/rad to 1e+12 N·m/rad (with mass: 0.001 N/m to 1000000 MN/m). "
         "Default: 100 N·m/rad (with mass: 100 N/m)."
     )
     assert keys["motion"]["description"] == "Motion by reference. Unit: ° (with mass: mm). A reference to a curve."
-    assert keys["duration"]["description"] == "Time that is calculated. Unit: s. Allowed: > 0 s. Default: 2 s."
+    assert (
+        keys["duration"]["description"]
+        == "Time that is calculated. Unit: s. Allowed: > 0 s. Plausible: 1 µs to 1000000 h. Default: 2 s."
+    )
 
 
 @pytest.mark.parametrize(("given", "fits"), [("${a.position}", True), ([1, 2, 3, 4], False), ("3 mm", False)])

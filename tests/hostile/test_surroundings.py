@@ -11,7 +11,6 @@ from pathlib import Path
 
 import pytest
 
-from diecut_report.study.execution.process_pool import Pool
 from tests.configs import SMALL, saved
 
 STUDY = """\
@@ -60,12 +59,6 @@ def test_a_trap_is_told_where_it_is_run(folder: Path) -> None:
 def test_nor_as_a_module_where_python_itself_leaves_the_choice(folder: Path) -> None:
     (folder / "pkgutil.py").unlink(missing_ok=True)  # Python's own -m imports it before the program begins
     assert ran(folder, [sys.executable, "-m", "diecut_report", "calc", "press.yaml", "-o", "out.json"]) == ""
-
-
-def test_new_processes_are_told_to_leave_the_current_folder_alone(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.delenv("PYTHONSAFEPATH", raising=False)
-    Pool(1, None)  # type: ignore[arg-type]  # nothing is begun
-    assert os.environ["PYTHONSAFEPATH"] == "1"
 
 
 @pytest.fixture

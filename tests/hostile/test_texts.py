@@ -11,6 +11,7 @@ from diecut_report.cli.main import main
 from diecut_report.config.yaml_tree import parse
 from diecut_report.config.yaml_values import with_values
 from diecut_report.errors import UserError
+from diecut_report.study.storage.state import write_state
 from tests.configs import GOOD, saved
 from tests.study.studies import BASE, STUDY
 
@@ -30,6 +31,6 @@ def test_a_stored_study_brings_no_control_characters_into_a_report(
     command = ["batch", saved(tmp_path, STUDY, "study.yaml"), "-o", out, "--jobs", 1, "--plugins", GOOD, "--quiet"]
     assert main([*map(str, command)]) == 0
     state = json.loads((out / "study.json").read_text("utf-8"))
-    (out / "study.json").write_text(json.dumps(state | {"study": "\x1b[2J\n\u202ex.yaml"}), "utf-8")
+    write_state(out, state | {"study": "\x1b[2J\n\u202ex.yaml"})  # by somebody who seals it too
     assert main(["calc", f"{out}#1", "--plugins", str(GOOD)]) == 2
     assert "holds the control character U+001B" in capfd.readouterr().err

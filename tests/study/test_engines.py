@@ -188,7 +188,7 @@ def test_interrupt_in_this_process_goes_through(tmp_path: Path) -> None:
 def test_missing_dask_is_told(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setitem(sys.modules, "distributed", None)
     monkeypatch.delitem(sys.modules, "diecut_report.study.execution.dask_cluster", raising=False)
-    with pytest.raises(UserError, match=r"pip install 'diecut-report\[cluster\]'"):
+    with pytest.raises(UserError, match=r"pip install --require-hashes -r requirements-cluster\.lock"):
         dask_cluster("tcp://127.0.0.1:1", warm(tmp_path))
 
 

@@ -15,6 +15,7 @@ from typing import Any, Self
 
 from diecut_report.study.execution.in_flight import Chunk, Function, Warm, make_known, work
 
+SAFE_PATH = "PYTHONSAFEPATH"
 AHEAD = 2  # chunks for each process: one that it works on, one that waits
 
 
@@ -26,9 +27,6 @@ class Pool:
 
     def __init__(self, jobs: int, warm: Warm) -> None:
         self._jobs, self._warm = jobs, warm
-        os.environ["PYTHONSAFEPATH"] = (
-            "1"  # else a new process imports what lies in the current folder before its own modules
-        )
         self._context = _Processes()
         self._executor: ProcessPoolExecutor | None = None
 
@@ -54,7 +52,7 @@ class Pool:
 
     def submit(self, function: Function, chunk: Chunk) -> Future[Any]:
         """Begin a chunk in the next process that is free."""
-        with _interrupt_held_back():
+        with _interrupt_held_back(), _current_folder_apart():
             if self._executor is None:
                 self._executor = ProcessPoolExecutor(self._jobs, self._context, _begin, (self._warm,))
             return self._executor.submit(work, self._warm.key, function, chunk)
@@ -95,6 +93,19 @@ def _interrupt_held_back() -> Iterator[None]:
         signal.signal(signal.SIGINT, before)
         if held:
             signal.raise_signal(held[0])
+
+
+@contextmanager
+def _current_folder_apart() -> Iterator[None]:
+    """Let processes that begin meanwhile import nothing of the current folder, which Python puts before its own modules."""
+    before = os.environ.get(SAFE_PATH)
+    os.environ[SAFE_PATH] = "1"
+    try:
+        yield
+    finally:
+        del os.environ[SAFE_PATH]
+        if before is not None:
+            os.environ[SAFE_PATH] = before
 
 
 class _Process(SpawnProcess):
