@@ -1,0 +1,16 @@
+"""What the fuzzer kept (scripts/fuzz.py) is read to the end, or refused in words."""
+
+from __future__ import annotations
+
+import pytest
+
+from tests.hostile.readers import CORPUS, READERS
+
+
+@pytest.mark.parametrize("target", READERS)
+def test_what_the_fuzzer_kept_is_read_or_refused_in_words(target: str) -> None:
+    kept = sorted((CORPUS / target).iterdir())
+    read = READERS[target]()
+    assert kept
+    for path in kept:
+        read(path.read_bytes())
