@@ -35,11 +35,12 @@ def copy_of_program(place: Path) -> Path:
 
 
 def hash_at(place: Path) -> str:
-    """What a process tells that runs the copy."""
+    """What a process tells that runs the copy, and that leaves compiled files there."""
+    usual = {name: value for name, value in os.environ.items() if name != "PYTHONDONTWRITEBYTECODE"}
     done = subprocess.run(
         [sys.executable, "-c", TELL],
         cwd=place,
-        env=os.environ | {"PYTHONPATH": str(place)},
+        env=usual | {"PYTHONPATH": str(place)},
         capture_output=True,
         text=True,
         check=True,
