@@ -29,7 +29,7 @@ PLUGINS, MECHANICS = ROOT / "plugins", ROOT / "diecut_report" / "mechanics"
 OTHER = {ast.Add: (b"+", b"-"), ast.Sub: (b"-", b"+"), ast.Mult: (b"*", b"/"), ast.Div: (b"/", b"*")}
 SHARED = {"tests.machines", "tests.configs", "tests.plugins.cases"}  # helpers of everything: they tell nothing
 BY_NAME = {"cylinder_drive", "cylinder_sizing"}  # reached through tests.machines: their tests are found by their names
-THROUGH = {  # modules of mechanics without a test file of their own: what they are tested through
+THROUGH = {  # modules of mechanics without a test file of their own, or with one that tests a part: what they are tested through
     "mechanics.circular_segment": ("cylinder_sizing", "cylinder_drive", "circular_knife"),
     "mechanics.common": ("cylinder_sizing", "damper", "drive_train", "cylinder_drive", "circular_knife"),
     "mechanics.modified_laws": ("mechanics.motion_laws",),
@@ -125,8 +125,7 @@ def blank(match: re.Match[bytes]) -> bytes:
 
 def tests_of(unit: str) -> list[str]:
     """The test files that use a plugin or module."""
-    if unit in THROUGH:
-        return [file for other in THROUGH[unit] for file in tests_of(other)]
+    through = [file for other in THROUGH.get(unit, ()) for file in tests_of(other)]
     package = f"diecut_report.{unit}" if unit.startswith("mechanics.") else f"diecut_report.plugins.{unit}"
     folder = ROOT / "tests" / package.split(".")[1]
     files = [
@@ -134,7 +133,7 @@ def tests_of(unit: str) -> list[str]:
         for path in sorted(folder.glob("test_*.py"))
         if path.name != "test_contract.py" and is_about(path, unit, package)
     ]
-    return [str(path.relative_to(ROOT)) for path in files]
+    return [*(str(path.relative_to(ROOT)) for path in files), *through]
 
 
 def is_about(test: Path, unit: str, package: str) -> bool:
