@@ -141,6 +141,16 @@ def reason(error: OSError, after: str = NOTHING) -> str:
     return reasons.get(error.errno or 0, f"{error.strerror or error}. {elsewhere}")
 
 
+def cache_folder(name: str) -> Path | None:
+    """Return the user's folder for what can be made again, of this name; None where the user has no home."""
+    given = Path(os.environ.get("XDG_CACHE_HOME", ""))  # by its specification a relative one does not count
+    try:
+        home = given if given.is_absolute() else Path.home() / ".cache"
+    except RuntimeError:  # there is no home
+        return None
+    return home / "diecut-report" / name
+
+
 # --- files of a study's folder -----------------------------------------------------------------------------------------
 
 

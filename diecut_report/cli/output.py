@@ -50,7 +50,7 @@ def tell_problems(problems: Sequence[Problem]) -> None:
     """What is wrong with a file: the first problems, and how many more there are."""
     tell(str(problem) for problem in problems[:TOLD])
     if len(problems) > TOLD:
-        tell([f"{len(problems) - TOLD} more problems of the same run are not shown; mend these first."])
+        tell([f"{len(problems) - TOLD} more problems of the same run are not shown; fix these first."])
 
 
 def usage(error: click.ClickException) -> list[str]:

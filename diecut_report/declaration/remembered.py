@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import hashlib
-import os
 from collections.abc import Iterable, Iterator
 from contextlib import suppress
 from pathlib import Path
@@ -14,9 +13,11 @@ from diecut_report.contract.inputs import fields
 from diecut_report.contract.mechanism import Mechanism
 from diecut_report.contract.steps import Step
 from diecut_report.declaration.world import world
+from diecut_report.files import cache_folder
 from diecut_report.standards import StandardSeries, StandardTable
 
 OWN = Path(__file__).parents[1]
+FOLDER = "declarations"
 
 
 def content(mechanism: Mechanism) -> str:
@@ -32,26 +33,17 @@ def content(mechanism: Mechanism) -> str:
 
 def is_sound(key: str) -> bool:
     """Return whether a plugin of this content was found sound before."""
-    folder = _folder()
+    folder = cache_folder(FOLDER)
     return folder is not None and (folder / key).is_file()
 
 
 def remember(key: str) -> None:
     """Note that a plugin of this content is sound; where it cannot be noted it is judged again the next time."""
-    folder = _folder()
+    folder = cache_folder(FOLDER)
     if folder is not None:
         with suppress(OSError):
             folder.mkdir(parents=True, exist_ok=True)
             (folder / key).touch()
-
-
-def _folder() -> Path | None:
-    given = Path(os.environ.get("XDG_CACHE_HOME", ""))  # by its specification a relative one does not count
-    try:
-        home = given if given.is_absolute() else Path.home() / ".cache"
-    except RuntimeError:  # there is no home
-        return None
-    return home / "diecut-report" / "declarations"
 
 
 def files(mechanism: Mechanism) -> Iterator[Path]:

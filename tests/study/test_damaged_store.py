@@ -23,6 +23,7 @@ from diecut_report.study.analysis.stored_variants import opened
 from diecut_report.study.execution.study_run import Where, run_study
 from diecut_report.study.storage import state, verified_parts
 from diecut_report.study.storage.store import Store
+from diecut_report.study.storage.verified_parts import Verified
 from tests.configs import GOOD
 from tests.study.made_store import description, part
 from tests.study.stored_study import ten
@@ -381,3 +382,28 @@ def test_a_part_between_its_hash_and_its_file_is_no_fault_of_a_run(tmp_path: Pat
     store.part(1).unlink()
     assert store.done_parts() == {0}
     assert np.array_equal(store.read(["variant"]).to_table()["variant"], np.arange(10))
+
+
+@pytest.mark.parametrize(
+    "known", [[], {"mark": 1}, {"sha256": "", "mark": ["x"], "counts": {}}, {"sha256": "", "mark": [1], "counts": 2}]
+)
+def test_a_memory_that_is_none_remembers_nothing(
+    known: object, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path))
+    file = verified_parts._memory(tmp_path)
+    assert file is not None
+    file.parent.mkdir(parents=True)
+    file.write_text(json.dumps({"part-00000.parquet": known}), "utf-8")
+    Verified(tmp_path).write()
+    assert verified_parts._read(file) == {}
+
+
+def test_a_cache_that_is_named_from_the_current_folder_is_not_taken(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """By its specification a relative one does not count: nothing is written beside a config."""
+    monkeypatch.setenv("XDG_CACHE_HOME", "cache")
+    monkeypatch.setenv("HOME", str(tmp_path))
+    file = verified_parts._memory(tmp_path)
+    assert file is not None and file.is_relative_to(tmp_path / ".cache")

@@ -15,19 +15,20 @@ from pathlib import Path
 from typing import Any
 
 from diecut_report.errors import UserError
-from diecut_report.files import write
+from diecut_report.files import cache_folder, write
 
 LARGE = 4_000_000  # bytes of parts up to which they are verified at each command: it takes some hundredths of a second
 SETTLED = 2_000_000_000  # ns after which a change of a file shows in its times
 FOLDERS = 100  # studies that are remembered
 
 Mark = list[int]
+MARK = ("st_size", "st_mtime_ns", "st_ctime_ns", "st_ino")
 
 
 def mark(path: Path) -> Mark:
     """Return what changes with a file's content: its size, its times, and its place on the disk."""
     found = path.stat()
-    return [found.st_size, found.st_mtime_ns, found.st_ctime_ns, found.st_ino]
+    return [getattr(found, name) for name in MARK]
 
 
 class Verified:
@@ -62,11 +63,8 @@ class Verified:
 
 def _memory(directory: Path) -> Path | None:
     """Return the file of the user's cache for this folder, nothing where the user has no home."""
-    try:
-        home = Path(os.environ.get("XDG_CACHE_HOME") or Path.home() / ".cache")
-    except RuntimeError:
-        return None
-    return home / "diecut-report" / "verified" / f"{sha256(os.fsencode(directory.resolve())).hexdigest()[:32]}.json"
+    folder = cache_folder("verified")
+    return folder / f"{sha256(os.fsencode(directory.resolve())).hexdigest()[:32]}.json" if folder else None
 
 
 def _read(file: Path | None) -> dict[str, dict[str, Any]]:
@@ -81,4 +79,8 @@ def _read(file: Path | None) -> dict[str, dict[str, Any]]:
 def _is_known(known: Any) -> bool:
     if not isinstance(known, dict) or known.keys() != {"sha256", "mark", "counts"}:
         return False
-    return isinstance(known["counts"], dict) and all(isinstance(count, int) for count in known["counts"].values())
+    if not isinstance(known["mark"], list) or not isinstance(known["counts"], dict):
+        return False
+    return len(known["mark"]) == len(MARK) and all(
+        isinstance(n, int) for n in (*known["mark"], *known["counts"].values())
+    )
