@@ -45,7 +45,7 @@ def _axis(figure: Figure, names: DeclaredNames, axis: str) -> Iterator[str]:
     if absent:
         yield f"the abscissa is {absent}"
     elif "abscissa" not in names.kinds(axis):
-        yield f"the abscissa is {axis}, which is no Abscissa"
+        yield f"the abscissa is {axis}, which is not an Abscissa"
 
 
 def _panel(figure: Figure, names: DeclaredNames, axis: str, panel: Panel) -> Iterator[str]:
