@@ -204,7 +204,10 @@ FAULTS: dict[str, tuple[Mechanism, str]] = {
         made(value("x", needs=("arm=1",))),
         "needs names arm=1, but arm is not a text with allowed values",
     ),
-    "a need of a check": (made(checks=(check(needs=("wide",)),)), "check strong: needs names wide, which is not an input"),
+    "a need of a check": (
+        made(checks=(check(needs=("wide",)),)),
+        "check strong: needs names wide, which is not an input",
+    ),
     "a need of a section": (
         made(chapters=(Chapter("All", steps=STEPS), Chapter("More", steps=(), needs=("wide",)))),
         "section 'More': needs names wide",
@@ -219,7 +222,10 @@ FAULTS: dict[str, tuple[Mechanism, str]] = {
         "the message names moment before it is calculated",
     ),
     "a curve in a message": (made(require(message="is {torque}")), "{torque}, a curve, which has no single number"),
-    "a key that is not an input": (made(require(key="amr")), "step long: the key 'amr' is not an input (did you mean 'arm'?)"),
+    "a key that is not an input": (
+        made(require(key="amr")),
+        "step long: the key 'amr' is not an input (did you mean 'arm'?)",
+    ),
     "an unknown id in a consequence": (
         made(checks=(check(consequence="see {momnt}"),)),
         "check strong: the consequence names momnt, which nothing gives",
@@ -356,7 +362,10 @@ FAULTS: dict[str, tuple[Mechanism, str]] = {
         "units beside arm, which is not an optional input",
     ),
     # what is said beside
-    "an unknown key result": (made(key_results=("momnt",)), "key_results: momnt is not a step (did you mean 'moment'?)"),
+    "an unknown key result": (
+        made(key_results=("momnt",)),
+        "key_results: momnt is not a step (did you mean 'moment'?)",
+    ),
     "a key result that is not an output": (
         made(value("x", output=False), key_results=("x",)),
         "x is not an output; take output=False away",
