@@ -12,12 +12,15 @@ import pytest
 
 from diecut_report.api import (
     POINTS,
+    BarGroup,
+    Bars,
     Block,
     Chapter,
     Inputs,
     Mechanism,
     Panel,
     Plot,
+    Polar,
     Quantity,
     Series,
     Text,
@@ -163,6 +166,26 @@ def test_a_range_that_is_none_is_told(limits: Any, words: str) -> None:
 
 def test_a_sound_range_is_not_told() -> None:
     assert turned((-1, None)) == turned((None, "teeth")) == turned((None, None)) == []
+
+
+def test_ranges_of_polar_diagrams_and_of_bars_are_judged_too() -> None:
+    def declare(chapter: Chapter) -> None:
+        chapter.abscissa("turn", "φ", "deg", "Turn", period=2 * np.pi)
+        chapter.value("sine", "s", "1", "Sine", lambda turn: np.sin(turn))
+
+    def drawn(limits: Any) -> list[str]:
+        series, bars = (Series(curve="sine", label="s"),), (("z", "teeth"),)
+        polar = Polar(id="p", title="P", caption="", abscissa="turn", unit="1", series=series, range=limits)
+        group = BarGroup(label="G", unit="1", bars=bars, range=limits)
+        return told(declare, polar, Bars(id="b", title="B", caption="", groups=(group,)))
+
+    assert drawn((0, None)) == drawn(("teeth", None)) == drawn(None) == []
+    of_polar, of_bars = drawn((2, 1))
+    assert "figure p: has the range (2, 1), whose ends do not ascend" in of_polar
+    assert "figure b: has the range (2, 1) in the group 'G', whose ends do not ascend" in of_bars
+    (below,) = drawn((-1, None))
+    assert "has the range (-1, None), but no distance from the pole is below zero" in below
+    assert all("draws length, in mm, on an axis in 1" in text for text in drawn(("length", 1)))
 
 
 PLUGIN = """
