@@ -5,19 +5,22 @@ from __future__ import annotations
 from diecut_report.api import Check
 
 CHECKS = (
-    Check(id="reach", title="Edge reaches the end of the cut", demand="cut_end", limit="reach_greatest", unit="mm", operator="<",
+    Check(id="reach", check_class="function", title="Edge reaches the end of the cut",
+          demand="cut_end", limit="reach_greatest", unit="mm", operator="<",
           demand_label="end of the cut from the axis", limit_label="greatest reach of the edge", source="geometry",
           consequence="the edge does not get to the end of the cut; shorten it, or put board or counter-knife nearer to the shaft."),
-    Check(id="shear_angle", title="Shear angle between 2° and 20°", demand="shear_demand", limit="shear_limit", unit="deg",
+    Check(id="shear_angle", check_class="practice", title="Shear angle between 2° and 20°", demand="shear_demand", limit="shear_limit", unit="deg",
           demand_label="greatest shear angle (or least required)", limit_label="allowed (or least there is)", source="practice",
           consequence="{shear_advice}"),
-    Check(id="expulsion", title="Board is not pushed out", demand="shear_angle_max", limit="expulsion_angle", unit="deg", operator="<",
+    Check(id="expulsion", check_class="function", title="Board is not pushed out",
+          demand="shear_angle_max", limit="expulsion_angle", unit="deg", operator="<",
           demand_label="greatest shear angle", limit_label="twice the angle of friction", source="statics",
           consequence="edge and counter-knife push the board forward instead of cutting it; {expulsion_advice}"),
-    Check(id="monotonic", title="Edge never runs back in the board", demand="used_sweep", limit="usable_sweep", unit="deg",
+    Check(id="monotonic", check_class="function", title="Edge never runs back in the board", demand="used_sweep", limit="usable_sweep", unit="deg",
           demand_label="turn of the knife up to the end of the cut", limit_label="turn up to where the edge runs back", source="geometry",
           consequence="before the cut ends, the edge runs back in the upper part of the board; {return_advice}"),
-    Check(id="entry", title="Edge comes to the board from the front", demand="depth_least", limit="corner_distance", unit="mm", operator="<",
+    Check(id="entry", check_class="function", title="Edge comes to the board from the front",
+          demand="depth_least", limit="corner_distance", unit="mm", operator="<",
           demand_label="least distance of the edge from the axis, R − r", limit_label="board's upper front edge from the axis", source="geometry",
           consequence="over the whole turn this front edge is inside the edge's circle, so that the blade's end comes down on the board from "
           "above; {entering_advice}."),
