@@ -83,7 +83,7 @@ MECHANISM = Mechanism(
             demand_label="bore radius",
             limit_label="distance of the flat from the axis",
             source="strength of materials",
-            needs=("bearing_span",),
+            only_with=("bearing_span",),
             consequence="a slot of {overlap_chord} along the flat opens the section: it twists about a shear centre outside itself and "
             "gives way in shear, so the calculated deflection does not hold and the true one is greater; {wall_advice}.",
         ),
