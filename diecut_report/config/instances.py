@@ -22,7 +22,7 @@ from diecut_report.contract.inputs import (
     texts_given,
 )
 from diecut_report.contract.mechanism import Mechanism
-from diecut_report.contract.steps import Step
+from diecut_report.contract.steps import PartNames, Step
 
 
 @dataclass(frozen=True)
@@ -88,7 +88,10 @@ class Instance:
         """The results that have a value for each part of a list, with that list."""
         if self.mechanism is None:
             return {}
-        lists = set(list_inputs(self.model).values())
+        lists = {
+            *list_inputs(self.model).values(),
+            *(s.id for _, s in self.mechanism.steps if isinstance(s, PartNames)),
+        }
         return {name: home for name, home in self.mechanism.axes(self.given).items() if home in lists}
 
     def value(self, key: KeyPath) -> Any:

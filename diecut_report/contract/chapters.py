@@ -23,11 +23,15 @@ from diecut_report.contract.steps import (
     Choice,
     Clash,
     Computed,
+    ComputedCurve,
     Crossings,
     CurvePeriod,
     Derivative,
     FromCurve,
     Operation,
+    PartNames,
+    PartTable,
+    Prepared,
     Reduction,
     Require,
     Root,
@@ -153,10 +157,35 @@ class Steps:
 
     def computed(
         self, id: str, symbol: str, unit: str, description: str, function: Callable[..., Any], takes: tuple[str, ...], method: str,
-        **options: Unpack[Options],
+        *, parts: str = "", is_text: bool = False, **options: Unpack[Options],
     ) -> None:  # fmt: skip
         """Declare a number that plain code finds, where no closed formula tells it: see ``Computed``."""
-        self._give(Computed, id, symbol, unit, description, options, function=function, takes=takes, method=method)
+        own = {"function": function, "takes": takes, "method": method, "parts": parts, "is_text": is_text}
+        self._give(Computed, id, symbol, unit, description, options, **own)
+
+    def computed_curve(
+        self, id: str, symbol: str, unit: str, description: str, function: Callable[..., Array], of: str, abscissa: str, method: str, *,
+        joints: Callable[[Any], Array] | None = None, **options: Unpack[Options],
+    ) -> None:  # fmt: skip
+        """Declare a curve that plain code gives: see ``ComputedCurve``."""
+        own = {"function": function, "of": of, "abscissa": abscissa, "method": method, "joints": joints}
+        self._give(ComputedCurve, id, symbol, unit, description, options, **own)
+
+    def prepared(
+        self, id: str, function: Callable[..., Any], takes: tuple[str, ...], **when: Unpack[StepCondition]
+    ) -> None:
+        """Declare what plain code makes once for several computed steps: see ``Prepared``."""
+        self.add(Prepared(id=id, function=function, takes=takes, **when))
+
+    def part_names(
+        self, id: str, description: str, function: Callable[..., list[str]], takes: tuple[str, ...], *, shown_at: str = ""
+    ) -> None:  # fmt: skip
+        """Declare repeated parts that follow from the inputs: see ``PartNames``."""
+        self.add(PartNames(id=id, description=description, function=function, takes=takes, shown_at=shown_at))
+
+    def part_table(self, id: str, description: str, parts: str, columns: tuple[str, ...]) -> None:
+        """Declare a table of rows over such parts, printed here: see ``PartTable``."""
+        self.add(PartTable(id=id, description=description, parts=parts, columns=columns))
 
     def curve_period(
         self, id: str, symbol: str, unit: str, description: str, given: str, otherwise: str, **options: Unpack[Options]

@@ -20,6 +20,8 @@ from diecut_report.contract.steps import (
     Abscissa,
     Accumulated,
     Choice,
+    Computed,
+    ComputedCurve,
     Crossings,
     Derivative,
     FromCurve,
@@ -36,8 +38,10 @@ def axes(steps: tuple[Step, ...], inputs: type[Inputs]) -> dict[str, str]:
         match step:
             case Abscissa():
                 found[step.id] = step.id
-            case FromCurve():
+            case FromCurve() | ComputedCurve():
                 found[step.id] = step.abscissa
+            case Computed() if step.parts:
+                found[step.id] = step.parts
             case Accumulated(of=of) | Derivative(of=of) | Neighbour(of=of) | Running(of=of):
                 found[step.id] = found[of]
             case Lookup(by=by) if by in found:
@@ -48,6 +52,13 @@ def axes(steps: tuple[Step, ...], inputs: type[Inputs]) -> dict[str, str]:
                     raise ValueError(f"{step.id} mixes {' and '.join(sorted(own))}")
                 found |= {step.id: own.pop()} if own else {}
     return found
+
+
+def is_text(step: Step) -> bool:
+    """Return whether a step gives a text."""
+    if isinstance(step, Computed):
+        return step.is_text
+    return isinstance(step, Choice) and isinstance(step.cases[0].value, str)
 
 
 @dataclass(frozen=True, eq=False)
@@ -157,7 +168,7 @@ class Mechanism:
                 of_place = found[self.axis_of(step.of, given) or ""][0] if each.role == "place" else None  # type: ignore[attr-defined]
                 found[each.name] = {"count": "1", "place": of_place}.get(each.role, si), False
             if not isinstance(step, Crossings):
-                text = isinstance(step, Choice) and isinstance(step.cases[0].value, str)
+                text = is_text(step)
                 found[step.id] = None if text else si, self.axis_of(step.id, given) is not None
         return found
 

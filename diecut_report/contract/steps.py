@@ -171,12 +171,63 @@ class Computed(Step):
     """Declare a number found by plain code where no closed formula tells it; ``method`` says in words how.
 
     ``function`` takes the quantities ``takes`` by position: numbers as arrays of shape (variants, 1), texts, the handles of
-    curve inputs (``Curve`` in ``contract.given``). It gives an array of shape (variants, 1), SI.
+    curve inputs (``Curve`` in ``contract.given``), what is ``Prepared``. It gives an array of shape (variants, 1), SI; a row of
+    shape (variants, parts) over the ``parts`` that ``PartNames`` declares; or with ``is_text`` a text for each variant.
     """
 
     function: Callable[..., Any]
     takes: tuple[str, ...]
     method: str
+    parts: str = ""
+    is_text: bool = False
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class Prepared(Step):
+    """Declare an object that plain code makes once, for all that is computed from it (``Computed``, ``ComputedCurve``, ``PartNames``).
+
+    ``function`` takes the inputs and numbers ``takes`` by position; inputs of repeated parts as arrays of shape (variants, parts),
+    or as a tuple where some are no numbers. It raises ``Refused`` where no machine can be made of them.
+    """
+
+    function: Callable[..., Any]
+    takes: tuple[str, ...]
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class ComputedCurve(Step):
+    """Declare a curve over ``abscissa`` that plain code gives, from the prepared object ``of``.
+
+    ``function`` takes it, the places x of shape (rows, points), the middles of their smooth pieces (of any shape that broadcasts to
+    that) and the variants ``rows`` (None: all, or the only one); it gives values of the shape of x. ``joints`` gives from the object
+    the places where the curve jumps or has a corner, of shape (variants, places), NaN where there is none.
+    """
+
+    of: str
+    abscissa: str
+    function: Callable[..., Array]
+    method: str
+    joints: Callable[[Any], Array] | None = None
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class PartNames(Step):
+    """Declare repeated parts that are no list of the inputs, but follow from them: ``function`` gives their names.
+
+    Rows run over its id. Formulas of them are shown with the numbers of the part ``shown_at`` (the id of its index from 0).
+    """
+
+    function: Callable[..., list[str]]
+    takes: tuple[str, ...]
+    shown_at: str = ""
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class PartTable(Step):
+    """Declare a table that is printed here: the rows ``columns`` over the declared ``parts``, a line for each by its name."""
+
+    parts: str
+    columns: tuple[str, ...]
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -244,4 +295,4 @@ class Clash(Step):
     message: str
 
 
-SILENT = Breakpoints | Require | Clash | Words  # steps that give no quantity
+SILENT = Breakpoints | Require | Clash | Words | Prepared | PartNames | PartTable  # steps that give no quantity

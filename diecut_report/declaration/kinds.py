@@ -21,10 +21,14 @@ from diecut_report.contract.steps import (
     Choice,
     Clash,
     Computed,
+    ComputedCurve,
     Crossings,
     CurvePeriod,
     Derivative,
     FromCurve,
+    PartNames,
+    PartTable,
+    Prepared,
     Reduction,
     Require,
     Root,
@@ -41,9 +45,11 @@ NUMBER, ROW, CURVE = (
     frozenset({"number", "row", "curve", "abscissa"}),
 )
 CURVE_INPUT = frozenset({"curve input"})
+PARTS = frozenset({"list of parts"})
+CODE = ROW | {"text", "curve input", "varying", "prepared object"}
 SAID = {
     NUMBER: "a single number", ROW: "a number or a row over repeated parts", CURVE: "a number, a row or a curve",
-    CURVE_INPUT: "an input declared as a CurveInput",
+    CURVE_INPUT: "an input declared as a CurveInput", PARTS: "the id of PartNames",
 }  # fmt: skip
 Asked = tuple[str, str, frozenset[str], str]  # the field, the name in it, what it may be, and what is wanted in words
 
@@ -95,8 +101,15 @@ def _asked(step: Step) -> Iterator[Asked]:
             yield "of", of, ROW, ""
         case Words():
             yield from (("takes", name, ROW | {"text"}, "a number or a text") for name in step.takes)
-        case Computed():
-            yield from (("takes", name, ROW | {"text", "curve input"}, "a number, a text or a CurveInput") for name in step.takes)  # fmt: skip
+        case Computed() | Prepared() | PartNames():
+            yield from (
+                ("takes", name, CODE, "a number, a text, a curve by reference or what is prepared")
+                for name in step.takes
+            )
+            yield from (("parts", name, PARTS, "") for name in (getattr(step, "parts", ""),) if name)
+        case PartTable(parts=parts, columns=columns):
+            yield "parts", parts, PARTS, ""
+            yield from (("columns", name, frozenset({"row"}), "a row over repeated parts") for name in columns)
         case Clash():
             yield from (("takes", name, ROW, "") for name in step.takes)
         case _:
@@ -117,6 +130,9 @@ def _over(step: Step) -> Iterator[Asked]:
             yield "abscissa", abscissa, *axis
             yield "given", given, CURVE_INPUT, ""
             yield from ((f, getattr(step, f), NUMBER, "") for f in ("start", "lasts") if getattr(step, f))
+        case ComputedCurve(abscissa=abscissa, of=of):
+            yield "abscissa", abscissa, *axis
+            yield "of", of, frozenset({"prepared object"}), "what is prepared"
         case CurvePeriod(given=given):
             yield "given", given, CURVE_INPUT, ""
         case Lookup(by=by):

@@ -17,18 +17,27 @@ from diecut_report.contract.steps import (
     Breakpoints,
     Choice,
     Clash,
+    Computed,
+    ComputedCurve,
     Crossings,
     Derivative,
     FromCurve,
+    PartNames,
+    PartTable,
+    Prepared,
     Reduction,
     Require,
     Step,
     Value,
     Words,
 )
+from diecut_report.contract.varying import Varying
 from diecut_report.declaration.world import Key, When, World, world
 
-NO_QUANTITY = Breakpoints | Require | Clash
+NO_QUANTITY = Breakpoints | Require | Clash | PartTable
+
+
+TEXTLESS = ("text", "prepared object", "list of parts")  # what has no unit
 
 
 class Giver(NamedTuple):
@@ -81,7 +90,7 @@ class DeclaredNames:
             return
         when = self.when(number)
         for kind, axis in _kinds(step, found):
-            yield step.id, Giver(when, kind, axis, None if kind == "text" else step.unit, step, number, step.units)
+            yield step.id, Giver(when, kind, axis, None if kind in TEXTLESS else step.unit, step, number, step.units)
         for each in names_ahead(step):
             if each.role == "place" and isinstance(step, Reduction):
                 places = [axis for curve in found.get(step.of, ()) for axis in found.get(curve.axis, ())]
@@ -120,6 +129,8 @@ def _input(key: Key) -> Giver:
     match key.meta:
         case _ if key.is_block:
             kind = "block"
+        case Varying():
+            return Giver(when, "varying", key.home, key.meta.unit)
         case Quantity():
             return Giver(when, kind, key.home, key.meta.unit, units=key.meta.units)
         case CurveInput():
@@ -145,7 +156,15 @@ def _kinds(step: Step, found: dict[str, list[Giver]]) -> set[tuple[str, str]]:
             return {("text", axis) for _, axis in over(*_names(step))} or {("text", "")}
         case Abscissa():
             return {("abscissa", step.id)}
-        case FromCurve(abscissa=axis):
+        case Computed(is_text=True):
+            return {("text", "")}
+        case Computed(parts=parts) if parts:
+            return {("row", parts)}
+        case Prepared():
+            return {("prepared object", "")}
+        case PartNames():
+            return {("list of parts", "")}
+        case FromCurve(abscissa=axis) | ComputedCurve(abscissa=axis):
             return {("curve", axis)}
         case Crossings():
             return {("crossings", "")}

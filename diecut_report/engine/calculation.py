@@ -12,8 +12,18 @@ import numpy as np
 from diecut_report.contract.binding import Binding, bound
 from diecut_report.contract.inputs import Meta, Quantity, fields, texts_given
 from diecut_report.contract.mechanism import Mechanism
-from diecut_report.contract.steps import Accumulated, Choice, Derivative, FromCurve, Step, Value
+from diecut_report.contract.steps import (
+    Accumulated,
+    Choice,
+    ComputedCurve,
+    Derivative,
+    FromCurve,
+    PartNames,
+    Step,
+    Value,
+)
 from diecut_report.contract.unit_variants import in_form
+from diecut_report.contract.varying import Extremes
 from diecut_report.engine import named_quantity
 from diecut_report.engine.numerics.chebyshev import PieceSeries
 from diecut_report.engine.numerics.curve_evaluation import MANY, Curves
@@ -22,7 +32,7 @@ from diecut_report.engine.numerics.sample_cache import SampleCache
 from diecut_report.expressions import Array
 
 Found = tuple[Array, Array, Array]  # of an extreme: value, place, middle of its piece
-CurveStep = Value | Choice | FromCurve | Accumulated | Derivative
+CurveStep = Value | Choice | FromCurve | ComputedCurve | Accumulated | Derivative
 
 
 class Impossible(Exception):
@@ -54,6 +64,11 @@ class CurveHandle:
     def abscissa(self) -> Step:
         """Return what the curve runs over, as it is declared."""
         return self.calculation.steps[self.calculation.axis[self.curve_id]]
+
+    @property
+    def cycle(self) -> str:
+        """Return the id of what the curve runs over: of two curves over one cycle it is the same."""
+        return self.abscissa.id
 
     def values(self, share: Array, middle: Array, rows: Array | None) -> Array:
         """Return values at shares of the period, shape (rows, points), each in the smooth piece of its middle (a share too).
@@ -131,6 +146,8 @@ class Calculation:
         self.values: dict[str, Array] = {}
         self.curves: dict[str, CurveStep] = {}
         self.domains: dict[str, Domain] = {}
+        self.prepared: dict[str, Any] = {}  # objects that plain code made, for what is computed from them
+        self.part_names: dict[str, tuple[str, ...]] = {}  # of the repeated parts that follow from the inputs
         self.series: dict[str, PieceSeries] = {}
         self.branch: dict[str, Array] = {}  # for each choice, the case taken by each variant
         self.middle: dict[str, Array] = {}  # for each place of an extreme, the middle of its smooth piece
@@ -213,6 +230,11 @@ class Calculation:
         table = self.table(self.axis[curve])
         return table.pieces().spread(table.on_grid([curve])[0])
 
+    def shown_part(self, name: str) -> int:
+        """Return which part of a row formulas are shown with, from 0; 0 of a number too."""
+        names = self.steps.get(self.axis.get(name, ""))
+        return int(self[names.shown_at][0, 0]) if isinstance(names, PartNames) and names.shown_at else 0
+
     def step_or_input(self, name: str) -> Step | Quantity:
         """Return what declares a quantity: its symbol, unit and description."""
         return named_quantity.declared(name, self.steps, self.axis, self.meta, self.mechanism.at)
@@ -239,6 +261,9 @@ class CurveSampler:
         match step:
             case FromCurve():
                 return self._taken_over(step)
+            case ComputedCurve():
+                found: Array = step.function(self.owner.prepared[step.of], self.x, self.mid, self.rows)
+                return found
             case Accumulated() | Derivative():
                 return self.owner.series[name].values(self.x, self.mid, self.rows)
             case Value(per_piece=True) | Choice(per_piece=True) if self.mid is not self.x:
@@ -284,7 +309,7 @@ def _column(value: Any, variants: int) -> Any:
 
 
 def _row(value: tuple[Any, ...], variants: int) -> Any:
-    if any(isinstance(v, str | bool | type(None)) for v in value):
+    if any(isinstance(v, str | bool | type(None) | CurveHandle | Extremes) for v in value):
         return value
     return np.stack([np.broadcast_to(np.asarray(v, dtype=float), (variants,)) for v in value], axis=1)
 

@@ -6,13 +6,13 @@ from collections.abc import Iterator
 from typing import Any
 
 from diecut_report import __version__
-from diecut_report.config.instances import Instance
 from diecut_report.config.loader import Config
 from diecut_report.config.model import PRESS, Press
 from diecut_report.config.source_hashes import plugin_hash, program_hash
 from diecut_report.config.validation import declared, keys_of
 from diecut_report.contract.inputs import Block, CurveInput, Quantity, flatten
 from diecut_report.contract.mechanism import Mechanism
+from diecut_report.contract.varying import Extremes
 from diecut_report.engine import CurveHandle
 from diecut_report.limits import MAX_COMPARISONS
 from diecut_report.quantities.formatting import as_given, shortest
@@ -136,18 +136,21 @@ def resolved(run: Run) -> Data:
     mechanisms = {}
     for name, kind in config.kinds.items():
         block, instance = run.blocks.get(name), config.instances[name]
-        mechanisms[name] = {"kind": kind} | (_plain(block, instance) if block and instance else {})
+        mechanisms[name] = {"kind": kind} | (_plain(block, instance.data) if block and instance else {})
     press = config.instances[PRESS]
     assert press is not None
     return {"schema_version": 1, "project": config.project.model_dump(exclude_none=True),
-            PRESS: _plain(run.blocks[PRESS], press), "mechanisms": mechanisms}  # fmt: skip
+            PRESS: _plain(run.blocks[PRESS], press.data), "mechanisms": mechanisms}  # fmt: skip
 
 
-def _plain(block: Block, instance: Instance) -> Data:
+def _plain(block: Block, data: Data) -> Data:
+    """A block with the values put in that its ``data``, as it is written, refers to."""
     values = {name: getattr(block, name) for name in type(block).model_fields}
     values = {name: value for name, value in values.items() if value is not None}
     idle = set(_idle(block, values))
-    return {name: _plain_value(block, name, value, instance) for name, value in values.items() if name not in idle}
+    return {
+        name: _plain_value(block, name, value, data.get(name)) for name, value in values.items() if name not in idle
+    }
 
 
 def _idle(block: Block, values: Data) -> Iterator[str]:
@@ -158,15 +161,18 @@ def _idle(block: Block, values: Data) -> Iterator[str]:
         yield from (name for name in defaults if rule.fault(values.keys() - {name}) != fault)
 
 
-def _plain_value(block: Block, name: str, value: Any, instance: Instance) -> Any:
+def _plain_value(block: Block, name: str, value: Any, written: Any) -> Any:
     meta = keys_of(type(block))[name].meta
     match value:
         case Block():
-            return _plain(value, instance)
+            return _plain(value, written if isinstance(written, dict) else {})
         case [Block(), *_]:
-            return [_plain(part, instance) for part in value]
+            parts = written if isinstance(written, list) else [{}] * len(value)
+            return [_plain(part, data) for part, data in zip(value, parts, strict=True)]
         case CurveHandle(calculation=_):
-            return instance.data[name]
+            return written
+        case Extremes(low=low, high=high) if isinstance(meta, Quantity):
+            return {"min": as_given(low, meta.unit), "max": as_given(high, meta.unit)}
         case tuple() if isinstance(meta, CurveInput):
             return [as_given(part, meta.unit) for part in value]
         case float() if isinstance(meta, Quantity):

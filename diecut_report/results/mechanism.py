@@ -15,6 +15,7 @@ from diecut_report.contract.mechanism import Profile
 from diecut_report.contract.result_names import ResultName, count_name, pattern, place_name, result_names
 from diecut_report.contract.spectra import Spectrum, SpectrumLine
 from diecut_report.contract.steps import SILENT, Crossings, Step
+from diecut_report.contract.varying import Extremes, Varying
 from diecut_report.engine import Calculation
 from diecut_report.engine.calculation import Unproven
 from diecut_report.engine.drawable import curve_named, guarded
@@ -67,7 +68,7 @@ def mechanism_results(calc: Calculation, provenance: Mapping[str, Provenance]) -
         "assumptions": list(mechanism.assumptions),
         "sources": [{"id": s.id, "citation": s.citation} for s in mechanism.sources],
         "inputs": inputs(calc, provenance),
-        "lists": list_titles(mechanism.inputs),
+        "lists": list_titles(mechanism.inputs) | {name: calc.steps[name].description for name in calc.part_names},
         **numbers(calc),
         "curves": curves(calc),
         "checks": checks,
@@ -159,6 +160,8 @@ def _input(meta: Any, value: Any) -> Data:
         text = "a curve" if is_curve else str(value)
         return {"value": text if is_curve else value, "unit": unit(meta.unit).si if is_curve else "1", "symbol": meta.symbol,
                 "description": meta.description, "display": {"text": text, "unit": "1"}}  # fmt: skip
+    if isinstance(meta, Varying) and not isinstance(value, float | np.ndarray):
+        return _varying(meta, value)
     number = float(np.ravel(value)[0])
     return {
         "value": int(number) if meta.integer else number,
@@ -167,6 +170,15 @@ def _input(meta: Any, value: Any) -> Data:
         "description": meta.description,
         "display": {"text": shortest(number / meta.parsed_unit.factor), "unit": meta.unit},
     }
+
+
+def _varying(meta: Varying, value: Any) -> Data:
+    """What is given in place of a number: extremes, a text, a curve."""
+    text = value if isinstance(value, str) else "a curve"
+    if isinstance(value, Extremes):
+        text = " … ".join(shortest(end / meta.parsed_unit.factor) for end in (value.low, value.high))
+    return {"value": text, "unit": meta.parsed_unit.si, "symbol": meta.symbol, "description": meta.description,
+            "display": {"text": text, "unit": meta.unit if isinstance(value, Extremes) else "1"}}  # fmt: skip
 
 
 def numbers(calc: Calculation) -> Data:

@@ -13,9 +13,11 @@ from diecut_report.contract.steps import (
     Accumulated,
     Choice,
     Computed,
+    ComputedCurve,
     Crossings,
     CurvePeriod,
     Derivative,
+    PartTable,
     Reduction,
     Root,
     Step,
@@ -87,7 +89,11 @@ def items(calc: Calculation, step: Step) -> list[Item]:
         case Accumulated() | Derivative():
             return [_of_curve(calc, step)]
         case Computed() | CurvePeriod():
-            return [_computed(calc, step)]
+            return [] if step.id in calc.axis else [_computed(calc, step)]
+        case ComputedCurve():
+            return [_computed(calc, step) | {"at": place_shown(calc, step.abscissa, False)}]
+        case PartTable(parts=parts, columns=columns):
+            return [tables.of_parts(calc, step, calc.part_names[parts], list(columns))]
         case Lookup() if step.id in calc.axis:
             return [tables.looked_up(calc, step)]
         case Total() | Pick() | Lookup() | Part():
@@ -114,6 +120,10 @@ def _value(calc: Calculation, step: Value, part: Bound) -> list[Item]:
     item = _head(step) | {"type": "formula"} | _formula(calc, part, step, axis, elsewhere)
     if axis in calc.domains:
         item |= located(calc, str(axis), elsewhere)
+    elif axis in calc.part_names:
+        item["note"] = " ".join(
+            filter(None, (item.get("note"), f"Shown for: {calc.part_names[axis][calc.shown_part(step.id)]}."))
+        )
     elif axis is not None:
         return [
             item,
@@ -246,9 +256,12 @@ def _reduction(calc: Calculation, step: Reduction) -> Item:
     return item
 
 
-def _computed(calc: Calculation, step: Computed | CurvePeriod) -> Item:
-    method = step.method if isinstance(step, Computed) else f"the period of {calc.meta[step.given].symbol}"
-    result = shown(value_at(calc, step.id, None), step.unit, step.digits)
+def _computed(calc: Calculation, step: Computed | ComputedCurve | CurvePeriod) -> Item:
+    method = f"the period of {calc.meta[step.given].symbol}" if isinstance(step, CurvePeriod) else step.method
+    if isinstance(step, Computed) and step.is_text:
+        result: Item = {"text": calc[step.id][0, 0], "unit": "1"}
+    else:
+        result = shown(value_at(calc, step.id, calc.axis.get(step.id)), step.unit, step.digits)
     return _head(step) | {"type": "found", "relation": None, "method": method, "result": result}
 
 

@@ -36,7 +36,8 @@ def value_at(calc: Calculation, name: str, axis: str | None, *, flag: bool = Fal
         place, middle = shown_place(calc, str(axis))
         sampler = calc.kept(f"shown {flag}", str(axis), lambda _: (middle if flag else place, middle), FIRST)
         return float(np.ravel(sampler[name])[0])  # a constant is a curve too
-    return float(calc[name][0, 0])
+    row = calc[name]
+    return float(row[0, calc.shown_part(name) if row.shape[1] > 1 else 0])
 
 
 def is_elsewhere(calc: Calculation, step: Value | Choice, axis: str | None) -> bool:

@@ -18,10 +18,14 @@ from diecut_report.contract.steps import (
     Choice,
     Clash,
     Computed,
+    ComputedCurve,
     Crossings,
     CurvePeriod,
     Derivative,
     FromCurve,
+    PartNames,
+    PartTable,
+    Prepared,
     Reduction,
     Require,
     Root,
@@ -221,18 +225,11 @@ def _curve_period(calc: Calculation, step: CurvePeriod) -> None:
     calc.values[step.id] = np.broadcast_to(curve.domain.period, (calc.count, 1))
 
 
-def _computed(calc: Calculation, step: Computed) -> None:
-    taken = [calc[name] for name in step.takes]
-    found = step.function(*taken)
-    if calc.count > 1 and np.shape(found)[:1] != (calc.count,) and any(isinstance(each, np.ndarray) for each in taken):
-        raise TypeError(f"{step.id} was given {calc.count} machines and has one value for all")
-    calc.values[step.id] = calc.existing(step, plain_code.number(step, found, calc.count))
-
-
 RUN: dict[type[Step], Callable[[Calculation, Any], None]] = {
     Value: _value, Choice: _choice, Root: _root, Abscissa: _abscissa, Breakpoints: _breakpoints, Crossings: _crossings,
     Reduction: _reduction, Accumulated: _accumulated, Derivative: _derivative, FromCurve: _from_curve,
-    CurvePeriod: _curve_period, Computed: _computed,
+    CurvePeriod: _curve_period, Computed: plain_code.computed, ComputedCurve: plain_code.curve, Prepared: plain_code.prepared,
+    PartNames: plain_code.part_names, PartTable: lambda _, __: None,
     Require: feasibility.require, Clash: feasibility.clash,
     Total: part_rows.total, Neighbour: part_rows.neighbour, Running: part_rows.running, Part: part_rows.part, Lookup: part_rows.lookup,
     Pick: part_rows.pick, Interpolated: interpolation.interpolated,
