@@ -116,6 +116,7 @@ class SampledCurve:
         return np.arange(len(self.numbers))[None, :] / len(self.numbers)
 
     joints = breakpoints
+    cycle = "list"  # of values, over whatever takes it
 
     def gain(self, rows: Array | None) -> Array:
         """Return nothing: the curve closes."""

@@ -54,7 +54,16 @@ def curve(calc: Calculation, step: ComputedCurve) -> None:
 
 
 def _taken(calc: Calculation, step: Computed | Prepared | PartNames) -> list[Any]:
-    return [calc.prepared[name] if name in calc.prepared else calc[name] for name in step.takes]
+    """What a step takes; an object is also made of optional inputs, None where they are not given."""
+    optional = isinstance(step, Prepared)
+
+    def one(name: str) -> Any:
+        if name in calc.prepared:
+            return calc.prepared[name]
+        known = name in calc.values or name.removeprefix("inputs.") in calc.inputs
+        return None if optional and not known else calc[name]
+
+    return [one(name) for name in step.takes]
 
 
 def number(step: Computed, found: Any, count: int, width: int = 1) -> Array:
