@@ -136,6 +136,8 @@ def inputs(calc: Calculation, provenance: Mapping[str, Provenance]) -> Data:
         parted = name in calc.axis
         parts = row[0] if parted and isinstance(row, np.ndarray) else row if parted else [row]
         for index, part in enumerate(parts):
+            if part is None:  # left out of this part of the list
+                continue
             home = calc.axis[name] if parted else ""
             path = f"{home}.{index}{name.removeprefix(home)}" if parted else name
             found[path] = _input(meta, part) | _origin(provenance.get(path))

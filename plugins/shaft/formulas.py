@@ -16,7 +16,6 @@ GREATEST_ENDURANCE = Constant(700e6, "700 MPa", "Pa")
 GREATEST_SIZE = Constant(254e-3, "254 mm", "m")
 MIDDLE_SIZE = Constant(51e-3, "51 mm", "m")
 REFERENCE_STRENGTH = Constant(1e9, "1000 MPa", "Pa")
-LEAST = 1e-6  # of the stress to the strength: a greater safety than a million is not told
 
 
 @formula
@@ -44,22 +43,22 @@ def size_factor(diameter: Any, size_share: Any) -> Any:
 
 @formula
 def neuber_bending(tensile_strength: Any) -> Any:
-    """Root of Neuber's length in bending (Shigley 6-35a)."""
+    """Neuber's length in bending (Shigley 6-35a)."""
     strength = tensile_strength / KPSI
-    return (0.246 - 3.08e-3 * strength + 1.51e-5 * strength**2 - 2.67e-8 * strength**3) * np.sqrt(INCH)
+    return (0.246 - 3.08e-3 * strength + 1.51e-5 * strength**2 - 2.67e-8 * strength**3) ** 2 * INCH
 
 
 @formula
 def neuber_torsion(tensile_strength: Any) -> Any:
-    """Root of Neuber's length in torsion (Shigley 6-35b)."""
+    """Neuber's length in torsion (Shigley 6-35b)."""
     strength = tensile_strength / KPSI
-    return (0.190 - 2.51e-3 * strength + 1.35e-5 * strength**2 - 2.67e-8 * strength**3) * np.sqrt(INCH)
+    return (0.190 - 2.51e-3 * strength + 1.35e-5 * strength**2 - 2.67e-8 * strength**3) ** 2 * INCH
 
 
 @formula
 def notch_sensitivity(radius: Any, neuber: Any) -> Any:
     """Notch sensitivity (Shigley 6-34), 0 without a radius."""
-    return np.sqrt(radius) / (np.sqrt(radius) + neuber)
+    return np.sqrt(radius) / (np.sqrt(radius) + np.sqrt(neuber))
 
 
 @formula
@@ -133,7 +132,7 @@ def goodman(
     """Safety against fatigue by distortion energy and Goodman (Shigley 7-7)."""
     alternating = equivalent_stress(k_f * sigma_a, k_fs * tau_a)
     mean = equivalent_stress(k_f * sigma_m, k_fs * tau_m)
-    return 1 / np.maximum(alternating / endurance + mean / tensile_strength, LEAST)
+    return 1 / np.maximum(alternating / endurance + mean / tensile_strength, 1e-6)
 
 
 @formula
@@ -145,4 +144,4 @@ def yield_stress(axial_force: Any, moment: Any, torque: Any, area: Any, modulus:
 @formula
 def safety(strength: Any, stress: Any) -> Any:
     """Strength to stress (Shigley 7-16)."""
-    return 1 / np.maximum(stress / strength, LEAST)
+    return 1 / np.maximum(stress / strength, 1e-6)

@@ -70,8 +70,8 @@ places.value("place_modulus", "W_b", "mm**3", "Section modulus in bending; in to
              source="Shigley 3-24", output=False)
 
 notches = Chapter("Notches")
-notches.value("neuber_bending", "√a", "m**0.5", "Root of Neuber's length in bending", formulas.neuber_bending, source="Shigley 6-35a")
-notches.value("neuber_torsion", "√a_s", "m**0.5", "Root of Neuber's length in torsion", formulas.neuber_torsion, source="Shigley 6-35b")
+notches.value("neuber_bending", "a_N", "mm", "Neuber's length in bending", formulas.neuber_bending, source="Shigley 6-35a")
+notches.value("neuber_torsion", "a_Ns", "mm", "Neuber's length in torsion", formulas.neuber_torsion, source="Shigley 6-35b")
 notches.value("press_fit_factor", "K_fp", "1", "Fatigue notch factor of a press fit", formulas.press_fit_factor, source="DIN 743-2, table 1",
               output=False)
 notches.value("k_t", "K_t", "1", "Stress concentration in bending",
