@@ -31,7 +31,7 @@ class Quantity:
     Put into ``Annotated[float, Quantity(...)]`` of an input model. The validated value is an SI float
     (an int where ``integer``). ``units`` are other units, each with the key beside which it holds: (("mass", "N/m"),).
     ``plausible`` are the least and the greatest size that a machine may have, zero aside, where they are not those of
-    the kind of quantity (``quantities.plausible``): ("1 mm", "10 m").
+    the kind of quantity (``quantities.plausible``): ("1 mm", "10 m"). ``listed`` are the only numbers that are allowed.
     """
 
     symbol: str
@@ -45,6 +45,7 @@ class Quantity:
     press: FromPress | None = None
     units: tuple[tuple[str, str], ...] = ()
     plausible: tuple[str, str] | None = None
+    listed: tuple[float, ...] = ()
     at: str = placed()
 
     @cached_property
@@ -57,6 +58,8 @@ class Quantity:
         """Return the range in words, for example ``> 0 mm, ≤ 80 mm``; empty without bounds."""
         limits = [(sign, getattr(self, name)) for name, sign in BOUNDS]
         shown = pretty(self.unit)
+        if self.listed:
+            return f"{', '.join(f'{value:g}' for value in self.listed)} {shown}".rstrip()
         return ", ".join(f"{sign} {limit:g} {shown}".rstrip() for sign, limit in limits if limit is not None)
 
     def validate(self, given: Any) -> Any:
@@ -110,7 +113,8 @@ class Quantity:
 
     def _within(self, shown: Any) -> Any:
         """Whether numbers in the display unit keep the bounds."""
-        return within(shown, [getattr(self, name) for name, _ in BOUNDS])
+        held = within(shown, [getattr(self, name) for name, _ in BOUNDS])
+        return held & np.isin(np.round(shown, 9), self.listed) if self.listed else held
 
     @cached_property
     def sizes(self) -> Plausible:

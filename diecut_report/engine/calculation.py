@@ -23,7 +23,6 @@ from diecut_report.contract.steps import (
     Value,
 )
 from diecut_report.contract.unit_variants import in_form
-from diecut_report.contract.varying import Extremes
 from diecut_report.engine import named_quantity
 from diecut_report.engine.numerics.chebyshev import PieceSeries
 from diecut_report.engine.numerics.curve_evaluation import MANY, Curves
@@ -310,8 +309,8 @@ def _column(value: Any, variants: int) -> Any:
 
 
 def _row(value: tuple[Any, ...], variants: int) -> Any:
-    if any(isinstance(v, str | bool | type(None) | CurveHandle | Extremes) for v in value):
-        return value
+    if not all(isinstance(v, int | float | np.ndarray | np.number) and not isinstance(v, bool) for v in value):
+        return value  # texts, curves, what some parts leave out
     return np.stack([np.broadcast_to(np.asarray(v, dtype=float), (variants,)) for v in value], axis=1)
 
 

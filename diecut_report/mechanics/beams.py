@@ -13,7 +13,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from diecut_report.expressions import GRAVITY, formula
+from diecut_report.expressions import GRAVITY, as_number, formula
 
 Array = NDArray[Any]
 SAME_PLACE = 1e-9  # m, within which two places are one
@@ -23,13 +23,13 @@ LUMPS = 8  # of each piece's mass
 @formula
 def second_moment(diameter: Any, bore: Any) -> Any:
     """Second moment of area of a hollow circle about its diameter."""
-    return np.pi * (diameter**4 - bore**4) / 64
+    return as_number(np.pi) * (diameter**4 - bore**4) / 64
 
 
 @formula
 def circle_area(diameter: Any, bore: Any) -> Any:
     """Area of a hollow circle."""
-    return np.pi * (diameter**2 - bore**2) / 4
+    return as_number(np.pi) * (diameter**2 - bore**2) / 4
 
 
 @dataclass(frozen=True)
@@ -74,23 +74,23 @@ class Loading:
 
         The loading must be held, that is, hold its reactions.
         """
-        before = np.zeros((*x.shape, self.forces.shape[2]))
-        behind = before.copy()
-        for place, force, couple in zip(self.places, self.forces, self.couples, strict=True):
-            arm = np.maximum(x - place, 0)[:, :, None]
-            before += force * arm - couple * (place < x - SAME_PLACE)[:, :, None]
-            behind += force * arm - couple * (place <= x + SAME_PLACE)[:, :, None]
-        return before, behind
+        bending = summed(np.maximum(x[:, None] - self.places, 0), self.forces)
+        if not np.any(self.couples):
+            return bending, bending
+        before, behind = before_and_behind(x, self.places, self.couples)
+        return bending - before, bending - behind
 
 
 def before_and_behind(x: Array, places: Array, values: Array) -> tuple[Array, Array]:
     """Return the running sums of what acts at places, just before and just behind x: a torque, an axial force."""
-    before = np.zeros((*x.shape, values.shape[2]))
-    behind = before.copy()
-    for place, value in zip(places, values, strict=True):
-        before += value * (place < x - SAME_PLACE)[:, :, None]
-        behind += value * (place <= x + SAME_PLACE)[:, :, None]
-    return before, behind
+    before = summed((places < x[:, None] - SAME_PLACE).astype(float), values)
+    return before, summed((places <= x[:, None] + SAME_PLACE).astype(float), values)
+
+
+def summed(weights: Array, values: Array) -> Array:
+    """Return the sums of values (loads, variants, cases) with weights (points, loads, variants): (points, variants, cases)."""
+    products = np.moveaxis(weights, 2, 0) @ np.moveaxis(values, 1, 0)
+    return np.moveaxis(products, 0, 1)
 
 
 @dataclass(frozen=True)

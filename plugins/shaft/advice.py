@@ -59,14 +59,15 @@ enough.value("yield_growth", "s_y", "1", "Growth that meets the safety against y
              lambda required_yield_safety, yield_safety, axial_reaction_max:
                  np.where(axial_reaction_max > 0, (required_yield_safety / yield_safety) ** 0.5, (required_yield_safety / yield_safety) ** (1 / 3)),
              source="this method", output=False)
-for name, symbol, title, what, allowed, needs in (
-    ("slope_growth", "s_v′", "slope at the bearings", "bearing_slope_max", "allowable_bearing_slope", ()),
-    ("deflection_growth", "s_v", "deflection", "deflection_max", "allowable_deflection", ("allowable_deflection",)),
-    ("twist_growth", "s_ϑ", "twist", "twist_by_length", "allowable_twist", ("allowable_twist",)),
+TWISTED = {"exists": lambda torque_span: torque_span > 0}
+for name, symbol, title, what, allowed, options in (
+    ("slope_growth", "s_v′", "slope at the bearings", "bearing_slope_max", "allowable_bearing_slope", {}),
+    ("deflection_growth", "s_v", "deflection", "deflection_max", "allowable_deflection", {"needs": ("allowable_deflection",)}),
+    ("twist_growth", "s_ϑ", "twist", "twist_by_length", "allowable_twist", {"needs": ("allowable_twist",), **TWISTED}),
 ):
     enough.value(name, symbol, "1", f"Growth that meets the allowed {title}", bind(lambda what, allowed: (what / allowed) ** 0.25,
                                                                                 what=what, allowed=allowed),
-                 source="this method", output=False, needs=needs)
+                 source="this method", output=False, **options)
 enough.total("notch_yield", "S_y,n", "MPa", "Yield strength that no notch passes", "max", of="notch_stress", source="Shigley 7-16", output=False)
 enough.value("half_critical", "n_crit/2", "rpm", "Speed that is far enough from the critical one", lambda critical_speed: critical_speed / 2,
              source="Shigley 7-6", output=False)

@@ -105,7 +105,7 @@ class Cycle:
     @property
     def balance(self) -> int | None:
         """Return which load balances the torques."""
-        return next((i for i, each in enumerate(self.given["torque"]) if each == "balance"), None)
+        return next((i for i, each in enumerate(self.given["torque"]) if isinstance(each, str)), None)
 
     def angle(self, rows: Array) -> Array:
         """Return the shaft's angle at the instants that are looked at, (rows, instants)."""

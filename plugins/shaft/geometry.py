@@ -48,10 +48,10 @@ def _row(id: str, symbol: str, unit: str, description: str, function, method: st
 
 
 _row("place_x", "x", "mm", "Place, from the left end", lambda body: body.x, "sections, notches, bearings and loads as they are given")
-_row("place_diameter", "d", "mm", "Diameter, at a step the smaller", lambda body: body.at_places(body.diameter))
-_row("place_bore", "d_i", "mm", "Bore there", lambda body: body.at_places(body.bore))
+_row("place_diameter", "d_p", "mm", "Diameter, at a step the smaller", lambda body: body.at_places(body.diameter))
+_row("place_bore", "d_ip", "mm", "Bore there", lambda body: body.at_places(body.bore))
 _row("place_greater", "D", "mm", "Diameter, at a step the greater", lambda body: body.greater)
-_row("place_radius", "r", "mm", "Radius of the notch, 0 without one", lambda body: body.radius)
+_row("place_radius", "r_p", "mm", "Radius of the notch, 0 without one", lambda body: body.radius)
 _row("is_fillet", "s_r", "1", "Whether a step has a fillet (1) or not (0)", lambda body: body.is_fillet * 1.0)
 _row("is_press_fit", "s_p", "1", "Whether a press fit ends there (1) or not (0)", lambda body: body.is_kind(PRESS_FIT) * np.ones_like(body.x))
 _row("type_k_t", "K_t0", "1", "Stress concentration in bending of the type", lambda body: body.k_t)
@@ -111,12 +111,6 @@ endurance.lookup("surface_a", "a", "1", "Factor of the surface", {"ground": 1.58
 endurance.lookup("surface_b", "b", "1", "Exponent of the surface", {"ground": -0.085, "machined": -0.265, "hot_rolled": -0.718, "forged": -0.995},
                  by="surface", source="Shigley table 6-2", output=False)
 endurance.value("surface_factor", "k_a", "1", "Surface factor", formulas.surface_factor, source="Shigley 6-19")
-LISTED = (0.5, 0.9, 0.95, 0.99, 0.999, 0.9999)
-endurance.computed("reliability_gap", "ΔR", "%", "Reliability off the next one that is listed",
-                   lambda reliability: np.min(np.abs(reliability[..., None] - np.array(LISTED)), axis=2), ("reliability",), "difference",
-                   output=False)
-endurance.require("reliability_listed", lambda reliability_gap: reliability_gap < 1e-9, key="reliability",
-                  message="is {reliability}, for which there is no factor; allowed: 50, 90, 95, 99, 99.9 or 99.99 %")
 endurance.choice("reliability_factor", "k_e", "1", "Reliability factor",
                  case(lambda: 1, "half of all shafts", lambda reliability: reliability < 0.7),
                  case(lambda: 0.897, "90 %", lambda reliability: reliability < 0.92),

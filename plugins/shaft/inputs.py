@@ -29,10 +29,10 @@ class Notch(Block):
     radius: Annotated[
         float | None, Quantity("r_n", "mm", "Radius of the notch's ground, where not that of its type", gt=0)
     ] = None
-    k_t: Annotated[float | None, Quantity("K_t", "1", "Stress concentration in bending (custom)", ge=1, le=20)] = None
-    k_ts: Annotated[float | None, Quantity("K_ts", "1", "Stress concentration in torsion (custom)", ge=1, le=20)] = None
-    k_f: Annotated[float | None, Quantity("K_f", "1", "Fatigue notch factor in bending (custom)", ge=1, le=20)] = None
-    k_fs: Annotated[float | None, Quantity("K_fs", "1", "Fatigue notch factor in torsion (custom)", ge=1, le=20)] = None
+    k_t: Annotated[float | None, Quantity("K_t,n", "1", "Stress concentration in bending (custom)", ge=1, le=20)] = None
+    k_ts: Annotated[float | None, Quantity("K_ts,n", "1", "Stress concentration in torsion (custom)", ge=1, le=20)] = None
+    k_f: Annotated[float | None, Quantity("K_f,n", "1", "Fatigue notch factor in bending (custom)", ge=1, le=20)] = None
+    k_fs: Annotated[float | None, Quantity("K_fs,n", "1", "Fatigue notch factor in torsion (custom)", ge=1, le=20)] = None
 
 
 class Gear(Block):
@@ -92,7 +92,7 @@ class Shaft(Inputs):
     yield_strength: Annotated[float, Quantity("S_y", "MPa", "Yield strength at the shaft's size", gt=0)]
     surface: Annotated[Literal["ground", "machined", "hot_rolled", "forged"], Text("Surface of the shaft")] = "machined"
     reliability: Annotated[
-        float, Quantity("R", "%", "Reliability of the endurance limit: 50, 90, 95, 99, 99.9 or 99.99 %", ge=50, lt=100)
+        float, Quantity("R", "%", "Reliability of the endurance limit", listed=(50, 90, 95, 99, 99.9, 99.99))
     ] = 99
     elastic_modulus: Annotated[float, Quantity("E", "GPa", "Modulus of elasticity", gt=0)] = 206
     shear_modulus: Annotated[float, Quantity("G", "GPa", "Shear modulus", gt=0)] = 79.3

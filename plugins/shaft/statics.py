@@ -18,7 +18,7 @@ from diecut_report.plugins.shaft.cycle import Cycle, Instants
 
 Array = NDArray[Any]
 BLOCK = 16  # variants at once
-WITHIN = np.linspace(0, 1, 9)  # of a piece, where the greatest deflection is looked for over the cycle
+WITHIN = np.linspace(0, 1, 5)  # of a piece, where the greatest deflection is looked for over the cycle
 FINE = np.linspace(0, 1, 101)  # and at its instant
 
 
@@ -79,7 +79,7 @@ class Statics:
     @cached_property
     def x(self) -> Array:
         """Return all places where something begins or acts, ascending, (points, variants)."""
-        found: Array = np.sort(np.concatenate([self.body.ends, self.body.x, self.cycle.places]), axis=0)
+        found: Array = np.sort(np.concatenate([self.body.ends[[0, -1]], self.body.x]), axis=0)
         return found
 
     def sides(self, x: Array) -> Sides:
@@ -195,10 +195,10 @@ class Statics:
 
     def critical(self) -> beams.Critical:
         """Return the critical speed with its bounds."""
-        x = np.sort(np.concatenate([self.x, self.supports.first[None], self.supports.second[None]]), axis=0)
-        diameter, bore = self.section_between(x)
-        weights = self.density * beams.circle_area(diameter, bore) * np.diff(x, axis=0)
-        return beams.critical(x, self.stiffness_of(x), weights, self.supports, self.cycle.places, self.cycle.mass)
+        diameter, bore = self.section_between(self.x)
+        weights = self.density * beams.circle_area(diameter, bore) * np.diff(self.x, axis=0)
+        stiffness = self.stiffness_of(self.x)
+        return beams.critical(self.x, stiffness, weights, self.supports, self.cycle.places, self.cycle.mass)
 
     @cached_property
     def nominal(self) -> dict[str, Array]:

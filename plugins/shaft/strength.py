@@ -83,7 +83,8 @@ _number(bending, "twist", "ϑ", "deg", "Greatest twist between the outermost tor
         )
 _number(bending, "torque_span", "l_T", "mm", "Distance of the outermost torques", "torque_span", "of the loads that have one", output=False)
 bending.value("twist_by_length", "ϑ′", "deg/m", "Twist by length between the outermost torques",
-              lambda twist, torque_span: np.where(torque_span > 0, twist / torque_span, 0 * twist / np.maximum(torque_span, 1e-9)), source="Saint-Venant", output=False)
+              lambda twist, torque_span: twist / torque_span, exists=lambda torque_span: torque_span > 0, source="Saint-Venant",
+              output=False)
 bending.computed_curve("deflection", "v(x)", "um", "Deflection at the instant of its greatest value", curves.deflection, "under_load", "position",
                        INTEGRATED, source="Euler–Bernoulli")
 _number(bending, "energy_difference", "ΔU/U", "1", "Energy of the bent shaft less the work of its loads, to the greatest energy",

@@ -136,7 +136,9 @@ def _yielding(sides: Sides, own: dict[str, Array]) -> dict[str, Array]:
 def _worst(sides: Sides, own: dict[str, Array], angle: Array, place: int, variant: int) -> tuple[float, ...]:
     """The stresses at the material point, on the side of a place, where the safety against fatigue is least."""
     factors = {name: float(each[place, variant]) for name, each in own.items()}
-    each_side = [_of_side(sides, side, angle, place, variant, factors) for side in (0, 1)]
+    forces = (sides.xy, sides.xz, sides.torque, sides.axial, *sides.torque_bounds, *sides.axial_bounds)
+    is_even = all(np.array_equal(each[0, place, variant], each[1, place, variant]) for each in forces)
+    each_side = [_of_side(sides, side, angle, place, variant, factors) for side in ((0,) if is_even else (0, 1))]
     return min(each_side, key=lambda found: found[0])[1:]
 
 
@@ -162,7 +164,8 @@ def _of_side(
         )
         return safety, *normal
 
-    psi, step = DIRECTIONS, float(DIRECTIONS[1])
+    is_symmetric = not np.any(axial) and not any(bounds)  # opposite points then have opposite stresses
+    psi, step = DIRECTIONS[: len(DIRECTIONS) // 2] if is_symmetric else DIRECTIONS, float(DIRECTIONS[1])
     for _ in range(TURNS):
         best = float(psi[np.argmin(judged(psi)[0])])
         psi = best + np.linspace(-step, step, 21)
