@@ -97,7 +97,9 @@ def _choices(step: Step, names: DeclaredNames, when: When) -> Iterator[str]:
         yield f"the function is {function!r}, which cannot be called; name one without brackets"
     elif callable(function):
         if isinstance(step, ComputedCurve):
-            yield from _signature(function, OF_CURVE, "it is called with the object, x, the middles of the pieces and the rows")
+            yield from _signature(
+                function, OF_CURVE, "it is called with the object, x, the middles of the pieces and the rows"
+            )
         else:
             yield from _signature(function, len(getattr(step, "takes", ())))
 

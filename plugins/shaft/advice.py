@@ -18,7 +18,7 @@ HALVINGS = 50
 MARGIN = 1.002  # as the material point of the least safety moves a little
 
 enough = Chapter("Sizes that would be enough",
-                 text="With all diameters, bores and fillet radii so many times as great: forces stay, bending and shear stresses fall with the third "
+                 text="With all diameters, bores and fillet radii so many times as great forces stay, bending and shear stresses fall by the third "
                       "power (where an axial force acts the second is counted on), deflections with the fourth.")
 
 
@@ -73,4 +73,5 @@ enough.value("half_critical", "n_crit/2", "rpm", "Speed that is far enough from 
              source="Shigley 7-6", output=False)
 enough.value("effective_diameter", "d_e", "mm", "Effective diameter there", lambda size_share, place_diameter: size_share * place_diameter,
              source="Shigley 6-24", output=False)
-enough.total("greatest_effective", "d_e,max", "mm", "Greatest effective diameter", "max", of="effective_diameter", source="Shigley 6-24", output=False)
+enough.total("greatest_effective", "d_e,max", "mm", "Greatest effective diameter", "max", of="effective_diameter", source="Shigley 6-24",
+             output=False)

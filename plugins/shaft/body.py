@@ -89,7 +89,9 @@ class Body:
     @property
     def greater(self) -> Array:
         """Return the greater diameter at each place: at a step that of the other section."""
-        sizes = [np.take_along_axis(self.diameter, self.section_of(self.x, behind=each), axis=0) for each in (False, True)]
+        sizes = [
+            np.take_along_axis(self.diameter, self.section_of(self.x, behind=each), axis=0) for each in (False, True)
+        ]
         return np.maximum(*sizes)
 
     @property
@@ -122,7 +124,9 @@ def body(
     ends = np.concatenate([np.zeros((1, variants)), np.cumsum(length, axis=0)])
     fillet = columns(fillets, count, variants)
     if np.isfinite(fillet[-1]).any():
-        raise Refused(f"sections.{count - 1}.fillet_radius", "belongs to no step: there is no section to the right; remove it")
+        raise Refused(
+            f"sections.{count - 1}.fillet_radius", "belongs to no step: there is no section to the right; remove it"
+        )
     own = [columns(each, notches, variants) for each in (radii, k_t, k_ts, k_f, k_fs)]
     _complete(types or (), own)
     steps = [FILLET if np.isfinite(fillet[i]).all() else SHARP for i in range(count - 1)]
@@ -135,7 +139,13 @@ def body(
         "bearing B",
         *(f"load {name}" for name in names),
     )
-    places = [ends[1:-1], columns(notch_x, notches, variants), bearing_a.T, bearing_b.T, columns(load_x, len(names), variants)]
+    places = [
+        ends[1:-1],
+        columns(notch_x, notches, variants),
+        bearing_a.T,
+        bearing_b.T,
+        columns(load_x, len(names), variants),
+    ]
     full = [_filled(fillet[:-1], each, rest) if i == 0 else _filled(np.full((count - 1, variants), np.nan), each, rest)
             for i, each in enumerate(own)]  # fmt: skip
     made = Body(ends, diameter, columns(bores, count, variants, 0.0), told, kinds, np.concatenate(places), *full)
@@ -161,11 +171,19 @@ def _complete(types: tuple[str, ...], own: list[Array]) -> None:
         if kind == "custom" and (by_shape == by_fatigue or (by_fatigue and any((radius, *factors[:2])))):
             raise Refused(f"notches.{index}", "is a custom notch; give it either k_t, k_ts and radius, or k_f and k_fs")
         if kind == "custom" and by_shape and any(factors[2:]):
-            raise Refused(f"notches.{index}", "gives both k_t and k_f; a custom notch has k_t, k_ts and radius, or k_f and k_fs")
+            raise Refused(
+                f"notches.{index}", "gives both k_t and k_f; a custom notch has k_t, k_ts and radius, or k_f and k_fs"
+            )
         if kind != "custom" and any(factors):
-            raise Refused(f"notches.{index}", f"has factors of its own, but is of the type {kind}; remove them, or give it the type custom")
+            raise Refused(
+                f"notches.{index}",
+                f"has factors of its own, but is of the type {kind}; remove them, or give it the type custom",
+            )
         if kind == PRESS_FIT and radius:
-            raise Refused(f"notches.{index}.radius", "has no use for a press fit, whose fatigue factors stand in a table; remove it")
+            raise Refused(
+                f"notches.{index}.radius",
+                "has no use for a press fit, whose fatigue factors stand in a table; remove it",
+            )
 
 
 def _with_types(made: Body) -> Body:

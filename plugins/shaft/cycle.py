@@ -40,7 +40,9 @@ class Gears:
 
     def forces(self, torque: Array) -> tuple[Array, Array, Array]:
         """Return the forces in x, y and z of torques (loads, variants, instants)."""
-        radius, pressure, helix, mesh = (each[:, :, None] for each in (self.radius, self.pressure, self.helix, self.mesh))
+        radius, pressure, helix, mesh = (
+            each[:, :, None] for each in (self.radius, self.pressure, self.helix, self.mesh)
+        )
         tangential = torque / radius
         radial = np.abs(tangential) * np.tan(pressure) / np.cos(helix)
         across = -tangential * np.sin(mesh) - radial * np.cos(mesh), tangential * np.cos(mesh) - radial * np.sin(mesh)
@@ -118,7 +120,10 @@ class Cycle:
         """Yield the loads of which only extremes are given, with these, (variants,) each."""
         for index, each in enumerate(self.given[name]):
             if isinstance(each, Extremes):
-                ends = (np.broadcast_to(np.asarray(end, dtype=float), (self.places.shape[1],)) for end in (each.low, each.high))
+                ends = (
+                    np.broadcast_to(np.asarray(end, dtype=float), (self.places.shape[1],))
+                    for end in (each.low, each.high)
+                )
                 yield index, *ends
 
     def bounds(self, name: str, weights: Array) -> tuple[Array, Array]:
@@ -192,7 +197,9 @@ def _parts(given: Any) -> tuple[Any, ...]:
 
 def _curves(given: dict[str, tuple[Any, ...]], rotation: Any) -> dict[str, Curve]:
     """The curves with their keys."""
-    found = {f"loads.{i}.{name}": each for name, parts in given.items() for i, each in enumerate(parts) if is_curve(each)}
+    found = {
+        f"loads.{i}.{name}": each for name, parts in given.items() for i, each in enumerate(parts) if is_curve(each)
+    }
     return found | ({"rotation": rotation} if is_curve(rotation) else {})
 
 
@@ -212,7 +219,10 @@ def _telling(names: Any, given: dict[str, tuple[Any, ...]], pitch_radius: Any) -
     balancing = [i for i, each in enumerate(given["torque"]) if isinstance(each, str)]
     if len(balancing) > 1:
         told = " and ".join(str(names[i]) for i in balancing)
-        raise Refused(f"loads.{balancing[1]}.torque", f"is balance, as that of another load ({told}); only one load can balance the others")
+        raise Refused(
+            f"loads.{balancing[1]}.torque",
+            f"is balance, as that of another load ({told}); only one load can balance the others",
+        )
     bounded = [i for i, each in enumerate(given["torque"]) if isinstance(each, Extremes)]
     unknown = bounded + (balancing if bounded else [])
     for index in unknown:
@@ -220,7 +230,9 @@ def _telling(names: Any, given: dict[str, tuple[Any, ...]], pitch_radius: Any) -
             continue
         if pitch_radius is not None:
             words = "has a gear, whose forces need the torque at each instant; give the torque as a number or a curve, or the forces without gear"
-            raise Refused(f"loads.{index}.torque", f"is known by its extremes alone, but the load {names[index]} {words}")
+            raise Refused(
+                f"loads.{index}.torque", f"is known by its extremes alone, but the load {names[index]} {words}"
+            )
 
 
 def _instants(joints: list[Array], variants: int, count: int) -> tuple[Array, Array, Array]:

@@ -38,7 +38,9 @@ def _rectangle(left: float, right: float, height: float) -> list[Point]:
 
 def _radius(ends: list[float], sizes: list[float], x: float) -> float:
     """The shaft's radius at a place."""
-    inside = [size for left, right, size in zip(ends, ends[1:], sizes, strict=False) if left - 1e-9 <= x <= right + 1e-9]
+    inside = [
+        size for left, right, size in zip(ends, ends[1:], sizes, strict=False) if left - 1e-9 <= x <= right + 1e-9
+    ]
     return max(inside) / 2
 
 

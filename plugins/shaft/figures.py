@@ -67,7 +67,12 @@ def _goodman(view: View) -> list[Shape]:
     """The governing place in the diagram of Goodman."""
     index = int(view["governing_place"])
     alternating, mean = (
-        float(np.hypot(view.row("k_f")[index] * view.row(f"sigma_{part}")[index], 3**0.5 * view.row("k_fs")[index] * view.row(f"tau_{part}")[index]))
+        float(
+            np.hypot(
+                view.row("k_f")[index] * view.row(f"sigma_{part}")[index],
+                3**0.5 * view.row("k_fs")[index] * view.row(f"tau_{part}")[index],
+            )
+        )
         for part in "am"
     )
     limit, strength, required = view["endurance_limit"], view["tensile_strength"], view["required_fatigue_safety"]

@@ -30,9 +30,13 @@ class Notch(Block):
         float | None, Quantity("r_n", "mm", "Radius of the notch's ground, where not that of its type", gt=0)
     ] = None
     k_t: Annotated[float | None, Quantity("K_t,n", "1", "Stress concentration in bending (custom)", ge=1, le=20)] = None
-    k_ts: Annotated[float | None, Quantity("K_ts,n", "1", "Stress concentration in torsion (custom)", ge=1, le=20)] = None
+    k_ts: Annotated[float | None, Quantity("K_ts,n", "1", "Stress concentration in torsion (custom)", ge=1, le=20)] = (
+        None
+    )
     k_f: Annotated[float | None, Quantity("K_f,n", "1", "Fatigue notch factor in bending (custom)", ge=1, le=20)] = None
-    k_fs: Annotated[float | None, Quantity("K_fs,n", "1", "Fatigue notch factor in torsion (custom)", ge=1, le=20)] = None
+    k_fs: Annotated[float | None, Quantity("K_fs,n", "1", "Fatigue notch factor in torsion (custom)", ge=1, le=20)] = (
+        None
+    )
 
 
 class Gear(Block):
@@ -41,7 +45,8 @@ class Gear(Block):
     pitch_radius: Annotated[float, Quantity("r_w", "mm", "Pitch radius of the gear", gt=0)]
     pressure_angle: Annotated[float, Quantity("α_n", "deg", "Pressure angle in the normal section", gt=0, lt=45)] = 20
     helix_angle: Annotated[
-        float, Quantity("β", "deg", "Helix angle; its sign is that of the axial force of a positive torque", gt=-60, lt=60)
+        float,
+        Quantity("β", "deg", "Helix angle; its sign is that of the axial force of a positive torque", gt=-60, lt=60),
     ] = 0
     mesh_angle: Annotated[
         float, Quantity("ζ", "deg", "Where the mating gear stands, from y towards z", ge=-360, le=360)
@@ -86,9 +91,7 @@ class Shaft(Inputs):
     bearing_b: Annotated[float, Quantity("x_B", "mm", "Place of bearing B, from the shaft's left end", ge=0)]
     locating: Annotated[Literal["a", "b"], Text("Which bearing takes the axial force")] = "a"
     loads: Annotated[list[Load], Text("Loads of the shaft")]
-    tensile_strength: Annotated[
-        float, Quantity("S_ut", "MPa", "Tensile strength at the shaft's size", ge=340, le=1500)
-    ]
+    tensile_strength: Annotated[float, Quantity("S_ut", "MPa", "Tensile strength at the shaft's size", ge=340, le=1500)]
     yield_strength: Annotated[float, Quantity("S_y", "MPa", "Yield strength at the shaft's size", gt=0)]
     surface: Annotated[Literal["ground", "machined", "hot_rolled", "forged"], Text("Surface of the shaft")] = "machined"
     reliability: Annotated[
@@ -109,7 +112,9 @@ class Shaft(Inputs):
     turns_per_cycle: Annotated[
         int, Quantity("k_T", "1", "Turns of the shaft in a cycle of its loads", ge=1, le=1000, integer=True)
     ] = 1
-    speed: Annotated[float | None, Quantity("n", "rpm", "Speed of the shaft, held against the critical one", gt=0)] = None
+    speed: Annotated[float | None, Quantity("n", "rpm", "Speed of the shaft, held against the critical one", gt=0)] = (
+        None
+    )
     required_fatigue_safety: Annotated[
         float, Quantity("[n_f]", "1", "Safety that is required against fatigue", ge=1)
     ] = 1.5

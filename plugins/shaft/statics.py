@@ -151,9 +151,18 @@ class Statics:
 
     def at_instant(self, instant: Array) -> Statics:
         """The same at one instant of each variant."""
-        picked = {name: np.take_along_axis(each, instant[None, :, None], axis=2) for name, each in vars(self.loads).items()}
+        picked = {
+            name: np.take_along_axis(each, instant[None, :, None], axis=2) for name, each in vars(self.loads).items()
+        }
         return Statics(
-            self.body, self.cycle, Instants(**picked), self.supports, self.locating, self.elastic, self.shear, self.density
+            self.body,
+            self.cycle,
+            Instants(**picked),
+            self.supports,
+            self.locating,
+            self.elastic,
+            self.shear,
+            self.density,
         )
 
     @cached_property
@@ -205,19 +214,27 @@ class Statics:
         """Return where the nominal stress is greatest over shaft and cycle, and the forces there, (variants,) each."""
         sides = self.sides(self.x)
         index = np.stack([self.body.section_of(self.x, behind=each) for each in (False, True)])
-        diameter, bore = (np.take_along_axis(each[None], index, axis=1) for each in (self.body.diameter, self.body.bore))
+        diameter, bore = (
+            np.take_along_axis(each[None], index, axis=1) for each in (self.body.diameter, self.body.bore)
+        )
         area, modulus = beams.circle_area(diameter, bore), 2 * beams.second_moment(diameter, bore) / diameter
         forces = sides.axial_size, sides.bending, sides.torque_size
         stress = formulas.yield_stress(*forces, area[..., None], modulus[..., None], 1.0, 1.0)
         found = {"nominal_axial": forces[0], "nominal_moment": forces[1], "nominal_torque": forces[2]}
-        found |= {"nominal_diameter": diameter[..., None], "nominal_bore": bore[..., None], "nominal_position": self.x[None, :, :, None]}
+        found |= {
+            "nominal_diameter": diameter[..., None],
+            "nominal_bore": bore[..., None],
+            "nominal_position": self.x[None, :, :, None],
+        }
         return {name: _picked(each, stress) for name, each in found.items()}
 
     def numbers(self) -> dict[str, Array]:
         """Return all numbers, (variants,) each."""
         sides, reactions = self.sides(self.x), np.hypot(self.reactions[:, 0], self.reactions[:, 1])
         low, high = sides.torque_bounds
-        deflection, slope = self.resultants(np.stack([*self.body.ends[[0, -1]], self.supports.first, self.supports.second]))
+        deflection, slope = self.resultants(
+            np.stack([*self.body.ends[[0, -1]], self.supports.first, self.supports.second])
+        )
         locating = np.sum(self.loads.axial_force, axis=0)
         bounds = self.cycle.bounds("axial_force", np.ones((1, *self.cycle.places.shape)))
         critical = self.critical()

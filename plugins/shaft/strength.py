@@ -41,7 +41,8 @@ def _number(chapter: Chapter, id: str, symbol: str, unit: str, description: str,
 
 loads = Chapter("Loads and reactions",
                 text="Reactions are forces on the shaft. In each plane R_B = −(Σ F_i (x_i − x_A) + Σ C_j)/(x_B − x_A), R_A = −Σ F_i − R_B; behind x "
-                     "M = Σ F_i (x − x_i) − Σ C_j, T = Σ T_i and N = −Σ F_x,i of what acts before x. A torque known by its extremes adds as an interval.")
+                     "M = Σ F_i (x − x_i) − Σ C_j, T = Σ T_i and N = −Σ F_x,i of what acts before x. A torque known by its extremes adds as an "
+                     "interval.")
 loads.prepared("cycle", cycle, CYCLE)
 loads.prepared("under_load", _under_load, LOADED)
 _number(loads, "torque_left", "ΣT", "N*m", "What the torques add up to", "torque_left", OVER_CYCLE, output=False)
@@ -90,7 +91,7 @@ bending.computed_curve("deflection", "v(x)", "um", "Deflection at the instant of
 _number(bending, "energy_difference", "ΔU/U", "1", "Energy of the bent shaft less the work of its loads, to the greatest energy",
         "energy_difference", "∫ M²/(2 E I) dx against half the loads times their ways (Castigliano)", output=False)
 
-fatigue = Chapter("Fatigue", text="Stress of a material point that turns with the shaft by θ, at the direction ψ from y: σ = N/A − (M_xy cos(ψ + θ) + "
+fatigue = Chapter("Fatigue", text="Stress of a material point that turns with the shaft by θ, at ψ from y: σ = N/A − (M_xy cos(ψ + θ) + "
                                   "M_xz sin(ψ + θ))/W_b. Ranges of bending and torsion are combined as if in phase; ψ and the side of a place "
                                   "(before or behind its load) are those of the least safety.")
 fatigue.prepared("states", _states, ("under_load", *FACTORS.values()))
@@ -107,15 +108,18 @@ _state(fatigue, "torque_lower", "T_u", "N*m", "Least torque over the cycle there
 _state(fatigue, "direction", "ψ", "deg", "Direction of the material point of the least safety", "direction",
        "scan of 360 directions, then a bounded search")
 fatigue.value("tau_a", "τ_a", "MPa", "Amplitude of the shear stress",
-              lambda torque_upper, torque_lower, place_modulus: (torque_upper - torque_lower) / (4 * place_modulus), source="Shigley 7-2", output=False)
+              lambda torque_upper, torque_lower, place_modulus: (torque_upper - torque_lower) / (4 * place_modulus),
+              source="Shigley 7-2", output=False)
 fatigue.value("tau_m", "τ_m", "MPa", "Mean of the shear stress",
-              lambda torque_upper, torque_lower, place_modulus: (torque_upper + torque_lower) / (4 * place_modulus), source="Shigley 7-2", output=False)
+              lambda torque_upper, torque_lower, place_modulus: (torque_upper + torque_lower) / (4 * place_modulus),
+              source="Shigley 7-2", output=False)
 fatigue.value("place_safety", "n_f", "1", "Safety against fatigue", bind(formulas.goodman, endurance="place_endurance"), source="Shigley 7-7")
 fatigue.total("fatigue_safety", "n_f,min", "1", "Least safety against fatigue", "min", of="place_safety", source="Shigley 7-7")
 fatigue.computed("governing_place", "i_f", "1", "Index of the place of the least safety, from 0", lambda row: np.argmin(row, axis=1)[:, None],
                  ("place_safety",), "the least of all places", output=False, whole=True)
 fatigue.computed("fatigue_place", "P_f", "1", "Place of the least safety against fatigue",
-                 lambda body, index: [body.names[int(each)] for each in index[:, 0]], ("body", "governing_place"), "the least of all places", is_text=True)
+                 lambda body, index: [body.names[int(each)] for each in index[:, 0]], ("body", "governing_place"), "the least of all places",
+                 is_text=True)
 
 
 def _at_governing(chapter: Chapter, id: str, symbol: str, unit: str, description: str, of: str) -> None:
@@ -157,7 +161,8 @@ yielding.part_table("place_table", "All places", "places",
                     ("place_x", "place_diameter", "k_t", "k_ts", "k_f", "k_fs", "sigma_a", "sigma_m", "tau_a", "tau_m", "place_endurance",
                      "place_safety", "place_yield_safety"))
 
-critical = Chapter("Critical speed", text="The shaft bends without mass; the masses of the loads and its own, in eight lumps of each piece, move across it.")
+critical = Chapter("Critical speed", text="The shaft bends without mass; the masses of the loads, and its own in eight lumps of each piece, move "
+                                          "across it.")
 _number(critical, "critical_speed", "n_crit", "rpm", "Lowest critical speed", "critical",
         "greatest eigenvalue of √m_i δ_ij √m_j with the exact deflections δ_ij for unit forces", source="Shigley 7-6")
 _number(critical, "critical_speed_rayleigh", "n_R", "rpm", "Critical speed by Rayleigh, from above", "rayleigh",

@@ -92,7 +92,9 @@ class UnderLoad:
 
     def along(self, x: Array, middle: Array, rows: Array | None) -> Iterator[tuple[Statics, Array, int]]:
         """Yield for each row of places (rows, places) the shaft, its places (places, 1), and 0 before and 1 behind for each of them."""
-        chosen = np.zeros(len(x), dtype=int) if self.variants == 1 else np.arange(self.variants) if rows is None else rows
+        chosen = (
+            np.zeros(len(x), dtype=int) if self.variants == 1 else np.arange(self.variants) if rows is None else rows
+        )
         inner = np.broadcast_to(middle, x.shape)
         for own, variant, mid in zip(x, chosen, inner, strict=True):
             row = np.array([variant])
@@ -112,9 +114,7 @@ class UnderLoad:
     def _fatigue(self, variants: Array, sides: Sides, own: dict[str, Array]) -> dict[str, Array]:
         angles = self.cycle.angle(variants)
         count = sides.xy.shape[1]
-        found = [
-            [_worst(sides, own, angles[v], place, v) for place in range(count)] for v in range(len(variants))
-        ]
+        found = [[_worst(sides, own, angles[v], place, v) for place in range(count)] for v in range(len(variants))]
         names = ("sigma_a", "sigma_m", "torque_upper", "torque_lower", "direction")
         table = np.array(found)
         return {name: table[:, :, i] for i, name in enumerate(names)}
@@ -128,7 +128,9 @@ def _yielding(sides: Sides, own: dict[str, Array]) -> dict[str, Array]:
     flat = np.moveaxis(stress, 0, 2).reshape(*stress.shape[1:3], -1)
     index = np.argmax(flat, axis=2)[:, :, None]
     return {
-        name: np.take_along_axis(np.moveaxis(np.broadcast_to(each, stress.shape), 0, 2).reshape(flat.shape), index, axis=2)[:, :, 0].T
+        name: np.take_along_axis(
+            np.moveaxis(np.broadcast_to(each, stress.shape), 0, 2).reshape(flat.shape), index, axis=2
+        )[:, :, 0].T
         for name, each in forces.items()
     }
 
