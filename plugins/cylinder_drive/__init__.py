@@ -30,7 +30,7 @@ MECHANISM = Mechanism(
               unit="deg", demand_label="required", limit_label="worst position", source="practice",
               consequence="the coupler pushes the rocker's joint more than it turns the rocker; lengthen the rocker or the frame."),
         Check(id="stroke", check_class="function", title="Full turn of the cylinder over the stroke", demand="stroke_error", limit=0.5, unit="deg",
-              sized_unless=("sector_ratio",), demand_label="rotation off a full turn", limit_label="accepted", source="000, Fig. 1",
+              demand_label="rotation off a full turn", limit_label="accepted", source="000, Fig. 1",
               consequence="the flat stands tilted at an end of the stroke; make the sector ratio 2π/δ_max."),
         Check(
             id="unbalance",
