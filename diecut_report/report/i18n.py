@@ -26,7 +26,7 @@ ENGLISH: dict[str, str] = {
     "count_error": "{n} not calculated", "governing": "Governing", "no_checks": "There are no checks.",
     "reserve": "margin {margin}", "beyond": "{margin} beyond the limit", "self_test": "self-test", "missing": "Not given",
     "self_tests": "{n} self-tests of the calculation hold.", "self_tests_one": "1 self-test of the calculation holds.",
-    "sized": "Sized to the limit by the program, which is no reserve", "sized_short": "sized to its limit",
+    "sized": "Sized to its limit by the program, so without a reserve of its own", "sized_short": "sized to its limit",
     "assumed": "The verdict rests on {n} assumed values.", "assumed_one": "The verdict rests on 1 assumed value.",
     "class_function": "function", "class_strength": "strength", "class_practice": "practice", "class_numerical": "self-test",
     # chapters

@@ -24,4 +24,10 @@ CHECKS = (
           demand_label="least distance of the edge from the axis, R − r", limit_label="board's upper front edge from the axis", source="geometry",
           consequence="over the whole turn this front edge is inside the edge's circle, so that the blade's end comes down on the board from "
           "above; {entering_advice}."),
+    Check(id="force", check_class="strength", title="Force of the cut", demand="force_max", limit="allowable_force", unit="N",
+          demand_label="greatest force down", limit_label="allowed", source="input",
+          consequence="knife or counter-knife bends; a greater shear angle or a thinner board lowers it."),
+    Check(id="torque", check_class="strength", title="Torque at the knife's shaft", demand="torque_max", limit="allowable_torque", unit="N*m",
+          demand_label="greatest torque", limit_label="allowed", source="input",
+          consequence="the knife's shaft and its drive are overloaded; a smaller eccentricity or less friction lowers it."),
 )  # fmt: skip
