@@ -97,6 +97,7 @@ class CamGearTransport(Inputs):
         float | None,
         Quantity("m_c", "kg", "Mass that moves with the conveyor's chain, sheets included; with it the torque", gt=0),
     ] = None
+    allowable_torque: Annotated[float | None, Quantity("[M]", "N*m", "Allowed torque at the disc's shaft", gt=0)] = None
     sector_inertia: Annotated[
         float,
         Quantity(
