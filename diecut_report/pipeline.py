@@ -23,6 +23,7 @@ LINES_TO_DEPTH = 4  # the results file has a line for each quantity and each cur
 
 Data = dict[str, Any]
 Tell = Callable[[str], None]
+Weigh = Callable[[Config, Data], list[Data]]  # which assumed values move a governing check
 Source = Path | Tree  # a configuration: its file, or what was read and changed
 
 NO_PANGO = (
@@ -67,10 +68,14 @@ def calc(config: Source, discovery: Discovery, tell: Tell, target: Path | None =
 
 
 def report(
-    config: Source, discovery: Discovery, tell: Tell, folder: Path, formats: Sequence[str], language: str | None = None
-) -> ReportOutcome:
-    """The report in the asked formats, as ``NAME.html``, ``NAME.pdf``, ``NAME.json`` in the folder, and the exports beside it."""
-    results, broken, places = _calculated(config, discovery, tell, formats)
+    config: Source, discovery: Discovery, tell: Tell, folder: Path, formats: Sequence[str], language: str | None = None,
+    weigh: Weigh | None = None,
+) -> ReportOutcome:  # fmt: skip
+    """The report in the asked formats, as ``NAME.html``, ``NAME.pdf``, ``NAME.json`` in the folder, and the exports beside it.
+
+    ``weigh`` tells which of the assumed values move a governing check.
+    """
+    results, broken, places = _calculated(config, discovery, tell, formats, weigh)
     if language is not None:
         results["project"]["language"] = language
     contents, undrawn = _rendered(results, formats, tell)
@@ -96,7 +101,7 @@ def _refuse_many_sheets(config: Config, formats: Sequence[str]) -> None:
 
 
 def _calculated(
-    source: Source, discovery: Discovery, tell: Tell, formats: Sequence[str] = ()
+    source: Source, discovery: Discovery, tell: Tell, formats: Sequence[str] = (), weigh: Weigh | None = None
 ) -> tuple[Data, tuple[PluginError, ...], Places]:
     tell("reading the configuration")
     config = load_config(source, discovery)
@@ -106,6 +111,9 @@ def _calculated(
 
     run = compute(config, lambda name: tell(f"calculating {name}"))
     results = document(run)
+    if weigh is not None and results["summary"]["assumed"] and not run.errors:
+        tell("weighing what is assumed")
+        results["summary"]["moves"] = weigh(config, results)
     return results, (*run.errors.values(), *_failed(results)), _places(run)
 
 

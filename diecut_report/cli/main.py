@@ -151,10 +151,11 @@ def report(
 ) -> int:
     """Calculate and write NAME.html, NAME.pdf and NAME.json."""
     from diecut_report import pipeline
+    from diecut_report.study.analysis.assumed import moves
 
     with Progress(quiet) as progress, redirect_stdout(sys.stderr):
         discovery = Discovery(folders)
-        outcome = pipeline.report(source(config, discovery), discovery, progress, folder, formats, language)
+        outcome = pipeline.report(source(config, discovery), discovery, progress, folder, formats, language, moves)
     if not quiet:
         tell(f"written: {path}" for path in outcome.written)
     return _verdict(outcome, quiet)

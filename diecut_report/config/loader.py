@@ -9,6 +9,7 @@ from pathlib import Path
 from typing import Any, get_args
 
 from diecut_report.config import yaml_tree
+from diecut_report.config.basis import BasisReader
 from diecut_report.config.caps import too_much
 from diecut_report.config.dependency_order import ordered
 from diecut_report.config.discovery import Discovery, DuplicateKind, UnknownKind, said
@@ -109,9 +110,11 @@ class _ConfigReader:
         self, name: str, model: type[Block], data: dict[str, Any], place: ConfigPlace, mechanism: Any = None
     ) -> None:
         data, place, problems = spread_out(model, data, place)
-        self.problems += problems
-        form = in_form(model, [key for key, value in data.items() if value is not None])
-        self.instances[name] = Instance(name, form, as_typed(form, data, place), place, mechanism)
+        stated = BasisReader.read(model, data, place)
+        self.problems += problems + stated.problems
+        form = in_form(model, [key for key, value in stated.data.items() if value is not None])
+        typed = as_typed(form, stated.data, stated.place)
+        self.instances[name] = Instance(name, form, typed, stated.place, mechanism, stated.bases)
 
     def _mechanism(self, name: str, body: Any, place: ConfigPlace) -> None:
         fault = _name_fault(name)

@@ -30,7 +30,14 @@ class ConfigPlace:
 
     def path(self, key: KeyPath) -> KeyPath:
         """The path in the file of a key below this block."""
-        return (*self.root, *self.listed.get(key, key))
+        return (*self.root, *self.inner(key))
+
+    def inner(self, key: KeyPath) -> KeyPath:
+        """The path below this block; what stands in a value that is listed elsewhere stands there."""
+        for length in range(len(key), 0, -1):
+            if key[:length] in self.listed:
+                return (*self.listed[key[:length]], *key[length:])
+        return key
 
     def typed(self, key: KeyPath) -> Any:
         """What was typed there."""

@@ -7,10 +7,11 @@ from dataclasses import dataclass, field
 from pathlib import PurePath
 from typing import Any
 
+from diecut_report.report.assumed import AssumedLine, assumed_line
 from diecut_report.report.chapters import chapter
 from diecut_report.report.equations import Equations
 from diecut_report.report.i18n import Catalogue
-from diecut_report.report.model import CheckRow, PrintedChapter, QuantityRow, quantity_row
+from diecut_report.report.model import CheckRow, PrintedChapter, QuantityRow, quantity_row, rested
 
 Data = Mapping[str, Any]
 ORDER = {"fail": 0, "warn": 1, "pass": 2}
@@ -45,6 +46,7 @@ class ReportDocument:
     program: Data
     config: Data
     words: Catalogue
+    assumed: AssumedLine | None = None
     contents: list[tuple[str, str, str, int]] = field(default_factory=list)
 
     @property
@@ -67,12 +69,13 @@ def document(results: Data, equations: Equations, words: Catalogue) -> ReportDoc
         governing=_governing(results, checks),
         checks=checks,
         failures=[row for row in checks if row.status == "fail"],
-        press_rows=[quantity_row(row, decimal) for row in results["press"]["fields"]],
+        press_rows=[rested(quantity_row(row, decimal), row, words) for row in results["press"]["fields"]],
         chapters=chapters,
         sources=_sources(results),
         program=results["program"],
         config=results["config"],
         words=words,
+        assumed=assumed_line(results, words),
         contents=list(_contents(chapters, words)),
     )
 

@@ -35,6 +35,9 @@ ENGLISH: dict[str, str] = {
     "value": "Value", "unit": "Unit", "origin": "Origin", "typed": "As typed", "place": "At", "path": "Key",
     "given": "given", "default": "default", "reference": "reference", "expression": "calculated",
     "refers": "from {path}", "from_press": "default, from {path}",
+    "assumed": "assumed", "measured": "measured", "catalogue": "from a catalogue", "standard": "by a standard", "drawing": "from a drawing",
+    "rests_on": "Rests on {n} assumed values", "moving_first": ", those first that move a governing check",
+    "rests_on_one": "Rests on 1 assumed value", "moves": "moves {check}", "more_assumed": " and {n} more",
     "touches": "Touches", "part": "No.", "nth": "{text}, no. {n}", "repeated_parts": "{n} repeated parts", "curves_over": "Curves over: {axis}",
     "file": "File", "content": "Content",
     # items
