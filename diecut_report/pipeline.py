@@ -9,7 +9,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 from diecut_report.config.discovery import Discovery
-from diecut_report.config.loader import Config, load_config
+from diecut_report.config.loader import Config, examined, in_order, load_config
 from diecut_report.config.yaml_tree import Tree
 from diecut_report.errors import PluginError, Problem, UserError
 from diecut_report.limits import MAX_PRINTED_MECHANISMS
@@ -53,9 +53,18 @@ class ReportOutcome:
     broken: tuple[PluginError, ...]
 
 
-def check(config: Path, discovery: Discovery) -> tuple[PluginError, ...]:
-    """Load, validate and resolve without calculating; UserError with all problems. Gives the plugins that are broken."""
-    return tuple(load_config(config, discovery).broken.values())
+def validate(config: Source, discovery: Discovery) -> tuple[PluginError, ...]:
+    """Load, validate and resolve, and see whether the machines can exist; UserError with all problems at once.
+
+    Gives the plugins that are broken.
+    """
+    made, problems = examined(config, discovery)
+    from diecut_report.results.feasible import impossible  # with the engine
+
+    more, broken = impossible(made, problems)
+    if problems or more:
+        raise UserError(in_order([*problems, *more]))
+    return (*made.broken.values(), *broken)
 
 
 def calc(config: Source, discovery: Discovery, tell: Tell, target: Path | None = None) -> tuple[ReportOutcome, str]:

@@ -20,6 +20,7 @@ from typing import TYPE_CHECKING, Any, NoReturn
 import click
 
 from diecut_report import __version__
+from diecut_report.cli.checking import check, validate
 from diecut_report.cli.output import (
     BAD_INPUT,
     CHECK_FAILED,
@@ -182,28 +183,6 @@ def calc(config: Path, target: Path | None, folders: tuple[Path, ...], quiet: bo
 
 
 @program.command()
-@click.argument("configs", metavar="CONFIG…", nargs=-1, required=True, type=click.Path(path_type=Path))
-@common
-def check(configs: tuple[Path, ...], folders: tuple[Path, ...], quiet: bool) -> int:
-    """Validate without calculating; all problems of all files are reported."""
-    from diecut_report import pipeline
-
-    discovery, codes = Discovery(folders), []
-    for config in configs:
-        try:
-            with redirect_stdout(sys.stderr):
-                broken = pipeline.check(config, discovery)
-            tell(str(error) if len(configs) == 1 else f"{config}: {error}" for error in broken)
-            codes.append(PLUGIN_BROKE if broken else PASSED)
-        except UserError as error:
-            tell_problems(error.problems)
-            codes.append(BAD_INPUT)
-        if codes[-1] == PASSED and not quiet:
-            tell([f"{config}: valid"])
-    return BAD_INPUT if BAD_INPUT in codes else max(codes)
-
-
-@program.command()
 @common
 def plugins(folders: tuple[Path, ...], quiet: bool) -> int:
     """List the kinds, their sources and where each comes from."""
@@ -253,6 +232,8 @@ def schema(kind: str | None, folders: tuple[Path, ...], quiet: bool) -> int:
     return PLUGIN_BROKE if broken else PASSED
 
 
+program.add_command(validate)
+program.add_command(check)
 program.add_command(batch)
 program.add_command(variants)
 

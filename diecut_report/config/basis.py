@@ -84,11 +84,15 @@ class BasisReader:
             yield self.place.problem(key, words.replace("10 1,", "10,"))
         for name in given:
             if name not in KEYS:
-                words = f"is an unknown key{nearest(name, KEYS)}. A quantity that stands as a block has {', '.join(KEYS)}."
+                words = (
+                    f"is an unknown key{nearest(name, KEYS)}. A quantity that stands as a block has {', '.join(KEYS)}."
+                )
                 yield self.place.problem((*key, name), words, at_key=True)
         basis, note = given.get("basis"), given.get("note")
         if basis is not None and basis not in BASES:
             near = nearest(basis, BASES) if isinstance(basis, str) else ""
             yield self.place.problem((*key, "basis"), f"is {told(basis)}{near}; allowed: {', '.join(BASES)}")
         if note is not None and not isinstance(note, str):
-            yield self.place.problem((*key, "note"), f"is {told(note)}; a text is needed, in quotes where it is a number")
+            yield self.place.problem(
+                (*key, "note"), f"is {told(note)}; a text is needed, in quotes where it is a number"
+            )

@@ -59,7 +59,12 @@ class Bases:
         instance = self.config.instances[target.instance]
         assert instance is not None, "what is calculated has a model"
         names = needed(calculation.mechanism, calculation.given, [str(target.result)])
-        used = {name for _, step in calculation.mechanism.active(calculation.given) if step.id in names for name in taken(step)}
+        used = {
+            name
+            for _, step in calculation.mechanism.active(calculation.given)
+            if step.id in names
+            for name in taken(step)
+        }
         for slot in slots(instance.model, instance.data):
             if ".".join(part for part in slot.key if isinstance(part, str)) in used:
                 yield (instance.name, *slot.key)

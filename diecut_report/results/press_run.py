@@ -16,6 +16,7 @@ from diecut_report.config.model import PRESS
 from diecut_report.config.references import Node, Target
 from diecut_report.config.validation import declared, validate
 from diecut_report.contract.inputs import SI, Block, CurveInput, Quantity, flatten
+from diecut_report.contract.mechanism import Mechanism
 from diecut_report.contract.result_names import named
 from diecut_report.engine import Calculation, CurveHandle, Impossible, calculate
 from diecut_report.errors import PluginError, Problem, UserError
@@ -197,14 +198,20 @@ class Run:
         assert instance.mechanism is not None
         self.tell(name)
         try:
-            self.calculations[name] = calculate(instance.mechanism, flatten(block))
-            self.results[name] = mechanism_results(self.calculations[name], self._provenance(instance))
+            self.calculations[name] = self._made(instance, instance.mechanism, block)
+            self._printed(instance, self.calculations[name])
         except Impossible as fault:
             for path, message in fault.reasons:
                 key = tuple(int(part) if part.isdigit() else part for part in path.split(".") if part)
                 self.problems.append(instance.place.problem(key, message))
         except (Exception, SystemExit) as cause:
             self._broke(instance, cause)
+
+    def _made(self, instance: Instance, mechanism: Mechanism, block: Block) -> Calculation:
+        return calculate(mechanism, flatten(block))
+
+    def _printed(self, instance: Instance, calculation: Calculation) -> None:
+        self.results[instance.name] = mechanism_results(calculation, self._provenance(instance))
 
     def _compare(self, case: Found) -> None:
         self.tell(case.name)
