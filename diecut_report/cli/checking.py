@@ -29,8 +29,8 @@ from diecut_report.config.discovery import Discovery
 from diecut_report.errors import PluginError, Problem, UserError, nearest
 
 if TYPE_CHECKING:
-    from diecut_report.study.machines.calculation import Machine
-    from diecut_report.study.machines.verdicts import Comparison, Verdict
+    from diecut_report.study.machines.calculation import CheckedMachine
+    from diecut_report.study.machines.verdicts import MachineComparison, Verdict
 
 FORMATS = ("html", "pdf", "xlsx", "csv", "json")
 COLOURED = {"bad": "error"}  # states with the colour of another one
@@ -116,11 +116,13 @@ def check(given: tuple[Path, ...], folder: Path | None, strict: bool, formats: l
     return _code(made.verdicts, strict)
 
 
-def _calculated(files: Sequence[Path], folders: Sequence[Path], jobs: int | None, progress: Progress) -> list[Machine]:
+def _calculated(
+    files: Sequence[Path], folders: Sequence[Path], jobs: int | None, progress: Progress
+) -> list[CheckedMachine]:
     """What came out of each file, in their order."""
     from diecut_report.study.machines.calculation import machines
 
-    found: dict[int, Machine] = {}
+    found: dict[int, CheckedMachine] = {}
     progress(f"calculating {len(files)} machines")
     for number, machine in machines(files, [str(path.absolute()) for path in folders], jobs):
         found[number] = machine
@@ -130,7 +132,9 @@ def _calculated(files: Sequence[Path], folders: Sequence[Path], jobs: int | None
 
 def _table(verdicts: Sequence[Verdict]) -> Iterator[str]:
     """The table of verdicts, its columns as wide as they need."""
-    rows = [("machine", "verdict", "governing check", "utilisation", "failed", "not checked", "warnings")]
+    rows: list[tuple[str, ...]] = [
+        ("machine", "verdict", "governing check", "utilisation", "failed", "not checked", "warnings")
+    ]
     rows += [_row(verdict) for verdict in verdicts]
     widths = [max(map(len, column)) for column in zip(*rows, strict=True)]
     for row in rows:
@@ -145,7 +149,7 @@ def _row(verdict: Verdict) -> tuple[str, ...]:
     return verdict.machine, verdict.status, verdict.governing, share, *map(str, counts)
 
 
-def _write(made: Comparison, folder: Path, formats: list[str], quiet: bool, files: Sequence[Path]) -> None:
+def _write(made: MachineComparison, folder: Path, formats: list[str], quiet: bool, files: Sequence[Path]) -> None:
     from diecut_report.files import write_all
     from diecut_report.study.machines import pages
 

@@ -78,7 +78,7 @@ def examined(given: Path | Tree, discovery: Discovery) -> tuple[Config, list[Pro
         problems += [
             reader.place.problem(("mechanisms", name, "kind"), str(error)) for name, error in reader.broken.items()
         ]
-    project = reader.project or Project(title="?")
+    project = reader.project or Project.model_validate({"title": "?"})  # of a file with problems
     config = Config(tree, project, reader.instances, reader.kinds, linker.links, tuple(order), reader.broken,
                     dict(sorted(discovery.extended.items())))  # fmt: skip
     return config, problems

@@ -106,8 +106,8 @@ def test_strict_ends_with_1_where_something_is_not_checked() -> None:
 
 
 def test_what_is_not_checked_is_counted_from_the_results() -> None:
-    from diecut_report.study.machines.calculation import Machine
+    from diecut_report.study.machines.calculation import CheckedMachine
     from diecut_report.study.machines.verdicts import verdict
 
     results = {"mechanisms": {}, "summary": {"not_checked": 7}}
-    assert verdict(Machine("a.yaml", "pass", results), "a").not_checked == 7
+    assert verdict(CheckedMachine("a.yaml", "pass", results), "a").not_checked == 7

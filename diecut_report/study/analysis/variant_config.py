@@ -58,7 +58,7 @@ def _value(base: Tree, path: KeyPath) -> KeyPath:
     home = base.data
     for key in path:
         known = key in home if isinstance(home, dict) else isinstance(home, list) and int(key) < len(home)
-        home = home[key] if known else None  # type: ignore[index]
+        home = home[key] if known else None
     return (*path, "value") if isinstance(home, dict) else path
 
 

@@ -24,7 +24,7 @@ BAD, BROKEN = "bad", "error"  # states beside pass, warn and fail: the file is b
 
 
 @dataclass
-class Machine:
+class CheckedMachine:
     """Hold what came out of a configuration: its results without curves and print, or the words of what is wrong with it."""
 
     file: str
@@ -74,7 +74,9 @@ def is_study(tree: Tree) -> bool:
     return isinstance(tree.data, dict) and "base" in tree.data and "mechanisms" not in tree.data
 
 
-def machines(files: Sequence[Path], folders: Sequence[str], jobs: int | None = None) -> Iterator[tuple[int, Machine]]:
+def machines(
+    files: Sequence[Path], folders: Sequence[str], jobs: int | None = None
+) -> Iterator[tuple[int, CheckedMachine]]:
     """Yield each configuration's number and what came out, in the order in which they are ready."""
     warm = Warm(sha256(repr((folders, os.getcwd())).encode()).hexdigest(), _loaded, (tuple(folders),))
     count = min(jobs or os.cpu_count() or 1, len(files))
@@ -90,7 +92,7 @@ def _loaded(folders: tuple[str, ...]) -> Discovery:
     return Discovery(tuple(map(Path, folders)))
 
 
-def calculated(discovery: Discovery, chunk: tuple[int, str]) -> Machine:
+def calculated(discovery: Discovery, chunk: tuple[int, str]) -> CheckedMachine:
     """Return what comes out of a file."""
     from diecut_report import pipeline
 
@@ -99,9 +101,9 @@ def calculated(discovery: Discovery, chunk: tuple[int, str]) -> Machine:
         with open(os.devnull, "w") as nowhere, redirect_stdout(nowhere):  # a plugin may print
             outcome, _ = pipeline.calc(Path(file), discovery, lambda _: None)
     except UserError as error:
-        return Machine(file, BAD, {}, [str(problem) for problem in _all_faults(file, discovery, error)])
+        return CheckedMachine(file, BAD, {}, [str(problem) for problem in _all_faults(file, discovery, error)])
     status = BROKEN if outcome.broken else str(outcome.results["status"])
-    return Machine(file, status, _lean(outcome.results), [str(error) for error in outcome.broken])
+    return CheckedMachine(file, status, _lean(outcome.results), [str(error) for error in outcome.broken])
 
 
 def _all_faults(file: str, discovery: Discovery, error: UserError) -> Sequence[Problem]:

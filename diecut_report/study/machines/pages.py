@@ -15,7 +15,7 @@ from diecut_report import __version__
 from diecut_report.report import html, pdf
 from diecut_report.report.i18n import Catalogue
 from diecut_report.report.page_engine import HTML, URLFetcher
-from diecut_report.study.machines.verdicts import Comparison, Verdict
+from diecut_report.study.machines.verdicts import MachineComparison, Verdict
 from diecut_report.study.storage.spreadsheets import workbook
 
 NAME = "machines"
@@ -33,12 +33,12 @@ HEADS = (
 Rows = list[list[Any]]
 
 
-def page(made: Comparison) -> bytes:
+def page(made: MachineComparison) -> bytes:
     """Return the comparison as one self-contained HTML page."""
     return _filled(made, "screen").encode()
 
 
-def sheets(made: Comparison) -> bytes:
+def sheets(made: MachineComparison) -> bytes:
     """Return the comparison as PDF (PDF/UA-1)."""
     fetcher = URLFetcher(allowed_protocols={"data"}, allow_redirects=False, fail_on_errors=True)
     with pdf._without_collection():
@@ -46,7 +46,7 @@ def sheets(made: Comparison) -> bytes:
     return content
 
 
-def _filled(made: Comparison, kind: str) -> str:
+def _filled(made: MachineComparison, kind: str) -> str:
     faces = html._font_faces(tuple(html.FACES.items()))
     style = "\n".join([faces, *(html._read(f"{name}.css") for name in ("report", kind, "summary", "machines"))])
     return html._environment().get_template("machines.html.j2").render(
@@ -63,7 +63,7 @@ def shown(cell: dict[str, Any] | None) -> str:
     )
 
 
-def table(made: Comparison) -> bytes:
+def table(made: MachineComparison) -> bytes:
     """Return the verdicts, the matrix of checks, the inputs that differ and the advice as one CSV, each below its heads."""
     text = io.StringIO()
     writer = csv.writer(text, lineterminator="\n")
@@ -73,7 +73,7 @@ def table(made: Comparison) -> bytes:
     return text.getvalue().encode()
 
 
-def _tables(made: Comparison) -> dict[str, Rows]:
+def _tables(made: MachineComparison) -> dict[str, Rows]:
     return {
         "verdicts": [list(HEADS), *map(_verdict, made.verdicts)],
         "checks": [["check", "title", *made.machines],
@@ -105,15 +105,15 @@ def _cell(cell: dict[str, Any] | None) -> str:
     return str(cell["status"]) + ("" if cell["utilisation"] is None else f" {cell['utilisation']:.6g}")
 
 
-def _json(made: Comparison) -> bytes:
+def _json(made: MachineComparison) -> bytes:
     return (json.dumps(made.as_data(), indent=1, ensure_ascii=False, allow_nan=False) + "\n").encode()
 
 
-FORMATS: dict[str, Callable[[Comparison], bytes]] = {
+FORMATS: dict[str, Callable[[MachineComparison], bytes]] = {
     "html": page, "pdf": sheets, "xlsx": lambda made: workbook(_tables(made)), "csv": table, "json": _json,
 }  # fmt: skip
 
 
-def files(made: Comparison, folder: Path, formats: list[str]) -> Iterator[tuple[Path, bytes]]:
+def files(made: MachineComparison, folder: Path, formats: list[str]) -> Iterator[tuple[Path, bytes]]:
     """Yield the files of a comparison, all made before any is written."""
     yield from [(folder / f"{NAME}.{ending}", FORMATS[ending](made)) for ending in formats]

@@ -8,7 +8,7 @@ from pathlib import PurePath
 from typing import Any
 
 from diecut_report.quantities.units import pretty
-from diecut_report.study.machines.calculation import BAD, Machine
+from diecut_report.study.machines.calculation import BAD, CheckedMachine
 
 Data = Mapping[str, Any]
 NOT_CHECKED = "not_checked"
@@ -30,7 +30,7 @@ class Verdict:
 
 
 @dataclass(frozen=True)
-class Comparison:
+class MachineComparison:
     """Hold machines side by side: a row has a cell for each of ``machines``, "" or None where a machine lacks it."""
 
     machines: list[str]
@@ -58,7 +58,7 @@ class Comparison:
         }
 
 
-def verdict(machine: Machine, name: str) -> Verdict:
+def verdict(machine: CheckedMachine, name: str) -> Verdict:
     """Return a machine's line."""
     if machine.status == BAD:
         return Verdict(name, machine.file, BAD, words=tuple(machine.words))
@@ -74,7 +74,7 @@ def verdict(machine: Machine, name: str) -> Verdict:
     )  # fmt: skip
 
 
-def _checks(machine: Machine) -> Iterator[tuple[str, Data]]:
+def _checks(machine: CheckedMachine) -> Iterator[tuple[str, Data]]:
     for name, data in machine.mechanisms.items():
         yield from ((f"{name}.{check['id']}", check) for check in data["checks"])
 
@@ -88,17 +88,17 @@ def names(files: Sequence[str]) -> list[str]:
     return ["/".join(part[-length:]) for part in parts]
 
 
-def compared(machines: Sequence[Machine]) -> Comparison:
+def compared(machines: Sequence[CheckedMachine]) -> MachineComparison:
     """Return machines side by side; bad ones have a verdict alone."""
     called = names([machine.file for machine in machines])
     verdicts = [verdict(machine, name) for machine, name in zip(machines, called, strict=True)]
     good = [(name, machine) for name, machine in zip(called, machines, strict=True) if machine.status != BAD]
     sides = [machine for _, machine in good]
     advice = [(name, told) for name, machine in good if (told := list(_advice(machine)))]
-    return Comparison([name for name, _ in good], verdicts, _matrix(sides), _differing(sides), advice)
+    return MachineComparison([name for name, _ in good], verdicts, _matrix(sides), _differing(sides), advice)
 
 
-def _matrix(machines: Sequence[Machine]) -> list[tuple[str, str, list[dict[str, Any] | None]]]:
+def _matrix(machines: Sequence[CheckedMachine]) -> list[tuple[str, str, list[dict[str, Any] | None]]]:
     made = [dict(_checks(machine)) for machine in machines]
     titles = {key: str(check["title"]) for checks in made for key, check in checks.items()}
     return [(key, title, [_cell(checks.get(key)) for checks in made]) for key, title in titles.items()]
@@ -108,7 +108,7 @@ def _cell(check: Data | None) -> dict[str, Any] | None:
     return None if check is None else {"status": check["status"], "utilisation": check["utilisation"]}
 
 
-def _differing(machines: Sequence[Machine]) -> list[tuple[str, str, list[str]]]:
+def _differing(machines: Sequence[CheckedMachine]) -> list[tuple[str, str, list[str]]]:
     """The inputs that are not alike in all machines, as they are printed."""
     made = [dict(_inputs(machine)) for machine in machines]
     told = {key: str(row["description"]) for inputs in made for key, row in inputs.items()}
@@ -116,7 +116,7 @@ def _differing(machines: Sequence[Machine]) -> list[tuple[str, str, list[str]]]:
     return [row for row in rows if len(set(row[2])) > 1]
 
 
-def _inputs(machine: Machine) -> Iterator[tuple[str, Data]]:
+def _inputs(machine: CheckedMachine) -> Iterator[tuple[str, Data]]:
     for row in machine.results["press"]["fields"]:
         yield row["path"], row
     for name, data in machine.mechanisms.items():
@@ -127,7 +127,7 @@ def _shown(row: Data | None) -> str:
     return "" if row is None else f"{row['display']['text']} {pretty(row['display']['unit'])}".rstrip()
 
 
-def _advice(machine: Machine) -> Iterator[str]:
+def _advice(machine: CheckedMachine) -> Iterator[str]:
     """What the checks that do not pass tell to do."""
     for name, check in _checks(machine):
         if check["status"] in ("fail", "warn"):
