@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from functools import cached_property
 from typing import Any
 
+from diecut_report.config.basis import Basis
 from diecut_report.config.validation import ConfigPlace, keys_of
 from diecut_report.config.yaml_tree import KeyPath
 from diecut_report.contract.chapters import Chapter
@@ -52,9 +53,11 @@ class Instance:
     """A mechanism of the config, or the press (which has no calculation)."""
 
     def __init__(
-        self, name: str, model: type[Block], data: dict[str, Any], place: ConfigPlace, mechanism: Mechanism | None
-    ) -> None:
+        self, name: str, model: type[Block], data: dict[str, Any], place: ConfigPlace, mechanism: Mechanism | None,
+        bases: Mapping[KeyPath, Basis] | None = None,
+    ) -> None:  # fmt: skip
         self.name, self.model, self.data, self.place, self.mechanism = name, model, data, place, mechanism
+        self.bases = bases or {}
         self.without: frozenset[KeyPath] = frozenset()
 
     def leave_out(self, keys: Iterable[KeyPath]) -> None:

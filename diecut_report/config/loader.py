@@ -3,15 +3,17 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any, get_args
 
 from diecut_report.config import yaml_tree
+from diecut_report.config.basis import BasisReader
 from diecut_report.config.caps import too_much
 from diecut_report.config.dependency_order import ordered
 from diecut_report.config.discovery import Discovery, DuplicateKind, UnknownKind, said
+from diecut_report.config.hidden_letters import seeming_latin
 from diecut_report.config.instances import Instance
 from diecut_report.config.model import PRESS, ConfigDocument, Press, Project
 from diecut_report.config.references import Linker, Node, Target, texts
@@ -55,6 +57,14 @@ class Config:
 
 def load_config(given: Path | Tree, discovery: Discovery) -> Config:
     """Read and validate a configuration; UserError with all its problems. A broken plugin is kept in ``broken``."""
+    config, problems = examined(given, discovery)
+    if problems:
+        raise UserError(in_order(problems))
+    return config
+
+
+def examined(given: Path | Tree, discovery: Discovery) -> tuple[Config, list[Problem]]:
+    """Return a configuration as far as it can be read, with all that is wrong with it; UserError where it cannot be read at all."""
     tree = given if isinstance(given, Tree) else yaml_tree.load(given)
     _refuse_study(tree)
     if excess := too_much(tree):
@@ -68,10 +78,15 @@ def load_config(given: Path | Tree, discovery: Discovery) -> Config:
         problems += [
             reader.place.problem(("mechanisms", name, "kind"), str(error)) for name, error in reader.broken.items()
         ]
-        raise UserError(sorted(dict.fromkeys(problems), key=lambda p: (p.line or 0, p.column or 0)))
-    assert reader.project is not None
-    return Config(tree, reader.project, reader.instances, reader.kinds, linker.links, tuple(order), reader.broken,
-                  dict(sorted(discovery.extended.items())))  # fmt: skip
+    project = reader.project or Project.model_validate({"title": "?"})  # of a file with problems
+    config = Config(tree, project, reader.instances, reader.kinds, linker.links, tuple(order), reader.broken,
+                    dict(sorted(discovery.extended.items())))  # fmt: skip
+    return config, problems
+
+
+def in_order(problems: Iterable[Problem]) -> list[Problem]:
+    """Return problems of one file in the order of its lines, each once."""
+    return sorted(dict.fromkeys(problems), key=lambda p: (p.line or 0, p.column or 0))
 
 
 def _refuse_study(tree: Tree) -> None:
@@ -109,9 +124,11 @@ class _ConfigReader:
         self, name: str, model: type[Block], data: dict[str, Any], place: ConfigPlace, mechanism: Any = None
     ) -> None:
         data, place, problems = spread_out(model, data, place)
-        self.problems += problems
-        form = in_form(model, [key for key, value in data.items() if value is not None])
-        self.instances[name] = Instance(name, form, as_typed(form, data, place), place, mechanism)
+        stated = BasisReader.read(model, data, place)
+        self.problems += problems + stated.problems
+        form = in_form(model, [key for key, value in stated.data.items() if value is not None])
+        typed = as_typed(form, stated.data, stated.place)
+        self.instances[name] = Instance(name, form, typed, stated.place, mechanism, stated.bases)
 
     def _mechanism(self, name: str, body: Any, place: ConfigPlace) -> None:
         fault = _name_fault(name)
@@ -133,7 +150,7 @@ class _ConfigReader:
             self._add(name, mechanism.inputs, data, place, mechanism)
             self._probe(name, kind)
         except (UnknownKind, DuplicateKind) as fault:
-            self.problems.append(place.problem(("kind",), str(fault)))
+            self.problems.append(place.problem(("kind",), seeming_latin(kind) or str(fault)))
         except PluginError as error:
             self.instances[name] = None
             self.broken[name] = _of_instance(error, name)
@@ -155,6 +172,8 @@ def _of_instance(error: PluginError, name: str) -> PluginError:
 
 
 def _name_fault(name: str) -> str:
+    if seeming := seeming_latin(name):
+        return seeming
     if name in RESERVED:
         return f"the name {name!r} is reserved. Choose another one."
     if not NAME.fullmatch(name):

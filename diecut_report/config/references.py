@@ -14,6 +14,7 @@ from typing import Any
 from diecut_report.conditions.arithmetic import Expression, read_expression
 from diecut_report.conditions.parts import Name
 from diecut_report.conditions.words import ConditionError
+from diecut_report.config.hidden_letters import seeming_latin
 from diecut_report.config.instances import Instance, Slot, default_of, slots
 from diecut_report.config.model import PRESS
 from diecut_report.config.validation import declared
@@ -193,6 +194,8 @@ class Linker:
         path = match[1].strip()
         name, *rest = path.split(".")
         if name not in self.instances:
+            if seeming := seeming_latin(name):
+                raise Unresolved(f"${{{path}}}: {seeming}")
             near = nearest(name, self.instances)
             raise Unresolved(f"${{{path}}}: there is no mechanism {name!r}{near}. Known: {', '.join(self.instances)}.")
         instance = self.instances[name]

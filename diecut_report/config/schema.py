@@ -6,6 +6,7 @@ from collections.abc import Mapping
 from functools import partial
 from typing import Any, get_args
 
+from diecut_report.config.basis import BASES
 from diecut_report.config.loader import NAME, RESERVED
 from diecut_report.config.model import Press, Project
 from diecut_report.config.validation import keys_of
@@ -22,7 +23,7 @@ EXPRESSION = (  # references, numbers with and without unit, functions, signs; a
     r"^(?=.*\$\{)\s*(?:(?:\$\{[^${}]+\}|(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?(?![\d.])(?:\s*(?:1/)?[^\s\d.,+*/()^${}−-][^\s,+()${}−-]*)?"
     r"|(?:abs|max|min|sqrt)\s*\(|[-+*/^(),−])\s*)+$"
 )
-NUMBER = r"^\s*[-+−]?(\d+\.?\d*|\.\d+)([eE][-+]?\d+)?(\s*[^\s\d.,].*|\s+1/.*)?$"
+NUMBER = r"^\s*[-+−]?(\d+\.?\d*|\.\d+)([eE][-+]?\d+)?(\s*[^\s\d.,$][^$]*|\s+1/[^$]*)?$"
 BOUNDS = {"gt": "exclusiveMinimum", "ge": "minimum", "lt": "exclusiveMaximum", "le": "maximum"}
 
 
@@ -132,7 +133,23 @@ def _curve(meta: CurveInput) -> Schema:
         "items": {"type": ["number", "string"]},
     }
     allowed = [_reference()] if meta.referred else [_reference(), values]
-    return {"description": f"{meta.description}. Unit: {in_all_units(meta, _unit)}. {ways}.", "anyOf": allowed}
+    said = f"{meta.description}. Unit: {in_all_units(meta, _unit)}. {ways}."
+    return {"description": said, "anyOf": [*allowed, _stated(allowed)]}
+
+
+def _stated(allowed: list[Schema]) -> Schema:
+    """A quantity as a block, with what it rests on."""
+    return {
+        "type": "object",
+        "description": "The value with what it rests on.",
+        "required": ["value"],
+        "additionalProperties": False,
+        "properties": {
+            "value": {"anyOf": allowed},
+            "basis": {"enum": list(BASES), "description": "What the value rests on."},
+            "note": {"type": "string", "maxLength": MAX_TEXT, "description": "Where it comes from; printed beside it."},
+        },
+    }
 
 
 def _unit(meta: Quantity | CurveInput) -> str:
@@ -153,7 +170,10 @@ def _quantity(meta: Quantity, default: Any, refers: bool) -> Schema:
     said += [f"Default: from {meta.press.path}"] if meta.press else []
     number = {"type": "integer" if meta.integer else "number", **limits}
     text = {"type": "string", "maxLength": MAX_TEXT, "pattern": f"{EXPRESSION}|{NUMBER}" if refers else NUMBER}
-    return {"description": ". ".join(said) + ".", "anyOf": [number, text]}
+    return {
+        "description": ". ".join(said) + ".",
+        "anyOf": [number, text, *([_stated([number, text])] if refers else [])],
+    }
 
 
 def _text(annotation: Any) -> Schema:

@@ -17,6 +17,7 @@ from diecut_report.report.model import (
     PrintedSection,
     QuantityRow,
     quantity_row,
+    rested,
     utilisation,
 )
 from diecut_report.report.number_format import quantity
@@ -103,10 +104,11 @@ class _Filler:
     def _input(self, key: str, row: Data) -> QuantityRow:
         shown, path = quantity_row(row, self.decimal), row.get("path", "")
         typed = str(row.get("text") or (path if row["origin"] == "reference" else ""))
-        return QuantityRow(
+        row_of = QuantityRow(
             shown.description, shown.symbol, shown.value, shown.unit,
             typed=typed, origin=self._origin(row["origin"], path, typed), key=key, wordy=shown.wordy,
         )  # fmt: skip
+        return rested(row_of, row, self.words)
 
     def _origin(self, origin: str, path: str, typed: str) -> str:
         """Where an input comes from; the path of a reference stands in what was typed."""

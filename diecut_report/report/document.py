@@ -8,10 +8,11 @@ from dataclasses import dataclass, field
 from pathlib import PurePath
 from typing import Any
 
+from diecut_report.report.assumed import AssumedLine, assumed_line
 from diecut_report.report.chapters import chapter
 from diecut_report.report.equations import Equations
 from diecut_report.report.i18n import Catalogue
-from diecut_report.report.model import CheckRow, PrintedChapter, QuantityRow, quantity_row
+from diecut_report.report.model import CheckRow, PrintedChapter, QuantityRow, quantity_row, rested
 
 Data = Mapping[str, Any]
 TITLE_BLOCK = (
@@ -47,6 +48,7 @@ class ReportDocument:
     program: Data
     config: Data
     words: Catalogue
+    assumed: AssumedLine | None = None
     contents: list[tuple[str, str, str, int]] = field(default_factory=list)
 
     @property
@@ -82,12 +84,13 @@ def document(results: Data, equations: Equations, words: Catalogue) -> ReportDoc
         unchecked=[row for row in every if row.status == "not_checked"],
         notes=list(_notes(results, every, words)),
         failures=[row for row in checks if row.status == "fail"],
-        press_rows=[quantity_row(row, decimal) for row in results["press"]["fields"]],
+        press_rows=[rested(quantity_row(row, decimal), row, words) for row in results["press"]["fields"]],
         chapters=chapters,
         sources=_sources(results),
         program=results["program"],
         config=results["config"],
         words=words,
+        assumed=assumed_line(results, words),
         contents=list(_contents(chapters, words)),
     )
 
@@ -149,13 +152,11 @@ def _counts(checks: list[CheckRow], chapters: list[PrintedChapter], words: Catal
         yield words.say("count_not_checked", n=found["not_checked"])
 
 
-def _notes(results: Data, checks: list[CheckRow], words: Catalogue) -> Iterator[str]:
-    """What stands below the verdict: the self-tests that hold, and how many values are assumed."""
+def _notes(checks: list[CheckRow], words: Catalogue) -> Iterator[str]:
+    """What stands below the verdict: the self-tests that hold."""
     held = sum(row.is_self_test and row.status == "pass" for row in checks)
-    assumed = len(results.get("summary", {}).get("assumed", ()))
-    for key, count in (("self_tests", held), ("assumed", assumed)):
-        if count:
-            yield words.say(key if count > 1 else f"{key}_one", n=count)
+    if held:
+        yield words.say("self_tests" if held > 1 else "self_tests_one", n=held)
 
 
 def _left_out(results: Data) -> Iterator[str]:

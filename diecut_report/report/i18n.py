@@ -27,7 +27,6 @@ ENGLISH: dict[str, str] = {
     "reserve": "margin {margin}", "beyond": "{margin} beyond the limit", "self_test": "self-test", "missing": "Not given",
     "self_tests": "{n} self-tests of the calculation hold.", "self_tests_one": "1 self-test of the calculation holds.",
     "sized": "Sized to its limit by the program, so without a reserve of its own", "sized_short": "sized to its limit",
-    "assumed": "The verdict rests on {n} assumed values.", "assumed_one": "The verdict rests on 1 assumed value.",
     "class_function": "function", "class_strength": "strength", "class_practice": "practice", "class_numerical": "self-test",
     # chapters
     "contents": "Contents", "summary": "Summary", "checks": "Checks", "key_results": "Key results", "press_data": "Press data",
@@ -44,6 +43,9 @@ ENGLISH: dict[str, str] = {
     "value": "Value", "unit": "Unit", "origin": "Origin", "typed": "As typed", "place": "At", "path": "Key",
     "given": "given", "default": "default", "reference": "reference", "expression": "calculated",
     "refers": "from {path}", "from_press": "default, from {path}",
+    "assumed": "assumed", "measured": "measured", "catalogue": "from a catalogue", "standard": "by a standard", "drawing": "from a drawing",
+    "rests_on": "Rests on {n} assumed values", "moving_first": ", those first that move a governing check",
+    "rests_on_one": "Rests on 1 assumed value", "moves": "moves {check}", "more_assumed": " and {n} more",
     "touches": "Touches", "part": "No.", "nth": "{text}, no. {n}", "repeated_parts": "{n} repeated parts", "curves_over": "Curves over: {axis}",
     "file": "File", "content": "Content",
     # items

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from typing import Any
 
 from markupsafe import Markup
@@ -32,6 +32,7 @@ class QuantityRow:
     origin: str = ""
     key: str = ""
     wordy: bool = False
+    note: str = ""
 
 
 @dataclass(frozen=True)
@@ -227,6 +228,19 @@ def quantity_row(row: Data, decimal: str, description: str = "") -> QuantityRow:
         key=row.get("path", ""),
         wordy=is_words(shown["text"]) and not pretty(shown["unit"]),
     )
+
+
+def rests(row: Data, words: Mapping[str, str]) -> list[str]:
+    """What an input rests on and what is noted of it, in words; nothing where it is only given."""
+    basis = row.get("basis", "given")
+    return [part for part in (words[basis] if basis != "given" else "", row.get("note", "")) if part]
+
+
+def rested(shown: QuantityRow, row: Data, words: Mapping[str, str]) -> QuantityRow:
+    """The row of an input with what it rests on beside where it comes from, and with its note."""
+    basis = words[row["basis"]] if row.get("basis", "given") != "given" else ""
+    origin = "" if basis and row.get("origin") == "given" else shown.origin
+    return replace(shown, origin=", ".join(filter(None, (origin, basis))), note=row.get("note", ""))
 
 
 def is_words(text: str) -> bool:

@@ -16,6 +16,7 @@ from diecut_report.contract.mechanism import Mechanism
 from diecut_report.engine import CurveHandle
 from diecut_report.limits import MAX_COMPARISONS
 from diecut_report.quantities.formatting import as_given, shortest
+from diecut_report.results.bases import Bases, assumed
 from diecut_report.results.comparisons import Found
 from diecut_report.results.mechanism import worst
 from diecut_report.results.press_run import Run
@@ -44,7 +45,7 @@ def document(run: Run) -> Data:
         "press": _press(run),
         "status": "error" if run.errors else status,
         "governing": governing(mechanisms),
-        "summary": summary(mechanisms),
+        "summary": summary(mechanisms) | {"assumed": assumed(config)},
         "mechanisms": mechanisms,
     } | ({"comparisons": comparisons} | _left_out(run) if comparisons else {})
 
@@ -118,7 +119,7 @@ def _project(fields: Data) -> Data:
 
 
 def _press(run: Run) -> Data:
-    press = run.blocks[PRESS]
+    press, bases = run.blocks[PRESS], Bases(run.config, run.calculations)
     assert isinstance(press, Press)
     found = []
     for name, value in flatten(press).items():
@@ -126,7 +127,9 @@ def _press(run: Run) -> Data:
         if isinstance(meta, Quantity):
             shown = {"text": shortest(meta.parsed_unit.from_si(value)), "unit": meta.unit}
             said_of = {"path": f"{PRESS}.{name}", "description": meta.description, "symbol": meta.symbol}
-            found.append(said_of | {"value": value, "unit": meta.parsed_unit.si, "display": shown})
+            node = (PRESS, *name.split("."))
+            rests = {"basis": bases.of(node)} | ({"note": note} if (note := bases.said(node).note) else {})
+            found.append(said_of | {"value": value, "unit": meta.parsed_unit.si, "display": shown} | rests)
     return {"name": press.name, "fields": found}
 
 

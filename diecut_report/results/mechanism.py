@@ -43,12 +43,14 @@ Origin = Literal["given", "default", "reference", "expression"]
 
 @dataclass(frozen=True)
 class Provenance:
-    """Hold where an input comes from, the path it refers to (an expression: the ``paths``), and its text as typed."""
+    """Hold where an input comes from, the path it refers to (an expression: the ``paths``), its text as typed, and what it rests on."""
 
     origin: Origin
     path: str = ""
     text: str | None = None
     paths: tuple[str, ...] = ()
+    basis: str = ""
+    note: str = ""
 
 
 def mechanism_results(calc: Calculation, provenance: Mapping[str, Provenance]) -> Data:
@@ -150,6 +152,8 @@ def _origin(provenance: Provenance | None) -> Data:
         | ({"path": known.path} if known.path else {})
         | ({"paths": list(known.paths)} if known.paths else {})
         | ({"text": known.text} if known.text else {})
+        | ({"basis": known.basis} if known.basis else {})
+        | ({"note": known.note} if known.note else {})
     )
 
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -14,12 +15,14 @@ from diecut_report.config.loader import Config, substituted
 from diecut_report.config.model import PRESS
 from diecut_report.config.references import Node, Target
 from diecut_report.config.validation import declared, validate
-from diecut_report.contract.inputs import SI, Block, Quantity, flatten
+from diecut_report.contract.inputs import SI, Block, CurveInput, Quantity, flatten
+from diecut_report.contract.mechanism import Mechanism
 from diecut_report.contract.result_names import named
 from diecut_report.engine import Calculation, CurveHandle, Impossible, calculate
 from diecut_report.errors import PluginError, Problem, UserError
 from diecut_report.expressions import Array
 from diecut_report.limits import MAX_COMPARISONS
+from diecut_report.results.bases import Bases
 from diecut_report.results.comparisons import Found, Uncomparable, compared, found
 from diecut_report.results.mechanism import Origin, Provenance, SelfTestFailed, mechanism_results
 
@@ -196,8 +199,8 @@ class Run:
         assert instance.mechanism is not None
         self.tell(name)
         try:
-            self.calculations[name] = calculate(instance.mechanism, flatten(block))
-            self.results[name] = mechanism_results(self.calculations[name], self._provenance(instance))
+            self.calculations[name] = self._made(instance, instance.mechanism, block)
+            self._printed(instance, self.calculations[name])
         except Impossible as fault:
             for path, message in fault.reasons:
                 key = tuple(int(part) if part.isdigit() else part for part in path.split(".") if part)
@@ -207,6 +210,12 @@ class Run:
             self._broke(instance, fault, str(fault))
         except (Exception, SystemExit) as cause:
             self._broke(instance, cause)
+
+    def _made(self, instance: Instance, mechanism: Mechanism, block: Block) -> Calculation:
+        return calculate(mechanism, flatten(block))
+
+    def _printed(self, instance: Instance, calculation: Calculation) -> None:
+        self.results[instance.name] = mechanism_results(calculation, self._provenance(instance))
 
     def _compare(self, case: Found) -> None:
         self.tell(case.name)
@@ -227,12 +236,13 @@ class Run:
         self.errors[instance.name] = error
 
     def _provenance(self, instance: Instance) -> dict[str, Provenance]:
-        found = {}
+        found, bases = {}, Bases(self.config, self.calculations)
         for slot in slots(instance.model, instance.data):
             typed = instance.place.typed(slot.key) if slot.is_given else None
-            found[".".join(map(str, slot.key))] = _provenance(
-                slot, self.config.links.get((instance.name, *slot.key)), typed
-            )
+            node = (instance.name, *slot.key)
+            origin = _provenance(slot, self.config.links.get(node), typed)
+            rests = bases.of(node) if isinstance(slot.meta, Quantity | CurveInput) else ""
+            found[".".join(map(str, slot.key))] = replace(origin, basis=rests, note=bases.said(node).note)
         return found
 
 

@@ -28,7 +28,9 @@ def variant_config(directory: Path, variant: int, discovery: Discovery, name: st
         row = _row(stored, variant)
         description = stored.description
     base = yaml_tree.load(kept(directory)[description.base.file])
-    values = {_place(base, tuple(_keys(column.name)), discovery): _given(value, column) for column, value in row}
+    values = {
+        _value(base, _place(base, tuple(_keys(column.name)), discovery)): _given(value, column) for column, value in row
+    }
     values |= dict(_named(base, variant, description.study.file))
     heading = f"Variant {variant} of {description.study.file}: its values are exactly those that were calculated."
     return with_values(base, values, name, heading)
@@ -49,6 +51,15 @@ def _place(base: Tree, path: KeyPath, discovery: Discovery) -> KeyPath:
         if path[2] in single and isinstance(mechanism.get(key), list)
     ]
     return (*path[:2], *homes[0]) if homes else path
+
+
+def _value(base: Tree, path: KeyPath) -> KeyPath:
+    """Return where the value itself stands of a quantity that is a block with its basis."""
+    home = base.data
+    for key in path:
+        known = key in home if isinstance(home, dict) else isinstance(home, list) and int(key) < len(home)
+        home = home[key] if known else None
+    return (*path, "value") if isinstance(home, dict) else path
 
 
 def _named(base: Tree, variant: int, study: str) -> Iterator[tuple[KeyPath, str]]:
