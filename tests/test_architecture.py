@@ -27,6 +27,7 @@ LAYERS = [
     {"", "errors", "limits", "quantities"},
     {"standards"},
     {"expressions"},
+    {"conditions"},
     {"mechanics"},
     {"contract"},
     {"api"},

@@ -18,6 +18,10 @@ from diecut_report.quantities.units import pretty
 Schema = dict[str, Any]
 DRAFT = "https://json-schema.org/draft/2020-12/schema"
 REFERENCE = r"^\s*\$\{[^${}]+\}\s*$"
+EXPRESSION = (  # references, numbers with and without unit, functions, signs; a reference among them
+    r"^(?=.*\$\{)\s*(?:(?:\$\{[^${}]+\}|(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?(?![\d.])(?:\s*(?:1/)?[^\s\d.,+*/()^${}−-][^\s,+()${}−-]*)?"
+    r"|(?:abs|max|min|sqrt)\s*\(|[-+*/^(),−])\s*)+$"
+)
 NUMBER = r"^\s*[-+−]?(\d+\.?\d*|\.\d+)([eE][-+]?\d+)?(\s*[^\s\d.,].*|\s+1/.*)?$"
 BOUNDS = {"gt": "exclusiveMinimum", "ge": "minimum", "lt": "exclusiveMaximum", "le": "maximum"}
 
@@ -148,7 +152,7 @@ def _quantity(meta: Quantity, default: Any, refers: bool) -> Schema:
     said += [f"Default: {in_all_units(meta, partial(_with_unit, default))}"] if default is not None else []
     said += [f"Default: from {meta.press.path}"] if meta.press else []
     number = {"type": "integer" if meta.integer else "number", **limits}
-    text = {"type": "string", "maxLength": MAX_TEXT, "pattern": f"{REFERENCE}|{NUMBER}" if refers else NUMBER}
+    text = {"type": "string", "maxLength": MAX_TEXT, "pattern": f"{EXPRESSION}|{NUMBER}" if refers else NUMBER}
     return {"description": ". ".join(said) + ".", "anyOf": [number, text]}
 
 

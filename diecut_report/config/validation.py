@@ -36,10 +36,11 @@ class ConfigPlace:
         """What was typed there."""
         return self.tree.typed(self.path(key))
 
-    def problem(self, key: KeyPath, message: str, *, at_key: bool = False) -> Problem:
-        """A problem of the value at ``key`` below this block (or of the key itself)."""
+    def problem(self, key: KeyPath, message: str, *, at_key: bool = False, within: int | None = None) -> Problem:
+        """A problem of the value at ``key`` below this block (or of the key itself, or of a letter ``within`` its text)."""
         path = self.path(key)
         line, column = self.tree.key_position(path) if at_key else self.tree.position(path)
+        column += self.tree.offset(path, within) if within else 0
         return Problem(message, self.tree.file, line, column, ".".join(map(str, path)))
 
     def absent(self, key: KeyPath, message: str) -> Problem:

@@ -44,12 +44,12 @@ def _told(names: DeclaredNames, token: str) -> str:
     key = names.world.keys.get(path)
     if key is None:
         inputs = [known for known in names.world.keys if "=" not in known]
-        what = "a step; only inputs can be named" if names.givers(path) else f"no input{nearest(path, inputs)}"
+        what = "a step; only inputs can be named" if names.givers(path) else f"not an input{nearest(path, inputs)}"
         return f"{path}, which is {what}"
     if not is_text:
         return ""
     if key.home:
         return f"{token}, but each part of {key.home} has a text of its own"
     if not key.texts:
-        return f"{token}, but {path} is no text with allowed values; name {path} alone"
+        return f"{token}, but {path} is not a text with allowed values; name {path} alone"
     return "" if text in key.texts else f"{token}{nearest(text, key.texts)}; {path} may be {', '.join(key.texts)}"

@@ -33,7 +33,8 @@ ENGLISH: dict[str, str] = {
     "mechanism": "Mechanism", "check": "Check", "demand": "Demand", "limit": "Limit", "margin": "Margin",
     "utilisation": "Utilisation", "source": "Source", "number": "No.", "verdict": "Verdict", "quantity": "Quantity", "symbol": "Symbol",
     "value": "Value", "unit": "Unit", "origin": "Origin", "typed": "As typed", "place": "At", "path": "Key",
-    "given": "given", "default": "default", "reference": "reference", "refers": "from {path}", "from_press": "default, from {path}",
+    "given": "given", "default": "default", "reference": "reference", "expression": "calculated",
+    "refers": "from {path}", "from_press": "default, from {path}",
     "touches": "Touches", "part": "No.", "nth": "{text}, no. {n}", "repeated_parts": "{n} repeated parts", "curves_over": "Curves over: {axis}",
     "file": "File", "content": "Content",
     # items

@@ -20,6 +20,7 @@ from diecut_report.quantities.formatting import as_given, shortest
 from diecut_report.results.comparisons import Found
 from diecut_report.results.mechanism import RANK, worst
 from diecut_report.results.press_run import Run
+from diecut_report.results.reference_origins import with_origins
 
 Data = dict[str, Any]
 
@@ -27,7 +28,7 @@ Data = dict[str, Any]
 def document(run: Run) -> Data:
     """Return all results as plain data; the same config gives the same document, byte for byte."""
     config, tree = run.config, run.config.tree
-    mechanisms = {name: _mechanism_data(run, name) for name in config.instances if name != PRESS}
+    mechanisms = with_origins({name: _mechanism_data(run, name) for name in config.instances if name != PRESS})
     comparisons = {case.name: _comparison_data(run, case) for case in run.cases}
     status = worst(data["status"] for data in mechanisms.values())
     return {

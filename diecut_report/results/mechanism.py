@@ -28,13 +28,17 @@ Data = dict[str, Any]
 RANK = {"pass": 0, "warn": 1, "fail": 2, "error": 3, "skipped": 3}
 
 
+Origin = Literal["given", "default", "reference", "expression"]
+
+
 @dataclass(frozen=True)
 class Provenance:
-    """Hold where an input comes from, the path it refers to, and its text as typed."""
+    """Hold where an input comes from, the path it refers to (an expression: the ``paths``), and its text as typed."""
 
-    origin: Literal["given", "default", "reference"]
+    origin: Origin
     path: str = ""
     text: str | None = None
+    paths: tuple[str, ...] = ()
 
 
 def mechanism_results(calc: Calculation, provenance: Mapping[str, Provenance]) -> Data:
@@ -131,6 +135,7 @@ def _origin(provenance: Provenance | None) -> Data:
     return (
         {"origin": known.origin}
         | ({"path": known.path} if known.path else {})
+        | ({"paths": list(known.paths)} if known.paths else {})
         | ({"text": known.text} if known.text else {})
     )
 

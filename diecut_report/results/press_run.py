@@ -6,8 +6,10 @@ import math
 from collections.abc import Callable
 from typing import Any
 
+import numpy as np
+
 from diecut_report.config.discovery import said
-from diecut_report.config.instances import Instance, slots
+from diecut_report.config.instances import Instance, Slot, slots
 from diecut_report.config.loader import Config, substituted
 from diecut_report.config.model import PRESS
 from diecut_report.config.references import Node, Target
@@ -19,7 +21,7 @@ from diecut_report.errors import PluginError, Problem, UserError
 from diecut_report.expressions import Array
 from diecut_report.limits import MAX_COMPARISONS
 from diecut_report.results.comparisons import Found, Uncomparable, compared, found
-from diecut_report.results.mechanism import Provenance, mechanism_results
+from diecut_report.results.mechanism import Origin, Provenance, mechanism_results
 
 Data = dict[str, Any]
 Tell = Callable[[str], None]
@@ -31,6 +33,10 @@ class Unavailable(LookupError):
 
 class Absent(LookupError):
     """Stand for a value that this machine does not have; the text says so."""
+
+
+class Valueless(ValueError):
+    """Stand for an expression without a value; the text says why."""
 
 
 def compute(config: Config, tell: Tell) -> Run:
@@ -78,12 +84,30 @@ class Run:
         instance = self.config.instances[str(node[0])]
         assert instance is not None, "a mechanism without a plugin has no links"
         try:
-            value = self._referred(target)
+            values = [self._term(single) for single in target.single]
+            value = self._computed(target, values) if target.expression else values[0]
             self.values[node] = self._derived(instance, node, target, value) if target.formula else value
         except Unavailable:
             return  # the mechanism that needs it is skipped
+        except (Absent, Valueless) as fault:
+            self.problems.append(instance.place.problem(node[1:], str(fault)))
+
+    def _term(self, target: Target) -> Any:
+        try:
+            return self._referred(target)
         except Absent as absent:
-            self.problems.append(instance.place.problem(node[1:], f"${{{target.path}}} {absent}"))
+            raise Absent(f"{target.told} {absent}") from None
+
+    def _computed(self, target: Target, values: list[SI]) -> SI:
+        """What an expression gives; Valueless in words where that is nothing."""
+        expression = target.expression
+        assert expression is not None
+        known = {name: given.value for name, given in zip(expression.names, values, strict=True)}
+        value = expression.value(known.__getitem__)
+        if isinstance(value, float) and math.isnan(value):
+            told = ", ".join(f"{name} is {given:.6g}" for name, given in known.items() if np.ndim(given) == 0)
+            raise Valueless(f"{target.told} {expression.fault(known.__getitem__)}, where (in SI) {told}.")
+        return SI(value, str(target.unit), expression.text)
 
     def _derived(self, instance: Instance, node: Node, target: Target, value: SI) -> SI:
         """A default of the press that is not the press's field itself."""
@@ -127,7 +151,8 @@ class Run:
     def _mechanism(self, name: str) -> None:
         instance, links = self.config.instances[name], self.config.links
         own = {node: target for node, target in links.items() if node[0] == name}
-        unusable = [t.instance for t in own.values() if t.instance in self.errors or t.instance in self.skipped]
+        needed = [single.instance for target in own.values() for single in target.single]
+        unusable = [name for name in needed if name in self.errors or name in self.skipped]
         if instance is None or name in self.errors:
             return
         missing = [node for node in own if node not in self.values]
@@ -201,10 +226,17 @@ class Run:
         found = {}
         for slot in slots(instance.model, instance.data):
             typed = instance.place.typed(slot.key) if slot.is_given else None
-            target = self.config.links.get((instance.name, *slot.key))
-            origin = "default" if not slot.is_given else "reference" if target else "given"
-            found[".".join(map(str, slot.key))] = Provenance(origin, target.path if target else "", typed)  # type: ignore[arg-type]
+            found[".".join(map(str, slot.key))] = _provenance(
+                slot, self.config.links.get((instance.name, *slot.key)), typed
+            )
         return found
+
+
+def _provenance(slot: Slot, target: Target | None, typed: str | None) -> Provenance:
+    if target is not None and target.expression:
+        return Provenance("expression", "", typed, tuple(term.path for term in target.terms))
+    origin: Origin = "default" if not slot.is_given else "reference" if target else "given"
+    return Provenance(origin, target.path if target else "", typed)
 
 
 def number(calc: Calculation, name: str) -> Array | None:

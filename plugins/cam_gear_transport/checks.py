@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from diecut_report.api import Check
 from diecut_report.plugins.cam_gear_transport.cams import LOADED
-from diecut_report.plugins.cam_gear_transport.inputs import CAMS, SHEET, TORQUE
+from diecut_report.plugins.cam_gear_transport.inputs import CAMS, GRIPPED, SHEET, TORQUE
 
 CHECKS = (
     Check(id="return_time", title="Time of the sector's return", demand="min_return_time", limit="time_return", unit="1", operator="<",
@@ -35,6 +35,9 @@ CHECKS = (
           unit="m/s**2", tolerance=1e-9, demand_label="greatest acceleration", limit_label="allowed", source="input",
           needs=(*SHEET, "allowable_sheet_acceleration"),
           consequence="the sheet slips from the grippers or tears; {sheet_gentler}."),
+    Check(id="grippers", title="Hold of the grippers", demand="sheet_force", limit="gripper_force", unit="N", tolerance=1e-9,
+          demand_label="pull of the sheet", limit_label="hold of the grippers", source="mechanics", needs=(*GRIPPED, "gripper_force"),
+          consequence="the sheet slips out of the grippers, and the register is lost; take {cycles_fewer}."),
     Check(id="energy_balance", title="Energy balance over a turn", demand="energy_residual", limit=1e-6, unit="1", needs=TORQUE,
           demand_label="relative difference", limit_label="accepted", source="conservation of energy",
           consequence="the calculation contradicts itself; do not use it."),

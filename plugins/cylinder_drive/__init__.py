@@ -11,9 +11,9 @@ MECHANISM = Mechanism(
     kind="cylinder_drive",
     version="1.0",
     title="Impression cylinder drive: crank-rocker, sector and pinion",
-    summary="A crank-rocker swings a toothed sector; the sector turns a pinion, which rolls the cylinder over the die, there and "
-    "back. One turn of the crank gives two working strokes with a pause at each end, so two sheets. Calculated are the motion "
-    "of the cylinder, the moments on it, and torque, power and forces over a turn of the crank.",
+    summary="A crank-rocker swings a toothed sector; the sector turns a pinion on a shaft that stands, and a chain moves the carriages "
+    "in which the cylinder rolls over the die, there and back. One turn of the crank gives two working strokes with a pause at each end, so "
+    "two sheets. Calculated are the motion of the cylinder, the moments on it, and torque, power and forces over a turn of the crank.",
     inputs=CylinderDrive,
     chapters=(linkage.linkage_chapter, linkage.stroke, linkage.cutting, linkage.kinematics, forces.moments, forces.torque, forces.energy,
               forces.clearance, forces.teeth, forces.joints),
@@ -30,7 +30,7 @@ MECHANISM = Mechanism(
         Check(id="stroke", title="Full turn of the cylinder over the stroke", demand="stroke_error", limit=0.5, unit="deg",
               demand_label="rotation off a full turn", limit_label="accepted", source="000, Fig. 1",
               consequence="the flat stands tilted at an end of the stroke; make the sector ratio 2π/δ_max."),
-                Check(
+        Check(
             id="unbalance",
             title="Centre of mass inside the cylinder",
             demand="static_unbalance",
@@ -43,7 +43,7 @@ MECHANISM = Mechanism(
             source="statics",
             consequence="no body has its centre of mass outside itself like that; look at static_unbalance and cylinder_mass.",
         ),
-Check(id="energy_balance", title="Energy balance over a turn", demand="energy_residual", limit=1e-6, unit="1",
+        Check(id="energy_balance", title="Energy balance over a turn", demand="energy_residual", limit=1e-6, unit="1",
               demand_label="relative difference", limit_label="accepted", source="conservation of energy",
               consequence="the calculation contradicts itself; do not use it."),
     ),

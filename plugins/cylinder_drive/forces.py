@@ -105,7 +105,9 @@ clearance.value("clearance_inner_time", "t_c2", "ms", "Time of the window at the
                 bind(loads.elapsed, start="clearance_inner_start", end="clearance_inner_end"), exists=loads.flat_arrives)
 
 teeth = Chapter("Tooth force of the sector",
-                text="The pinion sits on the cylinder's axis; losses between the teeth and the cylinder are not counted.", needs=("pinion_radius",),
+                text="The pinion's shaft stands in the frame and turns as the cylinder does, and a chain moves the carriages of the cylinder: "
+                     "the power at the teeth is that at the cylinder, so the moment on the pinion is M_Σ. Losses between the teeth and the "
+                     "cylinder are not counted.", needs=("pinion_radius",),
                 absent="not calculated: pinion_radius is not given")
 teeth.value("sector_radius", "r_s", "mm", "Pitch radius of the sector", bind(loads.length_of, ratio="sector_ratio", crank_length="pinion_radius"))
 teeth.value("tooth_force", "F_t", "kN", "Tangential force between the teeth", lambda total_moment, pinion_radius: total_moment / pinion_radius)

@@ -28,8 +28,7 @@ MECHANISM = Mechanism(
             demand_label="required wall",
             limit_label="wall at the flat",
             source="000 erratum 4",
-            consequence="{wall_verdict}; "
-            "a bore radius of at most {bore_radius_limit:down} keeps the required wall.",
+            consequence="{wall_verdict}; {wall_advice}.",
         ),
         Check(
             id="radius",
@@ -41,8 +40,7 @@ MECHANISM = Mechanism(
             limit_label="adopted radius",
             source="002 eq. 1",
             tolerance=1e-9,
-            consequence="the circumference beside the flat is shorter than the working length; "
-            "make the radius at least {radius_exact:up} or the segment lower.",
+            consequence="the circumference beside the flat is shorter than the working length; {radius_advice}.",
         ),
         Check(
             id="closed_form_error",
@@ -67,8 +65,21 @@ MECHANISM = Mechanism(
             limit_label="allowed",
             source="simply supported beam",
             needs=("bearing_span", "allowable_deflection"),
-            consequence="the cut is lighter in the middle of the sheet than at its sides; a smaller bore, a lower segment or "
-            "a shorter bearing span stiffens the cylinder.",
+            consequence="the cut is lighter in the middle of the sheet than at its sides; {stiffer_advice}.",
+        ),
+        Check(
+            id="closed_section",
+            title="Section closed, as the bending presumes",
+            demand="bore_radius",
+            limit="flat_distance",
+            unit="mm",
+            operator="<",
+            demand_label="bore radius",
+            limit_label="distance of the flat from the axis",
+            source="strength of materials",
+            needs=("bearing_span",),
+            consequence="a slot of {overlap_chord} along the flat opens the section: it twists about a shear centre outside itself and "
+            "gives way in shear, so the calculated deflection does not hold and the true one is greater; {wall_advice}.",
         ),
     ),
     figures=FIGURES,
@@ -77,7 +88,7 @@ MECHANISM = Mechanism(
         "The body is homogeneous and of one section along the generatrix; journals, keyways and the pinion are not included.",
         "Where the bore breaks through the flat, the overlap of bore and segment is subtracted once only.",
         "Bending: a simply supported beam with the line load over the generatrix in the middle of the span, about the weakest axis "
-        "of the section; shear deformation is left out.",
+        "of the section, which is closed; shear deformation is left out.",
     ),
     sources=(
         Source("000", "Topolnytskyi P. V., Shustykevych A. I., Kolomiiets A. B., Vatuliak Yu. V. Research of the drive parameters "

@@ -55,6 +55,12 @@ class Damper(Inputs):
     shore_hardness: Annotated[
         float | None, Quantity("S_A", "1", "Shore A hardness of the rubber, for Gent's relation", ge=20, le=80)
     ] = None
+    dynamic_stiffness_factor: Annotated[
+        float | None,
+        Quantity(
+            "k_d", "1", "Dynamic stiffness of the rubber over its static one, at the speed of the impact", ge=1, le=5
+        ),
+    ] = None
     allowable_stress: Annotated[float, Quantity("[σ]", "MPa", "Allowed compression stress", gt=0)] = 1.0
     ring_width: Annotated[float, Quantity("l", "mm", "Width of the ring: one side of the pad", gt=0)]
     pad_height: Annotated[float, Quantity("y", "mm", "Height of the pad: its other side", gt=0)]

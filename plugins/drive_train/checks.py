@@ -12,7 +12,7 @@ CHECKS = (
     Check(id="vbelt_wrap", title="Wrap on the smaller pulley", demand=LEAST_WRAP, limit="vbelt_wrap", unit="deg", demand_label="required",
           limit_label="wrap", source="practice",
           consequence="the belt slips; {distance_advice}."),
-    Check(id="vbelt_ratio", title="Ratio of the V-belt", demand="vbelt_ratio", limit=LARGEST_RATIO, unit="1", demand_label="ratio",
+    Check(id="vbelt_ratio", title="Ratio of the V-belt", demand="vbelt_ratio_actual", limit=LARGEST_RATIO, unit="1", demand_label="ratio",
           limit_label="allowed", source="practice",
           consequence="too much for one V-belt; {gears_advice}; now it is {gear_ratio_total}."),
     Check(id="output_speed_error", title="Speed of the output", demand="output_speed_error", limit=LARGEST_DEVIATION, unit="%",

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from diecut_report.api import Check
+from diecut_report.plugins.geneva_transport.inputs import GRIPPED
 from diecut_report.plugins.geneva_transport.motion import CONVEYOR_NEEDS
 
 CHECKS = (
@@ -26,6 +27,9 @@ CHECKS = (
           unit="m/s**2", tolerance=1e-9, demand_label="greatest acceleration", limit_label="allowed", source="input",
           needs=(*CONVEYOR_NEEDS, "allowable_sheet_acceleration"),
           consequence="the sheet slips from the grippers or tears; take {crank_slower}; more slots or a shorter step lower it too."),
+    Check(id="grippers", title="Hold of the grippers", demand="sheet_force", limit="gripper_force", unit="N", tolerance=1e-9,
+          demand_label="pull of the sheet", limit_label="hold of the grippers", source="mechanics", needs=(*GRIPPED, "gripper_force"),
+          consequence="the sheet slips out of the grippers, and the register is lost; take {crank_slower_for_grippers}."),
     Check(id="contact_pressure", title="Contact pressure of the roller", demand="contact_pressure", limit="allowable_contact_pressure", unit="MPa",
           tolerance=1e-9, demand_label="contact pressure", limit_label="allowed", source="Hertz",
           needs=("driven_inertia", "roller_width", "allowable_contact_pressure"),

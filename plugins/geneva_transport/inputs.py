@@ -42,6 +42,33 @@ class GenevaTransport(Inputs):
     allowable_sheet_acceleration: Annotated[
         float | None, Quantity("[a]", "m/s**2", "Allowed acceleration of the sheet", gt=0)
     ] = None
+    grammage: Annotated[
+        float | None,
+        Quantity("m_A", "g/m**2", "Mass of the board per area; with gripper_force the hold of the grippers", gt=0),
+    ] = None
+    sheet_length: Annotated[
+        float | None,
+        Quantity(
+            "L_s",
+            "mm",
+            "Length of the sheet",
+            gt=0,
+            press=FromPress("press.sheet.length", optional=True),
+        ),
+    ] = None
+    sheet_width: Annotated[
+        float | None,
+        Quantity(
+            "B_s",
+            "mm",
+            "Width of the sheet",
+            gt=0,
+            press=FromPress("press.sheet.width", optional=True),
+        ),
+    ] = None
+    gripper_force: Annotated[
+        float | None, Quantity("[F_g]", "N", "Force with which the grippers of a sheet hold it, together", gt=0)
+    ] = None
     driven_inertia: Annotated[
         float | None,
         Quantity(
@@ -74,3 +101,7 @@ class GenevaTransport(Inputs):
         float, Quantity("j", "mm", "Radial clearance of the locking disc in the wheel's arcs", ge=0)
     ] = 0.1
     n_points: Annotated[int, POINTS] = 720
+
+
+GRIPPED = ("sprocket_teeth", "chain_pitch", "grammage", "sheet_length", "sheet_width")
+"""The keys with which the pull of the sheet at its grippers is known."""

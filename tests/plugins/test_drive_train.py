@@ -86,6 +86,15 @@ def test_a_belt_ratio_above_seven_fails_its_check() -> None:
     assert check(train(), "vbelt_ratio")["status"] == "pass"
 
 
+def test_the_ratio_that_is_judged_is_that_of_the_pulleys_there_are() -> None:
+    wide = EXAMPLE["vbelt"] | {"center_distance": "900 mm"}
+    found = check(train(output_speed="41.2 rpm", vbelt=wide), "vbelt_ratio")
+    assert found["demand"] == pytest.approx(
+        number(train(output_speed="41.2 rpm", vbelt=wide), "driven_diameter") / 0.125
+    )
+    assert found["demand"] != pytest.approx(1450 / 41.2 / 5, rel=1e-4)
+
+
 def test_torque_at_every_shaft_is_that_of_brute_force_over_the_turn() -> None:
     calc = train(**WORKING)
     _, torque = over_a_turn(UNEVEN, 2_000_001)

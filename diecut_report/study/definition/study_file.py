@@ -7,6 +7,7 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
+from diecut_report.conditions.words import ConditionError
 from diecut_report.config import yaml_tree
 from diecut_report.config.discovery import Discovery
 from diecut_report.config.loader import Config, as_typed, load_config
@@ -15,7 +16,6 @@ from diecut_report.config.yaml_tree import Tree
 from diecut_report.errors import Problem, UserError
 from diecut_report.study.conditions.constraints import Constraint, parse
 from diecut_report.study.conditions.terms import term
-from diecut_report.study.conditions.words import ConditionError
 from diecut_report.study.definition.base_inputs import Input
 from diecut_report.study.definition.form import SampleForm, StudyDocument
 from diecut_report.study.definition.sample import Sampled, SampleReader, misused

@@ -9,6 +9,7 @@ from typing import Any
 
 import numpy as np
 
+from diecut_report.conditions.arithmetic import WITHOUT_VALUE
 from diecut_report.config.discovery import said
 from diecut_report.config.instances import Instance
 from diecut_report.config.loader import Config
@@ -143,7 +144,7 @@ class _Rows(Run):
 
     def _refused(self, instance: Instance, key: KeyPath, meta: Quantity, value: SI, row: int) -> None:
         try:
-            words = "has no value" if np.isnan(value.value) else meta.validate(value)
+            words = _valueless(value) if np.isnan(value.value) else meta.validate(value)
         except ValueError as fault:
             words = str(fault)
         self._reason([row], _words(instance.place.problem(key, str(words))))
@@ -175,6 +176,11 @@ class _Rows(Run):
 def _told(instance: Instance, path: str, message: str) -> str:
     key = tuple(int(part) if part.isdigit() else part for part in path.split(".") if part)
     return _words(instance.place.problem(key, message))
+
+
+def _valueless(value: SI) -> str:
+    """What is told of a number that is missing: of what an expression gives, why."""
+    return f"“{value.told}” has no value: {WITHOUT_VALUE}" if "${" in value.told else "has no value"
 
 
 def _words(problem: Problem) -> str:

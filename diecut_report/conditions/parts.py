@@ -9,20 +9,9 @@ from typing import Literal
 
 import numpy as np
 
-from diecut_report.quantities.units import (
-    BASE_UNITS,
-    DIMENSIONS,
-    Kind,
-    Unit,
-    UnitError,
-    kind_name,
-    number_and_unit,
-    parse_quantity,
-    pretty,
-    unit,
-)
-from diecut_report.study.conditions.numpy_emitter import numbers
-from diecut_report.study.conditions.tree import (
+from diecut_report.conditions.kinds import NUMBER, alike, told_kind, without_angle
+from diecut_report.conditions.numpy_emitter import numbers
+from diecut_report.conditions.tree import (
     Call,
     Chain,
     ColumnName,
@@ -37,11 +26,17 @@ from diecut_report.study.conditions.tree import (
     TextLiteral,
     names,
 )
-from diecut_report.study.conditions.words import ConditionError
+from diecut_report.conditions.words import ConditionError
+from diecut_report.quantities.units import (
+    Kind,
+    UnitError,
+    number_and_unit,
+    parse_quantity,
+    pretty,
+    unit,
+)
 
 MAX_EXPONENT = 20
-NUMBER: Kind = (0.0,) * len(DIMENSIONS)
-ANGLE = DIMENSIONS.index("angle")
 
 
 @dataclass(frozen=True)
@@ -64,7 +59,8 @@ class ConditionPart:
     """Hold a part of a condition and its place: a quantity of a kind, a text, a condition, or what stands in quotes and may be either.
 
     A ``bare`` quantity is made of numbers without units. In the ``loose`` product of quantities (angular speed times radius)
-    radians may be left out. ``name`` is what it names or scales, ``typed`` what messages call it.
+    radians may be left out; in an ``exact`` part, of an expression, they count as in formulas. ``name`` is what it names or scales,
+    ``typed`` what messages call it.
     """
 
     node: Node
@@ -73,13 +69,14 @@ class ConditionPart:
     kind: Kind = NUMBER
     bare: bool = False
     loose: bool = False
+    exact: bool = False
     name: Name | None = None
     typed: str = ""
 
     @property
     def shown(self) -> str:
         """Return what messages call it."""
-        return self.typed or "the calculated side"
+        return self.typed or ("what is calculated" if self.exact else "the calculated side")
 
 
 def number(value: float, place: int) -> ConditionPart:
@@ -112,7 +109,7 @@ def quantity(part: ConditionPart, beside: ConditionPart | None = None) -> Condit
         value = parse_quantity(part.node.value, measure.text)
     except UnitError as error:
         raise ConditionError(str(error), part.place) from None
-    return ConditionPart(Number(value), "quantity", part.place, measure.kind, typed=part.typed)
+    return ConditionPart(Number(value), "quantity", part.place, measure.kind, exact=part.exact, typed=part.typed)
 
 
 def condition(part: ConditionPart, needed_by: str) -> Node:
@@ -179,7 +176,9 @@ def calculated(sign: str, left: ConditionPart, right: ConditionPart) -> Conditio
     kind = tuple(round(a + turn * b, 9) for a, b in zip(left.kind, right.kind, strict=True))
     scaled = left if right.bare else right if left.bare and sign == "*" else None
     loose = scaled.loose if scaled else True
-    return ConditionPart(node, "quantity", left.place, kind, bare, loose, scaled.name if scaled else None)
+    return ConditionPart(
+        node, "quantity", left.place, kind, bare, loose, left.exact or right.exact, scaled.name if scaled else None
+    )
 
 
 def _chained(sign: str, left: Node, right: Node) -> Chain:
@@ -203,6 +202,10 @@ def raised(base: ConditionPart, power: ConditionPart) -> ConditionPart:
     base, power = quantity(base), quantity(power)
     if power.kind != NUMBER:
         words = f"the exponent {power.shown} is {_kind(power)}; a number is needed."
+        raise ConditionError(words, power.place)
+    constant = _constant(power.node)
+    if base.exact and (constant is None or not constant.is_integer()):
+        words = f"the exponent {power.shown} is not a whole number that is written here; take sqrt(…) for a root."
         raise ConditionError(words, power.place)
     node = Power(base.node, power.node)
     if base.kind == NUMBER:
@@ -250,8 +253,13 @@ def _alike(left: ConditionPart, right: ConditionPart, sign: str) -> ConditionPar
             if _constant(bare.node) != 0.0 and not (other.name and other.name.is_read_in_si):
                 raise _bare(bare, other, left, right, sign)
             return other
+    if left.exact or right.exact:
+        if alike(left.kind, right.kind):
+            common = right if left.bare else left
+            return common if left.kind == right.kind else replace(common, kind=without_angle(common.kind))
+        raise ConditionError(f"{_unlike(left, right)}; {sign} needs the same kind on both sides.", right.place)
     is_loose = left.loose or right.loose
-    if left.kind == right.kind or (is_loose and _without_angle(left.kind) == _without_angle(right.kind)):
+    if left.kind == right.kind or (is_loose and without_angle(left.kind) == without_angle(right.kind)):
         return right if left.bare else left
     raise ConditionError(f"{_unlike(left, right)}; {sign} needs the same kind on both sides.", right.place)
 
@@ -261,6 +269,10 @@ def _bare(
 ) -> ConditionError:
     """Return what is wrong with a number beside a quantity that needs its unit."""
     kinds = f"{_unlike(left, right)}; " if left.kind != right.kind else ""
+    if bare.exact:
+        unit_text = pretty(other.name.display) if other.name and other.name.display else "its unit"
+        words = f"{kinds}the number {bare.shown} beside {other.shown} needs {unit_text}."
+        return ConditionError(words, bare.place)
     if other.name is None or not other.name.display:
         words = f"{kinds}{sign} needs the same kind on both sides. Put the quantity with its unit in quotes."
         return ConditionError(words, bare.place)
@@ -273,19 +285,5 @@ def _unlike(left: ConditionPart, right: ConditionPart) -> str:
     return " and ".join(f"{part.shown} is {_kind(part)}" for part in (left, right))
 
 
-def _without_angle(kind: Kind) -> Kind:
-    return (*kind[:ANGLE], 0.0, *kind[ANGLE + 1 :])
-
-
 def _kind(part: ConditionPart) -> str:
-    if part.kind == NUMBER:
-        return "a pure number"
-    own = unit(part.name.unit) if part.name else None
-    return kind_name(own if own and own.kind == part.kind else _si_unit(part.kind))
-
-
-def _si_unit(kind: Kind) -> Unit:
-    powers = [
-        base if power == 1 else f"{base}**{power:g}" for base, power in zip(BASE_UNITS, kind, strict=True) if power
-    ]
-    return Unit("", 1.0, "*".join(powers), kind)
+    return told_kind(part.kind, part.name.unit if part.name else "")

@@ -1,4 +1,4 @@
-"""The words of a condition, where each stands, and the error that tells of a fault there."""
+"""The words of a condition, or of an expression, where each stands, and the error that tells of a fault there."""
 
 from __future__ import annotations
 
@@ -14,6 +14,8 @@ ALLOWED = (
     f"is null, {', '.join(FUNCTIONS)}"
 )
 
+CALCULATED = "references, numbers, quantities with their units, + - * / **, brackets, " + ", ".join(FUNCTIONS)
+
 _NUMBER = r"(?>(?:\d+(?:_\d+)*\.?\d*|\.\d+)(?:[eE][+-]?\d+)?)"
 _UNIT = rf"(?!(?:{'|'.join(KEYWORDS)})\b)[^\W\d_°%][^\W_]*(?:[*/^·]+[^\W_]+)*|[°%]\w*"
 _TOKEN = re.compile(
@@ -25,6 +27,17 @@ _TOKEN = re.compile(
     |(?P<word>[^\W\d]\w*)""",
     re.VERBOSE,
 )
+_NAME = rf"(?!(?:{'|'.join(FUNCTIONS)})\s*\()(?:[^\W\d_]|[°%])[^\W_]*(?:(?:\*\*|\^)-?\d\d?)?"
+_CALCULATED = re.compile(
+    rf"""(?P<reference>\$\{{(?P<path>[^${{}}]*)\}})
+    |(?P<comma>{_NUMBER},\d+)
+    |(?P<quantity>{_NUMBER}[^\S\n]*(?:[^\S\n]1/)?{_NAME}(?:[*/·](?:{_NAME}|\({_NAME}(?:[*/·]{_NAME})*\)))*)
+    |(?P<number>{_NUMBER}(?![\w.]))
+    |(?P<sign>\*\*|[-+*/^(),−])
+    |(?P<word>[^\W\d]\w*)""",
+    re.VERBOSE,
+)
+_SORTS = {"reference": "name", "quantity": "text", "number": "number", "sign": "sign"}  # of a word, by its group
 
 
 class ConditionError(ValueError):
@@ -54,6 +67,42 @@ class Token:
     def shown(self) -> str:
         """Return the word as messages name it."""
         return self.text if self.sort == "end" else repr(self.text)
+
+
+def calculation(given: str) -> list[Token]:
+    """Split an expression of a configuration into its words, the end among them: references are names, quantities texts."""
+    found, place = [], _past_blanks(given, 0)
+    while place < len(given):
+        token, end = _calculated(given, place)
+        found.append(token)
+        if len(found) > MOST_WORDS:
+            raise ConditionError(f"the expression has more than {MOST_WORDS} words. Write it shorter.", place)
+        place = _past_blanks(given, end)
+    return [*found, Token("end", "the end", len(given))]
+
+
+def _calculated(given: str, place: int) -> tuple[Token, int]:
+    match = _CALCULATED.match(given, place)
+    if match is None:
+        raise ConditionError(f"{given[place : place + 10]!r} is not allowed here; allowed: {CALCULATED}.", place)
+    if match["comma"]:
+        words = f"“{match[0]}” holds a comma; write a decimal point, or a blank after a comma that parts two values."
+        raise ConditionError(words, place)
+    if match["word"]:
+        return _function(match, given)
+    text = f"${{{match['path'].strip()}}}" if match["reference"] else match[0]
+    sort = next(sort for group, sort in _SORTS.items() if match[group])
+    return Token(sort, text, place), match.end()
+
+
+def _function(match: re.Match[str], given: str) -> tuple[Token, int]:
+    """Return a word, which is a function or a fault."""
+    if not given[match.end() :].lstrip().startswith("("):
+        advice = "a value of the configuration stands as ${NAME.KEY}, a unit behind its number"
+        raise ConditionError(f"{match[0]!r} is not expected here; {advice}.", match.start())
+    return Token(
+        "function", match[0].lower() if match[0].lower() in FUNCTIONS else match[0], match.start()
+    ), match.end()
 
 
 def tokens(given: str, known: Collection[str]) -> list[Token]:

@@ -21,7 +21,7 @@ from collections.abc import Collection, Sequence
 from dataclasses import dataclass
 from typing import NoReturn
 
-from diecut_report.study.conditions.words import (
+from diecut_report.conditions.words import (
     DEEPEST,
     ConditionError,
     Token,
@@ -52,7 +52,11 @@ class Parsed:
 
 def parsed(given: str, known: Collection[str]) -> Parsed:
     """Parse a condition; ConditionError in words, with the place, for what is not a condition by its words alone."""
-    words = tokens(given, known)
+    return parsed_words(tokens(given, known))
+
+
+def parsed_words(words: Sequence[Token]) -> Parsed:
+    """Parse what was split into words already."""
     pieces = _GrammarWriter(words).pieces()
     starts, at = [], 0
     for piece in pieces:

@@ -4,19 +4,20 @@ from __future__ import annotations
 
 import ast
 from collections.abc import Callable, Collection, Iterator
+from dataclasses import replace
 from itertools import chain
 
-from diecut_report.errors import nearest
-from diecut_report.study.conditions import parts
-from diecut_report.study.conditions.grammar import Parsed, parsed
-from diecut_report.study.conditions.parts import ConditionPart, Name
-from diecut_report.study.conditions.tree import (
+from diecut_report.conditions import parts
+from diecut_report.conditions.grammar import Parsed, parsed
+from diecut_report.conditions.parts import ConditionPart, Name
+from diecut_report.conditions.tree import (
     Missing,
     Node,
     TextLiteral,
     Truth,
 )
-from diecut_report.study.conditions.words import ALLOWED, FUNCTIONS, ConditionError
+from diecut_report.conditions.words import ALLOWED, FUNCTIONS, ConditionError
+from diecut_report.errors import nearest
 
 DEEPEST = 100  # levels of a tree
 Find = Callable[[str], Name]
@@ -33,16 +34,22 @@ def read(given: str, known: Collection[str], find: Find, example: str) -> Node:
     ``known`` names are taken whole whatever they are made of, and may stand in double quotes; ``find`` says what a name is.
     """
     whole = parsed(given, known)
-    part = _ConditionReader(whole, find).part(whole.body, 0)
+    part = ConditionReader(whole, find).part(whole.body, 0)
     return parts.condition(part, f"a comparison is needed, such as {example}")
 
 
-class _ConditionReader:
-    def __init__(self, whole: Parsed, find: Find) -> None:
-        self.whole, self.find = whole, find
+class ConditionReader:
+    """Reads the parts of a condition; of an ``exact`` one, an expression, by the angles of formulas and whole powers."""
+
+    def __init__(self, whole: Parsed, find: Find, exact: bool = False) -> None:
+        self.whole, self.find, self.exact = whole, find, exact
 
     def part(self, at: ast.expr, depth: int) -> ConditionPart:
         """Return the part that a piece of the Python text says."""
+        found = self._part(at, depth)
+        return replace(found, exact=True) if self.exact else found
+
+    def _part(self, at: ast.expr, depth: int) -> ConditionPart:
         if depth > DEEPEST:
             words = f"the condition is nested deeper than {DEEPEST} levels. Write several conditions."
             raise ConditionError(words, self._place(at))
@@ -80,7 +87,8 @@ class _ConditionReader:
         if word.sort == "number":
             return parts.number(float(word.text), word.place)
         if word.sort == "text":
-            return ConditionPart(TextLiteral(word.text), "quoted", word.place, typed=f"'{word.text}'")
+            typed = word.text if self.exact else f"'{word.text}'"
+            return ConditionPart(TextLiteral(word.text), "quoted", word.place, typed=typed)
         if word.text in ("true", "false") and word.sort == "keyword":
             return ConditionPart(Truth(word.text == "true"), "condition", word.place, typed=word.text)
         try:

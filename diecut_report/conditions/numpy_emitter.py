@@ -8,8 +8,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from diecut_report.expressions import APPLY, NUMERIC, Array
-from diecut_report.study.conditions.tree import (
+from diecut_report.conditions.tree import (
     Call,
     Chain,
     ColumnName,
@@ -27,6 +26,7 @@ from diecut_report.study.conditions.tree import (
     is_condition,
     is_text,
 )
+from diecut_report.expressions import APPLY, NUMERIC, Array
 
 ValueOf = Callable[[str], Any]
 """What a name stands for in each row: numbers (NaN where one is missing), texts or truths (None where one is missing)."""
