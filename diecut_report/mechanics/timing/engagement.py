@@ -16,7 +16,7 @@ TURN = 2 * np.pi
 AT = 1e-9  # rad from a dead centre that is none
 LOOKS = 41  # places up to the next dead centre at which the end of a slip is looked for
 STARTS = 72  # engagement angles that are tried over a turn
-ZOOMS = 5  # times that the worst of them is looked at closer
+ZOOMS = 3  # times that the worst of them is looked at closer
 ACROSS = 17  # places of a closer look
 PIECES = 3  # of a slip, in which its time is integrated
 _SHARES = ((np.arange(PIECES)[:, None] + (NODES + 1) / 2) / PIECES).ravel()
@@ -32,13 +32,15 @@ def inertia_at_crank(
     cylinder_radius: Any,
     static_unbalance: Any,
     rotation: Any,
-    sector_ratio: Any,
-    rocker_speed_ratio: Any,
+    speed_ratio: Any,
 ) -> Any:
-    """Inertia of the rolling cylinder that its crank feels, with the unbalance: of equal kinetic energy."""
+    """Inertia of the rolling cylinder that its crank feels, with the unbalance: of equal kinetic energy.
+
+    ``rotation`` is counted from where the flat is down, ``speed_ratio`` is the cylinder's speed to the crank's.
+    """
     rolling = cylinder_inertia + cylinder_mass * cylinder_radius**2
     swinging = 2 * cylinder_radius * static_unbalance * np.cos(rotation)
-    return (rolling + swinging) * (sector_ratio * rocker_speed_ratio) ** 2
+    return (rolling + swinging) * speed_ratio**2
 
 
 @dataclass(frozen=True)
