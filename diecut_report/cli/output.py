@@ -21,7 +21,7 @@ INTERRUPTED, FAULT, UNWRITABLE = (
     70,
     74,
 )  # as shells and sysexits have it: Ctrl-C, a fault of the program, of writing
-COLOURS = {"fail": "31", "error": "31", "skipped": "33", "warn": "33", "pass": "32"}
+COLOURS = {"fail": "31", "error": "31", "skipped": "33", "warn": "33", "not_checked": "36", "pass": "32"}
 TOLD = 20  # problems of a file
 LETTERS, END = 2_000, 500  # of a message, and of its end where it is longer
 # what may make a terminal do something, end a line, or show a text as another one

@@ -32,7 +32,7 @@ def _when(names: DeclaredNames, check: Check) -> list[When]:
     givers = [[giver.when for giver in names.givers(name)] for name in check.named]
     found = []
     for chosen in product(*givers):
-        when = When(frozenset(check.needs))
+        when = When(frozenset(check.needs + check.only_with))
         for other in chosen:
             when = when.with_(other)
         found.append(when)
@@ -49,7 +49,9 @@ def _wrong(names: DeclaredNames, check: Check) -> Iterator[str]:
             yield f"takes {unknown(name, names.known)}"
         for kind in sorted({giver.kind for giver in givers} - set(JUDGED)):
             yield f"compares {name}, {_instead(name, kind)}"
-        units = {each for giver in givers if giver.kind in JUDGED for each in giver.units_when(check.needs)}
+        units = {
+            each for giver in givers if giver.kind in JUDGED for each in giver.units_when(check.needs + check.only_with)
+        }
         wrong = sorted(each for each in units if unit(each).kind != unit(check.unit).kind)
         if wrong:
             yield f"is in {check.unit}, {name} in {', '.join(wrong)}"

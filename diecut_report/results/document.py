@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Iterator
 from typing import Any
 
@@ -18,9 +17,10 @@ from diecut_report.engine import CurveHandle
 from diecut_report.limits import MAX_COMPARISONS
 from diecut_report.quantities.formatting import as_given, shortest
 from diecut_report.results.comparisons import Found
-from diecut_report.results.mechanism import RANK, worst
+from diecut_report.results.mechanism import worst
 from diecut_report.results.press_run import Run
 from diecut_report.results.reference_origins import with_origins
+from diecut_report.results.summary import counts, governing, summary
 
 Data = dict[str, Any]
 
@@ -44,6 +44,7 @@ def document(run: Run) -> Data:
         "press": _press(run),
         "status": "error" if run.errors else status,
         "governing": governing(mechanisms),
+        "summary": summary(mechanisms),
         "mechanisms": mechanisms,
     } | ({"comparisons": comparisons} | _left_out(run) if comparisons else {})
 
@@ -83,7 +84,13 @@ def _mechanism_data(run: Run, name: str) -> Data:
     mechanism = instance.mechanism if instance else None
     kind = run.config.kinds[name]
     status, text = ("error", str(run.errors[name])) if name in run.errors else ("skipped", run.skipped[name])
-    return _head(kind, mechanism) | {"status": status, "error": text} | EMPTY
+    checks = run.self_tests.get(name, [])
+    return (
+        _head(kind, mechanism)
+        | {"status": status, "error": text}
+        | EMPTY
+        | {"checks": checks, "counts": counts(checks)}
+    )
 
 
 def _comparison_data(run: Run, case: Found) -> Data:
@@ -91,7 +98,7 @@ def _comparison_data(run: Run, case: Found) -> Data:
         return run.comparisons[case.name]
     mechanism = case.comparison.mechanism
     failed = {"status": "error", "error": str(run.errors[case.name]), "between": list(case.between.values())}
-    return _head(mechanism.kind, mechanism) | failed | EMPTY
+    return _head(mechanism.kind, mechanism) | failed | EMPTY | {"counts": counts(())}
 
 
 def _head(kind: str, mechanism: Mechanism | None) -> Data:
@@ -102,20 +109,6 @@ def _head(kind: str, mechanism: Mechanism | None) -> Data:
         "plugin_version": mechanism.version if mechanism else "",
         "plugin_sha256": plugin_hash(mechanism),
     }
-
-
-def governing(mechanisms: Data) -> Data | None:
-    """Return the check that governs: fail before warn before pass, then the greatest utilisation; a failing null is the greatest."""
-
-    def weight(check: Data) -> tuple[int, float]:
-        unknown = math.inf if check["status"] != "pass" else -math.inf
-        return RANK[check["status"]], unknown if check["utilisation"] is None else check["utilisation"]
-
-    checks = [(name, check) for name, data in mechanisms.items() for check in data["checks"]]
-    if not checks:
-        return None
-    name, check = max(checks, key=lambda pair: weight(pair[1]))
-    return {"mechanism": name, "check": check["id"]}
 
 
 def _project(fields: Data) -> Data:

@@ -23,9 +23,19 @@ from diecut_report.engine.printing.items import section_items
 from diecut_report.quantities.formatting import shortest, shown
 from diecut_report.quantities.units import unit
 from diecut_report.results.checks import applies, check_results
+from diecut_report.results.summary import RANK, counts, failed_self_tests
+from diecut_report.results.unchecked import missing
 
 Data = dict[str, Any]
-RANK = {"pass": 0, "warn": 1, "fail": 2, "error": 3, "skipped": 3}
+
+
+class SelfTestFailed(Exception):
+    """Report that the calculation contradicts itself, so that none of its numbers may be used; ``checks`` tell where."""
+
+    def __init__(self, checks: list[Data]) -> None:
+        told = " ".join(f"{check['title']}: {check['message']}" for check in checks)
+        super().__init__(f"The calculation contradicts itself, and its numbers must not be used. {told}")
+        self.checks = checks
 
 
 Origin = Literal["given", "default", "reference", "expression"]
@@ -42,9 +52,11 @@ class Provenance:
 
 
 def mechanism_results(calc: Calculation, provenance: Mapping[str, Provenance]) -> Data:
-    """Return the results of one machine's mechanism, as the contract names them."""
+    """Return the results of one machine's mechanism, as the contract names them; SelfTestFailed where they contradict themselves."""
     mechanism = calc.mechanism
     checks = check_results(calc)
+    if failed := failed_self_tests(checks):
+        raise SelfTestFailed(failed)
     return {
         "kind": mechanism.kind,
         "title": mechanism.title,
@@ -59,6 +71,7 @@ def mechanism_results(calc: Calculation, provenance: Mapping[str, Provenance]) -
         **numbers(calc),
         "curves": curves(calc),
         "checks": checks,
+        "counts": counts(checks),
         "warnings": [c["message"] for c in checks if c["status"] == "warn"],
         "sections": section_items(calc),
         "absent": absent(calc, provenance),
@@ -93,7 +106,7 @@ def absent(calc: Calculation, provenance: Mapping[str, Provenance]) -> list[Data
         for s in calc.mechanism.chapters
         if s.absent and not calc.given.issuperset(s.needs)
     ]
-    made = {check.id for check in calc.mechanism.checks if applies(calc, check)}
+    made = {check.id for check in calc.mechanism.checks if applies(calc, check) or missing(calc, check)}
     unmade = [
         {"title": c.title, "text": f"not checked, though {c.limit} is given: what it limits is not calculated"}
         for c in calc.mechanism.checks
@@ -108,8 +121,8 @@ def _is_limit_given(calc: Calculation, name: str, provenance: Mapping[str, Prove
 
 
 def worst(statuses: Any) -> str:
-    """Return the worst of statuses; pass where there are none."""
-    return max(statuses, key=RANK.__getitem__, default="pass")
+    """Return the worst of statuses; pass where there are none. What is not checked changes nothing."""
+    return max((status for status in statuses if status in RANK), key=RANK.__getitem__, default="pass")
 
 
 def inputs(calc: Calculation, provenance: Mapping[str, Provenance]) -> Data:

@@ -21,7 +21,7 @@ from diecut_report.errors import PluginError, Problem, UserError
 from diecut_report.expressions import Array
 from diecut_report.limits import MAX_COMPARISONS
 from diecut_report.results.comparisons import Found, Uncomparable, compared, found
-from diecut_report.results.mechanism import Origin, Provenance, mechanism_results
+from diecut_report.results.mechanism import Origin, Provenance, SelfTestFailed, mechanism_results
 
 Data = dict[str, Any]
 Tell = Callable[[str], None]
@@ -60,6 +60,7 @@ class Run:
         self.calculations: dict[str, Calculation] = {}
         self.results: dict[str, Data] = {}
         self.errors: dict[str, PluginError] = dict(config.broken)
+        self.self_tests: dict[str, list[Data]] = {}  # of each mechanism that contradicts itself, what does not hold
         self.skipped: dict[str, str] = {}
         self.problems: list[Problem] = []
         self.comparisons: dict[str, Data] = {}
@@ -201,6 +202,9 @@ class Run:
             for path, message in fault.reasons:
                 key = tuple(int(part) if part.isdigit() else part for part in path.split(".") if part)
                 self.problems.append(instance.place.problem(key, message))
+        except SelfTestFailed as fault:
+            self.self_tests[name] = fault.checks
+            self._broke(instance, fault, str(fault))
         except (Exception, SystemExit) as cause:
             self._broke(instance, cause)
 
@@ -216,9 +220,9 @@ class Run:
             error.__cause__ = cause
             self.errors[case.name] = error
 
-    def _broke(self, instance: Instance, cause: BaseException) -> None:
+    def _broke(self, instance: Instance, cause: BaseException, words: str = "") -> None:
         self.calculations.pop(instance.name, None)
-        error = PluginError(said(cause), self.config.kinds[instance.name], instance.name)
+        error = PluginError(words or said(cause), self.config.kinds[instance.name], instance.name)
         error.__cause__ = cause
         self.errors[instance.name] = error
 

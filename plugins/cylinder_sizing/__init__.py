@@ -21,6 +21,7 @@ MECHANISM = Mechanism(
     checks=(
         Check(
             id="wall_at_flat",
+            check_class="strength",
             title="Wall between bore and flat",
             demand="min_wall",
             limit="wall_at_flat",
@@ -32,6 +33,7 @@ MECHANISM = Mechanism(
         ),
         Check(
             id="radius",
+            check_class="function",
             title="Radius against the exact one",
             demand="radius_exact",
             limit="radius",
@@ -40,10 +42,12 @@ MECHANISM = Mechanism(
             limit_label="adopted radius",
             source="002 eq. 1",
             tolerance=1e-9,
+            sized_unless=("radius",),
             consequence="the circumference beside the flat is shorter than the working length; {radius_advice}.",
         ),
         Check(
             id="closed_form_error",
+            check_class="practice",
             title="Error of the closed form",
             demand="closed_form_error_size",
             limit=0.5,
@@ -57,6 +61,7 @@ MECHANISM = Mechanism(
         ),
         Check(
             id="deflection",
+            check_class="function",
             title="Bending deflection",
             demand="deflection",
             limit="allowable_deflection",
@@ -69,6 +74,7 @@ MECHANISM = Mechanism(
         ),
         Check(
             id="closed_section",
+            check_class="strength",
             title="Section closed, as the bending presumes",
             demand="bore_radius",
             limit="flat_distance",
@@ -77,7 +83,7 @@ MECHANISM = Mechanism(
             demand_label="bore radius",
             limit_label="distance of the flat from the axis",
             source="strength of materials",
-            needs=("bearing_span",),
+            only_with=("bearing_span",),
             consequence="a slot of {overlap_chord} along the flat opens the section: it twists about a shear centre outside itself and "
             "gives way in shear, so the calculated deflection does not hold and the true one is greater; {wall_advice}.",
         ),

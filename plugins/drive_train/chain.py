@@ -92,6 +92,9 @@ efficiency.value("efficiency_total", "η", "1", "Efficiency from the motor to th
 
 powers = Chapter("Torque and power at each shaft",
                  text="Means over a turn. What drives the load is divided by the efficiencies behind the shaft, what flows back multiplied.")
+powers.require("peak_above_mean", lambda torque_mean, torque_peak: torque_mean <= torque_peak * (1 + 1e-06), key="torque_peak",
+               message="is {torque_peak}, but the mean torque is {torque_mean}, and no mean is above the peak; look at torque_mean, or give a "
+                       "torque_peak of at least {torque_mean:up}")
 powers.value("driving_mean", "M_d", "N*m", "Mean driving torque at the output", lambda torque_mean: torque_mean, output=False,
              lacks=("torque_curve",))
 powers.value("braking_mean", "M_b", "N*m", "Mean torque with which the load drives: none", lambda: 0, output=False, lacks=("torque_curve",))

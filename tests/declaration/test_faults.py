@@ -109,7 +109,7 @@ STEPS = (MOMENT, ANGLE, TORQUE, PEAK)
 
 
 def check(**changes: Any) -> Check:
-    sound = {"id": "strong", "title": "Strong", "demand": "moment", "limit": 3.0, "unit": "N*m", "demand_label": "moment",
+    sound = {"id": "strong", "check_class": "strength", "title": "Strong", "demand": "moment", "limit": 3.0, "unit": "N*m", "demand_label": "moment",
              "limit_label": "allowed", "consequence": "shorten the arm"}  # fmt: skip
     return Check(**{**sound, **changes})
 

@@ -165,8 +165,15 @@ def test_mean_and_peak_that_do_not_belong_to_the_curve_are_told() -> None:
     assert [check(fitting, f"torque_{n}")["status"] for n in ("mean", "peak")] == ["pass", "pass"]
     assert [check(off, f"torque_{n}")["status"] for n in ("mean", "peak")] == ["pass", "warn"]
     assert check(train(torque_curve=UNEVEN, torque_mean=100), "torque_mean")["status"] == "warn"
-    assert check(train(torque_peak=199), "torque_order")["status"] == "warn"
-    assert check(train(torque_peak=200), "torque_order")["status"] == "pass"
+    assert {"torque_mean", "torque_peak"}.isdisjoint(checked(train()))  # there is no curve to belong to
+
+
+def test_a_peak_below_the_mean_is_refused_and_what_is_told_lies_on_the_limit() -> None:
+    with pytest.raises(Impossible) as refused:
+        train(torque_peak=199)
+    least = re.search(r"torque_peak of at least (\d+)", refused.value.message)
+    assert refused.value.key == "torque_peak" and least and int(least[1]) == 200
+    train(torque_peak=200)
 
 
 @examples(50)

@@ -93,9 +93,9 @@ class _Rows(Run):
     def _comparisons(self) -> None:
         """A study compares variants, not mechanisms."""
 
-    def _broke(self, instance: Instance, cause: BaseException) -> None:
+    def _broke(self, instance: Instance, cause: BaseException, words: str = "") -> None:
         """No mechanism of a variant is left out in silence."""
-        raise NotOnArrays(self.config.kinds[instance.name], said(cause)) from cause
+        raise NotOnArrays(self.config.kinds[instance.name], words or said(cause)) from cause
 
     def _output(self, calculation: Calculation, name: str, target: Target) -> Any:
         """A result of all variants; where it is absent that is the variant's reason."""
