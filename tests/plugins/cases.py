@@ -25,6 +25,7 @@ from tests.plugins.drive_trains import EXAMPLE as TRAIN
 from tests.plugins.drive_trains import PAIRS, UNEVEN
 from tests.plugins.followers import SHAFT
 from tests.plugins.platens import GUIDED
+from tests.plugins.presses import whole_press
 from tests.plugins.steppers import LOADED, PUBLISHED
 from tests.validation.rows_circular_knife import KEYS as CIRCULAR
 from tests.validation.rows_damper import WORKED as DAMPER
@@ -114,6 +115,7 @@ FULL: dict[str, dict[str, dict[str, Any]]] = {
     "geneva_transport": {"loaded": CROSS},
     "knife_drive": {side: KNIVES | {"crank_rocker": LINKAGE | {"lowest_dead_center": side}} for side in ("outer", "inner")},
     "platen_press": {"guided": GUIDED | {"n_points": 72, "crank_pin_length": "100 mm"}},
+    "press_consistency": {"whole": whole_press()},
 }  # fmt: skip
 WIDELY: dict[str, Ranges] = {
     "cam_gear_transport": {"dwell_angle": (1.5, 4.2), "sector_stop_sweep": (0.1, 0.6), "arm_length": (0.05, 0.1), "cycles_per_hour": (1, 2)},
@@ -135,6 +137,8 @@ WIDELY: dict[str, Ranges] = {
                     "crank_rocker.crank": (0.012, 0.04), "crank_rocker.knife_arm": (0.08, 0.25), "grip_angle": (0.02, 0.2)},
     "platen_press": {"material_thickness": (1e-4, 3e-3), "drive_deformation": (1e-4, 2e-3), "rod_length": (0.08, 1.2),
                      "cycles_per_hour": (0.1, 2), "offset_force": (-0.02, 0.02), "friction": (0, 0.3)},
+    "press_consistency": {"clutch_load": (0, 900), "clutch_speed": (2, 12), "contact_distance": (0.005, 0.9),
+                          "flywheel_inertia": (0.1, 20), "damper_velocity": (0.1, 4)},
 }  # fmt: skip
 
 
