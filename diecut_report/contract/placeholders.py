@@ -23,11 +23,15 @@ class SI:
 
 @dataclass(frozen=True)
 class Pending:
-    """Stand for a reference whose value is not known yet; ``unit`` is that of what it refers to, None where it is not a number."""
+    """Stand for a reference whose value is not known yet; ``unit`` is that of what it refers to, None where it is not a number.
+
+    Of a phase it is the unit of what the phase runs over.
+    """
 
     path: str
     unit: str | None
     is_curve: bool = False
+    is_phase: bool = False
 
 
 class Curve(Protocol):

@@ -109,11 +109,13 @@ class Abscissa(Step):
     """Declare what curves run over, [0, period): sampled at ``points`` (an input's id); shown in print at the place ``shown_at``.
 
     ``period`` is a number, or the id of one. ``intervals`` are those of the search grid in each smooth piece: fewer are enough
-    where breakpoints leave the pieces short.
+    where breakpoints leave the pieces short. ``speed`` is the id of how fast it is run through, from which phases have
+    their times; an abscissa of time needs none.
     """
 
     period: float | str
     points: str = "n_points"
+    speed: str = ""
     shown_at: str = ""
     intervals: int = 64
 
@@ -244,4 +246,21 @@ class Clash(Step):
     message: str
 
 
-SILENT = Breakpoints | Require | Clash | Words  # steps that give no quantity
+@dataclass(frozen=True, kw_only=True, eq=False)
+class Phase(Step):
+    """Declare when, over the period of an abscissa, the mechanism does something; its id is ``phases.NAME``.
+
+    ``role`` is what it does: ``working`` (a tool on the product), ``rest``, ``moving``, ``window`` (room for another part).
+    Each of ``spans`` goes from one place to another: ids of numbers, or plain numbers; a place that does not exist for a
+    machine leaves its span out. Instead of them ``union`` names phases that are taken together, or ``rest_of`` those
+    that leave it the rest of the period.
+    """
+
+    role: str
+    abscissa: str
+    spans: tuple[tuple[str | float, str | float], ...] = ()
+    union: tuple[str, ...] = ()
+    rest_of: tuple[str, ...] = ()
+
+
+SILENT = Breakpoints | Require | Clash | Words | Phase  # steps that give no quantity

@@ -25,6 +25,7 @@ from diecut_report.contract.steps import (
     CurvePeriod,
     Derivative,
     FromCurve,
+    Phase,
     Reduction,
     Require,
     Root,
@@ -106,9 +107,10 @@ def _asked(step: Step) -> Iterator[Asked]:
 def _over(step: Step) -> Iterator[Asked]:
     axis = frozenset({"abscissa"}), "the id of an Abscissa"
     match step:
-        case Abscissa(period=period, points=points):
+        case Abscissa(period=period, points=points, speed=speed):
             yield from (("period", period, NUMBER, ""),) if isinstance(period, str) else ()
             yield "points", points, NUMBER, ""
+            yield from (("speed", speed, NUMBER, ""),) if speed else ()
         case Breakpoints(abscissa=abscissa, places=places, every=every):
             yield "abscissa", abscissa, *axis
             yield from (("places", place, NUMBER | {"crossings"}, "a number or found crossings") for place in places)
@@ -117,6 +119,9 @@ def _over(step: Step) -> Iterator[Asked]:
             yield "abscissa", abscissa, *axis
             yield "given", given, CURVE_INPUT, ""
             yield from ((f, getattr(step, f), NUMBER, "") for f in ("start", "lasts") if getattr(step, f))
+        case Phase(abscissa=abscissa, spans=spans):
+            yield "abscissa", abscissa, *axis
+            yield from (("an end", end, NUMBER, "") for span in spans for end in span if isinstance(end, str))
         case CurvePeriod(given=given):
             yield "given", given, CURVE_INPUT, ""
         case Lookup(by=by):

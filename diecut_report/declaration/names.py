@@ -20,6 +20,7 @@ from diecut_report.contract.steps import (
     Crossings,
     Derivative,
     FromCurve,
+    Phase,
     Reduction,
     Require,
     Step,
@@ -28,7 +29,7 @@ from diecut_report.contract.steps import (
 )
 from diecut_report.declaration.world import Key, When, World, world
 
-NO_QUANTITY = Breakpoints | Require | Clash
+NO_QUANTITY = Breakpoints | Require | Clash | Phase
 
 
 class Giver(NamedTuple):

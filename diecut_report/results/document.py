@@ -69,7 +69,8 @@ def _printable(name: str) -> str:
 
 
 EMPTY: Data = {
-    "summary": "", "assumptions": [], "sources": [], "inputs": {}, "lists": {}, "outputs": {}, "values": {}, "curves": {}, "checks": [],
+    "summary": "", "assumptions": [], "sources": [], "inputs": {}, "lists": {}, "outputs": {}, "values": {}, "curves": {}, "phases": {},
+    "phases_absent": {}, "checks": [],
     "warnings": [], "sections": [], "absent": [], "figures": [], "exports": [],
     "errata": [],
 }  # fmt: skip

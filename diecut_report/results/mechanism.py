@@ -23,6 +23,7 @@ from diecut_report.engine.printing.items import section_items
 from diecut_report.quantities.formatting import shortest, shown
 from diecut_report.quantities.units import unit
 from diecut_report.results.checks import applies, check_results
+from diecut_report.results.phases import phases, phases_absent
 
 Data = dict[str, Any]
 RANK = {"pass": 0, "warn": 1, "fail": 2, "error": 3, "skipped": 3}
@@ -54,6 +55,8 @@ def mechanism_results(calc: Calculation, provenance: Mapping[str, Provenance]) -
         "lists": list_titles(mechanism.inputs),
         **numbers(calc),
         "curves": curves(calc),
+        "phases": phases(calc),
+        "phases_absent": phases_absent(calc),
         "checks": checks,
         "warnings": [c["message"] for c in checks if c["status"] == "warn"],
         "sections": section_items(calc),

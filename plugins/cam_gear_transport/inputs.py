@@ -66,6 +66,12 @@ class CamGearTransport(Inputs):
     allowable_sheet_acceleration: Annotated[
         float | None, Quantity("[W]", "m/s**2", "Allowed acceleration of the sheet", gt=0)
     ] = None
+    rest_tolerance: Annotated[
+        float | None,
+        Quantity(
+            "e", "mm", "Distance from its place within which the sheet counts as resting; with it that phase", gt=0
+        ),
+    ] = None
     conveyor_mass: Annotated[
         float | None,
         Quantity("m_c", "kg", "Mass that moves with the conveyor's chain, sheets included; with it the torque", gt=0),

@@ -42,6 +42,12 @@ class GenevaTransport(Inputs):
     allowable_sheet_acceleration: Annotated[
         float | None, Quantity("[a]", "m/s**2", "Allowed acceleration of the sheet", gt=0)
     ] = None
+    rest_tolerance: Annotated[
+        float | None,
+        Quantity(
+            "e_r", "mm", "Distance from its place within which the sheet counts as resting; with it that phase", gt=0
+        ),
+    ] = None
     driven_inertia: Annotated[
         float | None,
         Quantity(

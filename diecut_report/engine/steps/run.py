@@ -22,6 +22,7 @@ from diecut_report.contract.steps import (
     CurvePeriod,
     Derivative,
     FromCurve,
+    Phase,
     Reduction,
     Require,
     Root,
@@ -66,7 +67,7 @@ def calculate(
         steps = [step for _, step in mechanism.active(calc.given) if only is None or step.id in only]
         for i, step in enumerate(steps):
             prefetch.look(calc, steps[i:])
-            if isinstance(step, Words):
+            if isinstance(step, Words | Phase):
                 continue
             try:
                 if isinstance(step, prefetch.Asking):
