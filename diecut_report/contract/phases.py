@@ -14,7 +14,7 @@ PREFIX = "phases."
 """What the name of a phase begins with, where quantities are named too: in references and among the ids of steps."""
 
 
-class _Holder(Protocol):
+class StepHolder(Protocol):
     """What steps can be added to."""
 
     def add(self, *steps: Step | Iterable[Any]) -> None:
@@ -25,7 +25,7 @@ class PhaseForm:
     """Give chapters the call that declares a phase."""
 
     def phase(
-        self: _Holder,
+        self: StepHolder,
         name: str,
         role: PhaseRole,
         description: str,

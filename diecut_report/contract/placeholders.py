@@ -25,13 +25,14 @@ class SI:
 class Pending:
     """Stand for a reference whose value is not known yet; ``unit`` is that of what it refers to, None where it is not a number.
 
-    Of a phase it is the unit of what the phase runs over.
+    ``phase_unit`` is that of what a phase runs over.
     """
 
     path: str
     unit: str | None
     is_curve: bool = False
-    is_phase: bool = False
+    phase_unit: str | None = None
+    is_mechanism: bool = False
 
 
 class Curve(Protocol):

@@ -173,12 +173,14 @@ class Computed(Step):
     """Declare a number found by plain code where no closed formula tells it; ``method`` says in words how.
 
     ``function`` takes the quantities ``takes`` by position: numbers as arrays of shape (variants, 1), texts, the handles of
-    curve inputs (``Curve`` in ``contract.given``). It gives an array of shape (variants, 1), SI.
+    curve inputs (``Curve`` in ``contract.given``). It gives an array of shape (variants, 1), SI; of shape (variants, parts) where
+    it gives a row for the list ``over``.
     """
 
     function: Callable[..., Any]
     takes: tuple[str, ...]
     method: str
+    over: str = ""
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -217,6 +219,19 @@ class FromCurve(Step):
     start: str = ""
     lasts: str = ""
     gains: bool = False
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class MadeCurve(FromCurve):
+    """Declare a curve that plain code makes for one machine: ``function`` gives a ``Curve`` over the period of ``abscissa``.
+
+    It takes what ``Computed`` takes; ``method`` says in words how the curve is made.
+    """
+
+    given: str = ""
+    function: Callable[..., Any]
+    takes: tuple[str, ...]
+    method: str
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -263,4 +278,16 @@ class Phase(Step):
     rest_of: tuple[str, ...] = ()
 
 
-SILENT = Breakpoints | Require | Clash | Words | Phase  # steps that give no quantity
+@dataclass(frozen=True, kw_only=True, eq=False)
+class Prepared(Step):
+    """Declare what plain code makes of a machine once, and several steps ask: any object, no quantity.
+
+    ``function`` takes one mapping: of the inputs and quantities ``holds`` those that there are, in the form in which
+    ``Computed`` takes them.
+    """
+
+    function: Callable[..., Any]
+    holds: tuple[str, ...]
+
+
+SILENT = Breakpoints | Require | Clash | Words | Phase | Prepared  # steps that give no quantity

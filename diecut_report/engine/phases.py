@@ -7,19 +7,28 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from diecut_report.contract.phase_inputs import TakenWhole
 from diecut_report.contract.phases import PREFIX
 from diecut_report.contract.steps import Abscissa, Phase
 from diecut_report.engine.calculation import Calculation
-from diecut_report.mechanics.intervals import Interval, in_order, left_out
+from diecut_report.mechanics.timing.intervals import TOUCHING, Interval, Intervals, complement, merged
 from diecut_report.quantities.units import unit
 
 
 @dataclass(frozen=True)
-class PhaseHandle:
-    """Hand a phase of one mechanism to the input of another; ``row`` counts the variants, of which a single one stands for all."""
+class PhaseHandle(TakenWhole):
+    """Hand a phase of one mechanism to the input of another; ``row`` counts the variants, of which a single one stands for all.
+
+    ``text`` is how a config refers to it.
+    """
 
     calculation: Calculation
     name: str
+    text: str = ""
+
+    def __str__(self) -> str:
+        """Return how a config refers to it."""
+        return self.text
 
     @property
     def declared(self) -> Phase:
@@ -40,9 +49,9 @@ class PhaseHandle:
         """Return the period of its abscissa, SI."""
         return float(_of_row(self.calculation.domains[self.declared.abscissa].period, row))
 
-    def intervals(self, row: int = 0) -> list[Interval]:
+    def intervals(self, row: int = 0) -> Intervals:
         """Return its intervals, SI; none where the machine does not have it."""
-        return intervals(self.calculation, self.name, row) or []
+        return intervals(self.calculation, self.name, row)
 
 
 def phases_of(calc: Calculation) -> dict[str, Phase]:
@@ -51,20 +60,27 @@ def phases_of(calc: Calculation) -> dict[str, Phase]:
     return {step.id.removeprefix(PREFIX): step for step in found}
 
 
-def intervals(calc: Calculation, name: str, row: int = 0) -> list[Interval] | None:
-    """Return the intervals of a phase for one variant, SI: each begins within the period; None where the machine does not have it."""
-    found = _intervals(calc, phases_of(calc), name, row)
-    return found or None
+def intervals(calc: Calculation, name: str, row: int = 0) -> Intervals:
+    """Return the intervals of a phase for one variant, SI: each begins within the period; none where the machine does not have it."""
+    return _intervals(calc, phases_of(calc), name, row)
 
 
-def _intervals(calc: Calculation, known: Mapping[str, Phase], name: str, row: int) -> list[Interval]:
+def _intervals(calc: Calculation, known: Mapping[str, Phase], name: str, row: int) -> Intervals:
     step = known[name]
     period = float(_of_row(calc.domains[step.abscissa].period, row))
     held = [each for other in (*step.union, *step.rest_of) for each in _intervals(calc, known, other, row)]
     if step.rest_of:
-        return left_out(in_order(held, period), period) if held else []
+        return complement(merged(held, period), period) if held else ()
     spans = [(_place(calc, start, row), _place(calc, end, row)) for start, end in step.spans]
-    return in_order([*held, *(span for span in spans if not np.isnan(span).any())], period)
+    return merged([*held, *(_counted_on(span, period) for span in spans if not np.isnan(span).any())], period)
+
+
+def _counted_on(span: Interval, period: float) -> Interval:
+    """A span whose end, where it lies before the start, is meant a period later; one without a length has none."""
+    start, end = span
+    if abs(end - start) <= TOUCHING * period:
+        return start, start
+    return (start, end) if end > start else (start, end + period)
 
 
 def _place(calc: Calculation, place: str | float, row: int) -> float:

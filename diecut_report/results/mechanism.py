@@ -10,7 +10,7 @@ from typing import Any, Literal
 import numpy as np
 
 from diecut_report.config.source_hashes import plugin_hash
-from diecut_report.contract.inputs import CurveInput, Quantity, list_titles
+from diecut_report.contract.inputs import CurveInput, Quantity, TakenWhole, list_titles
 from diecut_report.contract.mechanism import Profile
 from diecut_report.contract.result_names import ResultName, count_name, pattern, place_name, result_names
 from diecut_report.contract.spectra import Spectrum, SpectrumLine
@@ -139,6 +139,9 @@ def _origin(provenance: Provenance | None) -> Data:
 
 
 def _input(meta: Any, value: Any) -> Data:
+    if isinstance(value, TakenWhole) or (isinstance(meta, Quantity) and isinstance(value, str)):
+        return {"value": str(value), "unit": "1", "symbol": meta.symbol, "description": meta.description,
+                "display": {"text": str(value), "unit": "1"}}  # fmt: skip
     if not isinstance(meta, Quantity):
         is_curve = isinstance(meta, CurveInput)
         text = "a curve" if is_curve else str(value)

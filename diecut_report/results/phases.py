@@ -8,7 +8,7 @@ from diecut_report.contract.phases import PREFIX
 from diecut_report.contract.steps import Phase
 from diecut_report.engine import Calculation
 from diecut_report.engine.phases import intervals, phases_of, speed_of
-from diecut_report.mechanics.intervals import Interval
+from diecut_report.mechanics.timing.intervals import Interval
 from diecut_report.quantities.formatting import shown
 from diecut_report.quantities.units import unit
 

@@ -49,14 +49,14 @@ def cross(**changes: Any) -> Calculation:
 
 def in_degrees(calc: Calculation, name: str) -> list[tuple[float, float]]:
     """The intervals of a phase."""
-    return [(degrees(a), degrees(b)) for a, b in intervals(calc, name) or []]
+    return [(degrees(a), degrees(b)) for a, b in intervals(calc, name)]
 
 
 def milliseconds(calc: Calculation, name: str, axis: str) -> list[float]:
     """How long the intervals of a phase last."""
     speed = speed_of(calc, axis)
     assert speed is not None
-    return [1000 * (b - a) / speed for a, b in intervals(calc, name) or []]
+    return [1000 * (b - a) / speed for a, b in intervals(calc, name)]
 
 
 CYLINDER = {
@@ -215,7 +215,7 @@ def test_a_board_as_thick_as_the_segment_is_always_touched_and_has_no_contact_ph
 
 
 def test_a_stroke_that_cuts_all_the_way_is_one_interval_of_the_whole_turn() -> None:
-    assert intervals(press_drive(cutting_arc_fraction=1), "cutting") == [(0.0, 2 * pi)]
+    assert intervals(press_drive(cutting_arc_fraction=1), "cutting") == ((0.0, 2 * pi),)
 
 
 def test_the_results_hold_intervals_in_si_and_as_they_are_printed() -> None:
