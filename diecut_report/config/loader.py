@@ -249,7 +249,7 @@ def _wrong_values(reader: _ConfigReader, linker: Linker) -> list[Problem]:
 
 def _is_open(instance: Instance, node: Node, target: Target) -> bool:
     """Whether a value can be judged only when it is known: a text, or what a broken plugin would give."""
-    is_text = isinstance(declared(instance.model, node[1:]), Text) and target.unit is None
+    is_text = isinstance(declared(instance.model, node[1:]), Text) and target.unit is None and not target.phase_unit
     return target.is_broken or is_text
 
 
@@ -257,7 +257,7 @@ def _pending(instance: Instance, node: Node, target: Target) -> Any:
     curve = declared(instance.model, node[1:-1]) if len(node) > 2 else None
     if isinstance(curve, CurveInput):
         return SI(0.0, curve.unit, target.path)  # one value of a list, whose kind the linker has judged
-    return Pending(target.path, target.unit, target.is_curve)
+    return Pending(target.path, target.unit, target.is_curve, target.phase_unit, target.is_mechanism)
 
 
 __all__ = ["NAME", "RESERVED", "Config", "load_config", "substituted", "texts"]

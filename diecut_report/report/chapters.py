@@ -73,6 +73,7 @@ class _Filler:
         part.sections = [self._section(section) for section in mechanism["sections"]]
         self._head("results")
         self._results(mechanism["outputs"])
+        self._phases(mechanism.get("phases", {}), mechanism.get("phases_absent", {}))
         part.curves = self.tables.of_curves(mechanism["curves"])
         if part.curves:
             self._head("curves")
@@ -190,6 +191,13 @@ class _Filler:
         part.outputs = [rows[name] for name in single]
         part.output_parts = [table for parts in lists for table in self.tables.of_parts(parts, given=False)]
         part.key_results = [rows[name] for name, row in outputs.items() if row.get("key")] or list(rows.values())
+
+    def _phases(self, phases: Data, absent: Data) -> None:
+        """When the mechanism does what, a table for each abscissa; and what is not known of it."""
+        self.part.phases = self.tables.of_phases(phases)
+        self.part.phases_absent = [self.words.say("phase_absent", **told) for told in absent.values()]
+        if phases or absent:
+            self._head("phases")
 
     def _nth(self, row: Data, number: int | None) -> str:
         description: str = row["description"]

@@ -82,7 +82,7 @@ def document(results: Data, equations: Equations, words: Catalogue) -> ReportDoc
         governing=_governing(results, checks),
         checks=checks,
         unchecked=[row for row in every if row.status == "not_checked"],
-        notes=list(_notes(results, every, words)),
+        notes=list(_notes(every, words)),
         failures=[row for row in checks if row.status == "fail"],
         press_rows=[rested(quantity_row(row, decimal), row, words) for row in results["press"]["fields"]],
         chapters=chapters,

@@ -48,6 +48,9 @@ ENGLISH: dict[str, str] = {
     "rests_on_one": "Rests on 1 assumed value", "moves": "moves {check}", "more_assumed": " and {n} more",
     "touches": "Touches", "part": "No.", "nth": "{text}, no. {n}", "repeated_parts": "{n} repeated parts", "curves_over": "Curves over: {axis}",
     "file": "File", "content": "Content",
+    "phases": "Phases", "phase": "Phase", "role": "Role", "from": "From", "to": "To", "length": "Length", "time": "Time",
+    "role_working": "working", "role_rest": "at rest", "role_moving": "moving", "role_window": "room for another part",
+    "phase_absent": "{description}: {text}.",
     # items
     "met": "{demand} {operator} {limit} is met", "not_met": "{demand} {operator} {limit} is not met",
     "since": "Branch taken", "method": "Method", "residual": "relation met to {residual}", "checked_to": "verified to {residual}",

@@ -189,6 +189,8 @@ class PrintedChapter:
     sections: list[PrintedSection] = field(default_factory=list)
     checks: list[CheckRow] = field(default_factory=list)
     curves: list[PrintedTable] = field(default_factory=list)
+    phases: list[PrintedTable] = field(default_factory=list)
+    phases_absent: list[str] = field(default_factory=list)
     figures: list[tuple[str, Data]] = field(default_factory=list)
     files: list[File] = field(default_factory=list)
     absent: list[Data] = field(default_factory=list)

@@ -11,7 +11,7 @@ from diecut_report.config.loader import Config
 from diecut_report.config.model import PRESS, Press
 from diecut_report.config.source_hashes import plugin_hash, program_hash
 from diecut_report.config.validation import declared, keys_of
-from diecut_report.contract.inputs import Block, CurveInput, Quantity, flatten
+from diecut_report.contract.inputs import Block, CurveInput, InOtherUnit, Quantity, TakenWhole, flatten
 from diecut_report.contract.mechanism import Mechanism
 from diecut_report.engine import CurveHandle
 from diecut_report.limits import MAX_COMPARISONS
@@ -72,7 +72,8 @@ def _printable(name: str) -> str:
 
 
 EMPTY: Data = {
-    "summary": "", "assumptions": [], "sources": [], "inputs": {}, "lists": {}, "outputs": {}, "values": {}, "curves": {}, "checks": [],
+    "summary": "", "assumptions": [], "sources": [], "inputs": {}, "lists": {}, "outputs": {}, "values": {}, "curves": {}, "phases": {},
+    "phases_absent": {}, "checks": [],
     "warnings": [], "sections": [], "absent": [], "figures": [], "exports": [],
     "errata": [],
 }  # fmt: skip
@@ -170,6 +171,10 @@ def _plain_value(block: Block, name: str, value: Any, instance: Instance) -> Any
             return [_plain(part, instance) for part in value]
         case CurveHandle(calculation=_):
             return instance.data[name]
+        case InOtherUnit(value=number, unit=unit):
+            return as_given(number, unit)
+        case TakenWhole():
+            return str(value)
         case tuple() if isinstance(meta, CurveInput):
             return [as_given(part, meta.unit) for part in value]
         case float() if isinstance(meta, Quantity):

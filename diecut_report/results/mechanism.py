@@ -10,7 +10,7 @@ from typing import Any, Literal
 import numpy as np
 
 from diecut_report.config.source_hashes import plugin_hash
-from diecut_report.contract.inputs import CurveInput, Quantity, list_titles
+from diecut_report.contract.inputs import CurveInput, Quantity, TakenWhole, list_titles
 from diecut_report.contract.mechanism import Profile
 from diecut_report.contract.result_names import ResultName, count_name, pattern, place_name, result_names
 from diecut_report.contract.spectra import Spectrum, SpectrumLine
@@ -23,6 +23,7 @@ from diecut_report.engine.printing.items import section_items
 from diecut_report.quantities.formatting import shortest, shown
 from diecut_report.quantities.units import unit
 from diecut_report.results.checks import applies, check_results
+from diecut_report.results.phases import phases, phases_absent
 from diecut_report.results.summary import RANK, counts, failed_self_tests
 from diecut_report.results.unchecked import missing
 
@@ -72,6 +73,8 @@ def mechanism_results(calc: Calculation, provenance: Mapping[str, Provenance]) -
         "lists": list_titles(mechanism.inputs),
         **numbers(calc),
         "curves": curves(calc),
+        "phases": phases(calc),
+        "phases_absent": phases_absent(calc),
         "checks": checks,
         "counts": counts(checks),
         "warnings": [c["message"] for c in checks if c["status"] == "warn"],
@@ -158,6 +161,9 @@ def _origin(provenance: Provenance | None) -> Data:
 
 
 def _input(meta: Any, value: Any) -> Data:
+    if isinstance(value, TakenWhole) or (isinstance(meta, Quantity) and isinstance(value, str)):
+        return {"value": str(value), "unit": "1", "symbol": meta.symbol, "description": meta.description,
+                "display": {"text": str(value), "unit": "1"}}  # fmt: skip
     if not isinstance(meta, Quantity):
         is_curve = isinstance(meta, CurveInput)
         text = "a curve" if is_curve else str(value)

@@ -17,8 +17,11 @@ from diecut_report.config.references import Node, Target
 from diecut_report.config.validation import declared, validate
 from diecut_report.contract.inputs import SI, Block, CurveInput, Quantity, flatten
 from diecut_report.contract.mechanism import Mechanism
+from diecut_report.contract.phases import PREFIX
 from diecut_report.contract.result_names import named
 from diecut_report.engine import Calculation, CurveHandle, Impossible, calculate
+from diecut_report.engine.mechanism_handle import MechanismHandle
+from diecut_report.engine.phases import PhaseHandle
 from diecut_report.errors import PluginError, Problem, UserError
 from diecut_report.expressions import Array
 from diecut_report.limits import MAX_COMPARISONS
@@ -262,8 +265,20 @@ def number(calc: Calculation, name: str) -> Array | None:
     return row[:, part.index] if part and row is not None and part.index < row.shape[1] else None
 
 
+def phase(calc: Calculation, name: str, target: Target) -> PhaseHandle:
+    """Return a phase as a reference takes it over. Absent where the (first) machine does not have it."""
+    handle = PhaseHandle(calc, name.removeprefix(PREFIX), f"${{{target.path}}}")
+    if not handle.intervals():
+        raise Absent("does not apply to this machine.")
+    return handle
+
+
 def output(calc: Calculation, name: str, target: Target) -> Any:
     """Return a result as a reference takes it over: a curve, a number with its SI unit, or a text. Absent where there is none."""
+    if target.is_mechanism:
+        return MechanismHandle(calc, target.instance)
+    if target.phase_unit:
+        return phase(calc, name, target)
     if calc.axis.get(name) in calc.domains:
         return CurveHandle(calc, name)
     numbers = number(calc, name)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from diecut_report.api import Check, Erratum, Mechanism, Source
-from diecut_report.plugins.cylinder_drive import forces, linkage
+from diecut_report.plugins.cylinder_drive import forces, linkage, timing
 from diecut_report.plugins.cylinder_drive.figures import FIGURES
 from diecut_report.plugins.cylinder_drive.inputs import CylinderDrive
 
@@ -18,7 +18,7 @@ MECHANISM = Mechanism(
     "two sheets. Calculated are the motion of the cylinder, the moments on it, and torque, power and forces over a turn of the crank.",
     inputs=CylinderDrive,
     chapters=(linkage.linkage_chapter, linkage.stroke, linkage.cutting, linkage.kinematics, forces.moments, forces.torque, forces.energy,
-              forces.clearance, forces.teeth, forces.joints),
+              timing.contact, forces.clearance, timing.phases, forces.teeth, forces.joints),
     key_results=("swing_angle", "sector_ratio", "stroke", "velocity_max", "acceleration_max", "cutting_moment", "crank_torque_peak",
                  "crank_torque_mean", "crank_torque_rms", "power_mean", "power_peak", "clearance_outer_time", "clearance_inner_time",
                  "tooth_force_max", "joint_force_max"),

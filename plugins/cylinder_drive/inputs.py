@@ -84,6 +84,9 @@ class CylinderDrive(Inputs):
     carriage_clearance: Annotated[
         float | None, Quantity("c_r", "mm", "Clearance that the carriages need under the cylinder", gt=0)
     ] = None
+    standstill_rotation: Annotated[
+        float, Quantity("θ_s", "deg", "Rotation of the cylinder from an end that counts as standstill", gt=0, le=90)
+    ] = 2
     crank_length: Annotated[
         float | None, Quantity("a", "mm", "Length of the crank; with it the forces in the joints", gt=0)
     ] = None

@@ -69,6 +69,12 @@ class GenevaTransport(Inputs):
     gripper_force: Annotated[
         float | None, Quantity("[F_g]", "N", "Force with which the grippers of a sheet hold it, together", gt=0)
     ] = None
+    rest_tolerance: Annotated[
+        float | None,
+        Quantity(
+            "e_r", "mm", "Distance from its place within which the sheet counts as resting; with it that phase", gt=0
+        ),
+    ] = None
     driven_inertia: Annotated[
         float | None,
         Quantity(
