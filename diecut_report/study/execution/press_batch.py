@@ -19,6 +19,7 @@ from diecut_report.contract.inputs import SI, Quantity, flatten
 from diecut_report.engine import Calculation, CurveHandle, Impossible, Unproven, calculate
 from diecut_report.errors import PluginError, Problem
 from diecut_report.expressions import Array
+from diecut_report.quantities.plausible import without_rounding
 from diecut_report.results.press_run import Absent, Run, number
 from diecut_report.study.definition.base_inputs import Input, with_values
 
@@ -107,7 +108,7 @@ class _Rows(Run):
             if self.variants.count == 1:
                 return column[0]
             raise NotOnArrays(calculation.mechanism.kind, f"its text {name} is referred to")
-        return SI(column.astype(float), str(target.unit), target.path)
+        return SI(without_rounding(column.astype(float), str(target.unit)), str(target.unit), target.path)
 
     def _validated(self, name: str, instance: Instance, data: dict[str, Any]) -> bool:
         """Judge the columns by the bounds of their keys; the block then holds arrays that are sound."""
