@@ -145,6 +145,25 @@ def test_a_run_is_not_continued_with_other_code_of_the_same_version(tmp_path: Pa
     assert (out / "study.json").read_bytes() == before and not (out / "variants/part-00000.parquet").exists()
 
 
+def test_a_variant_that_other_code_calculates_is_told(tmp_path: Path) -> None:
+    folder, out = lever(tmp_path / "plugins"), tmp_path / "out"
+    saved(tmp_path, LEVER)
+    study = saved(tmp_path, STUDY.replace("  mechanisms.a.grade: [fine, coarse]\n", ""), "study.yaml")
+    assert run("batch", study, "-o", out, "--plugins", folder).returncode in (0, 1)
+    asked = ("report", f"{out}#1", "-o", tmp_path, "--format", "json", "--plugins", folder)
+    assert "source" not in run(*asked).stderr
+    before = hash_of_lever(folder)
+    saved(folder, (folder / "lever.py").read_text("utf-8") + "\n# other\n", "lever.py")
+    saved(folder, "import sys\n", "extend_laws.py")
+    told, now = run(*asked), run("calc", f"{out}#1", "--plugins", folder, "--quiet")
+    assert told.returncode in (0, 1)
+    words = f"The source of the plugin lever is not what the study was calculated by (SHA-256 {before[:12]} then, "
+    assert f"warning: {words}" in told.stderr and "numbers of this variant may differ" in told.stderr
+    assert "warning: The source of the extension extend_laws is not what" in now.stderr
+    for results in ((tmp_path / "out-1.json").read_text("utf-8"), now.stdout):
+        assert f"# {words}" in json.loads(results)["config"]["source_text"]
+
+
 def test_a_process_with_other_code_than_the_run_calculates_nothing(tmp_path: Path) -> None:
     base, study = saved(tmp_path, LEVER), STUDY.replace("  mechanisms.a.grade: [fine, coarse]\n", "").encode()
     files, plugins = {"press.yaml": base.read_bytes()}, [str(GOOD)]
