@@ -15,6 +15,7 @@ from importlib import import_module
 from pathlib import Path
 from weakref import WeakKeyDictionary
 
+from diecut_report.config.hidden_letters import printable
 from diecut_report.contract.mechanism import Mechanism
 
 PACKAGE = Path(__file__).parents[1]
@@ -24,6 +25,7 @@ DATA = (".json", ".yaml", ".yml", ".csv")  # tables
 CODE = (".py", *DATA)
 
 _of_mechanism: WeakKeyDictionary[Mechanism, str] = WeakKeyDictionary()
+_foreign: WeakKeyDictionary[Mechanism, str] = WeakKeyDictionary()
 _when_loaded: dict[Path, str] = {}  # a module that is loaded stays as it was, whatever becomes of its file
 
 
@@ -40,10 +42,22 @@ def plugin_hash(mechanism: Mechanism | None) -> str:
     return _of_mechanism.get(mechanism, "") if mechanism else ""
 
 
-def note_plugin(mechanism: Mechanism, digest: str) -> None:
-    """Note the hash of the code that a mechanism and its comparisons come from."""
+def plugin_code(mechanism: Mechanism | None) -> dict[str, str]:
+    """Return what results tell of the code of a mechanism's plugin: its hash and, unless it is the program's own, its file."""
+    file = _foreign.get(mechanism, "") if mechanism else ""
+    return {"plugin_sha256": plugin_hash(mechanism)} | ({"plugin_file": file} if file else {})
+
+
+def note_plugin(mechanism: Mechanism, digest: str, foreign: Path | None = None) -> None:
+    """Note the hash of the code that a mechanism and its comparisons come from, and the file of one that is not the program's own.
+
+    Of the file its name is kept, with the folder of a package, and not where it lies: that is the business of its user.
+    """
     for each in (mechanism, *(comparison.mechanism for comparison in mechanism.comparisons)):
         _of_mechanism.setdefault(each, digest)
+        if foreign:
+            name = "/".join(foreign.parts[-2 if foreign.name == "__init__.py" else -1 :])
+            _foreign.setdefault(each, printable(name))
 
 
 def module_hash(file: Path) -> str:

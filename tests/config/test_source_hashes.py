@@ -14,11 +14,14 @@ import pytest
 
 from diecut_report.cli.main import main
 from diecut_report.config.discovery import Discovery
+from diecut_report.config.loader import load_config
 from diecut_report.config.source_hashes import PACKAGE, plugin_hash, program_hash
 from diecut_report.errors import UserError
 from diecut_report.report.rendering import render_html
+from diecut_report.results.document import document
+from diecut_report.results.press_run import compute
 from diecut_report.study.execution import worker
-from tests.configs import GOOD, LEVER, saved
+from tests.configs import GOOD, HEAD, LEVER, SMALL, saved
 from tests.study.studies import STUDY
 
 TELL = "from diecut_report.config.source_hashes import *; import diecut_report; print(program_hash(), diecut_report.__file__)"
@@ -120,6 +123,20 @@ def test_results_and_report_tell_the_hashes(tmp_path: Path, capfd: pytest.Captur
     page = re.sub(r"<[^>]+>", " ", render_html(found))
     for told in (program_hash(), digest, found["program"]["extensions"]["extend_laws"]):
         assert re.search(rf"source\s+{told[:12]}\s", page)
+
+
+def test_a_foreign_plugin_is_named_by_its_file_and_not_by_where_it_lies(tmp_path: Path) -> None:
+    package = tmp_path / "secret place" / "lever"
+    package.mkdir(parents=True)
+    shutil.copy(GOOD / "lever.py", package / "__init__.py")
+    other = saved(tmp_path, LEVER + SMALL.removeprefix(HEAD))
+    for folder, file in ((GOOD, "lever.py"), (tmp_path / "secret place", "lever/__init__.py")):
+        found = document(compute(load_config(other, Discovery([folder])), lambda _: None))
+        digest = found["mechanisms"]["a"]["plugin_sha256"]
+        assert found["mechanisms"]["a"]["plugin_file"] == file and digest
+        assert "plugin_file" not in found["mechanisms"]["clutch"]  # comes with the program
+        page = re.sub(r"\s+", " ", re.sub(r"<[^>]+>", " ", render_html(found)))
+        assert f"{file} source {digest[:12]}" in page and "secret place" not in page + json.dumps(found)
 
 
 def run(*arguments: str | Path) -> subprocess.CompletedProcess[str]:
