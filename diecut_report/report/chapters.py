@@ -41,6 +41,7 @@ def chapter(
         kind=mechanism["kind"],
         version=mechanism.get("plugin_version", ""),
         source_sha256=mechanism.get("plugin_sha256", ""),
+        source_file=mechanism.get("plugin_file", ""),
         status=mechanism["status"],
         error=mechanism.get("error", ""),
     )

@@ -176,6 +176,7 @@ class PrintedChapter:
     version: str
     status: str
     source_sha256: str = ""
+    source_file: str = ""
     error: str = ""
     summary: str = ""
     assumptions: list[str] = field(default_factory=list)

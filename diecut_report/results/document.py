@@ -6,10 +6,11 @@ from collections.abc import Iterator
 from typing import Any
 
 from diecut_report import __version__
+from diecut_report.config.hidden_letters import printable
 from diecut_report.config.instances import Instance
 from diecut_report.config.loader import Config
 from diecut_report.config.model import PRESS, Press
-from diecut_report.config.source_hashes import plugin_hash, program_hash
+from diecut_report.config.source_hashes import plugin_code, program_hash
 from diecut_report.config.validation import declared, keys_of
 from diecut_report.contract.inputs import Block, CurveInput, InOtherUnit, Quantity, TakenWhole, flatten
 from diecut_report.contract.mechanism import Mechanism
@@ -36,7 +37,7 @@ def document(run: Run) -> Data:
         "schema_version": 1,
         "program": {"name": "diecut-report", "version": __version__, **_code(config)},
         "config": {
-            "file": _printable(tree.name.replace("\\", "/").rsplit("/", 1)[-1]),
+            "file": printable(tree.name.replace("\\", "/").rsplit("/", 1)[-1]),
             "sha256": tree.sha256,
             "resolved": resolved(run),
             "source_text": tree.text,
@@ -64,11 +65,6 @@ def _left_out(run: Run) -> Data:
 def _code(config: Config) -> Data:
     """Return the hash of the program's code, and of each extension that was run."""
     return {"source_sha256": program_hash()} | ({"extensions": dict(config.extensions)} if config.extensions else {})
-
-
-def _printable(name: str) -> str:
-    """Return a file's name without what no document can hold: control characters, and bytes that are not UTF-8."""
-    return "".join(letter if letter.isprintable() else "\N{REPLACEMENT CHARACTER}" for letter in name)
 
 
 EMPTY: Data = {
@@ -109,7 +105,7 @@ def _head(kind: str, mechanism: Mechanism | None) -> Data:
         "kind": kind,
         "title": mechanism.title if mechanism else kind,
         "plugin_version": mechanism.version if mechanism else "",
-        "plugin_sha256": plugin_hash(mechanism),
+        **plugin_code(mechanism),
     }
 
 

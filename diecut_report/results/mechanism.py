@@ -9,7 +9,7 @@ from typing import Any, Literal
 
 import numpy as np
 
-from diecut_report.config.source_hashes import plugin_hash
+from diecut_report.config.source_hashes import plugin_code
 from diecut_report.contract.inputs import CurveInput, Quantity, TakenWhole, list_titles
 from diecut_report.contract.mechanism import Profile
 from diecut_report.contract.result_names import ResultName, count_name, pattern, place_name, result_names
@@ -64,7 +64,7 @@ def mechanism_results(calc: Calculation, provenance: Mapping[str, Provenance]) -
         "kind": mechanism.kind,
         "title": mechanism.title,
         "plugin_version": mechanism.version,
-        "plugin_sha256": plugin_hash(mechanism),
+        **plugin_code(mechanism),
         "status": worst(check["status"] for check in checks),
         "summary": mechanism.summary,
         "assumptions": list(mechanism.assumptions),

@@ -25,6 +25,7 @@ from diecut_report.engine.phases import PhaseHandle
 from diecut_report.errors import PluginError, Problem, UserError
 from diecut_report.expressions import Array
 from diecut_report.limits import MAX_COMPARISONS
+from diecut_report.quantities.plausible import without_rounding
 from diecut_report.results.bases import Bases
 from diecut_report.results.comparisons import Found, Uncomparable, compared, found
 from diecut_report.results.mechanism import Origin, Provenance, SelfTestFailed, mechanism_results
@@ -226,11 +227,18 @@ class Run:
         try:
             self.comparisons[case.name] = compared(case, self.calculations)
         except Uncomparable as fault:
-            self.problems.append(Problem(str(fault), self.config.tree.file))
+            self.problems.append(self._uncomparable(fault))
         except (Exception, SystemExit) as cause:
             error = PluginError(said(cause), case.comparison.mechanism.kind, case.name)
             error.__cause__ = cause
             self.errors[case.name] = error
+
+    def _uncomparable(self, fault: Uncomparable) -> Problem:
+        """The problem at the key that the value was given by, or else at the mechanism that gives it."""
+        instance = self.config.instances[fault.instance]
+        assert instance is not None, "a broken mechanism is compared with nothing"
+        is_given = fault.name in instance.data
+        return instance.place.problem((fault.name,) if is_given else (), str(fault), at_key=not is_given)
 
     def _broke(self, instance: Instance, cause: BaseException, words: str = "") -> None:
         self.calculations.pop(instance.name, None)
@@ -289,4 +297,4 @@ def output(calc: Calculation, name: str, target: Target) -> Any:
         return value
     if math.isnan(value):
         raise Absent("does not apply to this machine.")
-    return SI(float(value), str(target.unit), target.path)
+    return SI(float(without_rounding(value, str(target.unit))), str(target.unit), target.path)

@@ -22,6 +22,7 @@ from diecut_report.engine import Calculation, Impossible, Unproven, calculate
 from diecut_report.engine.phases import PhaseHandle
 from diecut_report.errors import PluginError, Problem
 from diecut_report.expressions import Array
+from diecut_report.quantities.plausible import without_rounding
 from diecut_report.results.press_run import Absent, Run, number, output
 from diecut_report.study.definition.base_inputs import Input, with_values
 
@@ -112,7 +113,7 @@ class _Rows(Run):
             if self.variants.count == 1:
                 return column[0]
             raise NotOnArrays(calculation.mechanism.kind, f"its text {name} is referred to")
-        return SI(column.astype(float), str(target.unit), target.path)
+        return SI(without_rounding(column.astype(float), str(target.unit)), str(target.unit), target.path)
 
     def _phase(self, calculation: Calculation, name: str, target: Target) -> PhaseHandle:
         """A phase of all variants; where it is absent that is the variant's reason."""
