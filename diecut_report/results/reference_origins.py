@@ -17,8 +17,9 @@ def with_origins(mechanisms: Data) -> Data:
 
 def _mechanism(mechanisms: Data, name: str) -> Data:
     checks = [_check(mechanisms, name, check) for check in mechanisms[name]["checks"]]
-    told: Data = {"checks": checks, "warnings": [check["message"] for check in checks if check["status"] == "warn"]}
-    return mechanisms[name] | told
+    told = {"checks": checks, "warnings": [check["message"] for check in checks if check["status"] == "warn"]}
+    found: Data = mechanisms[name] | told
+    return found
 
 
 def _check(mechanisms: Data, name: str, check: Data) -> Data:
