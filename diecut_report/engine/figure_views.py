@@ -164,6 +164,8 @@ def _polar(figure: Polar, view: MachineView, head: dict[str, Any]) -> dict[str, 
 
 
 def _group(group: BarGroup, view: MachineView) -> dict[str, Any]:
-    bars = [{"label": label, "value": -view[name[1:]] if name[0] == "-" else view[name]} for label, name in group.bars]
+    bars: list[dict[str, Any]] = [
+        {"label": label, "value": -view[name[1:]] if name[0] == "-" else view[name]} for label, name in group.bars
+    ]
     made = {"label": group.label, "unit": group.unit, "bars": bars}
     return axis_range.declared(made, group.range, view, [(bar["label"], [bar["value"]]) for bar in bars])

@@ -125,7 +125,8 @@ class _Machines:
     """The smooth pieces of some machines, a row each, and the search grid in them; here flags of pieces are taken at each place."""
 
     def __init__(self, calc: Calculation, axis: str, pieces: CachedPieces, own: Array) -> None:
-        self.calc, self.axis, self.own = proxy(calc), axis, own
+        self.calc: Calculation = proxy(calc)
+        self.axis, self.own = axis, own
         self.variant, self.middle = pieces.variant[own], pieces.middle[own]
         self.left, self.right = pieces.left[own], pieces.right[own]
         self.near = APART * np.broadcast_to(calc.domains[axis].period_of(self.variant)[:, 0], len(own))
