@@ -21,6 +21,7 @@ from diecut_report.study import command
 from diecut_report.study.analysis.variant_config import variant_config
 from diecut_report.study.execution import variant_reports
 from tests.configs import EXAMPLES, PLUGINS, saved
+from tests.shared import once
 
 SHARES = PLUGINS / "shares"
 BASE = """\
@@ -55,14 +56,15 @@ reports: [3]
 
 @pytest.fixture(scope="module")
 def out(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    folder = tmp_path_factory.mktemp("study")
-    saved(folder, BASE)
-    study = saved(folder, STUDY, "study.yaml")
-    with pytest.MonkeyPatch.context() as patch:
-        patch.setattr(command, "summarise", lambda _: None)
-        patch.setattr(variant_reports, "FORMATS", ("json",))
-        assert main(["batch", str(study), "-o", str(folder / "out"), "--plugins", str(SHARES), "--quiet"]) in (0, 1)
-    return folder / "out"
+    def make(folder: Path) -> None:
+        saved(folder, BASE)
+        study = saved(folder, STUDY, "study.yaml")
+        with pytest.MonkeyPatch.context() as patch:
+            patch.setattr(command, "summarise", lambda _: None)
+            patch.setattr(variant_reports, "FORMATS", ("json",))
+            assert main(["batch", str(study), "-o", str(folder / "out"), "--plugins", str(SHARES), "--quiet"]) in (0, 1)
+
+    return once(tmp_path_factory, "study_of_shares", make) / "out"
 
 
 def rows(out: Path) -> list[dict[str, Any]]:
