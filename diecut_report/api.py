@@ -33,7 +33,7 @@ from diecut_report.contract.figures import (
     region,
 )
 from diecut_report.contract.inputs import POINTS, Block, CurveInput, FromPress, Inputs, OneOf, Quantity, Text
-from diecut_report.contract.mechanism import Comparison, Erratum, Mechanism, Profile, Source
+from diecut_report.contract.mechanism import Comparison, Erratum, Mechanism, Partner, Profile, Source
 from diecut_report.contract.options import case
 from diecut_report.contract.part_steps import Interpolated, Lookup, Neighbour, Part, Pick, Running, Total
 from diecut_report.contract.placeholders import Curve
@@ -76,7 +76,7 @@ __all__ = [
     "GRAVITY", "POINTS", "Abscissa", "Accumulated", "Annotated", "BarGroup", "Bars", "Binding", "Block", "Bound", "Breakpoints", "ByText",
     "Case", "Chapter", "Chart", "Check", "Choice", "Clash", "Comparison", "Computed", "Constant", "Crossings", "Curve", "CurveInput",
     "CurvePeriod", "Derivative", "Drawing", "Erratum", "Formula", "FromCurve", "FromPress", "Inputs", "Interpolated", "Level", "Lookup",
-    "Mark", "Mechanism", "Neighbour", "OneOf", "Panel", "Part", "Pick", "Plot", "Point", "Polar", "Profile", "Quantity", "Reduction",
+    "Mark", "Mechanism", "Neighbour", "OneOf", "Panel", "Part", "Partner", "Pick", "Plot", "Point", "Polar", "Profile", "Quantity", "Reduction",
     "Require", "Root", "Running", "Series", "Shape", "Source", "Span", "Spectrum", "SpectrumLine", "StandardFault", "StandardSeries",
     "StandardTable", "Step", "Steps", "Text", "Total", "Value", "View", "Words", "arc", "arccos", "arrow", "as_angle", "as_number", "below",
     "bind", "box", "case", "chart_panel", "circle", "dimension", "fill", "formula", "label", "level", "line", "mark", "outward",

@@ -44,6 +44,12 @@ def whole_press() -> dict[str, Any]:
     """The keys of a consistency check that has all that it needs."""
     cylinder = drive(**UNBALANCED, crank_speed="50 rpm", n_points=72)
     load = CurveHandle(cylinder, "crank_torque")
-    keys = TRAIN | {"gears": PAIRS, "torque_curve": load, "torque_mean": 65, "torque_peak": 700, "output_speed": "50 rpm"}
+    keys = TRAIN | {
+        "gears": PAIRS,
+        "torque_curve": load,
+        "torque_mean": 65,
+        "torque_peak": 700,
+        "output_speed": "50 rpm",
+    }
     train = calculate(DRIVE_TRAIN, inputs(DRIVE_TRAIN, keys))
     return TYPED | taken(cylinder, OF_DRIVE) | taken(train, OF_TRAIN)
