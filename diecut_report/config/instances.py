@@ -61,6 +61,12 @@ class Instance:
         self.name, self.model, self.data, self.place, self.mechanism = name, model, data, place, mechanism
         self.bases = bases or {}
         self.without: frozenset[KeyPath] = frozenset()
+        self.derived: frozenset[str] = frozenset()  # inputs taken from partners
+
+    def take(self, found: Mapping[str, str]) -> None:
+        """Take inputs from partners: names, and references that keep no value where a machine does not have what they name."""
+        self.data |= found
+        self.derived = frozenset(found)
 
     def leave_out(self, keys: Iterable[KeyPath]) -> None:
         """Inputs that keep no value, as the press does not give their optional default."""

@@ -98,6 +98,9 @@ class Run:
         except Unavailable:
             return  # the mechanism that needs it is skipped
         except (Absent, Valueless) as fault:
+            if node[1] in instance.derived:  # a partner does not have it: what needs it is not checked
+                self.values[node] = None
+                return
             self.problems.append(instance.place.problem(node[1:], str(fault)))
 
     def _term(self, target: Target) -> Any:

@@ -5,7 +5,9 @@ from __future__ import annotations
 from diecut_report.api import Mechanism
 from diecut_report.plugins.press_consistency import drive, sheet
 from diecut_report.plugins.press_consistency.checks import CHECKS
+from diecut_report.plugins.press_consistency.figures import FIGURES
 from diecut_report.plugins.press_consistency.inputs import PressConsistency
+from diecut_report.plugins.press_consistency.partners import PARTNERS
 
 MECHANISM = Mechanism(
     kind="press_consistency",
@@ -20,6 +22,8 @@ MECHANISM = Mechanism(
     key_results=("step_room", "actual_rate", "crank_inertia_mean", "crank_inertia_max", "slip_heat", "equal_inertia", "way_inner", "way_outer",
                  "motor_torque_rms", "motor_torque_max", "speed_swing", "play_total"),
     checks=CHECKS,
+    figures=FIGURES,
+    partners=PARTNERS,
     assumptions=(
         "What two mechanisms share is judged where both tell it; what only one tells is not checked.",
         "The clutch slips with a constant torque, and its driving side keeps its speed.",

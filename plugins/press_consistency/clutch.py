@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from diecut_report.api import Curve
-from diecut_report.mechanics.timing.engagement import Clutch, Inertia, inertia_at_crank, slip, worst_slip
+from diecut_report.mechanics.timing.engagement import Inertia, SlippingClutch, inertia_at_crank, slip, worst_slip
 from diecut_report.mechanics.timing.legendre_pieces import LegendrePieces, split, unique_edges
 
 Array = NDArray[np.float64]
@@ -18,7 +18,7 @@ INERTIA = ("cylinder_inertia", "cylinder_mass", "cylinder_radius", "static_unbal
 TAKES = ("cylinder_rotation", "cylinder_speed", *INERTIA)
 
 Result = Callable[
-    [Inertia, Array, Clutch, float], float
+    [Inertia, Array, SlippingClutch, float], float
 ]  # of inertia, dead centres, clutch, and the angle of the engagement
 
 
@@ -45,7 +45,7 @@ def _each(rotation: Curve, speed: Curve, numbers: tuple[Array, ...], result: Res
     found = []
     for row, machine in enumerate(np.hstack(numbers)):
         *cylinder, crank_speed, outer, inner, torque, load, over, angle = (float(number) for number in machine)
-        inertia, clutch = _inertia(rotation, speed, cylinder, crank_speed, row), Clutch(torque, load, over)
+        inertia, clutch = _inertia(rotation, speed, cylinder, crank_speed, row), SlippingClutch(torque, load, over)
         found.append(result(inertia, np.array([outer, inner]), clutch, angle) if clutch.net > 0 else np.nan)
     return np.array(found)[:, None]
 

@@ -30,6 +30,21 @@ class PressConsistency(Inputs):
         Quantity("g_s", "mm", "Room that two sheets leave each other in the feed, for grippers and carriage", ge=0),
     ] = None
 
+    cylinder: Annotated[str | None, Text("Mechanism that is the cylinder; without it the only cylinder_sizing")] = None
+    drive: Annotated[str | None, Text("Mechanism that drives it; without it the only cylinder_drive")] = None
+    transport: Annotated[
+        str | None, Text("Mechanism that moves the sheet; without it the only cam_gear_transport or geneva_transport")
+    ] = None
+    conveyor: Annotated[
+        str | None, Text("Mechanism that tells the conveyor's mass; without it the only cam_gear_transport")
+    ] = None
+    wheel: Annotated[
+        str | None, Text("Mechanism that tells the wheel's inertia; without it the only geneva_transport")
+    ] = None
+    train: Annotated[str | None, Text("Mechanism that drives the main shaft; without it the only drive_train")] = None
+    clutch: Annotated[str | None, Text("Clutch on the crank's shaft; without it the only clutch")] = None
+    damper: Annotated[str | None, Text("Dampers at the ends of the travel; without it the only damper")] = None
+
     working_length: Annotated[
         float | None, Quantity("l_1", "mm", "Length that the cylinder unrolls while it cuts", gt=0)
     ] = None

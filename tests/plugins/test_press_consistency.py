@@ -47,7 +47,7 @@ def consistency(keys: dict[str, Any], **changes: Any) -> Calculation:
 
 def verdicts(calculation: Calculation) -> dict[str, str]:
     """The status of each check that is made."""
-    return {check["id"]: check["status"] for check in check_results(calculation) if check["limit"] is not None}
+    return {check["id"]: check["status"] for check in check_results(calculation) if check["status"] != "not_checked"}
 
 
 PRINTED = {  # SI, of the derivation

@@ -44,7 +44,7 @@ def inertia_at_crank(
 
 
 @dataclass(frozen=True)
-class Clutch:
+class SlippingClutch:
     """Hold the torque of a slipping clutch, the load's torque below it (N·m), and the speed of its driving side (rad/s)."""
 
     torque: float
@@ -72,7 +72,7 @@ class Slip:
     equal_inertia: float
 
 
-def slip(inertia: Inertia, dead_centers: Array, clutch: Clutch, engagement_angle: float) -> Slip:
+def slip(inertia: Inertia, dead_centers: Array, clutch: SlippingClutch, engagement_angle: float) -> Slip:
     """Return the engagement from rest at a crank angle (rad).
 
     ``dead_centers`` are the crank angles where the inertia is zero: there the slip has always ended. ValueError where the clutch
@@ -84,7 +84,7 @@ def slip(inertia: Inertia, dead_centers: Array, clutch: Clutch, engagement_angle
     return _told(clutch, engagement_angle, float(driven[0]), float(time[0]))
 
 
-def worst_slip(inertia: Inertia, dead_centers: Array, clutch: Clutch) -> Slip:
+def worst_slip(inertia: Inertia, dead_centers: Array, clutch: SlippingClutch) -> Slip:
     """Return the engagement from rest with the greatest heat, of all crank angles; ValueError as for ``slip``."""
     low, high, places = 0.0, TURN, STARTS + 1
     for _ in range(1 + ZOOMS):
@@ -96,13 +96,13 @@ def worst_slip(inertia: Inertia, dead_centers: Array, clutch: Clutch) -> Slip:
     return slip(inertia, dead_centers, clutch, float(best % TURN))
 
 
-def _told(clutch: Clutch, start: float, driven: float, time: float) -> Slip:
+def _told(clutch: SlippingClutch, start: float, driven: float, time: float) -> Slip:
     lag = clutch.speed * time - driven
     heat = clutch.torque * lag
     return Slip(start, time, driven, lag, heat, 2 * heat * clutch.net / (clutch.torque * clutch.speed**2))
 
 
-def _driven_angles(inertia: Inertia, dead_centers: Array, clutch: Clutch, starts: Array) -> Array:
+def _driven_angles(inertia: Inertia, dead_centers: Array, clutch: SlippingClutch, starts: Array) -> Array:
     """The angle after each start (starts,) at which the driven side first has the speed of the driving side."""
     if clutch.net <= 0:
         raise ValueError(
@@ -125,7 +125,7 @@ def _driven_angles(inertia: Inertia, dead_centers: Array, clutch: Clutch, starts
     return found
 
 
-def _times(inertia: Inertia, clutch: Clutch, starts: Array, driven: Array) -> Array:
+def _times(inertia: Inertia, clutch: SlippingClutch, starts: Array, driven: Array) -> Array:
     """The time of each slip, ∫dφ/ω with φ = start + s²; up to a dead centre the root of the inertia is smooth."""
     ends = np.sqrt(driven)[:, None]
     places = ends * _SHARES

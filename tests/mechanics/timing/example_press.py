@@ -15,7 +15,7 @@ from diecut_report.mechanics import four_bar
 from diecut_report.mechanics.timing.clearance import Station
 from diecut_report.mechanics.timing.engagement import inertia_at_crank
 from diecut_report.mechanics.timing.intervals import Intervals, complement
-from diecut_report.mechanics.timing.lines import Line
+from diecut_report.mechanics.timing.lines import DrivenLine
 from diecut_report.mechanics.timing.torque_sum import Curve, LineCurve
 from diecut_report.results.press_run import compute
 from tests.configs import EXAMPLE
@@ -43,7 +43,7 @@ def phase(name: str, offset: float = 0.0) -> Intervals:
     """A phase on the main shaft over two sheets, its line at an offset (degrees)."""
     turns = SHAFT if name.startswith(("cam", "geneva")) else CRANK
     own = tuple((np.radians(start), np.radians(end)) for start, end in EDGES[name])
-    return Line(turns, np.radians(offset)).on_main_shaft(own, COMMON)
+    return DrivenLine(turns, np.radians(offset)).on_main_shaft(own, COMMON)
 
 
 def dwell(transport: str, offset: float = 0.0) -> Intervals:
@@ -75,7 +75,7 @@ def curve(mechanism: str, name: str) -> tuple[Curve, Array]:
 
 def line_curve(mechanism: str, name: str, turns: Fraction, offset: float = 0.0) -> LineCurve:
     """A curve of a mechanism on its line; the offset in degrees."""
-    return LineCurve(*curve(mechanism, name), Line(turns, np.radians(offset)))
+    return LineCurve(*curve(mechanism, name), DrivenLine(turns, np.radians(offset)))
 
 
 def of(mechanism: str, name: str) -> float:

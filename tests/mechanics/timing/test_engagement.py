@@ -11,10 +11,10 @@ from scipy.integrate import solve_ivp
 from scipy.optimize import minimize_scalar
 
 from diecut_report.mechanics.timing import engagement
-from diecut_report.mechanics.timing.engagement import Clutch
+from diecut_report.mechanics.timing.engagement import SlippingClutch
 from tests.mechanics.timing.example_press import crank_inertia, dead_centers
 
-CLUTCH = Clutch(741.166, 0.0, 5.16475)
+CLUTCH = SlippingClutch(741.166, 0.0, 5.16475)
 INERTIAS = {"unbalanced": crank_inertia, "balanced": partial(crank_inertia, balanced=True)}
 
 
@@ -57,7 +57,7 @@ def test_the_worst_engagement_is_the_printed_one(
 @pytest.mark.parametrize("name", INERTIAS)
 @pytest.mark.parametrize("load", [0.0, 300.0])
 def test_no_other_engagement_is_hotter(name: str, load: float) -> None:
-    clutch = Clutch(741.166, load, 5.16475)
+    clutch = SlippingClutch(741.166, load, 5.16475)
     worst = engagement.worst_slip(INERTIAS[name], dead_centers(), clutch)
 
     def cold(angle: float) -> float:
@@ -77,7 +77,7 @@ def test_no_other_engagement_is_hotter(name: str, load: float) -> None:
 @pytest.mark.parametrize("start", [0.8, 2.0, 4.5, 5.65, 6.2])
 def test_a_slip_is_that_of_an_integration_of_the_motion_in_time(start: float) -> None:
     """The equation of motion I·ω̇ + ½I′·ω² = M, with I′ by differences, from rest until the speeds are equal."""
-    clutch = Clutch(741.166, 120.0, 5.16475)
+    clutch = SlippingClutch(741.166, 120.0, 5.16475)
     found = engagement.slip(crank_inertia, dead_centers(), clutch, start)
 
     def rate(_: float, state: Any) -> list[float]:
@@ -105,7 +105,7 @@ def test_at_a_dead_centre_the_clutch_hardly_slips() -> None:
 
 
 def test_a_constant_inertia_slips_as_the_clutch_of_the_books() -> None:
-    clutch = Clutch(200.0, 50.0, 10.0)
+    clutch = SlippingClutch(200.0, 50.0, 10.0)
     found = engagement.slip(lambda angle: np.full(np.shape(angle), 0.8), np.array([5.0]), clutch, 1.0)
     assert found.time == pytest.approx(0.8 * 10 / 150)
     assert found.heat == pytest.approx(200 * 10 * found.time / 2)
@@ -114,4 +114,4 @@ def test_a_constant_inertia_slips_as_the_clutch_of_the_books() -> None:
 
 def test_a_clutch_below_its_load_is_refused() -> None:
     with pytest.raises(ValueError, match="does not accelerate against a load of 60"):
-        engagement.slip(crank_inertia, dead_centers(), Clutch(50, 60, 5), 1.0)
+        engagement.slip(crank_inertia, dead_centers(), SlippingClutch(50, 60, 5), 1.0)

@@ -10,7 +10,7 @@ from hypothesis import strategies as st
 
 from diecut_report.mechanics.timing import intervals
 from diecut_report.mechanics.timing.intervals import Intervals
-from diecut_report.mechanics.timing.lines import Line, common_period, exact_turns
+from diecut_report.mechanics.timing.lines import DrivenLine, common_period, exact_turns
 from tests.examples import examples
 from tests.mechanics.timing.example_press import COMMON, in_degrees, phase
 
@@ -114,7 +114,7 @@ def test_the_phases_of_the_cylinder_stand_on_the_main_shaft(name: str, expected:
 
 
 def test_an_offset_and_every_second_turn_are_counted_on_the_main_shaft() -> None:
-    line = Line(Fraction(1), 1.0)
+    line = DrivenLine(Fraction(1), 1.0)
     assert line.on_main_shaft(((6.0, 6.5),), COMMON, every=2) == (pytest.approx((7.0, 7.5)),)
     assert line.on_main_shaft(((6.0, 6.5),), COMMON) == (
         pytest.approx((7.0 - 2 * 3.141592653589793, 7.5 - 2 * 3.141592653589793)),

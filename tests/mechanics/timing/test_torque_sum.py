@@ -11,7 +11,7 @@ from scipy.integrate import cumulative_trapezoid
 
 from diecut_report.expressions import Array
 from diecut_report.mechanics.timing import torque_sum
-from diecut_report.mechanics.timing.lines import Line
+from diecut_report.mechanics.timing.lines import DrivenLine
 from diecut_report.mechanics.timing.torque_sum import Consumer, LineCurve
 from tests.mechanics.timing.example_press import COMMON, CRANK, PERIOD, SHAFT, SPEED, TURN, line_curve, of
 
@@ -29,7 +29,7 @@ def geneva() -> Consumer:
 
 
 def friction() -> Consumer:
-    return torque_sum.friction("friction", 5.0, Line(SHAFT))
+    return torque_sum.friction("friction", 5.0, DrivenLine(SHAFT))
 
 
 ROWS = [
@@ -118,7 +118,7 @@ def square(share: Array, middle: Array) -> Array:
 
 
 def test_jumps_losses_and_turns_of_a_line_are_counted_in_closed_form() -> None:
-    line = Line(Fraction(3, 2), 1.0)
+    line = DrivenLine(Fraction(3, 2), 1.0)
     found = torque_sum.torque_sum([Consumer("square", LineCurve(square, np.array([0.5]), line), 0.8)], Fraction(2))
     high, low = 1.5 * 3 / 0.8, -1.5 * 0.8
     figures = found.figures
@@ -133,7 +133,7 @@ def test_a_kink_where_a_torque_changes_its_sign_is_found() -> None:
         return np.sin(TURN * share + 0.3)
 
     found = torque_sum.torque_sum(
-        [Consumer("wave", LineCurve(wave, np.empty(0), Line(SHAFT)), 0.5)], Fraction(1)
+        [Consumer("wave", LineCurve(wave, np.empty(0), DrivenLine(SHAFT)), 0.5)], Fraction(1)
     ).figures
     assert found.mean == pytest.approx((2 - 0.5) / np.pi, rel=1e-9)
     assert found.rms == pytest.approx(np.sqrt((4 + 0.25) / 4), rel=1e-9)
