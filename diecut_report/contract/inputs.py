@@ -99,8 +99,16 @@ class Quantity:
                 raise ValueError(
                     f"is {kind}; a number or a text such as “{f'10 {pretty(self.unit)}'.rstrip()}” is needed"
                 )
-        value = parse_quantity(given, self.unit)
+        value = self._parsed(given)
         return self._bounded(value, f"{given}" if isinstance(given, str) else f"{given} {pretty(self.unit)}")
+
+    def _parsed(self, given: Any) -> float:
+        try:
+            return parse_quantity(given, self.unit)
+        except ValueError as fault:
+            if not self.words:
+                raise
+            raise ValueError(f"{str(fault).removesuffix('.')}; or {', '.join(self.words)}.") from None
 
     def _same_kind(self, other: str, told: str) -> None:
         if unit(other).kind != self.parsed_unit.kind:

@@ -33,6 +33,7 @@ class PhaseForm:
         *spans: tuple[str | float, str | float],
         union: tuple[str, ...] = (),
         rest_of: tuple[str, ...] = (),
+        period: str = "",
         **when: Unpack[StepCondition],
     ) -> None:
         """Declare when the mechanism works, rests, moves or leaves room, over the period of ``abscissa``.
@@ -42,4 +43,5 @@ class PhaseForm:
         that it leaves out.
         """
         own: dict[str, Any] = {"role": role, "abscissa": abscissa, "spans": spans, "union": union, "rest_of": rest_of}
+        own["period"] = period
         self.add(Phase(id=f"{PREFIX}{name}", description=description, **own, **when))

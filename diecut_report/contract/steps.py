@@ -267,7 +267,7 @@ class Phase(Step):
 
     ``role`` is what it does: ``working`` (a tool on the product), ``rest``, ``moving``, ``window`` (room for another part).
     Each of ``spans`` goes from one place to another: ids of numbers, or plain numbers; a place that does not exist for a
-    machine leaves its span out. Instead of them ``union`` names phases that are taken together, or ``rest_of`` those
+    machine leaves its span out. ``period`` is the id of what repeats, where that is not the abscissa's own period. Instead of them ``union`` names phases that are taken together, or ``rest_of`` those
     that leave it the rest of the period.
     """
 
@@ -276,6 +276,7 @@ class Phase(Step):
     spans: tuple[tuple[str | float, str | float], ...] = ()
     union: tuple[str, ...] = ()
     rest_of: tuple[str, ...] = ()
+    period: str = ""
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)

@@ -44,7 +44,7 @@ NUMBER, ROW, CURVE = (
     frozenset({"number", "row", "curve", "abscissa"}),
 )
 CURVE_INPUT = frozenset({"curve input"})
-PLAIN = ROW | {"text", "curve input", "phase", "mechanism", "prepared"}
+PLAIN = ROW | {"text", "curve input", "phase", "mechanism", "prepared", "crossings"}
 SAID = {
     NUMBER: "a single number", ROW: "a number or a row over repeated parts", CURVE: "a number, a row or a curve",
     CURVE_INPUT: "an input declared as a CurveInput",
@@ -127,8 +127,9 @@ def _over(step: Step) -> Iterator[Asked]:
             yield from ((f, getattr(step, f), NUMBER, "") for f in ("start", "lasts") if getattr(step, f))
         case Prepared(holds=holds):
             yield from (("holds", name, PLAIN | {"block"}, "an input or a number") for name in holds)
-        case Phase(abscissa=abscissa, spans=spans):
+        case Phase(abscissa=abscissa, spans=spans, period=period):
             yield "abscissa", abscissa, *axis
+            yield from (("period", period, NUMBER, ""),) if period else ()
             yield from (("an end", end, NUMBER, "") for span in spans for end in span if isinstance(end, str))
         case CurvePeriod(given=given):
             yield "given", given, CURVE_INPUT, ""

@@ -47,7 +47,7 @@ class PhaseHandle(TakenWhole):
 
     def period(self, row: int = 0) -> float:
         """Return the period of its abscissa, SI."""
-        return float(_of_row(self.calculation.domains[self.declared.abscissa].period, row))
+        return period_of(self.calculation, self.declared, row)
 
     def intervals(self, row: int = 0) -> Intervals:
         """Return its intervals, SI; none where the machine does not have it."""
@@ -67,7 +67,7 @@ def intervals(calc: Calculation, name: str, row: int = 0) -> Intervals:
 
 def _intervals(calc: Calculation, known: Mapping[str, Phase], name: str, row: int) -> Intervals:
     step = known[name]
-    period = float(_of_row(calc.domains[step.abscissa].period, row))
+    period = period_of(calc, step, row)
     held = [each for other in (*step.union, *step.rest_of) for each in _intervals(calc, known, other, row)]
     if step.rest_of:
         return complement(merged(held, period), period) if held else ()
@@ -81,6 +81,11 @@ def _counted_on(span: Interval, period: float) -> Interval:
     if abs(end - start) <= TOUCHING * period:
         return start, start
     return (start, end) if end > start else (start, end + period)
+
+
+def period_of(calc: Calculation, step: Phase, row: int = 0) -> float:
+    """Return after which length of its abscissa a phase comes again, SI."""
+    return _of_row(calc[step.period] if step.period else calc.domains[step.abscissa].period, row)
 
 
 def _place(calc: Calculation, place: str | float, row: int) -> float:

@@ -7,7 +7,7 @@ from typing import Any
 from diecut_report.contract.phases import PREFIX
 from diecut_report.contract.steps import Phase
 from diecut_report.engine import Calculation
-from diecut_report.engine.phases import intervals, phases_of, speed_of
+from diecut_report.engine.phases import intervals, period_of, phases_of, speed_of
 from diecut_report.mechanics.timing.intervals import Interval
 from diecut_report.quantities.formatting import shown
 from diecut_report.quantities.units import unit
@@ -27,7 +27,7 @@ def phases(calc: Calculation) -> Data:
                 "role": step.role,
                 "description": step.description,
                 "abscissa": step.abscissa,
-                "period": float(calc.domains[step.abscissa].period[0, 0]),
+                "period": period_of(calc, step),
                 "unit": unit(axis.unit).si,
                 "intervals": [list(interval) for interval in held],
                 "display": {

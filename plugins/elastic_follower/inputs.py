@@ -47,6 +47,12 @@ class ElasticFollower(Inputs):
     damping_ratio: Annotated[
         float, Quantity("ζ", "1", "Damping of the drive as a share of critical damping", ge=0, lt=1)
     ] = 0.05
+    rest_tolerance: Annotated[
+        float | None,
+        Quantity(
+            "e", "deg", "Deflection within which the link counts as resting; with it the settling", gt=0, units=(("mass", "mm"),)
+        ),
+    ] = None
     rise: Annotated[
         float | None,
         Quantity("h", "rad", "Rise of the input, between two rests", gt=0, units=(("mass", "m"),)),

@@ -11,12 +11,17 @@ import numpy as np
 import pytest
 
 from diecut_report.engine import Calculation, calculate
-from diecut_report.engine.phases import intervals, speed_of
+from diecut_report.engine.phases import PhaseHandle, intervals, speed_of
 from diecut_report.expressions import Array
 from diecut_report.plugins.geneva_transport import MECHANISM as GENEVA
+from diecut_report.plugins.knife_drive import MECHANISM as KNIFE_DRIVE
 from diecut_report.results.mechanism import mechanism_results
 from tests.machines import cylinder, drive, inputs, number
 from tests.plugins import steppers
+from tests.plugins.cases import FULL
+from tests.plugins.followers import follower
+from tests.plugins.knives import SHAPES, knife
+from tests.plugins.platens import platen
 
 CONVEYOR = {"sprocket_teeth": 30, "chain_pitch": "19.05 mm", "rest_tolerance": "0.1 mm"}
 
@@ -229,3 +234,73 @@ def test_the_results_hold_intervals_in_si_and_as_they_are_printed() -> None:
     assert phase["intervals"][0] == pytest.approx(np.radians([55.8619, 157.0511]), abs=1e-6)
     told = phase["display"]["intervals"][0]
     assert told == {"from": "55.8619", "to": "157.051", "length": "101.189", "time": "337.3"}
+
+
+# --- the other kinds -----------------------------------------------------------------------------------------------------
+
+
+def edges_of(calc: Calculation, name: str) -> list[float]:
+    """The edges of a phase within its period."""
+    period = PhaseHandle(calc, name).period()
+    return sorted(np.mod(np.ravel(intervals(calc, name)), period))
+
+
+@pytest.mark.parametrize("shape", SHAPES)
+def test_the_circular_knife_cuts_where_it_takes_torque(shape: str) -> None:
+    calc = knife(**SHAPES[shape])
+    expected = edges_by_bisection(lambda place: curve(calc, "torque", place) > 0, 2 * pi)
+    assert edges_of(calc, "cutting") == pytest.approx(expected, abs=1e-7)
+    assert edges_of(calc, "free") == pytest.approx(expected, abs=1e-7)
+
+
+def test_the_platen_opens_for_the_carriages_where_its_travel_leaves_them_room() -> None:
+    calc = platen(carriage_clearance="30 mm")
+    needed = number(calc, "carriage_clearance") + number(calc, "drive_deformation")
+    expected = edges_by_bisection(lambda place: curve(calc, "platen_displacement", place) >= needed, 2 * pi)
+    assert edges_of(calc, "carriage_window") == pytest.approx(expected, abs=1e-7)
+
+
+def test_the_platen_cuts_before_the_dead_centre_and_relaxes_after_it() -> None:
+    calc = platen()
+    stretch, board = number(calc, "drive_deformation"), number(calc, "material_thickness")
+    edges = [
+        edges_by_bisection(lambda place, u=u: curve(calc, "platen_displacement", place) < u, 2 * pi)
+        for u in (stretch, stretch + board)
+    ]
+    assert np.ravel(intervals(calc, "relaxing")) == pytest.approx([0, edges[0][0]], abs=1e-7)
+    assert np.ravel(intervals(calc, "cutting")) == pytest.approx([edges[1][1], 2 * pi], abs=1e-7)
+    assert np.ravel(intervals(calc, "pressing")) == pytest.approx([edges[1][1], edges[0][0] + 2 * pi], abs=1e-7)
+    assert np.ravel(intervals(calc, "open")) == pytest.approx([edges[0][0], edges[1][1]], abs=1e-7)
+
+
+@pytest.mark.parametrize("side", ["outer", "inner"])
+@pytest.mark.parametrize("drive_kind", ["planetary", "crank_slider", "crank_rocker"])
+def test_the_knife_is_below_the_table_where_its_edge_is(drive_kind: str, side: str) -> None:
+    calc = calculate(KNIFE_DRIVE, inputs(KNIFE_DRIVE, FULL["knife_drive"][side]))
+    depth = number(calc, "working_depth")
+
+    def height(place: Array) -> Array:
+        found = curve(calc, f"{drive_kind}_displacement", place)
+        return found - (curve(calc, f"{drive_kind}_displacement", np.array([3 * pi / 2]))[0] if drive_kind == "planetary" else 0.0)
+
+    expected = edges_by_bisection(lambda place: height(place) < depth, 2 * pi)
+    assert edges_of(calc, f"{drive_kind}_below") == pytest.approx(expected, abs=1e-7)
+    assert edges_of(calc, f"{drive_kind}_clear") == pytest.approx(expected, abs=1e-7)
+    ((start, end),) = intervals(calc, f"{drive_kind}_working")
+    assert start % (2 * pi) == pytest.approx(number(calc, f"{drive_kind}_contact_angle") % (2 * pi))
+    assert end - start == pytest.approx(number(calc, f"{drive_kind}_working_angle"))
+
+
+def test_the_driven_link_rests_once_its_deflection_stays_within_the_tolerance() -> None:
+    calc = follower(cycles_per_hour="1800 1/h", rise_time="0.1", rest_tolerance="0.2 deg", dwell_cycles=20)
+    duration, rise = number(calc, "duration"), number(calc, "rise_duration")
+    edges = edges_by_bisection(lambda place: abs(curve(calc, "deflection", place)) > np.radians(0.2), duration, 20_000)
+    assert np.ravel(intervals(calc, "settling")) == pytest.approx([rise, edges[-1]])
+    assert np.ravel(intervals(calc, "moving")) == pytest.approx([0.0, rise])
+    assert np.ravel(intervals(calc, "rest")) == pytest.approx([edges[-1], 2.0])
+
+
+def test_a_link_that_is_not_followed_until_it_rests_tells_no_rest() -> None:
+    found = mechanism_results(follower(cycles_per_hour="1800 1/h", rise_time="0.1", rest_tolerance="0.001 deg", dwell_cycles=2), {})
+    assert set(found["phases"]) == {"moving"}
+    assert mechanism_results(follower(), {})["phases_absent"]["moving"]["missing"] == ["cycles_per_hour"]
