@@ -20,9 +20,11 @@ from diecut_report.contract.steps import (
     Abscissa,
     Accumulated,
     Choice,
+    Computed,
     Crossings,
     Derivative,
     FromCurve,
+    Phase,
     Step,
     Value,
 )
@@ -40,6 +42,8 @@ def axes(steps: tuple[Step, ...], inputs: type[Inputs]) -> dict[str, str]:
                 found[step.id] = step.abscissa
             case Accumulated(of=of) | Derivative(of=of) | Neighbour(of=of) | Running(of=of):
                 found[step.id] = found[of]
+            case Computed(over=over) if over:
+                found[step.id] = over
             case Lookup(by=by) if by in found:
                 found[step.id] = found[by]
             case Value() | Choice():
@@ -175,6 +179,11 @@ class Mechanism:
                 text = isinstance(step, Choice) and isinstance(step.cases[0].value, str)
                 found[step.id] = None if text else si, self.axis_of(step.id, given) is not None
         return found
+
+    def phases_of(self, given: frozenset[str]) -> dict[str, str]:
+        """Return the ids of the phases that take part, each with the SI unit of its abscissa."""
+        units = {step.id: unit(step.unit).si for _, step in self.active(given)}
+        return {step.id: units[step.abscissa] for _, step in self.active(given) if isinstance(step, Phase)}
 
     def axis_of(self, name: str, given: frozenset[str]) -> str | None:
         """Return the abscissa that a quantity runs over, or the list whose parts it has a row for; None for a single number."""
