@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from diecut_report.api import Check, Mechanism, Source
 from diecut_report.plugins.cyclogram import steps
+from diecut_report.plugins.cyclogram.figures import FIGURES
 from diecut_report.plugins.cyclogram.inputs import Cyclogram
 
 MECHANISM = Mechanism(
@@ -29,6 +30,7 @@ MECHANISM = Mechanism(
               unit="mm", demand_label="needed", limit_label="least over the period", source="geometry",
               consequence="a carriage is hit; let the carriages stop elsewhere, lower them, or turn the transport by its offset."),
     ),
+    figures=FIGURES,
     assumptions=(
         "The main shaft turns at constant speed; the lines are rigid and without backlash between them.",
         "Only the interlocks that are given are judged.",

@@ -50,7 +50,11 @@ class ElasticFollower(Inputs):
     rest_tolerance: Annotated[
         float | None,
         Quantity(
-            "e", "deg", "Deflection within which the link counts as resting; with it the settling", gt=0, units=(("mass", "mm"),)
+            "e",
+            "deg",
+            "Deflection within which the link counts as resting; with it the settling",
+            gt=0,
+            units=(("mass", "mm"),),
         ),
     ] = None
     rise: Annotated[

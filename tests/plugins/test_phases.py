@@ -281,7 +281,9 @@ def test_the_knife_is_below_the_table_where_its_edge_is(drive_kind: str, side: s
 
     def height(place: Array) -> Array:
         found = curve(calc, f"{drive_kind}_displacement", place)
-        return found - (curve(calc, f"{drive_kind}_displacement", np.array([3 * pi / 2]))[0] if drive_kind == "planetary" else 0.0)
+        return found - (
+            curve(calc, f"{drive_kind}_displacement", np.array([3 * pi / 2]))[0] if drive_kind == "planetary" else 0.0
+        )
 
     expected = edges_by_bisection(lambda place: height(place) < depth, 2 * pi)
     assert edges_of(calc, f"{drive_kind}_below") == pytest.approx(expected, abs=1e-7)
@@ -301,6 +303,8 @@ def test_the_driven_link_rests_once_its_deflection_stays_within_the_tolerance() 
 
 
 def test_a_link_that_is_not_followed_until_it_rests_tells_no_rest() -> None:
-    found = mechanism_results(follower(cycles_per_hour="1800 1/h", rise_time="0.1", rest_tolerance="0.001 deg", dwell_cycles=2), {})
+    found = mechanism_results(
+        follower(cycles_per_hour="1800 1/h", rise_time="0.1", rest_tolerance="0.001 deg", dwell_cycles=2), {}
+    )
     assert set(found["phases"]) == {"moving"}
     assert mechanism_results(follower(), {})["phases_absent"]["moving"]["missing"] == ["cycles_per_hour"]
