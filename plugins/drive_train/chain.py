@@ -55,7 +55,9 @@ speeds.value("output_speed_error", "Δn", "%", "Deviation of the output's speed 
 turn = Chapter("Torque over a turn of the output shaft",
                text="Carried to the flywheel's shaft, the efficiency follows the direction of power: the losses add where the motor drives and "
                     "take away where the load drives.", needs=("torque_curve",), absent="not calculated: torque_curve is not given")
-turn.abscissa("output_angle", "φ", "deg", "Angle of the output shaft", 2 * np.pi)
+turn.value("curve_angle", "φ_T", "deg", "Angle of the output shaft that the curve of its torque spans",
+           lambda torque_curve_turns: 2 * np.pi * torque_curve_turns, output=False)
+turn.abscissa("output_angle", "φ", "deg", "Angle of the output shaft", "curve_angle")
 turn.from_curve("output_torque", "M", "N*m", "Torque at the output shaft", given="torque_curve", abscissa="output_angle")
 turn.crossings("power_reversal", "φ_r", "deg", "Angle at which the power turns round", of="output_torque")
 turn.breakpoints("losses", "output_angle", "power_reversal")

@@ -58,9 +58,13 @@ class DriveTrain(Inputs):
         CurveInput(
             "M",
             "N*m",
-            "Torque over one turn of the output shaft, negative where the load drives; with it a flywheel is sized",
+            "Torque over one turn of the output shaft (or torque_curve_turns), negative where the load drives; with it a flywheel is sized",
         ),
     ] = None
+    torque_curve_turns: Annotated[
+        int,
+        Quantity("N_t", "1", "Turns of the output shaft that the curve of its torque spans", ge=1, le=64, integer=True),
+    ] = 1
     gears: Annotated[list[GearPair], Text("Gear pairs between the flywheel's shaft and the output shaft")] = []  # noqa: RUF012
     vbelt: Annotated[VBelt, Text("V-belt from the motor to the flywheel's shaft")]
     speed_fluctuation: Annotated[
