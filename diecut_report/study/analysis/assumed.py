@@ -40,7 +40,9 @@ def moves(config: Config, results: Data) -> list[dict[str, Any]]:
 
 
 def _number(config: Config, path: str) -> tuple[Input, float] | None:
-    """An input with its value in the file; None for what is not a single number there, and for whole numbers, which have no tenth."""
+    """An input with its value in the file; None for what is not a single number there (also words, and a time in place of an angle), and
+    for whole numbers, which have no tenth.
+    """
     try:
         asked = find_input(config, path)
     except UnknownPath:
@@ -48,7 +50,8 @@ def _number(config: Config, path: str) -> tuple[Input, float] | None:
     instance = config.instances[asked.instance]
     if instance is None or (asked.instance, *asked.key) in config.links or asked.unit is None or asked.is_integer:
         return None
-    return asked, float(instance.value(asked.key))
+    value = instance.value(asked.key)
+    return (asked, float(value)) if isinstance(value, int | float) else None
 
 
 def _columns(varied: list[tuple[Input, float]]) -> Iterator[tuple[Input, Array]]:
