@@ -12,7 +12,7 @@ from tests.cli.test_cli import HEAD, Capture, run, saved
 
 FREE = HEAD + "  a: {kind: lever, force: 2 kN, arm: 100 mm}\n"
 LIMITED = HEAD + "  a: {kind: lever, force: 2 kN, arm: 100 mm, allowable_moment: 300 N*m}\n"
-CONTRADICTORY = '''
+CONTRADICTORY = """
 from diecut_report.api import Annotated, Chapter, Check, Inputs, Mechanism, Quantity
 
 
@@ -30,8 +30,11 @@ MECHANISM = Mechanism(
     checks=(Check(id="balance", check_class="numerical", title="Balance", demand="residual", limit=1e-6, unit="mm", demand_label="rest",
                   limit_label="accepted", consequence="do not use it."),),
 )
-'''
-CHAIN = HEAD + "  a: {kind: twice, length: 20}\n  b: {kind: twice, length: '${a.doubled}', beside: 40}\n  c: {kind: twice, length: 10}\n"
+"""
+CHAIN = (
+    HEAD
+    + "  a: {kind: twice, length: 20}\n  b: {kind: twice, length: '${a.doubled}', beside: 40}\n  c: {kind: twice, length: 10}\n"
+)
 
 
 def results(config: Path, *more: object) -> tuple[int, dict[str, Any]]:
@@ -71,7 +74,9 @@ def test_page_1_does_not_say_that_all_checks_pass_where_one_is_not_made(tmp_path
     assert "All checks pass" in pages[1] and "not checked" not in pages[1]
 
 
-def test_a_calculation_that_contradicts_itself_is_an_error_and_what_refers_to_it_is_skipped(tmp_path: Path, capfd: Capture) -> None:
+def test_a_calculation_that_contradicts_itself_is_an_error_and_what_refers_to_it_is_skipped(
+    tmp_path: Path, capfd: Capture
+) -> None:
     (tmp_path / "plugins").mkdir()
     (tmp_path / "plugins" / "twice.py").write_text(CONTRADICTORY, encoding="utf-8")
     code, found = results(saved(tmp_path, CHAIN), "--plugins", tmp_path / "plugins")

@@ -484,7 +484,10 @@ def test_all_that_the_method_promises_is_in_the_results() -> None:
 def test_without_further_keys_nothing_of_sheet_and_cams_is_said() -> None:
     results = mechanism_results(stepper(), {})
     assert not any(name.startswith(("sheet_", "cam_", "torque")) for name in (*results["outputs"], *results["curves"]))
-    assert [check["id"] for check in results["checks"] if check["status"] != "not_checked"] == ["return_time", "gear_turn"]
+    assert [check["id"] for check in results["checks"] if check["status"] != "not_checked"] == [
+        "return_time",
+        "gear_turn",
+    ]
     assert results["exports"] == []
 
 

@@ -32,7 +32,9 @@ def test_a_crank_of_five_millimetres_says_what_its_joints_bear_and_that_nobody_l
     ("name", "given", "key", "unit"),
     [("joint_force", JOINTS, "crank_length", "mm"), ("tooth_force", TEETH, "pinion_radius", "mm"), ("acceleration", JERKY, "crank_speed", "rpm")],
 )  # fmt: skip
-def test_a_drive_beyond_its_limit_is_told_a_size_that_keeps_it(name: str, given: dict[str, Any], key: str, unit: str) -> None:
+def test_a_drive_beyond_its_limit_is_told_a_size_that_keeps_it(
+    name: str, given: dict[str, Any], key: str, unit: str
+) -> None:
     message = check(drive(**given), name)["message"]
     told = re.search(rf"{key} of at (?:least|most) ([\d.]+) {unit}", message)
     assert told and check(drive(**given), name)["status"] == "fail"
