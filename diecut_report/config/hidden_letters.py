@@ -34,3 +34,8 @@ def hidden(text: str) -> str:
     """Return the name of a letter that the text of a value may not hold, such as U+001B; "" where there is none."""
     found = HIDDEN.search(text)
     return f"U+{ord(found[0]):04X}" if found else ""
+
+
+def printable(name: str) -> str:
+    """Return a file's name without what no document can hold: control characters, and bytes that are not UTF-8."""
+    return "".join(letter if letter.isprintable() else "\N{REPLACEMENT CHARACTER}" for letter in name)

@@ -44,6 +44,9 @@ class View(Protocol):
     def curve(self, name: str) -> list[float]:
         """Return a curve (or an abscissa) at the samples of the results, SI."""
 
+    def prepared(self, name: str) -> Any:
+        """Return what plain code prepared, by its id."""
+
     def varied(self, inputs: Mapping[str, Any], *names: str) -> dict[str, Array]:
         """Return numbers of the machine calculated again with other inputs (SI; arrays of one length give arrays of it).
 
@@ -128,11 +131,15 @@ class Plot(Figure):
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class Polar(Figure):
-    """Declare curves over an angle, as distance from the pole; negative values are drawn with another line."""
+    """Declare curves over an angle, as distance from the pole; negative values are drawn with another line.
+
+    ``range`` is that of the distance, as in a ``Panel``; without it the pole is zero.
+    """
 
     abscissa: str
     unit: str
     series: tuple[Series, ...]
+    range: Range | None = None
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -144,11 +151,15 @@ class Bars(Figure):
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class BarGroup:
-    """Declare bars of one unit; a bar is a label and the id of its quantity, subtracted ones with ``-ID``."""
+    """Declare bars of one unit; a bar is a label and the id of its quantity, subtracted ones with ``-ID``.
+
+    ``range`` is that of the bars' axis, as in a ``Panel``; without it zero is always shown.
+    """
 
     label: str
     unit: str
     bars: tuple[tuple[str, str], ...]
+    range: Range | None = None
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)

@@ -13,7 +13,7 @@ from diecut_report.contract.figures import Figure
 from diecut_report.contract.inputs import Inputs
 from diecut_report.contract.mechanism import Erratum, Mechanism, Profile, Source
 from diecut_report.contract.part_steps import Lookup, Pick
-from diecut_report.contract.steps import Abscissa, Breakpoints, Case, Choice, Step
+from diecut_report.contract.steps import Abscissa, Breakpoints, Case, Choice, Phase, Step
 from diecut_report.declaration.input_places import of_class
 from diecut_report.declaration.words import Fault, short
 from diecut_report.expressions import Formula
@@ -46,7 +46,7 @@ def faults(mechanism: Mechanism) -> list[Fault]:
 
 
 def _of_mechanism(mechanism: Mechanism) -> Iterator[tuple[str, str]]:
-    """What has another shape, each with its place: of a class that is no Inputs its own, else that of the mechanism."""
+    """What has another shape, each with its place: of a class that is not an Inputs its own, else that of the mechanism."""
     for name in TEXTS:
         if not isinstance(getattr(mechanism, name), str):
             yield mechanism.at, f"has {name}={getattr(mechanism, name)!r}; write a text in quotes"
@@ -69,7 +69,7 @@ def _of_mechanism(mechanism: Mechanism) -> Iterator[tuple[str, str]]:
 
 def _of_step(step: Step) -> Iterator[str]:
     if not ID.fullmatch(step.id):
-        yield "is no id; write letters, digits and underscores"
+        yield "is not an id; write letters, digits and underscores"
     if step.digits < 1:
         yield f"has digits={step.digits!r}; at least one digit is printed"
     yield from _ids(step, "needs", "lacks")
@@ -80,12 +80,22 @@ def _of_step(step: Step) -> Iterator[str]:
             yield f"has intervals={intervals!r}; the search for extremes needs at least 2, usually 32 or 64"
         case Breakpoints() if not _are_texts(step.places):
             yield f'has places={step.places!r}; name them one after another, each an id: "first", "second"'
+        case Phase():
+            yield from _of_spans(step)
         case Choice():
             yield from _of_cases(step)
         case Pick(series=series, by=by):
             yield from _of_series(series, by)
         case Lookup(table=table) if not isinstance(table, StandardTable):
             yield from _of_table(table)
+
+
+def _of_spans(step: Phase) -> Iterator[str]:
+    spans: tuple[Any, ...] = step.spans
+    for span in spans:
+        if not isinstance(span, tuple) or len(span) != 2 or not all(isinstance(end, str | int | float) for end in span):
+            yield f'goes between {span!r}; write a start and an end in brackets: ("begins", "ends")'
+    yield from _ids(step, "union", "rest_of")
 
 
 def _ids(declared: Any, *names: str) -> Iterator[str]:
@@ -116,7 +126,7 @@ def _of_cases(step: Choice) -> Iterator[str]:
         return
     for case in cases:
         if not isinstance(case.words, str):
-            yield 'has a case whose words are no text; write case(value, "why it is taken", condition)'
+            yield 'has a case whose words are not a text; write case(value, "why it is taken", condition)'
         if not isinstance(case.value, str | Binding):
             yield f"has a case of the value {case.value!r}; write a text, or a lambda that gives a number"
         yield from _of_formula(case.value)

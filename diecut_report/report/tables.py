@@ -62,6 +62,28 @@ class Tables:
         ]
         return PrintedTable(self.words.say("curves_over", axis=axis["description"]), columns, rows, self._number())
 
+    def of_phases(self, phases: Data) -> list[PrintedTable]:
+        """When a mechanism does what: a line for each interval, a table for each abscissa."""
+        groups: dict[str, list[Data]] = {}
+        for phase in phases.values():
+            groups.setdefault(phase["abscissa"], []).append(phase)
+        return [self._phases(members) for members in groups.values()]
+
+    def _phases(self, members: list[Data]) -> PrintedTable:
+        display = members[0]["display"]["unit"]
+        keys = ("from", "to", "length")
+        texts = [(self.words[key], Markup(""), "") for key in ("phase", "role")]
+        columns = texts + [(self.words[key], Markup(""), pretty(display)) for key in keys]
+        timed = any("time" in interval for phase in members for interval in phase["display"]["intervals"])
+        columns += [(self.words["time"], Markup(""), "ms")] if timed else []
+        rows = [
+            [phase["description"], self.words[f"role_{phase['role']}"]]
+            + [number(interval[key], self.decimal) for key in (*keys, *(["time"] if timed else []))]
+            for phase in members
+            for interval in phase["display"]["intervals"]
+        ]
+        return PrintedTable(self.words["phases"], columns, rows, self._number())
+
     def _abscissa(self, axis: Data, x: float) -> str:
         return number(f"{to_display(x, axis['display_unit']):.6g}", self.decimal)
 

@@ -169,7 +169,8 @@ def test_a_long_text_is_cut_and_many_problems_are_counted(tmp_path: Path, capfd:
     assert len(told) < 3000 and told.startswith("press.yaml: xxx") and "more letters…]" in told
     keys = ", ".join(f"k{number}: 1" for number in range(3000))
     assert (
-        main(["validate", str(saved(tmp_path, LEVER.replace("force:", f"{keys}, force:"))), "--plugins", str(GOOD)]) == 2
+        main(["validate", str(saved(tmp_path, LEVER.replace("force:", f"{keys}, force:"))), "--plugins", str(GOOD)])
+        == 2
     )
     lines = capfd.readouterr().err.splitlines()
     assert len(lines) == 21 and lines[-1].startswith("2980 more problems")
@@ -180,7 +181,8 @@ def test_90_000_unknown_keys_are_told_soon(tmp_path: Path, capfd: Capture) -> No
     keys = ", ".join(f"k{number}: 1" for number in range(90_000))
     began = time.process_time()
     assert (
-        main(["validate", str(saved(tmp_path, LEVER.replace("force:", f"{keys}, force:"))), "--plugins", str(GOOD)]) == 2
+        main(["validate", str(saved(tmp_path, LEVER.replace("force:", f"{keys}, force:"))), "--plugins", str(GOOD)])
+        == 2
     )
     assert len(capfd.readouterr().err) < 50_000 and time.process_time() - began < 60
 

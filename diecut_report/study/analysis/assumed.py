@@ -11,7 +11,7 @@ import numpy as np
 from diecut_report.config.loader import Config
 from diecut_report.expressions import Array
 from diecut_report.results.assumed import MOVES
-from diecut_report.results.document import governing
+from diecut_report.results.summary import governing
 from diecut_report.study.definition.base_inputs import Input, UnknownPath, find_input
 from diecut_report.study.execution.press_batch import CalculatedVariants, NotOnArrays, calculated
 from diecut_report.study.execution.result_columns import verdicts

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from pathlib import Path
 from typing import Any
 
@@ -12,16 +12,20 @@ from diecut_report.config.yaml_tree import KeyPath, Tree
 from diecut_report.config.yaml_values import Scalar, with_values
 from diecut_report.errors import PluginError, Problem, UserError
 from diecut_report.quantities.formatting import as_given
+from diecut_report.study.analysis.other_code import other_code
 from diecut_report.study.analysis.stored_variants import Stored, StoredColumn, opened
 from diecut_report.study.definition.base_inputs import MECHANISMS
 from diecut_report.study.storage.state import kept
 
 
-def variant_config(directory: Path, variant: int, discovery: Discovery, name: str) -> Tree:
+def variant_config(
+    directory: Path, variant: int, discovery: Discovery, name: str, warn: Callable[[str], None] | None = None
+) -> Tree:
     """Return the configuration of a variant: the study's base with the varied values in it, exactly as they were calculated.
 
-    Problems of it name the base that the folder keeps; ``name`` is what documents call it. UserError in words where the
-    variant is not stored, and with its reason where it cannot be calculated.
+    Problems of it name the base that the folder keeps; ``name`` is what documents call it. What calculates by other code than the
+    study was calculated by is told to ``warn``, and stands above the configuration. UserError in words where the variant is not
+    stored, and with its reason where it cannot be calculated.
     """
     with opened(directory) as stored:
         _refuse_error(stored, variant)
@@ -33,7 +37,12 @@ def variant_config(directory: Path, variant: int, discovery: Discovery, name: st
     }
     values |= dict(_named(base, variant, description.study.file))
     heading = f"Variant {variant} of {description.study.file}: its values are exactly those that were calculated."
-    return with_values(base, values, name, heading)
+    kinds = (str(data.get("kind")) for data in (base.data.get(MECHANISMS) or {}).values())
+    warnings = other_code(description.sources, kinds, discovery)
+    if warn is not None:
+        for words in warnings:
+            warn(words)
+    return with_values(base, values, name, "\n# ".join([heading, *warnings]))
 
 
 def _place(base: Tree, path: KeyPath, discovery: Discovery) -> KeyPath:
