@@ -48,7 +48,8 @@ def _number(config: Config, path: str) -> tuple[Input, float] | None:
     instance = config.instances[asked.instance]
     if instance is None or (asked.instance, *asked.key) in config.links or asked.unit is None or asked.is_integer:
         return None
-    return asked, float(instance.value(asked.key))
+    value = instance.value(asked.key)
+    return (asked, float(value)) if isinstance(value, int | float) else None  # one in another unit is not varied
 
 
 def _columns(varied: list[tuple[Input, float]]) -> Iterator[tuple[Input, Array]]:
