@@ -43,7 +43,7 @@ from diecut_report.contract.inputs import (
     Quantity,
     Text,
 )
-from diecut_report.contract.mechanism import Comparison, Erratum, Mechanism, Profile, Source
+from diecut_report.contract.mechanism import Comparison, Erratum, Mechanism, Partner, Profile, Source
 from diecut_report.contract.options import case
 from diecut_report.contract.part_steps import Interpolated, Lookup, Neighbour, Part, Pick, Running, Total
 from diecut_report.contract.phase_inputs import GivenMechanism, GivenPhase, MechanismInput, PhaseInput
@@ -91,7 +91,7 @@ __all__ = [
     "Case", "Chapter", "Chart", "Check", "Choice", "Clash", "Comparison", "Computed", "Constant", "Crossings", "Curve", "CurveInput",
     "CurvePeriod", "Derivative", "Drawing", "Erratum", "Formula", "FromCurve", "FromPress", "GivenMechanism", "GivenPhase", "InOtherUnit",
     "Inputs", "Interpolated", "Level", "Lookup", "MadeCurve", "Mark", "Mechanism", "MechanismInput", "Neighbour", "OneOf", "Panel", "Part",
-    "Phase", "PhaseInput", "Pick", "Plot", "Point", "Polar", "Profile", "Quantity", "Reduction", "Refusal", "Require", "Root", "Running",
+    "Partner", "Phase", "PhaseInput", "Pick", "Plot", "Point", "Polar", "Profile", "Quantity", "Reduction", "Refusal", "Require", "Root", "Running",
     "Series", "Shape", "Source", "Span", "Spectrum", "SpectrumLine", "StandardFault", "StandardSeries", "StandardTable", "Step", "Steps",
     "Text", "Total", "Value", "View", "Words", "arc", "arccos", "arrow", "as_angle", "as_number", "below", "bind", "box", "case",
     "chart_panel", "circle", "dimension", "fill", "formula", "label", "level", "line", "mark", "outward", "own_series", "own_table",

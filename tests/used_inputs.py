@@ -58,7 +58,7 @@ def many(*figures: Any) -> Mechanism:
     chapter.value("sum", "S", "mm", "Sum", lambda taken, formed, first, second: taken + formed + first + second)
     chapter.value("other", "O", "mm", "Other", lambda taken: 2 * taken, needs=("switch",))
     chapter.total("widths", "W", "mm", "Widths", "sum", of="parts.width")
-    check = Check(id="c", title="C", demand="sum", limit="limited", unit="mm", demand_label="is", limit_label="may be",
+    check = Check(id="c", check_class="strength", title="C", demand="sum", limit="limited", unit="mm", demand_label="is", limit_label="may be",
                   consequence="make it less than {said}")  # fmt: skip
     return Mechanism(kind="many", version="1", title="Many", summary="Many.", inputs=Many, chapters=(chapter,), checks=(check,),
                      figures=figures)  # fmt: skip

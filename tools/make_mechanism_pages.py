@@ -41,8 +41,10 @@ def page(mechanism: Mechanism) -> Iterator[str]:
     yield from _table("id", "symbol", "unit", "meaning", "source", "needs")
     yield from _outputs(mechanism)
     yield "\n## Checks\n"
-    yield from _table("id", "demanded", "limited by", "source")
-    yield from (f"| `{c.id}` | {c.demand_label} | {c.limit_label} | {c.source} |" for c in mechanism.checks)
+    yield from _table("id", "class", "demanded", "limited by", "source")
+    yield from (
+        f"| `{c.id}` | {c.check_class} | {c.demand_label} | {c.limit_label} | {c.source} |" for c in mechanism.checks
+    )
     yield "\n## Assumptions\n"
     yield from (f"- {text}" for text in mechanism.assumptions)
     yield "\n## Errata of the sources\n"

@@ -1,8 +1,8 @@
 """The command line: commands, exit codes, and all that is printed.
 
-Exit codes: 0 all checks pass, 1 a check fails, 2 bad input or usage (nothing is written), 3 a plugin broke,
-74 what was asked for could not be written, 130 interrupted, 70 a fault of the program itself. Messages that standard error
-does not take are lost; that changes no code.
+Exit codes: 0 no check fails, 1 a check fails (with --strict also a warning, or a check that is not made), 2 bad input or
+usage (nothing is written), 3 a plugin broke, 74 what was asked for could not be written, 130 interrupted, 70 a fault of the
+program itself. Messages that standard error does not take are lost; that changes no code.
 """
 
 from __future__ import annotations
@@ -15,22 +15,21 @@ import traceback
 from collections.abc import Sequence
 from contextlib import redirect_stdout, suppress
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, NoReturn
+from typing import TYPE_CHECKING, NoReturn
 
 import click
 
 from diecut_report import __version__
+from diecut_report.cli import verdict
+from diecut_report.cli.checking import check, validate
 from diecut_report.cli.output import (
     BAD_INPUT,
-    CHECK_FAILED,
     FAULT,
     INTERRUPTED,
     PASSED,
     PLUGIN_BROKE,
     UNWRITABLE,
     HelpfulGroup,
-    Line,
-    coloured,
     common,
     emit,
     open_streams,
@@ -145,19 +144,27 @@ config_argument = click.argument("config", type=click.Path(path_type=Path))
 @click.option(
     "--language", metavar="LANGUAGE", callback=_language, help="Language of the report, in place of the project's."
 )
+@verdict.strict_option
 @common
 def report(
-    config: Path, folder: Path, formats: list[str], language: str | None, folders: tuple[Path, ...], quiet: bool
+    config: Path,
+    folder: Path,
+    formats: list[str],
+    language: str | None,
+    strict: bool,
+    folders: tuple[Path, ...],
+    quiet: bool,
 ) -> int:
     """Calculate and write NAME.html, NAME.pdf and NAME.json."""
     from diecut_report import pipeline
+    from diecut_report.study.analysis.assumed import moves
 
     with Progress(quiet) as progress, redirect_stdout(sys.stderr):
         discovery = Discovery(folders)
-        outcome = pipeline.report(source(config, discovery), discovery, progress, folder, formats, language)
+        outcome = pipeline.report(source(config, discovery), discovery, progress, folder, formats, language, moves)
     if not quiet:
         tell(f"written: {path}" for path in outcome.written)
-    return _verdict(outcome, quiet)
+    return _verdict(outcome, quiet, strict)
 
 
 @program.command()
@@ -165,8 +172,9 @@ def report(
 @click.option(
     "-o", "target", metavar="FILE", type=click.Path(path_type=Path), help="Write to a file, not to standard output."
 )
+@verdict.strict_option
 @common
-def calc(config: Path, target: Path | None, folders: tuple[Path, ...], quiet: bool) -> int:
+def calc(config: Path, target: Path | None, strict: bool, folders: tuple[Path, ...], quiet: bool) -> int:
     """Calculate, and give the results file alone."""
     from diecut_report import pipeline
 
@@ -177,29 +185,7 @@ def calc(config: Path, target: Path | None, folders: tuple[Path, ...], quiet: bo
         outcome, text = pipeline.calc(source(config, discovery), discovery, progress, to_file)
     if to_file is None:
         emit(text)
-    return _verdict(outcome, quiet or to_file is None)
-
-
-@program.command()
-@click.argument("configs", metavar="CONFIG…", nargs=-1, required=True, type=click.Path(path_type=Path))
-@common
-def check(configs: tuple[Path, ...], folders: tuple[Path, ...], quiet: bool) -> int:
-    """Validate without calculating; all problems of all files are reported."""
-    from diecut_report import pipeline
-
-    discovery, codes = Discovery(folders), []
-    for config in configs:
-        try:
-            with redirect_stdout(sys.stderr):
-                broken = pipeline.check(config, discovery)
-            tell(str(error) if len(configs) == 1 else f"{config}: {error}" for error in broken)
-            codes.append(PLUGIN_BROKE if broken else PASSED)
-        except UserError as error:
-            tell_problems(error.problems)
-            codes.append(BAD_INPUT)
-        if codes[-1] == PASSED and not quiet:
-            tell([f"{config}: valid"])
-    return BAD_INPUT if BAD_INPUT in codes else max(codes)
+    return _verdict(outcome, quiet or to_file is None, strict)
 
 
 @program.command()
@@ -252,6 +238,8 @@ def schema(kind: str | None, folders: tuple[Path, ...], quiet: bool) -> int:
     return PLUGIN_BROKE if broken else PASSED
 
 
+program.add_command(validate)
+program.add_command(check)
 program.add_command(batch)
 program.add_command(variants)
 
@@ -259,34 +247,8 @@ program.add_command(variants)
 # --- verdict ---------------------------------------------------------------------------------------------------------
 
 
-def _verdict(outcome: ReportOutcome, quiet: bool) -> int:
+def _verdict(outcome: ReportOutcome, quiet: bool, strict: bool) -> int:
     tell(str(error) for error in outcome.broken)
     if not quiet:
-        tell(_summary(outcome.results))
-    if outcome.broken:
-        return PLUGIN_BROKE
-    return CHECK_FAILED if outcome.results["status"] == "fail" else PASSED
-
-
-def _summary(results: dict[str, Any]) -> list[Line]:
-    """The checks that do not pass, in words, the worst first; or that all pass."""
-    lines: list[tuple[int, Line]] = []
-    for name, data in results["mechanisms"].items():
-        if data["status"] == "skipped":
-            lines.append((2, (coloured("skipped", "skipped"), f" {name}: {data['error']}")))
-        for made in data["checks"]:
-            if made["status"] != "pass":
-                rank = ("fail", "warn").index(made["status"])
-                told = f" {name}: {made['title']}. {made['message']}"
-                lines.append((rank, (coloured(made["status"], made["status"]), told)))
-    count = sum(len(data["checks"]) for data in results["mechanisms"].values())
-    failed = sum(rank == 0 for rank, _ in lines)
-    calculated = [*results["mechanisms"].values(), *results.get("comparisons", {}).values()]
-    lost = sum("error" in data for data in calculated)
-    calculations = "mechanisms and comparisons" if "comparisons" in results else "mechanisms"
-    passed = coloured("No check fails.", "pass") if count else "There are no checks."
-    if lost:
-        passed = f"{lost} of {len(calculated)} {calculations} were not calculated."
-    note = [results["comparisons_left_out"]["message"]] if "comparisons_left_out" in results else []
-    verdict = f"{failed} of {count} checks fail." if failed else passed
-    return [line for _, line in sorted(lines, key=lambda pair: pair[0])] + note + [verdict]
+        tell(verdict.told(outcome.results))
+    return verdict.exit_code(outcome.results, is_broken=bool(outcome.broken), is_strict=strict)

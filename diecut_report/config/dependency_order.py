@@ -16,7 +16,7 @@ def ordered(instances: Mapping[str, Instance | None], links: Mapping[Node, Targe
     while True:
         sorter: TopologicalSorter[Node] = TopologicalSorter({(name,): () for name in instances})
         for node, target in kept.items():
-            sorter.add(node, target.node)
+            sorter.add(node, *(single.node for single in target.single))
             sorter.add(node[:1], node)
         try:
             return list(sorter.static_order()), problems
@@ -29,10 +29,15 @@ def ordered(instances: Mapping[str, Instance | None], links: Mapping[Node, Targe
 
 
 def _loop_problem(instances: Mapping[str, Instance | None], links: Mapping[Node, Target], loop: list[Node]) -> Problem:
-    shown = [".".join(map(str, node)) if len(node) > 1 else links[before].path
+    shown = [".".join(map(str, node)) if len(node) > 1 else _path(links[before], node)
              for before, node in zip([loop[-1], *loop], loop, strict=False)]  # fmt: skip
     instance = instances[str(loop[0][0])]
     assert instance is not None, "a mechanism without a model has no links"
     told = [text for before, text in zip(["", *shown], [*shown, shown[0]], strict=True) if text != before]
     message = f"refers to itself: {' → '.join(told if len(told) > 1 else 2 * told)}. Give one of these inputs a value of its own."
     return instance.place.problem(loop[0][1:], message)
+
+
+def _path(link: Target, node: Node) -> str:
+    """The path by which a link names a calculation."""
+    return next(single.path for single in link.single if single.node == node)

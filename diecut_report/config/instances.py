@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from functools import cached_property
 from typing import Any
 
+from diecut_report.config.basis import Basis
 from diecut_report.config.validation import ConfigPlace, keys_of
 from diecut_report.config.yaml_tree import KeyPath
 from diecut_report.contract.chapters import Chapter
@@ -54,10 +55,18 @@ class Instance:
     """A mechanism of the config, or the press (which has no calculation)."""
 
     def __init__(
-        self, name: str, model: type[Block], data: dict[str, Any], place: ConfigPlace, mechanism: Mechanism | None
-    ) -> None:
+        self, name: str, model: type[Block], data: dict[str, Any], place: ConfigPlace, mechanism: Mechanism | None,
+        bases: Mapping[KeyPath, Basis] | None = None,
+    ) -> None:  # fmt: skip
         self.name, self.model, self.data, self.place, self.mechanism = name, model, data, place, mechanism
+        self.bases = bases or {}
         self.without: frozenset[KeyPath] = frozenset()
+        self.derived: frozenset[str] = frozenset()  # inputs taken from partners
+
+    def take(self, found: Mapping[str, str]) -> None:
+        """Take inputs from partners: names, and references that keep no value where a machine does not have what they name."""
+        self.data |= found
+        self.derived = frozenset(found)
 
     def leave_out(self, keys: Iterable[KeyPath]) -> None:
         """Inputs that keep no value, as the press does not give their optional default."""

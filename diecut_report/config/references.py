@@ -11,11 +11,15 @@ from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from typing import Any
 
+from diecut_report.conditions.arithmetic import Expression, read_expression
+from diecut_report.conditions.parts import Name
+from diecut_report.conditions.words import ConditionError
+from diecut_report.config.hidden_letters import seeming_latin
 from diecut_report.config.instances import Instance, Slot, default_of, slots
 from diecut_report.config.model import PRESS
 from diecut_report.config.validation import declared
 from diecut_report.config.yaml_tree import KeyPath
-from diecut_report.contract.inputs import CurveInput, FromPress, MechanismInput, Quantity, fields
+from diecut_report.contract.inputs import Block, CurveInput, FromPress, MechanismInput, Meta, Quantity, fields
 from diecut_report.contract.result_names import count_name, has_own_names, named, names_ahead
 from diecut_report.errors import Problem, nearest
 from diecut_report.expressions import Formula
@@ -29,7 +33,10 @@ Node = KeyPath  # (instance,) is its calculation, (instance, key, …) one of it
 
 @dataclass(frozen=True)
 class Target:
-    """What a reference stands for: an output (``result``) or an input (``key``) of an instance."""
+    """What a reference stands for: an output (``result``) or an input (``key``) of an instance.
+
+    An expression stands for what is calculated from its ``terms``, the targets of its references; ``path`` is its text.
+    """
 
     path: str
     instance: str
@@ -40,17 +47,33 @@ class Target:
     is_default: bool = False  # not written by the user: the press's field that stands in for an absent input
     formula: Formula | None = None
     is_broken: bool = False  # the plugin of what it refers to cannot be loaded
+    expression: Expression | None = None
+    terms: tuple[Target, ...] = ()
     phase_unit: str | None = None  # of a phase: the SI unit of what it runs over
     is_mechanism: bool = False  # it stands for the mechanism as a whole
 
     @property
     def node(self) -> Node:
-        """What must be known before."""
+        """What must be known before what a single reference stands for."""
         return (self.instance,) if self.result is not None or self.is_broken else (self.instance, *self.key)
+
+    @property
+    def single(self) -> tuple[Target, ...]:
+        """The single references: those of an expression, or itself."""
+        return self.terms if self.expression else (self,)
+
+    @property
+    def told(self) -> str:
+        """What messages call it."""
+        return f"“{self.path}”" if self.expression else f"${{{self.path}}}"
 
 
 class Unresolved(LookupError):
     """A reference that stands for nothing, in words."""
+
+
+class _BrokenTerm(Exception):
+    """Stand for an expression that refers to a mechanism whose plugin cannot be loaded."""
 
 
 class Linker:
@@ -83,10 +106,54 @@ class Linker:
                 continue
             node = (instance.name, *key)
             try:
-                self.links[node] = self._within_curve(instance, key, self.target(text))
-            except Unresolved as fault:
+                calculated = self._calculated(instance, key, text)
+                self.links[node] = calculated or self._within_curve(instance, key, self.target(text))
+            except (Unresolved, ConditionError) as fault:
                 self.unresolved.add(node)
-                self.problems.append(instance.place.problem(key, str(fault)))
+                place = fault.place if isinstance(fault, ConditionError) else None
+                words = fault.words if isinstance(fault, ConditionError) else str(fault)
+                self.problems.append(instance.place.problem(key, words, within=place))
+
+    def _calculated(self, instance: Instance, key: KeyPath, text: str) -> Target | None:
+        """What an expression stands for, in the unit of its key; None for a single reference, and a text around one."""
+        meta = _wanted(instance, key)
+        if (
+            WHOLE.fullmatch(text.strip())
+            or not WHOLE.search(text)
+            or not isinstance(meta, Quantity | CurveInput | None)
+        ):
+            return None
+        if isinstance(meta, CurveInput) and declared(instance.model, key):
+            raise Unresolved(f"“{text.strip()}” calculates a number; a curve is needed here, and is referred to whole")
+        terms: dict[str, Target] = {}
+        try:
+            found = read_expression(text, lambda name: self._term(name, terms))
+        except _BrokenTerm:
+            return next(term for term in terms.values() if term.is_broken)
+        if meta and (fault := found.refused(meta.unit)):
+            raise Unresolved(fault)
+        si = unit(meta.unit).si if meta else "1"
+        return Target(found.text, "", unit=si, expression=found, terms=tuple(terms[name] for name in found.names))
+
+    def _term(self, name: str, terms: dict[str, Target]) -> Name:
+        """What a reference within an expression is: a single number."""
+        try:
+            target = terms[name] = self.target(name)
+        except Unresolved as fault:
+            raise ConditionError(str(fault)) from None
+        if target.is_broken:
+            raise _BrokenTerm
+        if target.is_curve:
+            raise ConditionError(f"{name} is a curve; single numbers are needed to calculate with.")
+        if target.unit is None:
+            raise ConditionError(f"{name} is not a number; numbers and quantities are needed to calculate with.")
+        meta = declared(self._of(target).model, target.key) if target.key else None
+        return Name(name, "number", target.unit, meta.unit if isinstance(meta, Quantity) else "")
+
+    def _of(self, target: Target) -> Instance:
+        instance = self.instances[target.instance]
+        assert instance is not None, "a target without a model is marked as broken"
+        return instance
 
     def _within_curve(self, instance: Instance, key: KeyPath, target: Target) -> Target:
         """The values of a curve given as a list are not inputs of their own, so their kind is judged here."""
@@ -131,6 +198,8 @@ class Linker:
         path = match[1].strip()
         name, *rest = path.split(".")
         if name not in self.instances:
+            if seeming := seeming_latin(name):
+                raise Unresolved(f"${{{path}}}: {seeming}")
             near = nearest(name, self.instances)
             raise Unresolved(f"${{{path}}}: there is no mechanism {name!r}{near}. Known: {', '.join(self.instances)}.")
         instance = self.instances[name]
@@ -216,6 +285,13 @@ class Linker:
         known = _known(instance)
         near = nearest(name, known)
         return f"${{{path}}}: {instance.name} has no {name!r}{near}." + ("" if near else f" Known: {', '.join(known)}.")
+
+
+def _wanted(instance: Instance, key: KeyPath) -> Meta | type[Block] | None:
+    """What stands at a key: the declaration of the input, or of the curve that the value is listed in."""
+    found = declared(instance.model, key)
+    listed = declared(instance.model, key[:-1]) if found is None and len(key) > 1 else None
+    return listed if isinstance(listed, CurveInput) else found
 
 
 def _known(instance: Instance) -> list[str]:

@@ -6,6 +6,7 @@ from collections.abc import Mapping
 from functools import partial
 from typing import Any, get_args
 
+from diecut_report.config.basis import BASES
 from diecut_report.config.loader import NAME, RESERVED
 from diecut_report.config.model import Press, Project
 from diecut_report.config.validation import keys_of
@@ -18,7 +19,11 @@ from diecut_report.quantities.units import pretty
 Schema = dict[str, Any]
 DRAFT = "https://json-schema.org/draft/2020-12/schema"
 REFERENCE = r"^\s*\$\{[^${}]+\}\s*$"
-NUMBER = r"^\s*[-+−]?(\d+\.?\d*|\.\d+)([eE][-+]?\d+)?(\s*[^\s\d.,].*|\s+1/.*)?$"
+EXPRESSION = (  # references, numbers with and without unit, functions, signs; a reference among them
+    r"^(?=.*\$\{)\s*(?:(?:\$\{[^${}]+\}|(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?(?![\d.])(?:\s*(?:1/)?[^\s\d.,+*/()^${}−-][^\s,+()${}−-]*)?"
+    r"|(?:abs|max|min|sqrt)\s*\(|[-+*/^(),−])\s*)+$"
+)
+NUMBER = r"^\s*[-+−]?(\d+\.?\d*|\.\d+)([eE][-+]?\d+)?(\s*[^\s\d.,$][^$]*|\s+1/[^$]*)?$"
 BOUNDS = {"gt": "exclusiveMinimum", "ge": "minimum", "lt": "exclusiveMaximum", "le": "maximum"}
 
 
@@ -136,7 +141,23 @@ def _curve(meta: CurveInput) -> Schema:
         "items": {"type": ["number", "string"]},
     }
     allowed = [_reference()] if meta.referred else [_reference(), values]
-    return {"description": f"{meta.description}. Unit: {in_all_units(meta, _unit)}. {ways}.", "anyOf": allowed}
+    said = f"{meta.description}. Unit: {in_all_units(meta, _unit)}. {ways}."
+    return {"description": said, "anyOf": [*allowed, _stated(allowed)]}
+
+
+def _stated(allowed: list[Schema]) -> Schema:
+    """A quantity as a block, with what it rests on."""
+    return {
+        "type": "object",
+        "description": "The value with what it rests on.",
+        "required": ["value"],
+        "additionalProperties": False,
+        "properties": {
+            "value": {"anyOf": allowed},
+            "basis": {"enum": list(BASES), "description": "What the value rests on."},
+            "note": {"type": "string", "maxLength": MAX_TEXT, "description": "Where it comes from; printed beside it."},
+        },
+    }
 
 
 def _unit(meta: Quantity | CurveInput) -> str:
@@ -158,9 +179,12 @@ def _quantity(meta: Quantity, default: Any, refers: bool) -> Schema:
     said += [f"Or: {', '.join(meta.words)}"] if meta.words else []
     said += [f"Default: from {meta.press.path}"] if meta.press else []
     number = {"type": "integer" if meta.integer else "number", **limits}
-    text = {"type": "string", "maxLength": MAX_TEXT, "pattern": f"{REFERENCE}|{NUMBER}" if refers else NUMBER}
+    text = {"type": "string", "maxLength": MAX_TEXT, "pattern": f"{EXPRESSION}|{NUMBER}" if refers else NUMBER}
     words = [{"enum": list(meta.words)}] if meta.words else []
-    return {"description": ". ".join(said) + ".", "anyOf": [number, *words, text]}
+    return {
+        "description": ". ".join(said) + ".",
+        "anyOf": [number, *words, text, *([_stated([number, text])] if refers else [])],
+    }
 
 
 def _text(annotation: Any) -> Schema:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Callable, Container, Iterator, Mapping
 from dataclasses import dataclass, field, replace
 from functools import cache
@@ -30,16 +31,24 @@ class ConfigPlace:
 
     def path(self, key: KeyPath) -> KeyPath:
         """The path in the file of a key below this block."""
-        return (*self.root, *self.listed.get(key, key))
+        return (*self.root, *self.inner(key))
+
+    def inner(self, key: KeyPath) -> KeyPath:
+        """The path below this block; what stands in a value that is listed elsewhere stands there."""
+        for length in range(len(key), 0, -1):
+            if key[:length] in self.listed:
+                return (*self.listed[key[:length]], *key[length:])
+        return key
 
     def typed(self, key: KeyPath) -> Any:
         """What was typed there."""
         return self.tree.typed(self.path(key))
 
-    def problem(self, key: KeyPath, message: str, *, at_key: bool = False) -> Problem:
-        """A problem of the value at ``key`` below this block (or of the key itself)."""
+    def problem(self, key: KeyPath, message: str, *, at_key: bool = False, within: int | None = None) -> Problem:
+        """A problem of the value at ``key`` below this block (or of the key itself, or of a letter ``within`` its text)."""
         path = self.path(key)
         line, column = self.tree.key_position(path) if at_key else self.tree.position(path)
+        column += self.tree.offset(path, within) if within else 0
         return Problem(message, self.tree.file, line, column, ".".join(map(str, path)))
 
     def absent(self, key: KeyPath, message: str) -> Problem:
@@ -180,6 +189,9 @@ class _Fault:
     def _unknown_key(self) -> str:
         home = declared(self.model, self.key[:-1]) if len(self.key) > 1 else self.model
         known = list(home.model_fields) if isinstance(home, type) else []
+        if self.given is None and re.match(r"\d", str(self.key[-1])):
+            words = "YAML parts entries within braces at each comma; write a decimal point, as in {gap: 0.5 mm}"
+            return f"is what a decimal comma leaves behind it: {words}."
         own = ["kind"] if self.place.root[:1] == ("mechanisms",) and len(self.key) == 1 else []
         return f"is an unknown key{nearest(str(self.key[-1]), known)}. Known keys: {', '.join(own + known)}."
 

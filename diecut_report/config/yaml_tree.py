@@ -91,6 +91,13 @@ class Tree:
             return nodes[-2].key_positions.get(path[-1], nodes[-1].position)
         return nodes[-1].position
 
+    def offset(self, path: KeyPath, letter: int) -> int:
+        """Columns from the beginning of the text at `path` to one of its letters; 0 where the text is not written in one piece."""
+        line, column = self.position(path)
+        written, text = self.text.splitlines()[line - 1][column - 1 :], self.typed(path) or ""
+        quoted = written[:1] in "\"'"
+        return letter + quoted if written.startswith(text, quoted) else 0
+
     def typed(self, path: KeyPath) -> str | None:
         """The scalar at `path` as typed, without quotes; None for a dict, a list, or what is not there."""
         nodes = self._walk(path)
@@ -155,8 +162,9 @@ def _explained(error: Any, line: str) -> str:
         return "a second colon or a wrong indentation. Align keys of one block; put text that holds ': ' in quotes."
     begin = f" that begins in line {error.context_mark.line + 1}" if error.context_mark else ""
     said = f"{error.problem} {error.context}{begin}" if error.context else error.problem
-    if "${" in line:
-        return f'{said}. Within braces or brackets put references in quotes: "${{…}}".'
+    if "${" in line and "flow" in (error.context or ""):
+        why = "a reference stands within braces or brackets without quotes, and YAML reads its brace as a map"
+        return f'{why}. Put it in quotes: "${{…}}".'
     return f"{said}. Check quotes, brackets and indentation here and just above."
 
 

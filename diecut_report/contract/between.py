@@ -1,13 +1,15 @@
-"""A formula that runs straight between the rows of a table: it computes by the whole table and prints one piece of it."""
+"""A formula that runs between the rows of a table, straight on axes that are linear or logarithmic: it computes by the whole
+table and prints one piece of it."""
 
 from __future__ import annotations
 
-from typing import Any
+from typing import Any, Literal
 
 import numpy as np
 
 from diecut_report.contract.place import Misdeclared
-from diecut_report.expressions import Array, Constant, Formula, Node, Reading, formula
+from diecut_report.errors import nearest
+from diecut_report.expressions import Array, Constant, Formula, Node, Reading, formula, substitute
 from diecut_report.quantities.units import unit
 from diecut_report.standards import Column, StandardFault, StandardTable
 
@@ -18,23 +20,51 @@ def difference(x: Any, row: Any) -> Any:
     return x - row
 
 
+@formula
+def _linear(x: Any, x_1: Any, y_1: Any, x_2: Any, y_2: Any) -> Any:
+    return y_1 + (y_2 - y_1) * (x - x_1) / (x_2 - x_1)
+
+
+@formula
+def _log_x(x: Any, x_1: Any, y_1: Any, x_2: Any, y_2: Any) -> Any:
+    return y_1 + (y_2 - y_1) * np.log(x / x_1) / np.log(x_2 / x_1)
+
+
+@formula
+def _log_y(x: Any, x_1: Any, y_1: Any, x_2: Any, y_2: Any) -> Any:
+    return y_1 * (y_2 / y_1) ** ((x - x_1) / (x_2 - x_1))
+
+
+@formula
+def _log_log(x: Any, x_1: Any, y_1: Any, x_2: Any, y_2: Any) -> Any:
+    return y_1 * (x / x_1) ** (np.log(y_2 / y_1) / np.log(x_2 / x_1))
+
+
+Interpolation = Literal["linear", "log-x", "log-y", "log-log"]
+LINES: dict[Interpolation, Formula] = {"linear": _linear, "log-x": _log_x, "log-y": _log_y, "log-log": _log_log}
+"""The straight line through two rows; x, across, is what the rows go by."""
+LOGARITHMIC: dict[Interpolation, tuple[int, ...]] = {"linear": (), "log-x": (0,), "log-y": (1,), "log-log": (0, 1)}
+"""Which columns stand on logarithmic axes, and must be above zero."""
+
+
 class Between(Formula):
     """Declare the value of a column at ``x``, which the table's rows go by; beyond its ends it goes on as in the last piece.
 
     ``x`` and ``y`` are the two columns in SI.
     """
 
-    def __init__(self, table: StandardTable, column: str, name: str) -> None:
+    def __init__(self, table: StandardTable, column: str, name: str, interpolation: Interpolation = "linear") -> None:
         try:
             self.columns = _columns(table, column)
+            self.line = _line(table, self.columns, interpolation)
         except StandardFault as fault:
             raise Misdeclared(f"step {name}: {fault}") from None
         self.x, self.y = (np.asarray(own.values) * unit(own.unit).factor for own in self.columns)
-        runs, rises = np.diff(self.x), np.diff(self.y)
+        through = self.line.function
 
         def between(x: Any) -> Any:
             k = self.piece(x)
-            return self.y[k] + rises[k] * (x - self.x[k]) / runs[k]
+            return through(x, self.x[k], self.y[k], self.x[k + 1], self.y[k + 1])
 
         super().__init__(between, name)
 
@@ -42,6 +72,10 @@ class Between(Formula):
         """Return between which row and the next one each x lies."""
         found: Array = np.clip(np.searchsorted(self.x, x, side="right") - 1, 0, len(self.x) - 2)
         return found
+
+    def through(self, x: Node, *rows: Node) -> Node:
+        """Return the expression of the line at ``x`` through two rows: x_1, y_1, x_2, y_2."""
+        return substitute(self.line.tree, dict(zip(self.line.parameters, (x, *rows), strict=True)))
 
     def reading(self, above: tuple[Formula, ...] = (), *, full: bool = False) -> Reading:
         """Return all pieces as cases, with the table's numbers as constants."""
@@ -52,17 +86,11 @@ class Between(Formula):
         }
         sought, numbers = Node("sym", ("x",)), {name: Node("sym", (name,)) for name in constants}
         pieces = [
-            straight(sought, *(numbers[f"{name}_{row}"] for row in (k, k + 1) for name in "xy"))
+            self.through(sought, *(numbers[f"{name}_{row}"] for row in (k, k + 1) for name in "xy"))
             for k in range(len(self.x) - 1)
         ]
         branches = [(piece, Node("cmp", ("<", sought, numbers[f"x_{k}"]))) for k, piece in enumerate(pieces[:-1], 1)]
         return Reading(Node("cases", (*branches, (pieces[-1],))) if branches else pieces[-1], constants)
-
-
-def straight(x: Node, x_1: Node, y_1: Node, x_2: Node, y_2: Node) -> Node:
-    """Return the expression of the straight line through two rows."""
-    rise = Node("*", (Node("-", (y_2, y_1)), Node("-", (x, x_1))))
-    return Node("+", (y_1, Node("/", (rise, Node("-", (x_2, x_1))))))
 
 
 def _columns(table: object, column: str) -> tuple[Column, Column]:
@@ -73,3 +101,15 @@ def _columns(table: object, column: str) -> tuple[Column, Column]:
     if column == table.columns[0].name:
         raise StandardFault(f"The table “{table.title}” goes by {column}; take another column.")
     return table.columns[0], table.column(column)
+
+
+def _line(table: StandardTable, columns: tuple[Column, Column], interpolation: Interpolation) -> Formula:
+    if interpolation not in LINES:
+        near = nearest(str(interpolation), LINES)
+        raise StandardFault(f"interpolation is {interpolation!r}{near}; allowed: {', '.join(LINES)}.")
+    for own in (columns[number] for number in LOGARITHMIC[interpolation]):
+        for value in own.values:
+            if value <= 0:
+                words = f"has the number {value:g} in its column {own.name}, which has no logarithm"
+                raise StandardFault(f"The table “{table.title}” {words}; interpolate linearly there.")
+    return LINES[interpolation]

@@ -10,7 +10,7 @@ from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import Any, Literal, Unpack
 
-from diecut_report.contract.between import Between
+from diecut_report.contract.between import Between, Interpolation
 from diecut_report.contract.binding import as_binding, bind
 from diecut_report.contract.made_curves import MadeCurveForm
 from diecut_report.contract.options import Options, StepCondition, Written
@@ -258,10 +258,10 @@ class Steps(PhaseForm, MadeCurveForm):
 
     def interpolated(
         self, id: str, symbol: str, unit: str, description: str, table: StandardTable, of: str, *, column: str = "", key: str = "",
-        **options: Unpack[Options],
+        interpolation: Interpolation = "linear", **options: Unpack[Options],
     ) -> None:  # fmt: skip
         """Declare a value between the rows of a table of numbers, by the quantity ``of``: see ``Interpolated``."""
-        formula = bind(Between(table, column, id), x=of)
+        formula = bind(Between(table, column, id, interpolation), x=of)
         own = {"formula": formula, "of": of, "table": table, "column": column, "key": key}
         self._give(Interpolated, id, symbol, unit, description, options, **own)
 

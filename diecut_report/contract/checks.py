@@ -7,6 +7,9 @@ from typing import Literal
 
 from diecut_report.contract.place import placed
 
+CheckClass = Literal["function", "strength", "practice", "numerical"]
+UNDECLARED: CheckClass = None  # type: ignore[assignment]  # no allowed class: the declaration check tells which there are
+
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class Check:
@@ -19,6 +22,15 @@ class Check:
     For an upper bound the demand is the machine's and the limit the allowed value; for a lower bound the demand is
     what is required and the limit what there is, so that the utilisation is required / available.
     ``severity`` "warn" makes a failing check a warning. ``consequence`` says what a failure means and what to change.
+
+    ``check_class`` must be given: "function" (the machine does not do what it is for), "strength" (a part breaks, wears,
+    slips or overheats), "practice" (a rule of experience is left) or "numerical" (a self-test of the calculation, which is
+    not among the checks of the machine; where one fails the mechanism is in error).
+
+    A check that needs an optional input which is not given is reported as not checked, with the keys that it needs. Where it does not
+    apply at all it is left out: an option of a text, a block or an alternative of its inputs was not chosen, or a key of
+    ``only_with`` is not given. ``sized_unless`` names the inputs in place of which the program sizes what is compared to
+    its own limit; () where it always does. Such a check shows no reserve while they are not given.
     """
 
     id: str
@@ -29,11 +41,14 @@ class Check:
     demand_label: str
     limit_label: str
     consequence: str
+    check_class: CheckClass = UNDECLARED
     source: str = ""
     operator: Literal["<=", "<"] = "<="
     severity: Literal["fail", "warn"] = "fail"
     tolerance: float = 0.0
     needs: tuple[str, ...] = ()
+    only_with: tuple[str, ...] = ()
+    sized_unless: tuple[str, ...] | None = None
     at_least: str | float | None = None
     at_least_label: str = "at least"
     at: str = placed()

@@ -131,11 +131,15 @@ class Plot(Figure):
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class Polar(Figure):
-    """Declare curves over an angle, as distance from the pole; negative values are drawn with another line."""
+    """Declare curves over an angle, as distance from the pole; negative values are drawn with another line.
+
+    ``range`` is that of the distance, as in a ``Panel``; without it the pole is zero.
+    """
 
     abscissa: str
     unit: str
     series: tuple[Series, ...]
+    range: Range | None = None
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -147,11 +151,15 @@ class Bars(Figure):
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class BarGroup:
-    """Declare bars of one unit; a bar is a label and the id of its quantity, subtracted ones with ``-ID``."""
+    """Declare bars of one unit; a bar is a label and the id of its quantity, subtracted ones with ``-ID``.
+
+    ``range`` is that of the bars' axis, as in a ``Panel``; without it zero is always shown.
+    """
 
     label: str
     unit: str
     bars: tuple[tuple[str, str], ...]
+    range: Range | None = None
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)

@@ -107,6 +107,20 @@ class Comparison:
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
+class Partner:
+    """Declare another mechanism that a kind takes inputs from: the one that the text input ``key`` names, else the only one of its kinds.
+
+    ``takes`` gives for inputs of this kind the id of a result or the path of an input there; what is given in the block, or is
+    absent there, is not taken.
+    """
+
+    key: str
+    kinds: tuple[str, ...]
+    takes: Mapping[str, str]
+    at: str = placed()
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
 class Mechanism:
     """Declare a kind of mechanism: inputs, calculation, checks, figures, and what is said of it in the report.
 
@@ -127,6 +141,7 @@ class Mechanism:
     errata: tuple[Erratum, ...] = ()
     exports: tuple[Profile, ...] = ()
     comparisons: tuple[Comparison, ...] = ()
+    partners: tuple[Partner, ...] = ()
     spectra: tuple[Spectrum, ...] = ()
     at: str = placed()
 

@@ -68,8 +68,9 @@ class Lookup(Step):
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class Interpolated(Value):
-    """Declare a value between the rows of a table that go by numbers, straight from row to row, by the quantity ``of``.
+    """Declare a value between the rows of a table that go by numbers, by the quantity ``of``: straight from row to row.
 
+    With ``interpolation`` "log-x", "log-y" or "log-log" it is straight on logarithmic axes (x, across, is ``of``).
     It is a number, a row or a curve, as ``of`` is; ``formula`` is a ``Between`` of the table's columns. Outside of the table
     the machine is impossible: ``key`` is then the input to change, else ``of``.
     """

@@ -7,6 +7,7 @@ pattern ``numbered`` (``shaft_{}_speed``), counted from ``first`` on.
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from typing import Literal
@@ -21,6 +22,9 @@ CROSSING_COLUMNS = 8
 
 EXTREMES = ("max", "min", "abs_max")
 """The reductions that also give their place."""
+
+INDEX = re.compile(r"(?<=[_,])[ijk]$")
+"""The letter that stands for a part's number at the end of a row's symbol: ``ω_k``, ``P_V,k``."""
 
 Role = Literal["value", "place", "count", "crossing", "part"]
 
@@ -110,6 +114,12 @@ def result_names(step: Step, parts: int | None = None) -> tuple[ResultName, ...]
 def names_ahead(step: Step) -> tuple[ResultName, ...]:
     """Return the names that a step may give, known before a machine is calculated; of a row without own names its id."""
     return result_names(step, MOST_NAMED if has_own_names(step) else None)
+
+
+def numbered_symbol(step: Step, number: int) -> str:
+    """Return the symbol of one part or crossing: with its number behind it, or, of a row, in the place of its index (``ω_k``)."""
+    symbol, indices = (step.symbol, 0) if isinstance(step, Crossings) else INDEX.subn(str(number), step.symbol)
+    return symbol if indices else f"{symbol}{',' if '_' in symbol else '_'}{number}"
 
 
 def place_name(id: str) -> str:

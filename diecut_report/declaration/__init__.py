@@ -71,7 +71,7 @@ def faults_at_load(mechanism: Mechanism) -> list[Fault]:
 def faults(mechanism: Mechanism) -> list[Fault]:
     """Return every mistake in what a mechanism declares, and in its comparisons; in the order of reading."""
     found = shape.faults(mechanism) or list(formulas.unmarked(mechanism)) or list(unknown_units.faults(mechanism))
-    if found:  # nothing can be asked of what is no formula, or in a unit that is none
+    if found:  # nothing can be asked of what is not a formula, or in a unit that is none
         return found
     names = DeclaredNames(mechanism)
     found = [fault for part in PARTS for fault in part.faults(mechanism, names)]

@@ -72,16 +72,16 @@ def _sources(mechanism: Mechanism) -> Iterator[Fault]:
         for found in CITED.finditer(text):
             name = found[1] or found[2]
             if not any(text[found.start() :].lstrip("; ").startswith(source) for source in known):
-                yield Fault(place, subject, f"cites {name}, which is no source{nearest(name, known)}; listed: {', '.join(known)}")  # fmt: skip
+                yield Fault(place, subject, f"cites {name}, which is not a source{nearest(name, known)}; listed: {', '.join(known)}")  # fmt: skip
 
 
 def _key_result(names: DeclaredNames, name: str) -> str:
     givers = [giver for giver in names.givers(name) if giver.step is not None]
     if not givers:
         steps = [known for known, all_ in names.known.items() if any(giver.step for giver in all_)]
-        return f"{name} is no step{nearest(name, steps)}; name what a step gives"
+        return f"{name} is not a step{nearest(name, steps)}; name what a step gives"
     if not any(giver.step and giver.step.output for giver in givers):
-        return f"{name} is no output; take output=False away from its step"
+        return f"{name} is not an output; take output=False away from its step"
     return f"{name} is a curve; name an extreme of it" if {g.kind for g in givers} <= {"curve", "abscissa"} else ""
 
 
@@ -96,10 +96,10 @@ def _exports(mechanism: Mechanism, names: DeclaredNames) -> Iterator[Fault]:
             if absent:
                 yield Fault(profile.at, subject, f"writes {absent}")
             elif not curves:
-                yield Fault(profile.at, subject, f"writes {name}, which is no curve")
+                yield Fault(profile.at, subject, f"writes {name}, which is not a curve")
             elif not all(giver.step and giver.step.output for giver in curves):
                 yield Fault(
-                    profile.at, subject, f"writes {name}, which is no output; take output=False away from its step"
+                    profile.at, subject, f"writes {name}, which is not an output; take output=False away from its step"
                 )
         axes = set().union(*(names.axes(name) for name in profile.columns))
         if len(axes) > 1:
@@ -112,7 +112,7 @@ def _comparison(mechanism: Mechanism, names: DeclaredNames, comparison: Comparis
     keys = world(comparison.mechanism.inputs).keys
     for key, (kind, name) in comparison.takes.items():
         if key not in keys:
-            yield f"fills {key}, which is no input of it{nearest(key, keys)}"
+            yield f"fills {key}, which is not an input of it{nearest(key, keys)}"
         if kind == mechanism.kind and not names.givers(name):
             yield f"takes {unknown(name, names.known)} in {kind}"
     for name, declared in comparison.mechanism.inputs.model_fields.items():

@@ -34,10 +34,14 @@ def _wrong(figure: Figure, names: DeclaredNames) -> Iterator[str]:
             yield from _axis(figure, names, axis)
             for one in series:
                 yield from _drawn(figure, names, one.curve, own, CURVE, axis)
+            yield from _range(figure, names, figure.range, own, "")
+            if isinstance(figure.range, tuple) and isinstance(figure.range[0], int | float) and figure.range[0] < 0:
+                yield f"has the range {figure.range!r}, but no distance from the pole is below zero"
         case Bars(groups=groups):
             for group in groups:
                 for _, name in group.bars:
                     yield from _drawn(figure, names, name.removeprefix("-"), group.unit, NUMBER)
+                yield from _range(figure, names, group.range, group.unit, f" in the group {group.label!r}")
 
 
 def _axis(figure: Figure, names: DeclaredNames, axis: str) -> Iterator[str]:
@@ -45,14 +49,14 @@ def _axis(figure: Figure, names: DeclaredNames, axis: str) -> Iterator[str]:
     if absent:
         yield f"the abscissa is {absent}"
     elif "abscissa" not in names.kinds(axis):
-        yield f"the abscissa is {axis}, which is no Abscissa"
+        yield f"the abscissa is {axis}, which is not an Abscissa"
 
 
 def _panel(figure: Figure, names: DeclaredNames, axis: str, panel: Panel) -> Iterator[str]:
     across = next((each for giver in names.givers(axis) for each in giver.units_when(figure.needs)), "1")
     for series in panel.series:
         yield from _drawn(figure, names, series.curve, panel.unit, CURVE, axis)
-    yield from _range(figure, names, panel)
+    yield from _range(figure, names, panel.range, panel.unit, f" in the panel {panel.title!r}")
     for level in panel.levels:
         yield from _drawn(figure, names, level.value, panel.unit, NUMBER)
     for mark in panel.marks:
@@ -63,20 +67,19 @@ def _panel(figure: Figure, names: DeclaredNames, axis: str, panel: Panel) -> Ite
         yield from _drawn(figure, names, span.end, across, NUMBER)
 
 
-def _range(figure: Figure, names: DeclaredNames, panel: Panel) -> Iterator[str]:
-    """What is wrong with the range of a panel's axis: two ends, each a number, an id or None."""
-    ends: object = panel.range
+def _range(figure: Figure, names: DeclaredNames, ends: object, wanted: str, where: str) -> Iterator[str]:
+    """What is wrong with the range of an axis: two ends, each a number, an id or None."""
     if ends is None:
         return
     if not isinstance(ends, tuple) or len(ends) != 2 or not all(isinstance(e, str | int | float | None) for e in ends):
-        yield f"has the range {ends!r} in the panel {panel.title!r}; write its two ends, (0, None), each a number, an id or None"
+        yield f"has the range {ends!r}{where}; write its two ends, (0, None), each a number, an id or None"
         return
     for end in ends:
         if isinstance(end, str):
-            yield from _drawn(figure, names, end, panel.unit, NUMBER)
+            yield from _drawn(figure, names, end, wanted, NUMBER)
     low, high = ends
     if not isinstance(low, str | None) and not isinstance(high, str | None) and not low < high:
-        yield f"has the range {ends!r} in the panel {panel.title!r}, whose ends do not ascend"
+        yield f"has the range {ends!r}{where}, whose ends do not ascend"
 
 
 def _drawn(

@@ -1,4 +1,4 @@
-"""Imports of what is no plugin's: all of the program but its api and its mechanics may change from one version to the next."""
+"""Imports of what is not a plugin's: all of the program but its api and its mechanics may change from one version to the next."""
 
 from __future__ import annotations
 

@@ -46,9 +46,9 @@ def _form(place: str, subject: str, form: tuple[str, str], keys: dict[str, Key])
     """A unit beside a key by which it cannot be told."""
     name, key = form[0], keys.get(form[0])
     if key is None:
-        yield Fault(place, subject, f"has units beside {name}, which is no input{nearest(name, keys)}")
+        yield Fault(place, subject, f"has units beside {name}, which is not an input{nearest(name, keys)}")
     elif not key.may_be_absent or key.has_default or "." in name or getattr(key.meta, "press", None):
-        yield Fault(place, subject, f"has units beside {name}, which is no optional input without a default")
+        yield Fault(place, subject, f"has units beside {name}, which is not an optional input without a default")
 
 
 def _block(model: type[Block], place: str, prefix: str = "") -> Iterator[Fault]:
@@ -60,15 +60,15 @@ def _block(model: type[Block], place: str, prefix: str = "") -> Iterator[Fault]:
             text = f"has the name of a key that the program reads itself ({', '.join(RESERVED)}), so that nobody can give it; name it otherwise"
             yield Fault(of_field(model, name, place), subject, text)
         for kind in _strange(declared.annotation):
-            text = f"is made of {kind.__name__}, which is no block of inputs; write class {kind.__name__}(Block)"
+            text = f"is made of {kind.__name__}, which is not a block of inputs; write class {kind.__name__}(Block)"
             yield Fault(of_class(kind, place), subject, text)
         if inner:
             yield from _block(inner[0], place, f"{prefix}{name}.")
     for rule in model.one_of:
         for key in sorted(set().union(*rule.groups, rule.shared) - set(model.model_fields)):
-            yield Fault(place, f"one_of of {model.__name__}", f"names {key}, which is no input{nearest(key, model.model_fields)}")  # fmt: skip
+            yield Fault(place, f"one_of of {model.__name__}", f"names {key}, which is not an input{nearest(key, model.model_fields)}")  # fmt: skip
     for key in sorted({single for keys in model.spread.values() for single in keys} - set(model.model_fields)):
-        yield Fault(place, f"spread of {model.__name__}", f"names {key}, which is no input{nearest(key, model.model_fields)}")  # fmt: skip
+        yield Fault(place, f"spread of {model.__name__}", f"names {key}, which is not an input{nearest(key, model.model_fields)}")  # fmt: skip
 
 
 def _absent(declared: FieldInfo) -> Iterator[str]:
@@ -92,7 +92,7 @@ def _said(kind: Any) -> str:
 
 
 def _strange(annotation: Any) -> Iterator[type]:
-    """Classes with keys of their own that are no blocks, of which nothing is known, and those that no text of a file can be."""
+    """Classes with keys of their own that are not blocks, of which nothing is known, and those that no text of a file can be."""
     if isinstance(annotation, type):
         is_plain = annotation.__module__ in PLAIN or issubclass(annotation, Block)
         if not is_plain and (get_annotations(annotation) or not _is_readable(annotation)):
@@ -110,7 +110,7 @@ def _is_readable(kind: type) -> bool:
 
 
 def _bounds(meta: Quantity) -> Iterator[str]:
-    """Bounds that are no numbers, and those that no number keeps."""
+    """Bounds that are not numbers, and those that no number keeps."""
     given = {name: getattr(meta, name) for name, _ in BOUNDS if getattr(meta, name) is not None}
     for name, bound in given.items():
         if isinstance(bound, bool) or not isinstance(bound, int | float):

@@ -56,7 +56,7 @@ def _key(names: DeclaredNames, key: str) -> Iterator[str]:
     parts = [part for part in key.split(".") if not part.isdigit() and not NAMED.fullmatch(part)]
     path = ".".join(parts)
     if path not in names.world.keys:
-        yield f"the key {key!r} is no input{nearest(path, names.world.keys)}; name the input that is to be changed"
+        yield f"the key {key!r} is not an input{nearest(path, names.world.keys)}; name the input that is to be changed"
 
 
 def _unfilled(mechanism: Mechanism) -> Iterator[Fault]:

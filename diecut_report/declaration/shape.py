@@ -46,7 +46,7 @@ def faults(mechanism: Mechanism) -> list[Fault]:
 
 
 def _of_mechanism(mechanism: Mechanism) -> Iterator[tuple[str, str]]:
-    """What has another shape, each with its place: of a class that is no Inputs its own, else that of the mechanism."""
+    """What has another shape, each with its place: of a class that is not an Inputs its own, else that of the mechanism."""
     for name in TEXTS:
         if not isinstance(getattr(mechanism, name), str):
             yield mechanism.at, f"has {name}={getattr(mechanism, name)!r}; write a text in quotes"
@@ -69,7 +69,7 @@ def _of_mechanism(mechanism: Mechanism) -> Iterator[tuple[str, str]]:
 
 def _of_step(step: Step) -> Iterator[str]:
     if not ID.fullmatch(step.id):
-        yield "is no id; write letters, digits and underscores"
+        yield "is not an id; write letters, digits and underscores"
     if step.digits < 1:
         yield f"has digits={step.digits!r}; at least one digit is printed"
     yield from _ids(step, "needs", "lacks")
@@ -126,7 +126,7 @@ def _of_cases(step: Choice) -> Iterator[str]:
         return
     for case in cases:
         if not isinstance(case.words, str):
-            yield 'has a case whose words are no text; write case(value, "why it is taken", condition)'
+            yield 'has a case whose words are not a text; write case(value, "why it is taken", condition)'
         if not isinstance(case.value, str | Binding):
             yield f"has a case of the value {case.value!r}; write a text, or a lambda that gives a number"
         yield from _of_formula(case.value)

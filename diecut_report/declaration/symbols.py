@@ -3,41 +3,72 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from itertools import combinations
+from itertools import chain, combinations
+from typing import NamedTuple
 
 from diecut_report.contract.binding import bound
 from diecut_report.contract.inputs import Quantity
 from diecut_report.contract.mechanism import Mechanism
 from diecut_report.contract.part_steps import Lookup
+from diecut_report.contract.result_names import has_own_names, names_ahead, numbered_symbol
 from diecut_report.contract.steps import SILENT, Choice, FromCurve, Step, Value
 from diecut_report.declaration.names import DeclaredNames
 from diecut_report.declaration.words import Fault, short
 from diecut_report.declaration.world import When
 
 
+class Printed(NamedTuple):
+    """Hold what has a symbol: a quantity's name, its place, when it is there, and the step that gives it, if none an input."""
+
+    name: str
+    at: str
+    when: When
+    step: Step | None = None
+
+    @property
+    def giver(self) -> str:
+        """Return what it belongs to: the row of a part."""
+        return self.step.id if self.step else self.name
+
+
 def faults(mechanism: Mechanism, names: DeclaredNames) -> Iterator[Fault]:
     """Yield the second of two quantities with one symbol; texts, and what only takes another quantity over, may share it."""
-    by_symbol: dict[str, list[tuple[str, str, When, Step | None]]] = {}
-    for key in names.world.keys.values():
-        if isinstance(key.meta, Quantity) and key.meta.symbol:
-            when = names.known[key.path][0].when
-            by_symbol.setdefault(key.meta.symbol, []).append((key.path, key.meta.at, when, None))
-    for number, (_, step) in enumerate(mechanism.steps):
-        if step.symbol and not isinstance(step, SILENT) and names.kinds(step.id) != {"text"}:
-            by_symbol.setdefault(step.symbol, []).append((step.id, step.at, names.when(number), step))
+    by_symbol: dict[str, list[Printed]] = {}
+    for symbol, each in chain(_whole(mechanism, names), _single(mechanism, names)):
+        by_symbol.setdefault(symbol, []).append(each)
+    told: set[tuple[str, str]] = set()
     for symbol, alike in by_symbol.items():
         for one, other in combinations(alike, 2):
-            if one[0] != other[0] and _clash(names, one, other):
-                text = f"has the symbol {symbol} of {one[0]} (at {short(one[1])}): both would be printed as one quantity; give it another"
-                yield Fault(other[1], f"{'step' if other[3] else 'input'} {other[0]}", text)
+            pair = one.giver, other.giver
+            if one.name != other.name and pair not in told and _clash(names, one, other):
+                told.add(pair)  # of two rows with many parts the first that are alike
+                text = f"has the symbol {symbol} of {one.name} (at {short(one.at)}): both would be printed as one quantity; give it another"
+                yield Fault(other.at, f"{'step' if other.step else 'input'} {other.name}", text)
 
 
-def _clash(
-    names: DeclaredNames, one: tuple[str, str, When, Step | None], other: tuple[str, str, When, Step | None]
-) -> bool:
-    if any(step is not None and name in _taken_over(step) for step, name in ((one[3], other[0]), (other[3], one[0]))):
+def _whole(mechanism: Mechanism, names: DeclaredNames) -> Iterator[tuple[str, Printed]]:
+    """Yield the symbols that are declared."""
+    for key in names.world.keys.values():
+        if isinstance(key.meta, Quantity) and key.meta.symbol:
+            yield key.meta.symbol, Printed(key.path, key.meta.at, names.known[key.path][0].when)
+    for number, (_, step) in enumerate(mechanism.steps):
+        if step.symbol and not isinstance(step, SILENT) and names.kinds(step.id) != {"text"}:
+            yield step.symbol, Printed(step.id, step.at, names.when(number), step)
+
+
+def _single(mechanism: Mechanism, names: DeclaredNames) -> Iterator[tuple[str, Printed]]:
+    """Yield the symbols of parts and crossings that formulas may take by names of their own."""
+    for number, (_, step) in enumerate(mechanism.steps):
+        if step.symbol and has_own_names(step):
+            for each in names_ahead(step):
+                if each.role in ("part", "crossing"):
+                    yield numbered_symbol(step, each.number), Printed(each.name, step.at, names.when(number), step)
+
+
+def _clash(names: DeclaredNames, one: Printed, other: Printed) -> bool:
+    if any(a.step is not None and b.name in _taken_over(a.step) for a, b in ((one, other), (other, one))):
         return False
-    return names.world.example(one[2].with_(other[2])) is not None
+    return names.world.example(one.when.with_(other.when)) is not None
 
 
 def _taken_over(step: Step) -> set[str]:

@@ -89,7 +89,7 @@ def _given(step: Lookup, names: DeclaredNames) -> Iterator[str]:
     key = names.world.keys.get(path)
     if key is None or not isinstance(key.meta, Quantity):
         known = [name for name, other in names.world.keys.items() if isinstance(other.meta, Quantity)]
-        yield f"given is {path}, which is no input that is a number{nearest(path, known)}"
+        yield f"given is {path}, which is not an input that is a number{nearest(path, known)}"
         return
     by = names.world.keys.get(step.by)
     if not key.may_be_absent or key.has_default:
@@ -103,7 +103,7 @@ def _key(step: Interpolated, names: DeclaredNames) -> Iterator[str]:
     """An impossible machine is told at an input."""
     inputs = [name for name in names.world.keys if "=" not in name]
     if step.key and step.key not in inputs:
-        yield f"key is {step.key}, which is no input{nearest(step.key, inputs)}"
+        yield f"key is {step.key}, which is not an input{nearest(step.key, inputs)}"
     elif not step.key and step.of.removeprefix("inputs.") not in inputs and not _covered(step, names):
         yield f'takes {step.of}, which may lie outside of the table; name the input that is then to be changed, key="…"'
 

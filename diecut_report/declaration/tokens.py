@@ -20,6 +20,8 @@ def faults(mechanism: Mechanism, names: DeclaredNames) -> Iterator[Fault]:
         yield from _wrong(names, step.at, f"step {step.id}", "lacks", step.lacks)
     for check in mechanism.checks:
         yield from _wrong(names, check.at, f"check {check.id}", "needs", check.needs)
+        yield from _wrong(names, check.at, f"check {check.id}", "only_with", check.only_with)
+        yield from _wrong(names, check.at, f"check {check.id}", "sized_unless", check.sized_unless or ())
     for figure in mechanism.figures:
         yield from _wrong(names, figure.at, f"figure {figure.id}", "needs", figure.needs)
         if isinstance(figure, Drawing) and figure.scaled_by:
@@ -44,12 +46,12 @@ def _told(names: DeclaredNames, token: str) -> str:
     key = names.world.keys.get(path)
     if key is None:
         inputs = [known for known in names.world.keys if "=" not in known]
-        what = "a step; only inputs can be named" if names.givers(path) else f"no input{nearest(path, inputs)}"
+        what = "a step; only inputs can be named" if names.givers(path) else f"not an input{nearest(path, inputs)}"
         return f"{path}, which is {what}"
     if not is_text:
         return ""
     if key.home:
         return f"{token}, but each part of {key.home} has a text of its own"
     if not key.texts:
-        return f"{token}, but {path} is no text with allowed values; name {path} alone"
+        return f"{token}, but {path} is not a text with allowed values; name {path} alone"
     return "" if text in key.texts else f"{token}{nearest(text, key.texts)}; {path} may be {', '.join(key.texts)}"

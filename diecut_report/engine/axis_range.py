@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from typing import Any
 
-from diecut_report.contract.figures import Panel, View
+from diecut_report.contract.figures import Range, View
 from diecut_report.engine.drawable import Undrawable
 from diecut_report.quantities.formatting import told
 from diecut_report.quantities.units import unit
@@ -15,13 +15,13 @@ Lines = Sequence[tuple[str, Sequence[float]]]  # how each is called, and its hei
 SAME = 1e-12  # of the range: beyond its ends by no more is rounding
 
 
-def ends(panel: Panel, view: View) -> list[float | None]:
-    """Return the ends of a panel's range in SI, None where one follows from the curves."""
-    factor = unit(panel.unit).factor
-    return [
-        view[end] if isinstance(end, str) else None if end is None else float(end) * factor
-        for end in panel.range or (None, None)
-    ]
+def declared(made: Data, limits: Range | None, view: View, lines: Lines) -> Data:
+    """Return a panel (or a group, or a polar diagram) with the range that is declared for it, its ends in SI."""
+    if limits is None:
+        return made
+    factor = unit(made["unit"]).factor
+    ends = [view[end] if isinstance(end, str) else None if end is None else float(end) * factor for end in limits]
+    return checked(made | {"range": ends}, lines)
 
 
 def of_lines(panel: Data) -> Data:
@@ -35,16 +35,15 @@ def of_lines(panel: Data) -> Data:
 def checked(panel: Data, lines: Lines) -> Data:
     """Return a panel with its range; Undrawable where that is empty, or where something drawn lies outside of it."""
     low, high = panel["range"]
+    name = panel.get("title") or panel["label"]
     if low is not None and high is not None and not low < high:
-        raise Undrawable(
-            f"the range of {panel['title']!r} goes from {_told(low, panel)} to {_told(high, panel)}, which is none"
-        )
+        raise Undrawable(f"the range of {name!r} goes from {_told(low, panel)} to {_told(high, panel)}, which is none")
     room = SAME * max(abs(end) for end in (low, high, 0.0) if end is not None)
     for label, value in _heights(panel, lines):
         if (low is not None and value < low - room) or (high is not None and value > high + room):
             limits = f"{'…' if low is None else _told(low, panel)} to {'…' if high is None else _told(high, panel)}"
             raise Undrawable(
-                f"{label} reaches {_told(value, panel)}, outside of the range of {panel['title']!r}, {limits}; widen it"
+                f"{label} reaches {_told(value, panel)}, outside of the range of {name!r}, {limits}; widen it"
             )
     return panel
 
@@ -54,8 +53,8 @@ def _heights(panel: Data, lines: Lines) -> Iterator[tuple[str, float]]:
     for label, values in lines:
         if values:
             yield from ((label, min(values)), (label, max(values)))
-    yield from ((mark["label"], mark["y"]) for mark in panel["marks"])
-    yield from ((level["label"], level["value"]) for level in panel["levels"])
+    yield from ((mark["label"], mark["y"]) for mark in panel.get("marks", ()))
+    yield from ((level["label"], level["value"]) for level in panel.get("levels", ()))
 
 
 def _told(value: float, panel: Data) -> str:

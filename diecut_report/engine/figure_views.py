@@ -7,7 +7,7 @@ from typing import Any
 
 import numpy as np
 
-from diecut_report.contract.figures import Bars, Chart, Drawing, Figure, Panel, Plot, Polar, plain
+from diecut_report.contract.figures import BarGroup, Bars, Chart, Drawing, Figure, Panel, Plot, Polar, plain
 from diecut_report.engine import axis_range
 from diecut_report.engine.calculation import Calculation
 from diecut_report.engine.drawable import Undrawable, curve_named, guarded
@@ -105,8 +105,8 @@ def _figure(calc: Calculation, figure: Figure, head: dict[str, Any]) -> dict[str
         case Plot(abscissa=abscissa, panels=panels):
             made = [_panel(panel, view, abscissa) for panel in panels]
             return head | {"type": "plot", "abscissa": abscissa, "panels": made}
-        case Polar(abscissa=abscissa, unit=unit, series=series):
-            return head | {"type": "polar", "abscissa": abscissa, "unit": unit, "series": [vars(s) for s in series]}
+        case Polar():
+            return _polar(figure, view, head)
         case Bars(groups=groups):
             return head | {"type": "bars", "groups": [_group(g, view) for g in groups]}
         case Drawing(build=build, unit=unit, scaled_by=scale, schematic=schematic):
@@ -149,13 +149,28 @@ def _panel(panel: Panel, view: MachineView, abscissa: str) -> dict[str, Any]:
     made = {"title": panel.title, "unit": panel.unit, "series": [vars(s) for s in panel.series]} | {
         key: [plain(part, view) for part in parts] for key, parts in named.items()
     }
-    if panel.range is None:
-        return made
-    limits = axis_range.ends(panel, view)
-    curves = [(one.label, view.heights(one.curve, abscissa)) for one in panel.series]
-    return axis_range.checked(made | {"range": limits}, curves)
+    curves = [(one.label, view.heights(one.curve, abscissa)) for one in panel.series if panel.range]
+    return axis_range.declared(made, panel.range, view, curves)
 
 
-def _group(group: Any, view: MachineView) -> dict[str, Any]:
-    bars = [{"label": label, "value": -view[name[1:]] if name[0] == "-" else view[name]} for label, name in group.bars]
-    return {"label": group.label, "unit": group.unit, "bars": bars}
+def _polar(figure: Polar, view: MachineView, head: dict[str, Any]) -> dict[str, Any]:
+    made = {
+        "type": "polar",
+        "abscissa": figure.abscissa,
+        "unit": figure.unit,
+        "series": [vars(s) for s in figure.series],
+    }
+    distances = [
+        (one.label, [abs(float(value)) for value in view.curve(one.curve)]) for one in figure.series if figure.range
+    ]
+    ranged = axis_range.declared(head | made, figure.range, view, distances)
+    if (ranged.get("range", [None])[0] or 0) < 0:
+        raise Undrawable(f"the range of {figure.title!r} begins below zero, where no distance from the pole is")
+    return ranged
+
+
+def _group(group: BarGroup, view: MachineView) -> dict[str, Any]:
+    values = [(label, -view[name[1:]] if name[0] == "-" else view[name]) for label, name in group.bars]
+    bars = [{"label": label, "value": value} for label, value in values]
+    made = {"label": group.label, "unit": group.unit, "bars": bars}
+    return axis_range.declared(made, group.range, view, [(label, [value]) for label, value in values])

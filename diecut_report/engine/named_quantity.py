@@ -1,4 +1,4 @@
-"""What declares a quantity of a calculation: the step that gives it, or the input; of one crossing and their number what follows from it."""
+"""What declares a quantity of a calculation: the step that gives it, or the input; of one crossing or part and their number what follows from it."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ from typing import cast
 
 from diecut_report.contract.inputs import Meta, Quantity
 from diecut_report.contract.place import Misdeclared
-from diecut_report.contract.result_names import ResultName, named, names_ahead
+from diecut_report.contract.result_names import ResultName, named, names_ahead, numbered_symbol
 from diecut_report.contract.steps import Reduction, Step
 from diecut_report.errors import nearest
 
@@ -43,8 +43,6 @@ def _of_step(found: ResultName, steps: Mapping[str, Step], axis: Mapping[str, st
             return replace(
                 step, id=found.name, symbol=f"n_{step.symbol.replace('_', ',')}", unit="1", units=(), description=many
             )
-        case "crossing":
-            return replace(
-                step, id=found.name, symbol=f"{step.symbol}{',' if '_' in step.symbol else '_'}{found.number}"
-            )
+        case "crossing" | "part":
+            return replace(step, id=found.name, symbol=numbered_symbol(step, found.number))
     return step

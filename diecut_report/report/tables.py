@@ -17,6 +17,7 @@ from diecut_report.report.model import (
     PrintedTable,
     TableCell,
     is_words,
+    rests,
     utilisation,
 )
 from diecut_report.report.number_format import displayed, number
@@ -143,7 +144,11 @@ class Tables:
         return TableCell(number(text, self.decimal), told(row), is_words(text))
 
     def _origin(self, row: Data) -> str:
-        """What is to be said of an input: that it is a default, what it refers to, how it was typed in another unit."""
+        """What is to be said of an input: where it comes from, and what it rests on."""
+        return "; ".join(filter(None, (self._from(row), *rests(row, self.words))))
+
+    def _from(self, row: Data) -> str:
+        """Where it comes from: that it is a default, what it refers to, how it was typed in another unit."""
         if row["origin"] == "default":
             return self.words.say("from_press", path=row["path"]) if row.get("path") else self.words["default"]
         typed, shown = str(row.get("text") or row.get("path") or ""), row["display"]

@@ -14,9 +14,10 @@ from diecut_report.engine.steps.extreme_checks import is_made
 from diecut_report.expressions import Array
 from diecut_report.quantities.formatting import number_text, shown, with_unit
 from diecut_report.quantities.units import unit
+from diecut_report.results import unchecked
 
 Data = dict[str, Any]
-Status = Literal["pass", "warn", "fail"]
+Status = Literal["pass", "warn", "fail", "not_checked"]
 ROUNDING = 1e-12
 PLACE_DIGITS = 6
 
@@ -42,8 +43,16 @@ class JudgedCheck(NamedTuple):
 
 
 def check_results(calc: Calculation) -> list[Data]:
-    """Return each check with demand, limit, margin, utilisation and verdict."""
-    return [_check(calc, check) for check in calc.mechanism.checks if applies(calc, check)]
+    """Return each check with demand, limit, margin, utilisation and verdict; one that needs more keys as not checked."""
+    ids = {check.id for check in calc.mechanism.checks if applies(calc, check)}
+    found = []
+    for check in calc.mechanism.checks:
+        if applies(calc, check):
+            found.append(_check(calc, check))
+        elif check.id not in ids and (missing := unchecked.missing(calc, check)):
+            ids.add(check.id)
+            found.append(unchecked.result(calc, check, missing))
+    return found
 
 
 def applies(calc: Calculation, check: Check) -> bool:
@@ -122,6 +131,7 @@ def _check(calc: Calculation, check: Check) -> Data:
     return {
         "id": check.id,
         "title": check.title,
+        "class": check.check_class,
         "status": told["status"],
         "demand": told["demand"],
         "limit": told["limit"],
@@ -132,7 +142,13 @@ def _check(calc: Calculation, check: Check) -> Data:
         "message": message[0].upper() + message[1:],
         **{key: text for key, text in told.items() if key.endswith(("_label", "_display"))},
         **_further(calc, check, found, pair, part),
+        **({"sized_to_limit": True} if is_sized(calc.given, check) else {}),
     }
+
+
+def is_sized(given: frozenset[str], check: Check) -> bool:
+    """Return whether the program sized what a check compares to its limit, so that the check shows no reserve."""
+    return check.sized_unless is not None and given.isdisjoint(check.sized_unless)
 
 
 def _told(check: Check, found: JudgedCheck, pair: int, part: int) -> Data:

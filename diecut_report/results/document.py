@@ -2,24 +2,29 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Iterator
 from typing import Any
 
 from diecut_report import __version__
+from diecut_report.config.basis import GIVEN
+from diecut_report.config.hidden_letters import printable
 from diecut_report.config.instances import Instance
 from diecut_report.config.loader import Config
 from diecut_report.config.model import PRESS, Press
-from diecut_report.config.source_hashes import plugin_hash, program_hash
+from diecut_report.config.references import Node
+from diecut_report.config.source_hashes import plugin_code, program_hash
 from diecut_report.config.validation import declared, keys_of
 from diecut_report.contract.inputs import Block, CurveInput, InOtherUnit, Quantity, TakenWhole, flatten
 from diecut_report.contract.mechanism import Mechanism
 from diecut_report.engine import CurveHandle
 from diecut_report.limits import MAX_COMPARISONS
 from diecut_report.quantities.formatting import as_given, shortest
+from diecut_report.results.bases import Bases, assumed
 from diecut_report.results.comparisons import Found
-from diecut_report.results.mechanism import RANK, worst
+from diecut_report.results.mechanism import worst
 from diecut_report.results.press_run import Run
+from diecut_report.results.reference_origins import with_origins
+from diecut_report.results.summary import counts, governing, summary
 
 Data = dict[str, Any]
 
@@ -27,14 +32,14 @@ Data = dict[str, Any]
 def document(run: Run) -> Data:
     """Return all results as plain data; the same config gives the same document, byte for byte."""
     config, tree = run.config, run.config.tree
-    mechanisms = {name: _mechanism_data(run, name) for name in config.instances if name != PRESS}
+    mechanisms = with_origins({name: _mechanism_data(run, name) for name in config.instances if name != PRESS})
     comparisons = {case.name: _comparison_data(run, case) for case in run.cases}
     status = worst(data["status"] for data in mechanisms.values())
     return {
         "schema_version": 1,
         "program": {"name": "diecut-report", "version": __version__, **_code(config)},
         "config": {
-            "file": _printable(tree.name.replace("\\", "/").rsplit("/", 1)[-1]),
+            "file": printable(tree.name.replace("\\", "/").rsplit("/", 1)[-1]),
             "sha256": tree.sha256,
             "resolved": resolved(run),
             "source_text": tree.text,
@@ -43,6 +48,7 @@ def document(run: Run) -> Data:
         "press": _press(run),
         "status": "error" if run.errors else status,
         "governing": governing(mechanisms),
+        "summary": summary(mechanisms) | {"assumed": assumed(config)},
         "mechanisms": mechanisms,
     } | ({"comparisons": comparisons} | _left_out(run) if comparisons else {})
 
@@ -63,11 +69,6 @@ def _code(config: Config) -> Data:
     return {"source_sha256": program_hash()} | ({"extensions": dict(config.extensions)} if config.extensions else {})
 
 
-def _printable(name: str) -> str:
-    """Return a file's name without what no document can hold: control characters, and bytes that are not UTF-8."""
-    return "".join(letter if letter.isprintable() else "\N{REPLACEMENT CHARACTER}" for letter in name)
-
-
 EMPTY: Data = {
     "summary": "", "assumptions": [], "sources": [], "inputs": {}, "lists": {}, "outputs": {}, "values": {}, "curves": {}, "phases": {},
     "phases_absent": {}, "checks": [],
@@ -83,7 +84,13 @@ def _mechanism_data(run: Run, name: str) -> Data:
     mechanism = instance.mechanism if instance else None
     kind = run.config.kinds[name]
     status, text = ("error", str(run.errors[name])) if name in run.errors else ("skipped", run.skipped[name])
-    return _head(kind, mechanism) | {"status": status, "error": text} | EMPTY
+    checks = run.self_tests.get(name, [])
+    return (
+        _head(kind, mechanism)
+        | {"status": status, "error": text}
+        | EMPTY
+        | {"checks": checks, "counts": counts(checks)}
+    )
 
 
 def _comparison_data(run: Run, case: Found) -> Data:
@@ -91,7 +98,7 @@ def _comparison_data(run: Run, case: Found) -> Data:
         return run.comparisons[case.name]
     mechanism = case.comparison.mechanism
     failed = {"status": "error", "error": str(run.errors[case.name]), "between": list(case.between.values())}
-    return _head(mechanism.kind, mechanism) | failed | EMPTY
+    return _head(mechanism.kind, mechanism) | failed | EMPTY | {"counts": counts(())}
 
 
 def _head(kind: str, mechanism: Mechanism | None) -> Data:
@@ -100,22 +107,8 @@ def _head(kind: str, mechanism: Mechanism | None) -> Data:
         "kind": kind,
         "title": mechanism.title if mechanism else kind,
         "plugin_version": mechanism.version if mechanism else "",
-        "plugin_sha256": plugin_hash(mechanism),
+        **plugin_code(mechanism),
     }
-
-
-def governing(mechanisms: Data) -> Data | None:
-    """Return the check that governs: fail before warn before pass, then the greatest utilisation; a failing null is the greatest."""
-
-    def weight(check: Data) -> tuple[int, float]:
-        unknown = math.inf if check["status"] != "pass" else -math.inf
-        return RANK[check["status"]], unknown if check["utilisation"] is None else check["utilisation"]
-
-    checks = [(name, check) for name, data in mechanisms.items() for check in data["checks"]]
-    if not checks:
-        return None
-    name, check = max(checks, key=lambda pair: weight(pair[1]))
-    return {"mechanism": name, "check": check["id"]}
 
 
 def _project(fields: Data) -> Data:
@@ -125,7 +118,7 @@ def _project(fields: Data) -> Data:
 
 
 def _press(run: Run) -> Data:
-    press = run.blocks[PRESS]
+    press, bases = run.blocks[PRESS], Bases(run.config, run.calculations)
     assert isinstance(press, Press)
     found = []
     for name, value in flatten(press).items():
@@ -133,28 +126,34 @@ def _press(run: Run) -> Data:
         if isinstance(meta, Quantity):
             shown = {"text": shortest(meta.parsed_unit.from_si(value)), "unit": meta.unit}
             said_of = {"path": f"{PRESS}.{name}", "description": meta.description, "symbol": meta.symbol}
-            found.append(said_of | {"value": value, "unit": meta.parsed_unit.si, "display": shown})
+            node = (PRESS, *name.split("."))
+            rests = {"basis": bases.of(node)} | ({"note": note} if (note := bases.said(node).note) else {})
+            found.append(said_of | {"value": value, "unit": meta.parsed_unit.si, "display": shown} | rests)
     return {"name": press.name, "fields": found}
 
 
 def resolved(run: Run) -> Data:
-    """Return the config with every reference and default put in: SI values as texts that read back exactly."""
-    config = run.config
+    """Return the config with every reference and default put in: SI values as texts that read back exactly, with what they rest on."""
+    config, bases = run.config, Bases(run.config, run.calculations)
     mechanisms = {}
     for name, kind in config.kinds.items():
         block, instance = run.blocks.get(name), config.instances[name]
-        mechanisms[name] = {"kind": kind} | (_plain(block, instance) if block and instance else {})
+        mechanisms[name] = {"kind": kind} | (_plain(block, (name,), instance, bases) if block and instance else {})
     press = config.instances[PRESS]
     assert press is not None
     return {"schema_version": 1, "project": config.project.model_dump(exclude_none=True),
-            PRESS: _plain(run.blocks[PRESS], press), "mechanisms": mechanisms}  # fmt: skip
+            PRESS: _plain(run.blocks[PRESS], (PRESS,), press, bases), "mechanisms": mechanisms}  # fmt: skip
 
 
-def _plain(block: Block, instance: Instance) -> Data:
+def _plain(block: Block, node: Node, instance: Instance, bases: Bases) -> Data:
     values = {name: getattr(block, name) for name in type(block).model_fields}
     values = {name: value for name, value in values.items() if value is not None}
     idle = set(_idle(block, values))
-    return {name: _plain_value(block, name, value, instance) for name, value in values.items() if name not in idle}
+    return {
+        name: _plain_value(block, (*node, name), value, instance, bases)
+        for name, value in values.items()
+        if name not in idle
+    }
 
 
 def _idle(block: Block, values: Data) -> Iterator[str]:
@@ -165,21 +164,29 @@ def _idle(block: Block, values: Data) -> Iterator[str]:
         yield from (name for name in defaults if rule.fault(values.keys() - {name}) != fault)
 
 
-def _plain_value(block: Block, name: str, value: Any, instance: Instance) -> Any:
-    meta = keys_of(type(block))[name].meta
+def _plain_value(block: Block, node: Node, value: Any, instance: Instance, bases: Bases) -> Any:
+    meta = keys_of(type(block))[str(node[-1])].meta
     match value:
         case Block():
-            return _plain(value, instance)
+            return _plain(value, node, instance, bases)
         case [Block(), *_]:
-            return [_plain(part, instance) for part in value]
+            return [_plain(part, (*node, index), instance, bases) for index, part in enumerate(value)]
         case CurveHandle(calculation=_):
-            return instance.data[name]
+            return instance.data[str(node[-1])]
         case InOtherUnit(value=number, unit=unit):
             return as_given(number, unit)
         case TakenWhole():
             return str(value)
         case tuple() if isinstance(meta, CurveInput):
-            return [as_given(part, meta.unit) for part in value]
-        case float() if isinstance(meta, Quantity):
-            return as_given(value, meta.unit)
+            return _resting([as_given(part, meta.unit) for part in value], node, bases)
+        case int() | float() if isinstance(meta, Quantity):
+            return _resting(as_given(value, meta.unit) if isinstance(value, float) else value, node, bases)
     return value
+
+
+def _resting(value: Any, node: Node, bases: Bases) -> Any:
+    """A value, as a block where something is to be said of it."""
+    basis, note = bases.of(node), bases.said(node).note
+    said = {"basis": basis} if basis not in ("", GIVEN) else {}
+    said |= {"note": note} if note else {}
+    return {"value": value} | said if said else value

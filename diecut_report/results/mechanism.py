@@ -9,7 +9,7 @@ from typing import Any, Literal
 
 import numpy as np
 
-from diecut_report.config.source_hashes import plugin_hash
+from diecut_report.config.source_hashes import plugin_code
 from diecut_report.contract.inputs import CurveInput, Quantity, TakenWhole, list_titles
 from diecut_report.contract.mechanism import Profile
 from diecut_report.contract.result_names import ResultName, count_name, pattern, place_name, result_names
@@ -24,29 +24,47 @@ from diecut_report.quantities.formatting import shortest, shown
 from diecut_report.quantities.units import unit
 from diecut_report.results.checks import applies, check_results
 from diecut_report.results.phases import phases, phases_absent
+from diecut_report.results.summary import RANK, counts, failed_self_tests
+from diecut_report.results.unchecked import missing
 
 Data = dict[str, Any]
-RANK = {"pass": 0, "warn": 1, "fail": 2, "error": 3, "skipped": 3}
+
+
+class SelfTestFailed(Exception):
+    """Report that the calculation contradicts itself, so that none of its numbers may be used; ``checks`` tell where."""
+
+    def __init__(self, checks: list[Data]) -> None:
+        told = " ".join(f"{check['title']}: {check['message']}" for check in checks)
+        super().__init__(f"The calculation contradicts itself, and its numbers must not be used. {told}")
+        self.checks = checks
+
+
+Origin = Literal["given", "default", "reference", "expression"]
 
 
 @dataclass(frozen=True)
 class Provenance:
-    """Hold where an input comes from, the path it refers to, and its text as typed."""
+    """Hold where an input comes from, the path it refers to (an expression: the ``paths``), its text as typed, and what it rests on."""
 
-    origin: Literal["given", "default", "reference"]
+    origin: Origin
     path: str = ""
     text: str | None = None
+    paths: tuple[str, ...] = ()
+    basis: str = ""
+    note: str = ""
 
 
 def mechanism_results(calc: Calculation, provenance: Mapping[str, Provenance]) -> Data:
-    """Return the results of one machine's mechanism, as the contract names them."""
+    """Return the results of one machine's mechanism, as the contract names them; SelfTestFailed where they contradict themselves."""
     mechanism = calc.mechanism
     checks = check_results(calc)
+    if failed := failed_self_tests(checks):
+        raise SelfTestFailed(failed)
     return {
         "kind": mechanism.kind,
         "title": mechanism.title,
         "plugin_version": mechanism.version,
-        "plugin_sha256": plugin_hash(mechanism),
+        **plugin_code(mechanism),
         "status": worst(check["status"] for check in checks),
         "summary": mechanism.summary,
         "assumptions": list(mechanism.assumptions),
@@ -58,6 +76,7 @@ def mechanism_results(calc: Calculation, provenance: Mapping[str, Provenance]) -
         "phases": phases(calc),
         "phases_absent": phases_absent(calc),
         "checks": checks,
+        "counts": counts(checks),
         "warnings": [c["message"] for c in checks if c["status"] == "warn"],
         "sections": section_items(calc),
         "absent": absent(calc, provenance),
@@ -92,7 +111,7 @@ def absent(calc: Calculation, provenance: Mapping[str, Provenance]) -> list[Data
         for s in calc.mechanism.chapters
         if s.absent and not calc.given.issuperset(s.needs)
     ]
-    made = {check.id for check in calc.mechanism.checks if applies(calc, check)}
+    made = {check.id for check in calc.mechanism.checks if applies(calc, check) or missing(calc, check)}
     unmade = [
         {"title": c.title, "text": f"not checked, though {c.limit} is given: what it limits is not calculated"}
         for c in calc.mechanism.checks
@@ -107,8 +126,8 @@ def _is_limit_given(calc: Calculation, name: str, provenance: Mapping[str, Prove
 
 
 def worst(statuses: Any) -> str:
-    """Return the worst of statuses; pass where there are none."""
-    return max(statuses, key=RANK.__getitem__, default="pass")
+    """Return the worst of statuses; pass where there are none. What is not checked changes nothing."""
+    return max((status for status in statuses if status in RANK), key=RANK.__getitem__, default="pass")
 
 
 def inputs(calc: Calculation, provenance: Mapping[str, Provenance]) -> Data:
@@ -134,7 +153,10 @@ def _origin(provenance: Provenance | None) -> Data:
     return (
         {"origin": known.origin}
         | ({"path": known.path} if known.path else {})
+        | ({"paths": list(known.paths)} if known.paths else {})
         | ({"text": known.text} if known.text else {})
+        | ({"basis": known.basis} if known.basis else {})
+        | ({"note": known.note} if known.note else {})
     )
 
 

@@ -4,15 +4,19 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
+from dataclasses import replace
 from typing import Any
 
+import numpy as np
+
 from diecut_report.config.discovery import said
-from diecut_report.config.instances import Instance, slots
+from diecut_report.config.instances import Instance, Slot, slots
 from diecut_report.config.loader import Config, substituted
 from diecut_report.config.model import PRESS
 from diecut_report.config.references import Node, Target
 from diecut_report.config.validation import declared, validate
-from diecut_report.contract.inputs import SI, Block, Quantity, flatten
+from diecut_report.contract.inputs import SI, Block, CurveInput, Quantity, flatten
+from diecut_report.contract.mechanism import Mechanism
 from diecut_report.contract.phases import PREFIX
 from diecut_report.contract.result_names import named
 from diecut_report.engine import Calculation, CurveHandle, Impossible, calculate
@@ -21,8 +25,10 @@ from diecut_report.engine.phases import PhaseHandle
 from diecut_report.errors import PluginError, Problem, UserError
 from diecut_report.expressions import Array
 from diecut_report.limits import MAX_COMPARISONS
+from diecut_report.quantities.plausible import without_rounding
+from diecut_report.results.bases import Bases
 from diecut_report.results.comparisons import Found, Uncomparable, compared, found
-from diecut_report.results.mechanism import Provenance, mechanism_results
+from diecut_report.results.mechanism import Origin, Provenance, SelfTestFailed, mechanism_results
 
 Data = dict[str, Any]
 Tell = Callable[[str], None]
@@ -34,6 +40,10 @@ class Unavailable(LookupError):
 
 class Absent(LookupError):
     """Stand for a value that this machine does not have; the text says so."""
+
+
+class Valueless(ValueError):
+    """Stand for an expression without a value; the text says why."""
 
 
 def compute(config: Config, tell: Tell) -> Run:
@@ -57,6 +67,7 @@ class Run:
         self.calculations: dict[str, Calculation] = {}
         self.results: dict[str, Data] = {}
         self.errors: dict[str, PluginError] = dict(config.broken)
+        self.self_tests: dict[str, list[Data]] = {}  # of each mechanism that contradicts itself, what does not hold
         self.skipped: dict[str, str] = {}
         self.problems: list[Problem] = []
         self.comparisons: dict[str, Data] = {}
@@ -81,12 +92,33 @@ class Run:
         instance = self.config.instances[str(node[0])]
         assert instance is not None, "a mechanism without a plugin has no links"
         try:
-            value = self._referred(target)
+            values = [self._term(single) for single in target.single]
+            value = self._computed(target, values) if target.expression else values[0]
             self.values[node] = self._derived(instance, node, target, value) if target.formula else value
         except Unavailable:
             return  # the mechanism that needs it is skipped
+        except (Absent, Valueless) as fault:
+            if node[1] in instance.derived:  # a partner does not have it: what needs it is not checked
+                self.values[node] = None
+                return
+            self.problems.append(instance.place.problem(node[1:], str(fault)))
+
+    def _term(self, target: Target) -> Any:
+        try:
+            return self._referred(target)
         except Absent as absent:
-            self.problems.append(instance.place.problem(node[1:], f"${{{target.path}}} {absent}"))
+            raise Absent(f"{target.told} {absent}") from None
+
+    def _computed(self, target: Target, values: list[SI]) -> SI:
+        """What an expression gives; Valueless in words where that is nothing."""
+        expression = target.expression
+        assert expression is not None
+        known = {name: given.value for name, given in zip(expression.names, values, strict=True)}
+        value = expression.value(known.__getitem__)
+        if isinstance(value, float) and math.isnan(value):
+            told = ", ".join(f"{name} is {given:.6g}" for name, given in known.items() if np.ndim(given) == 0)
+            raise Valueless(f"{target.told} {expression.fault(known.__getitem__)}, where (in SI) {told}.")
+        return SI(value, str(target.unit), expression.text)
 
     def _derived(self, instance: Instance, node: Node, target: Target, value: SI) -> SI:
         """A default of the press that is not the press's field itself."""
@@ -130,7 +162,8 @@ class Run:
     def _mechanism(self, name: str) -> None:
         instance, links = self.config.instances[name], self.config.links
         own = {node: target for node, target in links.items() if node[0] == name}
-        unusable = [t.instance for t in own.values() if t.instance in self.errors or t.instance in self.skipped]
+        needed = [single.instance for target in own.values() for single in target.single]
+        unusable = [name for name in needed if name in self.errors or name in self.skipped]
         if instance is None or name in self.errors:
             return
         missing = [node for node in own if node not in self.values]
@@ -173,14 +206,23 @@ class Run:
         assert instance.mechanism is not None
         self.tell(name)
         try:
-            self.calculations[name] = calculate(instance.mechanism, flatten(block))
-            self.results[name] = mechanism_results(self.calculations[name], self._provenance(instance))
+            self.calculations[name] = self._made(instance, instance.mechanism, block)
+            self._printed(instance, self.calculations[name])
         except Impossible as fault:
             for path, message in fault.reasons:
                 key = tuple(int(part) if part.isdigit() else part for part in path.split(".") if part)
                 self.problems.append(instance.place.problem(key, message))
+        except SelfTestFailed as fault:
+            self.self_tests[name] = fault.checks
+            self._broke(instance, fault, str(fault))
         except (Exception, SystemExit) as cause:
             self._broke(instance, cause)
+
+    def _made(self, instance: Instance, mechanism: Mechanism, block: Block) -> Calculation:
+        return calculate(mechanism, flatten(block))
+
+    def _printed(self, instance: Instance, calculation: Calculation) -> None:
+        self.results[instance.name] = mechanism_results(calculation, self._provenance(instance))
 
     def _compare(self, case: Found) -> None:
         self.tell(case.name)
@@ -188,26 +230,41 @@ class Run:
         try:
             self.comparisons[case.name] = compared(case, self.calculations)
         except Uncomparable as fault:
-            self.problems.append(Problem(str(fault), self.config.tree.file))
+            self.problems.append(self._uncomparable(fault))
         except (Exception, SystemExit) as cause:
             error = PluginError(said(cause), case.comparison.mechanism.kind, case.name)
             error.__cause__ = cause
             self.errors[case.name] = error
 
-    def _broke(self, instance: Instance, cause: BaseException) -> None:
+    def _uncomparable(self, fault: Uncomparable) -> Problem:
+        """The problem at the key that the value was given by, or else at the mechanism that gives it."""
+        instance = self.config.instances[fault.instance]
+        assert instance is not None, "a broken mechanism is compared with nothing"
+        is_given = fault.name in instance.data
+        return instance.place.problem((fault.name,) if is_given else (), str(fault), at_key=not is_given)
+
+    def _broke(self, instance: Instance, cause: BaseException, words: str = "") -> None:
         self.calculations.pop(instance.name, None)
-        error = PluginError(said(cause), self.config.kinds[instance.name], instance.name)
+        error = PluginError(words or said(cause), self.config.kinds[instance.name], instance.name)
         error.__cause__ = cause
         self.errors[instance.name] = error
 
     def _provenance(self, instance: Instance) -> dict[str, Provenance]:
-        found = {}
+        found, bases = {}, Bases(self.config, self.calculations)
         for slot in slots(instance.model, instance.data):
             typed = instance.place.typed(slot.key) if slot.is_given else None
-            target = self.config.links.get((instance.name, *slot.key))
-            origin = "default" if not slot.is_given else "reference" if target else "given"
-            found[".".join(map(str, slot.key))] = Provenance(origin, target.path if target else "", typed)  # type: ignore[arg-type]
+            node = (instance.name, *slot.key)
+            origin = _provenance(slot, self.config.links.get(node), typed)
+            rests = bases.of(node) if isinstance(slot.meta, Quantity | CurveInput) else ""
+            found[".".join(map(str, slot.key))] = replace(origin, basis=rests, note=bases.said(node).note)
         return found
+
+
+def _provenance(slot: Slot, target: Target | None, typed: str | None) -> Provenance:
+    if target is not None and target.expression:
+        return Provenance("expression", "", typed, tuple(term.path for term in target.terms))
+    origin: Origin = "default" if not slot.is_given else "reference" if target else "given"
+    return Provenance(origin, target.path if target else "", typed)
 
 
 def number(calc: Calculation, name: str) -> Array | None:
@@ -243,4 +300,4 @@ def output(calc: Calculation, name: str, target: Target) -> Any:
         return value
     if math.isnan(value):
         raise Absent("does not apply to this machine.")
-    return SI(float(value), str(target.unit), target.path)
+    return SI(float(without_rounding(value, str(target.unit))), str(target.unit), target.path)

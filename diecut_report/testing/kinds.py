@@ -11,6 +11,7 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping
 
+from diecut_report.conditions.kinds import alike as kinds_alike
 from diecut_report.expressions import AS_ANGLE, AS_NUMBER, Formula, Node, evaluate, symbols, written
 from diecut_report.quantities.units import (
     DIMENSIONS,
@@ -23,7 +24,7 @@ ANY = None  # the kind of zero, which is alike to all
 NUMBER: Kind = unit("1").kind
 ANGLE: Kind = unit("rad").kind
 Found = Kind | None
-LENGTH_AT, ANGLE_AT = DIMENSIONS.index("length"), DIMENSIONS.index("angle")
+ANGLE_AT = DIMENSIONS.index("angle")
 TEXT_LENGTH = 60
 
 
@@ -33,9 +34,7 @@ class KindError(ValueError):
 
 def alike(one: Found, other: Found) -> bool:
     """Return whether two kinds may be equalled: they are the same, or differ by the angle alone beside a length."""
-    if one is None or other is None or one == other:
-        return True
-    return bool(one[LENGTH_AT]) and _turned(one, 0) == _turned(other, 0)
+    return one is None or other is None or kinds_alike(one, other)
 
 
 def times(one: Found, other: Found, power: float = 1) -> Found:

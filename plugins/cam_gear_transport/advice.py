@@ -33,6 +33,11 @@ def slower(cycles: float, share: float) -> str:
     return f"a cycles_per_hour of at most {told(cycles * share, '1/h', up=False)}"
 
 
+def gentler_grip(cycles: float, force: float, held: float) -> str:
+    """Words on the cycles at which the grippers hold the sheet, whose pull grows with their square."""
+    return slower(cycles, sqrt(held / force))
+
+
 def gentler_sheet(
     peak: float,
     allowed: float,

@@ -66,6 +66,33 @@ class CamGearTransport(Inputs):
     allowable_sheet_acceleration: Annotated[
         float | None, Quantity("[W]", "m/s**2", "Allowed acceleration of the sheet", gt=0)
     ] = None
+    grammage: Annotated[
+        float | None,
+        Quantity("m_A", "g/m**2", "Mass of the board per area; with gripper_force the hold of the grippers", gt=0),
+    ] = None
+    sheet_length: Annotated[
+        float | None,
+        Quantity(
+            "L_s",
+            "mm",
+            "Length of the sheet",
+            gt=0,
+            press=FromPress("press.sheet.length", optional=True),
+        ),
+    ] = None
+    sheet_width: Annotated[
+        float | None,
+        Quantity(
+            "B_s",
+            "mm",
+            "Width of the sheet",
+            gt=0,
+            press=FromPress("press.sheet.width", optional=True),
+        ),
+    ] = None
+    gripper_force: Annotated[
+        float | None, Quantity("[F_g]", "N", "Force with which the grippers of a sheet hold it, together", gt=0)
+    ] = None
     rest_tolerance: Annotated[
         float | None,
         Quantity(
@@ -76,6 +103,7 @@ class CamGearTransport(Inputs):
         float | None,
         Quantity("m_c", "kg", "Mass that moves with the conveyor's chain, sheets included; with it the torque", gt=0),
     ] = None
+    allowable_torque: Annotated[float | None, Quantity("[M]", "N*m", "Allowed torque at the disc's shaft", gt=0)] = None
     sector_inertia: Annotated[
         float,
         Quantity(
@@ -109,6 +137,9 @@ CAMS = ("arm_length", "roller_radius", "arm_angle_1", "arm_angle_2")
 
 SHEET = ("sprocket_teeth", "chain_pitch")
 """The keys with which the motion of the sheet is known."""
+
+GRIPPED = (*SHEET, "grammage", "sheet_length", "sheet_width")
+"""The keys with which the pull of the sheet at its grippers is known."""
 
 TORQUE = (*SHEET, "conveyor_mass")
 """The keys with which torque and forces are known."""

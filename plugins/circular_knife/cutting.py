@@ -97,3 +97,7 @@ guillotine.value("guillotine_work", "W_g", "J", "Its work, without friction", la
                  source="energy")
 guillotine.value("guillotine_force_ratio", "q_F", "1", "Greatest force to the guillotine's",
                  lambda force_max, guillotine_force: force_max / guillotine_force, source=OWN)
+guillotine.value("guillotine_line_force", "q_σ", "N/mm", "Force of a straight cut per length, by the shear resistance",
+                 lambda shear_resistance, thickness: shear_resistance * thickness, source=OWN)
+guillotine.value("resistance_by_rule", "σ_q", "N/mm**2", "Shear resistance that the force of the rule speaks for",
+                 lambda rule_force, thickness: rule_force / thickness, source=OWN, needs=("rule_force",))

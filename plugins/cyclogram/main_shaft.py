@@ -13,7 +13,7 @@ from scipy.optimize import brentq
 
 from diecut_report.api import GivenMechanism, Refusal, told
 from diecut_report.mechanics.timing.intervals import Interval, Intervals
-from diecut_report.mechanics.timing.lines import Line, common_period, exact_turns
+from diecut_report.mechanics.timing.lines import DrivenLine, common_period, exact_turns
 from diecut_report.plugins.cyclogram.inputs import Passage
 from diecut_report.plugins.cyclogram.kinds import POSITION, STEP, at
 
@@ -34,7 +34,7 @@ class LineOnShaft:
     """Hold a line: its mechanism, how it is driven, its phases, and whether its offset is to be found."""
 
     mechanism: GivenMechanism
-    line: Line
+    line: DrivenLine
     efficiency: float
     is_auto: bool
     torque_curve: str
@@ -73,7 +73,7 @@ def lines_of(given: Mapping[str, Any]) -> tuple[LineOnShaft, ...]:
         found.append(
             LineOnShaft(
                 mechanism,
-                Line(turns, 0.0 if offset == AUTO else float(offset)),
+                DrivenLine(turns, 0.0 if offset == AUTO else float(offset)),
                 float(of_part(given["lines.path_efficiency"], index)),
                 offset == AUTO,
                 given["lines.torque_curve"][index],

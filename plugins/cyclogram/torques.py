@@ -12,7 +12,7 @@ import numpy as np
 
 from diecut_report.mechanics.timing.bracketed import sign_changes
 from diecut_report.mechanics.timing.legendre_pieces import unique_edges
-from diecut_report.mechanics.timing.lines import Line
+from diecut_report.mechanics.timing.lines import DrivenLine
 from diecut_report.mechanics.timing.torque_sum import (
     Consumer,
     EnergySum,
@@ -138,7 +138,7 @@ def _friction(given: Mapping[str, Any], index: int, timing: Timing) -> Consumer:
         power = _optional(given.get("friction.power"), index) or 0.0
         torque = power / (float(turns) * TURN * timing.productivity)
     efficiency = float(of_part(given["friction.path_efficiency"], index))
-    return friction(given["friction.name"][index], torque, Line(turns), efficiency)
+    return friction(given["friction.name"][index], torque, DrivenLine(turns), efficiency)
 
 
 def _optional(row: Any, index: int) -> float | None:

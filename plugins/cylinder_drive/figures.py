@@ -51,7 +51,7 @@ def _path(view: View) -> list[Shape]:
 
 
 def _sector(view: View, phi: float) -> list[Shape]:
-    """Sector and pinion with the cylinder, opposite the rocker in the middle of its swing."""
+    """Sector and pinion, opposite the rocker in the middle of its swing, and the cylinder on its way."""
     if "pinion_radius" not in view:
         return []
     pivot = _joints(view, phi)[3]
@@ -66,8 +66,22 @@ def _sector(view: View, phi: float) -> list[Shape]:
     return [
         polyline([pivot, *rim], "body", closed=True),
         circle(center, pinion, "outline"),
-        circle(center, view["cylinder_radius"], "hidden"),
-        point(center, "pivot", "cylinder and pinion"),
+        point(center, "pivot", "pinion"),
+        *_cylinder(view, phi, (center[0], center[1] - radius - pinion)),
+    ]
+
+
+def _cylinder(view: View, phi: float, middle: Point) -> list[Shape]:
+    """The cylinder at its place of the travel, whose middle is free: the pinion stands, a chain moves the carriages of the cylinder."""
+    half, radius = view["stroke"] / 2, view["cylinder_radius"]
+    axis = (middle[0] + view.at("displacement", phi) - half, middle[1])
+    return [
+        polyline(
+            [(middle[0] - half - 1.2 * radius, middle[1]), (middle[0] + half + 1.2 * radius, middle[1])], "centerline"
+        ),
+        *(circle((middle[0] + end, middle[1]), radius, "ghost") for end in (-half, half)),
+        circle(axis, radius, "hidden"),
+        point(axis, "pivot", "cylinder"),
     ]
 
 
@@ -96,7 +110,8 @@ FIGURES = (
         id="linkage",
         title="Linkage",
         caption="The linkage to scale at the crank angle of the greatest torque, light: in its dead centres. With a crank length and "
-        "a pinion also sector, pinion and cylinder (dashed); the place of the pinion around the sector is free and chosen here.",
+        "a pinion also sector, pinion and cylinder (dashed, light: at the ends of its travel). The pinion's shaft stands, and a chain moves "
+        "the carriages of the cylinder; the places of the pinion around the sector and of the travel are free and chosen here.",
         build=linkage,
         scaled_by="crank_length",
     ),

@@ -106,7 +106,9 @@ clearance.phase("carriage_window_inner", "window", "Room for the carriages at th
 clearance.phase("carriage_window", "window", "Room for the carriages", "crank_angle", union=("carriage_window_outer", "carriage_window_inner"))
 
 teeth = Chapter("Tooth force of the sector",
-                text="The pinion sits on the cylinder's axis; losses between the teeth and the cylinder are not counted.", needs=("pinion_radius",),
+                text="The pinion's shaft stands in the frame and turns as the cylinder does, and a chain moves the carriages of the cylinder: "
+                     "the power at the teeth is that at the cylinder, so the moment on the pinion is M_Σ. Losses between the teeth and the "
+                     "cylinder are not counted.", needs=("pinion_radius",),
                 absent="not calculated: pinion_radius is not given")
 teeth.value("sector_radius", "r_s", "mm", "Pitch radius of the sector", bind(loads.length_of, ratio="sector_ratio", crank_length="pinion_radius"))
 teeth.value("tooth_force", "F_t", "kN", "Tangential force between the teeth", lambda total_moment, pinion_radius: total_moment / pinion_radius)
@@ -115,6 +117,9 @@ teeth.reduction("tooth_force_max", "F_t,max", "kN", "Greatest tangential force",
 teeth.reduction("tooth_normal_force_max", "F_n,max", "kN", "Greatest force square to the flanks", "abs_max", of="tooth_normal_force")
 teeth.value("tooth_radial_force_max", "F_r,max", "kN", "Greatest force that presses sector and pinion apart",
             lambda tooth_force_max, pressure_angle: tooth_force_max * np.tan(pressure_angle))
+teeth.value("pinion_radius_least", "r_p,min", "mm", "Pitch radius of the pinion with the allowed force",
+            lambda pinion_radius, tooth_force_max, allowable_tooth_force: pinion_radius * tooth_force_max / allowable_tooth_force, output=False,
+            needs=("allowable_tooth_force",))
 
 joints = Chapter("Forces in the joints",
                  text="The links are taken without mass: the coupler carries one force along itself, which each of its joints and the crank's "
@@ -144,3 +149,6 @@ joints.value("rocker_bearing_force", "F_3", "kN",
              lambda coupler_force, tooth_normal_force: abs(coupler_force) + abs(tooth_normal_force), needs=("pinion_radius",))
 joints.reduction("rocker_bearing_force_max", "F_3,max", "kN", "Greatest force on the rocker's bearing (upper bound)", "max",
                  of="rocker_bearing_force", needs=("pinion_radius",))
+joints.value("crank_length_least", "a_min", "mm", "Length of the crank with the allowed force",
+             lambda crank_length, joint_force_max, allowable_joint_force: crank_length * joint_force_max / allowable_joint_force, output=False,
+             needs=("allowable_joint_force",))

@@ -93,4 +93,17 @@ class CylinderDrive(Inputs):
     pinion_radius: Annotated[
         float | None, Quantity("r_p", "mm", "Pitch radius of the pinion; with it the tooth force of the sector", gt=0)
     ] = None
+    allowable_torque: Annotated[float | None, Quantity("[M]", "N*m", "Allowed torque at the crank's shaft", gt=0)] = (
+        None
+    )
+    allowable_acceleration: Annotated[
+        float | None, Quantity("[W]", "m/s**2", "Allowed acceleration of the cylinder", gt=0)
+    ] = None
+    allowable_tooth_force: Annotated[
+        float | None, Quantity("[F_t]", "kN", "Allowed tangential force between the teeth of sector and pinion", gt=0)
+    ] = None
+    allowable_joint_force: Annotated[
+        float | None,
+        Quantity("[F_j]", "kN", "Allowed force in the joints of the coupler and the crank's bearing", gt=0),
+    ] = None
     pressure_angle: Annotated[float, Quantity("α_w", "deg", "Pressure angle of the teeth", gt=0, lt=45)] = 20

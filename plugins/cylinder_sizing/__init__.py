@@ -21,6 +21,7 @@ MECHANISM = Mechanism(
     checks=(
         Check(
             id="wall_at_flat",
+            check_class="strength",
             title="Wall between bore and flat",
             demand="min_wall",
             limit="wall_at_flat",
@@ -28,11 +29,11 @@ MECHANISM = Mechanism(
             demand_label="required wall",
             limit_label="wall at the flat",
             source="000 erratum 4",
-            consequence="{wall_verdict}; "
-            "a bore radius of at most {bore_radius_limit:down} keeps the required wall.",
+            consequence="{wall_verdict}; {wall_advice}.",
         ),
         Check(
             id="radius",
+            check_class="function",
             title="Radius against the exact one",
             demand="radius_exact",
             limit="radius",
@@ -41,11 +42,12 @@ MECHANISM = Mechanism(
             limit_label="adopted radius",
             source="002 eq. 1",
             tolerance=1e-9,
-            consequence="the circumference beside the flat is shorter than the working length; "
-            "make the radius at least {radius_exact:up} or the segment lower.",
+            sized_unless=("radius",),
+            consequence="the circumference beside the flat is shorter than the working length; {radius_advice}.",
         ),
         Check(
             id="closed_form_error",
+            check_class="practice",
             title="Error of the closed form",
             demand="closed_form_error_size",
             limit=0.5,
@@ -59,6 +61,7 @@ MECHANISM = Mechanism(
         ),
         Check(
             id="deflection",
+            check_class="function",
             title="Bending deflection",
             demand="deflection",
             limit="allowable_deflection",
@@ -67,8 +70,22 @@ MECHANISM = Mechanism(
             limit_label="allowed",
             source="simply supported beam",
             needs=("bearing_span", "allowable_deflection"),
-            consequence="the cut is lighter in the middle of the sheet than at its sides; a smaller bore, a lower segment or "
-            "a shorter bearing span stiffens the cylinder.",
+            consequence="the cut is lighter in the middle of the sheet than at its sides; {stiffer_advice}.",
+        ),
+        Check(
+            id="closed_section",
+            check_class="strength",
+            title="Section closed, as the bending presumes",
+            demand="bore_radius",
+            limit="flat_distance",
+            unit="mm",
+            operator="<",
+            demand_label="bore radius",
+            limit_label="distance of the flat from the axis",
+            source="strength of materials",
+            only_with=("bearing_span",),
+            consequence="a slot of {overlap_chord} along the flat opens the section: it twists about a shear centre outside itself and "
+            "gives way in shear, so the calculated deflection does not hold and the true one is greater; {wall_advice}.",
         ),
     ),
     figures=FIGURES,
@@ -77,7 +94,7 @@ MECHANISM = Mechanism(
         "The body is homogeneous and of one section along the generatrix; journals, keyways and the pinion are not included.",
         "Where the bore breaks through the flat, the overlap of bore and segment is subtracted once only.",
         "Bending: a simply supported beam with the line load over the generatrix in the middle of the span, about the weakest axis "
-        "of the section; shear deformation is left out.",
+        "of the section, which is closed; shear deformation is left out.",
     ),
     sources=(
         Source("000", "Topolnytskyi P. V., Shustykevych A. I., Kolomiiets A. B., Vatuliak Yu. V. Research of the drive parameters "

@@ -9,6 +9,7 @@ import numpy as np
 from diecut_report.api import Chapter, arccos, as_angle, as_number, bind, case, formula
 from diecut_report.mechanics import circular_segment as segment
 from diecut_report.mechanics import common
+from diecut_report.plugins.cylinder_sizing import advice, beam
 
 # fmt: off
 
@@ -50,6 +51,10 @@ size.require("segment_below_radius", lambda segment_height, radius: segment_heig
 size.require("bore_below_radius", lambda bore_radius, radius: bore_radius < radius, key="bore_radius",
              message="is {bore_radius}, but the bore must be narrower than the cylinder: 0 ≤ R_b < R = {radius}")
 
+size.value("segment_height_fitting", "h_R", "mm", "Segment height for which the adopted radius is exact",
+           lambda radius, working_length: radius * (1 - np.cos(np.pi - as_angle(working_length / (2 * radius)))), output=False)
+size.words("radius_advice", advice.against_radius, ("radius_exact", "radius", "working_length", "segment_height_fitting"), output=False)
+
 flat = Chapter("Segment and flat", text="All geometry uses the adopted radius.")
 flat.value("chord", "c", "mm", "Chord: width of the flat", bind(segment.chord, height="segment_height"), source="002 eq. 3; 000 eq. 16")
 flat.value("half_angle", "α", "deg", "Half the central angle of the segment", bind(segment.half_angle, height="segment_height"), output=False)
@@ -68,8 +73,10 @@ flat.choice("wall_verdict", "w", "1", "What the wall is",
             case("the bore breaks through the flat", "R_b ≥ R − h", lambda flat_distance, bore_radius: flat_distance <= bore_radius),
             case("the wall is closed, but thinner than required", "w < w_min", lambda wall_at_flat, min_wall: wall_at_flat < min_wall),
             case("the wall is thick enough", "w ≥ w_min"), output=False)
-flat.value("bore_radius_limit", "R_b,max", "mm", "Bore radius that keeps the required wall",
-           lambda radius, segment_height, min_wall: radius - segment_height - min_wall, output=False)
+flat.value("bore_radius_limit", "R_b,max", "mm", "Bore radius that keeps the required wall, in a cylinder of at least the exact radius",
+           lambda radius, radius_exact, segment_height, min_wall: np.maximum(radius, radius_exact) - segment_height - min_wall, output=False)
+flat.words("wall_advice", advice.against_thin_wall, ("bore_radius_limit", "radius_exact", "radius", "segment_height", "bore_radius", "min_wall"),
+           output=False)
 flat.value("cutting_arc_fraction", "κ", "1", "Share of the circumference that is not flat", lambda half_angle: 1 - half_angle / np.pi)
 
 overlap = Chapter("Overlap of bore and segment",
@@ -161,9 +168,10 @@ bending.value("bearing_load", "F_b", "kN", "Load on each bearing from the line l
 bending.value("bending_moment", "M_b", "N*m", "Greatest bending moment",
               lambda line_load, generatrix_length, bearing_span:
                   line_load * generatrix_length * (2 * bearing_span - generatrix_length) / 8)
-bending.value("deflection", "f", "mm", "Bending deflection in the middle",
-              lambda line_load, generatrix_length, bearing_span, elastic_modulus, second_moment_min:
-                  line_load * generatrix_length * (8 * bearing_span**3 - 4 * bearing_span * generatrix_length**2 + generatrix_length**3)
-                  / (384 * elastic_modulus * second_moment_min))
+bending.value("deflection", "f", "mm", "Bending deflection in the middle", beam.deflection)
+
+bending.words("stiffer_advice", advice.against_deflection,
+              ("generatrix_length", "bearing_span", "line_load", "elastic_modulus", "second_moment_min", "deflection", "allowable_deflection"),
+              output=False, needs=("allowable_deflection",))
 
 CHAPTERS = (size, flat, overlap, masses, inertia, bending)

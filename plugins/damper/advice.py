@@ -36,6 +36,7 @@ class RubberBlock:
     driving_force: float = 0.0
     adopted_length: float | None = None
     shore_hardness: float | None = None
+    dynamic_stiffness_factor: float = 1.0
 
     @property
     def area(self) -> float:
@@ -144,17 +145,17 @@ def _rubbers(block: RubberBlock) -> Iterator[str]:
 
 def _rubber(block: RubberBlock, moduli: Range) -> str:
     """Moduli as the key that is given takes them; nothing where there is none."""
-    key, display, limits, digits = "elastic_modulus", "MPa", moduli, (3, DIGITS)
+    key, display, digits = "elastic_modulus", "MPa", (3, DIGITS)
     if not 0 < moduli[0] <= moduli[1]:
         return ""
+    low, high = (modulus / block.dynamic_stiffness_factor for modulus in moduli)
     if block.shore_hardness is not None:
-        softest, hardest = (_hardness(modulus) for modulus in moduli)
-        limits = max(softest, SOFTEST), min(hardest, HARDEST)
+        low, high = max(_hardness(low), SOFTEST), min(_hardness(high), HARDEST)
         key, display, digits = "shore_hardness", "1", (2, 3)
     for shown in digits:
-        low, high = outward(limits[0], True, shown), outward(limits[1], False, shown)
-        if low <= high and isfinite(high):
-            return _between(key, told(low, display, shown), told(high, display, shown))
+        least, most = outward(low, True, shown), outward(high, False, shown)
+        if least <= most and isfinite(most):
+            return _between(key, told(least, display, shown), told(most, display, shown))
     return ""
 
 

@@ -55,6 +55,12 @@ class Damper(Inputs):
     shore_hardness: Annotated[
         float | None, Quantity("S_A", "1", "Shore A hardness of the rubber, for Gent's relation", ge=20, le=80)
     ] = None
+    dynamic_stiffness_factor: Annotated[
+        float | None,
+        Quantity(
+            "k_d", "1", "Dynamic stiffness of the rubber over its static one, at the speed of the impact", ge=1, le=5
+        ),
+    ] = None
     allowable_stress: Annotated[float, Quantity("[σ]", "MPa", "Allowed compression stress", gt=0)] = 1.0
     ring_width: Annotated[float, Quantity("l", "mm", "Width of the ring: one side of the pad", gt=0)]
     pad_height: Annotated[float, Quantity("y", "mm", "Height of the pad: its other side", gt=0)]
@@ -92,5 +98,14 @@ class Damper(Inputs):
             gt=0,
             press=FromPress("press.productivity", half_the_sheets, optional=True),
         ),
+    ] = None
+    allowable_force: Annotated[
+        float | None, Quantity("[P]", "N", "Force that carriage and frame bear at one damper", gt=0)
+    ] = None
+    allowable_deceleration: Annotated[
+        float | None, Quantity("[a]", "m/s**2", "Allowed deceleration of the stop", gt=0)
+    ] = None
+    allowable_heat_power: Annotated[
+        float | None, Quantity("[N_h]", "W", "Heat that the dampers of one end may give off", gt=0)
     ] = None
     drive: DriveBlock | None = None

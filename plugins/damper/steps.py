@@ -20,9 +20,18 @@ energy.value("kinetic_energy", "W_k", "J", "Kinetic energy at contact",
              lambda mass, inertia, rolling_radius, velocity: (mass + inertia / rolling_radius ** 2) * velocity ** 2 / 2, source="energy",
              lacks=("kinetic_energy",))
 energy.value("elastic_modulus", "E", "MPa", "Elastic modulus of the rubber: as given",
-             bind(lambda elastic_modulus: elastic_modulus, elastic_modulus="inputs.elastic_modulus"), source="input", needs=("elastic_modulus",))
+             bind(lambda elastic_modulus: elastic_modulus, elastic_modulus="inputs.elastic_modulus"), source="input", needs=("elastic_modulus",),
+             lacks=("dynamic_stiffness_factor",))
 energy.value("elastic_modulus", "E", "MPa", "Elastic modulus from the hardness, with p_G = 0.0981 MPa", f.gent_modulus, source="Gent 1958",
-             lacks=("elastic_modulus",))
+             lacks=("elastic_modulus", "dynamic_stiffness_factor"))
+energy.value("static_modulus", "E_0", "MPa", "Elastic modulus at rest: as given",
+             bind(lambda elastic_modulus: elastic_modulus, elastic_modulus="inputs.elastic_modulus"), source="input",
+             needs=("elastic_modulus", "dynamic_stiffness_factor"))
+energy.value("static_modulus", "E_0", "MPa", "Elastic modulus at rest from the hardness, with p_G = 0.0981 MPa", f.gent_modulus, source="Gent 1958",
+             needs=("dynamic_stiffness_factor",), lacks=("elastic_modulus",))
+energy.value("elastic_modulus", "E", "MPa", "Elastic modulus at the speed of the impact",
+             lambda dynamic_stiffness_factor, static_modulus: dynamic_stiffness_factor * static_modulus, source="this method",
+             needs=("dynamic_stiffness_factor",))
 
 length = Chapter("Length",
                  text="The n dampers that act at once take up the energy as linear springs: W_k = n·P·h/2 (002 eq. 18–22). At the allowed stress "
@@ -130,7 +139,8 @@ KNOWN = ("kinetic_energy", "elastic_modulus", "ring_width", "pad_height", "dampe
 def advice_steps() -> Steps:
     """The advice of failing checks, for each choice of what may be given beside: it is judged for all checks together."""
     steps = Steps()
-    optional = {"drive": "driving_force", "adopted_length": "adopted_length", "shore_hardness": "shore_hardness"}
+    optional = {"drive": "driving_force", "adopted_length": "adopted_length", "shore_hardness": "shore_hardness",
+                "dynamic_stiffness_factor": "dynamic_stiffness_factor"}
     for count in range(len(optional) + 1):
         for given in combinations(optional, count):
             takes = (*KNOWN, *(optional[key] for key in given))

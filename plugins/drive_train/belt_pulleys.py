@@ -123,23 +123,26 @@ MARKS.value("has_teeth", "τ", "1", "Pulley with teeth: 1, smooth: −1",
             lambda pulley_side, is_cylinder_pulley: np.maximum(pulley_side, is_cylinder_pulley), source="this method", output=False)
 
 LISTED_CHECKS = (
-    Check(id="teeth_in_mesh", title="Teeth in mesh", demand=FEWEST_IN_MESH, limit="teeth_in_mesh_min", unit="1", demand_label="required",
+    Check(id="teeth_in_mesh", check_class="practice", title="Teeth in mesh",
+          demand=FEWEST_IN_MESH, limit="teeth_in_mesh_min", unit="1", demand_label="required",
           limit_label="fewest of the toothed pulleys", source="practice",
           consequence="the belt's teeth shear or jump; {pitch_advice}, a larger pulley or an idler outside that adds wrap helps."),
-    Check(id="belt_engagement", title="Side of the cylinder's pulley", demand="engagement_angle", limit=90.0, unit="deg", operator="<",
+    Check(id="belt_engagement", check_class="function", title="Side of the cylinder's pulley",
+          demand="engagement_angle", limit=90.0, unit="deg", operator="<",
           demand_label="belt off the engaged side", limit_label="allowed", source="geometry",
           consequence="the pulleys lead the belt round the other side of the cylinder's pulley, so it runs at another speed than is "
           "calculated; change toothed_belt.engagement, or the places and sides of the pulleys (the die lies below, where y is less)."),
-    Check(id="driving_pulley_listed", title="Driving pulley in the list", demand="driving_teeth_off", limit=NOT_WHOLE, unit="1",
-          severity="warn", demand_label="difference in teeth", limit_label="accepted", source="this method",
+    Check(id="driving_pulley_listed", check_class="function", title="Driving pulley in the list",
+          demand="driving_teeth_off", limit=NOT_WHOLE, unit="1", demand_label="difference in teeth", limit_label="accepted", source="this method",
           consequence="the belt's length is that of another driving pulley than the one calculated; give the first of "
           "toothed_belt.pulleys a radius of {driving_pulley_pitch_radius}, {driving_pulley_teeth} teeth."),
-    Check(id="pulley_teeth_whole", title="Whole teeth of the pulleys", demand="pulley_teeth_off_max", limit=NOT_WHOLE, unit="1",
-          severity="warn", demand_label="farthest from a whole number", limit_label="accepted", source="this method",
+    Check(id="pulley_teeth_whole", check_class="function", title="Whole teeth of the pulleys",
+          demand="pulley_teeth_off_max", limit=NOT_WHOLE, unit="1",
+          demand_label="farthest from a whole number", limit_label="accepted", source="this method",
           consequence="the pulley of radius {farthest_radius} in toothed_belt.pulleys would have {farthest_teeth} teeth; give it a radius of "
           "{farthest_whole_radius}."),
-    Check(id="cylinder_pulley_listed", title="The cylinder's pulley in the list", demand="cylinder_teeth_off", limit=NOT_WHOLE, unit="1",
-          severity="warn", demand_label="difference in teeth", limit_label="accepted", source="this method",
+    Check(id="cylinder_pulley_listed", check_class="function", title="The cylinder's pulley in the list",
+          demand="cylinder_teeth_off", limit=NOT_WHOLE, unit="1", demand_label="difference in teeth", limit_label="accepted", source="this method",
           consequence="toothed_belt.driven_radius and the radius of the pulley with role: cylinder, {cylinder_pulley_radius}, are of one "
           "pulley; give both {driven_whole_radius}."),
 )

@@ -52,12 +52,12 @@ speeds.value("output_speed_error", "Δn", "%", "Deviation of the output's speed 
              bind(lambda speed, demanded: abs(speed - demanded) / demanded, speed="output_speed", demanded="inputs.output_speed"),
              source="this method")
 
-turn = Chapter("Torque over a turn of the output shaft",
+turn = Chapter("Torque over the turns of the output shaft",
                text="Carried to the flywheel's shaft, the efficiency follows the direction of power: the losses add where the motor drives and "
                     "take away where the load drives.", needs=("torque_curve",), absent="not calculated: torque_curve is not given")
-turn.value("curve_angle", "φ_T", "deg", "Angle of the output shaft that the curve of its torque spans",
-           lambda torque_curve_turns: 2 * np.pi * torque_curve_turns, output=False)
-turn.abscissa("output_angle", "φ", "deg", "Angle of the output shaft", "curve_angle")
+turn.value("output_period", "φ_T", "deg", "Angle of the output shaft after which the torque repeats",
+           lambda torque_curve_turns: 2 * np.pi * torque_curve_turns, source="kinematics", output=False)
+turn.abscissa("output_angle", "φ", "deg", "Angle of the output shaft", "output_period")
 turn.from_curve("output_torque", "M", "N*m", "Torque at the output shaft", given="torque_curve", abscissa="output_angle")
 turn.crossings("power_reversal", "φ_r", "deg", "Angle at which the power turns round", of="output_torque")
 turn.breakpoints("losses", "output_angle", "power_reversal")
@@ -92,6 +92,9 @@ efficiency.value("efficiency_total", "η", "1", "Efficiency from the motor to th
 
 powers = Chapter("Torque and power at each shaft",
                  text="Means over a turn. What drives the load is divided by the efficiencies behind the shaft, what flows back multiplied.")
+powers.require("peak_above_mean", lambda torque_mean, torque_peak: torque_mean <= torque_peak * (1 + 1e-06), key="torque_peak",
+               message="is {torque_peak}, but the mean torque is {torque_mean}, and no mean is above the peak; look at torque_mean, or give a "
+                       "torque_peak of at least {torque_mean:up}")
 powers.value("driving_mean", "M_d", "N*m", "Mean driving torque at the output", lambda torque_mean: torque_mean, output=False,
              lacks=("torque_curve",))
 powers.value("braking_mean", "M_b", "N*m", "Mean torque with which the load drives: none", lambda: 0, output=False, lacks=("torque_curve",))

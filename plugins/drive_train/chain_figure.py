@@ -50,21 +50,50 @@ def _belt(view: View, top: float, bottom: float) -> list[Shape]:
     ]  # fmt: skip
 
 
-def _pair(x: float, top: float, bottom: float, teeth: tuple[float, float]) -> list[Shape]:
-    """A pair of gears."""
+def _pair(x: float, top: float, bottom: float, teeth: tuple[float, float], form: str) -> list[Shape]:
+    """A pair of gears: discs from the side, or two cones that meet where their shafts would cross."""
     ratio = min(max(teeth[1] / teeth[0], 0.4), 2.5)
     driver = (top - bottom) / (1 + ratio)
+    driven = top - bottom - driver
+    wheels = (
+        _cones(x, top, bottom, driver, driven)
+        if form == "bevel"
+        else [_wheel(x, top, driver), _wheel(x, bottom, driven)]
+    )
+    bevel = "bevel, " if form == "bevel" else ""
+    return [*wheels, label((x - 6, bottom - 4), f"{bevel}z = {teeth[0]:.0f} : {teeth[1]:.0f}", "right")]
+
+
+def _cones(x: float, top: float, bottom: float, driver: float, driven: float) -> list[Shape]:
+    """Two cone frustums whose teeth meet; the driven shaft is turned into the plane of the schematic."""
     return [
-        _wheel(x, top, driver),
-        _wheel(x, bottom, top - bottom - driver),
-        label((x - 6, bottom - 4), f"z = {teeth[0]:.0f} : {teeth[1]:.0f}", "right"),
+        polyline(
+            [
+                (x - WHEEL, top - driver),
+                (x + WHEEL, top - 0.6 * driver),
+                (x + WHEEL, top + 0.6 * driver),
+                (x - WHEEL, top + driver),
+            ],
+            "body",
+            closed=True,
+        ),
+        polyline(
+            [
+                (x - WHEEL, bottom + driven),
+                (x + WHEEL, bottom + 0.6 * driven),
+                (x + WHEEL, bottom - 0.6 * driven),
+                (x - WHEEL, bottom - driven),
+            ],
+            "body",
+            closed=True,
+        ),
     ]
 
 
 def chain(view: View) -> list[Shape]:
     """Shafts below each other, the motor's on top; wheels stand on them, boxes of numbers beside them."""
     pairs = (
-        list(zip(view.row("gears.driver_teeth"), view.row("gears.driven_teeth"), strict=True))
+        list(zip(view.row("gears.driver_teeth"), view.row("gears.driven_teeth"), view.words("gears.form"), strict=True))
         if "gear_shaft_speed" in view
         else []
     )
@@ -74,8 +103,8 @@ def chain(view: View) -> list[Shape]:
     places = [BELT_AT, *(BELT_AT + 8 + apart * (i + 1) for i in range(len(pairs)))]
     shapes: list[Shape] = [
         shape
-        for x, top, bottom, teeth in zip(places[1:], heights[1:], heights[2:], pairs, strict=False)
-        for shape in _pair(x, top, bottom, teeth)
+        for x, top, bottom, (driver, driven, form) in zip(places[1:], heights[1:], heights[2:], pairs, strict=False)
+        for shape in _pair(x, top, bottom, (driver, driven), form)
     ]
     ends = [*(x + 5 for x in places), BOX_LEFT - 4]
     starts = [18.0, *(x - 5 for x in places)]

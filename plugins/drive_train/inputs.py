@@ -16,6 +16,9 @@ class GearPair(Block):
     driver_teeth: Annotated[int, Quantity("z_1", "1", "Teeth of the driving gear", ge=12, integer=True)]
     driven_teeth: Annotated[int, Quantity("z_2", "1", "Teeth of the driven gear", ge=12, integer=True)]
     efficiency: Annotated[float, Quantity("η_k", "1", "Efficiency of the pair", gt=0, le=1)] = 0.97
+    form: Annotated[
+        Literal["spur", "bevel"], Text("Form of the pair: shafts parallel, or crossing at a right angle")
+    ] = "spur"
 
 
 class VBelt(Block):
@@ -58,12 +61,12 @@ class DriveTrain(Inputs):
         CurveInput(
             "M",
             "N*m",
-            "Torque over one turn of the output shaft (or torque_curve_turns), negative where the load drives; with it a flywheel is sized",
+            "Torque over the turns of the output shaft after which it repeats, negative where the load drives; with it a flywheel is sized",
         ),
     ] = None
     torque_curve_turns: Annotated[
         int,
-        Quantity("N_t", "1", "Turns of the output shaft that the curve of its torque spans", ge=1, le=64, integer=True),
+        Quantity("k_T", "1", "Turns of the output shaft that torque_curve spans", ge=1, le=64, integer=True),
     ] = 1
     gears: Annotated[list[GearPair], Text("Gear pairs between the flywheel's shaft and the output shaft")] = []  # noqa: RUF012
     vbelt: Annotated[VBelt, Text("V-belt from the motor to the flywheel's shaft")]
@@ -79,6 +82,10 @@ class DriveTrain(Inputs):
     ] = None
     flywheel_material: Annotated[Literal["steel", "cast_iron"], Text("Material of the flywheel")] = "steel"
     reserve_factor: Annotated[float, Quantity("k_r", "1", "Reserve of the motor's power", ge=1)] = 1.2
+    synchronous_speed: Annotated[
+        float | None,
+        Quantity("n_s", "rpm", "Synchronous speed of the motor; default: the next above motor_speed at 50 Hz", gt=0),
+    ] = None
     breakdown_ratio: Annotated[
         float, Quantity("k_b", "1", "Breakdown torque of the motor to its rated torque", ge=1)
     ] = 2.2

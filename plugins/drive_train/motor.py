@@ -26,7 +26,8 @@ motor_chapter.words("overload_advice", motor_advice.overload_advice, ("motor_pea
                     output=False, lacks=("torque_curve",))
 
 flywheel = Chapter("Flywheel",
-                   text="The motor gives the mean torque; what the load takes beyond it comes from the flywheel and returns to it. The wheel turns "
+                   text="The motor is taken to give the mean torque; what the load takes beyond it comes from the flywheel and returns to it. That "
+                        "presumes a swing of the speed that is small beside the motor's slip; the ratio of both is given below. The wheel turns "
                         "i_g times as far as the output shaft. It is counted as a disc of steel or cast iron, a fifth as wide as its diameter, and "
                         "alone: rotor, pulleys and gears help it.", needs=("torque_curve",), absent="not calculated: torque_curve is not given")
 flywheel.value("excess_torque", "ΔM", "N*m", "Torque beyond the mean",
@@ -40,6 +41,16 @@ flywheel.reduction("excess_energy_min", "E_min", "J", "Least energy taken: the f
 flywheel.reduction("energy_fluctuation", "ΔE", "J", "Fluctuation of the energy over a turn", "range", of="excess_energy", source="this method")
 flywheel.value("flywheel_inertia", "J", "kg*m**2", "Moment of inertia of the flywheel",
                bind(inertia.inertia, energy="energy_fluctuation", speed="shaft_2_speed"), source="energy")
+flywheel.value("synchronous_speed", "n_s", "rpm", "Synchronous speed of the motor: as given",
+               bind(lambda synchronous_speed: synchronous_speed, synchronous_speed="inputs.synchronous_speed"), source="input",
+               needs=("synchronous_speed",))
+flywheel.pick("synchronous_speed", "n_s", "rpm", "Synchronous speed of the motor, at 50 Hz", "above", of="shaft_1_speed",
+              series=motor_advice.SYNCHRONOUS, beyond="last", source="practice", lacks=("synchronous_speed",))
+flywheel.value("rated_slip", "s_n", "rpm", "Slip of the motor at its rated speed", lambda synchronous_speed, shaft_1_speed:
+               synchronous_speed - shaft_1_speed, source="mechanics", output=False)
+flywheel.value("swing_to_slip", "κ_s", "1", "Swing of the motor's speed by the accepted fluctuation, to its slip at the rated speed",
+               lambda speed_fluctuation, shaft_1_speed, rated_slip: speed_fluctuation * shaft_1_speed / rated_slip, source="this method",
+               exists=lambda rated_slip: rated_slip > 0)
 flywheel.lookup("flywheel_density", "ρ", "kg/m**3", "Density of the flywheel", motor_advice.DENSITIES, by="flywheel_material", source="material",
                 output=False)
 flywheel.lookup("flywheel_rim_limit", "[v]", "m/s", "Allowed speed of the flywheel's rim", motor_advice.RIM_SPEEDS, by="flywheel_material",

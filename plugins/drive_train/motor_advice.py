@@ -4,9 +4,12 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from diecut_report.api import si, standard_series, told
+from diecut_report.api import si, standard_series, standard_table, told
 
 RATINGS = standard_series("iec_60072_ratings")
+SYNCHRONOUS = tuple(
+    sorted(speed for name, speed in standard_table("motor_synchronous_speeds").values.items() if name.endswith("50 Hz"))
+)
 LARGEST_MOTOR = si(max(RATINGS.values), RATINGS.unit)
 DENSITIES = {"steel": 7850.0, "cast_iron": 7200.0}  # kg/m³
 MOST_RESERVE = 4.0  # of the motor, that is worth advising

@@ -6,7 +6,7 @@ from diecut_report.api import Chapter, Check, bind
 from diecut_report.plugins.elastic_follower import formulas
 from diecut_report.plugins.elastic_follower.advice import passing
 from diecut_report.plugins.elastic_follower.motion import CURVE, LAW, RATE
-from diecut_report.plugins.elastic_follower.spectrum import FIRST, LAST
+from diecut_report.plugins.elastic_follower.spectrum import FIRST
 
 # fmt: off
 
@@ -34,7 +34,7 @@ def _of_peak(id: str, title: str, demand: str, label: str, consequence: str) -> 
     limit = {"peak_ratio": "allowable_peak_ratio", "residual": "allowable_residual_ratio"}[id]
 
     def check(needs: tuple[str, ...], words: str) -> Check:
-        return Check(id=id, title=title, demand=demand, limit=limit, unit="1", demand_label=label, limit_label="allowed",
+        return Check(id=id, check_class="function", title=title, demand=demand, limit=limit, unit="1", demand_label=label, limit_label="allowed",
                      source="001, first paper", consequence=f"{consequence}; {words}", needs=needs)
 
     by_curve = (
@@ -46,16 +46,17 @@ def _of_peak(id: str, title: str, demand: str, label: str, consequence: str) -> 
 CHECKS = (
     *_of_peak("peak_ratio", "Peak acceleration in the motion", "peak_ratio", "peak to the rigid one",
               "the drive is too soft for this motion, the link swings up"),
-    Check(id="tuning_ratio", title="Natural periods within the motion", demand=WANTED, limit="tuning_ratio", unit="1", severity="warn",
+    Check(id="tuning_ratio", check_class="practice", title="Natural periods within the motion",
+          demand=WANTED, limit="tuning_ratio", unit="1", severity="warn",
           demand_label="wanted", limit_label="natural periods within the motion", source="practice",
           consequence="the link cannot follow the input; take a stiffness of at least {wanted_stiffness:up}, a lighter link or a longer motion."),
+    *(Check(id="torque_peak", check_class="strength", title="Load of the drive", demand="torque_peak", limit="allowable_torque", unit=unit,
+            needs=(body,), demand_label=label, limit_label="allowed", source="input",
+            consequence="shaft, chain or rod is overloaded; a longer motion, a gentler motion_law or a lighter link lowers it.")
+      for body, unit, label in (("inertia", "N*m", "greatest torque"), ("mass", "N", "greatest force"))),
     *_of_peak("residual", "Vibration after the motion", "residual_ratio", "peak after the motion, to the rigid one",
               "the link goes on swinging in its rest"),
-    Check(id="spectrum_start", title="Within the spectrum: not too soft", demand=FIRST, limit="tuning_ratio", unit="1", severity="warn",
+    Check(id="spectrum_start", check_class="function", title="Within the spectrum: not too soft", demand=FIRST, limit="tuning_ratio", unit="1",
           demand_label="the spectrum begins at", limit_label="natural periods within the motion", source="001, first paper",
           consequence="the link stays behind the input, and its peaks are small only for that; the spectrum does not show this drive."),
-    Check(id="spectrum_end", title="Within the spectrum: not stiffer", demand="tuning_ratio", limit=LAST, unit="1", severity="warn",
-          demand_label="natural periods within the motion", limit_label="the spectrum ends at", source="001, first paper",
-          consequence="the link follows almost as if it were rigid: nothing is wrong, but the spectrum does not show this drive; its "
-          "own ratios stand in the table of results."),
 )

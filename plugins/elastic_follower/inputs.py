@@ -99,4 +99,8 @@ class ElasticFollower(Inputs):
     allowable_residual_ratio: Annotated[
         float, Quantity("[q_r]", "1", "Allowed ratio of the peak acceleration after the rise to the rigid one", gt=0)
     ] = 0.2
+    allowable_torque: Annotated[
+        float | None,
+        Quantity("[M]", "N*m", "Allowed torque (or force) of the drive", gt=0, units=(("mass", "N"),)),
+    ] = None
     n_points: Annotated[int, POINTS] = 720

@@ -42,6 +42,33 @@ class GenevaTransport(Inputs):
     allowable_sheet_acceleration: Annotated[
         float | None, Quantity("[a]", "m/s**2", "Allowed acceleration of the sheet", gt=0)
     ] = None
+    grammage: Annotated[
+        float | None,
+        Quantity("m_A", "g/m**2", "Mass of the board per area; with gripper_force the hold of the grippers", gt=0),
+    ] = None
+    sheet_length: Annotated[
+        float | None,
+        Quantity(
+            "L_s",
+            "mm",
+            "Length of the sheet",
+            gt=0,
+            press=FromPress("press.sheet.length", optional=True),
+        ),
+    ] = None
+    sheet_width: Annotated[
+        float | None,
+        Quantity(
+            "B_s",
+            "mm",
+            "Width of the sheet",
+            gt=0,
+            press=FromPress("press.sheet.width", optional=True),
+        ),
+    ] = None
+    gripper_force: Annotated[
+        float | None, Quantity("[F_g]", "N", "Force with which the grippers of a sheet hold it, together", gt=0)
+    ] = None
     rest_tolerance: Annotated[
         float | None,
         Quantity(
@@ -67,6 +94,7 @@ class GenevaTransport(Inputs):
     allowable_contact_pressure: Annotated[
         float | None, Quantity("[p_H]", "MPa", "Allowed contact pressure between roller and slot", gt=0)
     ] = None
+    allowable_torque: Annotated[float | None, Quantity("[M]", "N*m", "Allowed torque at the crank", gt=0)] = None
     locking_radius: Annotated[
         float | None,
         Quantity(
@@ -79,4 +107,12 @@ class GenevaTransport(Inputs):
     locking_clearance: Annotated[
         float, Quantity("j", "mm", "Radial clearance of the locking disc in the wheel's arcs", ge=0)
     ] = 0.1
+    allowable_sheet_play: Annotated[
+        float | None,
+        Quantity("[Δx]", "mm", "Allowed play of the sheet either way in the dwell: the register's tolerance", gt=0),
+    ] = None
     n_points: Annotated[int, POINTS] = 720
+
+
+GRIPPED = ("sprocket_teeth", "chain_pitch", "grammage", "sheet_length", "sheet_width")
+"""The keys with which the pull of the sheet at its grippers is known."""

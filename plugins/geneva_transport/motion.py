@@ -5,7 +5,9 @@ from __future__ import annotations
 import numpy as np
 
 from diecut_report.api import Case, Chapter, Steps, as_angle, bind, case
+from diecut_report.mechanics import gripping
 from diecut_report.plugins.geneva_transport import advice, formulas
+from diecut_report.plugins.geneva_transport.inputs import GRIPPED
 
 # fmt: off
 
@@ -123,6 +125,13 @@ conveyor.words("crank_slower", advice.slower_crank, ("crank_speed", "sheet_accel
 conveyor.value("sheet_acceleration_entry", "a_e", "m/s**2", "Jump of the sheet's acceleration at entry and exit",
                bind(formulas.travel_acceleration, ratio="acceleration_entry"), source="kinematics")
 
+grippers = Chapter("Hold of the grippers",
+                   text="The grippers must hold the sheet against its own inertia; air and the friction of what it slides on are left out.",
+                   needs=GRIPPED, absent="not calculated: sprocket_teeth, chain_pitch, grammage and the sheet's size are not all given")
+grippers.value("sheet_mass", "m_s", "g", "Mass of the sheet", gripping.sheet_mass, source="geometry")
+grippers.value("sheet_force", "F_g", "N", "Greatest force of the sheet on its grippers", gripping.sheet_force, source="mechanics")
+grippers.words("crank_slower_for_grippers", advice.slower_crank, ("crank_speed", "sheet_force", "gripper_force"), output=False,
+               needs=("gripper_force",))
 rest = Chapter("Rest of the sheet within a tolerance",
                text="The sheet rests as long as it is no farther than e from where it stands in the dwell.",
                needs=(*CONVEYOR_NEEDS, "rest_tolerance"),

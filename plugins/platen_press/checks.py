@@ -7,28 +7,31 @@ from diecut_report.api import Check
 
 def _pressure(name: str, key: str, demand: str, pins: str) -> Check:
     """The pressure of one kind of pins against what is allowed."""
-    return Check(id=f"contact_stress_{name}", title=f"Pressure of the {pins}", demand=demand, limit="allowable_pin_pressure", unit="MPa",
+    return Check(id=f"contact_stress_{name}", check_class="strength", title=f"Pressure of the {pins}",
+                 demand=demand, limit="allowable_pin_pressure", unit="MPa",
                  demand_label="pressure", limit_label="allowed", source="input", needs=(key, "allowable_pin_pressure"),
                  consequence=f"the {pins} squeeze out their oil and seize; set {key} to at least {{{key}_least:up}}, or make them thicker at the "
                  "price of more friction.")  # fmt: skip
 
 
 CHECKS = (
-    Check(id="torque_sign", title="Relaxing rods never drive the crank", demand="elastic_arm", limit="friction_arm", unit="mm", operator="<",
+    Check(id="torque_sign", check_class="function", title="Relaxing rods never drive the crank",
+          demand="elastic_arm", limit="friction_arm", unit="mm", operator="<",
           demand_label="arm of the relaxing rods", limit_label="arm of friction", source="001, conclusion 1",
           consequence="the relaxing rods drive the crank ahead and the play of the drive changes sides with a blow; "
           "{drive_stiffer}."),
-    Check(id="inertia", title="Inertia of the platen at the dead centre", demand="inertia_dead_center", limit="cutting_force_max", unit="kN",
-          operator="<", severity="warn", demand_label="inertia force", limit_label="cutting force", source="this method",
+    Check(id="inertia", check_class="function", title="Inertia of the platen at the dead centre",
+          demand="inertia_dead_center", limit="cutting_force_max", unit="kN",
+          operator="<", demand_label="inertia force", limit_label="cutting force", source="this method",
           consequence="the platen presses on the die by its inertia, and the rods push it instead of pulling: the calculation does not hold "
           "about the dead centre. Run the machine slower or take a lighter platen."),
-    Check(id="torque_max", title="Torque at the main shaft", demand="torque_max", limit="allowable_torque", unit="N*m",
+    Check(id="torque_max", check_class="strength", title="Torque at the main shaft", demand="torque_max", limit="allowable_torque", unit="N*m",
           demand_label="greatest torque", limit_label="allowed", source="input", needs=("allowable_torque",),
           consequence="the main shaft and its drive are overloaded; {torque_lower}."),
     _pressure("journal", "journal_length", "journal_pressure", "journals"),
     _pressure("crank_pin", "crank_pin_length", "crank_pin_pressure", "crank pins"),
     _pressure("platen_pin", "platen_pin_length", "platen_pin_pressure", "platen's pins"),
-    Check(id="energy_balance", title="Energy balance over a cycle", demand="energy_residual", limit=1e-6, unit="1",
+    Check(id="energy_balance", check_class="numerical", title="Energy balance over a cycle", demand="energy_residual", limit=1e-6, unit="1",
           demand_label="relative difference", limit_label="accepted", source="conservation of energy",
           consequence="the calculation contradicts itself; do not use it."),
 )  # fmt: skip

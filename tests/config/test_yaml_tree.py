@@ -195,7 +195,7 @@ def test_a_second_colon_is_explained() -> None:
 def test_a_bare_reference_within_braces_is_explained() -> None:
     problem = only_problem("gears: {radius: ${cylinder.radius}}\n")
     assert (problem.line, problem.column) == (1, 18)
-    assert 'put references in quotes: "${…}"' in problem.message
+    assert 'YAML reads its brace as a map. Put it in quotes: "${…}"' in problem.message
 
 
 def test_problems_found_before_a_syntax_error_are_kept() -> None:

@@ -109,7 +109,7 @@ STEPS = (MOMENT, ANGLE, TORQUE, PEAK)
 
 
 def check(**changes: Any) -> Check:
-    sound = {"id": "strong", "title": "Strong", "demand": "moment", "limit": 3.0, "unit": "N*m", "demand_label": "moment",
+    sound = {"id": "strong", "check_class": "strength", "title": "Strong", "demand": "moment", "limit": 3.0, "unit": "N*m", "demand_label": "moment",
              "limit_label": "allowed", "consequence": "shorten the arm"}  # fmt: skip
     return Check(**{**sound, **changes})
 
@@ -188,9 +188,9 @@ FAULTS: dict[str, tuple[Mechanism, str]] = {
     "one symbol for two": (made(value("x", "M")), "step x: has the symbol M of moment"),
     "one symbol for an input and a step": (made(value("x", "F")), "step x: has the symbol F of force"),
     # tokens
-    "a need that is no input": (
+    "a need that is not an input": (
         made(value("x", needs=("widht",))),
-        "step x: needs names widht, which is no input (did you mean 'width'?)",
+        "step x: needs names widht, which is not an input (did you mean 'width'?)",
     ),
     "a need that is a step": (
         made(value("x", needs=("moment",))),
@@ -202,9 +202,12 @@ FAULTS: dict[str, tuple[Mechanism, str]] = {
     ),
     "a text of a number": (
         made(value("x", needs=("arm=1",))),
-        "needs names arm=1, but arm is no text with allowed values",
+        "needs names arm=1, but arm is not a text with allowed values",
     ),
-    "a need of a check": (made(checks=(check(needs=("wide",)),)), "check strong: needs names wide, which is no input"),
+    "a need of a check": (
+        made(checks=(check(needs=("wide",)),)),
+        "check strong: needs names wide, which is not an input",
+    ),
     "a need of a section": (
         made(chapters=(Chapter("All", steps=STEPS), Chapter("More", steps=(), needs=("wide",)))),
         "section 'More': needs names wide",
@@ -219,7 +222,10 @@ FAULTS: dict[str, tuple[Mechanism, str]] = {
         "the message names moment before it is calculated",
     ),
     "a curve in a message": (made(require(message="is {torque}")), "{torque}, a curve, which has no single number"),
-    "a key that is no input": (made(require(key="amr")), "step long: the key 'amr' is no input (did you mean 'arm'?)"),
+    "a key that is not an input": (
+        made(require(key="amr")),
+        "step long: the key 'amr' is not an input (did you mean 'arm'?)",
+    ),
     "an unknown id in a consequence": (
         made(checks=(check(consequence="see {momnt}"),)),
         "check strong: the consequence names momnt, which nothing gives",
@@ -316,7 +322,7 @@ FAULTS: dict[str, tuple[Mechanism, str]] = {
         made(figures=(plot("torqe"),)),
         "figure turn: draws torqe, which nothing gives (did you mean 'torque'?)",
     ),
-    "no abscissa": (made(figures=(plot(abscissa="moment"),)), "the abscissa is moment, which is no Abscissa"),
+    "no abscissa": (made(figures=(plot(abscissa="moment"),)), "the abscissa is moment, which is not an Abscissa"),
     "a level that is not always there": (
         made(value("x", needs=("width",)), figures=(plot(levels=(Level(value="x", label="x"),)),)),
         "draws x, which nothing gives without width",
@@ -346,24 +352,27 @@ FAULTS: dict[str, tuple[Mechanism, str]] = {
         made(inputs=with_input(Annotated[float, Quantity("x", "mmm", "X")], 1)),
         "input extra: has the unit 'mmm'",
     ),
-    "a rule of an unknown key": (made(inputs=Torn), "one_of of Torn: names torc, which is no input"),
+    "a rule of an unknown key": (made(inputs=Torn), "one_of of Torn: names torc, which is not an input"),
     "units beside an unknown key": (
         made(value("x", units=(("wdth", "N"),))),
-        "step x: has units beside wdth, which is no input (did you mean 'width'?)",
+        "step x: has units beside wdth, which is not an input (did you mean 'width'?)",
     ),
     "units beside what is always given": (
         made(value("x", units=(("arm", "N"),))),
-        "units beside arm, which is no optional input",
+        "units beside arm, which is not an optional input",
     ),
     # what is said beside
-    "an unknown key result": (made(key_results=("momnt",)), "key_results: momnt is no step (did you mean 'moment'?)"),
-    "a key result that is no output": (
+    "an unknown key result": (
+        made(key_results=("momnt",)),
+        "key_results: momnt is not a step (did you mean 'moment'?)",
+    ),
+    "a key result that is not an output": (
         made(value("x", output=False), key_results=("x",)),
-        "x is no output; take output=False away",
+        "x is not an output; take output=False away",
     ),
     "a source that is not listed": (
         made(value("x", source="003 eq. 1"), sources=SOURCES),
-        "step x: cites 003, which is no source",
+        "step x: cites 003, which is not a source",
     ),
     "an erratum of no source": (
         made(errata=(Erratum("004", "wrong"),), sources=SOURCES),
@@ -375,7 +384,7 @@ FAULTS: dict[str, tuple[Mechanism, str]] = {
     ),
     "an export of a number": (
         made(exports=(Profile(id="p", title="P", columns=("torque", "moment")),)),
-        "export p: writes moment, which is no curve",
+        "export p: writes moment, which is not a curve",
     ),
     "a comparison of an unknown quantity": (
         made(comparisons=(Comparison(kinds=("arm",), mechanism=PARTNER, takes={"ratio": ("arm", "momnt")}),)),

@@ -51,7 +51,9 @@ def test_all_faults_are_told_with_plugin_file_and_line(tmp_path: Path) -> None:
     head, *lines = str(caught.value).splitlines()
     assert head == f"plugin 'faulty': {tmp_path / 'own' / 'faulty.py'} declares what cannot be:"
     assert [line.split(":")[0].strip() for line in lines] == ["faulty.py"] * len(lines)
-    assert any("step pressure: needs names widht, which is no input (did you mean 'width'?)" in line for line in lines)
+    assert any(
+        "step pressure: needs names widht, which is not an input (did you mean 'width'?)" in line for line in lines
+    )
     assert any("step teeth_limit: the message names tooth, which nothing gives" in line for line in lines)
 
 

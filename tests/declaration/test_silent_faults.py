@@ -140,7 +140,7 @@ FAULTS: dict[str, tuple[Mechanism, str]] = {
     "a last case with a condition": (made(chosen(Case(TWO, "a", LONG), Case(TWO, "b", LONG), unit="mm")), "has a condition in its last case"),
     "a case that is always taken": (made(chosen(Case(TWO, "a"), Case(TWO, "b"), unit="mm")), "has no condition in case 1 of 2"),
     # one id
-    "a wrong lacks": (made(value("x", needs=("width",)), value("x", "Q", lacks=("widht",))), "lacks names widht, which is no input"),
+    "a wrong lacks": (made(value("x", needs=("width",)), value("x", "Q", lacks=("widht",))), "lacks names widht, which is not an input"),
     "steps of one id with another lack": (made(value("x", needs=("width",)), value("x", "Q", lacks=("remark",))), "has the id of another step"),
     # what vanishes
     "two chapters of one title": (made(chapters=(Chapter("All", steps=STEPS), Chapter("All"))), "has the title of another chapter"),

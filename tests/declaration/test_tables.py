@@ -12,12 +12,15 @@ import pytest
 
 from diecut_report.api import (
     POINTS,
+    BarGroup,
+    Bars,
     Block,
     Chapter,
     Inputs,
     Mechanism,
     Panel,
     Plot,
+    Polar,
     Quantity,
     Series,
     Text,
@@ -86,15 +89,15 @@ MISTAKES = {
     "a column in another unit": (lookup(column="C"), "the column C of the table is in kN, the step in mm"),
     "a table of numbers looked up": (lookup(FACTORS, column="Y"), "which goes by numbers; take interpolated"),
     "a text without a row": (lookup(ONLY_SMALL, column=""), "has no row in the table for bearing=big"),
-    "given that is no input": (lookup(given="boer"), "given is boer, which is no input that is a number (did you mean 'bore'?)"),
-    "given that is a text": (lookup(given="bearing"), "given is bearing, which is no input that is a number"),
+    "given that is not an input": (lookup(given="boer"), "given is boer, which is not an input that is a number (did you mean 'bore'?)"),
+    "given that is a text": (lookup(given="bearing"), "given is bearing, which is not an input that is a number"),
     "given that is always there": (lookup(given="length"), "given is length, which is always there; let it be float | None"),
     "given in another unit": (lookup(given="force"), "given, force, is in N, the step in mm"),
     "given of parts, a text of none": (lookup(given="wheels.width"), "both must be inputs of one list, or of none"),
     "the step in another unit than the column": (between(unit="mm"), "the column Y of the table is in 1, the step in mm"),
     "another quantity than the table goes by": (between(of="length"), "the column teeth of the table is in 1, length in mm"),
     "no key of what is calculated": (between(of="twice"), 'takes twice, which may lie outside of the table; name the input'),
-    "a key that is not there": (between(of="twice", key="tooth"), "key is tooth, which is no input (did you mean 'teeth'?)"),
+    "a key that is not there": (between(of="twice", key="tooth"), "key is tooth, which is not an input (did you mean 'teeth'?)"),
     "a turn of which the table has a quarter": (between(LIFTS, "turn", "mm"), "takes turn, which may lie outside of the table"),
     "a quantity that is not there": (between(of="tooth"), "takes tooth, which nothing gives"),
     "a series in another unit": (pick(RODS, "teeth"), "the series “Rods” is in mm, teeth in 1"),
@@ -163,6 +166,26 @@ def test_a_range_that_is_none_is_told(limits: Any, words: str) -> None:
 
 def test_a_sound_range_is_not_told() -> None:
     assert turned((-1, None)) == turned((None, "teeth")) == turned((None, None)) == []
+
+
+def test_ranges_of_polar_diagrams_and_of_bars_are_judged_too() -> None:
+    def declare(chapter: Chapter) -> None:
+        chapter.abscissa("turn", "φ", "deg", "Turn", period=2 * np.pi)
+        chapter.value("sine", "s", "1", "Sine", lambda turn: np.sin(turn))
+
+    def drawn(limits: Any) -> list[str]:
+        series, bars = (Series(curve="sine", label="s"),), (("z", "teeth"),)
+        polar = Polar(id="p", title="P", caption="", abscissa="turn", unit="1", series=series, range=limits)
+        group = BarGroup(label="G", unit="1", bars=bars, range=limits)
+        return told(declare, polar, Bars(id="b", title="B", caption="", groups=(group,)))
+
+    assert drawn((0, None)) == drawn(("teeth", None)) == drawn(None) == []
+    of_polar, of_bars = drawn((2, 1))
+    assert "figure p: has the range (2, 1), whose ends do not ascend" in of_polar
+    assert "figure b: has the range (2, 1) in the group 'G', whose ends do not ascend" in of_bars
+    (below,) = drawn((-1, None))
+    assert "has the range (-1, None), but no distance from the pole is below zero" in below
+    assert all("draws length, in mm, on an axis in 1" in text for text in drawn(("length", 1)))
 
 
 PLUGIN = """

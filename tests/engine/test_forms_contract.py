@@ -62,8 +62,8 @@ def test_a_sound_mechanism_of_two_forms_passes() -> None:
         ("joints", {"places": ("share",)}, "joints: share gives"),
         ("joints", {"every": "ripples"}, "step joints: takes ripples, which nothing gives"),
         ("grown", {"start": "begin"}, "step grown: takes begin, which nothing gives"),
-        ("force", {"units": (("weight", "N"),)}, "step force: has units beside weight, which is no input"),
-        ("force", {"units": (("duration", "N"),)}, "step force: has units beside duration, which is no optional input"),
+        ("force", {"units": (("weight", "N"),)}, "step force: has units beside weight, which is not an input"),
+        ("force", {"units": (("duration", "N"),)}, "step force: has units beside duration, which is not an optional input"),
         ("quarter", {"lacks": ("mass",)}, "step joints: takes quarter, which nothing gives"),
     ],
 )  # fmt: skip
@@ -93,7 +93,7 @@ class OfPress(Inputs):
     ("inputs", "words"),
     [
         (Nested, "input part.size: has other units within a block, where none hold"),
-        (OfPress, "input time: has units beside rate, which is no optional input without a default"),
+        (OfPress, "input time: has units beside rate, which is not an optional input without a default"),
     ],
 )
 def test_units_that_could_not_hold_are_refused(inputs: type[Inputs], words: str) -> None:

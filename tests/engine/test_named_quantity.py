@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import Annotated, Any
 
 import numpy as np
 import pytest
 
-from diecut_report.api import POINTS, Chapter, Inputs, Mechanism, Quantity
+from diecut_report.api import POINTS, Block, Chapter, Inputs, Mechanism, Quantity, Text
 from diecut_report.contract.place import Misdeclared
 from diecut_report.declaration import faults
 from diecut_report.engine import Calculation, calculate
@@ -60,3 +61,40 @@ def test_a_name_that_nothing_has_is_told_with_the_plugin_and_the_nearest() -> No
         Misdeclared, match=r"'inputs\.hieght' is not a quantity of this machine \(did you mean 'height'\?\)"
     ):
         made().step_or_input("inputs.hieght")
+
+
+class Shaft(Block):
+    ratio: Annotated[float, Quantity("i_k", "1", "Ratio", gt=0)]
+
+
+class Shafts(Inputs):
+    shafts: Annotated[list[Shaft], Text("Shafts")]
+
+
+train = Chapter("Train")
+train.running("speed", "ω_k", "1", "Speed", "product", of="shafts.ratio", numbered="shaft_{}_speed", first=3)
+train.running("sum", "F_t", "1", "Sum", "sum", of="shafts.ratio", numbered="sum_{}")
+train.value("slip", "s", "1", "Slip", lambda shaft_3_speed, shaft_4_speed: shaft_3_speed - shaft_4_speed)
+train.value("more", "q", "1", "More", lambda sum_1, sum_2: sum_2 / sum_1)
+
+TRAIN = Mechanism(kind="train", version="1", title="Train", summary="Train.", inputs=Shafts, chapters=(train,))
+
+
+def test_formulas_of_several_parts_are_printed_with_the_number_of_each() -> None:
+    assert not faults(TRAIN)
+    calc = calculate(TRAIN, {"shafts.ratio": (5.0, 0.4)})
+    items: dict[str, Any] = {item.get("id"): item for item in mechanism_results(calc, {})["sections"][0]["items"]}
+    assert items["slip"]["equation"] == Node("-", (Node("sym", ("ω_3",)), Node("sym", ("ω_4",)))).to_json()
+    assert items["more"]["equation"] == Node("/", (Node("sym", ("F_t,2",)), Node("sym", ("F_t,1",)))).to_json()
+    assert items["slip"]["result"] == {"text": "3", "unit": "1"} and items["more"]["result"]["text"] == "1.080"
+
+
+def test_a_part_with_the_symbol_of_another_quantity_is_a_fault() -> None:
+    alike = Chapter("Alike")
+    alike.running("sum", "F_k", "1", "Sum", "sum", of="shafts.ratio", numbered="sum_{}")
+    alike.value("third", "F_3", "1", "Third", lambda sum_1: 3 * sum_1)
+    alike.running("product", "F_i", "1", "Product", "product", of="shafts.ratio", numbered="product_{}", first=9)
+    found = faults(replace(TRAIN, chapters=(alike,)))
+    assert [(each.subject, each.text.split(" (at ")[0]) for each in found] == [
+        ("step sum_3", "has the symbol F_3 of third"), ("step product_9", "has the symbol F_9 of sum_9"),
+    ]  # fmt: skip

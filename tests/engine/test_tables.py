@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 from scipy.integrate import quad
 
-from diecut_report.api import Chart, chart_panel, level, line
+from diecut_report.api import BarGroup, Bars, Chart, Polar, Series, chart_panel, level, line
 from diecut_report.contract.inputs import flatten
 from diecut_report.declaration import faults
 from diecut_report.engine import Calculation, Impossible, calculate
@@ -187,6 +187,33 @@ def test_a_panel_has_the_range_that_it_declares() -> None:
     assert "range" not in plotted(None)["panels"][0]
     assert plotted((0, None))["panels"][0]["range"] == [0, None]
     assert plotted((-1, "bore"))["panels"][0]["range"] == [pytest.approx(-0.001), 0.02]
+
+
+def figured(figure: Any) -> dict[str, Any]:
+    return figures(calculate(replace(MECHANISM, figures=(figure,)), flatten(Geared(bearing="6204"))))[0]
+
+
+def round_diagram(limits: Any) -> dict[str, Any]:
+    drawn = (Series(curve="lift", label="h"),)
+    return figured(Polar(id="p", title="Lift", caption="", abscissa="turn", unit="mm", series=drawn, range=limits))
+
+
+def barred(limits: Any) -> dict[str, Any]:
+    group = BarGroup(label="Bores", unit="mm", bars=(("one", "bore"), ("less", "-lift_max")), range=limits)
+    return figured(Bars(id="b", title="Bars", caption="", groups=(group,)))
+
+
+def test_a_polar_diagram_has_the_range_of_its_distances() -> None:
+    assert "range" not in round_diagram(None) and "error" not in round_diagram(None)
+    assert round_diagram((0, None))["range"] == [0, None] and round_diagram((None, "bore"))["range"] == [None, 0.02]
+    assert "h reaches 10 mm, outside of the range of 'Lift', … to 8 mm; widen it" in round_diagram((None, 8))["error"]
+    assert "'Lift' begins below zero, where no distance from the pole is" in round_diagram((-1, 12))["error"]
+
+
+def test_a_group_of_bars_has_a_range() -> None:
+    assert "range" not in barred(None)["groups"][0]
+    assert barred((-15, "bore"))["groups"][0]["range"] == [-0.015, 0.02]
+    assert "less reaches -10 mm, outside of the range of 'Bores', -5 mm to …; widen it" in barred((-5, None))["error"]
 
 
 def test_what_leaves_the_range_is_a_fault_of_the_figure_in_words() -> None:

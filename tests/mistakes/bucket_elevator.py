@@ -253,19 +253,22 @@ def head_drawing(view: View) -> list[Shape]:
 
 
 CHECKS = (
-    Check(id="filling", title="Filling of the buckets", demand="filling_needed", limit="filling", unit="%", demand_label="needed",
+    Check(id="filling", check_class="strength", title="Filling of the buckets",
+          demand="filling_needed", limit="filling", unit="%", demand_label="needed",
           limit_label="allowed", consequence="the buckets run over; {filling_advice}, or raise head_speed from {head_speed}."),
-    Check(id="slip", title="Slip of the belt", demand="slack_needed", limit="slack_pull", unit="N", demand_label="slack strand needs",
+    Check(id="slip", check_class="strength", title="Slip of the belt",
+          demand="slack_needed", limit="slack_pull", unit="N", demand_label="slack strand needs",
           limit_label="it has", consequence="the belt slips: raise pretension."),
-    Check(id="pull", title="Pull of the belt", demand="tight_pull", limit="allowable_pull", unit="kN", demand_label="pull",
+    Check(id="pull", check_class="strength", title="Pull of the belt", demand="tight_pull", limit="allowable_pull", unit="kN", demand_label="pull",
           limit_label="allowed", consequence="a stronger belt is needed.", source="S1"),
-    Check(id="pulley_load", title="Load of the pulleys", demand="pulley_load", limit="allowable_pulley_load", unit="kN",
+    Check(id="pulley_load", check_class="strength", title="Load of the pulleys", demand="pulley_load", limit="allowable_pulley_load", unit="kN",
           demand_label="load", limit_label="allowed", consequence="stronger shafts are needed."),
-    Check(id="torque", title="Torque of the head shaft", demand="shaft_torque", limit="allowable_torque", unit="N*m",
+    Check(id="torque", check_class="strength", title="Torque of the head shaft", demand="shaft_torque", limit="allowable_torque", unit="N*m",
           demand_label="torque", limit_label="allowed", consequence="a stronger shaft is needed.", needs=("allowable_torque",)),
-    Check(id="pawl", title="Force of the pawl", demand="pawl_force", limit="backstop.allowable_force", unit="kN", demand_label="force",
+    Check(id="pawl", check_class="strength", title="Force of the pawl",
+          demand="pawl_force", limit="backstop.allowable_force", unit="kN", demand_label="force",
           limit_label="allowed", consequence="place the pawl farther out.", needs=("backstop",)),
-    Check(id="wrap", title="Wrap of the smaller pulley", demand=120, limit="small_wrap", unit="deg", demand_label="at least",
+    Check(id="wrap", check_class="strength", title="Wrap of the smaller pulley", demand=120, limit="small_wrap", unit="deg", demand_label="at least",
           limit_label="has", consequence="move the shafts apart.", severity="warn"),
 )
 

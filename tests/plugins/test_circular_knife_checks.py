@@ -65,7 +65,8 @@ def test_within_the_limits_of_the_geometry_a_knife_is_calculated(limit: str, cha
 
 def test_a_sound_knife_passes_all_checks() -> None:
     found = checks(knife())
-    assert list(found) == ["reach", "shear_angle", "expulsion", "monotonic", "entry"]
+    assert list(found) == ["reach", "shear_angle", "expulsion", "monotonic", "entry", "shear_resistance"]
+    assert found.pop("shear_resistance")["missing"] == ["rule_force"]
     assert {check["status"] for check in found.values()} == {"pass"}
     assert found["reach"]["utilisation"] == pytest.approx(41 / (120**2 - 112**2) ** 0.5, rel=1e-12)
 
@@ -225,6 +226,19 @@ def test_the_example_is_the_worked_example_and_passes() -> None:
     results = pipeline.calc(config, Discovery([]), lambda _: None)[0].results
     found = results["mechanisms"]["knife"]
     assert results["status"] == "pass"
-    assert found["outputs"]["force_max"]["value"] == pytest.approx(10.5276, rel=5e-6)
+    assert found["outputs"]["force_max"]["value"] == pytest.approx(4.2 * 10.5276, rel=5e-6)  # of 42, not 10 N/mm²
     for name in ("cut_position", "shear_angle", "cut_speed", "sliding_ratio", "force", "torque"):
         assert found["curves"][name]["abscissa"] == "knife_angle"
+
+
+def test_a_resistance_too_small_for_the_force_of_a_rule_is_told() -> None:
+    """25 N/mm over 0.6 mm are 41.67 N/mm²: the advised resistance passes, a little less does not."""
+    board = {"thickness": "0.6 mm", "rule_force": "25 N/mm"}
+    found = checks(knife(**board))["shear_resistance"]
+    assert found["status"] == "warn"
+    assert found["utilisation"] == pytest.approx(25 / (10 * 0.6), rel=1e-12)
+    told = re.search(r"shear_resistance to at least ([\d.]+) N/mm²", found["message"])
+    assert told and float(told[1]) == pytest.approx(41.67, rel=1e-3)
+    for factor, status in ((1, "pass"), (0.999, "warn")):
+        again = board | {"shear_resistance": f"{float(told[1]) * factor} N/mm**2"}
+        assert checks(knife(**again))["shear_resistance"]["status"] == status

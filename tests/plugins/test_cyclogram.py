@@ -377,6 +377,8 @@ def test_a_study_of_the_timing_goes_machine_by_machine() -> None:
     base_config = linked({"timing": keys}).config
     offset = find_input(base_config, "mechanisms.timing.lines.1.offset")
     rows_found = calculate_rows(base_config, {offset: np.radians([38.1164, 60.0])}, 2)
-    assert np.degrees(rows_found.columns["timing.best_margin"]) == pytest.approx([11.3273, 11.3273 - (60 - 38.1164)], abs=6e-4)
+    assert np.degrees(rows_found.columns["timing.best_margin"]) == pytest.approx(
+        [11.3273, 11.3273 - (60 - 38.1164)], abs=6e-4
+    )
     assert list(rows_found.columns["timing.interlock.status"]) == ["pass", "fail"]
     assert "cyclogram" in rows_found.slow

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from itertools import pairwise
 from typing import Any
 
@@ -116,3 +117,54 @@ def test_an_impossible_cylinder_is_refused_in_words(changes: dict[str, str], key
 def test_a_wall_of_exactly_nothing_fails_without_a_utilisation() -> None:
     checks = {c["id"]: c for c in mechanism_results(cylinder(bore_radius="65 mm"), {})["checks"]}
     assert (checks["wall_at_flat"]["status"], checks["wall_at_flat"]["utilisation"]) == ("fail", None)
+
+
+SET = re.compile(r"set (\w+) to at (?:least|most) ([\d.]+ mm)")
+
+
+def verdicts(**changes: Any) -> dict[str, dict[str, Any]]:
+    """The checks of the published cylinder with changes."""
+    return {c["id"]: c for c in mechanism_results(cylinder(**changes), {})["checks"]}
+
+
+def test_each_advice_by_itself_and_all_of_it_together_mends_what_it_is_given_for() -> None:
+    bending = {"bearing_span": "860 mm", "allowable_deflection": "0.05 mm"}
+    before = verdicts(**bending)
+    failing = [name for name, check in before.items() if check["status"] == "fail"]
+    assert failing == ["wall_at_flat", "radius", "closed_section"]
+    for name in ("radius",):
+        for key, size in SET.findall(before[name]["message"]):
+            assert verdicts(**bending, **{key: size})[name]["status"] == "pass", (key, size)
+    radius, bore = (SET.search(before[name]["message"]) for name in ("radius", "wall_at_flat"))
+    assert radius and bore
+    after = verdicts(**bending, radius=radius[2], **{bore[1]: bore[2]})
+    assert {check["status"] for check in after.values()} == {"pass"}
+
+
+def test_the_advised_segment_lies_at_the_limit() -> None:
+    height = 40.0
+    message = verdicts()["radius"]["message"]
+    told = float(dict(SET.findall(message))["segment_height"].split()[0])
+    assert verdicts(segment_height=f"{told} mm")["radius"]["status"] == "pass"
+    assert verdicts(segment_height=f"{told + 0.02} mm")["radius"]["status"] == "fail"
+    assert told < height
+
+
+def test_no_segment_helps_a_radius_that_unrolls_less_than_the_sheet() -> None:
+    message = verdicts(radius="74 mm", bore_radius="10 mm", segment_height="20 mm")["radius"]["message"]
+    assert "no segment is so low that 74 mm would do" in message
+
+
+def test_the_advised_bearing_span_is_the_longest_that_is_stiff_enough() -> None:
+    keys = {"bearing_span": "1200 mm", "allowable_deflection": "0.05 mm", "bore_radius": "50 mm"}
+    message = verdicts(**keys)["deflection"]["message"]
+    span = float(dict(SET.findall(message))["bearing_span"].split()[0])
+    assert verdicts(**keys | {"bearing_span": f"{span} mm"})["deflection"]["status"] == "pass"
+    assert verdicts(**keys | {"bearing_span": f"{span * 1.002} mm"})["deflection"]["status"] == "fail"
+
+
+@pytest.mark.parametrize(("bore", "status"), [("64.9 mm", "pass"), ("65 mm", "fail"), ("70 mm", "fail")])
+def test_the_bending_of_a_closed_section_is_not_believed_of_an_open_one(bore: str, status: str) -> None:
+    found = verdicts(bore_radius=bore, bearing_span="860 mm")
+    assert found["closed_section"]["status"] == status
+    assert "closed_section" not in verdicts(bore_radius=bore)

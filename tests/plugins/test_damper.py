@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from pathlib import Path
 from typing import Any
 
@@ -352,3 +353,20 @@ def test_the_inputs_show_no_loss_beside_the_one_that_is_used() -> None:
     assert results["outputs"]["loss_fraction"]["value"] == pytest.approx(1 - np.exp(-0.15 * np.pi), rel=1e-12)
     usual = mechanism_results(damper(), {})["outputs"]["loss_fraction"]
     assert usual["value"] == 0.2 and "usual" in usual["description"]
+
+
+@pytest.mark.parametrize("rubber", [{"elastic_modulus": "8 MPa"}, {"shore_hardness": 60}])
+def test_a_stiffer_rubber_at_the_impact_is_a_stiffer_rubber(rubber: dict[str, Any]) -> None:
+    block = without("elastic_modulus")
+    still = calculated(block | rubber)
+    quick = calculated(block | rubber | {"dynamic_stiffness_factor": 1.5})
+    stiffer = calculated(block | {"elastic_modulus": f"{1.5e-6 * number(still, 'elastic_modulus')!r} MPa"})
+    for name in ("elastic_modulus", "free_length", "stress", "strain", "deflection", "peak_force"):
+        assert number(quick, name) == pytest.approx(number(stiffer, name), rel=1e-12)
+    assert number(quick, "static_modulus") == pytest.approx(number(still, "elastic_modulus"), rel=1e-15)
+
+
+def test_a_length_sized_for_the_rubber_at_rest_is_overstressed_by_its_dynamic_stiffness() -> None:
+    hit = calculated(WORKED | {"adopted_length": "560 mm", "dynamic_stiffness_factor": 1.5})
+    assert number(hit, "stress") == pytest.approx(1.19523e6 * math.sqrt(1.5), rel=1e-5)
+    assert "allowed 1.2" in told(hit, "stress")

@@ -63,7 +63,11 @@ BLOCKS = st.fixed_dictionaries(
         "max_strain": st.floats(0.05, 0.4),
         "length_step": st.sampled_from([5, 1, 2.5, 0.3, 40]),
     },
-    optional={"adopted_length": st.floats(10, 600), "drive": st.fixed_dictionaries({"force": st.floats(10, 5000)})},
+    optional={
+        "adopted_length": st.floats(10, 600),
+        "drive": st.fixed_dictionaries({"force": st.floats(10, 5000)}),
+        "dynamic_stiffness_factor": st.floats(1, 3),
+    },
 )
 RUBBERS = st.one_of(
     st.fixed_dictionaries({"elastic_modulus": st.floats(0.5, 30)}),

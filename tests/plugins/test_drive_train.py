@@ -86,6 +86,15 @@ def test_a_belt_ratio_above_seven_fails_its_check() -> None:
     assert check(train(), "vbelt_ratio")["status"] == "pass"
 
 
+def test_the_ratio_that_is_judged_is_that_of_the_pulleys_there_are() -> None:
+    wide = EXAMPLE["vbelt"] | {"center_distance": "900 mm"}
+    found = check(train(output_speed="41.2 rpm", vbelt=wide), "vbelt_ratio")
+    assert found["demand"] == pytest.approx(
+        number(train(output_speed="41.2 rpm", vbelt=wide), "driven_diameter") / 0.125
+    )
+    assert found["demand"] != pytest.approx(1450 / 41.2 / 5, rel=1e-4)
+
+
 def test_torque_at_every_shaft_is_that_of_brute_force_over_the_turn() -> None:
     calc = train(**WORKING)
     _, torque = over_a_turn(UNEVEN, 2_000_001)
@@ -156,8 +165,15 @@ def test_mean_and_peak_that_do_not_belong_to_the_curve_are_told() -> None:
     assert [check(fitting, f"torque_{n}")["status"] for n in ("mean", "peak")] == ["pass", "pass"]
     assert [check(off, f"torque_{n}")["status"] for n in ("mean", "peak")] == ["pass", "warn"]
     assert check(train(torque_curve=UNEVEN, torque_mean=100), "torque_mean")["status"] == "warn"
-    assert check(train(torque_peak=199), "torque_order")["status"] == "warn"
-    assert check(train(torque_peak=200), "torque_order")["status"] == "pass"
+    assert {"torque_mean", "torque_peak"}.isdisjoint(checked(train()))  # there is no curve to belong to
+
+
+def test_a_peak_below_the_mean_is_refused_and_what_is_told_lies_on_the_limit() -> None:
+    with pytest.raises(Impossible) as refused:
+        train(torque_peak=199)
+    least = re.search(r"torque_peak of at least (\d+)", refused.value.message)
+    assert refused.value.key == "torque_peak" and least and int(least[1]) == 200
+    train(torque_peak=200)
 
 
 @examples(50)

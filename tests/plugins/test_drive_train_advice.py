@@ -181,13 +181,12 @@ def test_the_motor_s_and_the_curve_s_advice_is_enough() -> None:
     )
     assert lower and check(train(**large, reserve_factor=float(lower[1])), "motor_power")["status"] == "pass"
 
-    off = train(torque_curve=UNEVEN, torque_mean=50, torque_peak=40)
+    off = train(torque_curve=UNEVEN, torque_mean=50, torque_peak=60)
     mean = re.search(r"torque_mean to (\d+(?:\.\d+)?)", check(off, "torque_mean")["message"])
     peak = re.search(r"torque_peak to (\d+(?:\.\d+)?)", check(off, "torque_peak")["message"])
-    least = re.search(r"torque_peak of at least (\d+(?:\.\d+)?)", check(off, "torque_order")["message"])
-    assert mean and peak and least and float(least[1]) == 50
+    assert mean and peak
     calc = train(torque_curve=UNEVEN, torque_mean=float(mean[1]), torque_peak=float(peak[1]))
-    assert {check(calc, n)["status"] for n in ("torque_mean", "torque_peak", "torque_order")} == {"pass"}
+    assert {check(calc, n)["status"] for n in ("torque_mean", "torque_peak")} == {"pass"}
 
 
 @pytest.mark.parametrize("fluctuation", [0.006, 0.005])

@@ -12,7 +12,9 @@ import numpy as np
 import pytest
 
 from diecut_report.report.curves import continuous, period_of, through_pole
+from diecut_report.report.figures.bars import bars
 from diecut_report.report.figures.by_type import render
+from diecut_report.report.figures.polar import polar
 from diecut_report.report.figures.shapes import hatching
 from diecut_report.report.figures.style import Labels, marked
 from diecut_report.report.i18n import Catalogue
@@ -106,6 +108,41 @@ def test_polar_curve_changes_its_sign_at_the_pole() -> None:
     x, y = through_pole(np.array([0.0, 1.0, 1.0, 2.0]), np.array([1.0, 1.0, -3.0, -3.0]))
     assert list(x) == [0.0, 1.0, 1.0, 1.0, 2.0]
     assert list(y) == [1.0, 1.0, 0.0, -3.0, -3.0]
+
+
+def test_a_polar_diagram_keeps_the_range_that_it_declares() -> None:
+    over = {
+        "values": list(np.linspace(0, 6, 40)),
+        "unit": "rad",
+        "description": "Turn",
+        "symbol": "φ",
+        "display_unit": "deg",
+    }
+    curves = {"turn": over, "lift": {"values": [0.004] * 40, "unit": "m"}}
+    figure = {"title": "Lift", "abscissa": "turn", "unit": "mm", "series": [{"curve": "lift", "label": "h"}]}
+
+    def reach(**more: Any) -> tuple[float, float]:
+        (axes,) = polar(figure | more, curves, WORDS).axes
+        return axes.get_ylim()
+
+    assert reach()[0] == 0 and 4 < reach()[1] < 5
+    assert reach(range=[None, 0.006]) == (0, pytest.approx(6)) and reach(range=[0.003, None])[0] == pytest.approx(3)
+
+
+def test_bars_with_a_declared_range_name_its_ends() -> None:
+    group = {
+        "label": "Masses",
+        "unit": "kg",
+        "bars": [{"label": "one", "value": 95.0}, {"label": "two", "value": 98.0}],
+    }
+
+    def axis(**more: Any) -> tuple[float, list[str]]:
+        (axes,) = bars({"groups": [group | more]}, {}, WORDS).axes
+        named = [text.get_text() for text in axes.get_xticklabels() if axes.xaxis.get_tick_params()["labelbottom"]]
+        return axes.get_xlim()[0], named
+
+    assert axis() == (pytest.approx(-0.02 * 98), [])
+    assert axis(range=[90.0, None]) == (90, ["90.00", "98.00"])
 
 
 def test_hatching_fills_the_section_and_leaves_its_hole() -> None:

@@ -62,7 +62,14 @@ def bound_of(angle: Any, swing: Any) -> Any:
 
 
 def check(demand: Any, limit: Any, **changes: Any) -> Check:
-    texts = {"id": "c", "title": "Bars", "demand_label": "force", "limit_label": "allowed", "consequence": "relieve it"}
+    texts: dict[str, Any] = {
+        "check_class": "strength",
+        "id": "c",
+        "title": "Bars",
+        "demand_label": "force",
+        "limit_label": "allowed",
+        "consequence": "relieve it",
+    }
     return Check(**{**texts, "demand": demand, "limit": limit, "unit": "N", **changes})
 
 
@@ -118,7 +125,13 @@ def test_a_part_without_the_quantity_is_not_judged() -> None:
     given = flatten(Rack.model_validate({"bars": [{"load": 9}, {"load": 2, "rated": 5}, {"load": 1, "rated": 1}]}))
     [found] = check_results(calculate(rack(rated), given))
     assert [part["status"] for part in found["parts"]] == [None, "pass", "fail"] and found["part"] == 3
-    assert check_results(calculated(rated)) == []
+    [unmade] = check_results(calculated(rated))
+    assert (unmade["status"], unmade["missing"], unmade["demand"], unmade["limit"]) == (
+        "not_checked",
+        ["bars.rated"],
+        12,
+        None,
+    )
 
 
 def test_a_check_on_a_curve_judges_its_extreme_and_not_its_samples() -> None:

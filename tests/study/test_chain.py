@@ -32,7 +32,7 @@ VARIED: dict[str, dict[str, tuple[float, float] | list[str]]] = {
     "folding_knife.yaml": {"mechanisms.knife.cylinder_rate": (2.0, 9.0), "mechanisms.knife.working_depth": (0.02, 0.06)},
     "platen_press_zppt30.yaml": {"mechanisms.platen.drive_deformation": (1e-4, 2e-3), "mechanisms.platen.friction": (0.01, 0.3)},
     "circular_knife.yaml": {"mechanisms.knife.eccentricity": (0.005, 0.06), "mechanisms.knife.front_distance": (0.01, 0.06)},
-    "elastic_transport.yaml": {"mechanisms.conveyor.stiffness": (5e3, 9e4), "mechanisms.transport.motion_law": ["cycloidal", "polynomial_345"]},
+    "elastic_transport.yaml": {"mechanisms.conveyor.stiffness": (330.0, 6e3), "mechanisms.transport.motion_law": ["cycloidal", "polynomial_345"]},
 }  # fmt: skip
 
 
@@ -132,6 +132,8 @@ def _same_numbers(rows: Rows, row: int, found: dict[str, Any]) -> None:
             is_residual = key.endswith("_residual")  # judged by its check
             assert is_residual or same(rows.columns[key][row], value, within), (key, rows.columns[key][row], value)
         for check in mechanism["checks"]:
+            if check["class"] == "numerical":  # one that fails makes the variant an error
+                continue
             ratio, status = (
                 rows.columns[f"{name}.checks.{check['id']}.{part}"][row] for part in ("utilisation", "status")
             )

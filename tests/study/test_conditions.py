@@ -15,17 +15,17 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from diecut_report.conditions.numpy_emitter import judged
+from diecut_report.conditions.parts import Name
+from diecut_report.conditions.reading import read
+from diecut_report.conditions.tree import Node, names
+from diecut_report.conditions.words import ConditionError
 from diecut_report.errors import UserError
 from diecut_report.expressions import Node as Expression
 from diecut_report.study.analysis.stored_variants import StoredColumn
 from diecut_report.study.conditions.constraints import Term, parse
-from diecut_report.study.conditions.numpy_emitter import judged
-from diecut_report.study.conditions.parts import Name
-from diecut_report.study.conditions.reading import read
 from diecut_report.study.conditions.sql_emitter import written
-from diecut_report.study.conditions.tree import Node, names
 from diecut_report.study.conditions.where import condition
-from diecut_report.study.conditions.words import ConditionError
 
 COLUMNS = {
     column.name: column

@@ -297,7 +297,8 @@ def test_the_sides_of_a_relation_are_both_angles() -> None:
 
 
 def test_a_check_compares_rpm_with_no_frequency() -> None:
-    check = Check(id="c", title="c", demand="speed", limit=3.0, unit="1/min", demand_label="", limit_label="", consequence="")  # fmt: skip
+    check = Check(id="c", check_class="strength", title="c",
+                  demand="speed", limit=3.0, unit="1/min", demand_label="", limit_label="", consequence="")  # fmt: skip
     with pytest.raises(AssertionError, match="check c: is in 1/min, speed in rpm"):
         check_mechanism(wheel(value(bind(common.same, quantity="speed"), "rpm"), checks=(check,)))
 

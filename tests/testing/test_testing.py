@@ -37,6 +37,7 @@ def check(**changes: Any) -> Check:
     """A sound check with changes."""
     sound: dict[str, Any] = {
         "id": "c",
+        "check_class": "strength",
         "title": "c",
         "demand": "m",
         "limit": 3.0,

@@ -1,11 +1,10 @@
-"""A value between two rows of a table as it is printed: the straight line through them, in symbols and with its numbers."""
+"""A value between two rows of a table as it is printed: the line through them, in symbols and with its numbers."""
 
 from __future__ import annotations
 
 from collections.abc import Callable
 from typing import TYPE_CHECKING
 
-from diecut_report.contract.between import straight
 from diecut_report.contract.binding import bound
 from diecut_report.contract.part_steps import Interpolated
 from diecut_report.engine.printing.substitution import MOST_DIGITS, Elsewhere, Substitution
@@ -18,7 +17,7 @@ if TYPE_CHECKING:
 
 
 class BetweenRows(Substitution):
-    """Describe the straight line through the two rows on either side of a quantity; its numbers stand in the table's units."""
+    """Describe the line through the two rows on either side of a quantity; its numbers stand in the table's units."""
 
     def __init__(
         self,
@@ -37,7 +36,7 @@ class BetweenRows(Substitution):
     def symbolic(self) -> Node:
         """Return the line in symbols, those of the rows with 1 and 2."""
         rows = [Node("sym", (symbol,)) for number in (1, 2) for symbol in self._symbols(number)]
-        return straight(self._marked(self.step.of), *rows)
+        return self.step.between.through(self._marked(self.step.of), *rows)
 
     def told(self) -> str:
         """Return in words the two rows, and where the table comes from."""
@@ -56,7 +55,7 @@ class BetweenRows(Substitution):
 
     def _at(self, digits: int) -> Node:
         rows = [Node("qty", (text, own.unit)) for row in self.rows for own, text in row]
-        return self._with_numbers(straight(Node("sym", ("x",)), *rows), digits, angle=False)
+        return self._with_numbers(self.step.between.through(Node("sym", ("x",)), *rows), digits, angle=False)
 
     def _symbols(self, number: int) -> tuple[str, str]:
         """The symbols of a row: those of the quantities with its number."""

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from typing import Any
 
 import numpy as np
@@ -11,6 +11,7 @@ from matplotlib.figure import Figure
 
 from diecut_report.quantities.units import pretty, unit
 from diecut_report.report.figures.diagram import WIDTH
+from diecut_report.report.figures.panel_data import limits_of
 from diecut_report.report.figures.style import ACCENT, INK, canvas, plain, text_size
 from diecut_report.report.i18n import Catalogue
 from diecut_report.report.number_format import number, significant
@@ -22,7 +23,8 @@ def bars(figure: Data, _curves: Data, words: Catalogue) -> Figure:
     """Horizontal bars in groups side by side, each group with its unit; what is subtracted is hatched."""
     groups = figure["groups"]
     rows = max(len(group["bars"]) for group in groups)
-    height = 30 + 17.0 * rows + 8
+    below = 8 if all("range" not in group for group in groups) else 20
+    height = 30 + 17.0 * rows + below
     sheet = canvas(WIDTH, height)
     share = WIDTH / len(groups)
     for index, group in enumerate(groups):
@@ -37,8 +39,6 @@ def bars(figure: Data, _curves: Data, words: Catalogue) -> Figure:
 
 def _group(axes: Axes, group: Data, shown: str, words: Catalogue) -> None:
     values = [bar["value"] / unit(shown).factor for bar in group["bars"]]
-    reach = max(map(abs, values)) or 1.0
-    points = axes.get_position().width * WIDTH
     rows = np.arange(len(values))[::-1]
     last = len(values) - 1
     for row, value, index in zip(rows, values, range(len(values)), strict=True):
@@ -48,16 +48,27 @@ def _group(axes: Axes, group: Data, shown: str, words: Catalogue) -> None:
         )
         text = number(significant(value, 4), words["decimal"])
         axes.annotate(text, (max(value, 0), row), (3, 0), textcoords="offset points", va="center_baseline", size=8)
-    room = max(text_size(number(significant(value)))[0] for value in values) + 6
-    low, high = min([0.0, *values]), max([0.0, *values])
-    scale = (high - low) / max(points - room, 1)
-    axes.set_xlim(low - 0.02 * reach, high + room * scale)
+    _across(axes, values, limits_of(group, shown), words)
     axes.set_yticks(rows, [plain(bar["label"]) for bar in group["bars"]], va="center_baseline")
     axes.set_ylim(-0.6, len(values) - 0.4)
     axes.axvline(0, color=INK, linewidth=0.8)
     axes.set_title(plain(group["label"]) + (f", {pretty(shown)}" if pretty(shown) else ""), pad=5)
     axes.grid(visible=False)
     axes.tick_params(axis="y", length=0)
-    axes.tick_params(axis="x", bottom=False, labelbottom=False)
     for side in ("top", "right", "bottom", "left"):
         axes.spines[side].set_visible(False)
+
+
+def _across(
+    axes: Axes, values: Sequence[float], limits: tuple[float | None, float | None] | None, words: Catalogue
+) -> None:
+    """Lay out the axis of the bars, with room for their numbers; where its range is declared its ends are named."""
+    room = max(text_size(number(significant(value)))[0] for value in values) + 6
+    points = axes.get_position().width * WIDTH
+    own = min([0.0, *values]), max([0.0, *values])
+    low, high = (each if end is None else end for each, end in zip(own, limits or (None, None), strict=True))
+    margin = 0.0 if limits and limits[0] is not None else 0.02 * (max(map(abs, values)) or 1.0)
+    axes.set_xlim(low - margin, high + room * (high - low) / max(points - room, 1))
+    axes.tick_params(axis="x", bottom=limits is not None, labelbottom=limits is not None)
+    if limits:
+        axes.set_xticks([low, high], [number(significant(end, 4), words["decimal"]) for end in (low, high)])

@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 from diecut_report.quantities.units import pretty, to_display, unit
 from diecut_report.report.curves import continuous, period_of
 from diecut_report.report.figures.diagram import HEAD, WIDTH, Diagram
-from diecut_report.report.figures.panel_data import Across, Line, Note, PanelData, SpanData, range_of
+from diecut_report.report.figures.panel_data import Across, Line, Note, PanelData, SpanData, limits_of, range_of
 from diecut_report.report.figures.style import canvas, marked, plain
 from diecut_report.report.i18n import Catalogue
 from diecut_report.report.number_format import displayed, joined
@@ -75,7 +75,7 @@ def _of_curves(panel: Data, curves: Data, over: Data, words: Catalogue) -> Panel
         levels=[_level(level, shown, words) for level in panel["levels"]],
         spans=[SpanData(span["from"] / factor, span["to"] / factor, span["label"]) for span in panel["spans"]],
         zero=True,
-        limits=_limits(panel),
+        limits=limits_of(panel, shown),
     )  # fmt: skip
 
 
@@ -97,16 +97,8 @@ def _of_lines(panel: Data, words: Catalogue) -> PanelData:
         marks=marks,
         levels=[_level(level, shown, words) for level in panel["levels"]],
         verticals=verticals,
-        limits=_limits(panel),
+        limits=limits_of(panel, shown),
     )
-
-
-def _limits(panel: Data) -> tuple[float | None, float | None] | None:
-    """The range upwards that a panel declares, in its unit."""
-    if "range" not in panel:
-        return None
-    low, high = (None if end is None else end / unit(panel["unit"]).factor for end in panel["range"])
-    return low, high
 
 
 def _line(line: Data, across: str, shown: str) -> Line:

@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
+
+from diecut_report.quantities.units import unit
 
 Array = NDArray[Any]
 ROOM = 0.08  # of the diagram's height, above and below what is drawn
@@ -106,6 +108,14 @@ class Frame(NamedTuple):
         """Points from the corner as numbers of the axes."""
         (x0, x1), (y0, y1) = self.across, self.upwards
         return x0 + points[:, 0] / self.width * (x1 - x0), y0 + points[:, 1] / self.height * (y1 - y0)
+
+
+def limits_of(drawn: Mapping[str, Any], shown: str) -> tuple[float | None, float | None] | None:
+    """The range of an axis that is declared with what is drawn, in the unit that is shown; None where there is none."""
+    if "range" not in drawn:
+        return None
+    low, high = (None if end is None else end / unit(shown).factor for end in drawn["range"])
+    return low, high
 
 
 def range_of(numbers: Sequence[Any]) -> tuple[float, float]:

@@ -13,6 +13,7 @@ from matplotlib.ticker import FuncFormatter, MaxNLocator
 from diecut_report.quantities.units import pretty, unit
 from diecut_report.report.curves import continuous, period_of, through_pole
 from diecut_report.report.figures.diagram import STROKES, WIDTH, titled
+from diecut_report.report.figures.panel_data import limits_of
 from diecut_report.report.figures.style import MM, canvas, marked
 from diecut_report.report.i18n import Catalogue
 from diecut_report.report.number_format import joined, number
@@ -48,7 +49,8 @@ def polar(figure: Data, curves: Data, words: Catalogue) -> Figure:
     axes.set_xticks(np.radians(np.arange(0, TURN, 30)))
     axes.yaxis.set_major_locator(MaxNLocator(4, steps=[1, 2, 2.5, 5, 10]))
     axes.tick_params(pad=1)
-    axes.set_ylim(0)
+    low, high = limits_of(figure, figure["unit"]) or (None, None)
+    axes.set_ylim(low or 0, high)
     greatest = max(tick for tick in axes.get_yticks() if tick <= axes.get_ylim()[1])
     axes.yaxis.set_major_formatter(FuncFormatter(lambda v, _: _radial(v, greatest, figure["unit"], words)))
     sheet.text(0.02, 1 - 14 / (side + 16), titled(over["description"], over["symbol"], over["display_unit"]))

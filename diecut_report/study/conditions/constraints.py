@@ -8,13 +8,13 @@ from typing import Any
 
 import numpy as np
 
+from diecut_report.conditions.numpy_emitter import JudgedRows, judged
+from diecut_report.conditions.parts import Name
+from diecut_report.conditions.reading import read
+from diecut_report.conditions.tree import Node as Tree
+from diecut_report.conditions.tree import names
+from diecut_report.conditions.words import ConditionError
 from diecut_report.expressions import Array, Node, evaluate, symbols
-from diecut_report.study.conditions.numpy_emitter import JudgedRows, judged
-from diecut_report.study.conditions.parts import Name
-from diecut_report.study.conditions.reading import read
-from diecut_report.study.conditions.tree import Node as Tree
-from diecut_report.study.conditions.tree import names
-from diecut_report.study.conditions.words import ConditionError
 
 WITHOUT_VALUE = "a division by zero, or the root of a number below zero"
 EXAMPLE = "mechanisms.NAME.KEY <= '90 mm'"

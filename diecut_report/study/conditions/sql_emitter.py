@@ -8,8 +8,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import Any, NamedTuple
 
-from diecut_report.study.analysis.stored_variants import StoredColumn
-from diecut_report.study.conditions.tree import (
+from diecut_report.conditions.tree import (
     Call,
     Chain,
     ColumnName,
@@ -25,6 +24,7 @@ from diecut_report.study.conditions.tree import (
     TextLiteral,
     Truth,
 )
+from diecut_report.study.analysis.stored_variants import StoredColumn
 
 _SIGNS = {"==": "=", "!=": "<>", "<": "<", "<=": "<=", ">": ">", ">=": ">="}
 _LEAST = {"min": "<=", "max": ">="}

@@ -5,13 +5,14 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping
 
+from diecut_report.conditions.formula_tree import as_formula
+from diecut_report.conditions.words import ConditionError
 from diecut_report.config.loader import Config
 from diecut_report.config.model import PRESS
 from diecut_report.config.references import Target
 from diecut_report.contract.inputs import Quantity
 from diecut_report.expressions import Formula, Node, transform
 from diecut_report.study.conditions.constraints import Term
-from diecut_report.study.conditions.words import ConditionError
 from diecut_report.study.definition.base_inputs import (
     MECHANISMS,
     Input,
@@ -34,7 +35,11 @@ def term(base: Config, varied: Mapping[str, Input], path: str) -> Term:
     target = base.links.get((asked.instance, *asked.key))
     if target is None:
         return Term(asked.unit, Node("qty", (_fixed(base, asked),)), _display(asked))
-    return _referred(base, varied, asked, target)
+    if target.expression is None:
+        return _referred(base, varied, asked, target)
+    nodes = [_referred(base, varied, asked, single).node for single in target.terms]
+    known = dict(zip(target.expression.names, nodes, strict=True))
+    return Term(asked.unit, as_formula(target.expression.tree, known), _display(asked))
 
 
 def _display(asked: Input) -> str:

@@ -6,13 +6,13 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 from typing import Any
 
+from diecut_report.conditions.parts import Name
+from diecut_report.conditions.reading import read
+from diecut_report.conditions.tree import names
+from diecut_report.conditions.words import ConditionError
 from diecut_report.errors import Problem, UserError, nearest
 from diecut_report.study.analysis.stored_variants import StoredColumn
-from diecut_report.study.conditions.parts import Name
-from diecut_report.study.conditions.reading import read
 from diecut_report.study.conditions.sql_emitter import written
-from diecut_report.study.conditions.tree import names
-from diecut_report.study.conditions.words import ConditionError
 
 EXAMPLE = "drive.crank_torque_peak < '40 N*m' and status = 'pass'"
 SHOWN = 300  # letters of a condition in a message

@@ -7,6 +7,7 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
+from diecut_report.conditions.words import ConditionError
 from diecut_report.config import yaml_tree
 from diecut_report.config.discovery import Discovery
 from diecut_report.config.loader import Config, as_typed, load_config
@@ -15,7 +16,6 @@ from diecut_report.config.yaml_tree import Tree
 from diecut_report.errors import Problem, UserError
 from diecut_report.study.conditions.constraints import Constraint, parse
 from diecut_report.study.conditions.terms import term
-from diecut_report.study.conditions.words import ConditionError
 from diecut_report.study.definition.base_inputs import Input
 from diecut_report.study.definition.form import SampleForm, StudyDocument
 from diecut_report.study.definition.sample import Sampled, SampleReader, misused
@@ -129,7 +129,7 @@ class _StudyReader:
             self.problems.append(self.place.problem(("base",), words))
             return None
         try:
-            base = load_config(path, self.discovery)
+            base = load_config(path, self.discovery, only_named=True)
         except UserError as error:
             words = "the base has problems, which are reported with its own name; what is varied in it is judged when they are fixed."
             self.problems += [self.place.problem(("base",), words), *error.problems]

@@ -6,7 +6,7 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from diecut_report.study.conditions.numpy_emitter import JudgedRows
+from diecut_report.conditions.numpy_emitter import JudgedRows
 from diecut_report.study.definition.study_file import Study
 from diecut_report.study.execution.worker import judged
 

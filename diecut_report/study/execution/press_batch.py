@@ -9,6 +9,7 @@ from typing import Any
 
 import numpy as np
 
+from diecut_report.conditions.arithmetic import WITHOUT_VALUE
 from diecut_report.config.discovery import said
 from diecut_report.config.instances import Instance
 from diecut_report.config.loader import Config
@@ -21,6 +22,7 @@ from diecut_report.engine import Calculation, Impossible, Unproven, calculate
 from diecut_report.engine.phases import PhaseHandle
 from diecut_report.errors import PluginError, Problem
 from diecut_report.expressions import Array
+from diecut_report.quantities.plausible import without_rounding
 from diecut_report.results.press_run import Absent, Run, number, output
 from diecut_report.study.definition.base_inputs import Input, with_values
 
@@ -94,9 +96,9 @@ class _Rows(Run):
     def _comparisons(self) -> None:
         """A study compares variants, not mechanisms."""
 
-    def _broke(self, instance: Instance, cause: BaseException) -> None:
+    def _broke(self, instance: Instance, cause: BaseException, words: str = "") -> None:
         """No mechanism of a variant is left out in silence."""
-        raise NotOnArrays(self.config.kinds[instance.name], said(cause)) from cause
+        raise NotOnArrays(self.config.kinds[instance.name], words or said(cause)) from cause
 
     def _output(self, calculation: Calculation, name: str, target: Target) -> Any:
         """A result of all variants; where it is absent that is the variant's reason."""
@@ -111,7 +113,7 @@ class _Rows(Run):
             if self.variants.count == 1:
                 return column[0]
             raise NotOnArrays(calculation.mechanism.kind, f"its text {name} is referred to")
-        return SI(column.astype(float), str(target.unit), target.path)
+        return SI(without_rounding(column.astype(float), str(target.unit)), str(target.unit), target.path)
 
     def _phase(self, calculation: Calculation, name: str, target: Target) -> PhaseHandle:
         """A phase of all variants; where it is absent that is the variant's reason."""
@@ -154,7 +156,7 @@ class _Rows(Run):
 
     def _refused(self, instance: Instance, key: KeyPath, meta: Quantity, value: SI, row: int) -> None:
         try:
-            words = "has no value" if np.isnan(value.value) else meta.validate(value)
+            words = _valueless(value) if np.isnan(value.value) else meta.validate(value)
         except ValueError as fault:
             words = str(fault)
         self._reason([row], _words(instance.place.problem(key, str(words))))
@@ -186,6 +188,11 @@ class _Rows(Run):
 def _told(instance: Instance, path: str, message: str) -> str:
     key = tuple(int(part) if part.isdigit() else part for part in path.split(".") if part)
     return _words(instance.place.problem(key, message))
+
+
+def _valueless(value: SI) -> str:
+    """What is told of a number that is missing: of what an expression gives, why."""
+    return f"“{value.told}” has no value: {WITHOUT_VALUE}" if "${" in value.told else "has no value"
 
 
 def _words(problem: Problem) -> str:

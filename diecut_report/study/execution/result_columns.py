@@ -14,6 +14,7 @@ from diecut_report.config.loader import Config
 from diecut_report.config.model import PRESS
 from diecut_report.contract.checks import Check
 from diecut_report.contract.inputs import list_inputs
+from diecut_report.contract.missing_keys import missing_keys
 from diecut_report.contract.result_names import CROSSING_COLUMNS, ResultName, count_name, result_names
 from diecut_report.contract.steps import SILENT, Choice, Crossings, Step, Value
 from diecut_report.engine import Calculation
@@ -21,7 +22,8 @@ from diecut_report.engine.steps.extreme_checks import is_made
 from diecut_report.errors import PluginError
 from diecut_report.expressions import Array
 from diecut_report.quantities.units import unit
-from diecut_report.results.checks import judged
+from diecut_report.results.checks import is_sized, judged
+from diecut_report.results.unchecked import is_of_machine, missing
 from diecut_report.study.execution.press_batch import of_plugin
 from diecut_report.study.storage.description import Kind, ResultColumn
 
@@ -104,15 +106,20 @@ def _kind(step: Step) -> Kind:
 
 
 def _checks(name: str, instance: Instance) -> Iterator[ResultColumn]:
-    for check in _made(instance.mechanism.checks if instance.mechanism else (), instance.given):
+    for check in _reported(instance):
         yield ResultColumn(f"{name}.checks.{check.id}.utilisation", "float", description=f"{check.title}: utilisation")
         yield ResultColumn(f"{name}.checks.{check.id}.status", "text", description=f"{check.title}: verdict")
 
 
-def _made(checks: tuple[Check, ...], given: frozenset[str]) -> dict[Check, None]:
-    """The checks whose needs are given, each id once."""
-    found = {check.id: check for check in checks if given.issuperset(check.needs)}
-    return dict.fromkeys(found.values())
+def _reported(instance: Instance) -> Iterator[Check]:
+    """Yield the checks that are made, or would be with more keys, each id once; self-tests of the calculation have no columns."""
+    mechanism = instance.mechanism
+    assert mechanism is not None
+    ids: set[str] = set()
+    for check in mechanism.checks:
+        if check.id not in ids and is_of_machine(check) and missing_keys(mechanism, check, instance.given) is not None:
+            ids.add(check.id)
+            yield check
 
 
 def output_values(name: str, calc: Calculation) -> dict[str, Array]:
@@ -155,38 +162,59 @@ def _wide(places: Array) -> Array:
 
 @dataclass
 class Verdicts:
-    """Hold of each check the status codes and utilisations of many variants, shape (checks, variants)."""
+    """Hold of each check the status codes and utilisations of many variants, shape (checks, variants).
+
+    ``unchecked`` are the checks that need more keys, ``sized`` says which show no reserve, and ``faults`` is for each
+    variant whose calculation contradicts itself what does not hold.
+    """
 
     names: list[str]
     codes: Array
     ratios: Array
+    sized: Array
+    unchecked: list[str]
+    faults: dict[int, str]
 
 
 def verdicts(calculations: Mapping[str, Calculation], count: int) -> Verdicts:
     """Return all checks of all mechanisms; code 0 where a check does not apply."""
-    names, codes, ratios = [], [], []
+    names, codes, ratios, sized, unchecked = [], [], [], [], []
+    faults: dict[int, str] = {}
     for name, calc in calculations.items():
         for check in calc.mechanism.checks:
             if not is_made(calc, check):
+                unchecked += [f"{name}.checks.{check.id}"] if missing(calc, check) else []
                 continue
             found = judged(calc, check)
             there, held, ratio = (found.governing(part) for part in (found.there, found.held, found.ratio))
+            if not is_of_machine(check):
+                faults |= {
+                    int(row): f"{name}: {check.title}. {check.consequence}" for row in np.flatnonzero(there & ~held)
+                }
+                continue
             names.append(f"{name}.checks.{check.id}")
             codes.append(np.where(there, np.where(held, PASS, FAIL if check.severity == "fail" else WARN), 0))
             ratios.append(np.where(there, ratio, np.nan))
+            sized.append(is_sized(calc.given, check))
     shape = (len(names), count)
-    return Verdicts(names, np.reshape(codes, shape).astype(int), np.reshape(ratios, shape).astype(float))
+    unchecked = [name for name in dict.fromkeys(unchecked) if name not in names]
+    return Verdicts(names, np.reshape(codes, shape).astype(int), np.reshape(ratios, shape).astype(float),
+                    np.array(sized, dtype=bool), unchecked, faults)  # fmt: skip
 
 
 def governing(found: Verdicts) -> Array:
-    """Return for each variant the check that governs: fail before warn before pass, then the greatest utilisation; None without checks."""
+    """Return for each variant the check that governs: fail before warn before pass, then the greatest utilisation; None without checks.
+
+    What was sized to its limit, and holds, does not govern.
+    """
     if not found.names:
         return np.full(found.codes.shape[1], None, dtype=object)
-    unknown = np.where(found.codes == PASS, -np.inf, np.inf)
+    codes = np.where(found.sized[:, None] & (found.codes == PASS), 0, found.codes)
+    unknown = np.where(codes == PASS, -np.inf, np.inf)
     ratios = np.where(np.isnan(found.ratios), unknown, found.ratios)
-    worst = found.codes.max(axis=0)
-    among = np.where(found.codes == worst, ratios, -np.inf)
-    first = np.argmax(np.where(found.codes == worst, np.nextafter(among, np.inf), -np.inf), axis=0)
+    worst = codes.max(axis=0)
+    among = np.where(codes == worst, ratios, -np.inf)
+    first = np.argmax(np.where(codes == worst, np.nextafter(among, np.inf), -np.inf), axis=0)
     names: Array = np.array(found.names, dtype=object)[first]
     names[worst == 0] = None
     return names

@@ -11,6 +11,7 @@ import numpy as np
 from diecut_report.config.loader import Config
 from diecut_report.contract.inputs import POINTS
 from diecut_report.expressions import Array
+from diecut_report.results.unchecked import NOT_CHECKED
 from diecut_report.study.definition.base_inputs import Input
 from diecut_report.study.execution import result_columns
 from diecut_report.study.execution.press_batch import CalculatedVariants, NotOnArrays, calculated
@@ -86,8 +87,9 @@ def _group(base: Config, numbers: Mapping[Input, Array], texts: Mapping[Input, A
 
 def _kept(variants: CalculatedVariants, rows: Rows, chosen: Array) -> None:
     """Put what was calculated of some variants into their rows."""
-    bad = np.array(sorted(variants.reasons), dtype=int)
     found = result_columns.verdicts(variants.calculations, variants.count)
+    variants.reasons = {**found.faults, **variants.reasons}
+    bad = np.array(sorted(variants.reasons), dtype=int)
     found.codes[:, bad], found.ratios[:, bad] = 0, np.nan
     for name, values in _all_columns(variants, found).items():
         column = rows.columns.setdefault(name, _empty(rows.count, values.dtype))
@@ -114,6 +116,9 @@ def _all_columns(variants: CalculatedVariants, found: result_columns.Verdicts) -
             outputs[column] = np.broadcast_to(plain, (variants.count,))
     for name, codes, ratios in zip(found.names, found.codes, found.ratios, strict=True):
         outputs |= {f"{name}.utilisation": ratios, f"{name}.status": result_columns.STATUS[codes]}
+    for name in found.unchecked:
+        statuses = np.full(variants.count, NOT_CHECKED, dtype=object)
+        outputs |= {f"{name}.utilisation": np.full(variants.count, np.nan), f"{name}.status": statuses}
     return outputs
 
 

@@ -10,10 +10,10 @@ from typing import Any
 
 import numpy as np
 
+from diecut_report.conditions.numpy_emitter import JudgedRows
 from diecut_report.config.discovery import Discovery
 from diecut_report.errors import Problem, UserError
 from diecut_report.expressions import Array
-from diecut_report.study.conditions.numpy_emitter import JudgedRows
 from diecut_report.study.definition.study_file import Study, load_study
 from diecut_report.study.execution.process_settings import settle
 from diecut_report.study.execution.variant_rows import calculate_rows

@@ -159,6 +159,7 @@ MECHANISM = Mechanism(
     checks=(
         Check(
             id="moment",
+            check_class="strength",
             title="Moment",
             demand="moment",
             limit="allowable_moment",

@@ -53,6 +53,7 @@ MECHANISM = Mechanism(
     checks=(
         Check(
             id="wide",
+            check_class="strength",
             title="Width",
             demand="least",
             limit="width",

@@ -84,6 +84,7 @@ MECHANISM = Mechanism(
     checks=(
         Check(
             id="power",
+            check_class="strength",
             title="Power",
             demand="power",
             limit="rated",

@@ -1,0 +1,84 @@
+"""Checks that are not made because an optional input is not given: what each needs, and its demand where that is known."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import Any
+
+import numpy as np
+
+from diecut_report.contract.checks import Check
+from diecut_report.contract.missing_keys import missing_keys
+from diecut_report.contract.placeholders import listed
+from diecut_report.engine import Calculation
+from diecut_report.quantities.formatting import shown, with_unit
+from diecut_report.quantities.units import unit
+
+Data = dict[str, Any]
+NOT_CHECKED = "not_checked"
+
+
+def is_of_machine(check: Check) -> bool:
+    """Return whether a check judges the machine, and not the calculation itself."""
+    return check.check_class != "numerical"
+
+
+def missing(calc: Calculation, check: Check) -> tuple[str, ...]:
+    """Return the keys without which a check is not made; none where it is made, does not apply, or tests the calculation itself."""
+    return missing_keys(calc.mechanism, check, calc.given) or () if is_of_machine(check) else ()
+
+
+def result(calc: Calculation, check: Check, keys: tuple[str, ...]) -> Data:
+    """Return a check that is not made, in the form of those that are."""
+    demand = _known(calc, check.demand)
+    text = None if demand is None else shown(demand, check.unit)
+    return {
+        "id": check.id,
+        "title": check.title,
+        "class": check.check_class,
+        "status": NOT_CHECKED,
+        "demand": demand,
+        "limit": None,
+        "operator": check.operator,
+        "unit": unit(check.unit).si,
+        "utilisation": None,
+        "source": check.source,
+        "message": _message(calc, check, keys),
+        "demand_label": check.demand_label,
+        "limit_label": check.limit_label,
+        "demand_display": text,
+        "limit_display": None,
+        "margin_display": None,
+        "missing": list(keys),
+    }
+
+
+def _message(calc: Calculation, check: Check, keys: tuple[str, ...]) -> str:
+    """What is known of either side, and what is not given."""
+    sides = ((check.demand_label, _known(calc, check.demand)), (check.limit_label, _known(calc, check.limit)))
+    known = [f"{label} {with_unit(*shown(value, check.unit).values())}" for label, value in sides if value is not None]
+    head = f"Not checked: {known[0]}, but" if known else "Not checked:"
+    told = f"{head} {listed(keys)} {'are' if len(keys) > 1 else 'is'} not given."
+    return " ".join([told, *dict.fromkeys(_of_partners(calc, keys))])
+
+
+def _of_partners(calc: Calculation, keys: tuple[str, ...]) -> Iterator[str]:
+    """Where the missing keys would come from by themselves."""
+    for partner in calc.mechanism.partners:
+        wanted = [key for key in keys if key in partner.takes]
+        if wanted and partner.key in calc.given:
+            homes = listed([f"{calc.inputs[partner.key]}.{partner.takes[key]}" for key in wanted])
+            yield f"{homes} {'are' if len(wanted) > 1 else 'is'} not there."
+        elif wanted:
+            yield f"There is no {' or '.join(partner.kinds)}, or there are several: name one by {partner.key}."
+
+
+def _known(calc: Calculation, side: str | float) -> float | None:
+    """One side of a check as a number in SI, of repeated parts the greatest; None where it is not known, or a curve."""
+    if not isinstance(side, str) or not (side in calc.values or side in calc.inputs):
+        return None
+    found: Any = calc[side]
+    if isinstance(found, tuple):  # of parts that do not all have it
+        found = np.array([[np.nan if part is None else part for part in found]], dtype=float)
+    row = np.asarray(found, dtype=float)[0]
+    return float(np.nanmax(row)) if np.isfinite(row).any() else None
