@@ -71,7 +71,11 @@ def over_main_shaft(view: View) -> list[Shape]:
         if each.mechanism.curve(POSITION) is not None and "dwell" in each.phases
     ]
     torques = [line(main, each.at_main_shaft(main, main), each.name) for each in known.consumers]
-    torques += [line(main, sum(each.at_main_shaft(main, main) for each in known.consumers), "sum")] if torques else []
+    torques += (
+        [line(main, np.sum([each.at_main_shaft(main, main) for each in known.consumers], axis=0), "sum")]
+        if torques
+        else []
+    )
     axis = ("Angle of the main shaft", "Φ", "deg")
     panels = [chart_panel("Way", "mm", *axis, lines=ways)] if ways else []
     panels += [chart_panel("Torque at the main shaft", "N*m", *axis, lines=torques)] if torques else []
