@@ -11,8 +11,8 @@ from diecut_report.config.hidden_letters import printable
 from diecut_report.config.instances import Instance
 from diecut_report.config.loader import Config
 from diecut_report.config.model import PRESS, Press
-from diecut_report.config.references import Node
 from diecut_report.config.source_hashes import plugin_code, program_hash
+from diecut_report.config.targets import Node
 from diecut_report.config.validation import declared, keys_of
 from diecut_report.contract.inputs import Block, CurveInput, InOtherUnit, Quantity, TakenWhole, flatten
 from diecut_report.contract.mechanism import Mechanism

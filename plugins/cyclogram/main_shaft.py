@@ -138,7 +138,7 @@ def _stretch(mechanism: GivenMechanism, start: float, end: float, key: str) -> I
     if step is None or position is None or moving is None:
         raise Refusal(key, f"tells what the sheet passes, but the way of the sheet is not known in {mechanism.name}")
     if not start < end <= step * (1 + 1e-12):
-        words = f"goes from {told(start, 'mm', 6)} to {told(end, 'mm', 6)}; it must go forward, and no further than the step of {told(step, 'mm', 6)}"
+        words = f"goes from {told(start, 'mm', 6)} to {told(end, 'mm', 6)}; it must go forward, and no further than the step of {told(step, 'mm')}"
         raise Refusal(key, words)
     ((low, high),) = moving.intervals()
     period = moving.period()
