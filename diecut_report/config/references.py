@@ -8,65 +8,25 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass
 from typing import Any
 
-from diecut_report.conditions.arithmetic import Expression, read_expression
+from diecut_report.conditions.arithmetic import read_expression
 from diecut_report.conditions.parts import Name
 from diecut_report.conditions.words import ConditionError
+from diecut_report.config.hidden_letters import seeming_latin
 from diecut_report.config.instances import Instance, Slot, default_of, slots
 from diecut_report.config.model import PRESS
+from diecut_report.config.targets import Node, Target, Unresolved
 from diecut_report.config.validation import declared
 from diecut_report.config.yaml_tree import KeyPath
-from diecut_report.contract.inputs import Block, CurveInput, FromPress, Meta, Quantity, fields
+from diecut_report.contract.inputs import Block, CurveInput, FromPress, MechanismInput, Meta, Quantity, fields
 from diecut_report.contract.result_names import count_name, has_own_names, named, names_ahead
 from diecut_report.contract.varying import Varying
 from diecut_report.errors import Problem, nearest
-from diecut_report.expressions import Formula
 from diecut_report.quantities.units import pretty, unit
 
+PHASES = "phases"
 WHOLE = re.compile(r"\$\{([^${}]*)\}")
-
-Node = KeyPath  # (instance,) is its calculation, (instance, key, …) one of its inputs
-
-
-@dataclass(frozen=True)
-class Target:
-    """What a reference stands for: an output (``result``) or an input (``key``) of an instance.
-
-    An expression stands for what is calculated from its ``terms``, the targets of its references; ``path`` is its text.
-    """
-
-    path: str
-    instance: str
-    key: KeyPath = ()
-    result: str | None = None
-    unit: str | None = None
-    is_curve: bool = False
-    is_default: bool = False  # not written by the user: the press's field that stands in for an absent input
-    formula: Formula | None = None
-    is_broken: bool = False  # the plugin of what it refers to cannot be loaded
-    expression: Expression | None = None
-    terms: tuple[Target, ...] = ()
-
-    @property
-    def node(self) -> Node:
-        """What must be known before what a single reference stands for."""
-        return (self.instance,) if self.result is not None or self.is_broken else (self.instance, *self.key)
-
-    @property
-    def single(self) -> tuple[Target, ...]:
-        """The single references: those of an expression, or itself."""
-        return self.terms if self.expression else (self,)
-
-    @property
-    def told(self) -> str:
-        """What messages call it."""
-        return f"“{self.path}”" if self.expression else f"${{{self.path}}}"
-
-
-class Unresolved(LookupError):
-    """A reference that stands for nothing, in words."""
 
 
 class _BrokenTerm(Exception):
@@ -86,6 +46,7 @@ class Linker:
             instance.leave_out(self._not_in_press(instance))
         for instance in known:
             self._written(instance)
+            self._named(instance)
             self._from_press(instance)
 
     def _not_in_press(self, instance: Instance) -> Iterator[KeyPath]:
@@ -194,6 +155,8 @@ class Linker:
         path = match[1].strip()
         name, *rest = path.split(".")
         if name not in self.instances:
+            if seeming := seeming_latin(name):
+                raise Unresolved(f"${{{path}}}: {seeming}")
             near = nearest(name, self.instances)
             raise Unresolved(f"${{{path}}}: there is no mechanism {name!r}{near}. Known: {', '.join(self.instances)}.")
         instance = self.instances[name]
@@ -202,7 +165,28 @@ class Linker:
         if not rest or not all(rest):
             example = next(iter(_known(instance)), "output")
             raise Unresolved(f"${{{path}}} names no value; add an output or input, as in ${{{name}.{example}}}.")
+        if rest[0] == PHASES and len(rest) > 1:
+            return self._phase(path, instance, ".".join(rest))
         return self._result(path, instance, ".".join(rest)) or self._input(path, instance, rest)
+
+    def _phase(self, path: str, instance: Instance, phase: str) -> Target:
+        if phase not in instance.phases:
+            raise Unresolved(f"${{{path}}} {instance.no_phase(phase)}")
+        return Target(path, instance.name, result=phase, phase_unit=instance.phases[phase])
+
+    def _named(self, instance: Instance) -> None:
+        """What is taken whole by its name."""
+        for slot in slots(instance.model, instance.data):
+            if not isinstance(slot.meta, MechanismInput) or not isinstance(slot.value, str) or "${" in slot.value:
+                continue
+            node, known = (instance.name, *slot.key), [name for name in self.instances if name != PRESS]
+            if slot.value in known:
+                is_broken = self.instances[slot.value] is None
+                self.links[node] = Target(slot.value, slot.value, result="", is_broken=is_broken, is_mechanism=True)
+            else:
+                self.unresolved.add(node)
+                words = f"there is no mechanism {slot.value!r}{nearest(slot.value, known)}. Known: {', '.join(known)}."
+                self.problems.append(instance.place.problem(slot.key, words))
 
     def _result(self, path: str, instance: Instance, result: str) -> Target | None:
         if result in instance.results:

@@ -12,8 +12,11 @@ from typing import Any, Literal, Unpack
 
 from diecut_report.contract.between import Between, Interpolation
 from diecut_report.contract.binding import as_binding, bind
+from diecut_report.contract.code_steps import CodeForm
+from diecut_report.contract.made_curves import MadeCurveForm
 from diecut_report.contract.options import Options, StepCondition, Written
 from diecut_report.contract.part_steps import Interpolated, Lookup, Neighbour, Part, Pick, Running, Total
+from diecut_report.contract.phases import PhaseForm
 from diecut_report.contract.place import Misdeclared, placed
 from diecut_report.contract.steps import (
     Abscissa,
@@ -23,15 +26,11 @@ from diecut_report.contract.steps import (
     Choice,
     Clash,
     Computed,
-    ComputedCurve,
     Crossings,
     CurvePeriod,
     Derivative,
     FromCurve,
     Operation,
-    PartNames,
-    PartTable,
-    Prepared,
     Reduction,
     Require,
     Root,
@@ -45,7 +44,7 @@ from diecut_report.standards import StandardSeries, StandardTable
 
 
 @dataclass(eq=False)
-class Steps:
+class Steps(PhaseForm, MadeCurveForm, CodeForm):
     """Hold declared steps in the order in which they are calculated; a family of them may be added to several chapters."""
 
     steps: Sequence[Step] = field(default=(), kw_only=True)
@@ -116,10 +115,10 @@ class Steps:
 
     def abscissa(
         self, id: str, symbol: str, unit: str, description: str, period: float | str, *, points: str = "n_points", shown_at: str = "",
-        intervals: int = 64, **options: Unpack[Options],
+        intervals: int = 64, speed: str = "", **options: Unpack[Options],
     ) -> None:  # fmt: skip
         """Declare what curves run over, [0, period): see ``Abscissa``."""
-        own = {"period": period, "points": points, "shown_at": shown_at, "intervals": intervals}
+        own = {"period": period, "points": points, "shown_at": shown_at, "intervals": intervals, "speed": speed}
         self._give(Abscissa, id, symbol, unit, description, options, **own)
 
     def breakpoints(self, id: str, abscissa: str, *places: str, every: str = "", **when: Unpack[StepCondition]) -> None:
@@ -157,35 +156,11 @@ class Steps:
 
     def computed(
         self, id: str, symbol: str, unit: str, description: str, function: Callable[..., Any], takes: tuple[str, ...], method: str,
-        *, parts: str = "", is_text: bool = False, **options: Unpack[Options],
+        *, over: str = "", is_text: bool = False, **options: Unpack[Options],
     ) -> None:  # fmt: skip
         """Declare a number that plain code finds, where no closed formula tells it: see ``Computed``."""
-        own = {"function": function, "takes": takes, "method": method, "parts": parts, "is_text": is_text}
+        own = {"function": function, "takes": takes, "method": method, "over": over, "is_text": is_text}
         self._give(Computed, id, symbol, unit, description, options, **own)
-
-    def computed_curve(
-        self, id: str, symbol: str, unit: str, description: str, function: Callable[..., Array], of: str, abscissa: str, method: str, *,
-        joints: Callable[[Any], Array] | None = None, **options: Unpack[Options],
-    ) -> None:  # fmt: skip
-        """Declare a curve that plain code gives: see ``ComputedCurve``."""
-        own = {"function": function, "of": of, "abscissa": abscissa, "method": method, "joints": joints}
-        self._give(ComputedCurve, id, symbol, unit, description, options, **own)
-
-    def prepared(
-        self, id: str, function: Callable[..., Any], takes: tuple[str, ...], **when: Unpack[StepCondition]
-    ) -> None:
-        """Declare what plain code makes once for several computed steps: see ``Prepared``."""
-        self.add(Prepared(id=id, function=function, takes=takes, **when))
-
-    def part_names(
-        self, id: str, description: str, function: Callable[..., list[str]], takes: tuple[str, ...], *, shown_at: str = ""
-    ) -> None:  # fmt: skip
-        """Declare repeated parts that follow from the inputs: see ``PartNames``."""
-        self.add(PartNames(id=id, description=description, function=function, takes=takes, shown_at=shown_at))
-
-    def part_table(self, id: str, description: str, parts: str, columns: tuple[str, ...]) -> None:
-        """Declare a table of rows over such parts, printed here: see ``PartTable``."""
-        self.add(PartTable(id=id, description=description, parts=parts, columns=columns))
 
     def curve_period(
         self, id: str, symbol: str, unit: str, description: str, given: str, otherwise: str, **options: Unpack[Options]
@@ -206,14 +181,8 @@ class Steps:
         self.add(Require(id=id, condition=as_binding(condition, id), key=key, message=message, **when))
 
     def clash(
-        self,
-        id: str,
-        function: Callable[..., Array],
-        takes: tuple[str, ...],
-        key: str,
-        message: str,
-        **when: Unpack[StepCondition],
-    ) -> None:
+        self, id: str, function: Callable[..., Array], takes: tuple[str, ...], key: str, message: str, **when: Unpack[StepCondition],
+    ) -> None:  # fmt: skip
         """Declare which of repeated parts stand in each other's way: see ``Clash``."""
         self.add(Clash(id=id, function=function, takes=takes, key=key, message=message, **when))
 

@@ -8,6 +8,7 @@ from functools import cached_property
 
 from diecut_report.contract.chapters import Chapter
 from diecut_report.contract.checks import Check
+from diecut_report.contract.code_steps import ComputedCurve
 from diecut_report.contract.figures import Figure
 from diecut_report.contract.inputs import CurveInput, Inputs, fields, list_inputs
 from diecut_report.contract.part_steps import Lookup, Neighbour, Running
@@ -21,10 +22,10 @@ from diecut_report.contract.steps import (
     Accumulated,
     Choice,
     Computed,
-    ComputedCurve,
     Crossings,
     Derivative,
     FromCurve,
+    Phase,
     Step,
     Value,
 )
@@ -40,10 +41,10 @@ def axes(steps: tuple[Step, ...], inputs: type[Inputs]) -> dict[str, str]:
                 found[step.id] = step.id
             case FromCurve() | ComputedCurve():
                 found[step.id] = step.abscissa
-            case Computed() if step.parts:
-                found[step.id] = step.parts
             case Accumulated(of=of) | Derivative(of=of) | Neighbour(of=of) | Running(of=of):
                 found[step.id] = found[of]
+            case Computed(over=over) if over:
+                found[step.id] = over
             case Lookup(by=by) if by in found:
                 found[step.id] = found[by]
             case Value() | Choice():
@@ -114,6 +115,20 @@ class Comparison:
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
+class Partner:
+    """Declare another mechanism that a kind takes inputs from: the one that the text input ``key`` names, else the only one of its kinds.
+
+    ``takes`` gives for inputs of this kind the id of a result or the path of an input there; what is given in the block, or is
+    absent there, is not taken.
+    """
+
+    key: str
+    kinds: tuple[str, ...]
+    takes: Mapping[str, str]
+    at: str = placed()
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
 class Mechanism:
     """Declare a kind of mechanism: inputs, calculation, checks, figures, and what is said of it in the report.
 
@@ -134,6 +149,7 @@ class Mechanism:
     errata: tuple[Erratum, ...] = ()
     exports: tuple[Profile, ...] = ()
     comparisons: tuple[Comparison, ...] = ()
+    partners: tuple[Partner, ...] = ()
     spectra: tuple[Spectrum, ...] = ()
     at: str = placed()
 
@@ -171,6 +187,11 @@ class Mechanism:
                 text = is_text(step)
                 found[step.id] = None if text else si, self.axis_of(step.id, given) is not None
         return found
+
+    def phases_of(self, given: frozenset[str]) -> dict[str, str]:
+        """Return the ids of the phases that take part, each with the SI unit of its abscissa."""
+        units = {step.id: unit(step.unit).si for _, step in self.active(given)}
+        return {step.id: units[step.abscissa] for _, step in self.active(given) if isinstance(step, Phase)}
 
     def axis_of(self, name: str, given: frozenset[str]) -> str | None:
         """Return the abscissa that a quantity runs over, or the list whose parts it has a row for; None for a single number."""

@@ -109,11 +109,13 @@ class Abscissa(Step):
     """Declare what curves run over, [0, period): sampled at ``points`` (an input's id); shown in print at the place ``shown_at``.
 
     ``period`` is a number, or the id of one. ``intervals`` are those of the search grid in each smooth piece: fewer are enough
-    where breakpoints leave the pieces short.
+    where breakpoints leave the pieces short. ``speed`` is the id of how fast it is run through, from which phases have
+    their times; an abscissa of time needs none.
     """
 
     period: float | str
     points: str = "n_points"
+    speed: str = ""
     shown_at: str = ""
     intervals: int = 64
 
@@ -171,63 +173,15 @@ class Computed(Step):
     """Declare a number found by plain code where no closed formula tells it; ``method`` says in words how.
 
     ``function`` takes the quantities ``takes`` by position: numbers as arrays of shape (variants, 1), texts, the handles of
-    curve inputs (``Curve`` in ``contract.given``), what is ``Prepared``. It gives an array of shape (variants, 1), SI; a row of
-    shape (variants, parts) over the ``parts`` that ``PartNames`` declares; or with ``is_text`` a text for each variant.
+    curve inputs (``Curve`` in ``contract.given``). It gives an array of shape (variants, 1), SI; of shape (variants, parts) where
+    it gives a row for the list ``over``, or for what ``PartNames`` declares; or with ``is_text`` a text for each variant.
     """
 
     function: Callable[..., Any]
     takes: tuple[str, ...]
     method: str
-    parts: str = ""
+    over: str = ""
     is_text: bool = False
-
-
-@dataclass(frozen=True, kw_only=True, eq=False)
-class Prepared(Step):
-    """Declare an object that plain code makes once, for all that is computed from it (``Computed``, ``ComputedCurve``, ``PartNames``).
-
-    ``function`` takes the inputs and numbers ``takes`` by position; inputs of repeated parts as arrays of shape (variants, parts),
-    or as a tuple where some are no numbers. It raises ``Refused`` where no machine can be made of them.
-    """
-
-    function: Callable[..., Any]
-    takes: tuple[str, ...]
-
-
-@dataclass(frozen=True, kw_only=True, eq=False)
-class ComputedCurve(Step):
-    """Declare a curve over ``abscissa`` that plain code gives, from the prepared object ``of``.
-
-    ``function`` takes it, the places x of shape (rows, points), the middles of their smooth pieces (of any shape that broadcasts to
-    that) and the variants ``rows`` (None: all, or the only one); it gives values of the shape of x. ``joints`` gives from the object
-    the places where the curve jumps or has a corner, of shape (variants, places), NaN where there is none.
-    """
-
-    of: str
-    abscissa: str
-    function: Callable[..., Array]
-    method: str
-    joints: Callable[[Any], Array] | None = None
-
-
-@dataclass(frozen=True, kw_only=True, eq=False)
-class PartNames(Step):
-    """Declare repeated parts that are no list of the inputs, but follow from them: ``function`` gives their names.
-
-    Rows run over its id. Formulas of them are shown with the numbers of the part ``shown_at`` (the id of its index from 0).
-    """
-
-    function: Callable[..., list[str]]
-    takes: tuple[str, ...]
-    shown_at: str = ""
-
-
-@dataclass(frozen=True, kw_only=True, eq=False)
-class PartTable(Step):
-    """Declare a table that is printed here: the rows ``columns`` over the declared ``parts``, a line for each by its name."""
-
-    parts: str
-    columns: tuple[str, ...]
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -269,6 +223,19 @@ class FromCurve(Step):
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
+class MadeCurve(FromCurve):
+    """Declare a curve that plain code makes for one machine: ``function`` gives a ``Curve`` over the period of ``abscissa``.
+
+    It takes what ``Computed`` takes; ``method`` says in words how the curve is made.
+    """
+
+    given: str = ""
+    function: Callable[..., Any]
+    takes: tuple[str, ...]
+    method: str
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
 class Require(Step):
     """Declare what must hold for the machine to be possible: where it does not, the message (``{id}`` prints a quantity) and its key.
 
@@ -295,4 +262,40 @@ class Clash(Step):
     message: str
 
 
-SILENT = Breakpoints | Require | Clash | Words | Prepared | PartNames | PartTable  # steps that give no quantity
+@dataclass(frozen=True, kw_only=True, eq=False)
+class Phase(Step):
+    """Declare when, over the period of an abscissa, the mechanism does something; its id is ``phases.NAME``.
+
+    ``role`` is what it does: ``working`` (a tool on the product), ``rest``, ``moving``, ``window`` (room for another part).
+    Each of ``spans`` goes from one place to another: ids of numbers, or plain numbers; a place that does not exist for a
+    machine leaves its span out. ``period`` is the id of what repeats, where that is not the abscissa's own period. Instead
+    of them ``union`` names phases that are taken together, or ``rest_of`` those that leave it the rest of the period.
+    """
+
+    role: str
+    abscissa: str
+    spans: tuple[tuple[str | float, str | float], ...] = ()
+    union: tuple[str, ...] = ()
+    rest_of: tuple[str, ...] = ()
+    period: str = ""
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class Prepared(Step):
+    """Declare what plain code makes of a machine once, and several steps ask: any object, no quantity.
+
+    ``function`` takes one mapping: of the inputs and quantities ``holds`` those that there are, in the form in which
+    ``Computed`` takes them. ``for_many`` says that it makes an object of many machines at once.
+    """
+
+    function: Callable[..., Any]
+    holds: tuple[str, ...]
+    for_many: bool = False
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class SilentStep(Step):
+    """Declare the base of other steps that give no quantity."""
+
+
+SILENT = Breakpoints | Require | Clash | Words | Phase | Prepared | SilentStep  # steps that give no quantity

@@ -27,7 +27,6 @@ class Varying(Quantity):
     """
 
     extremes: bool = False
-    words: tuple[str, ...] = ()
 
     def validate(self, given: Any) -> Any:
         """Return what the plugin's code takes; ValueError in words where it is not allowed."""
@@ -35,7 +34,7 @@ class Varying(Quantity):
             if given.unit is None or unit(given.unit).kind != self.parsed_unit.kind:
                 raise ValueError(f"${{{given.path}}} is not a curve in {pretty(self.unit)}, but in {given.unit}")
             return given
-        if isinstance(given, Extremes) or hasattr(given, "curve_id") or given in self.words:
+        if isinstance(given, Extremes) or hasattr(given, "curve_id"):
             return given
         if isinstance(given, dict):
             return self._extremes(given)

@@ -7,9 +7,10 @@ from inspect import signature
 from typing import Any
 
 from diecut_report.contract.binding import Binding, Bound, ByText, bound
+from diecut_report.contract.code_steps import ComputedCurve
 from diecut_report.contract.mechanism import Mechanism
 from diecut_report.contract.part_steps import Lookup, Pick
-from diecut_report.contract.steps import Case, Choice, ComputedCurve, Root, Step
+from diecut_report.contract.steps import Case, Choice, Prepared, Root, Step
 from diecut_report.declaration.names import DeclaredNames
 from diecut_report.declaration.order import when_asked
 from diecut_report.declaration.tables import rows_of
@@ -101,7 +102,7 @@ def _choices(step: Step, names: DeclaredNames, when: When) -> Iterator[str]:
                 function, OF_CURVE, "it is called with the object, x, the middles of the pieces and the rows"
             )
         else:
-            yield from _signature(function, len(getattr(step, "takes", ())))
+            yield from _signature(function, 1 if isinstance(step, Prepared) else len(getattr(step, "takes", ())))
 
 
 OF_CURVE = 4  # what the function of a computed curve takes

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from diecut_report.contract.binding import Binding, bound
+from diecut_report.contract.code_steps import ComputedCurve, PartNames, PartTable
 from diecut_report.contract.mechanism import Mechanism
 from diecut_report.contract.part_steps import (
     Lookup,
@@ -21,13 +22,12 @@ from diecut_report.contract.steps import (
     Choice,
     Clash,
     Computed,
-    ComputedCurve,
     Crossings,
     CurvePeriod,
     Derivative,
     FromCurve,
-    PartNames,
-    PartTable,
+    MadeCurve,
+    Phase,
     Prepared,
     Reduction,
     Require,
@@ -46,7 +46,7 @@ NUMBER, ROW, CURVE = (
 )
 CURVE_INPUT = frozenset({"curve input"})
 PARTS = frozenset({"list of parts"})
-CODE = ROW | {"text", "curve input", "varying", "prepared object"}
+PLAIN = ROW | {"text", "curve input", "phase", "mechanism", "prepared", "crossings", "varying"}
 SAID = {
     NUMBER: "a single number", ROW: "a number or a row over repeated parts", CURVE: "a number, a row or a curve",
     CURVE_INPUT: "an input declared as a CurveInput", PARTS: "the id of PartNames",
@@ -100,13 +100,12 @@ def _asked(step: Step) -> Iterator[Asked]:
         case Pick(of=of):
             yield "of", of, ROW, ""
         case Words():
-            yield from (("takes", name, ROW | {"text"}, "a number or a text") for name in step.takes)
-        case Computed() | Prepared() | PartNames():
+            yield from (("takes", name, ROW | {"text", "prepared"}, "a number or a text") for name in step.takes)
+        case Computed() | MadeCurve() | PartNames():
             yield from (
-                ("takes", name, CODE, "a number, a text, a curve by reference or what is prepared")
-                for name in step.takes
+                ("takes", name, PLAIN, "a number, a text, or what is taken by reference") for name in step.takes
             )
-            yield from (("parts", name, PARTS, "") for name in (getattr(step, "parts", ""),) if name)
+            yield from _over(step)
         case PartTable(parts=parts, columns=columns):
             yield "parts", parts, PARTS, ""
             yield from (("columns", name, frozenset({"row"}), "a row over repeated parts") for name in columns)
@@ -119,20 +118,27 @@ def _asked(step: Step) -> Iterator[Asked]:
 def _over(step: Step) -> Iterator[Asked]:
     axis = frozenset({"abscissa"}), "the id of an Abscissa"
     match step:
-        case Abscissa(period=period, points=points):
+        case Abscissa(period=period, points=points, speed=speed):
             yield from (("period", period, NUMBER, ""),) if isinstance(period, str) else ()
             yield "points", points, NUMBER, ""
+            yield from (("speed", speed, NUMBER, ""),) if speed else ()
         case Breakpoints(abscissa=abscissa, places=places, every=every):
             yield "abscissa", abscissa, *axis
             yield from (("places", place, NUMBER | {"crossings"}, "a number or found crossings") for place in places)
             yield from (("every", every, NUMBER, ""),) if every else ()
         case FromCurve(abscissa=abscissa, given=given):
             yield "abscissa", abscissa, *axis
-            yield "given", given, CURVE_INPUT, ""
+            yield from (("given", given, CURVE_INPUT, ""),) if given else ()
             yield from ((f, getattr(step, f), NUMBER, "") for f in ("start", "lasts") if getattr(step, f))
         case ComputedCurve(abscissa=abscissa, of=of):
             yield "abscissa", abscissa, *axis
-            yield "of", of, frozenset({"prepared object"}), "what is prepared"
+            yield "of", of, frozenset({"prepared"}), "what is prepared"
+        case Prepared(holds=holds):
+            yield from (("holds", name, PLAIN | {"block"}, "an input or a number") for name in holds)
+        case Phase(abscissa=abscissa, spans=spans, period=period):
+            yield "abscissa", abscissa, *axis
+            yield from (("period", period, NUMBER, ""),) if period else ()
+            yield from (("an end", end, NUMBER, "") for span in spans for end in span if isinstance(end, str))
         case CurvePeriod(given=given):
             yield "given", given, CURVE_INPUT, ""
         case Lookup(by=by):

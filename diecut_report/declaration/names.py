@@ -7,7 +7,8 @@ from dataclasses import dataclass
 from functools import cached_property
 from typing import NamedTuple
 
-from diecut_report.contract.inputs import CurveInput, Quantity, Text
+from diecut_report.contract.code_steps import ComputedCurve, PartNames, PartTable
+from diecut_report.contract.inputs import CurveInput, MechanismInput, PhaseInput, Quantity, Text
 from diecut_report.contract.mechanism import Mechanism
 from diecut_report.contract.part_steps import Lookup, Neighbour, Running
 from diecut_report.contract.result_names import has_own_names, names_ahead, read
@@ -18,12 +19,10 @@ from diecut_report.contract.steps import (
     Choice,
     Clash,
     Computed,
-    ComputedCurve,
     Crossings,
     Derivative,
     FromCurve,
-    PartNames,
-    PartTable,
+    Phase,
     Prepared,
     Reduction,
     Require,
@@ -34,10 +33,7 @@ from diecut_report.contract.steps import (
 from diecut_report.contract.varying import Varying
 from diecut_report.declaration.world import Key, When, World, world
 
-NO_QUANTITY = Breakpoints | Require | Clash | PartTable
-
-
-TEXTLESS = ("text", "prepared object", "list of parts")  # what has no unit
+NO_QUANTITY = Breakpoints | Require | Clash | Phase | PartTable
 
 
 class Giver(NamedTuple):
@@ -90,7 +86,18 @@ class DeclaredNames:
             return
         when = self.when(number)
         for kind, axis in _kinds(step, found):
-            yield step.id, Giver(when, kind, axis, None if kind in TEXTLESS else step.unit, step, number, step.units)
+            yield (
+                step.id,
+                Giver(
+                    when,
+                    kind,
+                    axis,
+                    None if kind in ("text", "prepared", "list of parts") else step.unit,
+                    step,
+                    number,
+                    step.units,
+                ),
+            )
         for each in names_ahead(step):
             if each.role == "place" and isinstance(step, Reduction):
                 places = [axis for curve in found.get(step.of, ()) for axis in found.get(curve.axis, ())]
@@ -133,6 +140,10 @@ def _input(key: Key) -> Giver:
             return Giver(when, "varying", key.home, key.meta.unit)
         case Quantity():
             return Giver(when, kind, key.home, key.meta.unit, units=key.meta.units)
+        case PhaseInput():
+            return Giver(when, "phase", key.home, key.meta.unit)
+        case MechanismInput():
+            return Giver(when, "mechanism", key.home, None)
         case CurveInput():
             return Giver(when, "curve input", "", key.meta.unit, units=key.meta.units)
         case Text():
@@ -152,16 +163,14 @@ def _kinds(step: Step, found: dict[str, list[Giver]]) -> set[tuple[str, str]]:
     match step:
         case Words():
             return {("text", "")}
+        case Prepared():
+            return {("prepared", "")}
         case Choice(cases=cases) if cases and isinstance(cases[0].value, str):
             return {("text", axis) for _, axis in over(*_names(step))} or {("text", "")}
         case Abscissa():
             return {("abscissa", step.id)}
         case Computed(is_text=True):
             return {("text", "")}
-        case Computed(parts=parts) if parts:
-            return {("row", parts)}
-        case Prepared():
-            return {("prepared object", "")}
         case PartNames():
             return {("list of parts", "")}
         case FromCurve(abscissa=axis) | ComputedCurve(abscissa=axis):
@@ -172,6 +181,8 @@ def _kinds(step: Step, found: dict[str, list[Giver]]) -> set[tuple[str, str]]:
             return over(of) or {("curve", "")}
         case Neighbour(of=of) | Running(of=of):
             return over(of) or {("row", "")}
+        case Computed(over=list_path) if list_path:
+            return {("row", list_path)}
         case Lookup(by=by):
             homes = {g.axis for g in found.get(by, ()) if g.axis}
             return {("row", home) for home in homes} or {("number", "")}

@@ -10,7 +10,7 @@ from diecut_report.contract.chapters import Chapter
 from diecut_report.contract.mechanism import Mechanism
 from diecut_report.contract.part_steps import Lookup
 from diecut_report.contract.sections import taken
-from diecut_report.contract.steps import SILENT, Prepared, Root, Step, Words
+from diecut_report.contract.steps import SILENT, Root, Step, Words
 from diecut_report.declaration.names import DeclaredNames
 from diecut_report.declaration.words import Fault, short, unknown
 from diecut_report.declaration.world import When, told
@@ -32,13 +32,8 @@ def faults(mechanism: Mechanism, names: DeclaredNames) -> Iterator[Fault]:
         for name in sorted(asked(step)):
             late = name == getattr(step, "shown_at", "") or isinstance(step, Words)
             text = lacking(names, name, when_asked(step, when), None if late else number)
-            if text and not _may_be_absent(step, name, names):
+            if text:
                 yield Fault(step.at, f"step {step.id}", f"takes {text}")
-
-
-def _may_be_absent(step: Step, name: str, names: DeclaredNames) -> bool:
-    """Whether an input may be missing: what is prepared takes None for it."""
-    return isinstance(step, Prepared) and name.removeprefix("inputs.") in names.world.keys
 
 
 def asked(step: Step) -> set[str]:

@@ -10,18 +10,11 @@ from weakref import proxy
 import numpy as np
 
 from diecut_report.contract.binding import Binding, bound
+from diecut_report.contract.code_steps import ComputedCurve, PartNames
 from diecut_report.contract.inputs import Meta, Quantity, fields, texts_given
 from diecut_report.contract.mechanism import Mechanism
-from diecut_report.contract.steps import (
-    Accumulated,
-    Choice,
-    ComputedCurve,
-    Derivative,
-    FromCurve,
-    PartNames,
-    Step,
-    Value,
-)
+from diecut_report.contract.phase_inputs import TakenWhole
+from diecut_report.contract.steps import Accumulated, Choice, Derivative, FromCurve, Step, Value
 from diecut_report.contract.unit_variants import in_form
 from diecut_report.engine import named_quantity
 from diecut_report.engine.numerics.chebyshev import PieceSeries
@@ -146,7 +139,6 @@ class Calculation:
         self.values: dict[str, Array] = {}
         self.curves: dict[str, CurveStep] = {}
         self.domains: dict[str, Domain] = {}
-        self.prepared: dict[str, Any] = {}  # objects that plain code made, for what is computed from them
         self.part_names: dict[str, tuple[str, ...]] = {}  # of the repeated parts that follow from the inputs
         self.series: dict[str, PieceSeries] = {}
         self.branch: dict[str, Array] = {}  # for each choice, the case taken by each variant
@@ -262,7 +254,7 @@ class CurveSampler:
             case FromCurve():
                 return self._taken_over(step)
             case ComputedCurve():
-                found: Array = step.function(self.owner.prepared[step.of], self.x, self.mid, self.rows)
+                found: Array = step.function(self.owner.inputs[step.of], self.x, self.mid, self.rows)
                 return found
             case Accumulated() | Derivative():
                 return self.owner.series[name].values(self.x, self.mid, self.rows)
@@ -284,7 +276,7 @@ class CurveSampler:
         start = self[step.start] if step.start else 0.0
         share, middle = start + self.x / lasts, start + self.mid / lasts
         passed = np.floor(middle)
-        curve = self.owner.inputs[step.given]
+        curve = self.owner.inputs[step.given or step.id]
         found: Array = curve.values(share - passed, middle - passed, self.rows)
         return found + passed * curve.gain(self.rows) if step.gains else found
 
@@ -299,7 +291,7 @@ class CurveSampler:
 def _column(value: Any, variants: int) -> Any:
     """An input as an array (variants, 1) or (variants, parts); texts, flags and curves stay as they are."""
     match value:
-        case bool() | str() | CurveHandle() | SampledCurve():
+        case bool() | str() | CurveHandle() | SampledCurve() | TakenWhole():
             return value
         case tuple():
             return _row(value, variants)

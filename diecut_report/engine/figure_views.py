@@ -65,6 +65,10 @@ class MachineView:
         samples = self.calc.domains[name].samples if name in self.calc.domains else self.calc.curve_samples(name)
         return [float(value) for value in samples[0]]
 
+    def prepared(self, name: str) -> Any:
+        """Return what plain code prepared, by its id."""
+        return self.calc.inputs[name]
+
     def heights(self, name: str, abscissa: str) -> list[float]:
         """Return a curve of a plot at the places that are drawn, SI; of a spectrum the values of its line."""
         spectrum = next((each for each in self.calc.mechanism.spectra if each.id == abscissa), None)
@@ -156,7 +160,9 @@ def _polar(figure: Polar, view: MachineView, head: dict[str, Any]) -> dict[str, 
         "unit": figure.unit,
         "series": [vars(s) for s in figure.series],
     }
-    distances = [(one.label, list(map(abs, view.curve(one.curve)))) for one in figure.series if figure.range]
+    distances = [
+        (one.label, [abs(float(value)) for value in view.curve(one.curve)]) for one in figure.series if figure.range
+    ]
     ranged = axis_range.declared(head | made, figure.range, view, distances)
     if (ranged.get("range", [None])[0] or 0) < 0:
         raise Undrawable(f"the range of {figure.title!r} begins below zero, where no distance from the pole is")
@@ -164,6 +170,7 @@ def _polar(figure: Polar, view: MachineView, head: dict[str, Any]) -> dict[str, 
 
 
 def _group(group: BarGroup, view: MachineView) -> dict[str, Any]:
-    bars = [{"label": label, "value": -view[name[1:]] if name[0] == "-" else view[name]} for label, name in group.bars]
+    values = [(label, -view[name[1:]] if name[0] == "-" else view[name]) for label, name in group.bars]
+    bars = [{"label": label, "value": value} for label, value in values]
     made = {"label": group.label, "unit": group.unit, "bars": bars}
-    return axis_range.declared(made, group.range, view, [(bar["label"], [bar["value"]]) for bar in bars])
+    return axis_range.declared(made, group.range, view, [(label, [value]) for label, value in values])

@@ -6,16 +6,22 @@ from collections.abc import Iterator
 from typing import Any
 
 from diecut_report import __version__
+from diecut_report.config.basis import GIVEN
+from diecut_report.config.hidden_letters import printable
+from diecut_report.config.instances import Instance
 from diecut_report.config.loader import Config
 from diecut_report.config.model import PRESS, Press
-from diecut_report.config.source_hashes import plugin_hash, program_hash
+from diecut_report.config.source_hashes import plugin_code, program_hash
+from diecut_report.config.targets import Node
 from diecut_report.config.validation import declared, keys_of
-from diecut_report.contract.inputs import Block, CurveInput, Quantity, flatten
+from diecut_report.config.yaml_tree import KeyPath
+from diecut_report.contract.inputs import Block, CurveInput, InOtherUnit, Quantity, TakenWhole, flatten
 from diecut_report.contract.mechanism import Mechanism
 from diecut_report.contract.varying import Extremes
 from diecut_report.engine import CurveHandle
 from diecut_report.limits import MAX_COMPARISONS
 from diecut_report.quantities.formatting import as_given, shortest
+from diecut_report.results.bases import Bases, assumed
 from diecut_report.results.comparisons import Found
 from diecut_report.results.mechanism import worst
 from diecut_report.results.press_run import Run
@@ -35,7 +41,7 @@ def document(run: Run) -> Data:
         "schema_version": 1,
         "program": {"name": "diecut-report", "version": __version__, **_code(config)},
         "config": {
-            "file": _printable(tree.name.replace("\\", "/").rsplit("/", 1)[-1]),
+            "file": printable(tree.name.replace("\\", "/").rsplit("/", 1)[-1]),
             "sha256": tree.sha256,
             "resolved": resolved(run),
             "source_text": tree.text,
@@ -44,7 +50,7 @@ def document(run: Run) -> Data:
         "press": _press(run),
         "status": "error" if run.errors else status,
         "governing": governing(mechanisms),
-        "summary": summary(mechanisms),
+        "summary": summary(mechanisms) | {"assumed": assumed(config)},
         "mechanisms": mechanisms,
     } | ({"comparisons": comparisons} | _left_out(run) if comparisons else {})
 
@@ -65,13 +71,9 @@ def _code(config: Config) -> Data:
     return {"source_sha256": program_hash()} | ({"extensions": dict(config.extensions)} if config.extensions else {})
 
 
-def _printable(name: str) -> str:
-    """Return a file's name without what no document can hold: control characters, and bytes that are not UTF-8."""
-    return "".join(letter if letter.isprintable() else "\N{REPLACEMENT CHARACTER}" for letter in name)
-
-
 EMPTY: Data = {
-    "summary": "", "assumptions": [], "sources": [], "inputs": {}, "lists": {}, "outputs": {}, "values": {}, "curves": {}, "checks": [],
+    "summary": "", "assumptions": [], "sources": [], "inputs": {}, "lists": {}, "outputs": {}, "values": {}, "curves": {}, "phases": {},
+    "phases_absent": {}, "checks": [],
     "warnings": [], "sections": [], "absent": [], "figures": [], "exports": [],
     "errata": [],
 }  # fmt: skip
@@ -107,7 +109,7 @@ def _head(kind: str, mechanism: Mechanism | None) -> Data:
         "kind": kind,
         "title": mechanism.title if mechanism else kind,
         "plugin_version": mechanism.version if mechanism else "",
-        "plugin_sha256": plugin_hash(mechanism),
+        **plugin_code(mechanism),
     }
 
 
@@ -118,7 +120,7 @@ def _project(fields: Data) -> Data:
 
 
 def _press(run: Run) -> Data:
-    press = run.blocks[PRESS]
+    press, bases = run.blocks[PRESS], Bases(run.config, run.calculations)
     assert isinstance(press, Press)
     found = []
     for name, value in flatten(press).items():
@@ -126,30 +128,33 @@ def _press(run: Run) -> Data:
         if isinstance(meta, Quantity):
             shown = {"text": shortest(meta.parsed_unit.from_si(value)), "unit": meta.unit}
             said_of = {"path": f"{PRESS}.{name}", "description": meta.description, "symbol": meta.symbol}
-            found.append(said_of | {"value": value, "unit": meta.parsed_unit.si, "display": shown})
+            node = (PRESS, *name.split("."))
+            rests = {"basis": bases.of(node)} | ({"note": note} if (note := bases.said(node).note) else {})
+            found.append(said_of | {"value": value, "unit": meta.parsed_unit.si, "display": shown} | rests)
     return {"name": press.name, "fields": found}
 
 
 def resolved(run: Run) -> Data:
-    """Return the config with every reference and default put in: SI values as texts that read back exactly."""
-    config = run.config
+    """Return the config with every reference and default put in: SI values as texts that read back exactly, with what they rest on."""
+    config, bases = run.config, Bases(run.config, run.calculations)
     mechanisms = {}
     for name, kind in config.kinds.items():
         block, instance = run.blocks.get(name), config.instances[name]
-        mechanisms[name] = {"kind": kind} | (_plain(block, instance.data) if block and instance else {})
+        mechanisms[name] = {"kind": kind} | (_plain(block, (name,), instance, bases) if block and instance else {})
     press = config.instances[PRESS]
     assert press is not None
     return {"schema_version": 1, "project": config.project.model_dump(exclude_none=True),
-            PRESS: _plain(run.blocks[PRESS], press.data), "mechanisms": mechanisms}  # fmt: skip
+            PRESS: _plain(run.blocks[PRESS], (PRESS,), press, bases), "mechanisms": mechanisms}  # fmt: skip
 
 
-def _plain(block: Block, data: Data) -> Data:
-    """A block with the values put in that its ``data``, as it is written, refers to."""
+def _plain(block: Block, node: Node, instance: Instance, bases: Bases) -> Data:
     values = {name: getattr(block, name) for name in type(block).model_fields}
     values = {name: value for name, value in values.items() if value is not None}
     idle = set(_idle(block, values))
     return {
-        name: _plain_value(block, name, value, data.get(name)) for name, value in values.items() if name not in idle
+        name: _plain_value(block, (*node, name), value, instance, bases)
+        for name, value in values.items()
+        if name not in idle
     }
 
 
@@ -161,20 +166,38 @@ def _idle(block: Block, values: Data) -> Iterator[str]:
         yield from (name for name in defaults if rule.fault(values.keys() - {name}) != fault)
 
 
-def _plain_value(block: Block, name: str, value: Any, written: Any) -> Any:
-    meta = keys_of(type(block))[name].meta
+def _plain_value(block: Block, node: Node, value: Any, instance: Instance, bases: Bases) -> Any:
+    meta = keys_of(type(block))[str(node[-1])].meta
     match value:
         case Block():
-            return _plain(value, written if isinstance(written, dict) else {})
+            return _plain(value, node, instance, bases)
         case [Block(), *_]:
-            parts = written if isinstance(written, list) else [{}] * len(value)
-            return [_plain(part, data) for part, data in zip(value, parts, strict=True)]
+            return [_plain(part, (*node, index), instance, bases) for index, part in enumerate(value)]
         case CurveHandle(calculation=_):
-            return written
+            return _written(instance.data, node[1:])
         case Extremes(low=low, high=high) if isinstance(meta, Quantity):
             return {"min": as_given(low, meta.unit), "max": as_given(high, meta.unit)}
+        case InOtherUnit(value=number, unit=unit):
+            return as_given(number, unit)
+        case TakenWhole():
+            return str(value)
         case tuple() if isinstance(meta, CurveInput):
-            return [as_given(part, meta.unit) for part in value]
-        case float() if isinstance(meta, Quantity):
-            return as_given(value, meta.unit)
+            return _resting([as_given(part, meta.unit) for part in value], node, bases)
+        case int() | float() if isinstance(meta, Quantity):
+            return _resting(as_given(value, meta.unit) if isinstance(value, float) else value, node, bases)
     return value
+
+
+def _written(data: Any, key: KeyPath) -> Any:
+    """What stands in the file at a key."""
+    for part in key:
+        data = data[part]
+    return data
+
+
+def _resting(value: Any, node: Node, bases: Bases) -> Any:
+    """A value, as a block where something is to be said of it."""
+    basis, note = bases.of(node), bases.said(node).note
+    said = {"basis": basis} if basis not in ("", GIVEN) else {}
+    said |= {"note": note} if note else {}
+    return {"value": value} | said if said else value

@@ -8,7 +8,7 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from diecut_report.api import Refused
+from diecut_report.api import Refusal
 from diecut_report.mechanics.beams import SAME_PLACE
 
 Array = NDArray[Any]
@@ -115,16 +115,16 @@ def body(
     lengths: Any, diameters: Any, bores: Any, fillets: Any, notch_x: Any, types: Any, radii: Any, k_t: Any, k_ts: Any, k_f: Any, k_fs: Any,
     names: Any, load_x: Any, bearing_a: Array, bearing_b: Array,
 ) -> Body:  # fmt: skip
-    """Return the body of what is given; Refused where a list is empty, or a notch does not say what it is."""
+    """Return the body of what is given; Refusal where a list is empty, or a notch does not say what it is."""
     if lengths is None or names is None:
         key = "sections" if lengths is None else "loads"
-        raise Refused(key, f"is empty; give at least one {'section' if lengths is None else 'load'}")
+        raise Refusal(key, f"is empty; give at least one {'section' if lengths is None else 'load'}")
     variants, count, notches = len(bearing_a), lengths.shape[1], len(types or ())
     length, diameter = columns(lengths, count, variants), columns(diameters, count, variants)
     ends = np.concatenate([np.zeros((1, variants)), np.cumsum(length, axis=0)])
     fillet = columns(fillets, count, variants)
     if np.isfinite(fillet[-1]).any():
-        raise Refused(
+        raise Refusal(
             f"sections.{count - 1}.fillet_radius", "belongs to no step: there is no section to the right; remove it"
         )
     own = [columns(each, notches, variants) for each in (radii, k_t, k_ts, k_f, k_fs)]
@@ -169,18 +169,18 @@ def _complete(types: tuple[str, ...], own: list[Array]) -> None:
         radius, *factors = (bool(np.isfinite(each[index]).any()) for each in own)
         by_shape, by_fatigue = all((radius, *factors[:2])), all(factors[2:])
         if kind == "custom" and (by_shape == by_fatigue or (by_fatigue and any((radius, *factors[:2])))):
-            raise Refused(f"notches.{index}", "is a custom notch; give it either k_t, k_ts and radius, or k_f and k_fs")
+            raise Refusal(f"notches.{index}", "is a custom notch; give it either k_t, k_ts and radius, or k_f and k_fs")
         if kind == "custom" and by_shape and any(factors[2:]):
-            raise Refused(
+            raise Refusal(
                 f"notches.{index}", "gives both k_t and k_f; a custom notch has k_t, k_ts and radius, or k_f and k_fs"
             )
         if kind != "custom" and any(factors):
-            raise Refused(
+            raise Refusal(
                 f"notches.{index}",
                 f"has factors of its own, but is of the type {kind}; remove them, or give it the type custom",
             )
         if kind == PRESS_FIT and radius:
-            raise Refused(
+            raise Refusal(
                 f"notches.{index}.radius",
                 "has no use for a press fit, whose fatigue factors stand in a table; remove it",
             )

@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from diecut_report.api import Curve, Extremes, Refused
+from diecut_report.api import Curve, Extremes, Refusal
 from diecut_report.plugins.shaft.body import columns
 
 Array = NDArray[Any]
@@ -168,9 +168,9 @@ def cycle(
     names: Any, places: Any, force_y: Any, force_z: Any, axial_force: Any, torque: Any, couple_xy: Any, couple_xz: Any, offset: Any,
     mass: Any, pitch_radius: Any, pressure: Any, helix: Any, mesh: Any, rotation: Any, turns: Array,
 ) -> Cycle:  # fmt: skip
-    """Return the loads of what is given; Refused where curves run over other cycles, or torques cannot be told."""
+    """Return the loads of what is given; Refusal where curves run over other cycles, or torques cannot be told."""
     if names is None:
-        raise Refused("loads", "is empty; give at least one load")
+        raise Refusal("loads", "is empty; give at least one load")
     variants, count = len(turns), len(names)
     parts = (force_y, force_z, axial_force, torque, couple_xy, couple_xz)
     given = {name: _parts(part) for name, part in zip(COMPONENTS, parts, strict=True)}
@@ -207,7 +207,7 @@ def _of_one_cycle(curves: dict[str, Curve]) -> None:
     (first, one), *others = list(curves.items()) or [("", None)]
     for key, other in others:
         if one is not None and other.cycle != one.cycle:
-            raise Refused(
+            raise Refusal(
                 key,
                 f"is a curve over {other.cycle}, but {first} is one over {one.cycle}; all curves of a shaft run over one and the same "
                 "cycle: give one of the two as a number",
@@ -219,7 +219,7 @@ def _telling(names: Any, given: dict[str, tuple[Any, ...]], pitch_radius: Any) -
     balancing = [i for i, each in enumerate(given["torque"]) if isinstance(each, str)]
     if len(balancing) > 1:
         told = " and ".join(str(names[i]) for i in balancing)
-        raise Refused(
+        raise Refusal(
             f"loads.{balancing[1]}.torque",
             f"is balance, as that of another load ({told}); only one load can balance the others",
         )
@@ -230,7 +230,7 @@ def _telling(names: Any, given: dict[str, tuple[Any, ...]], pitch_radius: Any) -
             continue
         if pitch_radius is not None:
             words = "has a gear, whose forces need the torque at each instant; give the torque as a number or a curve, or the forces without gear"
-            raise Refused(
+            raise Refusal(
                 f"loads.{index}.torque", f"is known by its extremes alone, but the load {names[index]} {words}"
             )
 

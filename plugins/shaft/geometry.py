@@ -16,7 +16,7 @@ BODY = ("sections.length", "sections.diameter", "sections.bore", "sections.fille
 GIVEN = "as it is given, or of the type of notch"
 
 sections = Chapter("Sections", text="x counts from the shaft's left end; y and z lie across, turning and torque are positive from y to z.")
-sections.prepared("body", body, BODY)
+sections.prepared("body", lambda given: body(*map(given.get, BODY)), BODY, for_many=True)
 sections.total("length", "L", "mm", "Length of the shaft", "sum", of="sections.length", source="geometry")
 sections.require("bores_inside", bind(lambda bore, diameter: bore < diameter, bore="sections.bore", diameter="sections.diameter"),
                  key="sections.{index}.bore", message="is not smaller than the diameter of section {part}; take a smaller bore")
@@ -44,7 +44,7 @@ places.part_names("places", "Places that are judged", lambda body: list(body.nam
 
 def _row(id: str, symbol: str, unit: str, description: str, function, method: str = GIVEN) -> None:  # type: ignore[no-untyped-def]
     """A row of what the body has at its places."""
-    places.computed(id, symbol, unit, description, lambda body: function(body).T, ("body",), method, parts="places", output=False)
+    places.computed(id, symbol, unit, description, lambda body: function(body).T, ("body",), method, over="places", output=False)
 
 
 _row("place_x", "x", "mm", "Place, from the left end", lambda body: body.x, "sections, notches, bearings and loads as they are given")
@@ -95,7 +95,7 @@ for suffix, sign, form, told in (("", "f", "press_fit_factor", "bending"), ("s",
                        sensitivity="sensitivity_torsion" if suffix else "sensitivity", concentration=f"k_t{suffix}"),
                   source="Shigley 6-32", output=False)
     notches.computed(f"k_{sign}", f"K_{sign}", "1", f"Fatigue notch factor in {told}", lambda body, row: body.greatest_here(row),
-                     ("body", f"own_k_{sign}"), "the greatest of the notches at one place, not their product", parts="places", output=False)
+                     ("body", f"own_k_{sign}"), "the greatest of the notches at one place, not their product", over="places", output=False)
 notches.value("fillet_ratio", "t/r", "1", "Step to fillet radius (1 where there is no fillet)",
               lambda is_fillet, place_step, place_radius: np.where(is_fillet > 0, place_step / place_radius, 1), source="Peterson", output=False)
 notches.value("bore_ratio", "d_i/d", "1", "Bore to diameter at a fillet (0 elsewhere)",

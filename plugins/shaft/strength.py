@@ -43,8 +43,8 @@ loads = Chapter("Loads and reactions",
                 text="Reactions are forces on the shaft. In each plane R_B = −(Σ F_i (x_i − x_A) + Σ C_j)/(x_B − x_A), R_A = −Σ F_i − R_B; behind x "
                      "M = Σ F_i (x − x_i) − Σ C_j, T = Σ T_i and N = −Σ F_x,i of what acts before x. A torque known by its extremes adds as an "
                      "interval.")
-loads.prepared("cycle", cycle, CYCLE)
-loads.prepared("under_load", _under_load, LOADED)
+loads.prepared("cycle", lambda given: cycle(*map(given.get, CYCLE)), CYCLE, for_many=True)
+loads.prepared("under_load", lambda given: _under_load(*map(given.get, LOADED)), LOADED, for_many=True)
 _number(loads, "torque_left", "ΣT", "N*m", "What the torques add up to", "torque_left", OVER_CYCLE, output=False)
 _number(loads, "torque_scale", "T_i,max", "N*m", "Greatest torque of a load", "torque_scale", OVER_CYCLE, output=False)
 loads.require("torques_balance", lambda torque_left, torque_scale: torque_left <= 1e-6 * torque_scale, key="loads",
@@ -94,11 +94,12 @@ _number(bending, "energy_difference", "ΔU/U", "1", "Energy of the bent shaft le
 fatigue = Chapter("Fatigue", text="Stress of a material point that turns with the shaft by θ, at ψ from y: σ = N/A − (M_xy cos(ψ + θ) + "
                                   "M_xz sin(ψ + θ))/W_b. Ranges of bending and torsion are combined as if in phase; ψ and the side of a place "
                                   "(before or behind its load) are those of the least safety.")
-fatigue.prepared("states", _states, ("under_load", *FACTORS.values()))
+STATES = ("under_load", *FACTORS.values())
+fatigue.prepared("states", lambda given: _states(*map(given.get, STATES)), STATES, for_many=True)
 
 
 def _state(chapter: Chapter, id: str, symbol: str, unit: str, description: str, name: str, method: str) -> None:
-    chapter.computed(id, symbol, unit, description, lambda states: states[name], ("states",), method, parts="places", output=False)
+    chapter.computed(id, symbol, unit, description, lambda states: states[name], ("states",), method, over="places", output=False)
 
 
 _state(fatigue, "sigma_a", "σ_a", "MPa", "Amplitude of the normal stress", "sigma_a", "half the range over the cycle")

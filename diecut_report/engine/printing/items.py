@@ -6,6 +6,7 @@ from collections.abc import Callable
 from typing import Any
 
 from diecut_report.contract.binding import Binding, Bound, bound
+from diecut_report.contract.code_steps import ComputedCurve, PartTable
 from diecut_report.contract.part_steps import Interpolated, Lookup, Neighbour, Part, Pick, Running, Total
 from diecut_report.contract.result_names import place_name
 from diecut_report.contract.steps import (
@@ -13,11 +14,10 @@ from diecut_report.contract.steps import (
     Accumulated,
     Choice,
     Computed,
-    ComputedCurve,
     Crossings,
     CurvePeriod,
     Derivative,
-    PartTable,
+    MadeCurve,
     Reduction,
     Root,
     Step,
@@ -88,8 +88,12 @@ def items(calc: Calculation, step: Step) -> list[Item]:
             return [_crossings(calc, step)]
         case Accumulated() | Derivative():
             return [_of_curve(calc, step)]
+        case Computed() if step.id in calc.axis:
+            return [] if calc.axis[step.id] in calc.part_names else [tables.table(calc, step, [step.id])]
+        case MadeCurve():
+            return [_made(calc, step)]
         case Computed() | CurvePeriod():
-            return [] if step.id in calc.axis else [_computed(calc, step)]
+            return [_computed(calc, step)]
         case ComputedCurve():
             return [_computed(calc, step) | {"at": place_shown(calc, step.abscissa, False)}]
         case PartTable(parts=parts, columns=columns):
@@ -263,6 +267,12 @@ def _computed(calc: Calculation, step: Computed | ComputedCurve | CurvePeriod) -
     else:
         result = shown(value_at(calc, step.id, calc.axis.get(step.id)), step.unit, step.digits)
     return _head(step) | {"type": "found", "relation": None, "method": method, "result": result}
+
+
+def _made(calc: Calculation, step: MadeCurve) -> Item:
+    result = shown(value_at(calc, step.id, calc.axis[step.id]), step.unit, step.digits)
+    found = _head(step) | {"type": "found", "relation": None, "method": step.method, "result": result}
+    return found | {"at": place_shown(calc, calc.axis[step.id], False)}
 
 
 def _of_curve(calc: Calculation, step: Accumulated | Derivative) -> Item:
