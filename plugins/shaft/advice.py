@@ -36,14 +36,16 @@ def growth(required: Array, sigma_a: Array, sigma_m: Array, tau_a: Array, tau_m:
             for factor, length, shape in ((k_f, neuber, own_k_t), (k_fs, neuber_s, own_k_ts))
         ]
         smaller = formulas.size_factor(size * scale, share) / formulas.size_factor(size, share)
-        return np.min(formulas.goodman(*stresses, *grown, endurance * smaller, tensile), axis=1, keepdims=True)
+        found: Array = np.min(formulas.goodman(*stresses, *grown, endurance * smaller, tensile), axis=1, keepdims=True)
+        return found
 
     low, high = np.full_like(required, SMALLEST), np.full_like(required, GREATEST)
     for _ in range(HALVINGS):
         middle = np.sqrt(low * high)
         is_enough = safety(middle) >= required
         low, high = np.where(is_enough, low, middle), np.where(is_enough, middle, high)
-    return high * MARGIN
+    found: Array = high * MARGIN
+    return found
 
 
 def _growth(required: Array, sigma_a: Array, sigma_m: Array, tau_a: Array, tau_m: Array, k_t: Array, k_ts: Array, radius: Array, size: Array,

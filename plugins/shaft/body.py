@@ -92,7 +92,8 @@ class Body:
         sizes = [
             np.take_along_axis(self.diameter, self.section_of(self.x, behind=each), axis=0) for each in (False, True)
         ]
-        return np.maximum(*sizes)
+        greater: Array = np.maximum(*sizes)
+        return greater
 
     @property
     def is_fillet(self) -> Array:

@@ -30,7 +30,7 @@ def reaction_in(bearing: str, plane: int) -> Curve:
     """Return a bearing's reaction in y (0) or z (1) over the cycle."""
 
     def curve(under: UnderLoad, angle: Array, middle: Array, rows: Array | None) -> Array:
-        found: Array = under.reactions(angle, middle, rows)[BEARINGS[bearing], plane]
+        found: Array = under.reactions(angle, middle, rows)[BEARINGS[bearing]][plane]
         return found
 
     return curve

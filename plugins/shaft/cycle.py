@@ -120,11 +120,11 @@ class Cycle:
         """Yield the loads of which only extremes are given, with these, (variants,) each."""
         for index, each in enumerate(self.given[name]):
             if isinstance(each, Extremes):
-                ends = (
+                low, high = (
                     np.broadcast_to(np.asarray(end, dtype=float), (self.places.shape[1],))
                     for end in (each.low, each.high)
                 )
-                yield index, *ends
+                yield index, low, high
 
     def bounds(self, name: str, weights: Array) -> tuple[Array, Array]:
         """Return the least and greatest sum of what is given by extremes, with weights (points, loads, variants): (points, variants, 1)."""
@@ -144,9 +144,10 @@ class Cycle:
 
 
 def _extremes_of(given: Any, rows: Array) -> Any:
-    if isinstance(given, Extremes) and isinstance(given.low, np.ndarray):
-        return Extremes(given.low[rows], given.high[rows])
-    return given
+    if not isinstance(given, Extremes):
+        return given
+    ends: list[Any] = [given.low, given.high]
+    return Extremes(*(end[rows] if np.ndim(end) else end for end in ends))
 
 
 def _value(given: Any, share: Array, middle: Array, rows: Array, variants: int) -> Array:
@@ -204,9 +205,11 @@ def _curves(given: dict[str, tuple[Any, ...]], rotation: Any) -> dict[str, Curve
 
 
 def _of_one_cycle(curves: dict[str, Curve]) -> None:
-    (first, one), *others = list(curves.items()) or [("", None)]
-    for key, other in others:
-        if one is not None and other.cycle != one.cycle:
+    if not curves:
+        return
+    first, one = next(iter(curves.items()))
+    for key, other in curves.items():
+        if other.cycle != one.cycle:
             raise Refusal(
                 key,
                 f"is a curve over {other.cycle}, but {first} is one over {one.cycle}; all curves of a shaft run over one and the same "

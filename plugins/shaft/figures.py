@@ -53,11 +53,12 @@ def _places(view: View) -> list[Shape]:
         if found is None or safety[i] < found[0]:
             least[round(x[i], 9)] = (safety[i], names[i])
     shown = [(place, min(each, TOLD), name) for place, (each, name) in least.items()]
-    stems = [line([place, place], [0.0, height], name) for place, height, name in shown]
+    stems = np.array([end for place, height, _ in shown for end in ((place, 0.0), (place, height), (place, np.nan))])
     return [
         chart_panel(
             "Safety against fatigue", "1", "Position", "x", "mm",
-            lines=stems, marks=[mark(place, height, f"{height:.3g}" if height < TOLD else "> 20") for place, height, _ in shown],
+            lines=[line(stems[:, 0], stems[:, 1], "least safety at each place")],
+            marks=[mark(place, height, name) for place, height, name in shown],
             levels=[level(view["required_fatigue_safety"], "required")],
         )
     ]  # fmt: skip

@@ -62,49 +62,29 @@ def notch_sensitivity(radius: Any, neuber: Any) -> Any:
 
 
 @formula
+def quadratic(constant: Any, linear: Any, square: Any, root: Any) -> Any:
+    """A coefficient of Peterson's charts as they are fitted, of w = √(t/r)."""
+    return constant + linear * root + square * root**2
+
+
+BENDING = (  # constant, linear and square term of C_1 … C_4, for t/r up to 2 and above (Peterson, chart 3.10)
+    ((0.947, 1.206, -0.131), (1.232, 0.832, -0.008)),
+    ((0.022, -3.405, 0.915), (-3.813, 0.968, -0.260)),
+    ((0.869, 1.777, -0.555), (7.423, -4.868, 0.869)),
+    ((-0.810, 0.422, -0.260), (-3.839, 3.070, -0.600)),
+)
+TORSION = (  # the same (Peterson, chart 3.12)
+    (0.905, 0.783, -0.075),
+    (-0.437, -1.969, 0.553),
+    (1.557, 1.073, -0.578),
+    (-1.061, 0.171, 0.086),
+)
+
+
+@formula
 def cubic(first: Any, second: Any, third: Any, fourth: Any, share: Any) -> Any:
-    """Peterson's charts as they are fitted: a cubic of 2 t/D, at least 1."""
+    """Peterson's charts as they are fitted: a cubic of z = 2 t/D, at least 1."""
     return np.maximum(first + second * share + third * share**2 + fourth * share**3, 1)
-
-
-@formula
-def fit_bending(step: Any, radius: Any, great: Any) -> Any:
-    """Stress concentration of a shoulder fillet in bending (Peterson, chart 3.10)."""
-    share = 2 * step / great
-    low = step / radius
-    root = np.sqrt(low)
-    return np.where(
-        low <= 2,
-        cubic(
-            0.947 + 1.206 * root - 0.131 * low,
-            0.022 - 3.405 * root + 0.915 * low,
-            0.869 + 1.777 * root - 0.555 * low,
-            -0.810 + 0.422 * root - 0.260 * low,
-            share,
-        ),
-        cubic(
-            1.232 + 0.832 * root - 0.008 * low,
-            -3.813 + 0.968 * root - 0.260 * low,
-            7.423 - 4.868 * root + 0.869 * low,
-            -3.839 + 3.070 * root - 0.600 * low,
-            share,
-        ),
-    )
-
-
-@formula
-def fit_torsion(step: Any, radius: Any, great: Any) -> Any:
-    """Stress concentration of a shoulder fillet in torsion (Peterson, chart 3.12)."""
-    share = 2 * step / great
-    low = step / radius
-    root = np.sqrt(low)
-    return cubic(
-        0.905 + 0.783 * root - 0.075 * low,
-        -0.437 - 1.969 * root + 0.553 * low,
-        1.557 + 1.073 * root - 0.578 * low,
-        -1.061 + 0.171 * root + 0.086 * low,
-        share,
-    )
 
 
 @formula

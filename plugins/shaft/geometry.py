@@ -74,12 +74,27 @@ notches.value("neuber_bending", "a_N", "mm", "Neuber's length in bending", formu
 notches.value("neuber_torsion", "a_Ns", "mm", "Neuber's length in torsion", formulas.neuber_torsion, source="Shigley 6-35b")
 notches.value("press_fit_factor", "K_fp", "1", "Fatigue notch factor of a press fit", formulas.press_fit_factor, source="DIN 743-2, table 1",
               output=False)
-notches.value("k_t", "K_t", "1", "Stress concentration in bending",
-              bind(lambda is_fillet, step, radius, great, of_type: np.where(is_fillet > 0, formulas.fit_bending(step, radius, great), of_type),
-                   step="place_step", radius="place_radius", great="place_greater", of_type="type_k_t"), source="Peterson, chart 3.10", output=False)
-notches.value("k_ts", "K_ts", "1", "Stress concentration in torsion",
-              bind(lambda is_fillet, step, radius, great, of_type: np.where(is_fillet > 0, formulas.fit_torsion(step, radius, great), of_type),
-                   step="place_step", radius="place_radius", great="place_greater", of_type="type_k_ts"), source="Peterson, chart 3.12", output=False)
+notches.value("fillet_ratio", "t/r", "1", "Step to fillet radius (1 where there is no fillet)",
+              lambda is_fillet, place_step, place_radius: np.where(is_fillet > 0, place_step / place_radius, 1), source="Peterson", output=False)
+notches.value("fillet_root", "w", "1", "Root of it", lambda fillet_ratio: np.sqrt(fillet_ratio), source="Peterson", output=False)
+notches.value("fillet_share", "z", "1", "Both steps to the greater diameter", lambda place_step, place_greater: 2 * place_step / place_greater,
+              source="Peterson", output=False)
+for number, (low, high) in enumerate(formulas.BENDING, 1):
+    names = {f"{term}{end}": value for end, terms in (("", low), ("_above", high)) for term, value in zip("abc", terms, strict=True)}
+    notches.value(f"bending_{number}", f"C_{number}", "1", f"Coefficient {number} of the chart for bending",
+                  bind(lambda ratio, root, a, b, c, a_above, b_above, c_above:
+                           np.where(ratio <= 2, formulas.quadratic(a, b, c, root), formulas.quadratic(a_above, b_above, c_above, root)),
+                       ratio="fillet_ratio", root="fillet_root", **names), source="Peterson, chart 3.10", output=False)
+for number, terms in enumerate(formulas.TORSION, 1):
+    names = dict(zip(("constant", "linear", "square"), terms, strict=True))
+    notches.value(f"torsion_{number}", f"C_s{number}", "1", f"Coefficient {number} of the chart for torsion",
+                  bind(formulas.quadratic, root="fillet_root", **names), source="Peterson, chart 3.12", output=False)
+for name, symbol, told, chart, chart_name in (("k_t", "K_t", "bending", "bending", "3.10"), ("k_ts", "K_ts", "torsion", "torsion", "3.12")):
+    notches.value(name, symbol, "1", f"Stress concentration in {told}",
+                  bind(lambda is_fillet, first, second, third, fourth, share, of_type:
+                           np.where(is_fillet > 0, formulas.cubic(first, second, third, fourth, share), of_type),
+                       first=f"{chart}_1", second=f"{chart}_2", third=f"{chart}_3", fourth=f"{chart}_4", share="fillet_share",
+                       of_type=f"type_{name}"), source=f"Peterson, chart {chart_name}", output=False)
 notches.value("sensitivity", "q", "1", "Notch sensitivity in bending",
               bind(formulas.notch_sensitivity, radius="place_radius", neuber="neuber_bending"), source="Shigley 6-34", output=False)
 notches.value("sensitivity_torsion", "q_s", "1", "Notch sensitivity in torsion",
@@ -96,8 +111,6 @@ for suffix, sign, form, told in (("", "f", "press_fit_factor", "bending"), ("s",
                   source="Shigley 6-32", output=False)
     notches.computed(f"k_{sign}", f"K_{sign}", "1", f"Fatigue notch factor in {told}", lambda body, row: body.greatest_here(row),
                      ("body", f"own_k_{sign}"), "the greatest of the notches at one place, not their product", over="places", output=False)
-notches.value("fillet_ratio", "t/r", "1", "Step to fillet radius (1 where there is no fillet)",
-              lambda is_fillet, place_step, place_radius: np.where(is_fillet > 0, place_step / place_radius, 1), source="Peterson", output=False)
 notches.value("bore_ratio", "d_i/d", "1", "Bore to diameter at a fillet (0 elsewhere)",
               lambda is_fillet, place_bore, place_diameter: np.where(is_fillet > 0, place_bore / place_diameter, 0), source="Peterson", output=False)
 

@@ -42,13 +42,15 @@ class Sides:
     def torque_size(self) -> Array:
         """Return the greatest size that the torque may have."""
         low, high = self.torque_bounds
-        return np.maximum(np.abs(self.torque + low), np.abs(self.torque + high))
+        size: Array = np.maximum(np.abs(self.torque + low), np.abs(self.torque + high))
+        return size
 
     @property
     def axial_size(self) -> Array:
         """Return the greatest size that the axial force may have."""
         low, high = self.axial_bounds
-        return np.maximum(np.abs(self.axial + low), np.abs(self.axial + high))
+        size: Array = np.maximum(np.abs(self.axial + low), np.abs(self.axial + high))
+        return size
 
 
 @dataclass(frozen=True)
@@ -117,7 +119,8 @@ class Statics:
     def stiffness_of(self, x: Array) -> Array:
         """Return E I between one place and the next, (places - 1, variants)."""
         diameter, bore = self.section_between(x)
-        return self.elastic * beams.second_moment(diameter, bore)
+        stiffness: Array = self.elastic * beams.second_moment(diameter, bore)
+        return stiffness
 
     def section_between(self, x: Array) -> tuple[Array, Array]:
         """Return diameter and bore between one place and the next."""
@@ -279,7 +282,8 @@ class Statics:
 def _between(x: Array, shares: Array) -> Array:
     """Places between each place and the next, with them, ascending."""
     inner = x[:-1, None] + np.diff(x, axis=0)[:, None] * shares[None, :, None]
-    return inner.reshape(-1, x.shape[1])
+    found: Array = inner.reshape(-1, x.shape[1])
+    return found
 
 
 def _picked(values: Array, by: Array) -> Array:

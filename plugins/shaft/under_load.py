@@ -90,7 +90,7 @@ class UnderLoad:
         inside = (x > 0) & (x < self.body.length[:, None])
         return np.where(inside, x, np.nan)
 
-    def along(self, x: Array, middle: Array, rows: Array | None) -> Iterator[tuple[Statics, Array, int]]:
+    def along(self, x: Array, middle: Array, rows: Array | None) -> Iterator[tuple[Statics, Array, Array]]:
         """Yield for each row of places (rows, places) the shaft, its places (places, 1), and 0 before and 1 behind for each of them."""
         chosen = (
             np.zeros(len(x), dtype=int) if self.variants == 1 else np.arange(self.variants) if rows is None else rows
@@ -98,7 +98,7 @@ class UnderLoad:
         inner = np.broadcast_to(middle, x.shape)
         for own, variant, mid in zip(x, chosen, inner, strict=True):
             row = np.array([variant])
-            yield self.of(row, self.cycle.share[row], self.cycle.middle[row]), own[:, None], (mid > own).astype(int)  # type: ignore[misc]
+            yield self.of(row, self.cycle.share[row], self.cycle.middle[row]), own[:, None], (mid > own).astype(int)
 
     # --- the state of each place --------------------------------------------------------------------------------------------
 

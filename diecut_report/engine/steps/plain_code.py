@@ -19,7 +19,7 @@ from diecut_report.expressions import Array
 def part_names(calc: Calculation, step: PartNames) -> None:
     """Name the parts that rows run over."""
     found = step.function(*(calc[name] for name in step.takes))
-    if not isinstance(found, list) or not found or not all(isinstance(each, str) for each in found):
+    if not found or not all(isinstance(each, str) for each in found):
         raise _told(step, step.function, reprlib.repr(found), "a list of texts")
     calc.part_names[step.id] = tuple(found)
 
