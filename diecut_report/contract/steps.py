@@ -285,7 +285,7 @@ class Prepared(Step):
     """Declare what plain code makes of a machine once, and several steps ask: any object, no quantity.
 
     ``function`` takes one mapping: of the inputs and quantities ``holds`` those that there are, in the form in which
-    ``Computed`` takes them. ``for_many`` says that it makes an object of many machines at once.
+    ``Computed`` takes them; ``for_many`` machines at once.
     """
 
     function: Callable[..., Any]
@@ -293,7 +293,6 @@ class Prepared(Step):
     for_many: bool = False
 
 
-@dataclass(frozen=True, kw_only=True, eq=False)
 class SilentStep(Step):
     """Declare the base of other steps that give no quantity."""
 

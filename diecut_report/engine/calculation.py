@@ -10,13 +10,14 @@ from weakref import proxy
 import numpy as np
 
 from diecut_report.contract.binding import Binding, bound
-from diecut_report.contract.code_steps import ComputedCurve, PartNames
+from diecut_report.contract.code_steps import ComputedCurve
 from diecut_report.contract.inputs import Meta, Quantity, fields, texts_given
 from diecut_report.contract.mechanism import Mechanism
 from diecut_report.contract.phase_inputs import TakenWhole
 from diecut_report.contract.steps import Accumulated, Choice, Derivative, FromCurve, Step, Value
 from diecut_report.contract.unit_variants import in_form
 from diecut_report.engine import named_quantity
+from diecut_report.engine.input_rows import row
 from diecut_report.engine.numerics.chebyshev import PieceSeries
 from diecut_report.engine.numerics.curve_evaluation import MANY, Curves
 from diecut_report.engine.numerics.domain import Domain
@@ -222,11 +223,6 @@ class Calculation:
         table = self.table(self.axis[curve])
         return table.pieces().spread(table.on_grid([curve])[0])
 
-    def shown_part(self, name: str) -> int:
-        """Return which part of a row formulas are shown with, from 0; 0 of a number too."""
-        names = self.steps.get(self.axis.get(name, ""))
-        return int(self[names.shown_at][0, 0]) if isinstance(names, PartNames) and names.shown_at else 0
-
     def step_or_input(self, name: str) -> Step | Quantity:
         """Return what declares a quantity: its symbol, unit and description."""
         return named_quantity.declared(name, self.steps, self.axis, self.meta, self.mechanism.at)
@@ -294,16 +290,10 @@ def _column(value: Any, variants: int) -> Any:
         case bool() | str() | CurveHandle() | SampledCurve() | TakenWhole():
             return value
         case tuple():
-            return _row(value, variants)
+            return row(value, variants)
         case np.ndarray():
             return np.ascontiguousarray(value, dtype=float).reshape(variants, -1)
     return np.full((variants, 1), value, dtype=float)
-
-
-def _row(value: tuple[Any, ...], variants: int) -> Any:
-    if not all(isinstance(v, int | float | np.ndarray | np.number) and not isinstance(v, bool) for v in value):
-        return value  # texts, curves, what some parts leave out
-    return np.stack([np.broadcast_to(np.asarray(v, dtype=float), (variants,)) for v in value], axis=1)
 
 
 __all__ = ["Calculation", "CurveHandle", "CurveSampler", "Impossible", "SampledCurve", "Side", "Unproven"]

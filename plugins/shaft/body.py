@@ -134,7 +134,7 @@ def body(
     rest = 2 + len(names)
     kinds = (*steps, *(types or ()), *[NO_NOTCH] * rest)
     told = (
-        *(f"shoulder {i + 1} ({_step(diameter, i)})" for i in range(count - 1)),
+        *(f"shoulder {i + 1}" for i in range(count - 1)),
         *(f"notch {i + 1} ({kind})" for i, kind in enumerate(types or ())),
         "bearing A",
         "bearing B",
@@ -151,13 +151,6 @@ def body(
             for i, each in enumerate(own)]  # fmt: skip
     made = Body(ends, diameter, columns(bores, count, variants, 0.0), told, kinds, np.concatenate(places), *full)
     return _with_types(made)
-
-
-def _step(diameter: Array, index: int) -> str:
-    """The step in words, where all variants have the same."""
-    left, right = diameter[index] * 1e3, diameter[index + 1] * 1e3
-    same = np.ptp(left) == np.ptp(right) == 0
-    return f"{left[0]:.6g}/{right[0]:.6g}" if same else f"section {index + 1} to {index + 2}"
 
 
 def _filled(shoulders: Array, notches: Array, rest: int) -> Array:

@@ -14,7 +14,7 @@ from diecut_report.results.checks import check_results
 from tests.machines import inputs, number
 from tests.plugins.shafts import CRANK, CRANKSHAFT, GEAR, LAYSHAFT, SECTIONS, STANDING, crankshaft, row, shaft
 
-SHOULDER_1, SHOULDER_2, SHOULDER_3 = "shoulder 1 (45/55)", "shoulder 2 (55/60)", "shoulder 3 (60/50)"
+SHOULDER_1, SHOULDER_2, SHOULDER_3 = "shoulder 1", "shoulder 2", "shoulder 3"
 GEAR_KEY, CRANK_KEY = "notch 1 (keyseat_end_mill)", "notch 2 (keyseat_end_mill)"
 
 

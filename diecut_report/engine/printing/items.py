@@ -35,6 +35,7 @@ from diecut_report.engine.printing.shown_place import (
     marks,
     place_of,
     place_shown,
+    shown_part,
     value_at,
 )
 from diecut_report.engine.printing.substitution import (
@@ -126,7 +127,7 @@ def _value(calc: Calculation, step: Value, part: Bound) -> list[Item]:
         item |= located(calc, str(axis), elsewhere)
     elif axis in calc.part_names:
         item["note"] = " ".join(
-            filter(None, (item.get("note"), f"Shown for: {calc.part_names[axis][calc.shown_part(step.id)]}."))
+            filter(None, (item.get("note"), f"Shown for: {calc.part_names[axis][shown_part(calc, step.id)]}."))
         )
     elif axis is not None:
         return [
