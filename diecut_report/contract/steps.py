@@ -282,10 +282,9 @@ class Phase(Step):
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class Prepared(Step):
-    """Declare what plain code makes of a machine once, and several steps ask: any object, no quantity.
+    """Declare what plain code makes of a machine once (``for_many``: of many at once), and several steps ask: any object, no quantity.
 
-    ``function`` takes one mapping: of the inputs and quantities ``holds`` those that there are, in the form in which
-    ``Computed`` takes them; ``for_many`` machines at once.
+    ``function`` takes one mapping: those of the inputs and quantities ``holds`` that there are, as ``Computed`` takes them.
     """
 
     function: Callable[..., Any]

@@ -17,7 +17,7 @@ from diecut_report.contract.phase_inputs import TakenWhole
 from diecut_report.contract.steps import Accumulated, Choice, Derivative, FromCurve, Step, Value
 from diecut_report.contract.unit_variants import in_form
 from diecut_report.engine import named_quantity
-from diecut_report.engine.input_rows import row
+from diecut_report.engine.input_rows import alone, row
 from diecut_report.engine.numerics.chebyshev import PieceSeries
 from diecut_report.engine.numerics.curve_evaluation import MANY, Curves
 from diecut_report.engine.numerics.domain import Domain
@@ -293,7 +293,7 @@ def _column(value: Any, variants: int) -> Any:
             return row(value, variants)
         case np.ndarray():
             return np.ascontiguousarray(value, dtype=float).reshape(variants, -1)
-    return np.full((variants, 1), value, dtype=float)
+    return alone(value, variants)
 
 
 __all__ = ["Calculation", "CurveHandle", "CurveSampler", "Impossible", "SampledCurve", "Side", "Unproven"]

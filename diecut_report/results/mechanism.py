@@ -14,7 +14,7 @@ from diecut_report.contract.inputs import CurveInput, Quantity, TakenWhole, list
 from diecut_report.contract.result_names import ResultName, count_name, pattern, place_name, result_names
 from diecut_report.contract.spectra import Spectrum, SpectrumLine
 from diecut_report.contract.steps import SILENT, Crossings, Step
-from diecut_report.contract.varying import Extremes, Varying
+from diecut_report.contract.varying import Varying
 from diecut_report.engine import Calculation
 from diecut_report.engine.calculation import Unproven
 from diecut_report.engine.figure_views import figures
@@ -26,6 +26,7 @@ from diecut_report.results.exports import exports
 from diecut_report.results.phases import phases, phases_absent
 from diecut_report.results.summary import RANK, counts, failed_self_tests
 from diecut_report.results.unchecked import missing
+from diecut_report.results.varying_inputs import varying
 
 Data = dict[str, Any]
 
@@ -172,7 +173,7 @@ def _input(meta: Any, value: Any) -> Data:
         return {"value": text if is_curve else value, "unit": unit(meta.unit).si if is_curve else "1", "symbol": meta.symbol,
                 "description": meta.description, "display": {"text": text, "unit": "1"}}  # fmt: skip
     if isinstance(meta, Varying) and not isinstance(value, float | np.ndarray):
-        return _varying(meta, value)
+        return varying(meta, value)
     number = float(np.ravel(value)[0])
     return {
         "value": int(number) if meta.integer else number,
@@ -181,15 +182,6 @@ def _input(meta: Any, value: Any) -> Data:
         "description": meta.description,
         "display": {"text": shortest(number / meta.parsed_unit.factor), "unit": meta.unit},
     }
-
-
-def _varying(meta: Varying, value: Any) -> Data:
-    """What is given in place of a number: extremes, a text, a curve."""
-    text = value if isinstance(value, str) else "a curve"
-    if isinstance(value, Extremes):
-        text = " … ".join(shortest(end / meta.parsed_unit.factor) for end in (value.low, value.high))
-    return {"value": text, "unit": meta.parsed_unit.si, "symbol": meta.symbol, "description": meta.description,
-            "display": {"text": text, "unit": meta.unit if isinstance(value, Extremes) else "1"}}  # fmt: skip
 
 
 def numbers(calc: Calculation) -> Data:
