@@ -13,7 +13,7 @@ from diecut_report.mechanics.beams import SAME_PLACE
 
 Array = NDArray[Any]
 NO_NOTCH = "none"
-FILLET, SHARP, PRESS_FIT = "fillet", "sharp", "press_fit"
+FILLET, SHARP, PRESS_FIT, SLED_RUNNER = "fillet", "sharp", "press_fit", "keyseat_sled_runner"
 
 
 class Factors(NamedTuple):
@@ -30,7 +30,7 @@ TYPES = {
     FILLET: Factors(1.0, 1.0),  # these follow from the fits
     SHARP: Factors(2.7, 2.2, share=0.02),
     "keyseat_end_mill": Factors(2.14, 3.0, share=0.02),
-    "keyseat_sled_runner": Factors(1.7, 3.0, share=0.02),
+    SLED_RUNNER: Factors(1.0, 1.0, share=0.02),  # sources differ (1.6, 1.7): its factors are given
     "groove_ring": Factors(5.0, 3.0, radius=0.25e-3),
     PRESS_FIT: Factors(1.0, 1.0),  # its fatigue factors are given as such
     "custom": Factors(1.0, 1.0),
@@ -168,7 +168,12 @@ def _complete(types: tuple[str, ...], own: list[Array]) -> None:
             raise Refusal(
                 f"notches.{index}", "gives both k_t and k_f; a custom notch has k_t, k_ts and radius, or k_f and k_fs"
             )
-        if kind != "custom" and any(factors):
+        if kind == SLED_RUNNER and not (all(factors[:2]) and not any(factors[2:])):
+            raise Refusal(
+                f"notches.{index}",
+                "is a sled runner keyseat, on whose factors the sources differ; give its k_t and k_ts",
+            )
+        if kind not in ("custom", SLED_RUNNER) and any(factors):
             raise Refusal(
                 f"notches.{index}",
                 f"has factors of its own, but is of the type {kind}; remove them, or give it the type custom",

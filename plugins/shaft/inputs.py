@@ -29,10 +29,14 @@ class Notch(Block):
     radius: Annotated[
         float | None, Quantity("r_n", "mm", "Radius of the notch's ground, where not that of its type", gt=0)
     ] = None
-    k_t: Annotated[float | None, Quantity("K_t,n", "1", "Stress concentration in bending (custom)", ge=1, le=20)] = None
-    k_ts: Annotated[float | None, Quantity("K_ts,n", "1", "Stress concentration in torsion (custom)", ge=1, le=20)] = (
-        None
-    )
+    k_t: Annotated[
+        float | None,
+        Quantity("K_t,n", "1", "Stress concentration in bending (custom, keyseat_sled_runner)", ge=1, le=20),
+    ] = None
+    k_ts: Annotated[
+        float | None,
+        Quantity("K_ts,n", "1", "Stress concentration in torsion (custom, keyseat_sled_runner)", ge=1, le=20),
+    ] = None
     k_f: Annotated[float | None, Quantity("K_f,n", "1", "Fatigue notch factor in bending (custom)", ge=1, le=20)] = None
     k_fs: Annotated[float | None, Quantity("K_fs,n", "1", "Fatigue notch factor in torsion (custom)", ge=1, le=20)] = (
         None

@@ -49,7 +49,7 @@ LAYSHAFT: dict[str, Any] = {
         {"length": 40, "diameter": 45},
     ],
     "notches": [
-        {"position": 100, "type": "keyseat_sled_runner", "radius": 0.6},
+        {"position": 100, "type": "keyseat_sled_runner", "radius": 0.6, "k_t": 1.7, "k_ts": 3},
         {"position": 120, "type": "groove_ring"},
         {"position": 140, "type": "press_fit"},
         {"position": 220, "type": "custom", "k_t": 1.8, "k_ts": 1.4, "radius": 1},

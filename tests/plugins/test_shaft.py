@@ -315,6 +315,7 @@ def test_a_fillet_beyond_the_charts_and_a_wide_bore_warn() -> None:
             "notches.0",
             "k_t, k_ts and radius, or k_f and k_fs",
         ),
+        ({"notches": [{"position": 100, "type": "keyseat_sled_runner"}]}, "notches.0", "give its k_t and k_ts"),
         ({"notches": [{"position": 100, "type": "press_fit", "radius": 1}]}, "notches.0.radius", "remove it"),
         ({"notches": [{"position": 100, "type": "groove_ring", "k_t": 2}]}, "notches.0", "type custom"),
     ],
