@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from diecut_report.api import Mechanism, Source
-from diecut_report.plugins.shaft import advice, geometry, strength
+from diecut_report.plugins.shaft import advice, geometry, steels, strength
 from diecut_report.plugins.shaft.checks import CHECKS
 from diecut_report.plugins.shaft.figures import FIGURES
 from diecut_report.plugins.shaft.inputs import Shaft
@@ -17,7 +17,7 @@ MECHANISM = Mechanism(
     "load, and the critical speed.",
     inputs=Shaft,
     chapters=(
-        geometry.sections, geometry.places, geometry.notches, geometry.endurance, strength.loads, strength.bending, strength.fatigue,
+        geometry.sections, steels.steel, geometry.places, geometry.notches, geometry.endurance, strength.loads, strength.bending, strength.fatigue,
         strength.yielding, strength.critical, advice.enough,
     ),
     key_results=("reaction_a_max", "reaction_b_max", "bending_moment_max", "fatigue_safety", "fatigue_place", "yield_safety", "deflection_max",
@@ -35,6 +35,8 @@ MECHANISM = Mechanism(
     sources=(
         Source("Shigley", "Budynas R. G., Nisbett J. K. Shigley's Mechanical Engineering Design. 10th ed. McGraw-Hill, 2015, chapters 6 and 7."),
         Source("Peterson", "Pilkey W. D. Peterson's Stress Concentration Factors. 2nd ed. Wiley, 1997, charts 3.10 and 3.12."),
+        Source("EN 10083", "EN 10083, Steels for quenching and tempering: least strengths of round bars, as makers' tables agree on them "
+               "(docs/standards.md)."),
         Source("DIN 743-2", "DIN 743-2:2012, Calculation of load capacity of shafts and axles, part 2: theoretical stress concentration factors and "
                "fatigue notch factors, table 1."),
     ),

@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from typing import Any, Literal
+from typing import Any, ClassVar, Literal
 
-from diecut_report.api import POINTS, Annotated, Block, Inputs, Quantity, Text, Varying
+from diecut_report.api import POINTS, Annotated, Block, Inputs, OneOf, Quantity, Text, Varying
 
 NotchType = Literal["keyseat_end_mill", "keyseat_sled_runner", "groove_ring", "press_fit", "custom"]
 
@@ -89,14 +89,22 @@ class Load(Block):
 class Shaft(Inputs):
     """Keys of ``shaft``."""
 
+    one_of: ClassVar[tuple[OneOf, ...]] = (OneOf(("material",), ("tensile_strength", "yield_strength")),)
+
     sections: Annotated[list[Section], Text("Sections of the shaft, from left to right")]
     notches: Annotated[list[Notch], Text("Notches beside the shoulders")] = []  # noqa: RUF012
     bearing_a: Annotated[float, Quantity("x_A", "mm", "Place of bearing A, from the shaft's left end", ge=0)]
     bearing_b: Annotated[float, Quantity("x_B", "mm", "Place of bearing B, from the shaft's left end", ge=0)]
     locating: Annotated[Literal["a", "b"], Text("Which bearing takes the axial force")] = "a"
     loads: Annotated[list[Load], Text("Loads of the shaft")]
-    tensile_strength: Annotated[float, Quantity("S_ut", "MPa", "Tensile strength at the shaft's size", ge=340, le=1500)]
-    yield_strength: Annotated[float, Quantity("S_y", "MPa", "Yield strength at the shaft's size", gt=0)]
+    material: Annotated[
+        Literal["42CrMo4+QT", "C45E+QT", "C45E+N"] | None,
+        Text("Steel, in place of its strengths (EN 10083, round bars)"),
+    ] = None
+    tensile_strength: Annotated[
+        float | None, Quantity("S_ut", "MPa", "Tensile strength at the shaft's size", ge=340, le=1500)
+    ] = None
+    yield_strength: Annotated[float | None, Quantity("S_y", "MPa", "Yield strength at the shaft's size", gt=0)] = None
     surface: Annotated[Literal["ground", "machined", "hot_rolled", "forged"], Text("Surface of the shaft")] = "machined"
     reliability: Annotated[
         float, Quantity("R", "%", "Reliability of the endurance limit", listed=(50, 90, 95, 99, 99.9, 99.99))

@@ -351,3 +351,40 @@ def test_a_load_that_is_neither_number_nor_curve_is_refused(keys: dict[str, Any]
 def test_a_reliability_that_is_not_listed_is_refused_with_those_that_are() -> None:
     with pytest.raises(ValueError, match=r"50, 90, 95, 99, 99.9, 99.99 %"):
         inputs(MECHANISM, CRANKSHAFT | {"reliability": 98})
+
+
+# --- steels ---------------------------------------------------------------------------------------------------------------------
+
+
+def of_steel(grade: str, factor: float = 1.0) -> Calculation:
+    """The crankshaft of a steel, and of another size."""
+    keys = {name: value for name, value in CRANKSHAFT.items() if name not in ("tensile_strength", "yield_strength")}
+    return shaft(grown(keys, factor), material=grade)
+
+
+@pytest.mark.parametrize(
+    ("grade", "factor", "tensile", "proof"),
+    [
+        ("42CrMo4+QT", 1, 900, 650),
+        ("42CrMo4+QT", 100 / 60, 900, 650),
+        ("42CrMo4+QT", 2, 800, 550),
+        ("42CrMo4+QT", 3, 750, 500),
+        ("C45E+QT", 1, 630, 370),
+        ("C45E+N", 1, 580, 305),
+        ("C45E+N", 2, 560, 275),
+    ],
+)
+def test_a_steel_has_the_strengths_of_the_greatest_diameter(
+    grade: str, factor: float, tensile: float, proof: float
+) -> None:
+    found = of_steel(grade, factor)
+    assert [number(found, name) / 1e6 for name in ("tensile_strength", "yield_strength")] == [tensile, proof]
+
+
+def test_the_named_steel_judges_as_its_typed_strengths_do() -> None:
+    assert number(of_steel("42CrMo4+QT"), "fatigue_safety") == number(crankshaft(), "fatigue_safety")
+
+
+def test_a_steel_beyond_its_sizes_is_refused() -> None:
+    with pytest.raises(Impossible, match="known up to 100 mm"):
+        of_steel("C45E+QT", 2)

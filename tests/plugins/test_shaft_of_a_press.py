@@ -151,6 +151,8 @@ def test_extremes_are_read_in_units_and_kept(tmp_path: Path) -> None:
         ("bearing_a: 25 mm", "bearing_a: ${crankshaft.place_x}", "refer to one"),
         ("bearing_a: 25 mm", "bearing_a: ${crankshaft.loads.0.torque}", "may vary over a cycle"),
         ("torque: balance", "torque: rest", "balance"),
+        ("yield_strength: 650 MPa", "yield_strength: 650 MPa\n    material: C45E+N", "only one can hold"),
+        ("tensile_strength: 900 MPa", "material: C45", "allowed: 42CrMo4+QT, C45E+QT, C45E+N"),
     ],
 )
 def test_a_wrong_reference_is_told_where_it_stands(tmp_path: Path, old: str, new: str, words: str) -> None:
