@@ -17,7 +17,7 @@ from diecut_report.plugins.shaft.cycle import Cycle
 from diecut_report.plugins.shaft.statics import BLOCK, Sides, Statics
 
 Array = NDArray[Any]
-DIRECTIONS = np.arange(360) * np.pi / 180  # of the material point that is looked at first
+DIRECTIONS = np.arange(120) * np.pi / 60  # of the material point that is looked at first
 NARROWED = 0.1  # of the step between directions, at each turn of the bounded search
 TURNS = 3
 
