@@ -57,9 +57,7 @@ def contact_ratio(teeth_1: Any, teeth_2: Any, tip_angle_1: Any, tip_angle_2: Any
 
 
 @formula
-def least_shift(
-    teeth: Any, alpha: Any, helix_angle: Any, pressure_angle: Any, dedendum: Any, tip_radius: Any
-) -> Any:
+def least_shift(teeth: Any, alpha: Any, helix_angle: Any, pressure_angle: Any, dedendum: Any, tip_radius: Any) -> Any:
     """Profile shift below which the straight flank of the rack's tip undercuts the involute."""
     straight = dedendum - tip_radius * (1 - np.sin(pressure_angle))
     return straight - teeth * np.sin(alpha) ** 2 / (2 * np.cos(helix_angle))
@@ -103,7 +101,15 @@ class RackCutTooth:
         base = self.reference_radius * np.cos(self.alpha)
         there = np.arccos(base / np.maximum(radii, base))
         found = half_thickness(self.teeth, self.shift, self.pressure_angle, self.alpha, there)
-        return np.where(radii < base, np.inf, found)
+        return np.where(radii < base * (1 - 1e-12), np.inf, found)
+
+    @property
+    def is_undercut(self) -> bool:
+        """Return whether the rack's tip cuts away some of the involute above the base circle."""
+        least = least_shift(
+            self.teeth, self.alpha, self.helix_angle, self.pressure_angle, self.dedendum, self.tip_radius
+        )
+        return bool(self.shift < least)
 
     def trochoid(self, points: int = ROUNDING) -> tuple[Array, Array]:
         """Return radii and angles of the root that the rack's rounded tip cuts, from the root circle upwards.
@@ -120,10 +126,13 @@ class RackCutTooth:
         return radii[rising], angles[rising]
 
     def half_angles(self, radii: Array) -> Array:
-        """Return half the thickness of the tooth as angles: the flank, and the root where that is cut deeper."""
+        """Return half the thickness of the tooth as angles: root, then flank; where the tooth is undercut the thinner of both."""
         low, angles = self.trochoid()
         root = np.interp(radii, low, angles, left=np.pi / self.teeth, right=np.inf)
-        return np.minimum(np.minimum(self.flank(radii), root), np.pi / self.teeth)
+        flank = self.flank(radii)
+        if not self.is_undercut:
+            flank = np.where(radii < low[-1], np.inf, flank)
+        return np.minimum(np.minimum(flank, root), np.pi / self.teeth)
 
     @property
     def _tip_center(self) -> float:

@@ -17,7 +17,9 @@ def assumed_factors(*assumed: float) -> str:
 
 def no_module(face_width: float) -> str:
     """Words where no module of the series is enough."""
-    return f"take a greater face_width than {told(face_width, 'mm')}, better steel or a smaller torque, or give a module"
+    return (
+        f"take a greater face_width than {told(face_width, 'mm')}, better steel or a smaller torque, or give a module"
+    )
 
 
 def greater_module(module: float, least: float) -> str:

@@ -18,7 +18,9 @@ def tooth(view: View, gear: int, *, virtual: bool = False) -> RackCutTooth:
     """A tooth of the gear in modules, in the transverse section or that of the virtual spur gear."""
     teeth = view[f"virtual_teeth_{gear}"] if virtual else view[f"teeth_{gear}"]
     helix = 0.0 if virtual else view["helix_angle"]
-    return RackCutTooth(teeth, view[f"shift_{gear}"], view["dedendum"], view["root_radius"], view["pressure_angle"], helix)
+    return RackCutTooth(
+        teeth, view[f"shift_{gear}"], view["dedendum"], view["root_radius"], view["pressure_angle"], helix
+    )
 
 
 def half_outline(one: RackCutTooth, tip: float) -> tuple[list[float], list[float]]:
@@ -32,7 +34,9 @@ def outline(one: RackCutTooth, tip: float, phase: float, count: int) -> list[tup
     """The teeth from −count to count as radius and angle, clockwise from the line of centres; ``phase`` is the middle one's."""
     radii, halves = half_outline(one, tip)
     step = 2 * pi / one.teeth
-    single = [(r, -h) for r, h in zip(radii, halves, strict=True)] + [(r, h) for r, h in zip(radii[::-1], halves[::-1], strict=True)]
+    single = [(r, -h) for r, h in zip(radii, halves, strict=True)] + [
+        (r, h) for r, h in zip(radii[::-1], halves[::-1], strict=True)
+    ]
     return [(r, phase + k * step + angle) for k in range(-count, count + 1) for r, angle in single]
 
 

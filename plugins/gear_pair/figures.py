@@ -4,7 +4,21 @@ from __future__ import annotations
 
 import numpy as np
 
-from diecut_report.api import BarGroup, Bars, Chart, Drawing, Panel, Plot, Series, Shape, View, chart_panel, level, line, mark
+from diecut_report.api import (
+    BarGroup,
+    Bars,
+    Chart,
+    Drawing,
+    Panel,
+    Plot,
+    Series,
+    Shape,
+    View,
+    chart_panel,
+    level,
+    line,
+    mark,
+)
 from diecut_report.plugins.gear_pair import drawing
 from diecut_report.plugins.gear_pair.sizing import MODULES, SAFETIES, SERIES
 

@@ -53,9 +53,7 @@ def working_diameter(distance: Any, teeth: Any, teeth_1: Any, teeth_2: Any) -> A
 
 
 @formula
-def tip_thickness(
-    tip_diameter: Any, half_thickness: Any, helix_angle: Any, reference_diameter: Any
-) -> Any:
+def tip_thickness(tip_diameter: Any, half_thickness: Any, helix_angle: Any, reference_diameter: Any) -> Any:
     """Normal thickness of the tooth at its tip; ``half_thickness`` is half of it as an angle."""
     helix_at_tip = np.arctan(np.tan(helix_angle) * tip_diameter / reference_diameter)
     return tip_diameter * half_thickness * np.cos(helix_at_tip)
@@ -109,7 +107,9 @@ def nominal_contact_stress(
 
 
 @formula
-def contact_stress(nominal: Any, contact_factor: Any, application: Any, dynamic: Any, face: Any, transverse: Any) -> Any:
+def contact_stress(
+    nominal: Any, contact_factor: Any, application: Any, dynamic: Any, face: Any, transverse: Any
+) -> Any:
     """Contact stress with what raises it."""
     return contact_factor * nominal * np.sqrt(application * dynamic * face * transverse)
 
@@ -157,7 +157,9 @@ def fillet_radius(virtual_teeth: Any, theta: Any, center_height: Any, root_radiu
 
 
 @formula
-def single_contact_diameter(virtual_teeth: Any, tip_height: Any, pressure_angle: Any, virtual_contact_ratio: Any) -> Any:
+def single_contact_diameter(
+    virtual_teeth: Any, tip_height: Any, pressure_angle: Any, virtual_contact_ratio: Any
+) -> Any:
     """Diameter of the outer point of single contact, where the whole load acts."""
     base = virtual_teeth * np.cos(pressure_angle)
     at_tip = np.sqrt((virtual_teeth + 2 * tip_height) ** 2 - base**2) / 2
@@ -207,7 +209,9 @@ def face_factor_root(face_factor: Any, slenderness: Any) -> Any:
 
 
 @formula
-def nominal_root_stress(force: Any, form_factor: Any, stress_factor: Any, helix_factor: Any, face_width: Any, module: Any) -> Any:
+def nominal_root_stress(
+    force: Any, form_factor: Any, stress_factor: Any, helix_factor: Any, face_width: Any, module: Any
+) -> Any:
     """Stress at the root of a pair without errors under the nominal load."""
     return force * form_factor * stress_factor * helix_factor / (face_width * module)
 

@@ -14,10 +14,10 @@ REVERSED = 1e-6  # share of the torque's size up to which the other sign is roun
 
 cycle = Chapter("Torque over the cycle", needs=CURVE, text="One period of the referred curve is laid over one turn of the cycle angle.")
 cycle.abscissa("cycle_angle", "φ", "deg", "Angle of the cycle, one turn a period of the torque", period=2 * np.pi, shown_at="torque_size_at")
-cycle.from_curve("torque_given", "T(φ)", "N*m", "Torque as given", given="torque_curve", abscissa="cycle_angle", output=False)
-cycle.value("torque_pinion_curve", "T_1(φ)", "N*m", "Torque on the pinion", lambda torque_given: torque_given, needs=("torque_on=pinion",),
+cycle.from_curve("torque_given", "T_φ", "N*m", "Torque as given", given="torque_curve", abscissa="cycle_angle", output=False)
+cycle.value("torque_pinion_curve", "T_1φ", "N*m", "Torque on the pinion", lambda torque_given: torque_given, needs=("torque_on=pinion",),
             source="input")
-cycle.value("torque_pinion_curve", "T_1(φ)", "N*m", "Torque on the pinion, of that on the wheel without losses",
+cycle.value("torque_pinion_curve", "T_1φ", "N*m", "Torque on the pinion, of that on the wheel without losses",
             lambda torque_given, teeth_1, teeth_2: torque_given * teeth_1 / teeth_2, needs=("torque_on=wheel",), source="statics")
 cycle.reduction("torque_size", "T_m", "N*m", "Greatest size of the torque on the pinion", "abs_max", of="torque_pinion_curve", output=False)
 cycle.reduction("torque_max", "T_max", "N*m", "Greatest torque on the pinion", "max", of="torque_pinion_curve")

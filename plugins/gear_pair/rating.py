@@ -129,11 +129,11 @@ for g in TEETH:
                            stress=f"root_stress_{g}"), source=f"{ROOT}, 5", digits=6)
 
 over_cycle = Chapter("Forces over the cycle", needs=("torque_curve",))
-over_cycle.value("tangential_force_curve", "F_t(φ)", "N", "Tangential force at the reference circle, signed as the torque",
+over_cycle.value("tangential_force_curve", "F_tφ", "N", "Tangential force at the reference circle, signed as the torque",
                  lambda torque_pinion_curve, pitch_diameter_1: 2 * torque_pinion_curve / pitch_diameter_1, source="ISO 6336-1")
-over_cycle.value("nominal_contact_curve", "σ_H0(φ)", "MPa", "Nominal contact stress",
+over_cycle.value("nominal_contact_curve", "σ_H0φ", "MPa", "Nominal contact stress",
                  bind(f.nominal_contact_stress, force="tangential_force_curve", diameter="pitch_diameter_1"), source=f"{PITTING}, 5", output=False)
-over_cycle.value("contact_stress_curve", "σ_H1(φ)", "MPa", "Contact stress of the pinion",
+over_cycle.value("contact_stress_curve", "σ_H1φ", "MPa", "Contact stress of the pinion",
                  bind(f.contact_stress, nominal="nominal_contact_curve", contact_factor="contact_factor_1", face="face_load", **FACTORS),
                  source=f"{PITTING}, 5")
 

@@ -33,7 +33,9 @@ RATING = _rating()
 def _taken() -> Iterator[str]:
     """What the rating takes beside the module and what its own steps give."""
     given = {"module"} | {step.id for step in RATING}
-    yield from dict.fromkeys(name for step in RATING for name in step.takes() if isinstance(name, str) and name not in given)
+    yield from dict.fromkeys(
+        name for step in RATING for name in step.takes() if isinstance(name, str) and name not in given
+    )
     yield from dict.fromkeys(SAFETIES.values())
 
 
