@@ -32,11 +32,23 @@ from diecut_report.contract.figures import (
     radius_dimension,
     region,
 )
-from diecut_report.contract.inputs import POINTS, Block, CurveInput, FromPress, Inputs, OneOf, Quantity, Text
-from diecut_report.contract.mechanism import Comparison, Erratum, Mechanism, Profile, Source
+from diecut_report.contract.inputs import (
+    POINTS,
+    Block,
+    CurveInput,
+    FromPress,
+    InOtherUnit,
+    Inputs,
+    OneOf,
+    Quantity,
+    Text,
+)
+from diecut_report.contract.mechanism import Comparison, Erratum, Mechanism, Partner, Profile, Source
 from diecut_report.contract.options import case
 from diecut_report.contract.part_steps import Interpolated, Lookup, Neighbour, Part, Pick, Running, Total
+from diecut_report.contract.phase_inputs import GivenMechanism, GivenPhase, MechanismInput, PhaseInput
 from diecut_report.contract.placeholders import Curve
+from diecut_report.contract.refusal import Refusal
 from diecut_report.contract.sections import prefixed
 from diecut_report.contract.spectra import Spectrum, SpectrumLine
 from diecut_report.contract.steps import (
@@ -51,6 +63,8 @@ from diecut_report.contract.steps import (
     CurvePeriod,
     Derivative,
     FromCurve,
+    MadeCurve,
+    Phase,
     Reduction,
     Require,
     Root,
@@ -75,11 +89,12 @@ from diecut_report.standards import (
 __all__ = [
     "GRAVITY", "POINTS", "Abscissa", "Accumulated", "Annotated", "BarGroup", "Bars", "Binding", "Block", "Bound", "Breakpoints", "ByText",
     "Case", "Chapter", "Chart", "Check", "Choice", "Clash", "Comparison", "Computed", "Constant", "Crossings", "Curve", "CurveInput",
-    "CurvePeriod", "Derivative", "Drawing", "Erratum", "Formula", "FromCurve", "FromPress", "Inputs", "Interpolated", "Level", "Lookup",
-    "Mark", "Mechanism", "Neighbour", "OneOf", "Panel", "Part", "Pick", "Plot", "Point", "Polar", "Profile", "Quantity", "Reduction",
-    "Require", "Root", "Running", "Series", "Shape", "Source", "Span", "Spectrum", "SpectrumLine", "StandardFault", "StandardSeries",
-    "StandardTable", "Step", "Steps", "Text", "Total", "Value", "View", "Words", "arc", "arccos", "arrow", "as_angle", "as_number", "below",
-    "bind", "box", "case", "chart_panel", "circle", "dimension", "fill", "formula", "label", "level", "line", "mark", "outward",
-    "own_series", "own_table", "point", "polyline", "prefixed", "radius_dimension", "region", "si", "standard_series", "standard_series_by",
-    "standard_table", "table_beside", "told", "vertical",
+    "CurvePeriod", "Derivative", "Drawing", "Erratum", "Formula", "FromCurve", "FromPress", "GivenMechanism", "GivenPhase", "InOtherUnit",
+    "Inputs", "Interpolated", "Level", "Lookup", "MadeCurve", "Mark", "Mechanism", "MechanismInput", "Neighbour", "OneOf", "Panel", "Part",
+    "Partner", "Phase", "PhaseInput", "Pick", "Plot", "Point", "Polar", "Profile", "Quantity", "Reduction", "Refusal", "Require", "Root", "Running",
+    "Series", "Shape", "Source", "Span", "Spectrum", "SpectrumLine", "StandardFault", "StandardSeries", "StandardTable", "Step", "Steps",
+    "Text", "Total", "Value", "View", "Words", "arc", "arccos", "arrow", "as_angle", "as_number", "below", "bind", "box", "case",
+    "chart_panel", "circle", "dimension", "fill", "formula", "label", "level", "line", "mark", "outward", "own_series", "own_table",
+    "point", "polyline", "prefixed", "radius_dimension", "region", "si", "standard_series", "standard_series_by", "standard_table",
+    "table_beside", "told", "vertical",
 ]  # fmt: skip

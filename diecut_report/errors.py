@@ -6,6 +6,8 @@ import difflib
 from collections.abc import Iterable
 from dataclasses import dataclass
 
+TOLD = 20  # problems of a file that are told, so that the message itself stays short
+
 
 @dataclass(frozen=True)
 class Problem:

@@ -9,7 +9,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 from diecut_report.config.discovery import Discovery
-from diecut_report.config.loader import Config, load_config
+from diecut_report.config.loader import Config, examined, in_order, load_config
 from diecut_report.config.yaml_tree import Tree
 from diecut_report.errors import PluginError, Problem, UserError
 from diecut_report.limits import MAX_PRINTED_MECHANISMS
@@ -23,6 +23,7 @@ LINES_TO_DEPTH = 4  # the results file has a line for each quantity and each cur
 
 Data = dict[str, Any]
 Tell = Callable[[str], None]
+Weigh = Callable[[Config, Data], list[Data]]  # which assumed values move a governing check
 Source = Path | Tree  # a configuration: its file, or what was read and changed
 
 NO_PANGO = (
@@ -52,9 +53,18 @@ class ReportOutcome:
     broken: tuple[PluginError, ...]
 
 
-def check(config: Path, discovery: Discovery) -> tuple[PluginError, ...]:
-    """Load, validate and resolve without calculating; UserError with all problems. Gives the plugins that are broken."""
-    return tuple(load_config(config, discovery).broken.values())
+def validate(config: Source, discovery: Discovery) -> tuple[PluginError, ...]:
+    """Load, validate and resolve, and see whether the machines can exist; UserError with all problems at once.
+
+    Gives the plugins that are broken.
+    """
+    made, problems = examined(config, discovery)
+    from diecut_report.results.feasible import impossible  # with the engine
+
+    more, broken = impossible(made, problems)
+    if problems or more:
+        raise UserError(in_order([*problems, *more]))
+    return (*made.broken.values(), *broken)
 
 
 def calc(config: Source, discovery: Discovery, tell: Tell, target: Path | None = None) -> tuple[ReportOutcome, str]:
@@ -67,10 +77,14 @@ def calc(config: Source, discovery: Discovery, tell: Tell, target: Path | None =
 
 
 def report(
-    config: Source, discovery: Discovery, tell: Tell, folder: Path, formats: Sequence[str], language: str | None = None
-) -> ReportOutcome:
-    """The report in the asked formats, as ``NAME.html``, ``NAME.pdf``, ``NAME.json`` in the folder, and the exports beside it."""
-    results, broken, places = _calculated(config, discovery, tell, formats)
+    config: Source, discovery: Discovery, tell: Tell, folder: Path, formats: Sequence[str], language: str | None = None,
+    weigh: Weigh | None = None,
+) -> ReportOutcome:  # fmt: skip
+    """The report in the asked formats, as ``NAME.html``, ``NAME.pdf``, ``NAME.json`` in the folder, and the exports beside it.
+
+    ``weigh`` tells which of the assumed values move a governing check.
+    """
+    results, broken, places = _calculated(config, discovery, tell, formats, weigh)
     if language is not None:
         results["project"]["language"] = language
     contents, undrawn = _rendered(results, formats, tell)
@@ -96,7 +110,7 @@ def _refuse_many_sheets(config: Config, formats: Sequence[str]) -> None:
 
 
 def _calculated(
-    source: Source, discovery: Discovery, tell: Tell, formats: Sequence[str] = ()
+    source: Source, discovery: Discovery, tell: Tell, formats: Sequence[str] = (), weigh: Weigh | None = None
 ) -> tuple[Data, tuple[PluginError, ...], Places]:
     tell("reading the configuration")
     config = load_config(source, discovery)
@@ -106,6 +120,9 @@ def _calculated(
 
     run = compute(config, lambda name: tell(f"calculating {name}"))
     results = document(run)
+    if weigh is not None and results["summary"]["assumed"] and not run.errors:
+        tell("weighing what is assumed")
+        results["summary"]["moves"] = weigh(config, results)
     return results, (*run.errors.values(), *_failed(results)), _places(run)
 
 

@@ -136,6 +136,16 @@ def tests_of(unit: str) -> list[str]:
     return [*(str(path.relative_to(ROOT)) for path in files), *through]
 
 
+def tests_asked(unit: str) -> list[list[str]]:
+    """What pytest is asked for, one run after the other."""
+    rows = ["tests/validation/test_rows.py", "-k", PAPERS.get(unit, f"rows_{unit}")]
+    has_rows = unit in PAPERS or (ROOT / "tests" / "validation" / f"rows_{unit}.py").is_file()
+    asked = [some for some in (rows if has_rows else [], tests_of(unit)) if some]
+    if not asked:
+        raise SystemExit(f"{unit} has no tests")
+    return asked
+
+
 def is_about(test: Path, unit: str, package: str) -> bool:
     """Whether a test file is about a plugin or module: by its name, or because it or a helper of it imports that."""
     if unit in BY_NAME:
@@ -182,13 +192,7 @@ class Copy:
 
     def fails(self, unit: str) -> bool:
         """Whether a test of the plugin or module fails; those of printed numbers come first."""
-        rows = ["tests/validation/test_rows.py", "-k", PAPERS.get(unit, f"rows_{unit}")]
-        has_rows = unit in PAPERS or (ROOT / "tests" / "validation" / f"rows_{unit}.py").is_file()
-        asked = [rows] if has_rows else []
-        files = tests_of(unit)
-        if not files and not asked:
-            raise SystemExit(f"{unit} has no tests")
-        return any(self._pytest(arguments) for arguments in [*asked, *([files] if files else [])])
+        return any(self._pytest(arguments) for arguments in tests_asked(unit))
 
     def _pytest(self, arguments: list[str]) -> bool:
         command = [sys.executable, "-B", "-m", "pytest", "-x", "-q", "-n", "0", "-p", "no:cacheprovider", *arguments]

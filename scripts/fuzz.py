@@ -5,8 +5,11 @@
     .venv/bin/python scripts/fuzz.py all SECONDS     # each target for so long, one after the other
 
 TARGET is config, study, unit, condition, constraint, table or stored. What a reader refuses in words is right; all else stops the run: another
-exception, more than 20 s for one input, more than 500 MB. The input that does it is left as ``crash-*`` in the current folder.
-The corpus lies in tests/hostile/corpus/TARGET and is kept: run ``-merge=1`` to keep it small. Its inputs are read in each test run.
+exception, even one that a library only prints, more than 20 s for one input, more than 500 MB. The input that does it is left as
+``crash-*`` in the current folder. The corpus lies in tests/hostile/corpus/TARGET and is kept: its inputs are read in each test run.
+It grows from them, from sound inputs and from the words of the program (tests/hostile/seeds.py), and is to be kept small:
+
+    .venv/bin/python scripts/fuzz.py TARGET -merge=1 NEW_FOLDER      # what of it reaches new code, into its own folder
 """
 
 from __future__ import annotations
@@ -14,7 +17,9 @@ from __future__ import annotations
 import os
 import subprocess
 import sys
+from collections.abc import Iterable, Iterator
 from pathlib import Path
+from tempfile import TemporaryDirectory
 
 ROOT = Path(__file__).parents[1]
 CORPUS = ROOT / "tests" / "hostile" / "corpus"
@@ -33,11 +38,34 @@ def fuzz(target: str, options: list[str]) -> None:
     with atheris.instrument_imports(include=["diecut_report", "yaml"]):
         sys.path.insert(0, str(ROOT))
         from tests.hostile.readers import READERS
+        from tests.hostile.seeds import seeds, words
     folder = CORPUS / target
     folder.mkdir(parents=True, exist_ok=True)
     read = READERS[target]()
-    atheris.Setup([sys.argv[0], str(folder), *LIMITS, *options], read)
-    atheris.Fuzz()
+    ignored: list[BaseException] = []
+    sys.unraisablehook = lambda fault: ignored.append(fault.exc_value or RuntimeError(str(fault.err_msg)))
+
+    def checked(data: bytes) -> None:
+        read(data)
+        if ignored:
+            raise ignored.pop()
+
+    with TemporaryDirectory() as made:
+        files = [*_written(Path(made), seeds(target), words(target))]
+        atheris.Setup([sys.argv[0], str(folder), *files, *LIMITS, *options], checked)
+        atheris.Fuzz()
+
+
+def _written(folder: Path, seeds: Iterable[bytes], words: Iterable[str]) -> Iterator[str]:
+    """Write the sound inputs and the words as files; the arguments that name them."""
+    sound = folder / "seeds"
+    sound.mkdir()
+    for number, seed in enumerate(seeds):
+        (sound / str(number)).write_bytes(seed)
+    yield str(sound)
+    if escaped := ["".join(f"\\x{byte:02x}" for byte in word.encode()) for word in sorted(words)]:
+        (folder / "words").write_text("".join(f'"{word}"\n' for word in escaped))
+        yield f"-dict={folder / 'words'}"
 
 
 def main() -> int:

@@ -31,7 +31,7 @@ LAYERS = [
     {"mechanics"},
     {"contract"},
     {"api"},
-    {"files", "given_files"},
+    {"files", "given_files", "code_files"},
     {"declaration"},
     {"config"},
     {"engine"},

@@ -17,7 +17,7 @@ import pytest
 from diecut_report import pipeline, report
 from diecut_report.config.discovery import Discovery
 from diecut_report.errors import UserError
-from diecut_report.results.document import governing
+from diecut_report.results.summary import governing
 from tests.configs import BROKEN, DISCOVERY, EXAMPLE, EXAMPLES, GOOD, HEAD, LEVER, saved
 
 ALL = Discovery([GOOD, BROKEN])
@@ -97,7 +97,7 @@ def test_equal_inputs_give_equal_bytes_in_every_process() -> None:
 
 
 def check_(status: str, utilisation: float | None) -> dict[str, Any]:
-    return {"id": f"{status} {utilisation}", "status": status, "utilisation": utilisation}
+    return {"id": f"{status} {utilisation}", "class": "strength", "status": status, "utilisation": utilisation}
 
 
 @pytest.mark.parametrize(

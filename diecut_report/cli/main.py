@@ -21,6 +21,7 @@ import click
 
 from diecut_report import __version__
 from diecut_report.cli import verdict
+from diecut_report.cli.checking import check, validate
 from diecut_report.cli.output import (
     BAD_INPUT,
     FAULT,
@@ -156,10 +157,11 @@ def report(
 ) -> int:
     """Calculate and write NAME.html, NAME.pdf and NAME.json."""
     from diecut_report import pipeline
+    from diecut_report.study.analysis.assumed import moves
 
     with Progress(quiet) as progress, redirect_stdout(sys.stderr):
         discovery = Discovery(folders)
-        outcome = pipeline.report(source(config, discovery), discovery, progress, folder, formats, language)
+        outcome = pipeline.report(source(config, discovery), discovery, progress, folder, formats, language, moves)
     if not quiet:
         tell(f"written: {path}" for path in outcome.written)
     return _verdict(outcome, quiet, strict)
@@ -184,28 +186,6 @@ def calc(config: Path, target: Path | None, strict: bool, folders: tuple[Path, .
     if to_file is None:
         emit(text)
     return _verdict(outcome, quiet or to_file is None, strict)
-
-
-@program.command()
-@click.argument("configs", metavar="CONFIG…", nargs=-1, required=True, type=click.Path(path_type=Path))
-@common
-def check(configs: tuple[Path, ...], folders: tuple[Path, ...], quiet: bool) -> int:
-    """Validate without calculating; all problems of all files are reported."""
-    from diecut_report import pipeline
-
-    discovery, codes = Discovery(folders), []
-    for config in configs:
-        try:
-            with redirect_stdout(sys.stderr):
-                broken = pipeline.check(config, discovery)
-            tell(str(error) if len(configs) == 1 else f"{config}: {error}" for error in broken)
-            codes.append(PLUGIN_BROKE if broken else PASSED)
-        except UserError as error:
-            tell_problems(error.problems)
-            codes.append(BAD_INPUT)
-        if codes[-1] == PASSED and not quiet:
-            tell([f"{config}: valid"])
-    return BAD_INPUT if BAD_INPUT in codes else max(codes)
 
 
 @program.command()
@@ -258,6 +238,8 @@ def schema(kind: str | None, folders: tuple[Path, ...], quiet: bool) -> int:
     return PLUGIN_BROKE if broken else PASSED
 
 
+program.add_command(validate)
+program.add_command(check)
 program.add_command(batch)
 program.add_command(variants)
 

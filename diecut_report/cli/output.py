@@ -13,7 +13,7 @@ from typing import Any, TypeVar
 import click
 
 from diecut_report.cli.progress import is_styled
-from diecut_report.errors import Problem, Unwritable
+from diecut_report.errors import TOLD, Problem, Unwritable
 
 PASSED, CHECK_FAILED, BAD_INPUT, PLUGIN_BROKE = 0, 1, 2, 3
 INTERRUPTED, FAULT, UNWRITABLE = (
@@ -22,7 +22,6 @@ INTERRUPTED, FAULT, UNWRITABLE = (
     74,
 )  # as shells and sysexits have it: Ctrl-C, a fault of the program, of writing
 COLOURS = {"fail": "31", "error": "31", "skipped": "33", "warn": "33", "not_checked": "36", "pass": "32"}
-TOLD = 20  # problems of a file
 LETTERS, END = 2_000, 500  # of a message, and of its end where it is longer
 # what may make a terminal do something, end a line, or show a text as another one
 _ACTIVE = re.compile("[\0-\x08\x0b-\x1f\x7f-\x9f\u2028\u2029\u202a-\u202e\u2066-\u2069\ud800-\udfff]")

@@ -166,4 +166,5 @@ def source(config: Path, discovery: Discovery) -> Source:
         return config
     from diecut_report.study.analysis.variant_config import variant_config
 
-    return variant_config(Path(folder), int(number), discovery, f"{Path(folder).resolve().name}-{number}.yaml")
+    name = f"{Path(folder).resolve().name}-{number}.yaml"
+    return variant_config(Path(folder), int(number), discovery, name, lambda words: tell([f"warning: {words}"]))

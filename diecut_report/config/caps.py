@@ -6,10 +6,8 @@ from collections.abc import Iterator
 from typing import Any
 
 from diecut_report.config.yaml_tree import KeyPath, Tree
-from diecut_report.errors import Problem
+from diecut_report.errors import TOLD, Problem
 from diecut_report.limits import MAX_CURVE_VALUES, MAX_MECHANISMS, MAX_PARTS, MAX_TEXT
-
-TOLD = 20  # problems, so that the message itself stays short
 
 
 def too_much(tree: Tree) -> list[Problem]:

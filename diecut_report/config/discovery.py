@@ -124,7 +124,7 @@ def _loaded(origin: Origin) -> Mechanism | PluginError:
         return PluginError(f"{origin.told} gives a {type(found).__name__}, where a Mechanism is needed", origin.kind)
     if found.kind != origin.kind:
         return PluginError(f"{origin.told} gives the kind {found.kind!r}; name it {origin.kind!r} there", origin.kind)
-    note_plugin(found, digest)
+    note_plugin(found, digest, None if origin.is_own else origin.file())
     return found if origin.is_own else _sound(origin, found)
 
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+import unicodedata
 
 _BIDI = "\u202a-\u202e\u2066-\u2069"  # they turn the letters after them around
 
@@ -13,8 +14,28 @@ HIDDEN = re.compile(f"{CONTROL.pattern}|[\x85\u2028\u2029]")
 HIDDEN_IN_KEY = re.compile(f"{HIDDEN.pattern}|[\t\n\r]")
 """What a decoded key may not hold."""
 
+SEEMING = str.maketrans(
+    "аеорсухіјѕԁһкмтвнАВЕКМНОРСТХІЈЅοαινρυκΑΒΕΖΗΙΚΜΝΟΡΤΥΧ", "aeopcyxijsdhkmtbhABEKMHOPCTXIJSoaivpukABEZHIKMNOPTYX"
+)
+"""Cyrillic and Greek letters with the Latin ones that they look like."""
+
+
+def seeming_latin(name: str) -> str:
+    """Return what is told of a name with letters that only look Latin; "" where it has none, or others that do not."""
+    strange = [letter for letter in name if ord(letter) in SEEMING]
+    meant = name.translate(SEEMING)
+    if not strange or not meant.isascii():
+        return ""
+    told = ", ".join(f"“{letter}” ({unicodedata.name(letter).lower()})" for letter in dict.fromkeys(strange))
+    return f"“{name}” holds letters that only look Latin: {told}. Write it in Latin letters: {meant}."
+
 
 def hidden(text: str) -> str:
     """Return the name of a letter that the text of a value may not hold, such as U+001B; "" where there is none."""
     found = HIDDEN.search(text)
     return f"U+{ord(found[0]):04X}" if found else ""
+
+
+def printable(name: str) -> str:
+    """Return a file's name without what no document can hold: control characters, and bytes that are not UTF-8."""
+    return "".join(letter if letter.isprintable() else "\N{REPLACEMENT CHARACTER}" for letter in name)

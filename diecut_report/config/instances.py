@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from functools import cached_property
 from typing import Any
 
+from diecut_report.config.basis import Basis
 from diecut_report.config.validation import ConfigPlace, keys_of
 from diecut_report.config.yaml_tree import KeyPath
 from diecut_report.contract.chapters import Chapter
@@ -22,7 +23,9 @@ from diecut_report.contract.inputs import (
     texts_given,
 )
 from diecut_report.contract.mechanism import Mechanism
+from diecut_report.contract.phases import PREFIX
 from diecut_report.contract.steps import Step
+from diecut_report.errors import nearest
 
 
 @dataclass(frozen=True)
@@ -52,10 +55,18 @@ class Instance:
     """A mechanism of the config, or the press (which has no calculation)."""
 
     def __init__(
-        self, name: str, model: type[Block], data: dict[str, Any], place: ConfigPlace, mechanism: Mechanism | None
-    ) -> None:
+        self, name: str, model: type[Block], data: dict[str, Any], place: ConfigPlace, mechanism: Mechanism | None,
+        bases: Mapping[KeyPath, Basis] | None = None,
+    ) -> None:  # fmt: skip
         self.name, self.model, self.data, self.place, self.mechanism = name, model, data, place, mechanism
+        self.bases = bases or {}
         self.without: frozenset[KeyPath] = frozenset()
+        self.derived: frozenset[str] = frozenset()  # inputs taken from partners
+
+    def take(self, found: Mapping[str, str]) -> None:
+        """Take inputs from partners: names, and references that keep no value where a machine does not have what they name."""
+        self.data |= found
+        self.derived = frozenset(found)
 
     def leave_out(self, keys: Iterable[KeyPath]) -> None:
         """Inputs that keep no value, as the press does not give their optional default."""
@@ -82,6 +93,22 @@ class Instance:
     def results(self) -> dict[str, tuple[str | None, bool]]:
         """What the calculation gives with these inputs: the SI unit (None for a text), and whether it is a curve or row."""
         return self.mechanism.results_of(self.given) if self.mechanism else {}
+
+    @cached_property
+    def phases(self) -> dict[str, str]:
+        """The phases that there are with these inputs (``phases.NAME``), each with the SI unit of what it runs over."""
+        return self.mechanism.phases_of(self.given) if self.mechanism else {}
+
+    def no_phase(self, phase: str) -> str:
+        """Why there is no such phase, in words."""
+        if phase in self.declared_steps:
+            chapter, step = self.declared_steps[phase]
+            missing = [key for key in (*chapter.needs, *step.needs) if key not in self.given]
+            return f"is there only if {' and '.join(missing)} is given in {self.name}."
+        name, known = phase.removeprefix(PREFIX), [each.removeprefix(PREFIX) for each in self.phases]
+        near = nearest(name, known)
+        told = f" Known: {', '.join(known)}." if known else " Its kind has none."
+        return f"names no phase: {self.name} has no phase {name!r}{near}.{'' if near else told}"
 
     @cached_property
     def rows(self) -> dict[str, str]:

@@ -3,15 +3,17 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any, get_args
 
-from diecut_report.config import yaml_tree
+from diecut_report.config import partners, yaml_tree
+from diecut_report.config.basis import BasisReader
 from diecut_report.config.caps import too_much
 from diecut_report.config.dependency_order import ordered
 from diecut_report.config.discovery import Discovery, DuplicateKind, UnknownKind, said
+from diecut_report.config.hidden_letters import seeming_latin
 from diecut_report.config.instances import Instance
 from diecut_report.config.model import PRESS, ConfigDocument, Press, Project
 from diecut_report.config.references import Linker, Node, Target, texts
@@ -53,14 +55,25 @@ class Config:
         return {"program": program_hash(), **dict(sorted((plugins | extensions).items()))}
 
 
-def load_config(given: Path | Tree, discovery: Discovery) -> Config:
-    """Read and validate a configuration; UserError with all its problems. A broken plugin is kept in ``broken``."""
+def load_config(given: Path | Tree, discovery: Discovery, *, only_named: bool = False) -> Config:
+    """Read and validate a configuration; UserError with all its problems. A broken plugin is kept in ``broken``.
+
+    What runs by itself is added, unless ``only_named`` mechanisms are wanted.
+    """
+    config, problems = examined(given, discovery, only_named=only_named)
+    if problems:
+        raise UserError(in_order(problems))
+    return config
+
+
+def examined(given: Path | Tree, discovery: Discovery, *, only_named: bool = False) -> tuple[Config, list[Problem]]:
+    """Return a configuration as far as it can be read, with all that is wrong with it; UserError where it cannot be read at all."""
     tree = given if isinstance(given, Tree) else yaml_tree.load(given)
     _refuse_study(tree)
     if excess := too_much(tree):
         raise UserError(excess)
     discovery.extend()
-    reader = _ConfigReader(tree, discovery)
+    reader = _ConfigReader(tree, discovery, only_named)
     linker = Linker(reader.instances)
     order, loops = ordered(reader.instances, linker.links)
     problems = [*reader.problems, *linker.problems, *_wrong_values(reader, linker), *loops]
@@ -68,10 +81,15 @@ def load_config(given: Path | Tree, discovery: Discovery) -> Config:
         problems += [
             reader.place.problem(("mechanisms", name, "kind"), str(error)) for name, error in reader.broken.items()
         ]
-        raise UserError(sorted(dict.fromkeys(problems), key=lambda p: (p.line or 0, p.column or 0)))
-    assert reader.project is not None
-    return Config(tree, reader.project, reader.instances, reader.kinds, linker.links, tuple(order), reader.broken,
-                  dict(sorted(discovery.extended.items())))  # fmt: skip
+    project = reader.project or Project.model_validate({"title": "?"})  # of a file with problems
+    config = Config(tree, project, reader.instances, reader.kinds, linker.links, tuple(order), reader.broken,
+                    dict(sorted(discovery.extended.items())))  # fmt: skip
+    return config, problems
+
+
+def in_order(problems: Iterable[Problem]) -> list[Problem]:
+    """Return problems of one file in the order of its lines, each once."""
+    return sorted(dict.fromkeys(problems), key=lambda p: (p.line or 0, p.column or 0))
 
 
 def _refuse_study(tree: Tree) -> None:
@@ -85,10 +103,12 @@ class _ConfigReader:
 
     tree: Tree
     discovery: Discovery
+    only_named: bool
     instances: dict[str, Instance | None] = field(default_factory=dict)
     kinds: dict[str, str] = field(default_factory=dict)
     broken: dict[str, PluginError] = field(default_factory=dict)
     problems: list[Problem] = field(default_factory=list)
+    with_partners: list[str] = field(default_factory=list)
     project: Project | None = None
 
     def __post_init__(self) -> None:
@@ -104,14 +124,37 @@ class _ConfigReader:
         for name, body in mechanisms.items() if isinstance(mechanisms, dict) else []:
             self.instances.setdefault(name, None)
             self._mechanism(name, body, ConfigPlace(self.tree, ("mechanisms", name)))
+        for kind in () if self.only_named else partners.BY_THEMSELVES:
+            self._by_itself(kind)
+        for name in self.with_partners:
+            self._take_from_partners(name)
+
+    def _by_itself(self, kind: str) -> None:
+        if kind in self.kinds.values() or not partners.is_called_for(self.discovery.mechanism(kind), self.kinds):
+            return
+        name = partners.free_name(kind, self.instances)
+        self._of_kind(name, kind, {}, ConfigPlace(self.tree, ("mechanisms", name)))
+
+    def _take_from_partners(self, name: str) -> None:
+        """Add to a block what its partners give it, when these are known."""
+        instance = self.instances[name]
+        assert instance is not None and instance.mechanism is not None, "it was added when it was read"
+        for partner in instance.mechanism.partners:
+            named = instance.data.get(partner.key)
+            if named is not None and (fault := partners.fault(partner, named, self.kinds)):
+                self.problems.append(instance.place.problem((partner.key,), fault))
+        instance.take(partners.taken(instance.mechanism, instance.data, self.instances, self.kinds))
+        self._probe(name, self.kinds[name])
 
     def _add(
         self, name: str, model: type[Block], data: dict[str, Any], place: ConfigPlace, mechanism: Any = None
     ) -> None:
         data, place, problems = spread_out(model, data, place)
-        self.problems += problems
-        form = in_form(model, [key for key, value in data.items() if value is not None])
-        self.instances[name] = Instance(name, form, as_typed(form, data, place), place, mechanism)
+        stated = BasisReader.read(model, data, place)
+        self.problems += problems + stated.problems
+        form = in_form(model, [key for key, value in stated.data.items() if value is not None])
+        typed = as_typed(form, stated.data, stated.place)
+        self.instances[name] = Instance(name, form, typed, stated.place, mechanism, stated.bases)
 
     def _mechanism(self, name: str, body: Any, place: ConfigPlace) -> None:
         fault = _name_fault(name)
@@ -131,9 +174,12 @@ class _ConfigReader:
         try:
             mechanism = self.discovery.mechanism(kind)
             self._add(name, mechanism.inputs, data, place, mechanism)
-            self._probe(name, kind)
+            if mechanism.partners:
+                self.with_partners.append(name)
+            else:
+                self._probe(name, kind)
         except (UnknownKind, DuplicateKind) as fault:
-            self.problems.append(place.problem(("kind",), str(fault)))
+            self.problems.append(place.problem(("kind",), seeming_latin(kind) or str(fault)))
         except PluginError as error:
             self.instances[name] = None
             self.broken[name] = _of_instance(error, name)
@@ -155,6 +201,8 @@ def _of_instance(error: PluginError, name: str) -> PluginError:
 
 
 def _name_fault(name: str) -> str:
+    if seeming := seeming_latin(name):
+        return seeming
     if name in RESERVED:
         return f"the name {name!r} is reserved. Choose another one."
     if not NAME.fullmatch(name):
@@ -230,7 +278,7 @@ def _wrong_values(reader: _ConfigReader, linker: Linker) -> list[Problem]:
 
 def _is_open(instance: Instance, node: Node, target: Target) -> bool:
     """Whether a value can be judged only when it is known: a text, or what a broken plugin would give."""
-    is_text = isinstance(declared(instance.model, node[1:]), Text) and target.unit is None
+    is_text = isinstance(declared(instance.model, node[1:]), Text) and target.unit is None and not target.phase_unit
     return target.is_broken or is_text
 
 
@@ -238,7 +286,7 @@ def _pending(instance: Instance, node: Node, target: Target) -> Any:
     curve = declared(instance.model, node[1:-1]) if len(node) > 2 else None
     if isinstance(curve, CurveInput):
         return SI(0.0, curve.unit, target.path)  # one value of a list, whose kind the linker has judged
-    return Pending(target.path, target.unit, target.is_curve)
+    return Pending(target.path, target.unit, target.is_curve, target.phase_unit, target.is_mechanism)
 
 
 __all__ = ["NAME", "RESERVED", "Config", "load_config", "substituted", "texts"]

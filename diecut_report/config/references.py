@@ -14,16 +14,18 @@ from typing import Any
 from diecut_report.conditions.arithmetic import Expression, read_expression
 from diecut_report.conditions.parts import Name
 from diecut_report.conditions.words import ConditionError
+from diecut_report.config.hidden_letters import seeming_latin
 from diecut_report.config.instances import Instance, Slot, default_of, slots
 from diecut_report.config.model import PRESS
 from diecut_report.config.validation import declared
 from diecut_report.config.yaml_tree import KeyPath
-from diecut_report.contract.inputs import Block, CurveInput, FromPress, Meta, Quantity, fields
+from diecut_report.contract.inputs import Block, CurveInput, FromPress, MechanismInput, Meta, Quantity, fields
 from diecut_report.contract.result_names import count_name, has_own_names, named, names_ahead
 from diecut_report.errors import Problem, nearest
 from diecut_report.expressions import Formula
 from diecut_report.quantities.units import pretty, unit
 
+PHASES = "phases"
 WHOLE = re.compile(r"\$\{([^${}]*)\}")
 
 Node = KeyPath  # (instance,) is its calculation, (instance, key, …) one of its inputs
@@ -47,6 +49,8 @@ class Target:
     is_broken: bool = False  # the plugin of what it refers to cannot be loaded
     expression: Expression | None = None
     terms: tuple[Target, ...] = ()
+    phase_unit: str | None = None  # of a phase: the SI unit of what it runs over
+    is_mechanism: bool = False  # it stands for the mechanism as a whole
 
     @property
     def node(self) -> Node:
@@ -85,6 +89,7 @@ class Linker:
             instance.leave_out(self._not_in_press(instance))
         for instance in known:
             self._written(instance)
+            self._named(instance)
             self._from_press(instance)
 
     def _not_in_press(self, instance: Instance) -> Iterator[KeyPath]:
@@ -193,6 +198,8 @@ class Linker:
         path = match[1].strip()
         name, *rest = path.split(".")
         if name not in self.instances:
+            if seeming := seeming_latin(name):
+                raise Unresolved(f"${{{path}}}: {seeming}")
             near = nearest(name, self.instances)
             raise Unresolved(f"${{{path}}}: there is no mechanism {name!r}{near}. Known: {', '.join(self.instances)}.")
         instance = self.instances[name]
@@ -201,7 +208,28 @@ class Linker:
         if not rest or not all(rest):
             example = next(iter(_known(instance)), "output")
             raise Unresolved(f"${{{path}}} names no value; add an output or input, as in ${{{name}.{example}}}.")
+        if rest[0] == PHASES and len(rest) > 1:
+            return self._phase(path, instance, ".".join(rest))
         return self._result(path, instance, ".".join(rest)) or self._input(path, instance, rest)
+
+    def _phase(self, path: str, instance: Instance, phase: str) -> Target:
+        if phase not in instance.phases:
+            raise Unresolved(f"${{{path}}} {instance.no_phase(phase)}")
+        return Target(path, instance.name, result=phase, phase_unit=instance.phases[phase])
+
+    def _named(self, instance: Instance) -> None:
+        """What is taken whole by its name."""
+        for slot in slots(instance.model, instance.data):
+            if not isinstance(slot.meta, MechanismInput) or not isinstance(slot.value, str) or "${" in slot.value:
+                continue
+            node, known = (instance.name, *slot.key), [name for name in self.instances if name != PRESS]
+            if slot.value in known:
+                is_broken = self.instances[slot.value] is None
+                self.links[node] = Target(slot.value, slot.value, result="", is_broken=is_broken, is_mechanism=True)
+            else:
+                self.unresolved.add(node)
+                words = f"there is no mechanism {slot.value!r}{nearest(slot.value, known)}. Known: {', '.join(known)}."
+                self.problems.append(instance.place.problem(slot.key, words))
 
     def _result(self, path: str, instance: Instance, result: str) -> Target | None:
         if result in instance.results:

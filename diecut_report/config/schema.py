@@ -6,10 +6,11 @@ from collections.abc import Mapping
 from functools import partial
 from typing import Any, get_args
 
+from diecut_report.config.basis import BASES
 from diecut_report.config.loader import NAME, RESERVED
 from diecut_report.config.model import Press, Project
 from diecut_report.config.validation import keys_of
-from diecut_report.contract.inputs import Block, CurveInput, Quantity, Text
+from diecut_report.contract.inputs import Block, CurveInput, MechanismInput, PhaseInput, Quantity, Text
 from diecut_report.contract.mechanism import Mechanism
 from diecut_report.contract.unit_variants import in_all_units
 from diecut_report.limits import MAX_CURVE_VALUES, MAX_MECHANISMS, MAX_PARTS, MAX_TEXT
@@ -22,7 +23,7 @@ EXPRESSION = (  # references, numbers with and without unit, functions, signs; a
     r"^(?=.*\$\{)\s*(?:(?:\$\{[^${}]+\}|(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?(?![\d.])(?:\s*(?:1/)?[^\s\d.,+*/()^${}−-][^\s,+()${}−-]*)?"
     r"|(?:abs|max|min|sqrt)\s*\(|[-+*/^(),−])\s*)+$"
 )
-NUMBER = r"^\s*[-+−]?(\d+\.?\d*|\.\d+)([eE][-+]?\d+)?(\s*[^\s\d.,].*|\s+1/.*)?$"
+NUMBER = r"^\s*[-+−]?(\d+\.?\d*|\.\d+)([eE][-+]?\d+)?(\s*[^\s\d.,$][^$]*|\s+1/[^$]*)?$"
 BOUNDS = {"gt": "exclusiveMinimum", "ge": "minimum", "lt": "exclusiveMaximum", "le": "maximum"}
 
 
@@ -108,6 +109,14 @@ def _key(model: type[Block], name: str, refers: bool) -> Schema:
             return quantity | _listed(quantity, len(model.spread[name])) if name in model.spread else quantity
         case CurveInput():
             return _curve(meta)
+        case PhaseInput():
+            return {"description": f"{meta.description}. A reference to a phase.", "anyOf": [_reference()]}
+        case MechanismInput():
+            return {
+                "description": f"{meta.description}. The name of a mechanism.",
+                "type": "string",
+                "pattern": f"^{NAME.pattern}$",
+            }
     described = {"description": f"{meta.description}."} if meta else {}
     allowed = {"enum": list(meta.options)} if isinstance(meta, Text) and meta.options else _text(field.annotation)
     return described | ({"anyOf": [allowed, _reference()]} if refers else allowed) | shown
@@ -132,7 +141,23 @@ def _curve(meta: CurveInput) -> Schema:
         "items": {"type": ["number", "string"]},
     }
     allowed = [_reference()] if meta.referred else [_reference(), values]
-    return {"description": f"{meta.description}. Unit: {in_all_units(meta, _unit)}. {ways}.", "anyOf": allowed}
+    said = f"{meta.description}. Unit: {in_all_units(meta, _unit)}. {ways}."
+    return {"description": said, "anyOf": [*allowed, _stated(allowed)]}
+
+
+def _stated(allowed: list[Schema]) -> Schema:
+    """A quantity as a block, with what it rests on."""
+    return {
+        "type": "object",
+        "description": "The value with what it rests on.",
+        "required": ["value"],
+        "additionalProperties": False,
+        "properties": {
+            "value": {"anyOf": allowed},
+            "basis": {"enum": list(BASES), "description": "What the value rests on."},
+            "note": {"type": "string", "maxLength": MAX_TEXT, "description": "Where it comes from; printed beside it."},
+        },
+    }
 
 
 def _unit(meta: Quantity | CurveInput) -> str:
@@ -150,10 +175,16 @@ def _quantity(meta: Quantity, default: Any, refers: bool) -> Schema:
     said += [f"Allowed: {in_all_units(meta, lambda form: form.allowed)}"] if meta.allowed else []
     said += [f"Plausible: {in_all_units(meta, lambda form: form.sizes.told)}"]
     said += [f"Default: {in_all_units(meta, partial(_with_unit, default))}"] if default is not None else []
+    said += [f"Or in {pretty(meta.or_unit)}"] if meta.or_unit else []
+    said += [f"Or: {', '.join(meta.words)}"] if meta.words else []
     said += [f"Default: from {meta.press.path}"] if meta.press else []
     number = {"type": "integer" if meta.integer else "number", **limits}
     text = {"type": "string", "maxLength": MAX_TEXT, "pattern": f"{EXPRESSION}|{NUMBER}" if refers else NUMBER}
-    return {"description": ". ".join(said) + ".", "anyOf": [number, text]}
+    words = [{"enum": list(meta.words)}] if meta.words else []
+    return {
+        "description": ". ".join(said) + ".",
+        "anyOf": [number, *words, text, *([_stated([number, text])] if refers else [])],
+    }
 
 
 def _text(annotation: Any) -> Schema:

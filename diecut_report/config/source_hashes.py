@@ -6,24 +6,24 @@ covers the names and bytes of the files, wherever they lie; compiled files do no
 
 from __future__ import annotations
 
-import os
 import sys
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Iterable
 from functools import cache
 from hashlib import sha256
 from importlib import import_module
 from pathlib import Path
 from weakref import WeakKeyDictionary
 
+from diecut_report.code_files import code_below, code_of
+from diecut_report.config.hidden_letters import printable
 from diecut_report.contract.mechanism import Mechanism
 
 PACKAGE = Path(__file__).parents[1]
 PLUGINS = "diecut_report.plugins"
 ASIDE = ("plugins", "templates", "configs")  # plugins have hashes of their own, the others calculate nothing
-DATA = (".json", ".yaml", ".yml", ".csv")  # tables
-CODE = (".py", *DATA)
 
 _of_mechanism: WeakKeyDictionary[Mechanism, str] = WeakKeyDictionary()
+_foreign: WeakKeyDictionary[Mechanism, str] = WeakKeyDictionary()
 _when_loaded: dict[Path, str] = {}  # a module that is loaded stays as it was, whatever becomes of its file
 
 
@@ -31,7 +31,7 @@ _when_loaded: dict[Path, str] = {}  # a module that is loaded stays as it was, w
 def program_hash() -> str:
     """Return the SHA-256 of the program's own code and tables, as they were when this was first asked."""
     shared = Path(import_module(PLUGINS).__path__[0]).glob("*.py")
-    own = _files(str(PACKAGE), "program/", without=ASIDE)
+    own = code_below(str(PACKAGE), "program/", without=ASIDE)
     return _digest([*own, *((f"plugins/{path.name}", str(path)) for path in shared)])
 
 
@@ -40,19 +40,28 @@ def plugin_hash(mechanism: Mechanism | None) -> str:
     return _of_mechanism.get(mechanism, "") if mechanism else ""
 
 
-def note_plugin(mechanism: Mechanism, digest: str) -> None:
-    """Note the hash of the code that a mechanism and its comparisons come from."""
+def plugin_code(mechanism: Mechanism | None) -> dict[str, str]:
+    """Return what results tell of the code of a mechanism's plugin: its hash and, unless it is the program's own, its file."""
+    file = _foreign.get(mechanism, "") if mechanism else ""
+    return {"plugin_sha256": plugin_hash(mechanism)} | ({"plugin_file": file} if file else {})
+
+
+def note_plugin(mechanism: Mechanism, digest: str, foreign: Path | None = None) -> None:
+    """Note the hash of the code that a mechanism and its comparisons come from, and the file of one that is not the program's own.
+
+    Of the file its name is kept, with the folder of a package, and not where it lies: that is the business of its user.
+    """
     for each in (mechanism, *(comparison.mechanism for comparison in mechanism.comparisons)):
         _of_mechanism.setdefault(each, digest)
+        if foreign:
+            name = "/".join(foreign.parts[-2 if foreign.name == "__init__.py" else -1 :])
+            _foreign.setdefault(each, printable(name))
 
 
 def module_hash(file: Path) -> str:
-    """Return the SHA-256 of a module's code, as it was when this was first asked.
-
-    A package counts with all modules and tables in it, a single file with the tables beside it that it names.
-    """
+    """Return the SHA-256 of a module's code, as it was when this was first asked."""
     if file not in _when_loaded:
-        _when_loaded[file] = _digest(_files(str(file.parent)) if file.name == "__init__.py" else _single(file))
+        _when_loaded[file] = _digest(code_of(file))
     return _when_loaded[file]
 
 
@@ -60,24 +69,6 @@ def file_of(module: str) -> Path:
     """Return the file of the whole package that a module of an installed package belongs to."""
     found = sys.modules[module.partition(".")[0]]
     return Path(found.__file__ or f"{found.__path__[0]}/__init__.py")
-
-
-def _single(file: Path) -> Iterator[tuple[str, str]]:
-    yield "module", str(file)
-    text = file.read_text("utf-8", "replace")
-    yield from ((path.name, str(path)) for path in file.parent.iterdir() if path.suffix in DATA and path.name in text)
-
-
-def _files(folder: str, name: str = "", without: Sequence[str] = ()) -> Iterator[tuple[str, str]]:
-    """Give the code and the tables below a folder, by their names in it; what is hidden or compiled is none."""
-    with os.scandir(folder) as entries:
-        for entry in entries:
-            if entry.name.startswith("."):
-                continue
-            if entry.name.endswith(CODE):
-                yield name + entry.name, entry.path
-            elif entry.is_dir(follow_symlinks=False) and entry.name not in ("__pycache__", *without):
-                yield from _files(entry.path, f"{name}{entry.name}/")
 
 
 def _digest(files: Iterable[tuple[str, str]]) -> str:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Callable, Container, Iterator, Mapping
 from dataclasses import dataclass, field, replace
 from functools import cache
@@ -30,7 +31,14 @@ class ConfigPlace:
 
     def path(self, key: KeyPath) -> KeyPath:
         """The path in the file of a key below this block."""
-        return (*self.root, *self.listed.get(key, key))
+        return (*self.root, *self.inner(key))
+
+    def inner(self, key: KeyPath) -> KeyPath:
+        """The path below this block; what stands in a value that is listed elsewhere stands there."""
+        for length in range(len(key), 0, -1):
+            if key[:length] in self.listed:
+                return (*self.listed[key[:length]], *key[length:])
+        return key
 
     def typed(self, key: KeyPath) -> Any:
         """What was typed there."""
@@ -181,6 +189,9 @@ class _Fault:
     def _unknown_key(self) -> str:
         home = declared(self.model, self.key[:-1]) if len(self.key) > 1 else self.model
         known = list(home.model_fields) if isinstance(home, type) else []
+        if self.given is None and re.match(r"\d", str(self.key[-1])):
+            words = "YAML parts entries within braces at each comma; write a decimal point, as in {gap: 0.5 mm}"
+            return f"is what a decimal comma leaves behind it: {words}."
         own = ["kind"] if self.place.root[:1] == ("mechanisms",) and len(self.key) == 1 else []
         return f"is an unknown key{nearest(str(self.key[-1]), known)}. Known keys: {', '.join(own + known)}."
 

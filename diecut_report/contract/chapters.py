@@ -12,8 +12,10 @@ from typing import Any, Literal, Unpack
 
 from diecut_report.contract.between import Between, Interpolation
 from diecut_report.contract.binding import as_binding, bind
+from diecut_report.contract.made_curves import MadeCurveForm
 from diecut_report.contract.options import Options, StepCondition, Written
 from diecut_report.contract.part_steps import Interpolated, Lookup, Neighbour, Part, Pick, Running, Total
+from diecut_report.contract.phases import PhaseForm
 from diecut_report.contract.place import Misdeclared, placed
 from diecut_report.contract.steps import (
     Abscissa,
@@ -41,7 +43,7 @@ from diecut_report.standards import StandardSeries, StandardTable
 
 
 @dataclass(eq=False)
-class Steps:
+class Steps(PhaseForm, MadeCurveForm):
     """Hold declared steps in the order in which they are calculated; a family of them may be added to several chapters."""
 
     steps: Sequence[Step] = field(default=(), kw_only=True)
@@ -112,10 +114,10 @@ class Steps:
 
     def abscissa(
         self, id: str, symbol: str, unit: str, description: str, period: float | str, *, points: str = "n_points", shown_at: str = "",
-        intervals: int = 64, **options: Unpack[Options],
+        intervals: int = 64, speed: str = "", **options: Unpack[Options],
     ) -> None:  # fmt: skip
         """Declare what curves run over, [0, period): see ``Abscissa``."""
-        own = {"period": period, "points": points, "shown_at": shown_at, "intervals": intervals}
+        own = {"period": period, "points": points, "shown_at": shown_at, "intervals": intervals, "speed": speed}
         self._give(Abscissa, id, symbol, unit, description, options, **own)
 
     def breakpoints(self, id: str, abscissa: str, *places: str, every: str = "", **when: Unpack[StepCondition]) -> None:
@@ -153,10 +155,12 @@ class Steps:
 
     def computed(
         self, id: str, symbol: str, unit: str, description: str, function: Callable[..., Any], takes: tuple[str, ...], method: str,
-        **options: Unpack[Options],
+        *, over: str = "", **options: Unpack[Options],
     ) -> None:  # fmt: skip
         """Declare a number that plain code finds, where no closed formula tells it: see ``Computed``."""
-        self._give(Computed, id, symbol, unit, description, options, function=function, takes=takes, method=method)
+        self._give(
+            Computed, id, symbol, unit, description, options, function=function, takes=takes, method=method, over=over
+        )
 
     def curve_period(
         self, id: str, symbol: str, unit: str, description: str, given: str, otherwise: str, **options: Unpack[Options]
@@ -177,14 +181,8 @@ class Steps:
         self.add(Require(id=id, condition=as_binding(condition, id), key=key, message=message, **when))
 
     def clash(
-        self,
-        id: str,
-        function: Callable[..., Array],
-        takes: tuple[str, ...],
-        key: str,
-        message: str,
-        **when: Unpack[StepCondition],
-    ) -> None:
+        self, id: str, function: Callable[..., Array], takes: tuple[str, ...], key: str, message: str, **when: Unpack[StepCondition],
+    ) -> None:  # fmt: skip
         """Declare which of repeated parts stand in each other's way: see ``Clash``."""
         self.add(Clash(id=id, function=function, takes=takes, key=key, message=message, **when))
 

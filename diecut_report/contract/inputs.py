@@ -6,8 +6,8 @@ Values are SI floats once validated. Defaults and bounds are written in the disp
 from __future__ import annotations
 
 import math
-from collections.abc import Collection, Iterator, Mapping
-from dataclasses import dataclass
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import Annotated, Any, ClassVar, get_args, get_origin
 
@@ -17,9 +17,11 @@ from pydantic_core import CoreSchema, core_schema
 
 from diecut_report.contract.bounds import BOUNDS, within
 from diecut_report.contract.curve_inputs import CurveInput, optional
+from diecut_report.contract.other_units import InOtherUnit, is_in
+from diecut_report.contract.phase_inputs import MechanismInput, PhaseInput, TakenWhole
 from diecut_report.contract.place import placed
 from diecut_report.contract.placeholders import SI, FromPress, OneOf, Pending
-from diecut_report.errors import nearest
+from diecut_report.contract.texts import Text
 from diecut_report.quantities.plausible import Plausible, plausible
 from diecut_report.quantities.units import Unit, parse_quantity, pretty, to_display, unit
 
@@ -31,7 +33,8 @@ class Quantity:
     Put into ``Annotated[float, Quantity(...)]`` of an input model. The validated value is an SI float
     (an int where ``integer``). ``units`` are other units, each with the key beside which it holds: (("mass", "N/m"),).
     ``plausible`` are the least and the greatest size that a machine may have, zero aside, where they are not those of
-    the kind of quantity (``quantities.plausible``): ("1 mm", "10 m").
+    the kind of quantity (``quantities.plausible``): ("1 mm", "10 m"). ``words`` are texts that may stand in place of a number,
+    and are taken as they are. ``or_unit`` is another kind of unit in which it may be given: it is then an ``InOtherUnit``.
     """
 
     symbol: str
@@ -45,6 +48,8 @@ class Quantity:
     press: FromPress | None = None
     units: tuple[tuple[str, str], ...] = ()
     plausible: tuple[str, str] | None = None
+    words: tuple[str, ...] = ()
+    or_unit: str = ""
     at: str = placed()
 
     @cached_property
@@ -62,6 +67,11 @@ class Quantity:
     def validate(self, given: Any) -> Any:
         """Return the SI value of what was given; ValueError in words where it is not allowed."""
         match given:
+            case str() if given.strip() in self.words:
+                return given.strip()
+            case str() if self.or_unit and is_in(given, self.or_unit):
+                other = replace(self, unit=self.or_unit, or_unit="", plausible=None)
+                return InOtherUnit(other.validate(given), self.or_unit)
             case None:
                 raise ValueError(
                     f"has no value; give a number in {pretty(self.unit) or 'plain form'} or remove the key"
@@ -89,8 +99,16 @@ class Quantity:
                 raise ValueError(
                     f"is {kind}; a number or a text such as “{f'10 {pretty(self.unit)}'.rstrip()}” is needed"
                 )
-        value = parse_quantity(given, self.unit)
+        value = self._parsed(given)
         return self._bounded(value, f"{given}" if isinstance(given, str) else f"{given} {pretty(self.unit)}")
+
+    def _parsed(self, given: Any) -> float:
+        try:
+            return parse_quantity(given, self.unit)
+        except ValueError as fault:
+            if not self.words:
+                raise
+            raise ValueError(f"{str(fault).removesuffix('.')}; or {', '.join(self.words)}.") from None
 
     def _same_kind(self, other: str, told: str) -> None:
         if unit(other).kind != self.parsed_unit.kind:
@@ -133,29 +151,6 @@ class Quantity:
         return core_schema.no_info_plain_validator_function(optional(source, self.validate))
 
 
-@dataclass(frozen=True)
-class Text:
-    """Declare an input that is a text, a choice or yes/no: its description (the annotation says what is allowed).
-
-    ``options`` are the allowed texts where these are kept in a registry.
-    """
-
-    description: str
-    symbol: str = ""
-    options: Collection[str] = ()
-    at: str = placed()
-
-    def validate(self, given: str | None) -> str | None:
-        """Return the text, if it is one of the options; ValueError with the known ones in words where it is not."""
-        if given is None or given in self.options:
-            return given
-        raise ValueError(f"is “{given}”{nearest(given, self.options)}; allowed: {', '.join(self.options)}")
-
-    def __get_pydantic_core_schema__(self, source: Any, handler: GetCoreSchemaHandler) -> CoreSchema:
-        schema = handler(source)
-        return core_schema.no_info_after_validator_function(self.validate, schema) if self.options else schema
-
-
 class Block(BaseModel):
     """Declare a block of inputs inside a mechanism, or one of a list of repeated parts."""
 
@@ -172,12 +167,15 @@ class Inputs(Block):
 
 POINTS = Quantity("N", "1", "Samples of each curve over one turn", ge=36, le=100_000, integer=True)
 
-Meta = Quantity | Text | CurveInput
+Referred = CurveInput | PhaseInput | MechanismInput
+"""What stands for something of another mechanism that is no single number."""
+
+Meta = Quantity | Text | Referred
 
 
 def meta_of(model: type[Block], name: str) -> Meta | None:
     """Return what a field declares of itself."""
-    return next((m for m in model.model_fields[name].metadata if isinstance(m, Quantity | Text | CurveInput)), None)
+    return next((m for m in model.model_fields[name].metadata if isinstance(m, Quantity | Text | Referred)), None)
 
 
 def nested(annotation: Any) -> tuple[type[Block], bool] | None:
@@ -232,8 +230,11 @@ def texts_given(values: Mapping[str, Any]) -> set[str]:
             if isinstance(value, str | bool)}  # fmt: skip
 
 
-def flatten(block: Block, prefix: str = "") -> dict[str, Any]:
-    """Return the validated inputs by id, SI; the parts of a list as a tuple for each of their fields; absent ones left out."""
+def flatten(block: Block, prefix: str = "", within_part: bool = False) -> dict[str, Any]:
+    """Return the validated inputs by id, SI; the parts of a list as a tuple for each of their fields; absent ones left out.
+
+    A list within the parts of a list (``within_part``) stays one of blocks.
+    """
     flat: dict[str, Any] = {}
     for name in type(block).model_fields:
         value = getattr(block, name)
@@ -242,8 +243,10 @@ def flatten(block: Block, prefix: str = "") -> dict[str, Any]:
                 continue
             case Block():
                 flat |= {prefix + name: True} | flatten(value, f"{prefix}{name}.")
+            case [Block(), *_] if within_part:
+                flat[prefix + name] = tuple(value)
             case [Block(), *_]:
-                rows = [flatten(part, f"{prefix}{name}.") for part in value]
+                rows = [flatten(part, f"{prefix}{name}.", within_part=True) for part in value]
                 keys = dict.fromkeys(key for row in rows for key in row)
                 flat |= {prefix + name: True} | {key: tuple(row.get(key) for row in rows) for key in keys}
             case _:
@@ -251,5 +254,29 @@ def flatten(block: Block, prefix: str = "") -> dict[str, Any]:
     return flat
 
 
-__all__ = ["POINTS", "SI", "Annotated", "Block", "CurveInput", "FromPress", "Inputs", "Meta", "OneOf", "Pending", "Quantity", "Text",
-           "fields", "flatten", "list_inputs", "list_titles", "meta_of", "nested", "texts_given"]  # fmt: skip
+__all__ = [
+    "POINTS",
+    "SI",
+    "Annotated",
+    "Block",
+    "CurveInput",
+    "FromPress",
+    "InOtherUnit",
+    "Inputs",
+    "MechanismInput",
+    "Meta",
+    "OneOf",
+    "Pending",
+    "PhaseInput",
+    "Quantity",
+    "Referred",
+    "TakenWhole",
+    "Text",
+    "fields",
+    "flatten",
+    "list_inputs",
+    "list_titles",
+    "meta_of",
+    "nested",
+    "texts_given",
+]  # fmt: skip

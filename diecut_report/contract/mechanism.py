@@ -20,9 +20,11 @@ from diecut_report.contract.steps import (
     Abscissa,
     Accumulated,
     Choice,
+    Computed,
     Crossings,
     Derivative,
     FromCurve,
+    Phase,
     Step,
     Value,
 )
@@ -40,6 +42,8 @@ def axes(steps: tuple[Step, ...], inputs: type[Inputs]) -> dict[str, str]:
                 found[step.id] = step.abscissa
             case Accumulated(of=of) | Derivative(of=of) | Neighbour(of=of) | Running(of=of):
                 found[step.id] = found[of]
+            case Computed(over=over) if over:
+                found[step.id] = over
             case Lookup(by=by) if by in found:
                 found[step.id] = found[by]
             case Value() | Choice():
@@ -103,6 +107,20 @@ class Comparison:
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
+class Partner:
+    """Declare another mechanism that a kind takes inputs from: the one that the text input ``key`` names, else the only one of its kinds.
+
+    ``takes`` gives for inputs of this kind the id of a result or the path of an input there; what is given in the block, or is
+    absent there, is not taken.
+    """
+
+    key: str
+    kinds: tuple[str, ...]
+    takes: Mapping[str, str]
+    at: str = placed()
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
 class Mechanism:
     """Declare a kind of mechanism: inputs, calculation, checks, figures, and what is said of it in the report.
 
@@ -123,6 +141,7 @@ class Mechanism:
     errata: tuple[Erratum, ...] = ()
     exports: tuple[Profile, ...] = ()
     comparisons: tuple[Comparison, ...] = ()
+    partners: tuple[Partner, ...] = ()
     spectra: tuple[Spectrum, ...] = ()
     at: str = placed()
 
@@ -160,6 +179,11 @@ class Mechanism:
                 text = isinstance(step, Choice) and isinstance(step.cases[0].value, str)
                 found[step.id] = None if text else si, self.axis_of(step.id, given) is not None
         return found
+
+    def phases_of(self, given: frozenset[str]) -> dict[str, str]:
+        """Return the ids of the phases that take part, each with the SI unit of its abscissa."""
+        units = {step.id: unit(step.unit).si for _, step in self.active(given)}
+        return {step.id: units[step.abscissa] for _, step in self.active(given) if isinstance(step, Phase)}
 
     def axis_of(self, name: str, given: frozenset[str]) -> str | None:
         """Return the abscissa that a quantity runs over, or the list whose parts it has a row for; None for a single number."""

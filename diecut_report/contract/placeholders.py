@@ -23,11 +23,16 @@ class SI:
 
 @dataclass(frozen=True)
 class Pending:
-    """Stand for a reference whose value is not known yet; ``unit`` is that of what it refers to, None where it is not a number."""
+    """Stand for a reference whose value is not known yet; ``unit`` is that of what it refers to, None where it is not a number.
+
+    ``phase_unit`` is that of what a phase runs over.
+    """
 
     path: str
     unit: str | None
     is_curve: bool = False
+    phase_unit: str | None = None
+    is_mechanism: bool = False
 
 
 class Curve(Protocol):

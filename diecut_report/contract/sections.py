@@ -13,8 +13,8 @@ from diecut_report.contract.steps import Case, Step
 from diecut_report.contract.unit_variants import in_unit
 from diecut_report.expressions import Formula
 
-NAMING = ("formula", "cases", "of", "among", "takes", "given", "by", "points", "period", "abscissa", "places", "every", "start", "lasts", "shown_at",
-          "equation", "low", "high", "left", "right", "condition", "exists")  # fmt: skip
+NAMING = ("formula", "cases", "of", "among", "takes", "given", "by", "points", "period", "abscissa", "places", "every", "start", "lasts", "speed",
+          "spans", "shown_at", "equation", "low", "high", "left", "right", "condition", "exists")  # fmt: skip
 """Fields of steps that name quantities."""
 
 Rename = Callable[[str | float], str | float]

@@ -109,11 +109,13 @@ class Abscissa(Step):
     """Declare what curves run over, [0, period): sampled at ``points`` (an input's id); shown in print at the place ``shown_at``.
 
     ``period`` is a number, or the id of one. ``intervals`` are those of the search grid in each smooth piece: fewer are enough
-    where breakpoints leave the pieces short.
+    where breakpoints leave the pieces short. ``speed`` is the id of how fast it is run through, from which phases have
+    their times; an abscissa of time needs none.
     """
 
     period: float | str
     points: str = "n_points"
+    speed: str = ""
     shown_at: str = ""
     intervals: int = 64
 
@@ -171,12 +173,14 @@ class Computed(Step):
     """Declare a number found by plain code where no closed formula tells it; ``method`` says in words how.
 
     ``function`` takes the quantities ``takes`` by position: numbers as arrays of shape (variants, 1), texts, the handles of
-    curve inputs (``Curve`` in ``contract.given``). It gives an array of shape (variants, 1), SI.
+    curve inputs (``Curve`` in ``contract.given``). It gives an array of shape (variants, 1), SI; of shape (variants, parts) where
+    it gives a row for the list ``over``.
     """
 
     function: Callable[..., Any]
     takes: tuple[str, ...]
     method: str
+    over: str = ""
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -218,6 +222,19 @@ class FromCurve(Step):
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
+class MadeCurve(FromCurve):
+    """Declare a curve that plain code makes for one machine: ``function`` gives a ``Curve`` over the period of ``abscissa``.
+
+    It takes what ``Computed`` takes; ``method`` says in words how the curve is made.
+    """
+
+    given: str = ""
+    function: Callable[..., Any]
+    takes: tuple[str, ...]
+    method: str
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
 class Require(Step):
     """Declare what must hold for the machine to be possible: where it does not, the message (``{id}`` prints a quantity) and its key.
 
@@ -244,4 +261,34 @@ class Clash(Step):
     message: str
 
 
-SILENT = Breakpoints | Require | Clash | Words  # steps that give no quantity
+@dataclass(frozen=True, kw_only=True, eq=False)
+class Phase(Step):
+    """Declare when, over the period of an abscissa, the mechanism does something; its id is ``phases.NAME``.
+
+    ``role`` is what it does: ``working`` (a tool on the product), ``rest``, ``moving``, ``window`` (room for another part).
+    Each of ``spans`` goes from one place to another: ids of numbers, or plain numbers; a place that does not exist for a
+    machine leaves its span out. ``period`` is the id of what repeats, where that is not the abscissa's own period. Instead of them ``union`` names phases that are taken together, or ``rest_of`` those
+    that leave it the rest of the period.
+    """
+
+    role: str
+    abscissa: str
+    spans: tuple[tuple[str | float, str | float], ...] = ()
+    union: tuple[str, ...] = ()
+    rest_of: tuple[str, ...] = ()
+    period: str = ""
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class Prepared(Step):
+    """Declare what plain code makes of a machine once, and several steps ask: any object, no quantity.
+
+    ``function`` takes one mapping: of the inputs and quantities ``holds`` those that there are, in the form in which
+    ``Computed`` takes them.
+    """
+
+    function: Callable[..., Any]
+    holds: tuple[str, ...]
+
+
+SILENT = Breakpoints | Require | Clash | Words | Phase | Prepared  # steps that give no quantity

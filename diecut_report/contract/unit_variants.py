@@ -9,10 +9,10 @@ from typing import Annotated, Any, TypeVar
 
 from pydantic import create_model
 
-from diecut_report.contract.inputs import Block, CurveInput, Quantity, Text, meta_of
+from diecut_report.contract.inputs import Block, CurveInput, Meta, Quantity, meta_of
 from diecut_report.contract.steps import Step
 
-Declared = TypeVar("Declared", bound="Quantity | Text | CurveInput | Step | None")
+Declared = TypeVar("Declared", bound="Meta | Step | None")
 
 
 def in_form(model: type[Block], given: Collection[str]) -> type[Block]:

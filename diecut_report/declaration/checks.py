@@ -8,7 +8,7 @@ from itertools import product
 from diecut_report.contract.checks import Check
 from diecut_report.contract.mechanism import Mechanism
 from diecut_report.declaration.messages import named
-from diecut_report.declaration.names import DeclaredNames
+from diecut_report.declaration.names import DeclaredNames, Giver
 from diecut_report.declaration.order import pairs
 from diecut_report.declaration.words import Fault, unknown
 from diecut_report.declaration.world import When
@@ -49,9 +49,7 @@ def _wrong(names: DeclaredNames, check: Check) -> Iterator[str]:
             yield f"takes {unknown(name, names.known)}"
         for kind in sorted({giver.kind for giver in givers} - set(JUDGED)):
             yield f"compares {name}, {_instead(name, kind)}"
-        units = {
-            each for giver in givers if giver.kind in JUDGED for each in giver.units_when(check.needs + check.only_with)
-        }
+        units = {each for giver in givers if giver.kind in JUDGED for each in _units(names, giver, check)}
         wrong = sorted(each for each in units if unit(each).kind != unit(check.unit).kind)
         if wrong:
             yield f"is in {check.unit}, {name} in {', '.join(wrong)}"
@@ -65,6 +63,13 @@ def _wrong(names: DeclaredNames, check: Check) -> Iterator[str]:
         yield "is never made: what it needs and what it compares is never given together"
     parts = OF_PARTS if any(names.kinds(name) == {"row"} for name in sides) else ()
     yield from dict.fromkeys(f"the consequence names {text}" for when in made for text in named(names, check.consequence, when, parts))  # fmt: skip
+
+
+def _units(names: DeclaredNames, giver: Giver, check: Check) -> set[str]:
+    """The units that a side may have where the check is made."""
+    needs = (*check.needs, *check.only_with)
+    beside = {unit for key, unit in giver.units if names.world.example(When(frozenset((*needs, key)))) is None}
+    return giver.units_when(needs) - (beside - {giver.unit})
 
 
 def _instead(name: str, kind: str) -> str:

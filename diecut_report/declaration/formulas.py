@@ -9,7 +9,7 @@ from typing import Any
 from diecut_report.contract.binding import Binding, Bound, ByText, bound
 from diecut_report.contract.mechanism import Mechanism
 from diecut_report.contract.part_steps import Lookup, Pick
-from diecut_report.contract.steps import Case, Choice, Root, Step
+from diecut_report.contract.steps import Case, Choice, Prepared, Root, Step
 from diecut_report.declaration.names import DeclaredNames
 from diecut_report.declaration.order import when_asked
 from diecut_report.declaration.tables import rows_of
@@ -96,7 +96,7 @@ def _choices(step: Step, names: DeclaredNames, when: When) -> Iterator[str]:
     if hasattr(step, "function") and not callable(function):
         yield f"the function is {function!r}, which cannot be called; name one without brackets"
     elif callable(function):
-        yield from _signature(function, len(getattr(step, "takes", ())))
+        yield from _signature(function, 1 if isinstance(step, Prepared) else len(getattr(step, "takes", ())))
 
 
 def _signature(function: Callable[..., object], given: int) -> Iterator[str]:

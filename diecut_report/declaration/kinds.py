@@ -25,6 +25,9 @@ from diecut_report.contract.steps import (
     CurvePeriod,
     Derivative,
     FromCurve,
+    MadeCurve,
+    Phase,
+    Prepared,
     Reduction,
     Require,
     Root,
@@ -41,6 +44,7 @@ NUMBER, ROW, CURVE = (
     frozenset({"number", "row", "curve", "abscissa"}),
 )
 CURVE_INPUT = frozenset({"curve input"})
+PLAIN = ROW | {"text", "curve input", "phase", "mechanism", "prepared", "crossings"}
 SAID = {
     NUMBER: "a single number", ROW: "a number or a row over repeated parts", CURVE: "a number, a row or a curve",
     CURVE_INPUT: "an input declared as a CurveInput",
@@ -94,9 +98,12 @@ def _asked(step: Step) -> Iterator[Asked]:
         case Pick(of=of):
             yield "of", of, ROW, ""
         case Words():
-            yield from (("takes", name, ROW | {"text"}, "a number or a text") for name in step.takes)
-        case Computed():
-            yield from (("takes", name, ROW | {"text", "curve input"}, "a number, a text or a CurveInput") for name in step.takes)  # fmt: skip
+            yield from (("takes", name, ROW | {"text", "prepared"}, "a number or a text") for name in step.takes)
+        case Computed() | MadeCurve():
+            yield from (
+                ("takes", name, PLAIN, "a number, a text, or what is taken by reference") for name in step.takes
+            )
+            yield from _over(step)
         case Clash():
             yield from (("takes", name, ROW, "") for name in step.takes)
         case _:
@@ -106,17 +113,24 @@ def _asked(step: Step) -> Iterator[Asked]:
 def _over(step: Step) -> Iterator[Asked]:
     axis = frozenset({"abscissa"}), "the id of an Abscissa"
     match step:
-        case Abscissa(period=period, points=points):
+        case Abscissa(period=period, points=points, speed=speed):
             yield from (("period", period, NUMBER, ""),) if isinstance(period, str) else ()
             yield "points", points, NUMBER, ""
+            yield from (("speed", speed, NUMBER, ""),) if speed else ()
         case Breakpoints(abscissa=abscissa, places=places, every=every):
             yield "abscissa", abscissa, *axis
             yield from (("places", place, NUMBER | {"crossings"}, "a number or found crossings") for place in places)
             yield from (("every", every, NUMBER, ""),) if every else ()
         case FromCurve(abscissa=abscissa, given=given):
             yield "abscissa", abscissa, *axis
-            yield "given", given, CURVE_INPUT, ""
+            yield from (("given", given, CURVE_INPUT, ""),) if given else ()
             yield from ((f, getattr(step, f), NUMBER, "") for f in ("start", "lasts") if getattr(step, f))
+        case Prepared(holds=holds):
+            yield from (("holds", name, PLAIN | {"block"}, "an input or a number") for name in holds)
+        case Phase(abscissa=abscissa, spans=spans, period=period):
+            yield "abscissa", abscissa, *axis
+            yield from (("period", period, NUMBER, ""),) if period else ()
+            yield from (("an end", end, NUMBER, "") for span in spans for end in span if isinstance(end, str))
         case CurvePeriod(given=given):
             yield "given", given, CURVE_INPUT, ""
         case Lookup(by=by):

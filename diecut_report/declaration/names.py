@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from functools import cached_property
 from typing import NamedTuple
 
-from diecut_report.contract.inputs import CurveInput, Quantity, Text
+from diecut_report.contract.inputs import CurveInput, MechanismInput, PhaseInput, Quantity, Text
 from diecut_report.contract.mechanism import Mechanism
 from diecut_report.contract.part_steps import Lookup, Neighbour, Running
 from diecut_report.contract.result_names import has_own_names, names_ahead, read
@@ -17,9 +17,12 @@ from diecut_report.contract.steps import (
     Breakpoints,
     Choice,
     Clash,
+    Computed,
     Crossings,
     Derivative,
     FromCurve,
+    Phase,
+    Prepared,
     Reduction,
     Require,
     Step,
@@ -28,7 +31,7 @@ from diecut_report.contract.steps import (
 )
 from diecut_report.declaration.world import Key, When, World, world
 
-NO_QUANTITY = Breakpoints | Require | Clash
+NO_QUANTITY = Breakpoints | Require | Clash | Phase
 
 
 class Giver(NamedTuple):
@@ -122,6 +125,10 @@ def _input(key: Key) -> Giver:
             kind = "block"
         case Quantity():
             return Giver(when, kind, key.home, key.meta.unit, units=key.meta.units)
+        case PhaseInput():
+            return Giver(when, "phase", key.home, key.meta.unit)
+        case MechanismInput():
+            return Giver(when, "mechanism", key.home, None)
         case CurveInput():
             return Giver(when, "curve input", "", key.meta.unit, units=key.meta.units)
         case Text():
@@ -141,6 +148,8 @@ def _kinds(step: Step, found: dict[str, list[Giver]]) -> set[tuple[str, str]]:
     match step:
         case Words():
             return {("text", "")}
+        case Prepared():
+            return {("prepared", "")}
         case Choice(cases=cases) if cases and isinstance(cases[0].value, str):
             return {("text", axis) for _, axis in over(*_names(step))} or {("text", "")}
         case Abscissa():
@@ -153,6 +162,8 @@ def _kinds(step: Step, found: dict[str, list[Giver]]) -> set[tuple[str, str]]:
             return over(of) or {("curve", "")}
         case Neighbour(of=of) | Running(of=of):
             return over(of) or {("row", "")}
+        case Computed(over=list_path) if list_path:
+            return {("row", list_path)}
         case Lookup(by=by):
             homes = {g.axis for g in found.get(by, ()) if g.axis}
             return {("row", home) for home in homes} or {("number", "")}

@@ -8,6 +8,7 @@ from contextlib import suppress
 from pathlib import Path
 
 from diecut_report import __version__
+from diecut_report.code_files import code_of
 from diecut_report.contract.binding import Binding, ByText, bound
 from diecut_report.contract.inputs import fields
 from diecut_report.contract.mechanism import Mechanism
@@ -47,14 +48,14 @@ def remember(key: str) -> None:
 
 
 def files(mechanism: Mechanism) -> Iterator[Path]:
-    """Give the files in which anything of a mechanism is declared, and all others of their packages."""
+    """Give the files in which anything of a mechanism is declared, and all others of their code."""
     for file in {Path(place.rpartition(":")[0]) for place in _places(mechanism)}:
         if not file.is_file():
             continue
         yield file
-        package = file.parent
-        if (package / "__init__.py").is_file() and not file.is_relative_to(OWN):
-            yield from (path for path in package.rglob("*") if path.is_file() and path.suffix != ".pyc")
+        if file.suffix == ".py" and not file.is_relative_to(OWN):
+            package = file.with_name("__init__.py")
+            yield from (Path(path) for _, path in code_of(package if package.is_file() else file))
 
 
 def _places(mechanism: Mechanism) -> Iterator[str]:

@@ -13,7 +13,7 @@ from diecut_report.contract.figures import Figure
 from diecut_report.contract.inputs import Inputs
 from diecut_report.contract.mechanism import Erratum, Mechanism, Profile, Source
 from diecut_report.contract.part_steps import Lookup, Pick
-from diecut_report.contract.steps import Abscissa, Breakpoints, Case, Choice, Step
+from diecut_report.contract.steps import Abscissa, Breakpoints, Case, Choice, Phase, Step
 from diecut_report.declaration.input_places import of_class
 from diecut_report.declaration.words import Fault, short
 from diecut_report.expressions import Formula
@@ -80,12 +80,22 @@ def _of_step(step: Step) -> Iterator[str]:
             yield f"has intervals={intervals!r}; the search for extremes needs at least 2, usually 32 or 64"
         case Breakpoints() if not _are_texts(step.places):
             yield f'has places={step.places!r}; name them one after another, each an id: "first", "second"'
+        case Phase():
+            yield from _of_spans(step)
         case Choice():
             yield from _of_cases(step)
         case Pick(series=series, by=by):
             yield from _of_series(series, by)
         case Lookup(table=table) if not isinstance(table, StandardTable):
             yield from _of_table(table)
+
+
+def _of_spans(step: Phase) -> Iterator[str]:
+    spans: tuple[Any, ...] = step.spans
+    for span in spans:
+        if not isinstance(span, tuple) or len(span) != 2 or not all(isinstance(end, str | int | float) for end in span):
+            yield f'goes between {span!r}; write a start and an end in brackets: ("begins", "ends")'
+    yield from _ids(step, "union", "rest_of")
 
 
 def _ids(declared: Any, *names: str) -> Iterator[str]:

@@ -12,6 +12,7 @@ import numpy as np
 from diecut_report.contract.binding import Binding, bound
 from diecut_report.contract.inputs import Meta, Quantity, fields, texts_given
 from diecut_report.contract.mechanism import Mechanism
+from diecut_report.contract.phase_inputs import TakenWhole
 from diecut_report.contract.steps import Accumulated, Choice, Derivative, FromCurve, Step, Value
 from diecut_report.contract.unit_variants import in_form
 from diecut_report.engine import named_quantity
@@ -259,7 +260,7 @@ class CurveSampler:
         start = self[step.start] if step.start else 0.0
         share, middle = start + self.x / lasts, start + self.mid / lasts
         passed = np.floor(middle)
-        curve = self.owner.inputs[step.given]
+        curve = self.owner.inputs[step.given or step.id]
         found: Array = curve.values(share - passed, middle - passed, self.rows)
         return found + passed * curve.gain(self.rows) if step.gains else found
 
@@ -274,7 +275,7 @@ class CurveSampler:
 def _column(value: Any, variants: int) -> Any:
     """An input as an array (variants, 1) or (variants, parts); texts, flags and curves stay as they are."""
     match value:
-        case bool() | str() | CurveHandle() | SampledCurve():
+        case bool() | str() | CurveHandle() | SampledCurve() | TakenWhole():
             return value
         case tuple():
             return _row(value, variants)
@@ -284,7 +285,7 @@ def _column(value: Any, variants: int) -> Any:
 
 
 def _row(value: tuple[Any, ...], variants: int) -> Any:
-    if any(isinstance(v, str | bool | type(None)) for v in value):
+    if any(isinstance(v, str | bool | tuple | TakenWhole | type(None)) for v in value):
         return value
     return np.stack([np.broadcast_to(np.asarray(v, dtype=float), (variants,)) for v in value], axis=1)
 

@@ -156,7 +156,9 @@ def _polar(figure: Polar, view: MachineView, head: dict[str, Any]) -> dict[str, 
         "unit": figure.unit,
         "series": [vars(s) for s in figure.series],
     }
-    distances = [(one.label, list(map(abs, view.curve(one.curve)))) for one in figure.series if figure.range]
+    distances = [
+        (one.label, [abs(float(value)) for value in view.curve(one.curve)]) for one in figure.series if figure.range
+    ]
     ranged = axis_range.declared(head | made, figure.range, view, distances)
     if (ranged.get("range", [None])[0] or 0) < 0:
         raise Undrawable(f"the range of {figure.title!r} begins below zero, where no distance from the pole is")
@@ -164,6 +166,7 @@ def _polar(figure: Polar, view: MachineView, head: dict[str, Any]) -> dict[str, 
 
 
 def _group(group: BarGroup, view: MachineView) -> dict[str, Any]:
-    bars = [{"label": label, "value": -view[name[1:]] if name[0] == "-" else view[name]} for label, name in group.bars]
+    values = [(label, -view[name[1:]] if name[0] == "-" else view[name]) for label, name in group.bars]
+    bars = [{"label": label, "value": value} for label, value in values]
     made = {"label": group.label, "unit": group.unit, "bars": bars}
-    return axis_range.declared(made, group.range, view, [(bar["label"], [bar["value"]]) for bar in bars])
+    return axis_range.declared(made, group.range, view, [(label, [value]) for label, value in values])

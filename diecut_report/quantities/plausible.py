@@ -53,6 +53,7 @@ SIZES: dict[str, tuple[str, str]] = {
     "Pa*s": ("1e-9 Pa*s", "1e9 Pa*s"),
 }
 ANY_OTHER = (1e-12, 1e12)  # in SI, of a kind that has no line above
+NOTHING = 1e-3  # share of the least size below which a result is zero but for the rounding of its terms
 ROUNDING = 1e-12  # share of an end by which converting units may move a number
 
 
@@ -99,6 +100,15 @@ class Plausible:
     def told(self) -> str:
         """The range in words: ``1 µm to 100 m``."""
         return f"{_told(self.least)} to {_told(self.most)}"
+
+
+def without_rounding(values: Any, unit_text: str) -> Any:
+    """Return results (a number or an array, SI) with zero for those that are zero but for rounding.
+
+    Terms of a common size, such as 1000 N·m, are known to a ten-millionth of the least plausible one; what is left of them
+    where they balance is no size at all. Only results may be so: what is typed is meant.
+    """
+    return np.where(np.abs(values) < NOTHING * plausible(unit_text).ends[0], 0.0, values)[()]
 
 
 def _told(text: str) -> str:

@@ -175,7 +175,7 @@ def pint_registry() -> pint.UnitRegistry[Any]:
 
 
 def measure_with_pint(text: str) -> tuple[float, Kind] | None:
-    """SI factor and kind of a unit by pint; None for what pint does not know. UnitError for a shifted zero (degC)."""
+    """SI factor and kind of a unit by pint; None for what pint does not know, or no float can hold. UnitError for a shifted zero (degC)."""
     registry: Any = pint_registry()
     try:
         units = registry.parse_units(text)
@@ -187,7 +187,11 @@ def measure_with_pint(text: str) -> tuple[float, Kind] | None:
     exponents = {str(name).strip("[]"): float(power) for name, power in units.dimensionality.items()}
     if not exponents.keys() <= set(DIMENSIONS):
         return None
-    return float(one), tuple(exponents.get(name, 0.0) for name in DIMENSIONS)
+    try:
+        factor = float(one)
+    except OverflowError:
+        return None
+    return (factor, tuple(exponents.get(name, 0.0) for name in DIMENSIONS)) if factor else None
 
 
 # --- reading quantities ----------------------------------------------------------------------------------------------

@@ -17,6 +17,7 @@ from diecut_report.report.model import (
     PrintedSection,
     QuantityRow,
     quantity_row,
+    rested,
     utilisation,
 )
 from diecut_report.report.number_format import quantity
@@ -40,6 +41,7 @@ def chapter(
         kind=mechanism["kind"],
         version=mechanism.get("plugin_version", ""),
         source_sha256=mechanism.get("plugin_sha256", ""),
+        source_file=mechanism.get("plugin_file", ""),
         status=mechanism["status"],
         error=mechanism.get("error", ""),
     )
@@ -72,6 +74,7 @@ class _Filler:
         part.sections = [self._section(section) for section in mechanism["sections"]]
         self._head("results")
         self._results(mechanism["outputs"])
+        self._phases(mechanism.get("phases", {}), mechanism.get("phases_absent", {}))
         part.curves = self.tables.of_curves(mechanism["curves"])
         if part.curves:
             self._head("curves")
@@ -103,10 +106,11 @@ class _Filler:
     def _input(self, key: str, row: Data) -> QuantityRow:
         shown, path = quantity_row(row, self.decimal), row.get("path", "")
         typed = str(row.get("text") or (path if row["origin"] == "reference" else ""))
-        return QuantityRow(
+        row_of = QuantityRow(
             shown.description, shown.symbol, shown.value, shown.unit,
             typed=typed, origin=self._origin(row["origin"], path, typed), key=key, wordy=shown.wordy,
         )  # fmt: skip
+        return rested(row_of, row, self.words)
 
     def _origin(self, origin: str, path: str, typed: str) -> str:
         """Where an input comes from; the path of a reference stands in what was typed."""
@@ -189,6 +193,13 @@ class _Filler:
         part.output_parts = [table for parts in lists for table in self.tables.of_parts(parts, given=False)]
         part.key_results = [rows[name] for name, row in outputs.items() if row.get("key")] or list(rows.values())
 
+    def _phases(self, phases: Data, absent: Data) -> None:
+        """When the mechanism does what, a table for each abscissa; and what is not known of it."""
+        self.part.phases = self.tables.of_phases(phases)
+        self.part.phases_absent = [self.words.say("phase_absent", **told) for told in absent.values()]
+        if phases or absent:
+            self._head("phases")
+
     def _nth(self, row: Data, number: int | None) -> str:
         description: str = row["description"]
         return description if number is None else self.words.say("nth", text=description, n=number)
@@ -209,10 +220,7 @@ class _Filler:
                 yield File(f"{self.stem}.{suffix}", content)
 
     def _check(self, check: Data) -> CheckRow:
-        texts = {
-            side: quantity(check[f"{side}_display"]["text"], check[f"{side}_display"]["unit"], self.decimal)
-            for side in ("demand", "limit", "margin")
-        }
+        texts = {side: self._side(check[f"{side}_display"]) for side in ("demand", "limit", "margin")}
         return CheckRow(
             id=check["id"],
             mechanism=self.part.name,
@@ -228,10 +236,26 @@ class _Filler:
             limit_label=check["limit_label"],
             margin=texts["margin"],
             utilisation=utilisation(check["utilisation"], check["status"], self.decimal),
+            used=self._used(check),
             source=check["source"],
             message=check["message"],
+            check_class=check.get("class", ""),
+            ratio=check["utilisation"],
+            is_sized=check.get("sized_to_limit", False) and check["status"] == "pass",
+            missing=tuple(check.get("missing", ())),
             parts=self.tables.of_check(check) if "parts" in check else None,
         )
+
+    def _side(self, display: Data | None) -> str:
+        """One side of a check; a dash where it is not known."""
+        return "–" if display is None else quantity(display["text"], display["unit"], self.decimal)
+
+    def _used(self, check: Data) -> str:
+        """How far a limit is used, in words; by how much it is missed where no share of it tells that."""
+        if check["utilisation"] is None and check["status"] in ("warn", "fail"):
+            missed = check["margin_display"] | {"text": check["margin_display"]["text"].removeprefix("-")}
+            return self.words.say("beyond", margin=self._side(missed))
+        return utilisation(check["utilisation"], check["status"], self.decimal)
 
     def _touched(self, erratum: Data) -> str:
         rows = self.mechanism["outputs"] | self.mechanism["values"] | self.mechanism["curves"]

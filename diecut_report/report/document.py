@@ -2,18 +2,19 @@
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field
 from pathlib import PurePath
 from typing import Any
 
+from diecut_report.report.assumed import AssumedLine, assumed_line
 from diecut_report.report.chapters import chapter
 from diecut_report.report.equations import Equations
 from diecut_report.report.i18n import Catalogue
-from diecut_report.report.model import CheckRow, PrintedChapter, QuantityRow, quantity_row
+from diecut_report.report.model import CheckRow, PrintedChapter, QuantityRow, quantity_row, rested
 
 Data = Mapping[str, Any]
-ORDER = {"fail": 0, "warn": 1, "pass": 2}
 TITLE_BLOCK = (
     "title",
     "document_number",
@@ -39,13 +40,26 @@ class ReportDocument:
     governing: CheckRow | None
     checks: list[CheckRow]
     failures: list[CheckRow]
+    unchecked: list[CheckRow]
+    notes: list[str]
     press_rows: list[QuantityRow]
     chapters: list[PrintedChapter]
     sources: list[tuple[str, str]]
     program: Data
     config: Data
     words: Catalogue
+    assumed: AssumedLine | None = None
     contents: list[tuple[str, str, str, int]] = field(default_factory=list)
+
+    @property
+    def face(self) -> str:
+        """The verdict as it is shown: one that passes, but not in all, is incomplete."""
+        return "incomplete" if self.status == "pass" and self.unchecked else self.status
+
+    @property
+    def sized(self) -> list[CheckRow]:
+        """The checks of what the program sized to their limits."""
+        return [row for row in self.checks if row.is_sized]
 
     @property
     def title(self) -> str:
@@ -56,35 +70,41 @@ class ReportDocument:
 def document(results: Data, equations: Equations, words: Catalogue) -> ReportDocument:
     """The report of the results."""
     chapters = _chapters(results, equations, words)
-    checks = sorted((row for part in chapters for row in part.checks), key=lambda row: ORDER[row.status])
+    every = [row for part in chapters for row in part.checks]
+    checks = sorted((row for row in every if row.is_made), key=lambda row: row.order)
     decimal = words["decimal"]
     return ReportDocument(
         project=_title_block(results["project"]),
         press=results["press"],
         status=results["status"],
-        verdict=words[_verdict(results, checks)],
-        counts=[*_counts(checks, chapters, words), *_left_out(results)],
+        verdict=words[_verdict(results, every)],
+        counts=[*_counts(every, chapters, words), *_left_out(results)],
         governing=_governing(results, checks),
         checks=checks,
+        unchecked=[row for row in every if row.status == "not_checked"],
+        notes=list(_notes(every, words)),
         failures=[row for row in checks if row.status == "fail"],
-        press_rows=[quantity_row(row, decimal) for row in results["press"]["fields"]],
+        press_rows=[rested(quantity_row(row, decimal), row, words) for row in results["press"]["fields"]],
         chapters=chapters,
         sources=_sources(results),
         program=results["program"],
         config=results["config"],
         words=words,
+        assumed=assumed_line(results, words),
         contents=list(_contents(chapters, words)),
     )
 
 
 def _verdict(results: Data, checks: list[CheckRow]) -> str:
-    """The key of the words for the whole; where nothing is checked nothing has passed."""
-    if results["status"] == "pass" and not checks:
-        return "no_checks"
-    of_comparisons = results["status"] == "error" and not any(
-        "error" in data for data in results["mechanisms"].values()
-    )
-    return "verdict_error_comparison" if of_comparisons else f"verdict_{results['status']}"
+    """The key of the words for the whole; where nothing is checked nothing has passed, and where not all is, not all has."""
+    is_made, is_left = any(row.is_made for row in checks), any(row.status == "not_checked" for row in checks)
+    status = results["status"]
+    if status == "pass" and not is_made:
+        return "verdict_nothing" if is_left else "no_checks"
+    if status in ("pass", "warn") and is_left:
+        return "verdict_unchecked" if status == "pass" else "verdict_warn_unchecked"
+    of_comparisons = status == "error" and not any("error" in data for data in results["mechanisms"].values())
+    return "verdict_error_comparison" if of_comparisons else f"verdict_{status}"
 
 
 def parts(results: Data) -> Iterator[tuple[str, Data]]:
@@ -116,9 +136,9 @@ def letter(index: int) -> str:
 
 
 def _counts(checks: list[CheckRow], chapters: list[PrintedChapter], words: Catalogue) -> Iterator[str]:
-    """How many checks fail, warn and pass, and how many mechanisms were not calculated."""
-    found = {status: sum(row.status == status for row in checks) for status in ORDER}
-    total = len(checks)
+    """How many checks fail, warn, pass and are not made, and how many mechanisms were not calculated."""
+    found = Counter(row.status for row in checks if not row.is_self_test)
+    total = sum(row.is_made for row in checks)
     lost = sum(part.lost for part in chapters)
     if lost:
         yield words.say("count_error", n=lost)
@@ -128,6 +148,15 @@ def _counts(checks: list[CheckRow], chapters: list[PrintedChapter], words: Catal
         yield words.say("count_warn", n=found["warn"])
     if found["pass"]:
         yield words.say("count_pass" if found["pass"] > 1 else "count_pass_one", n=found["pass"])
+    if found["not_checked"]:
+        yield words.say("count_not_checked", n=found["not_checked"])
+
+
+def _notes(checks: list[CheckRow], words: Catalogue) -> Iterator[str]:
+    """What stands below the verdict: the self-tests that hold."""
+    held = sum(row.is_self_test and row.status == "pass" for row in checks)
+    if held:
+        yield words.say("self_tests" if held > 1 else "self_tests_one", n=held)
 
 
 def _left_out(results: Data) -> Iterator[str]:

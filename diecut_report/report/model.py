@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from typing import Any
 
 from markupsafe import Markup
@@ -14,6 +15,7 @@ from diecut_report.report.number_format import joined, number, parts, quantity
 from diecut_report.report.symbols import symbol
 
 Data = Mapping[str, Any]
+ORDER = {"fail": 0, "warn": 1, "pass": 2, "not_checked": 3}
 
 
 @dataclass(frozen=True)
@@ -30,6 +32,7 @@ class QuantityRow:
     origin: str = ""
     key: str = ""
     wordy: bool = False
+    note: str = ""
 
 
 @dataclass(frozen=True)
@@ -52,7 +55,28 @@ class CheckRow:
     utilisation: str
     source: str
     message: str
+    used: str = ""
+    check_class: str = ""
+    ratio: float | None = None
+    is_sized: bool = False
+    missing: tuple[str, ...] = ()
     parts: PartsTable | None = None
+
+    @property
+    def is_made(self) -> bool:
+        """Whether it judges the machine: neither left unchecked, nor a self-test of the calculation."""
+        return self.status != "not_checked" and not self.is_self_test
+
+    @property
+    def is_self_test(self) -> bool:
+        """Whether it judges the calculation itself."""
+        return self.check_class == "numerical"
+
+    @property
+    def order(self) -> tuple[int, bool, float]:
+        """By what the checks of a report are sorted: what fails first, then the most utilised, what was sized to its limit last."""
+        unknown = math.inf if self.status != "pass" else -math.inf
+        return ORDER[self.status], self.is_sized, -(unknown if self.ratio is None else self.ratio)
 
 
 @dataclass(frozen=True)
@@ -152,6 +176,7 @@ class PrintedChapter:
     version: str
     status: str
     source_sha256: str = ""
+    source_file: str = ""
     error: str = ""
     summary: str = ""
     assumptions: list[str] = field(default_factory=list)
@@ -165,6 +190,8 @@ class PrintedChapter:
     sections: list[PrintedSection] = field(default_factory=list)
     checks: list[CheckRow] = field(default_factory=list)
     curves: list[PrintedTable] = field(default_factory=list)
+    phases: list[PrintedTable] = field(default_factory=list)
+    phases_absent: list[str] = field(default_factory=list)
     figures: list[tuple[str, Data]] = field(default_factory=list)
     files: list[File] = field(default_factory=list)
     absent: list[Data] = field(default_factory=list)
@@ -176,6 +203,15 @@ class PrintedChapter:
     def lost(self) -> bool:
         """Whether it could not be calculated."""
         return self.status in ("error", "skipped")
+
+    def count(self, status: str) -> int:
+        """How many checks of the machine have a status."""
+        return sum(row.status == status and not row.is_self_test for row in self.checks)
+
+    @property
+    def face(self) -> str:
+        """The verdict as it is shown: one that passes, but not in all, is incomplete."""
+        return "incomplete" if self.status == "pass" and self.count("not_checked") else self.status
 
 
 def quantity_row(row: Data, decimal: str, description: str = "") -> QuantityRow:
@@ -195,6 +231,19 @@ def quantity_row(row: Data, decimal: str, description: str = "") -> QuantityRow:
         key=row.get("path", ""),
         wordy=is_words(shown["text"]) and not pretty(shown["unit"]),
     )
+
+
+def rests(row: Data, words: Mapping[str, str]) -> list[str]:
+    """What an input rests on and what is noted of it, in words; nothing where it is only given."""
+    basis = row.get("basis", "given")
+    return [part for part in (words[basis] if basis != "given" else "", row.get("note", "")) if part]
+
+
+def rested(shown: QuantityRow, row: Data, words: Mapping[str, str]) -> QuantityRow:
+    """The row of an input with what it rests on beside where it comes from, and with its note."""
+    basis = words[row["basis"]] if row.get("basis", "given") != "given" else ""
+    origin = "" if basis and row.get("origin") == "given" else shown.origin
+    return replace(shown, origin=", ".join(filter(None, (origin, basis))), note=row.get("note", ""))
 
 
 def is_words(text: str) -> bool:

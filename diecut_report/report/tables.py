@@ -17,6 +17,7 @@ from diecut_report.report.model import (
     PrintedTable,
     TableCell,
     is_words,
+    rests,
     utilisation,
 )
 from diecut_report.report.number_format import displayed, number
@@ -60,6 +61,28 @@ class Tables:
             for place in table_places(axis, members)
         ]
         return PrintedTable(self.words.say("curves_over", axis=axis["description"]), columns, rows, self._number())
+
+    def of_phases(self, phases: Data) -> list[PrintedTable]:
+        """When a mechanism does what: a line for each interval, a table for each abscissa."""
+        groups: dict[str, list[Data]] = {}
+        for phase in phases.values():
+            groups.setdefault(phase["abscissa"], []).append(phase)
+        return [self._phases(members) for members in groups.values()]
+
+    def _phases(self, members: list[Data]) -> PrintedTable:
+        display = members[0]["display"]["unit"]
+        keys = ("from", "to", "length")
+        texts = [(self.words[key], Markup(""), "") for key in ("phase", "role")]
+        columns = texts + [(self.words[key], Markup(""), pretty(display)) for key in keys]
+        timed = any("time" in interval for phase in members for interval in phase["display"]["intervals"])
+        columns += [(self.words["time"], Markup(""), "ms")] if timed else []
+        rows = [
+            [phase["description"], self.words[f"role_{phase['role']}"]]
+            + [number(interval[key], self.decimal) for key in (*keys, *(["time"] if timed else []))]
+            for phase in members
+            for interval in phase["display"]["intervals"]
+        ]
+        return PrintedTable(self.words["phases"], columns, rows, self._number())
 
     def _abscissa(self, axis: Data, x: float) -> str:
         return number(f"{to_display(x, axis['display_unit']):.6g}", self.decimal)
@@ -121,7 +144,11 @@ class Tables:
         return TableCell(number(text, self.decimal), told(row), is_words(text))
 
     def _origin(self, row: Data) -> str:
-        """What is to be said of an input: that it is a default, what it refers to, how it was typed in another unit."""
+        """What is to be said of an input: where it comes from, and what it rests on."""
+        return "; ".join(filter(None, (self._from(row), *rests(row, self.words))))
+
+    def _from(self, row: Data) -> str:
+        """Where it comes from: that it is a default, what it refers to, how it was typed in another unit."""
         if row["origin"] == "default":
             return self.words.say("from_press", path=row["path"]) if row.get("path") else self.words["default"]
         typed, shown = str(row.get("text") or row.get("path") or ""), row["display"]

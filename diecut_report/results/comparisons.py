@@ -14,6 +14,7 @@ from diecut_report.contract.inputs import SI, Block, Quantity, flatten, meta_of
 from diecut_report.contract.mechanism import Comparison
 from diecut_report.contract.unit_variants import in_form
 from diecut_report.engine import Calculation, CurveHandle, calculate
+from diecut_report.quantities.plausible import without_rounding
 from diecut_report.quantities.units import unit
 from diecut_report.results.mechanism import Provenance, mechanism_results
 
@@ -21,7 +22,11 @@ Data = dict[str, Any]
 
 
 class Uncomparable(ValueError):
-    """A result that a comparison cannot be made with, in words."""
+    """A result or an input of an instance that a comparison cannot be made with, in words."""
+
+    def __init__(self, words: str, instance: str, name: str) -> None:
+        super().__init__(words)
+        self.instance, self.name = instance, name
 
 
 @dataclass(frozen=True)
@@ -71,9 +76,9 @@ def _block(case: Found, values: Mapping[str, Any]) -> Block:
         if not _is_of_its_kind(case, key, values.get(key)):
             raise  # a fault of what is declared
         kind, name = case.comparison.takes[key]
-        raise Uncomparable(
-            f"The comparison {case.name} takes {case.between[kind]}.{name}: {fault['msg'].removeprefix('Value error, ')}."
-        ) from error
+        instance = case.between[kind]
+        words = f"The comparison {case.name} takes {instance}.{name}: {fault['msg'].removeprefix('Value error, ')}."
+        raise Uncomparable(words, instance, name) from error
 
 
 def _is_of_its_kind(case: Found, key: str, value: Any) -> bool:
@@ -92,4 +97,5 @@ def _taken(calc: Calculation, name: str) -> Any:
     value = values[0, 0]
     if isinstance(value, str):
         return value
-    return None if np.isnan(value) else SI(float(value), unit(calc.step_or_input(name).unit).si, name)
+    si = unit(calc.step_or_input(name).unit).si
+    return None if np.isnan(value) else SI(float(without_rounding(value, si)), si, name)

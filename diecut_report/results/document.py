@@ -6,16 +6,18 @@ from collections.abc import Iterator
 from typing import Any
 
 from diecut_report import __version__
+from diecut_report.config.hidden_letters import printable
 from diecut_report.config.instances import Instance
 from diecut_report.config.loader import Config
 from diecut_report.config.model import PRESS, Press
-from diecut_report.config.source_hashes import plugin_hash, program_hash
+from diecut_report.config.source_hashes import plugin_code, program_hash
 from diecut_report.config.validation import declared, keys_of
-from diecut_report.contract.inputs import Block, CurveInput, Quantity, flatten
+from diecut_report.contract.inputs import Block, CurveInput, InOtherUnit, Quantity, TakenWhole, flatten
 from diecut_report.contract.mechanism import Mechanism
 from diecut_report.engine import CurveHandle
 from diecut_report.limits import MAX_COMPARISONS
 from diecut_report.quantities.formatting import as_given, shortest
+from diecut_report.results.bases import Bases, assumed
 from diecut_report.results.comparisons import Found
 from diecut_report.results.mechanism import worst
 from diecut_report.results.press_run import Run
@@ -35,7 +37,7 @@ def document(run: Run) -> Data:
         "schema_version": 1,
         "program": {"name": "diecut-report", "version": __version__, **_code(config)},
         "config": {
-            "file": _printable(tree.name.replace("\\", "/").rsplit("/", 1)[-1]),
+            "file": printable(tree.name.replace("\\", "/").rsplit("/", 1)[-1]),
             "sha256": tree.sha256,
             "resolved": resolved(run),
             "source_text": tree.text,
@@ -44,7 +46,7 @@ def document(run: Run) -> Data:
         "press": _press(run),
         "status": "error" if run.errors else status,
         "governing": governing(mechanisms),
-        "summary": summary(mechanisms),
+        "summary": summary(mechanisms) | {"assumed": assumed(config)},
         "mechanisms": mechanisms,
     } | ({"comparisons": comparisons} | _left_out(run) if comparisons else {})
 
@@ -65,13 +67,9 @@ def _code(config: Config) -> Data:
     return {"source_sha256": program_hash()} | ({"extensions": dict(config.extensions)} if config.extensions else {})
 
 
-def _printable(name: str) -> str:
-    """Return a file's name without what no document can hold: control characters, and bytes that are not UTF-8."""
-    return "".join(letter if letter.isprintable() else "\N{REPLACEMENT CHARACTER}" for letter in name)
-
-
 EMPTY: Data = {
-    "summary": "", "assumptions": [], "sources": [], "inputs": {}, "lists": {}, "outputs": {}, "values": {}, "curves": {}, "checks": [],
+    "summary": "", "assumptions": [], "sources": [], "inputs": {}, "lists": {}, "outputs": {}, "values": {}, "curves": {}, "phases": {},
+    "phases_absent": {}, "checks": [],
     "warnings": [], "sections": [], "absent": [], "figures": [], "exports": [],
     "errata": [],
 }  # fmt: skip
@@ -107,7 +105,7 @@ def _head(kind: str, mechanism: Mechanism | None) -> Data:
         "kind": kind,
         "title": mechanism.title if mechanism else kind,
         "plugin_version": mechanism.version if mechanism else "",
-        "plugin_sha256": plugin_hash(mechanism),
+        **plugin_code(mechanism),
     }
 
 
@@ -118,7 +116,7 @@ def _project(fields: Data) -> Data:
 
 
 def _press(run: Run) -> Data:
-    press = run.blocks[PRESS]
+    press, bases = run.blocks[PRESS], Bases(run.config, run.calculations)
     assert isinstance(press, Press)
     found = []
     for name, value in flatten(press).items():
@@ -126,7 +124,9 @@ def _press(run: Run) -> Data:
         if isinstance(meta, Quantity):
             shown = {"text": shortest(meta.parsed_unit.from_si(value)), "unit": meta.unit}
             said_of = {"path": f"{PRESS}.{name}", "description": meta.description, "symbol": meta.symbol}
-            found.append(said_of | {"value": value, "unit": meta.parsed_unit.si, "display": shown})
+            node = (PRESS, *name.split("."))
+            rests = {"basis": bases.of(node)} | ({"note": note} if (note := bases.said(node).note) else {})
+            found.append(said_of | {"value": value, "unit": meta.parsed_unit.si, "display": shown} | rests)
     return {"name": press.name, "fields": found}
 
 
@@ -167,6 +167,10 @@ def _plain_value(block: Block, name: str, value: Any, instance: Instance) -> Any
             return [_plain(part, instance) for part in value]
         case CurveHandle(calculation=_):
             return instance.data[name]
+        case InOtherUnit(value=number, unit=unit):
+            return as_given(number, unit)
+        case TakenWhole():
+            return str(value)
         case tuple() if isinstance(meta, CurveInput):
             return [as_given(part, meta.unit) for part in value]
         case float() if isinstance(meta, Quantity):

@@ -9,8 +9,8 @@ from typing import Any, Literal
 
 import numpy as np
 
-from diecut_report.config.source_hashes import plugin_hash
-from diecut_report.contract.inputs import CurveInput, Quantity, list_titles
+from diecut_report.config.source_hashes import plugin_code
+from diecut_report.contract.inputs import CurveInput, Quantity, TakenWhole, list_titles
 from diecut_report.contract.mechanism import Profile
 from diecut_report.contract.result_names import ResultName, count_name, pattern, place_name, result_names
 from diecut_report.contract.spectra import Spectrum, SpectrumLine
@@ -23,6 +23,7 @@ from diecut_report.engine.printing.items import section_items
 from diecut_report.quantities.formatting import shortest, shown
 from diecut_report.quantities.units import unit
 from diecut_report.results.checks import applies, check_results
+from diecut_report.results.phases import phases, phases_absent
 from diecut_report.results.summary import RANK, counts, failed_self_tests
 from diecut_report.results.unchecked import missing
 
@@ -43,12 +44,14 @@ Origin = Literal["given", "default", "reference", "expression"]
 
 @dataclass(frozen=True)
 class Provenance:
-    """Hold where an input comes from, the path it refers to (an expression: the ``paths``), and its text as typed."""
+    """Hold where an input comes from, the path it refers to (an expression: the ``paths``), its text as typed, and what it rests on."""
 
     origin: Origin
     path: str = ""
     text: str | None = None
     paths: tuple[str, ...] = ()
+    basis: str = ""
+    note: str = ""
 
 
 def mechanism_results(calc: Calculation, provenance: Mapping[str, Provenance]) -> Data:
@@ -61,7 +64,7 @@ def mechanism_results(calc: Calculation, provenance: Mapping[str, Provenance]) -
         "kind": mechanism.kind,
         "title": mechanism.title,
         "plugin_version": mechanism.version,
-        "plugin_sha256": plugin_hash(mechanism),
+        **plugin_code(mechanism),
         "status": worst(check["status"] for check in checks),
         "summary": mechanism.summary,
         "assumptions": list(mechanism.assumptions),
@@ -70,6 +73,8 @@ def mechanism_results(calc: Calculation, provenance: Mapping[str, Provenance]) -
         "lists": list_titles(mechanism.inputs),
         **numbers(calc),
         "curves": curves(calc),
+        "phases": phases(calc),
+        "phases_absent": phases_absent(calc),
         "checks": checks,
         "counts": counts(checks),
         "warnings": [c["message"] for c in checks if c["status"] == "warn"],
@@ -150,10 +155,15 @@ def _origin(provenance: Provenance | None) -> Data:
         | ({"path": known.path} if known.path else {})
         | ({"paths": list(known.paths)} if known.paths else {})
         | ({"text": known.text} if known.text else {})
+        | ({"basis": known.basis} if known.basis else {})
+        | ({"note": known.note} if known.note else {})
     )
 
 
 def _input(meta: Any, value: Any) -> Data:
+    if isinstance(value, TakenWhole) or (isinstance(meta, Quantity) and isinstance(value, str)):
+        return {"value": str(value), "unit": "1", "symbol": meta.symbol, "description": meta.description,
+                "display": {"text": str(value), "unit": "1"}}  # fmt: skip
     if not isinstance(meta, Quantity):
         is_curve = isinstance(meta, CurveInput)
         text = "a curve" if is_curve else str(value)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -14,12 +15,18 @@ from diecut_report.config.loader import Config, substituted
 from diecut_report.config.model import PRESS
 from diecut_report.config.references import Node, Target
 from diecut_report.config.validation import declared, validate
-from diecut_report.contract.inputs import SI, Block, Quantity, flatten
+from diecut_report.contract.inputs import SI, Block, CurveInput, Quantity, flatten
+from diecut_report.contract.mechanism import Mechanism
+from diecut_report.contract.phases import PREFIX
 from diecut_report.contract.result_names import named
 from diecut_report.engine import Calculation, CurveHandle, Impossible, calculate
+from diecut_report.engine.mechanism_handle import MechanismHandle
+from diecut_report.engine.phases import PhaseHandle
 from diecut_report.errors import PluginError, Problem, UserError
 from diecut_report.expressions import Array
 from diecut_report.limits import MAX_COMPARISONS
+from diecut_report.quantities.plausible import without_rounding
+from diecut_report.results.bases import Bases
 from diecut_report.results.comparisons import Found, Uncomparable, compared, found
 from diecut_report.results.mechanism import Origin, Provenance, SelfTestFailed, mechanism_results
 
@@ -91,6 +98,9 @@ class Run:
         except Unavailable:
             return  # the mechanism that needs it is skipped
         except (Absent, Valueless) as fault:
+            if node[1] in instance.derived:  # a partner does not have it: what needs it is not checked
+                self.values[node] = None
+                return
             self.problems.append(instance.place.problem(node[1:], str(fault)))
 
     def _term(self, target: Target) -> Any:
@@ -196,8 +206,8 @@ class Run:
         assert instance.mechanism is not None
         self.tell(name)
         try:
-            self.calculations[name] = calculate(instance.mechanism, flatten(block))
-            self.results[name] = mechanism_results(self.calculations[name], self._provenance(instance))
+            self.calculations[name] = self._made(instance, instance.mechanism, block)
+            self._printed(instance, self.calculations[name])
         except Impossible as fault:
             for path, message in fault.reasons:
                 key = tuple(int(part) if part.isdigit() else part for part in path.split(".") if part)
@@ -208,17 +218,30 @@ class Run:
         except (Exception, SystemExit) as cause:
             self._broke(instance, cause)
 
+    def _made(self, instance: Instance, mechanism: Mechanism, block: Block) -> Calculation:
+        return calculate(mechanism, flatten(block))
+
+    def _printed(self, instance: Instance, calculation: Calculation) -> None:
+        self.results[instance.name] = mechanism_results(calculation, self._provenance(instance))
+
     def _compare(self, case: Found) -> None:
         self.tell(case.name)
         self.cases.append(case)
         try:
             self.comparisons[case.name] = compared(case, self.calculations)
         except Uncomparable as fault:
-            self.problems.append(Problem(str(fault), self.config.tree.file))
+            self.problems.append(self._uncomparable(fault))
         except (Exception, SystemExit) as cause:
             error = PluginError(said(cause), case.comparison.mechanism.kind, case.name)
             error.__cause__ = cause
             self.errors[case.name] = error
+
+    def _uncomparable(self, fault: Uncomparable) -> Problem:
+        """The problem at the key that the value was given by, or else at the mechanism that gives it."""
+        instance = self.config.instances[fault.instance]
+        assert instance is not None, "a broken mechanism is compared with nothing"
+        is_given = fault.name in instance.data
+        return instance.place.problem((fault.name,) if is_given else (), str(fault), at_key=not is_given)
 
     def _broke(self, instance: Instance, cause: BaseException, words: str = "") -> None:
         self.calculations.pop(instance.name, None)
@@ -227,12 +250,13 @@ class Run:
         self.errors[instance.name] = error
 
     def _provenance(self, instance: Instance) -> dict[str, Provenance]:
-        found = {}
+        found, bases = {}, Bases(self.config, self.calculations)
         for slot in slots(instance.model, instance.data):
             typed = instance.place.typed(slot.key) if slot.is_given else None
-            found[".".join(map(str, slot.key))] = _provenance(
-                slot, self.config.links.get((instance.name, *slot.key)), typed
-            )
+            node = (instance.name, *slot.key)
+            origin = _provenance(slot, self.config.links.get(node), typed)
+            rests = bases.of(node) if isinstance(slot.meta, Quantity | CurveInput) else ""
+            found[".".join(map(str, slot.key))] = replace(origin, basis=rests, note=bases.said(node).note)
         return found
 
 
@@ -252,8 +276,20 @@ def number(calc: Calculation, name: str) -> Array | None:
     return row[:, part.index] if part and row is not None and part.index < row.shape[1] else None
 
 
+def phase(calc: Calculation, name: str, target: Target) -> PhaseHandle:
+    """Return a phase as a reference takes it over. Absent where the (first) machine does not have it."""
+    handle = PhaseHandle(calc, name.removeprefix(PREFIX), f"${{{target.path}}}")
+    if not handle.intervals():
+        raise Absent("does not apply to this machine.")
+    return handle
+
+
 def output(calc: Calculation, name: str, target: Target) -> Any:
     """Return a result as a reference takes it over: a curve, a number with its SI unit, or a text. Absent where there is none."""
+    if target.is_mechanism:
+        return MechanismHandle(calc, target.instance)
+    if target.phase_unit:
+        return phase(calc, name, target)
     if calc.axis.get(name) in calc.domains:
         return CurveHandle(calc, name)
     numbers = number(calc, name)
@@ -264,4 +300,4 @@ def output(calc: Calculation, name: str, target: Target) -> Any:
         return value
     if math.isnan(value):
         raise Absent("does not apply to this machine.")
-    return SI(float(value), str(target.unit), target.path)
+    return SI(float(without_rounding(value, str(target.unit))), str(target.unit), target.path)

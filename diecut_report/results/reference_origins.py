@@ -18,7 +18,8 @@ def with_origins(mechanisms: Data) -> Data:
 def _mechanism(mechanisms: Data, name: str) -> Data:
     checks = [_check(mechanisms, name, check) for check in mechanisms[name]["checks"]]
     told = {"checks": checks, "warnings": [check["message"] for check in checks if check["status"] == "warn"]}
-    return mechanisms[name] | told
+    found: Data = mechanisms[name] | told
+    return found
 
 
 def _check(mechanisms: Data, name: str, check: Data) -> Data:

@@ -27,16 +27,10 @@ def failed_self_tests(checks: Iterable[Data]) -> list[Data]:
 
 
 def summary(mechanisms: Data) -> Data:
-    """Return the whole's verdict: counts, the governing check, and the inputs that are assumed."""
+    """Return the whole's verdict: counts, and the governing check."""
     named = governing(mechanisms)
     return counts([check for data in mechanisms.values() for check in data["checks"]]) | {
         "governing": f"{named['mechanism']}.{named['check']}" if named else None,
-        "assumed": [
-            f"mechanisms.{name}.{key}"
-            for name, data in mechanisms.items()
-            for key, row in data["inputs"].items()
-            if row.get("basis") == "assumed"
-        ],
     }
 
 

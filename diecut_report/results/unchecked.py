@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from typing import Any
 
 import numpy as np
@@ -57,7 +58,19 @@ def _message(calc: Calculation, check: Check, keys: tuple[str, ...]) -> str:
     sides = ((check.demand_label, _known(calc, check.demand)), (check.limit_label, _known(calc, check.limit)))
     known = [f"{label} {with_unit(*shown(value, check.unit).values())}" for label, value in sides if value is not None]
     head = f"Not checked: {known[0]}, but" if known else "Not checked:"
-    return f"{head} {listed(keys)} {'are' if len(keys) > 1 else 'is'} not given."
+    told = f"{head} {listed(keys)} {'are' if len(keys) > 1 else 'is'} not given."
+    return " ".join([told, *dict.fromkeys(_of_partners(calc, keys))])
+
+
+def _of_partners(calc: Calculation, keys: tuple[str, ...]) -> Iterator[str]:
+    """Where the missing keys would come from by themselves."""
+    for partner in calc.mechanism.partners:
+        wanted = [key for key in keys if key in partner.takes]
+        if wanted and partner.key in calc.given:
+            homes = listed([f"{calc.inputs[partner.key]}.{partner.takes[key]}" for key in wanted])
+            yield f"{homes} {'are' if len(wanted) > 1 else 'is'} not there."
+        elif wanted:
+            yield f"There is no {' or '.join(partner.kinds)}, or there are several: name one by {partner.key}."
 
 
 def _known(calc: Calculation, side: str | float) -> float | None:

@@ -53,7 +53,9 @@ def forms(mechanism: Mechanism) -> Iterator[Mechanism]:
         for given in map(frozenset, combinations(sorted(keys), count)):
             absent = (keys - given) | _excluded(mechanism.inputs, given)
             chapters = tuple(replace(c, steps=_in_form(c, given, absent)) for c in mechanism.chapters)
-            yield replace(mechanism, inputs=cast(type[Inputs], in_form(mechanism.inputs, given)), chapters=chapters)
+            checks = tuple(c for c in mechanism.checks if absent.isdisjoint(c.needs + c.only_with))
+            inputs = cast(type[Inputs], in_form(mechanism.inputs, given))
+            yield replace(mechanism, inputs=inputs, chapters=chapters, checks=checks)
 
 
 def _excluded(model: type[Block], given: frozenset[str]) -> frozenset[str]:

@@ -115,7 +115,7 @@ def _made_of(step: Step, units: dict[str, str], axis_of: dict[str, str]) -> Iter
         case Abscissa(period=str() as period):
             yield period, of(period), own
         case FromCurve():
-            yield step.given, of(step.given), own
+            yield from ((step.given, of(step.given), own),) if step.given else ()
             yield from ((name, of(name), of(step.abscissa)) for name in (step.lasts,) if name)
             yield from ((name, of(name), NUMBER) for name in (step.start,) if name)
         case Breakpoints():

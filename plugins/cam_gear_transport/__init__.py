@@ -17,7 +17,8 @@ MECHANISM = Mechanism(
     "turns, gear and conveyor dwell; while it stops, returns and starts again, they make their step. From the wanted dwell follow the "
     "radii, the phases, the motion of sector, gear and sheet, torque and forces, and the profiles of both cams.",
     inputs=CamGearTransport,
-    chapters=(rolling.rolling_chapter, rolling.phases, motion.sector, motion.gear, sheet.conveyor, sheet.grippers, sheet.torques, *cams.SECTIONS),
+    chapters=(rolling.rolling_chapter, rolling.phases, motion.sector, motion.gear, sheet.conveyor, sheet.rest, sheet.grippers, sheet.torques,
+              *cams.SECTIONS),
     key_results=("radius_ratio", "gear_radius", "sector_radius", "time_dwell", "time_return", "angle_stop", "angle_start",
                  "gear_speed_ratio_peak", "gear_acceleration_peak", "sheet_step", "sheet_velocity_max", "sheet_acceleration_max",
                  "sheet_force", "torque_peak", "pressure_angle_max", "curvature_min", "contact_pressure"),

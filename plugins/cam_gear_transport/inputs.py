@@ -93,10 +93,17 @@ class CamGearTransport(Inputs):
     gripper_force: Annotated[
         float | None, Quantity("[F_g]", "N", "Force with which the grippers of a sheet hold it, together", gt=0)
     ] = None
+    rest_tolerance: Annotated[
+        float | None,
+        Quantity(
+            "e", "mm", "Distance from its place within which the sheet counts as resting; with it that phase", gt=0
+        ),
+    ] = None
     conveyor_mass: Annotated[
         float | None,
         Quantity("m_c", "kg", "Mass that moves with the conveyor's chain, sheets included; with it the torque", gt=0),
     ] = None
+    allowable_torque: Annotated[float | None, Quantity("[M]", "N*m", "Allowed torque at the disc's shaft", gt=0)] = None
     sector_inertia: Annotated[
         float,
         Quantity(

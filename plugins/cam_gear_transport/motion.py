@@ -35,8 +35,14 @@ sector = Chapter("Motion of the sector",
                       "the start of the dwell; k is the share of the rise or return that has passed, in the dwell that of the rise's middle, where "
                       "it is as fast. φ_m and k_m hold for a whole phase and are shown in its middle, all other quantities at the one φ that is "
                       "named.")
-sector.abscissa("disc_angle", "φ", "deg", "Disc angle from the start of the dwell", 2 * np.pi, shown_at="gear_power_peak_at")
+sector.abscissa("disc_angle", "φ", "deg", "Disc angle from the start of the dwell", 2 * np.pi, shown_at="gear_power_peak_at", speed="disc_speed")
 sector.breakpoints("phases", "disc_angle", "dwell_angle", "angle_stop", "angle_start")
+sector.phase("phase_1", "moving", "Phase I: the sector starts", "disc_angle", ("angle_start", "angle_dwell"))
+sector.phase("phase_2", "rest", "Phase II: the gear dwells", "disc_angle", ("angle_dwell", "dwell_angle"))
+sector.phase("phase_3", "moving", "Phase III: the sector stops", "disc_angle", ("dwell_angle", "angle_stop"))
+sector.phase("phase_4", "moving", "Phase IV: the sector returns", "disc_angle", ("angle_stop", "angle_start"))
+sector.phase("dwell", "rest", "Dwell of gear and sheet", "disc_angle", union=("phase_2",))
+sector.phase("moving", "moving", "Motion of gear and sheet", "disc_angle", rest_of=("dwell",))
 sector.value("piece_middle", "φ_m", "deg", "Disc angle in the middle of the present phase (or part of it)", lambda disc_angle: disc_angle,
              source="this method", output=False, per_piece=True)
 sector.choice("law_share", "k", "1", "Share of the rise or return that has passed",

@@ -101,3 +101,5 @@ phases.value("angle_start", "φ_I", "deg", "Disc angle where the sector starts a
              lambda time_stop: 2 * np.pi - np.pi * time_stop, source="003, after eq. 4", digits=6)
 phases.value("sector_speed_return_peak", "ω_3,4", "rad", "Greatest speed of the sector's return, per turn of the disc",
              bind(formulas.return_peak, peak_velocity="law_peak_velocity"), source="003, after eq. 4, corrected", digits=5)
+phases.value("disc_speed", "ω_2", "rad/s", "Angular speed of the disc", lambda cycles_per_hour: 2 * np.pi * cycles_per_hour, source="kinematics",
+             output=False)

@@ -32,6 +32,17 @@ grippers = Chapter("Hold of the grippers",
 grippers.value("sheet_mass", "m_s", "g", "Mass of the sheet", gripping.sheet_mass, source="geometry")
 grippers.value("sheet_force", "F_g", "N", "Greatest force of the sheet on its grippers", gripping.sheet_force, source="mechanics")
 grippers.words("cycles_fewer", advice.gentler_grip, ("cycles_per_hour", "sheet_force", "gripper_force"), output=False, needs=("gripper_force",))
+rest = Chapter("Rest of the sheet within a tolerance",
+               text="The sheet rests as long as it is no farther than e from where it stands in the dwell: so long before and after the dwell as its "
+                    "product of both distances beyond e is negative.", needs=(*SHEET, "rest_tolerance"),
+               absent="not calculated: rest_tolerance, sprocket_teeth and chain_pitch are not all given")
+rest.require("tolerance_below_step", lambda rest_tolerance, sheet_step: 2 * rest_tolerance < sheet_step, key="rest_tolerance",
+             message="is {rest_tolerance}, but must be less than half the step {sheet_step}")
+rest.value("rest_excess", "Π_e", "mm**2", "Product of the distances beyond the tolerance, from where the sheet rested and where it will",
+           lambda sheet_position, sheet_step, rest_tolerance: (sheet_position - rest_tolerance) * (sheet_step - rest_tolerance - sheet_position),
+           output=False)
+rest.crossings("rest_edge", "φ_e", "deg", "Disc angle at which the sheet leaves its rest, and at which it comes to rest again", of="rest_excess")
+rest.phase("rest", "rest", "Rest of the sheet within the tolerance", "disc_angle", ("rest_edge_2", "rest_edge_1"))
 
 torques = Chapter("Torque",
                   text="Without losses: the conveyor's mass alone is moved, and the sector with its rocker where their inertia is given. The fixed "

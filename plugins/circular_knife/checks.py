@@ -29,4 +29,10 @@ CHECKS = (
           unit="N/mm", tolerance=1e-9, severity="warn", needs=("rule_force",), demand_label="a straight rule needs",
           limit_label="by the shear resistance", source="practice",
           consequence="force, torque and work are then calculated too small; set shear_resistance to at least {resistance_by_rule:up}."),
+    Check(id="force", check_class="strength", title="Force of the cut", demand="force_max", limit="allowable_force", unit="N",
+          demand_label="greatest force down", limit_label="allowed", source="input",
+          consequence="knife or counter-knife bends; a greater shear angle or a thinner board lowers it."),
+    Check(id="torque", check_class="strength", title="Torque at the knife's shaft", demand="torque_max", limit="allowable_torque", unit="N*m",
+          demand_label="greatest torque", limit_label="allowed", source="input",
+          consequence="the knife's shaft and its drive are overloaded; a smaller eccentricity or less friction lowers it."),
 )  # fmt: skip

@@ -29,7 +29,9 @@ motion = Chapter("Motion over a turn of the knife",
                       "they are at its start; speed, sliding, force and torque are zero. At the cutting point the edge's normal and its centre's "
                       "direction include the angle φ + τ: hence the speeds of the edge along itself, ω·(R + r·sin(φ + τ)), and square to itself, "
                       "ω·r·cos(φ + τ).")
-motion.abscissa("knife_angle", "φ", "deg", "Knife angle, one turn", 2 * np.pi, shown_at="torque_max_at")
+motion.abscissa("knife_angle", "φ", "deg", "Knife angle, one turn", 2 * np.pi, shown_at="torque_max_at", speed="speed")
+motion.phase("cutting", "working", "The knife cuts", "knife_angle", ("angle_start", "angle_end"))
+motion.phase("free", "window", "The knife is off the board", "knife_angle", rest_of=("cutting",))
 motion.value("parting_angle", "φ_s", "deg",
              "Knife angle that parts the cut for integration: a flat edge makes it begin steeply",
              lambda angle_start, angle_end, touch_angle: touch_angle + np.sqrt((angle_start - touch_angle) * (angle_end - touch_angle)), source=OWN,

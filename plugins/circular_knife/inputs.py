@@ -37,4 +37,10 @@ class CircularKnife(Inputs):
         Quantity("q_a", "N/mm", "Force per length with which a straight rule cuts this board, to hold σ against", gt=0),
     ] = None
     friction: Annotated[float, Quantity("f", "1", "Friction of the board on edge and counter-knife", ge=0)] = 0.3
+    allowable_force: Annotated[float | None, Quantity("[F]", "N", "Force that knife and counter-knife bear", gt=0)] = (
+        None
+    )
+    allowable_torque: Annotated[float | None, Quantity("[M]", "N*m", "Allowed torque at the knife's shaft", gt=0)] = (
+        None
+    )
     n_points: Annotated[int, POINTS] = 720

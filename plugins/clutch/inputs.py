@@ -49,6 +49,7 @@ class Clutch(Inputs):
     available_travel: Annotated[
         float | None, Quantity("[s]", "mm", "Axial travel that the cone and its actuator have", gt=0)
     ] = None
+    available_force: Annotated[float | None, Quantity("[P_1]", "N", "Axial force that the actuator has", gt=0)] = None
     driven_inertia: Annotated[
         float | None,
         Quantity("J", "kg*m**2", "Inertia on the driven side, at the clutch's shaft; with it and speed the heat", gt=0),
@@ -68,6 +69,9 @@ class Clutch(Inputs):
         float | None, Quantity("m", "kg", "Mass of the drum that takes up the heat; with it the drum's own rise", gt=0)
     ] = None
     cooling: Cooling | None = None
+    allowable_slip_time: Annotated[
+        float | None, Quantity("[t_s]", "s", "Time that the clutch may slip as it engages", gt=0)
+    ] = None
     allowable_power_density: Annotated[
         float | None, Quantity("[p_A]", "W/cm**2", "Allowed mean friction power for each area of lining", gt=0)
     ] = None

@@ -3,9 +3,11 @@
 from __future__ import annotations
 
 from diecut_report.api import Check, Erratum, Mechanism, Source
-from diecut_report.plugins.cylinder_drive import forces, linkage
+from diecut_report.plugins.cylinder_drive import forces, linkage, timing
 from diecut_report.plugins.cylinder_drive.figures import FIGURES
 from diecut_report.plugins.cylinder_drive.inputs import CylinderDrive
+
+ROUNDING = 1e-9  # relative: a size typed in at its limit reaches it
 
 MECHANISM = Mechanism(
     kind="cylinder_drive",
@@ -16,7 +18,7 @@ MECHANISM = Mechanism(
     "two sheets. Calculated are the motion of the cylinder, the moments on it, and torque, power and forces over a turn of the crank.",
     inputs=CylinderDrive,
     chapters=(linkage.linkage_chapter, linkage.stroke, linkage.cutting, linkage.kinematics, forces.moments, forces.torque, forces.energy,
-              forces.clearance, forces.teeth, forces.joints),
+              timing.contact, forces.clearance, timing.phases, forces.teeth, forces.joints),
     key_results=("swing_angle", "sector_ratio", "stroke", "velocity_max", "acceleration_max", "cutting_moment", "crank_torque_peak",
                  "crank_torque_mean", "crank_torque_rms", "power_mean", "power_peak", "clearance_outer_time", "clearance_inner_time",
                  "tooth_force_max", "joint_force_max"),
@@ -30,7 +32,7 @@ MECHANISM = Mechanism(
               unit="deg", demand_label="required", limit_label="worst position", source="practice",
               consequence="the coupler pushes the rocker's joint more than it turns the rocker; lengthen the rocker or the frame."),
         Check(id="stroke", check_class="function", title="Full turn of the cylinder over the stroke", demand="stroke_error", limit=0.5, unit="deg",
-              sized_unless=("sector_ratio",), demand_label="rotation off a full turn", limit_label="accepted", source="000, Fig. 1",
+              demand_label="rotation off a full turn", limit_label="accepted", source="000, Fig. 1",
               consequence="the flat stands tilted at an end of the stroke; make the sector ratio 2π/δ_max."),
         Check(
             id="unbalance",
@@ -45,6 +47,19 @@ MECHANISM = Mechanism(
             source="statics",
             consequence="no body has its centre of mass outside itself like that; look at static_unbalance and cylinder_mass.",
         ),
+        Check(id="crank_torque", check_class="strength", title="Torque at the crank", demand="crank_torque_peak", limit="allowable_torque",
+              unit="N*m", demand_label="greatest torque", limit_label="allowed", source="input",
+              consequence="the crank's shaft and what drives it are overloaded; a slower crank or a lighter cylinder lowers it."),
+        Check(id="acceleration", check_class="function", title="Acceleration of the cylinder", demand="acceleration_max",
+              limit="allowable_acceleration", unit="m/s**2", demand_label="greatest acceleration", limit_label="allowed", source="input",
+              consequence="the cylinder slips on the board or its drive knocks; take a crank_speed of at most {crank_speed_most:down}."),
+        Check(id="tooth_force", check_class="strength", title="Force of the sector's teeth", demand="tooth_force_max",
+              limit="allowable_tooth_force", unit="kN", tolerance=ROUNDING, demand_label="greatest tangential force",
+              limit_label="allowed", source="input",
+              consequence="the teeth wear and break; take a pinion_radius of at least {pinion_radius_least:up}."),
+        Check(id="joint_force", check_class="strength", title="Force in the joints", demand="joint_force_max", limit="allowable_joint_force",
+              unit="kN", tolerance=ROUNDING, demand_label="greatest force", limit_label="allowed", source="input",
+              consequence="pins and bearings are overloaded; take a crank_length of at least {crank_length_least:up}."),
         Check(id="energy_balance", check_class="numerical", title="Energy balance over a turn", demand="energy_residual", limit=1e-6, unit="1",
               demand_label="relative difference", limit_label="accepted", source="conservation of energy",
               consequence="the calculation contradicts itself; do not use it."),

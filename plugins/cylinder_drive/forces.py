@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from diecut_report.api import Chapter, bind, case
-from diecut_report.mechanics import circular_segment, four_bar
+from diecut_report.mechanics import four_bar
 from diecut_report.plugins.cylinder_drive import loads
 from diecut_report.plugins.cylinder_drive.linkage import TECHNOLOGICAL
 
@@ -65,12 +65,8 @@ clearance = Chapter("Window of the carriages",
                     text="The carriages pass while the lower edge of the turned flat leaves their clearance over the die: R(1 − cos(α − θ)) ≥ c_r "
                          "on both sides of the flat's lowest position.", needs=("carriage_clearance", "segment_height"),
                     absent="not calculated: carriage_clearance and segment_height are not both given")
-clearance.require("flat_below_radius", lambda segment_height, cylinder_radius: segment_height < cylinder_radius, key="segment_height",
-                  message="is {segment_height}, but the segment must be lower than the radius {cylinder_radius}")
 clearance.require("clearance_below_flat", lambda carriage_clearance, segment_height: carriage_clearance <= segment_height, key="carriage_clearance",
                   message="is {carriage_clearance}, but the flat leaves no more than the segment's height {segment_height}")
-clearance.value("flat_half_angle", "α", "deg", "Half the central angle of the flat",
-                bind(circular_segment.half_angle, radius="cylinder_radius", height="segment_height"), output=False)
 clearance.value("clear_rotation", "θ_c", "deg", "Rotation of the cylinder up to which the clearance is left",
                 bind(loads.clear_rotation, half_angle="flat_half_angle"))
 clearance.value("clear_swing_outer", "δ_c", "deg", "Rocker angle there", lambda clear_rotation, sector_ratio: clear_rotation / sector_ratio,
@@ -103,6 +99,11 @@ clearance.value("clearance_inner_end", "φ_c4", "deg", "Window at the inner dead
                 joint_distance="clear_distance_inner"), exists=loads.flat_arrives)
 clearance.value("clearance_inner_time", "t_c2", "ms", "Time of the window at the inner dead centre",
                 bind(loads.elapsed, start="clearance_inner_start", end="clearance_inner_end"), exists=loads.flat_arrives)
+clearance.phase("carriage_window_outer", "window", "Room for the carriages at the outer end", "crank_angle",
+                ("clearance_outer_start", "clearance_outer_end"))
+clearance.phase("carriage_window_inner", "window", "Room for the carriages at the inner end", "crank_angle",
+                ("clearance_inner_start", "clearance_inner_end"))
+clearance.phase("carriage_window", "window", "Room for the carriages", "crank_angle", union=("carriage_window_outer", "carriage_window_inner"))
 
 teeth = Chapter("Tooth force of the sector",
                 text="The pinion's shaft stands in the frame and turns as the cylinder does, and a chain moves the carriages of the cylinder: "
@@ -116,6 +117,9 @@ teeth.reduction("tooth_force_max", "F_t,max", "kN", "Greatest tangential force",
 teeth.reduction("tooth_normal_force_max", "F_n,max", "kN", "Greatest force square to the flanks", "abs_max", of="tooth_normal_force")
 teeth.value("tooth_radial_force_max", "F_r,max", "kN", "Greatest force that presses sector and pinion apart",
             lambda tooth_force_max, pressure_angle: tooth_force_max * np.tan(pressure_angle))
+teeth.value("pinion_radius_least", "r_p,min", "mm", "Pitch radius of the pinion with the allowed force",
+            lambda pinion_radius, tooth_force_max, allowable_tooth_force: pinion_radius * tooth_force_max / allowable_tooth_force, output=False,
+            needs=("allowable_tooth_force",))
 
 joints = Chapter("Forces in the joints",
                  text="The links are taken without mass: the coupler carries one force along itself, which each of its joints and the crank's "
@@ -145,3 +149,6 @@ joints.value("rocker_bearing_force", "F_3", "kN",
              lambda coupler_force, tooth_normal_force: abs(coupler_force) + abs(tooth_normal_force), needs=("pinion_radius",))
 joints.reduction("rocker_bearing_force_max", "F_3,max", "kN", "Greatest force on the rocker's bearing (upper bound)", "max",
                  of="rocker_bearing_force", needs=("pinion_radius",))
+joints.value("crank_length_least", "a_min", "mm", "Length of the crank with the allowed force",
+             lambda crank_length, joint_force_max, allowable_joint_force: crank_length * joint_force_max / allowable_joint_force, output=False,
+             needs=("allowable_joint_force",))

@@ -84,10 +84,26 @@ class CylinderDrive(Inputs):
     carriage_clearance: Annotated[
         float | None, Quantity("c_r", "mm", "Clearance that the carriages need under the cylinder", gt=0)
     ] = None
+    standstill_rotation: Annotated[
+        float, Quantity("θ_s", "deg", "Rotation of the cylinder from an end that counts as standstill", gt=0, le=90)
+    ] = 2
     crank_length: Annotated[
         float | None, Quantity("a", "mm", "Length of the crank; with it the forces in the joints", gt=0)
     ] = None
     pinion_radius: Annotated[
         float | None, Quantity("r_p", "mm", "Pitch radius of the pinion; with it the tooth force of the sector", gt=0)
+    ] = None
+    allowable_torque: Annotated[float | None, Quantity("[M]", "N*m", "Allowed torque at the crank's shaft", gt=0)] = (
+        None
+    )
+    allowable_acceleration: Annotated[
+        float | None, Quantity("[W]", "m/s**2", "Allowed acceleration of the cylinder", gt=0)
+    ] = None
+    allowable_tooth_force: Annotated[
+        float | None, Quantity("[F_t]", "kN", "Allowed tangential force between the teeth of sector and pinion", gt=0)
+    ] = None
+    allowable_joint_force: Annotated[
+        float | None,
+        Quantity("[F_j]", "kN", "Allowed force in the joints of the coupler and the crank's bearing", gt=0),
     ] = None
     pressure_angle: Annotated[float, Quantity("α_w", "deg", "Pressure angle of the teeth", gt=0, lt=45)] = 20

@@ -96,7 +96,8 @@ cutting.add(_cutting_edge("cut_end_return", "φ_4", "Crank angle where cutting e
                           bind(motion.turn_later, angle="dead_center_outer"), four_bar.crank_angle_return, "begin"))
 
 kinematics = Chapter("Kinematics over a turn of the crank")
-kinematics.abscissa("crank_angle", "φ", "deg", "Crank angle from the frame line", 2 * np.pi, shown_at="crank_torque_peak_at", intervals=32)
+kinematics.abscissa("crank_angle", "φ", "deg", "Crank angle from the frame line", 2 * np.pi, shown_at="crank_torque_peak_at", intervals=32,
+                    speed="crank_speed")
 kinematics.breakpoints("strokes", "crank_angle", "dead_center_outer", "dead_center_inner", "cut_begin_forward", "cut_end_forward", "cut_begin_return",
                        "cut_end_return")
 kinematics.value("diagonal", "D", "1", "Distance of the crank pin from the rocker's pivot, in crank lengths", four_bar.diagonal,
@@ -133,6 +134,9 @@ kinematics.value("cylinder_acceleration", "ε_c", "rad/s**2", "Angular accelerat
                  source="000, after eq. 12", output=False)
 kinematics.reduction("velocity_max", "V_max", "m/s", "Greatest speed of the cylinder", "abs_max", of="velocity")
 kinematics.reduction("acceleration_max", "W_max", "m/s**2", "Greatest acceleration of the cylinder", "abs_max", of="acceleration")
+kinematics.value("crank_speed_most", "ω_1,max", "rpm", "Speed of the crank with the allowed acceleration",
+                 lambda crank_speed, acceleration_max, allowable_acceleration: crank_speed * np.sqrt(allowable_acceleration / acceleration_max),
+                 output=False, needs=("allowable_acceleration",))
 
 TECHNOLOGICAL = Steps()
 TECHNOLOGICAL.choice("technological_moment", "M_t", "N*m", "Moment of the technological load at this crank angle",

@@ -103,3 +103,27 @@ def flat_arrives(sector_ratio: Any, swing_angle: Any, clear_rotation: Any) -> An
 def flat_leaves(sector_ratio: Any, swing_angle: Any, clear_rotation: Any) -> Any:
     """Whether the cylinder turns beyond the clear rotation at all."""
     return clear_rotation <= sector_ratio * swing_angle
+
+
+@formula
+def far_swing(contact_rotation: Any, sector_ratio: Any, swing_angle: Any) -> Any:
+    """Rocker angle at which the flat's other corner leaves the board, no more than the whole swing."""
+    return np.minimum((2 * np.pi - contact_rotation) / sector_ratio, swing_angle)
+
+
+@formula
+def touches_board(contact_rotation: Any, sector_ratio: Any, swing_angle: Any) -> Any:
+    """Whether the flat clears the board, and the cylinder turns beyond it."""
+    return (contact_rotation > 0) & (contact_rotation < sector_ratio * swing_angle)
+
+
+@formula
+def never_leaves(contact_swing_far: Any, swing_angle: Any) -> Any:
+    """Whether the cylinder touches the board up to the inner end of its stroke."""
+    return contact_swing_far >= swing_angle
+
+
+@formula
+def moves_at_all(standstill_swing: Any, swing_angle: Any) -> Any:
+    """Whether the rocker swings further than what counts as standstill."""
+    return standstill_swing < swing_angle

@@ -99,4 +99,13 @@ class Damper(Inputs):
             press=FromPress("press.productivity", half_the_sheets, optional=True),
         ),
     ] = None
+    allowable_force: Annotated[
+        float | None, Quantity("[P]", "N", "Force that carriage and frame bear at one damper", gt=0)
+    ] = None
+    allowable_deceleration: Annotated[
+        float | None, Quantity("[a]", "m/s**2", "Allowed deceleration of the stop", gt=0)
+    ] = None
+    allowable_heat_power: Annotated[
+        float | None, Quantity("[N_h]", "W", "Heat that the dampers of one end may give off", gt=0)
+    ] = None
     drive: DriveBlock | None = None

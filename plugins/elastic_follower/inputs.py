@@ -47,6 +47,16 @@ class ElasticFollower(Inputs):
     damping_ratio: Annotated[
         float, Quantity("ζ", "1", "Damping of the drive as a share of critical damping", ge=0, lt=1)
     ] = 0.05
+    rest_tolerance: Annotated[
+        float | None,
+        Quantity(
+            "e",
+            "deg",
+            "Deflection within which the link counts as resting; with it the settling",
+            gt=0,
+            units=(("mass", "mm"),),
+        ),
+    ] = None
     rise: Annotated[
         float | None,
         Quantity("h", "rad", "Rise of the input, between two rests", gt=0, units=(("mass", "m"),)),
@@ -89,4 +99,8 @@ class ElasticFollower(Inputs):
     allowable_residual_ratio: Annotated[
         float, Quantity("[q_r]", "1", "Allowed ratio of the peak acceleration after the rise to the rigid one", gt=0)
     ] = 0.2
+    allowable_torque: Annotated[
+        float | None,
+        Quantity("[M]", "N*m", "Allowed torque (or force) of the drive", gt=0, units=(("mass", "N"),)),
+    ] = None
     n_points: Annotated[int, POINTS] = 720

@@ -83,6 +83,7 @@ times.value("duration", "t_e", "ms", "Time from the start of the motion that is 
             lambda rise_duration, follow_time: rise_duration + follow_time, output=False)
 times.abscissa("time", "t", "ms", "Time from the start of the motion", "duration", shown_at="acceleration_peak_at")
 times.breakpoints("end_of_rise", "time", "rise_duration")
+times.phase("moving", "moving", "The input moves", "time", (0, "rise_duration"), period="cycle_time", needs=RATE)
 times.value("piece_middle", "t_m", "ms", "Time in the middle of the present piece", lambda time: time, source="this method", output=False,
             per_piece=True)
 

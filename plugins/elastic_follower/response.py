@@ -16,6 +16,7 @@ from diecut_report.plugins.elastic_follower.motion import (
     CURVE,
     LAW,
     MOVING,
+    RATE,
     STRAIGHT,
     STRAIGHT_ACCELERATION,
     STRAIGHT_SPEED,
@@ -65,6 +66,19 @@ def _while(rising: bool, symbol: str, words: str) -> Steps:
                  case(common.zero if rising else there, "the input rests"), units=STRAIGHT_ACCELERATION, output=False, source="this method")
     return steps
 
+
+settling = Chapter("Settling after the motion", needs=(*RATE, "rest_tolerance"),
+                   absent="not calculated: cycles_per_hour and rest_tolerance are not both given",
+                   text="The link rests once it stays within the tolerance of its input; what is not followed to its end is not told.")
+settling.value("settle_excess", "Π_z", "rad**2", "Square of the deflection above that of the tolerance",
+               lambda deflection, rest_tolerance: deflection ** 2 - rest_tolerance ** 2, units=(("mass", "m**2"),), output=False)
+settling.crossings("settle_edge", "t_z", "ms", "Time at which the link goes through the tolerance", of="settle_excess")
+settling.computed("settled", "k_z", "1", "Whether the link has come to rest in the time that is followed", rests.comes_to_rest, ("settle_edge",),
+                  "the number of these crossings is even", output=False)
+settling.computed("settle_end", "t_s", "ms", "Time from which on the link rests", rests.last_or_end, ("settle_edge", "rise_duration"),
+                  "the last of these crossings, no earlier than the end of the motion", exists=lambda settled: settled > 0)
+settling.phase("settling", "moving", "The link settles after the motion", "time", ("rise_duration", "settle_end"), period="cycle_time")
+settling.phase("rest", "rest", "The link rests", "time", ("settle_end", 0), period="cycle_time")
 
 peaks_chapter = Chapter("Peaks")
 peaks_chapter.add(_while(True, "a_1", "during"))

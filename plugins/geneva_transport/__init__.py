@@ -17,8 +17,8 @@ MECHANISM = Mechanism(
     "a gear, sprocket and chain carry the step to the conveyor. For the rest of the turn the locking disc holds the wheel and the sheet "
     "dwells. From the number of slots and the centre distance follow the wheel's size, dwell, motion, torque, roller force and locking.",
     inputs=GenevaTransport,
-    chapters=(motion.geometry, motion.dwell, motion.motion_chapter, motion.conveyor, motion.grippers,
-              forces.torque, forces.contact_chapter, forces.locking),
+    chapters=(motion.geometry, motion.dwell, motion.motion_chapter, motion.conveyor, motion.rest, motion.grippers, forces.torque,
+              forces.contact_chapter, forces.locking),
     key_results=("crank_radius", "wheel_radius", "step_angle", "dwell_fraction", "time_dwell", "sheet_step", "sheet_velocity_max",
                  "sheet_acceleration_max", "sheet_force", "torque_peak", "roller_force_peak", "contact_pressure", "arm_tip", "sheet_play"),
     checks=CHECKS,

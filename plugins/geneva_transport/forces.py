@@ -104,3 +104,6 @@ locking.value("locking_play", "Δψ", "deg", "Angle by which the wheel can turn 
               source="geometry", exists=REACHES)
 locking.value("sheet_play", "Δx", "mm", "Way by which the sheet can move either way in the dwell", bind(formulas.travel, angle="locking_play"),
               source="geometry", exists=REACHES, needs=CONVEYOR_NEEDS)
+locking.value("locking_clearance_most", "j_max", "mm", "Clearance of the locking disc with the allowed play",
+              lambda locking_clearance, sheet_play, allowable_sheet_play: locking_clearance * allowable_sheet_play / sheet_play, output=False,
+              source="geometry", exists=REACHES, needs=(*CONVEYOR_NEEDS, "allowable_sheet_play"))

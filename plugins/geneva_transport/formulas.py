@@ -147,3 +147,9 @@ def travel_rate(ratio: Any, crank_speed: Any, travel_radius: Any) -> Any:
 def travel_acceleration(ratio: Any, crank_speed: Any, travel_radius: Any) -> Any:
     """Acceleration of the conveyor."""
     return ratio * crank_speed**2 * travel_radius
+
+
+@formula
+def crank_of_wheel(wheel: Any, crank_ratio: Any) -> Any:
+    """Crank angle from the middle of the motion at which the wheel stands at an angle from there, while it moves."""
+    return np.arcsin(np.sin(wheel) / crank_ratio) - wheel

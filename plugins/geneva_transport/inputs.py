@@ -69,6 +69,12 @@ class GenevaTransport(Inputs):
     gripper_force: Annotated[
         float | None, Quantity("[F_g]", "N", "Force with which the grippers of a sheet hold it, together", gt=0)
     ] = None
+    rest_tolerance: Annotated[
+        float | None,
+        Quantity(
+            "e_r", "mm", "Distance from its place within which the sheet counts as resting; with it that phase", gt=0
+        ),
+    ] = None
     driven_inertia: Annotated[
         float | None,
         Quantity(
@@ -88,6 +94,7 @@ class GenevaTransport(Inputs):
     allowable_contact_pressure: Annotated[
         float | None, Quantity("[p_H]", "MPa", "Allowed contact pressure between roller and slot", gt=0)
     ] = None
+    allowable_torque: Annotated[float | None, Quantity("[M]", "N*m", "Allowed torque at the crank", gt=0)] = None
     locking_radius: Annotated[
         float | None,
         Quantity(
@@ -100,6 +107,10 @@ class GenevaTransport(Inputs):
     locking_clearance: Annotated[
         float, Quantity("j", "mm", "Radial clearance of the locking disc in the wheel's arcs", ge=0)
     ] = 0.1
+    allowable_sheet_play: Annotated[
+        float | None,
+        Quantity("[Δx]", "mm", "Allowed play of the sheet either way in the dwell: the register's tolerance", gt=0),
+    ] = None
     n_points: Annotated[int, POINTS] = 720
 
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from diecut_report.api import Case, Chapter, Steps, bind, case
+from diecut_report.api import Case, Chapter, Steps, as_angle, bind, case
 from diecut_report.mechanics import gripping
 from diecut_report.plugins.geneva_transport import advice, formulas
 from diecut_report.plugins.geneva_transport.inputs import GRIPPED
@@ -75,8 +75,11 @@ motion_chapter = Chapter("Motion over a turn of the crank",
                               "counts from the middle of the present engagement. The wheel turns against the crank; its angle is counted in its "
                               "own direction. s and n hold for a whole piece of the turn and are shown in its middle, all other curves at the one "
                               "α that is named.")
-motion_chapter.abscissa("crank_angle", "α", "deg", "Crank angle from the middle of the motion", 2 * np.pi, shown_at="acceleration_peak_at")
+motion_chapter.abscissa("crank_angle", "α", "deg", "Crank angle from the middle of the motion", 2 * np.pi, shown_at="acceleration_peak_at",
+                        speed="crank_speed")
 motion_chapter.breakpoints("engagement", "crank_angle", "engagement_half_angle", "entry_angle")
+motion_chapter.phase("moving", "moving", "Motion of wheel and sheet", "crank_angle", ("entry_angle", "engagement_half_angle"))
+motion_chapter.phase("dwell", "rest", "Dwell of wheel and sheet", "crank_angle", rest_of=("moving",))
 motion_chapter.choice("engaged", "s", "1", "Whether the roller is in a slot (1) or not (0)",
                       case(lambda: 1, MOVING,
                            lambda crank_angle, entry_angle, engagement_half_angle:
@@ -129,3 +132,17 @@ grippers.value("sheet_mass", "m_s", "g", "Mass of the sheet", gripping.sheet_mas
 grippers.value("sheet_force", "F_g", "N", "Greatest force of the sheet on its grippers", gripping.sheet_force, source="mechanics")
 grippers.words("crank_slower_for_grippers", advice.slower_crank, ("crank_speed", "sheet_force", "gripper_force"), output=False,
                needs=("gripper_force",))
+rest = Chapter("Rest of the sheet within a tolerance",
+               text="The sheet rests as long as it is no farther than e from where it stands in the dwell.",
+               needs=(*CONVEYOR_NEEDS, "rest_tolerance"),
+               absent="not calculated: rest_tolerance, sprocket_teeth and chain_pitch are not all given")
+rest.require("tolerance_below_step", lambda rest_tolerance, sheet_step: 2 * rest_tolerance < sheet_step, key="rest_tolerance",
+             message="is {rest_tolerance}, but must be less than half the step {sheet_step}")
+rest.value("rest_wheel_angle", "ψ_e", "deg", "Angle of the wheel from the middle of its motion at which the sheet comes within the tolerance",
+           lambda sheet_step, rest_tolerance, travel_radius: as_angle((sheet_step / 2 - rest_tolerance) / travel_radius), source="kinematics")
+rest.value("rest_start", "α_r1", "deg", "Crank angle at which the sheet comes within the tolerance",
+           bind(formulas.crank_of_wheel, wheel="rest_wheel_angle"),
+           source="kinematics", digits=6)
+rest.value("rest_end", "α_r2", "deg", "Crank angle at which the sheet leaves it again", lambda rest_start: 2 * np.pi - rest_start, source="symmetry",
+           digits=6)
+rest.phase("rest", "rest", "Rest of the sheet within the tolerance", "crank_angle", ("rest_start", "rest_end"))

@@ -22,6 +22,8 @@ ANGLES = {"contact": "contact_angle", "grip": "grip_begin"}
 CONTACT = Steps()
 CONTACT.value("contact_angle", "φ_t", "deg", "Crank angle of the contact at the table",
               lambda lowest_angle, working_angle: lowest_angle - working_angle, source="kinematics", digits=6)
+CONTACT.value("leave_angle", "φ_a", "deg", "Crank angle at which the edge is at the table again",
+              lambda lowest_angle, working_angle: lowest_angle + working_angle, source="symmetry", output=False)
 GRIP = Steps()
 GRIP.value("grip_begin", "φ_b", "deg", "Crank angle at which gripping begins", lambda lowest_angle, grip_angle: lowest_angle - grip_angle,
            source="004, after Fig. 3", output=False)

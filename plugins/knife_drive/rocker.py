@@ -108,6 +108,10 @@ PLACES.add(_either("contact_angle", "φ_t", "deg", "Crank angle of the contact a
                    bind(four_bar.crank_angle_return, rocker_direction="table_direction", joint_distance="table_distance"),
                    bind(four_bar.crank_angle_forward, rocker_direction="table_direction", joint_distance="table_distance"), source="law of cosines",
                    digits=6))
+PLACES.add(_either("leave_angle", "φ_a", "deg", "Crank angle at which the edge is at the table again",
+                   bind(four_bar.crank_angle_forward, rocker_direction="table_direction", joint_distance="table_distance"),
+                   bind(four_bar.crank_angle_return, rocker_direction="table_direction", joint_distance="table_distance"), source="law of cosines",
+                   output=False))
 PLACES.value("working_angle", "φ_w", "deg", "Crank angle of the working stroke", lambda lowest_angle, contact_angle: lowest_angle - contact_angle,
              source="kinematics", digits=6)
 PLACES.add(_speed_ratio("contact_angle", "contact_", "t", " at contact"))

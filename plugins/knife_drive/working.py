@@ -64,7 +64,7 @@ speeds.value("roller_time", "t_r", "ms", "Time from the knife's lowest point unt
              needs=("signature_length",), source="kinematics")
 speeds.value("signature_interval", "t_s", "ms", "Time between two signatures", lambda cycle_time, drive_ratio: cycle_time * drive_ratio / 2,
              needs=("signature_length",), source="kinematics")
-speeds.abscissa("crank_angle", "φ", "deg", "Crank angle", 2 * np.pi)
+speeds.abscissa("crank_angle", "φ", "deg", "Crank angle", 2 * np.pi, speed="crank_speed")
 
 WORKING = Steps()
 WORKING.value("working_time", "t_w", "ms", "Duration of the working stroke", bind(formulas.time_of_angle, angle="working_angle"), source="kinematics")
@@ -126,6 +126,14 @@ def of_drive(drive: DriveKind, own: Iterable[Step]) -> Chapter:
     family = (*own, *WORKING)
     chapter = Chapter(f"{drive.name[0].upper()}{drive.name[1:]}", needs=(drive.key,), absent=f"The {drive.name}: there is no block {drive.key}.")
     chapter.add(tuple(_told_apart(step, drive) for step in prefixed(f"{drive.key}_", family, shared=())))
+    low, contact, leave = (f"{drive.key}_{place}_angle" for place in ("lowest", "contact", "leave"))
+    for name, role, words, span in (
+        ("working", "working", "the knife leads the signature", (contact, low)),
+        ("below", "working", "the edge is below the table", (contact, leave)),
+    ):
+        chapter.phase(f"{drive.key}_{name}", role, f"{drive.name[0].upper()}{drive.name[1:]}: {words}", "crank_angle", span)
+    chapter.phase(f"{drive.key}_clear", "window", f"{drive.name[0].upper()}{drive.name[1:]}: the edge is above the table", "crank_angle",
+                  rest_of=(f"{drive.key}_below",))
     return chapter
 
 

@@ -100,6 +100,10 @@ class PlatenPress(Inputs):
     guide_length: Annotated[
         float | None, Quantity("b", "mm", "Length of the guides; needed where a force is offset", gt=0)
     ] = None
+    carriage_clearance: Annotated[
+        float | None,
+        Quantity("c_r", "mm", "Clearance that the carriages need at the platen; with it their window", gt=0),
+    ] = None
     allowable_torque: Annotated[float | None, Quantity("[M]", "N*m", "Allowed torque at the main shaft", gt=0)] = None
     allowable_pin_pressure: Annotated[
         float | None, Quantity("[p]", "MPa", "Allowed pressure of journals and pins, on their projected area", gt=0)

@@ -101,10 +101,15 @@ contact.value("torque_relaxing", "M_1", "N*m", "Torque just after the dead centr
 motion_chapter = Chapter("Motion over a turn of the crank",
                          text="The ideal displacement is that of a drive which does not stretch. Beside the exact speed stands the first-order "
                               "form of the source; the calculation uses the exact one.")
-motion_chapter.abscissa("crank_angle", "φ", "deg", "Crank angle from the inner dead centre", 2 * np.pi, shown_at="torque_max_at")
+motion_chapter.abscissa("crank_angle", "φ", "deg", "Crank angle from the inner dead centre", 2 * np.pi, shown_at="torque_max_at",
+                        speed="crank_speed")
 motion_chapter.value("cutting_begin", "φ_b", "deg", "Crank angle at which cutting begins",
                      lambda cutting_start_angle: 2 * np.pi - cutting_start_angle, output=False)
 motion_chapter.breakpoints("phases", "crank_angle", "dwell_end_angle", "cutting_begin")
+motion_chapter.phase("cutting", "working", "The board is cut and the rods stretch", "crank_angle", ("cutting_begin", 0))
+motion_chapter.phase("relaxing", "working", "The platen stands on the die and the rods relax", "crank_angle", (0, "dwell_end_angle"))
+motion_chapter.phase("pressing", "working", "Pressing", "crank_angle", union=("cutting", "relaxing"))
+motion_chapter.phase("open", "window", "The platen is off the board", "crank_angle", rest_of=("pressing",))
 motion_chapter.value("phase", "j", "1", "Phase: 1 the rods relax, 2 free travel, 3 cutting", formulas.phase, output=False, per_piece=True)
 motion_chapter.value("rod_angle", "β", "deg", "Angle of the rods to the guides", bind(slider_crank.inner_coupler_angle, crank_ratio="lambda_ratio"),
                      source="001, after eq. 6", output=False)
@@ -128,3 +133,18 @@ motion_chapter.choice("platen_velocity_true", "V_t", "m/s", "Speed of the platen
                       source="001 eq. 13")
 motion_chapter.reduction("velocity_max", "V_max", "m/s", "Greatest speed of the platen", "abs_max", of="platen_velocity_ideal")
 motion_chapter.reduction("velocity_difference", "ΔV_max", "m/s", "Greatest difference of the first-order speed", "abs_max", of="first_order_error")
+
+window = Chapter("Window of the carriages", needs=("carriage_clearance",), absent="not calculated: carriage_clearance is not given",
+                 text="The carriages pass while the platen is at least their clearance away from the die.")
+window.require("clearance_within_stroke",
+               lambda carriage_clearance, drive_deformation, material_thickness, crank_radius:
+                   (material_thickness <= carriage_clearance) & (carriage_clearance + drive_deformation < 2 * crank_radius),
+               key="carriage_clearance",
+               message="is {carriage_clearance}, but must be at least the board's thickness {material_thickness}, and less than what the platen "
+                       "opens, its stroke {stroke} less the stretch {drive_deformation}")
+window.value("clear_travel", "u_w", "mm", "Travel of the platen from the dead centre at which the clearance is left",
+             lambda carriage_clearance, drive_deformation: carriage_clearance + drive_deformation, output=False)
+window.value("window_start", "φ_w1", "deg", "Crank angle at which the window opens", bind(slider_crank.inner_crank_angle_at, displacement="clear_travel"),
+             source="closed form", digits=6)
+window.value("window_end", "φ_w2", "deg", "Crank angle at which it closes", lambda window_start: 2 * np.pi - window_start, source="symmetry", digits=6)
+window.phase("carriage_window", "window", "Room for the carriages", "crank_angle", ("window_start", "window_end"))

@@ -66,6 +66,10 @@ def test_what_the_program_takes_the_schema_takes() -> None:
         ("force: 2 kN", "force: 1, load: [1, 2]", "mechanisms.a.load"),
         ("force: 2 kN", "force: 1, parts: [{size: 1}]", "mechanisms.a.parts.0"),
         ("force: 2 kN", "force: 'about ${a.arm}'", "mechanisms.a.force"),
+        ("force: 2 kN", "force: {value: 2 kN, basis: guessed}", "mechanisms.a.force"),
+        ("force: 2 kN", "force: {basis: assumed}", "mechanisms.a.force"),
+        ("force: 2 kN", "force: '2 * ${a.arm} + 3 apples and pears'", "mechanisms.a.force"),
+        ("force: 2 kN", "force: {value: '2 * sqrt(${a.moment}**2) / 1.5 N*m/kN + 3 kN', basis: assumed, note: n}", ""),
     ],
 )
 def test_a_mistake_is_caught(old: str, new: str, where: str) -> None:

@@ -14,11 +14,14 @@ import pytest
 
 from diecut_report.cli.main import main
 from diecut_report.config.discovery import Discovery
+from diecut_report.config.loader import load_config
 from diecut_report.config.source_hashes import PACKAGE, plugin_hash, program_hash
 from diecut_report.errors import UserError
 from diecut_report.report.rendering import render_html
+from diecut_report.results.document import document
+from diecut_report.results.press_run import compute
 from diecut_report.study.execution import worker
-from tests.configs import GOOD, LEVER, saved
+from tests.configs import GOOD, HEAD, LEVER, SMALL, saved
 from tests.study.studies import STUDY
 
 TELL = "from diecut_report.config.source_hashes import *; import diecut_report; print(program_hash(), diecut_report.__file__)"
@@ -122,6 +125,20 @@ def test_results_and_report_tell_the_hashes(tmp_path: Path, capfd: pytest.Captur
         assert re.search(rf"source\s+{told[:12]}\s", page)
 
 
+def test_a_foreign_plugin_is_named_by_its_file_and_not_by_where_it_lies(tmp_path: Path) -> None:
+    package = tmp_path / "secret place" / "lever"
+    package.mkdir(parents=True)
+    shutil.copy(GOOD / "lever.py", package / "__init__.py")
+    other = saved(tmp_path, LEVER + SMALL.removeprefix(HEAD))
+    for folder, file in ((GOOD, "lever.py"), (tmp_path / "secret place", "lever/__init__.py")):
+        found = document(compute(load_config(other, Discovery([folder])), lambda _: None))
+        digest = found["mechanisms"]["a"]["plugin_sha256"]
+        assert found["mechanisms"]["a"]["plugin_file"] == file and digest
+        assert "plugin_file" not in found["mechanisms"]["clutch"]  # comes with the program
+        page = re.sub(r"\s+", " ", re.sub(r"<[^>]+>", " ", render_html(found)))
+        assert f"{file} source {digest[:12]}" in page and "secret place" not in page + json.dumps(found)
+
+
 def run(*arguments: str | Path) -> subprocess.CompletedProcess[str]:
     """A command in a process of its own, which reads the plugins anew."""
     command = [sys.executable, "-m", "tests.study.without_summary", *map(str, arguments)]
@@ -143,6 +160,25 @@ def test_a_run_is_not_continued_with_other_code_of_the_same_version(tmp_path: Pa
         assert "The source of the plugin lever has changed since the results were begun (SHA-256 " in refused.stderr
         assert "in another folder" in refused.stderr
     assert (out / "study.json").read_bytes() == before and not (out / "variants/part-00000.parquet").exists()
+
+
+def test_a_variant_that_other_code_calculates_is_told(tmp_path: Path) -> None:
+    folder, out = lever(tmp_path / "plugins"), tmp_path / "out"
+    saved(tmp_path, LEVER)
+    study = saved(tmp_path, STUDY.replace("  mechanisms.a.grade: [fine, coarse]\n", ""), "study.yaml")
+    assert run("batch", study, "-o", out, "--plugins", folder).returncode in (0, 1)
+    asked = ("report", f"{out}#1", "-o", tmp_path, "--format", "json", "--plugins", folder)
+    assert "source" not in run(*asked).stderr
+    before = hash_of_lever(folder)
+    saved(folder, (folder / "lever.py").read_text("utf-8") + "\n# other\n", "lever.py")
+    saved(folder, "import sys\n", "extend_laws.py")
+    told, now = run(*asked), run("calc", f"{out}#1", "--plugins", folder, "--quiet")
+    assert told.returncode in (0, 1)
+    words = f"The source of the plugin lever is not what the study was calculated by (SHA-256 {before[:12]} then, "
+    assert f"warning: {words}" in told.stderr and "numbers of this variant may differ" in told.stderr
+    assert "warning: The source of the extension extend_laws is not what" in now.stderr
+    for results in ((tmp_path / "out-1.json").read_text("utf-8"), now.stdout):
+        assert f"# {words}" in json.loads(results)["config"]["source_text"]
 
 
 def test_a_process_with_other_code_than_the_run_calculates_nothing(tmp_path: Path) -> None:

@@ -129,3 +129,24 @@ def test_each_variant_that_jumps_is_marked() -> None:
     assert not run(mechanism, 9, start=starts).flaws
     open_one = wheel(FORMULAS["a narrow window"])
     assert set(run(open_one, 9, start=starts).flaws) == set(range(9))
+
+
+@pytest.mark.parametrize("count", [2, 7, 100])
+@pytest.mark.parametrize("per_piece", [False, True])
+def test_each_variant_among_many_is_judged_as_alone(count: int, per_piece: bool) -> None:
+    """Its edges fit the first machine, so that this one does not jump; each other one is judged by itself."""
+    rng = np.random.default_rng(count)
+    edges = rng.uniform(10, 350, (2, count)) * DEGREE
+    starts = np.where(rng.random(count) < 0.5, edges[0], rng.uniform(10, 350, count) * DEGREE)
+    starts[:2] = edges[0, 0], edges[0, 1] + 20 * DEGREE
+    step: Any = lambda angle, moment: moment * np.where(angle > moment, 3, 1)  # noqa: E731  the moment stands for an angle
+    mechanism = wheel(step, "start", "end", per_piece=per_piece)
+    given = {"start": edges[0], "end": edges[1], "moment": starts}
+    told = {}
+    for row in range(count):
+        try:
+            run(mechanism, **{name: float(values[row]) for name, values in given.items()})
+        except Unproven as fault:
+            told[row] = "peak", str(fault)
+    assert 0 not in told and 1 in told
+    assert run(mechanism, count, **given).flaws == told

@@ -4,28 +4,14 @@ from __future__ import annotations
 
 import json
 from collections.abc import Iterator
-from typing import Any, NamedTuple
+from typing import Any
 
 from diecut_report.config.model import Press
-from diecut_report.config.yaml_tree import KeyPath
-from tests.extremes.harness import judged, quantities, values
+from tests.extremes.harness import Extreme, judged, quantities, values
 from tests.plugins.cases import CONFIGS, OF_KINDS
 
 
-class ExampleExtreme(NamedTuple):
-    """One input of an example and the extreme value that it gets, in its display unit."""
-
-    example: str
-    key: KeyPath
-    value: float | int
-
-    @property
-    def name(self) -> str:
-        """What a failure calls it."""
-        return f"{self.example} {'.'.join(map(str, self.key))} = {self.value!r}"
-
-
-def example_extremes(stem: str) -> Iterator[ExampleExtreme]:
+def example_extremes(stem: str) -> Iterator[Extreme]:
     """Every single extreme of an example."""
     config = _data(stem)
     homes = [quantities(Press, config["press"], ("press",))]
@@ -34,12 +20,12 @@ def example_extremes(stem: str) -> Iterator[ExampleExtreme]:
     for key, quantity in (found for home in homes for found in home):
         if key[-1] != "n_points":
             for value in dict.fromkeys(map(repr, values(quantity))):
-                yield ExampleExtreme(stem, key, json.loads(value))
+                yield Extreme((stem,), key, json.loads(value))
 
 
-def example_fault(case: ExampleExtreme) -> str | None:
+def example_fault(case: Extreme) -> str | None:
     """What is wrong with the press, or None where all is numbers, or it is refused in words."""
-    config = _data(case.example)
+    config = _data(*case.home)
     home: Any = config
     for part in case.key[:-1]:
         home = home.setdefault(part, {}) if isinstance(home, dict) else home[part]

@@ -26,17 +26,16 @@ SHEET = {"length": "700 mm", "width": "500 mm", "thickness": "0.6 mm"}
 
 
 class Extreme(NamedTuple):
-    """One input of a machine and the extreme value that it gets, in its display unit."""
+    """One input of a kind's machine, or of an example, and the extreme value that it gets, in its display unit."""
 
-    kind: str
-    machine: str
+    home: tuple[str, ...]
     key: KeyPath
     value: float | int
 
     @property
     def name(self) -> str:
         """What a failure calls it."""
-        return f"{self.kind}-{self.machine} {'.'.join(map(str, self.key))} = {self.value!r}"
+        return f"{'-'.join(self.home)} {'.'.join(map(str, self.key))} = {self.value!r}"
 
 
 def extremes(kind: str, *, short: bool = False) -> Iterator[Extreme]:
@@ -46,7 +45,7 @@ def extremes(kind: str, *, short: bool = False) -> Iterator[Extreme]:
         for key, quantity in (*quantities(OF_KINDS[kind].inputs, config["mechanisms"]["a"], ("mechanisms", "a")),
                               *(quantities(Press, config["press"], ("press",)) if from_press(kind) else ())):  # fmt: skip
             for value in dict.fromkeys(map(repr, values(quantity))):
-                yield Extreme(kind, machine, key, json.loads(value))
+                yield Extreme((kind, machine), key, json.loads(value))
 
 
 def values(quantity: Quantity) -> Iterator[float | int]:
@@ -87,12 +86,13 @@ def _config(kind: str, keys: dict[str, Any]) -> dict[str, Any]:
 
 def fault(case: Extreme) -> str | None:
     """What is wrong with the machine, or None where it is a machine with numbers, or is refused in words."""
-    config = _config(case.kind, FULL[case.kind][case.machine])
+    kind, machine = case.home
+    config = _config(kind, FULL[kind][machine])
     home: Any = config
     for part in case.key[:-1]:
         home = home[part]
     home[case.key[-1]] = case.value
-    for name in from_press(case.kind) if case.key[0] == "press" else ():
+    for name in from_press(kind) if case.key[0] == "press" else ():
         config["mechanisms"]["a"].pop(name, None)
     return judged(json.dumps(config))
 

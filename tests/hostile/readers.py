@@ -6,6 +6,7 @@ The fuzzer (scripts/fuzz.py) feeds them; test_corpus.py feeds them what the fuzz
 from __future__ import annotations
 
 import atexit
+import json
 import shutil
 import tempfile
 from collections.abc import Callable
@@ -20,8 +21,10 @@ from diecut_report.quantities.units import unit as read_unit
 from diecut_report.study.analysis.query import variants
 from diecut_report.study.definition.study_file import load_study
 from diecut_report.study.execution.study_run import Where, run_study
+from diecut_report.study.storage.state import write_state
 from diecut_report.study.tables.reading import read_table
 from tests.configs import SMALL, saved
+from tests.hostile.made_tables import SHEET, workbook
 
 CORPUS = Path(__file__).parent / "corpus"
 Reader = Callable[[bytes], None]
@@ -34,6 +37,7 @@ vary:
   mechanisms.clutch.torque: [100 N*m, 300 N*m]
 """
 ENDINGS = (".csv", ".xlsx", ".parquet")
+XML = len(ENDINGS)  # stands for the sheet of a workbook
 UNITS = ("mm", "rad/s", "1", "%", "kg*m**2", "deg", "kN")
 
 
@@ -118,24 +122,35 @@ def constraint() -> Reader:
 
 
 def table() -> Reader:
-    """Read bytes as a table; the first byte says of which format."""
+    """Read bytes as a table; the first byte says of which format, or that they are the sheet of a sound workbook."""
     place = folder()
 
     def read(data: bytes) -> None:
-        path = place / f"table{ENDINGS[data[0] % len(ENDINGS)] if data else '.csv'}"
-        path.write_bytes(data[1:])
+        form = data[0] % (XML + 1) if data else 0
+        path = place / f"table{'.xlsx' if form == XML else ENDINGS[form]}"
+        if form == XML:
+            workbook({SHEET: data[1:]}, path)
+        else:
+            path.write_bytes(data[1:])
         with suppress(UserError):
-            read_table(path)
+            found = read_table(path)
+            for column in found.columns.values():
+                for read_column in (lambda column=column: column.si("mm"), column.texts):
+                    with suppress(UserError):
+                        read_column()
 
     return read
 
 
 def stored() -> Reader:
-    """Ask a stored study whose study.json is these bytes."""
+    """Ask a stored study whose study.json is these bytes, with a sound seal where they are JSON."""
     out = stored_study(folder())
 
     def read(data: bytes) -> None:
-        (out / "study.json").write_bytes(data)
+        try:
+            write_state(out, json.loads(data))
+        except (ValueError, AttributeError, RecursionError):
+            (out / "study.json").write_bytes(data)
         with suppress(UserError):
             list(variants(out))
 

@@ -137,14 +137,14 @@ def test_wrong_usage_is_told_as_an_escape_too(capfd: Capture) -> None:
 @pytest.mark.parametrize("text", [r'"x\npress.yaml:1:1: project.title: forged"', r'"\nforged: valid"'])
 def test_no_text_begins_a_line_of_its_own(tmp_path: Path, capfd: Capture, text: str) -> None:
     config = saved(tmp_path, LEVER.replace("2 kN", text))
-    assert main(["check", str(config), "--plugins", str(GOOD)]) == 2
+    assert main(["validate", str(config), "--plugins", str(GOOD)]) == 2
     lines = capfd.readouterr().err.splitlines()
     assert lines[0].startswith(f"{config}:5:") and all(line.startswith("    ") for line in lines[1:])
 
 
 def test_a_key_cannot_forge_an_error(tmp_path: Path, capfd: Capture) -> None:
     config = saved(tmp_path, LEVER.replace("force:", r'"x\npress.yaml:1:1: all is well": 1, force:'))
-    assert main(["check", str(config), "--plugins", str(GOOD)]) == 2
+    assert main(["validate", str(config), "--plugins", str(GOOD)]) == 2
     assert all(line.startswith(f"{config}:5:") for line in capfd.readouterr().err.splitlines())
 
 
@@ -169,7 +169,8 @@ def test_a_long_text_is_cut_and_many_problems_are_counted(tmp_path: Path, capfd:
     assert len(told) < 3000 and told.startswith("press.yaml: xxx") and "more letters…]" in told
     keys = ", ".join(f"k{number}: 1" for number in range(3000))
     assert (
-        main(["check", str(saved(tmp_path, LEVER.replace("force:", f"{keys}, force:"))), "--plugins", str(GOOD)]) == 2
+        main(["validate", str(saved(tmp_path, LEVER.replace("force:", f"{keys}, force:"))), "--plugins", str(GOOD)])
+        == 2
     )
     lines = capfd.readouterr().err.splitlines()
     assert len(lines) == 21 and lines[-1].startswith("2980 more problems")
@@ -180,7 +181,8 @@ def test_90_000_unknown_keys_are_told_soon(tmp_path: Path, capfd: Capture) -> No
     keys = ", ".join(f"k{number}: 1" for number in range(90_000))
     began = time.process_time()
     assert (
-        main(["check", str(saved(tmp_path, LEVER.replace("force:", f"{keys}, force:"))), "--plugins", str(GOOD)]) == 2
+        main(["validate", str(saved(tmp_path, LEVER.replace("force:", f"{keys}, force:"))), "--plugins", str(GOOD)])
+        == 2
     )
     assert len(capfd.readouterr().err) < 50_000 and time.process_time() - began < 60
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 import re
 from pathlib import Path
 
@@ -9,6 +10,7 @@ import pytest
 
 from tests.hostile.bounded import read
 from tests.hostile.made_tables import LARGEST, QUICK, made
+from tests.shared import once
 
 Told = dict[str, tuple[list[str], float, int]]
 GROWTH = 500_000_000  # bytes
@@ -16,11 +18,16 @@ GROWTH = 500_000_000  # bytes
 
 @pytest.fixture(scope="module")
 def told(tmp_path_factory: pytest.TempPathFactory) -> Told:
-    """What is told of each table."""
-    folder = tmp_path_factory.mktemp("tables")
-    plain = folder / "plain.csv"
-    plain.write_text("a,b\n1,2\n")
-    return read(plain, made(folder, QUICK))
+    """What is told of each table, read once for all workers."""
+
+    def make(folder: Path) -> None:
+        tables = tmp_path_factory.mktemp("tables")
+        plain = tables / "plain.csv"
+        plain.write_text("a,b\n1,2\n")
+        (folder / "told.json").write_text(json.dumps(read(plain, made(tables, QUICK))))
+
+    found: Told = json.loads((once(tmp_path_factory, "told_of_tables", make) / "told.json").read_text())
+    return found
 
 
 def test_each_is_read_or_refused_in_words_and_soon(told: Told) -> None:

@@ -25,6 +25,7 @@ from tests.plugins.drive_trains import EXAMPLE as TRAIN
 from tests.plugins.drive_trains import PAIRS, UNEVEN
 from tests.plugins.followers import SHAFT
 from tests.plugins.platens import GUIDED
+from tests.plugins.presses import whole_press
 from tests.plugins.steppers import LOADED, PUBLISHED
 from tests.validation.rows_circular_knife import KEYS as CIRCULAR
 from tests.validation.rows_damper import WORKED as DAMPER
@@ -77,6 +78,7 @@ KNIVES: dict[str, Any] = KNIFE | {"planetary": {"carrier_radius": 65.656}, "cran
 CROSS: dict[str, Any] = {
     "slots": 6, "center_distance": "200 mm", "crank_speed": "100 rpm", "roller_radius": "10 mm", "sprocket_teeth": 24,
     "chain_pitch": "31.75 mm", "gear_ratio": 4, "driven_inertia": 1, "roller_width": "20 mm", "n_points": 72,
+    "allowable_torque": 300, "allowable_sheet_play": "0.3 mm",
 }  # fmt: skip
 BELT: dict[str, Any] = {
     "cylinder_radius": "105 mm", "driven_radius": "60 mm", "cylinder_velocity": "1 m/s", "shaft_speed": "150 rpm", "pitch": "8 mm",
@@ -90,24 +92,30 @@ SLIDE: dict[str, Any] = {
     "rise": "1.2 m",
     "rise_time": "0.2 s",
 }
+LIMITED = {
+    "crank_length": "100 mm", "pinion_radius": "60 mm", "allowable_torque": 600, "allowable_acceleration": 15, "allowable_tooth_force": 10,
+    "allowable_joint_force": 10,
+}  # fmt: skip
 FULL: dict[str, dict[str, dict[str, Any]]] = {
-    "cam_gear_transport": {law: PUBLISHED | LOADED | {"motion_law": law, "n_points": 72} for law in LAWS},
-    "circular_knife": {"worked": CIRCULAR | {"n_points": 72}},
-    "clutch": {"cooled": COOLED},
-    "cylinder_drive": {"unbalanced": PUBLISHED_DRIVE | UNBALANCED | {"n_points": 72}, "published": PUBLISHED_DRIVE | {"n_points": 72}},
+    "cam_gear_transport": {law: PUBLISHED | LOADED | {"motion_law": law, "allowable_torque": 300, "n_points": 72} for law in LAWS},
+    "circular_knife": {"worked": CIRCULAR | {"n_points": 72, "allowable_force": 20, "allowable_torque": 1}},
+    "clutch": {"cooled": COOLED | {"available_force": 4000, "allowable_slip_time": 1}},
+    "cylinder_drive": {"unbalanced": PUBLISHED_DRIVE | UNBALANCED | LIMITED | {"n_points": 72}, "published": PUBLISHED_DRIVE | {"n_points": 72}},
     "cylinder_sizing": {"published": PUBLISHED_CYLINDER, "sized": {"working_length": 500, "segment_height": 30, "generatrix_length": 700}},
-    "damper": {"driven": DAMPER | {"drive": {"force": 1}, "impacts_per_hour": 3000}},
+    "damper": {"driven": DAMPER | {"drive": {"force": 1}, "impacts_per_hour": 3000, "allowable_force": 4000, "allowable_deceleration": 50,
+                                   "allowable_heat_power": 10}},
     "drive_train": {
         "flywheel": TRAIN | {"gears": PAIRS, "torque_curve": UNEVEN, "torque_mean": 189.1667, "torque_peak": 1500, "power_per_belt": 2},
         "toothed belt": TRAIN | {"toothed_belt": BELT},
     },
     "elastic_follower": {
-        "shaft": SHAFT | {"n_points": 72, "motion_law": "modified_trapezoidal"},
-        "slide": SLIDE | {"n_points": 72},
+        "shaft": SHAFT | {"n_points": 72, "motion_law": "modified_trapezoidal", "allowable_torque": 100},
+        "slide": SLIDE | {"n_points": 72, "allowable_torque": 100},
     },
     "geneva_transport": {"loaded": CROSS},
     "knife_drive": {side: KNIVES | {"crank_rocker": LINKAGE | {"lowest_dead_center": side}} for side in ("outer", "inner")},
     "platen_press": {"guided": GUIDED | {"n_points": 72, "crank_pin_length": "100 mm"}},
+    "press_consistency": {"whole": whole_press()},
 }  # fmt: skip
 WIDELY: dict[str, Ranges] = {
     "cam_gear_transport": {"dwell_angle": (1.5, 4.2), "sector_stop_sweep": (0.1, 0.6), "arm_length": (0.05, 0.1), "cycles_per_hour": (1, 2)},
@@ -129,6 +137,8 @@ WIDELY: dict[str, Ranges] = {
                     "crank_rocker.crank": (0.012, 0.04), "crank_rocker.knife_arm": (0.08, 0.25), "grip_angle": (0.02, 0.2)},
     "platen_press": {"material_thickness": (1e-4, 3e-3), "drive_deformation": (1e-4, 2e-3), "rod_length": (0.08, 1.2),
                      "cycles_per_hour": (0.1, 2), "offset_force": (-0.02, 0.02), "friction": (0, 0.3)},
+    "press_consistency": {"clutch_load": (0, 900), "clutch_speed": (2, 12), "contact_distance": (0.005, 0.9),
+                          "flywheel_inertia": (0.1, 20), "damper_velocity": (0.1, 4)},
 }  # fmt: skip
 
 

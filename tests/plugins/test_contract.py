@@ -33,6 +33,12 @@ ALIKE = {  # quantities that a step takes over under another id
     "cylinder_sizing": [("wall_at_flat", "wall_verdict")],
     "damper": [("drive.force", "driving_force")],
     "drive_train": [("torque_curve", "output_torque")],
+    "press_consistency": [
+        ("cylinder_rotation", "rotation"),
+        ("cylinder_speed", "speed"),
+        ("output_turns_per_sheet", "turns_a_sheet"),
+        ("engagement_angle", "start_angle"),
+    ],
     "transport_comparison": [("gear_speed", "cam_gear_speed"), ("gear_acceleration", "cam_gear_acceleration")],
 }
 NEVER_REFUSED = {"damper", "elastic_follower"}

@@ -105,7 +105,7 @@ def test_only_one_pulley_is_fixed_to_the_cylinder() -> None:
 def test_a_pulley_without_whole_teeth_is_told_and_the_advised_radius_has_them(index: int, radius: float) -> None:
     told = check(belt(replaced(OVER, index, radius)), "pulley_teeth_whole")
     teeth = 2 * pi * radius / 8
-    assert told["status"] == "warn" and told["demand"] == pytest.approx(abs(teeth - round(teeth)), rel=1e-9)
+    assert told["status"] == "fail" and told["demand"] == pytest.approx(abs(teeth - round(teeth)), rel=1e-9)
     assert f"radius {radius:.0f} mm" in told["message"] and f"have {teeth:.4f} teeth" in told["message"]
     advised = re.search(r"give it a radius of (\d+\.\d+) mm", told["message"])
     assert advised
@@ -120,7 +120,7 @@ def test_a_smooth_pulley_on_the_back_needs_no_whole_teeth() -> None:
 
 def test_another_driving_pulley_in_the_list_is_told_and_the_advised_one_passes() -> None:
     told = check(belt(replaced(OVER, 0, whole(70))), "driving_pulley_listed")
-    assert told["status"] == "warn" and told["demand"] == pytest.approx(9, rel=1e-9)
+    assert told["status"] == "fail" and told["demand"] == pytest.approx(9, rel=1e-9)
     advised = re.search(r"radius of (\d+\.\d+) mm, (\d+) teeth", told["message"])
     assert advised and int(advised[2]) == 79
     assert check(belt(replaced(OVER, 0, float(advised[1]))), "driving_pulley_listed")["status"] == "pass"
@@ -129,7 +129,7 @@ def test_another_driving_pulley_in_the_list_is_told_and_the_advised_one_passes()
 @pytest.mark.parametrize("driven", [60.0, 66.0])
 def test_the_cylinder_s_pulley_in_the_list_is_the_driven_one(driven: float) -> None:
     told = check(belt(OVER, driven_radius=driven), "cylinder_pulley_listed")
-    assert told["status"] == "warn" and told["demand"] == pytest.approx(abs(2 * pi * driven / 8 - 48), rel=1e-9)
+    assert told["status"] == "fail" and told["demand"] == pytest.approx(abs(2 * pi * driven / 8 - 48), rel=1e-9)
     advised = re.search(r"give both (\d+\.\d+) mm", told["message"])
     assert advised
     fixed = belt(replaced(OVER, 3, float(advised[1])), driven_radius=float(advised[1]))

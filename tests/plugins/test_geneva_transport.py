@@ -244,7 +244,7 @@ def checks(**changes: Any) -> dict[str, dict[str, Any]]:
 )
 def test_a_check_fails_in_words_that_tell_what_to_change(changes: dict[str, Any], name: str, words: str) -> None:
     found = checks(**changes)
-    assert found[name]["status"] == ("warn" if name == "cutout" else "fail")
+    assert found[name]["status"] == "fail"
     assert words in found[name]["message"].replace("−", "-")
 
 

@@ -121,7 +121,7 @@ def brute_torque(before: float, share: float = 1.0, mass: float = MASS) -> float
 def test_an_inertia_force_above_the_cutting_force_is_told_and_friction_stays_a_resistance() -> None:
     calc = platen(platen_mass=2e6)
     inertia = number(calc, "inertia_dead_center")
-    assert inertia > FORCE and checks(calc)["inertia"]["status"] == "warn"
+    assert inertia > FORCE and checks(calc)["inertia"]["status"] == "fail"
     assert number(calc, "torque_dead_center") == pytest.approx(
         (inertia - FORCE) * number(calc, "friction_arm"), rel=1e-12
     )

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 import subprocess
 import sys
 from pathlib import Path
@@ -10,12 +11,16 @@ import numpy as np
 import pytest
 
 from diecut_report.api import CurveInput, Quantity
+from diecut_report.config.discovery import Discovery
 from diecut_report.config.loader import load_config
 from diecut_report.contract.inputs import SI, fields
 from diecut_report.errors import UserError
-from diecut_report.quantities.plausible import SIZES, Plausible, plausible
+from diecut_report.quantities.plausible import SIZES, Plausible, plausible, without_rounding
 from diecut_report.quantities.units import UnitError, unit
 from diecut_report.results.press_run import compute
+from diecut_report.study.analysis.query import variants
+from diecut_report.study.definition.study_file import load_study
+from diecut_report.study.execution.study_run import Where, run_study
 from tests.configs import DISCOVERY, HEAD, problems, saved
 from tests.plugins.cases import COMPARISONS, OF_KINDS
 
@@ -126,16 +131,91 @@ def test_a_value_that_is_referred_to_is_judged_when_it_is_known(tmp_path: Path) 
         quantity.validate(SI(2e9, "N*m", "a.moment"))
 
 
-def test_a_result_that_a_comparison_cannot_take_is_told(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    text = HEAD + (
-        "  cam: {kind: cam_gear_transport, dwell_angle: 160 deg, sector_dwell_sweep: 60 deg, sector_stop_sweep: 20 deg,"
-        " center_distance: 300 mm}\n"
-        "  geneva: {kind: geneva_transport, slots: 6, center_distance: 200 mm, roller_radius: 10 mm}\n"
+COMPARED = HEAD + (
+    "  cam: {kind: cam_gear_transport, dwell_angle: 160 deg, sector_dwell_sweep: 60 deg, sector_stop_sweep: 20 deg,"
+    " center_distance: 300 mm}\n"
+    "  geneva: {kind: geneva_transport, slots: 6, center_distance: 200 mm, roller_radius: 10 mm}\n"
+)
+
+
+@pytest.mark.parametrize(
+    ("key", "line", "path"), [("crank_speed", "6:3", "mechanisms.geneva"), ("slots", "6:43", "mechanisms.geneva.slots")]
+)
+def test_what_a_comparison_cannot_take_is_told_with_line_and_key(
+    key: str, line: str, path: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    quantity = dict(fields(COMPARISONS["transport_comparison"].inputs))[key]
+    monkeypatch.setitem(
+        quantity.__dict__, "sizes", Plausible(*(f"{n} {quantity.unit}".removesuffix(" 1") for n in ("0.001", "2")))
     )
-    comparison = COMPARISONS["transport_comparison"]
-    crank_speed = dict(fields(comparison.inputs))["crank_speed"]
-    monkeypatch.setitem(crank_speed.__dict__, "sizes", Plausible("0.001 rpm", "1 rpm"))
-    config = load_config(saved(tmp_path, text), DISCOVERY)
-    told = r"transport_comparison-cam-geneva takes geneva.crank_speed: .* plausible: 0.001 rpm to 1 rpm"
-    with pytest.raises(UserError, match=told):
+    config = load_config(saved(tmp_path, COMPARED), DISCOVERY)
+    with pytest.raises(UserError) as refused:
         compute(config, lambda _: None)
+    (told,) = map(str, refused.value.problems)
+    assert f"press.yaml:{line}: {path}: The comparison transport_comparison-cam-geneva takes geneva.{key}: " in told
+    assert "plausible: 0.001 " in told
+
+
+BALANCE = """\
+from typing import Annotated, Any
+from diecut_report.api import Chapter, Inputs, Mechanism, Quantity, Value, formula
+
+class Balance(Inputs):
+    up: Annotated[float, Quantity("M_1", "N*m", "Moment up")]
+    down: Annotated[float, Quantity("M_2", "N*m", "Moment down", gt=0)]
+
+@formula
+def rest(up: Any, down: Any) -> Any:
+    return up - 3 * down
+
+MECHANISM = Mechanism(kind="balance", version="1", title="Balance", summary="Moments.", inputs=Balance, chapters=(
+    Chapter("Balance", steps=(Value(id="rest", symbol="M_r", unit="N*m", description="Rest", formula=rest),)),))
+"""
+BALANCED = HEAD + "  a: {kind: balance, up: 0.3 N*m, down: 0.1 N*m}\n"
+STUDY = """\
+schema_version: 1
+base: press.yaml
+sample: {method: grid}
+vary: {mechanisms.a.up: [0.3 N*m, 0.5 N*m]}
+"""
+
+
+@pytest.fixture
+def balance(tmp_path: Path) -> Discovery:
+    """A kind of which the result is zero but for rounding: 0.3 − 3 × 0.1."""
+    (tmp_path / "plugins").mkdir()
+    saved(tmp_path / "plugins", BALANCE, "balance.py")
+    return Discovery([tmp_path / "plugins"])
+
+
+def test_a_result_that_is_zero_but_for_rounding_is_taken_as_zero(balance: Discovery, tmp_path: Path) -> None:
+    text = BALANCED + "  b: {kind: balance, up: '${a.rest}', down: 0.1 N*m}\n"
+    run = compute(load_config(saved(tmp_path, text), balance), lambda _: None)
+    assert 0 < abs(run.calculations["a"].values["rest"][0, 0]) < 1e-15
+    assert run.blocks["b"].model_dump()["up"] == 0
+
+
+def test_so_it_is_in_a_study(balance: Discovery, tmp_path: Path) -> None:
+    saved(tmp_path, BALANCED + "  b: {kind: balance, up: '${a.rest}', down: 0.1 N*m}\n")
+    study = load_study(saved(tmp_path, STUDY, "study.yaml"), balance)
+    where = Where(jobs=1, plugins=(str(tmp_path / "plugins"),))
+    run_study(study, tmp_path / "out", where, resume=False, tell=lambda _: None)
+    rows = json.loads("".join(variants(tmp_path / "out", format="json")))["variants"]
+    np.testing.assert_allclose([row["b.rest"] for row in rows], [-0.3, -0.1], rtol=1e-12)
+
+
+def test_zero_but_for_rounding_is_refused_as_zero_is(balance: Discovery, tmp_path: Path) -> None:
+    text = BALANCED + "  b: {kind: balance, up: 1 N*m, down: '${a.rest}'}\n"
+    with pytest.raises(UserError, match=r"mechanisms.b.down: 0 N·m \(from a.rest\) is out of range; allowed: > 0 N·m"):
+        compute(load_config(saved(tmp_path, text), balance), lambda _: None)
+
+
+def test_what_is_typed_is_meant(balance: Discovery, tmp_path: Path) -> None:
+    told = problems(tmp_path, HEAD + "  a: {kind: balance, up: 5e-17 N*m, down: 0.1 N*m}\n", balance)
+    assert told == ["5:26: mechanisms.a.up: 5e-17 N*m is not plausible; plausible: 1e-06 N·m to 1000 MN·m, or 0"]
+
+
+def test_a_result_of_a_small_size_stays_what_it_is() -> None:
+    least = plausible("N*m").ends[0]
+    given = np.array([1.0, -least, 0.002 * least, -1e-9 * least, 0.0, np.nan])
+    np.testing.assert_array_equal(without_rounding(given, "N*m"), [1.0, -least, 0.002 * least, 0.0, 0.0, np.nan])

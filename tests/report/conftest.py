@@ -41,9 +41,14 @@ def rendering() -> Rendering:
 
 
 @pytest.fixture(scope="session")
-def html(rendering: Rendering) -> str:
-    """The sample as HTML."""
-    return rendering.html()
+def html(request: pytest.FixtureRequest, tmp_path_factory: pytest.TempPathFactory) -> str:
+    """The sample as HTML, made once for all workers."""
+
+    def make(folder: Path) -> None:
+        rendering: Rendering = request.getfixturevalue("rendering")
+        (folder / "sample.html").write_text(rendering.html(), "utf-8")
+
+    return (once(tmp_path_factory, "sample_html", make) / "sample.html").read_text("utf-8")
 
 
 @pytest.fixture
@@ -81,7 +86,7 @@ def printed(request: pytest.FixtureRequest, tmp_path_factory: pytest.TempPathFac
 
     def make(folder: Path) -> None:
         rendering: Rendering = request.getfixturevalue("rendering")
-        request.getfixturevalue("html")
+        rendering.html()
         handler, logger = Records(), logging.getLogger("weasyprint")
         known = len(rendering.material.typesetter._outlines)
         logger.addHandler(handler)

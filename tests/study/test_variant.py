@@ -21,6 +21,7 @@ from diecut_report.study import command
 from diecut_report.study.analysis.variant_config import variant_config
 from diecut_report.study.execution import variant_reports
 from tests.configs import EXAMPLES, PLUGINS, saved
+from tests.shared import once
 
 SHARES = PLUGINS / "shares"
 BASE = """\
@@ -55,14 +56,15 @@ reports: [3]
 
 @pytest.fixture(scope="module")
 def out(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    folder = tmp_path_factory.mktemp("study")
-    saved(folder, BASE)
-    study = saved(folder, STUDY, "study.yaml")
-    with pytest.MonkeyPatch.context() as patch:
-        patch.setattr(command, "summarise", lambda _: None)
-        patch.setattr(variant_reports, "FORMATS", ("json",))
-        assert main(["batch", str(study), "-o", str(folder / "out"), "--plugins", str(SHARES), "--quiet"]) in (0, 1)
-    return folder / "out"
+    def make(folder: Path) -> None:
+        saved(folder, BASE)
+        study = saved(folder, STUDY, "study.yaml")
+        with pytest.MonkeyPatch.context() as patch:
+            patch.setattr(command, "summarise", lambda _: None)
+            patch.setattr(variant_reports, "FORMATS", ("json",))
+            assert main(["batch", str(study), "-o", str(folder / "out"), "--plugins", str(SHARES), "--quiet"]) in (0, 1)
+
+    return once(tmp_path_factory, "study_of_shares", make) / "out"
 
 
 def rows(out: Path) -> list[dict[str, Any]]:
@@ -122,7 +124,8 @@ def test_a_fault_of_a_variant_names_the_base_that_is_kept(
     )
     saved(tmp_path, plugin, "shares.py")
     assert main(["calc", f"{out}#0", "--plugins", str(tmp_path), "--quiet"]) == 2
-    told = capfd.readouterr().err.splitlines()[0]
+    warning, told = capfd.readouterr().err.splitlines()[:2]
+    assert warning.startswith("warning: The source of the plugin shares is not what the study was calculated by")
     share = rows(out)[0]["mechanisms.a.share"]
     assert told.startswith(f"{out / 'base.yaml'}:5:28: mechanisms.a.share: {share * 100:.6g}"[:-4])
     assert "is out of range; allowed: > 0 %, ≤ 1 %" in told

@@ -19,6 +19,7 @@ from diecut_report.study.analysis.variant_config import variant_config
 from diecut_report.study.definition.study_file import load_study
 from diecut_report.study.execution.study_run import Where, run_study
 from tests.configs import EXAMPLES
+from tests.shared import once
 from tests.study.stored_study import many, ten
 
 PRESS = "flat_cylinder_press.yaml"
@@ -40,14 +41,15 @@ vary:
 @pytest.fixture(scope="module")
 def run(tmp_path_factory: pytest.TempPathFactory) -> Path:
     """A few machines of the press, some of which cannot exist, as a run stores them."""
-    place = tmp_path_factory.mktemp("press")
-    base = next(path for path in EXAMPLES if path.name == PRESS)
-    (place / PRESS).write_bytes(base.read_bytes())
-    (place / "study.yaml").write_text(STUDY, encoding="utf-8")
-    run_study(
-        load_study(place / "study.yaml", Discovery([])), place / "out", Where(1), resume=False, tell=lambda _: None
-    )
-    return place / "out"
+
+    def make(place: Path) -> None:
+        base = next(path for path in EXAMPLES if path.name == PRESS)
+        (place / PRESS).write_bytes(base.read_bytes())
+        (place / "study.yaml").write_text(STUDY, encoding="utf-8")
+        study = load_study(place / "study.yaml", Discovery([]))
+        run_study(study, place / "out", Where(1), resume=False, tell=lambda _: None)
+
+    return once(tmp_path_factory, "study_of_the_press", make) / "out"
 
 
 def rows(folder: Path) -> list[dict[str, Any]]:

@@ -16,6 +16,7 @@ from diecut_report.contract.steps import (
     Crossings,
     CurvePeriod,
     Derivative,
+    MadeCurve,
     Reduction,
     Root,
     Step,
@@ -86,6 +87,10 @@ def items(calc: Calculation, step: Step) -> list[Item]:
             return [_crossings(calc, step)]
         case Accumulated() | Derivative():
             return [_of_curve(calc, step)]
+        case Computed() if step.id in calc.axis:
+            return [tables.table(calc, step, [step.id])]
+        case MadeCurve():
+            return [_made(calc, step)]
         case Computed() | CurvePeriod():
             return [_computed(calc, step)]
         case Lookup() if step.id in calc.axis:
@@ -250,6 +255,12 @@ def _computed(calc: Calculation, step: Computed | CurvePeriod) -> Item:
     method = step.method if isinstance(step, Computed) else f"the period of {calc.meta[step.given].symbol}"
     result = shown(value_at(calc, step.id, None), step.unit, step.digits)
     return _head(step) | {"type": "found", "relation": None, "method": method, "result": result}
+
+
+def _made(calc: Calculation, step: MadeCurve) -> Item:
+    result = shown(value_at(calc, step.id, calc.axis[step.id]), step.unit, step.digits)
+    found = _head(step) | {"type": "found", "relation": None, "method": step.method, "result": result}
+    return found | {"at": place_shown(calc, calc.axis[step.id], False)}
 
 
 def _of_curve(calc: Calculation, step: Accumulated | Derivative) -> Item:

@@ -11,6 +11,8 @@ from collections.abc import Callable, Mapping
 from types import MappingProxyType
 from typing import TYPE_CHECKING, Any
 
+import numpy as np
+
 from diecut_report.contract.binding import Bound
 from diecut_report.contract.result_names import named
 from diecut_report.contract.steps import Words
@@ -55,8 +57,8 @@ def printed(calc: Calculation, name: str, variant: int = 0, part: int = 0, up: b
 
 def _plain(value: Any, variant: int) -> Any:
     """A number of one machine, SI; a text as it is."""
-    found = value if isinstance(value, str) else value[variant, 0]
-    return found if isinstance(found, str) else float(found)
+    found = value[variant, 0] if isinstance(value, np.ndarray) else value
+    return float(found) if isinstance(found, int | float | np.number | np.bool_) else found
 
 
 def filled(calc: Calculation, text: str, variant: int = 0, places: Mapping[str, int] = MappingProxyType({})) -> str:

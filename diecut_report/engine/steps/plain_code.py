@@ -22,6 +22,14 @@ def number(step: Computed, found: Any, count: int) -> Array:
     return np.broadcast_to(given, (count, 1))
 
 
+def row(step: Computed, found: Any, count: int) -> Array:
+    """Return what a function gives for the parts of a list, shape (variants, parts); Misdeclared where it is no such row."""
+    given = _numbers(step, step.function, found, "an array of numbers, one for each part")
+    if given.ndim > 2:
+        raise _told(step, step.function, f"an array of shape {given.shape}", "a row of numbers for each machine")
+    return np.broadcast_to(np.atleast_2d(given), (count, given.shape[-1])).astype(float)
+
+
 def partners(step: Clash, found: Any, shape: tuple[int, ...]) -> Array:
     """Return which part each part clashes with, of the shape of the rows that it takes; Misdeclared where it is none."""
     given = _numbers(step, step.function, found, "an array of indices")

@@ -10,6 +10,7 @@ import numpy as np
 
 from diecut_report.contract.mechanism import Mechanism
 from diecut_report.contract.part_steps import Interpolated, Lookup, Neighbour, Part, Pick, Running, Total
+from diecut_report.contract.refusal import Refusal
 from diecut_report.contract.result_names import count_name, place_name, result_names
 from diecut_report.contract.steps import (
     Abscissa,
@@ -22,6 +23,9 @@ from diecut_report.contract.steps import (
     CurvePeriod,
     Derivative,
     FromCurve,
+    MadeCurve,
+    Phase,
+    Prepared,
     Reduction,
     Require,
     Root,
@@ -66,7 +70,7 @@ def calculate(
         steps = [step for _, step in mechanism.active(calc.given) if only is None or step.id in only]
         for i, step in enumerate(steps):
             prefetch.look(calc, steps[i:])
-            if isinstance(step, Words):
+            if isinstance(step, Words | Phase):
                 continue
             try:
                 if isinstance(step, prefetch.Asking):
@@ -192,11 +196,32 @@ def _derivative(calc: Calculation, step: Derivative) -> None:
 
 def _from_curve(calc: Calculation, step: FromCurve) -> None:
     calc.curves[step.id] = step
-    domain, curve = calc.domains[step.abscissa], calc.inputs[step.given]
+    domain, curve = calc.domains[step.abscissa], calc.inputs[step.given or step.id]
     if step.lasts:
         _above_zero(calc, step, calc[step.lasts])
     domain.cut(_laid_out(calc, step, curve.joints))
     domain.cut_finer(_laid_out(calc, step, curve.breakpoints))
+
+
+def _prepared(calc: Calculation, step: Prepared) -> None:
+    if calc.count > 1:
+        raise TypeError(f"{step.id} is made of one machine, and was asked for {calc.count}")
+    known = {name: calc[name] for name in step.holds if name in calc.values or name in calc.inputs}
+    calc.inputs[step.id] = _called(step, [known])
+
+
+def _made_curve(calc: Calculation, step: MadeCurve) -> None:
+    if calc.count > 1:
+        raise TypeError(f"{step.id} is made for one machine, and was asked for {calc.count}")
+    calc.inputs[step.id] = _called(step, [calc[name] for name in step.takes])
+    _from_curve(calc, step)
+
+
+def _called(step: Computed | MadeCurve | Prepared, taken: list[Any]) -> Any:
+    try:
+        return step.function(*taken)
+    except Refusal as refused:
+        raise Impossible([(refused.key, refused.words)]) from None
 
 
 def _laid_out(calc: Calculation, step: FromCurve, shares: Array) -> Array:
@@ -223,16 +248,18 @@ def _curve_period(calc: Calculation, step: CurvePeriod) -> None:
 
 def _computed(calc: Calculation, step: Computed) -> None:
     taken = [calc[name] for name in step.takes]
-    found = step.function(*taken)
+    found = _called(step, taken)
     if calc.count > 1 and np.shape(found)[:1] != (calc.count,) and any(isinstance(each, np.ndarray) for each in taken):
         raise TypeError(f"{step.id} was given {calc.count} machines and has one value for all")
-    calc.values[step.id] = calc.existing(step, plain_code.number(step, found, calc.count))
+    give = plain_code.row if step.over else plain_code.number
+    calc.values[step.id] = calc.existing(step, give(step, found, calc.count))
 
 
 RUN: dict[type[Step], Callable[[Calculation, Any], None]] = {
     Value: _value, Choice: _choice, Root: _root, Abscissa: _abscissa, Breakpoints: _breakpoints, Crossings: _crossings,
     Reduction: _reduction, Accumulated: _accumulated, Derivative: _derivative, FromCurve: _from_curve,
-    CurvePeriod: _curve_period, Computed: _computed,
+    CurvePeriod: _curve_period, Computed: _computed, MadeCurve: _made_curve,
+    Prepared: _prepared,
     Require: feasibility.require, Clash: feasibility.clash,
     Total: part_rows.total, Neighbour: part_rows.neighbour, Running: part_rows.running, Part: part_rows.part, Lookup: part_rows.lookup,
     Pick: part_rows.pick, Interpolated: interpolation.interpolated,

@@ -13,9 +13,10 @@ from diecut_report.expressions import Array, formula
 from diecut_report.mechanics.timing.legendre_pieces import NODES, WEIGHTS
 
 TURN = 2 * np.pi
-LOOKS = 65  # places up to the next dead centre at which the end of a slip is looked for
-STARTS = 144  # engagement angles that are tried over a turn
-ZOOMS = 5  # times that the worst of them is looked at closer
+AT = 1e-9  # rad from a dead centre that is none
+LOOKS = 41  # places up to the next dead centre at which the end of a slip is looked for
+STARTS = 72  # engagement angles that are tried over a turn
+ZOOMS = 3  # times that the worst of them is looked at closer
 ACROSS = 17  # places of a closer look
 PIECES = 3  # of a slip, in which its time is integrated
 _SHARES = ((np.arange(PIECES)[:, None] + (NODES + 1) / 2) / PIECES).ravel()
@@ -31,17 +32,19 @@ def inertia_at_crank(
     cylinder_radius: Any,
     static_unbalance: Any,
     rotation: Any,
-    sector_ratio: Any,
-    rocker_speed_ratio: Any,
+    speed_ratio: Any,
 ) -> Any:
-    """Inertia of the rolling cylinder that its crank feels, with the unbalance: of equal kinetic energy."""
+    """Inertia of the rolling cylinder that its crank feels, with the unbalance: of equal kinetic energy.
+
+    ``rotation`` is counted from where the flat is down, ``speed_ratio`` is the cylinder's speed to the crank's.
+    """
     rolling = cylinder_inertia + cylinder_mass * cylinder_radius**2
     swinging = 2 * cylinder_radius * static_unbalance * np.cos(rotation)
-    return (rolling + swinging) * (sector_ratio * rocker_speed_ratio) ** 2
+    return (rolling + swinging) * speed_ratio**2
 
 
 @dataclass(frozen=True)
-class Clutch:
+class SlippingClutch:
     """Hold the torque of a slipping clutch, the load's torque below it (N·m), and the speed of its driving side (rad/s)."""
 
     torque: float
@@ -69,10 +72,11 @@ class Slip:
     equal_inertia: float
 
 
-def slip(inertia: Inertia, dead_centers: Array, clutch: Clutch, engagement_angle: float) -> Slip:
-    """Return the engagement from rest at a crank angle (rad); the clutch must have more torque than the load.
+def slip(inertia: Inertia, dead_centers: Array, clutch: SlippingClutch, engagement_angle: float) -> Slip:
+    """Return the engagement from rest at a crank angle (rad).
 
-    ``dead_centers`` are the crank angles where the inertia is zero: there the slip has always ended.
+    ``dead_centers`` are the crank angles where the inertia is zero: there the slip has always ended. ValueError where the clutch
+    has no more torque than the load, so that the slip never ends.
     """
     angle = np.array([engagement_angle])
     driven = _driven_angles(inertia, dead_centers, clutch, angle)
@@ -80,8 +84,8 @@ def slip(inertia: Inertia, dead_centers: Array, clutch: Clutch, engagement_angle
     return _told(clutch, engagement_angle, float(driven[0]), float(time[0]))
 
 
-def worst_slip(inertia: Inertia, dead_centers: Array, clutch: Clutch) -> Slip:
-    """Return the engagement from rest with the greatest heat, of all crank angles."""
+def worst_slip(inertia: Inertia, dead_centers: Array, clutch: SlippingClutch) -> Slip:
+    """Return the engagement from rest with the greatest heat, of all crank angles; ValueError as for ``slip``."""
     low, high, places = 0.0, TURN, STARTS + 1
     for _ in range(1 + ZOOMS):
         angles = np.linspace(low, high, places)
@@ -92,16 +96,20 @@ def worst_slip(inertia: Inertia, dead_centers: Array, clutch: Clutch) -> Slip:
     return slip(inertia, dead_centers, clutch, float(best % TURN))
 
 
-def _told(clutch: Clutch, start: float, driven: float, time: float) -> Slip:
+def _told(clutch: SlippingClutch, start: float, driven: float, time: float) -> Slip:
     lag = clutch.speed * time - driven
     heat = clutch.torque * lag
     return Slip(start, time, driven, lag, heat, 2 * heat * clutch.net / (clutch.torque * clutch.speed**2))
 
 
-def _driven_angles(inertia: Inertia, dead_centers: Array, clutch: Clutch, starts: Array) -> Array:
+def _driven_angles(inertia: Inertia, dead_centers: Array, clutch: SlippingClutch, starts: Array) -> Array:
     """The angle after each start (starts,) at which the driven side first has the speed of the driving side."""
-    longest = (dead_centers - starts[:, None]) % TURN
-    longest = longest.min(axis=1, keepdims=True)
+    if clutch.net <= 0:
+        raise ValueError(
+            f"a clutch with {clutch.torque:g} N·m does not accelerate against a load of {clutch.load:g} N·m"
+        )
+    ahead = (dead_centers - starts[:, None]) % TURN
+    longest = np.where(ahead > AT, ahead, TURN).min(axis=1, keepdims=True)
     looks = longest * np.linspace(0, 1, LOOKS)
 
     def excess(driven: Array, start: Array) -> Array:
@@ -117,7 +125,7 @@ def _driven_angles(inertia: Inertia, dead_centers: Array, clutch: Clutch, starts
     return found
 
 
-def _times(inertia: Inertia, clutch: Clutch, starts: Array, driven: Array) -> Array:
+def _times(inertia: Inertia, clutch: SlippingClutch, starts: Array, driven: Array) -> Array:
     """The time of each slip, ∫dφ/ω with φ = start + s²; up to a dead centre the root of the inertia is smooth."""
     ends = np.sqrt(driven)[:, None]
     places = ends * _SHARES

@@ -38,7 +38,7 @@ def common_period(turns: Iterable[Fraction]) -> Fraction:
 
 
 @dataclass(frozen=True)
-class Line:
+class DrivenLine:
     """Hold how a mechanism is driven: turns of its own shaft for each of the main shaft, and the main-shaft angle of its zero (rad)."""
 
     turns: Fraction

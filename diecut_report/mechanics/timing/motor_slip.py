@@ -12,7 +12,7 @@ from typing import Any
 import numpy as np
 from numpy.polynomial import legendre
 
-from diecut_report.expressions import Array, formula
+from diecut_report.expressions import Array, as_number, formula
 from diecut_report.mechanics.timing.legendre_pieces import NODES, TO_SERIES, LegendrePieces, split
 
 LONGEST = 4.0  # width of a piece, in time constants
@@ -38,7 +38,7 @@ def stiffness_at_flywheel(slip_stiffness: Any, ratio: Any, efficiency: Any) -> A
 @formula
 def time_constant(inertia: Any, stiffness_at_flywheel: Any) -> Any:
     """Time constant with which the motor's torque follows the load."""
-    return inertia / stiffness_at_flywheel
+    return as_number(inertia / stiffness_at_flywheel)
 
 
 def next_synchronous_speed(speed: float, frequency: float = 50.0) -> float:

@@ -16,7 +16,7 @@ import numpy as np
 from diecut_report.expressions import Array
 from diecut_report.mechanics.timing.bracketed import sign_changes
 from diecut_report.mechanics.timing.legendre_pieces import LegendrePieces, split, unique_edges
-from diecut_report.mechanics.timing.lines import Line
+from diecut_report.mechanics.timing.lines import DrivenLine
 
 TURN = 2 * np.pi
 WIDEST = np.pi / 8  # of a piece, in the angle of the line that turns fastest
@@ -36,7 +36,7 @@ class LineCurve:
 
     curve: Curve
     breakpoints: Array
-    line: Line
+    line: DrivenLine
     spans: int = 1
 
     def at(self, angle: Array, middle: Array) -> Array:
@@ -73,7 +73,7 @@ class Consumer:
         return float(self.torque.line.turns) * with_losses(own, self.efficiency)
 
 
-def friction(name: str, torque: float, line: Line, efficiency: float = 1.0) -> Consumer:
+def friction(name: str, torque: float, line: DrivenLine, efficiency: float = 1.0) -> Consumer:
     """Return a consumer with a constant torque at its own shaft (N·m); a power P is the torque P/(i·ω_main)."""
     return Consumer(name, LineCurve(lambda share, _: np.full(np.shape(share), torque), np.empty(0), line), efficiency)
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from pathlib import Path
 from typing import Any
 
@@ -12,26 +12,37 @@ from diecut_report.config.yaml_tree import KeyPath, Tree
 from diecut_report.config.yaml_values import Scalar, with_values
 from diecut_report.errors import PluginError, Problem, UserError
 from diecut_report.quantities.formatting import as_given
+from diecut_report.study.analysis.other_code import other_code
 from diecut_report.study.analysis.stored_variants import Stored, StoredColumn, opened
 from diecut_report.study.definition.base_inputs import MECHANISMS
 from diecut_report.study.storage.state import kept
 
 
-def variant_config(directory: Path, variant: int, discovery: Discovery, name: str) -> Tree:
+def variant_config(
+    directory: Path, variant: int, discovery: Discovery, name: str, warn: Callable[[str], None] | None = None
+) -> Tree:
     """Return the configuration of a variant: the study's base with the varied values in it, exactly as they were calculated.
 
-    Problems of it name the base that the folder keeps; ``name`` is what documents call it. UserError in words where the
-    variant is not stored, and with its reason where it cannot be calculated.
+    Problems of it name the base that the folder keeps; ``name`` is what documents call it. What calculates by other code than the
+    study was calculated by is told to ``warn``, and stands above the configuration. UserError in words where the variant is not
+    stored, and with its reason where it cannot be calculated.
     """
     with opened(directory) as stored:
         _refuse_error(stored, variant)
         row = _row(stored, variant)
         description = stored.description
     base = yaml_tree.load(kept(directory)[description.base.file])
-    values = {_place(base, tuple(_keys(column.name)), discovery): _given(value, column) for column, value in row}
+    values = {
+        _value(base, _place(base, tuple(_keys(column.name)), discovery)): _given(value, column) for column, value in row
+    }
     values |= dict(_named(base, variant, description.study.file))
     heading = f"Variant {variant} of {description.study.file}: its values are exactly those that were calculated."
-    return with_values(base, values, name, heading)
+    kinds = (str(data.get("kind")) for data in (base.data.get(MECHANISMS) or {}).values())
+    warnings = other_code(description.sources, kinds, discovery)
+    if warn is not None:
+        for words in warnings:
+            warn(words)
+    return with_values(base, values, name, "\n# ".join([heading, *warnings]))
 
 
 def _place(base: Tree, path: KeyPath, discovery: Discovery) -> KeyPath:
@@ -49,6 +60,15 @@ def _place(base: Tree, path: KeyPath, discovery: Discovery) -> KeyPath:
         if path[2] in single and isinstance(mechanism.get(key), list)
     ]
     return (*path[:2], *homes[0]) if homes else path
+
+
+def _value(base: Tree, path: KeyPath) -> KeyPath:
+    """Return where the value itself stands of a quantity that is a block with its basis."""
+    home = base.data
+    for key in path:
+        known = key in home if isinstance(home, dict) else isinstance(home, list) and int(key) < len(home)
+        home = home[key] if known else None
+    return (*path, "value") if isinstance(home, dict) else path
 
 
 def _named(base: Tree, variant: int, study: str) -> Iterator[tuple[KeyPath, str]]:

@@ -13,7 +13,19 @@ from diecut_report.config.model import PRESS, Press
 from diecut_report.config.references import Linker, Target
 from diecut_report.config.validation import declared, keys_of, validate
 from diecut_report.config.yaml_tree import KeyPath
-from diecut_report.contract.inputs import SI, Block, CurveInput, Pending, Quantity, Text, fields, list_inputs
+from diecut_report.contract.inputs import (
+    SI,
+    Block,
+    CurveInput,
+    MechanismInput,
+    Pending,
+    PhaseInput,
+    Quantity,
+    Referred,
+    Text,
+    fields,
+    list_inputs,
+)
 from diecut_report.contract.unit_variants import in_form
 from diecut_report.errors import Problem, nearest
 
@@ -59,6 +71,8 @@ def find_input(base: Config, path: str) -> Input:
         raise UnknownPath(
             f"is a block or a list; vary one of its values, such as {path}.{_first(meta, instance, key)}."
         )
+    if isinstance(meta, PhaseInput | MechanismInput):
+        raise UnknownPath("stands for something of another mechanism, which cannot be varied; vary what it is made of.")
     if isinstance(meta, CurveInput):
         raise UnknownPath("is a curve; curves cannot be varied, only numbers, texts and choices.")
     if meta is None:
@@ -120,7 +134,7 @@ def known_paths(base: Config, name: str) -> list[str]:
 def _known(instance: Instance) -> list[str]:
     lists = list_inputs(instance.model)
     return [f"{lists[name]}.0{name.removeprefix(lists[name])}" if name in lists else name
-            for name, meta in fields(instance.model) if not isinstance(meta, CurveInput)]  # fmt: skip
+            for name, meta in fields(instance.model) if not isinstance(meta, Referred)]  # fmt: skip
 
 
 def _first(block: type[Block], instance: Instance, key: KeyPath) -> str:
@@ -166,7 +180,7 @@ def _changed(instance: Instance | None, values: Mapping[Input, Any]) -> Instance
         _put(data, key, value)
     declared_as = instance.mechanism.inputs if instance.mechanism else Press
     model = in_form(declared_as, [key for key, value in data.items() if value is not None])
-    return Instance(instance.name, model, data, instance.place, instance.mechanism)
+    return Instance(instance.name, model, data, instance.place, instance.mechanism, instance.bases)
 
 
 def _put(data: Any, key: KeyPath, value: Any) -> None:

@@ -17,10 +17,13 @@ from diecut_report.config.references import Target
 from diecut_report.config.validation import declared, validate
 from diecut_report.config.yaml_tree import KeyPath
 from diecut_report.contract.inputs import SI, Quantity, flatten
-from diecut_report.engine import Calculation, CurveHandle, Impossible, Unproven, calculate
+from diecut_report.contract.phases import PREFIX
+from diecut_report.engine import Calculation, Impossible, Unproven, calculate
+from diecut_report.engine.phases import PhaseHandle
 from diecut_report.errors import PluginError, Problem
 from diecut_report.expressions import Array
-from diecut_report.results.press_run import Absent, Run, number
+from diecut_report.quantities.plausible import without_rounding
+from diecut_report.results.press_run import Absent, Run, number, output
 from diecut_report.study.definition.base_inputs import Input, with_values
 
 Values = Mapping[Input, Array | str]
@@ -99,8 +102,10 @@ class _Rows(Run):
 
     def _output(self, calculation: Calculation, name: str, target: Target) -> Any:
         """A result of all variants; where it is absent that is the variant's reason."""
-        if calculation.axis.get(name) in calculation.domains:
-            return CurveHandle(calculation, name)
+        if target.is_mechanism or calculation.axis.get(name) in calculation.domains:
+            return output(calculation, name, target)
+        if target.phase_unit:
+            return self._phase(calculation, name, target)
         column = number(calculation, name)
         if column is None:
             raise Absent("does not exist for these variants.")
@@ -108,7 +113,14 @@ class _Rows(Run):
             if self.variants.count == 1:
                 return column[0]
             raise NotOnArrays(calculation.mechanism.kind, f"its text {name} is referred to")
-        return SI(column.astype(float), str(target.unit), target.path)
+        return SI(without_rounding(column.astype(float), str(target.unit)), str(target.unit), target.path)
+
+    def _phase(self, calculation: Calculation, name: str, target: Target) -> PhaseHandle:
+        """A phase of all variants; where it is absent that is the variant's reason."""
+        handle = PhaseHandle(calculation, name.removeprefix(PREFIX), f"${{{target.path}}}")
+        without = [row for row in range(self.variants.count) if not handle.intervals(row)]
+        self._reason(without, f"${{{target.path}}} does not apply to this machine.")
+        return handle
 
     def _validated(self, name: str, instance: Instance, data: dict[str, Any]) -> bool:
         """Judge the columns by the bounds of their keys; the block then holds arrays that are sound."""

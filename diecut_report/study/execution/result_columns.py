@@ -178,7 +178,8 @@ class Verdicts:
 
 def verdicts(calculations: Mapping[str, Calculation], count: int) -> Verdicts:
     """Return all checks of all mechanisms; code 0 where a check does not apply."""
-    names, codes, ratios, sized, unchecked, faults = [], [], [], [], [], {}
+    names, codes, ratios, sized, unchecked = [], [], [], [], []
+    faults: dict[int, str] = {}
     for name, calc in calculations.items():
         for check in calc.mechanism.checks:
             if not is_made(calc, check):

@@ -88,7 +88,10 @@ VERDICT = (
 
 
 def as_data(description: Description) -> Data:
-    """Return it as it stands in study.json."""
+    """Return it as it stands in study.json, whose form `state_form` judges by models of pydantic.
+
+    The two differ in each part (hashes in one table, columns by name, with the store's own): converters of a model would be longer.
+    """
     sources = {"study": description.study, "base": description.base}
     return {
         "schema_version": SCHEMA_VERSION,

@@ -4,8 +4,9 @@ from __future__ import annotations
 
 import math
 import os
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from contextlib import contextmanager, suppress
+from io import BytesIO
 from itertools import chain, islice
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -85,6 +86,19 @@ def _write_xlsx(store: Store, temporary: Path, path: Path) -> None:
         for sheet in range(_sheets(store)):
             _fill(book.create_sheet(f"{NAME} {sheet + 1}"), list(names.values()), islice(rows, SHEET_ROWS - 1))
         ExcelWriter(book, _Archive(temporary, "w", ZIP_DEFLATED, strict_timestamps=False)).save()
+
+
+def workbook(tables: Mapping[str, list[list[Any]]]) -> bytes:
+    """Return tables as a workbook, each in a sheet of its name, with its first row and column in view."""
+    from openpyxl import Workbook
+    from openpyxl.writer.excel import ExcelWriter
+
+    book, content = Workbook(write_only=True), BytesIO()
+    with _closed(book):
+        for name, (heads, *rows) in tables.items():
+            _fill(book.create_sheet(name), heads, rows)
+        ExcelWriter(book, _Archive(content, "w", ZIP_DEFLATED, strict_timestamps=False)).save()
+    return content.getvalue()
 
 
 class _Archive(ZipFile):

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import codecs
 import csv
 import hashlib
 import re
@@ -125,18 +126,22 @@ def _csv_header(file: BinaryIO) -> tuple[list[str], str]:
 
 
 def _lines(file: BinaryIO) -> int:
-    """How many rows there may be; the file stands at its beginning again."""
+    """How many rows there may be; the file stands at its beginning again. UnreadableTable where it is not in UTF-8."""
     file.seek(0)
     feeds = returns = 0
-    while chunk := file.read(CHUNK):
-        feeds, returns = feeds + chunk.count(b"\n"), returns + chunk.count(b"\r")
+    decoder = codecs.getincrementaldecoder("utf-8")()
+    try:
+        while chunk := file.read(CHUNK):
+            decoder.decode(chunk)  # Arrow prints a traceback for a row of another length that is not in UTF-8
+            feeds, returns = feeds + chunk.count(b"\n"), returns + chunk.count(b"\r")
+        decoder.decode(b"", final=True)
+    except UnicodeDecodeError as error:
+        raise UnreadableTable(NOT_UTF8) from error
     file.seek(0)
     return max(feeds, returns)
 
 
 def _csv_fault(message: str) -> str:
-    if "UTF8" in message:
-        return NOT_UTF8
     if "straddling" in message or "out of sync" in message:
         return (
             "has a row that ends in another line, or is longer than 1 MB; look for a quotation mark that is not closed"

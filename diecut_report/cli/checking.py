@@ -1,0 +1,186 @@
+"""The commands that judge files: ``validate`` reads configurations and studies, ``check`` calculates many machines."""
+
+from __future__ import annotations
+
+import sys
+from collections.abc import Iterator, Sequence
+from contextlib import redirect_stdout
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import click
+
+from diecut_report.cli.output import (
+    BAD_INPUT,
+    CHECK_FAILED,
+    PASSED,
+    PLUGIN_BROKE,
+    HelpfulCommand,
+    Line,
+    coloured,
+    common,
+    emit,
+    tell,
+    tell_problems,
+)
+from diecut_report.cli.progress import Progress
+from diecut_report.config import yaml_tree
+from diecut_report.config.discovery import Discovery
+from diecut_report.errors import PluginError, Problem, UserError, nearest
+
+if TYPE_CHECKING:
+    from diecut_report.study.machines.calculation import CheckedMachine
+    from diecut_report.study.machines.verdicts import MachineComparison, Verdict
+
+FORMATS = ("html", "pdf", "xlsx", "csv", "json")
+COLOURED = {"bad": "error"}  # states with the colour of another one
+path_of = click.Path(path_type=Path)
+
+
+@click.command(cls=HelpfulCommand)
+@click.argument("files", metavar="FILE…", nargs=-1, required=True, type=path_of)
+@common
+def validate(files: tuple[Path, ...], folders: tuple[Path, ...], quiet: bool) -> int:
+    """Judge configurations and studies without their results; all problems of all files are reported."""
+    discovery, codes = Discovery(folders), []
+    for file in files:
+        try:
+            with redirect_stdout(sys.stderr):
+                broken = _broken(file, discovery)
+            tell(str(error) if len(files) == 1 else f"{file}: {error}" for error in broken)
+            codes.append(PLUGIN_BROKE if broken else PASSED)
+        except UserError as error:
+            tell_problems(error.problems)
+            codes.append(BAD_INPUT)
+        if codes[-1] == PASSED and not quiet:
+            tell([f"{file}: valid"])
+    return BAD_INPUT if BAD_INPUT in codes else max(codes)
+
+
+def _broken(file: Path, discovery: Discovery) -> tuple[PluginError, ...]:
+    """The plugins that are broken; UserError with all that is wrong with the file."""
+    from diecut_report import pipeline
+
+    tree = yaml_tree.load(file)
+    if not (isinstance(tree.data, dict) and "base" in tree.data and "mechanisms" not in tree.data):
+        return pipeline.validate(tree, discovery)
+    from diecut_report.study.definition.study_file import load_study
+
+    try:
+        load_study(file, discovery)
+    except PluginError as error:
+        return (error,)
+    return ()
+
+
+def _formats(_: click.Context, __: click.Parameter, given: str) -> list[str]:
+    asked = list(dict.fromkeys(part.strip().lower() for part in given.split(",") if part.strip()))
+    unknown = [part for part in asked if part not in FORMATS]
+    if unknown or not asked:
+        words = f"{unknown[0]!r} is not a format{nearest(unknown[0], FORMATS)}" if unknown else "no format is named"
+        raise click.BadParameter(f"{words}; known: {', '.join(FORMATS)}.")
+    return asked
+
+
+@click.command(cls=HelpfulCommand)
+@click.argument("given", metavar="CONFIG|FOLDER…", nargs=-1, required=True, type=path_of)
+@click.option("-o", "folder", metavar="DIR", type=path_of, help="Also write a summary of all machines there.")
+@click.option("--strict", is_flag=True, help="Warnings and checks without a limit count as failed.")
+@click.option(
+    "--format",
+    "formats",
+    metavar="LIST",
+    default="html,pdf,xlsx,csv,json",
+    callback=_formats,
+    help="Of the summary: html,pdf,xlsx,csv,json or some of them.",
+)
+@click.option("--jobs", metavar="N", type=click.IntRange(1), help="Processes (default: one for each core).")
+@common
+def check(given: tuple[Path, ...], folder: Path | None, strict: bool, formats: list[str], jobs: int | None,
+          folders: tuple[Path, ...], quiet: bool) -> int:  # fmt: skip
+    """Calculate many machines, side by side, and show a table of their verdicts; folders are searched for configurations."""
+    from diecut_report.study.machines.calculation import configurations
+    from diecut_report.study.machines.verdicts import compared
+
+    files = configurations(given)
+    with Progress(quiet) as progress, redirect_stdout(sys.stderr):
+        found = _calculated(files, folders, jobs, progress)
+    made = compared(found)
+    for verdict in made.verdicts:
+        tell(f"{verdict.machine}: {line}" if verdict.status == "error" else line for line in verdict.words)
+    emit("".join(f"{line}\n" for line in _table(made.verdicts)))
+    if folder is not None:
+        _write(made, folder, formats, quiet, files)
+    if not quiet:
+        tell(_counts(made.verdicts))
+    return _code(made.verdicts, strict)
+
+
+def _calculated(
+    files: Sequence[Path], folders: Sequence[Path], jobs: int | None, progress: Progress
+) -> list[CheckedMachine]:
+    """What came out of each file, in their order."""
+    from diecut_report.study.machines.calculation import machines
+
+    found: dict[int, CheckedMachine] = {}
+    progress(f"calculating {len(files)} machines")
+    for number, machine in machines(files, [str(path.absolute()) for path in folders], jobs):
+        found[number] = machine
+        progress(f"calculated {len(found)} of {len(files)} machines")
+    return [found[number] for number in range(len(files))]
+
+
+def _table(verdicts: Sequence[Verdict]) -> Iterator[str]:
+    """The table of verdicts, its columns as wide as they need."""
+    rows: list[tuple[str, ...]] = [
+        ("machine", "verdict", "governing check", "utilisation", "failed", "not checked", "warnings")
+    ]
+    rows += [_row(verdict) for verdict in verdicts]
+    widths = [max(map(len, column)) for column in zip(*rows, strict=True)]
+    for row in rows:
+        yield "  ".join(cell.ljust(width) for cell, width in zip(row, widths, strict=True)).rstrip()
+
+
+def _row(verdict: Verdict) -> tuple[str, ...]:
+    if verdict.status == "bad":
+        return verdict.machine, "bad file", "", "", "", "", ""
+    share = "" if verdict.utilisation is None else f"{100 * verdict.utilisation:.1f} %"
+    counts = (verdict.failed, verdict.not_checked, verdict.warnings)
+    return verdict.machine, verdict.status, verdict.governing, share, *map(str, counts)
+
+
+def _write(made: MachineComparison, folder: Path, formats: list[str], quiet: bool, files: Sequence[Path]) -> None:
+    from diecut_report.files import write_all
+    from diecut_report.study.machines import pages
+
+    contents = dict(pages.files(made, folder, formats))
+    if kept := set(contents) & set(files):
+        raise UserError(Problem(f"{min(kept)} is one of the configurations, and is not overwritten."))
+    write_all(contents, keep=files[0])
+    if not quiet:
+        tell(f"written: {path}" for path in contents)
+
+
+def _counts(verdicts: Sequence[Verdict]) -> list[Line]:
+    found = [(status, sum(v.status == status for v in verdicts)) for status in ("pass", "warn", "fail", "error", "bad")]
+    named = [
+        part
+        for status, count in found
+        if count
+        for part in (
+            ", ",
+            f"{count} ",
+            coloured("bad file" if status == "bad" else status, COLOURED.get(status, status)),
+        )
+    ]
+    return [(f"{len(verdicts)} machine{'s' if len(verdicts) > 1 else ''}: ", *named[1:], ".")]
+
+
+def _code(verdicts: Sequence[Verdict], strict: bool) -> int:
+    states = {verdict.status for verdict in verdicts}
+    if "bad" in states:
+        return BAD_INPUT
+    if "error" in states:
+        return PLUGIN_BROKE
+    doubtful = strict and any(verdict.warnings or verdict.not_checked for verdict in verdicts)
+    return CHECK_FAILED if "fail" in states or doubtful else PASSED

@@ -1,0 +1,63 @@
+"""Partners: the mechanisms from which a kind takes inputs by itself, and the kinds that run without being asked."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from typing import Any
+
+from diecut_report.config.instances import Instance
+from diecut_report.config.validation import told
+from diecut_report.contract.mechanism import Mechanism, Partner
+from diecut_report.errors import nearest
+
+BY_THEMSELVES = ("press_consistency",)  # known by name: to ask every plugin, all would have to be loaded
+FEWEST = 2  # partners that a kind needs to run by itself: a single mechanism cannot contradict another
+
+Instances = Mapping[str, Instance | None]
+Kinds = Mapping[str, str]  # of the mechanisms, by their names
+
+
+def taken(mechanism: Mechanism, data: Mapping[str, Any], instances: Instances, kinds: Kinds) -> dict[str, str]:
+    """Return what a block takes from its partners where it gives nothing itself: their names, and references to what they have."""
+    found: dict[str, str] = {}
+    for partner in mechanism.partners:
+        name = data.get(partner.key) or only(partner, kinds)
+        if fault(partner, name, kinds) or (instance := instances[str(name)]) is None:
+            continue
+        found |= {partner.key: str(name)} | dict(_references(partner, instance))
+    return {key: text for key, text in found.items() if data.get(key) is None}
+
+
+def only(partner: Partner, kinds: Kinds) -> str | None:
+    """Return the only mechanism of a partner's kinds; None where there is none, or where there are several."""
+    found = [name for name, kind in kinds.items() if kind in partner.kinds]
+    return found[0] if len(found) == 1 else None
+
+
+def fault(partner: Partner, name: Any, kinds: Kinds) -> str:
+    """Return what is wrong with the name of a partner, in words; nothing where it is right."""
+    wanted = " or ".join(partner.kinds)
+    if not isinstance(name, str) or name not in kinds:
+        near = nearest(name, kinds) if isinstance(name, str) else ""
+        return f"is {told(name)}; the name of a mechanism of kind {wanted} is needed{near}. Known: {', '.join(kinds)}."
+    if kinds[name] not in partner.kinds:
+        return f"is {name}, of kind {kinds[name]}; the name of a mechanism of kind {wanted} is needed."
+    return ""
+
+
+def is_called_for(mechanism: Mechanism, kinds: Kinds) -> bool:
+    """Return whether a config has mechanisms enough for a kind to run by itself."""
+    wanted = {kind for partner in mechanism.partners for kind in partner.kinds}
+    return sum(kind in wanted for kind in kinds.values()) >= FEWEST
+
+
+def free_name(kind: str, instances: Instances) -> str:
+    """Return a name for what runs by itself: its kind, with a number where a mechanism is called so."""
+    names = (kind, *(f"{kind}_{number}" for number in range(2, len(instances) + 3)))
+    return next(name for name in names if name not in instances)
+
+
+def _references(partner: Partner, instance: Instance) -> Iterator[tuple[str, str]]:
+    for key, name in partner.takes.items():
+        if name in instance.results or name in instance.given:
+            yield key, f"${{{instance.name}.{name}}}"

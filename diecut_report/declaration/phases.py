@@ -1,0 +1,74 @@
+"""Phases: each has one form, a role that there is, places of its own abscissa, and holds phases that are there when it is."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+
+from diecut_report.contract.mechanism import Mechanism
+from diecut_report.contract.phases import PREFIX, ROLES
+from diecut_report.contract.steps import Abscissa, Phase, Step
+from diecut_report.declaration.names import DeclaredNames
+from diecut_report.declaration.units import kind_of
+from diecut_report.declaration.words import Fault
+from diecut_report.declaration.world import When, told
+from diecut_report.errors import nearest
+
+Known = Mapping[str, list[tuple[int, When, Phase]]]
+
+
+def faults(mechanism: Mechanism, names: DeclaredNames) -> Iterator[Fault]:
+    """Yield what is wrong with phases, and with the speed of an abscissa."""
+    known: dict[str, list[tuple[int, When, Phase]]] = {}
+    for number, (_, step) in enumerate(mechanism.steps):
+        texts: Iterator[str] = iter(())
+        if isinstance(step, Phase):
+            known.setdefault(step.id.removeprefix(PREFIX), []).append((number, names.when(number), step))
+            texts = _of_phase(step, number, names, known)
+        elif isinstance(step, Abscissa) and step.speed:
+            texts = _of_speed(step, names)
+        yield from (Fault(step.at, _subject(step), text) for text in texts)
+
+
+def _subject(step: Step) -> str:
+    return f"phase {step.id.removeprefix(PREFIX)}" if isinstance(step, Phase) else f"step {step.id}"
+
+
+def _of_phase(step: Phase, number: int, names: DeclaredNames, known: Known) -> Iterator[str]:
+    if step.role not in ROLES:
+        yield f"has the role {step.role!r}{nearest(step.role, ROLES)}; there are {', '.join(ROLES)}"
+    if not step.description:
+        yield "has no description"
+    if [bool(step.spans), bool(step.union), bool(step.rest_of)].count(True) != 1:
+        yield "needs one of three forms: places it goes between, (start, end), or union=(…), or rest_of=(…)"
+    for each in (*step.union, *step.rest_of):
+        yield from _held(step, each, names.when(number), names, known)
+    axis = {giver.unit for giver in names.givers(step.abscissa) if giver.unit}
+    for place in (end for span in step.spans for end in span if isinstance(end, str)):
+        units = {each for giver in names.givers(place) for each in giver.units_when(step.needs)}
+        if units and not any(kind_of(one) == kind_of(other) for one in units for other in axis):
+            yield (
+                f"goes to {place}, in {' or '.join(sorted(units))}; its abscissa {step.abscissa} is in {' or '.join(axis)}"
+            )
+
+
+def _held(step: Phase, name: str, when: When, names: DeclaredNames, known: Known) -> Iterator[str]:
+    """What is wrong with a phase that another one holds together or leaves out."""
+    own = step.id.removeprefix(PREFIX)
+    others = [each for each in known.get(name, ()) if name != own]
+    if not others:
+        near = nearest(name, [each for each in known if each != own])
+        yield f"takes the phase {name}, which is not declared above it{near}"
+        return
+    if any(other.abscissa != step.abscissa for _, _, other in others):
+        yield f"takes the phase {name}, which runs over another abscissa"
+    given = names.world.example(when, [other for _, other, _ in others])
+    if given is not None:
+        where = told(given, set().union(*(part for each in (when, *(w for _, w, _ in others)) for part in each)))
+        yield f"takes the phase {name}, which there is not {where}; give both the same needs"
+
+
+def _of_speed(step: Abscissa, names: DeclaredNames) -> Iterator[str]:
+    wanted = f"{step.unit}/s"
+    units = {each for giver in names.givers(step.speed) for each in giver.units_when(step.needs)}
+    if units and not any(kind_of(one) == kind_of(wanted) for one in units):
+        yield f"is run through with {step.speed}, in {' or '.join(sorted(units))}; a speed in {wanted} is needed"

@@ -1,0 +1,80 @@
+"""What the values of a run rest on: a reference carries the weakest basis of all that it is calculated from."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+
+from diecut_report.config.basis import ASSUMED, GIVEN, Basis, weakest
+from diecut_report.config.instances import slots
+from diecut_report.config.loader import Config
+from diecut_report.config.model import PRESS
+from diecut_report.config.references import Node, Target
+from diecut_report.contract.sections import taken
+from diecut_report.engine import Calculation
+from diecut_report.engine.steps.rerun import needed
+
+
+class Bases:
+    """Follow the references of a run, of which all calculations are known that a value refers to."""
+
+    def __init__(self, config: Config, calculations: Mapping[str, Calculation]) -> None:
+        self.config, self.calculations = config, calculations
+        self._known: dict[Node, str] = {}
+        self._linked: dict[Node, list[Target]] = {}
+        for node, target in config.links.items():
+            for length in range(2, len(node) + 1):  # also of the whole list that it stands in
+                self._linked.setdefault(node[:length], []).append(target)
+
+    def of(self, node: Node) -> str:
+        """Return what an input rests on; nothing for a default."""
+        if node not in self._known:
+            self._known[node] = self._of(node)
+        return self._known[node]
+
+    def said(self, node: Node) -> Basis:
+        """Return what the file says of an input itself."""
+        instance = self.config.instances[str(node[0])]
+        return instance.bases.get(node[1:], Basis()) if instance else Basis()
+
+    def _of(self, node: Node) -> str:
+        chain = [self.said(node).basis]
+        if node in self._linked:
+            chain += [self._target(single) or GIVEN for target in self._linked[node] for single in target.single]
+        return weakest(filter(None, chain)) or (GIVEN if self._is_given(node) else "")
+
+    def _is_given(self, node: Node) -> bool:
+        instance = self.config.instances[str(node[0])]
+        return instance is not None and any(
+            slot.is_given for slot in slots(instance.model, instance.data) if slot.key == node[1:]
+        )
+
+    def _target(self, target: Target) -> str:
+        if target.result is None:
+            return self.of(target.node)
+        calculation = self.calculations.get(target.instance)
+        return weakest(filter(None, map(self.of, self._inputs(calculation, target)))) if calculation else ""
+
+    def _inputs(self, calculation: Calculation, target: Target) -> Iterator[Node]:
+        """The inputs that a result is calculated from."""
+        instance = self.config.instances[target.instance]
+        assert instance is not None, "what is calculated has a model"
+        names = needed(calculation.mechanism, calculation.given, [str(target.result)])
+        used = {
+            name
+            for _, step in calculation.mechanism.active(calculation.given)
+            if step.id in names
+            for name in taken(step)
+        }
+        for slot in slots(instance.model, instance.data):
+            if ".".join(part for part in slot.key if isinstance(part, str)) in used:
+                yield (instance.name, *slot.key)
+
+
+def assumed(config: Config) -> list[str]:
+    """Return the paths of the values that the file says are assumed, in its order."""
+    return [
+        ".".join(map(str, (*((PRESS,) if name == PRESS else ("mechanisms", name)), *key)))
+        for name, instance in config.instances.items()
+        for key, said in (instance.bases.items() if instance else ())
+        if said.basis == ASSUMED
+    ]

@@ -1,0 +1,71 @@
+"""Whether the machines of a config can exist, without their results: only the steps run on which that depends, or a reference."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+
+from diecut_report.config.instances import Instance
+from diecut_report.config.loader import Config
+from diecut_report.config.model import PRESS
+from diecut_report.contract.inputs import Block, flatten, texts_given
+from diecut_report.contract.mechanism import Mechanism
+from diecut_report.contract.sections import taken
+from diecut_report.contract.steps import Clash, Require
+from diecut_report.engine import Calculation, Impossible, calculate
+from diecut_report.engine.steps.rerun import needed
+from diecut_report.errors import PluginError, Problem
+from diecut_report.results.press_run import Run
+
+
+def impossible(config: Config, known: Sequence[Problem]) -> tuple[list[Problem], list[PluginError]]:
+    """Return what cannot be in a config, beside the ``known`` problems of it, and the plugins that break on it.
+
+    Mechanisms with a known problem are left out, with those that refer to them.
+    """
+    run = _FeasibilityRun(config, known)
+    return run.problems, [error for name, error in run.errors.items() if name not in config.broken]
+
+
+class _FeasibilityRun(Run):
+    """One way through the graph that stops at what must hold."""
+
+    def __init__(self, config: Config, known: Sequence[Problem]) -> None:
+        self.wrong = {name for name in config.instances for problem in known if _concerns(problem, name)}
+        super().__init__(config, lambda _: None)
+
+    def _mechanism(self, name: str) -> None:
+        if name in self.wrong:
+            self.skipped[name] = "It has problems of its own."
+        else:
+            super()._mechanism(name)
+
+    def _comparisons(self) -> None:
+        """A comparison needs results."""
+
+    def _made(self, instance: Instance, mechanism: Mechanism, block: Block) -> Calculation:
+        inputs = flatten(block)
+        given = frozenset(inputs) | texts_given(inputs)
+        names = [*self._referred_to(instance.name), *_conditions(mechanism, given)]
+        try:
+            return calculate(mechanism, inputs, 1, needed(mechanism, given, names))
+        except Impossible:  # its words may name what these steps do not know
+            return calculate(mechanism, inputs)
+
+    def _printed(self, instance: Instance, calculation: Calculation) -> None:
+        """Nothing is printed."""
+
+    def _referred_to(self, name: str) -> Iterator[str]:
+        for target in self.config.links.values():
+            yield from (str(single.result) for single in target.single if single.instance == name and single.result)
+
+
+def _concerns(problem: Problem, name: str) -> bool:
+    prefix = PRESS if name == PRESS else f"mechanisms.{name}"
+    return problem.path == prefix or problem.path.startswith(f"{prefix}.")
+
+
+def _conditions(mechanism: Mechanism, given: frozenset[str]) -> Iterator[str]:
+    """What must be known of what must hold."""
+    for step in mechanism.active(given):
+        if isinstance(step[1], Require | Clash):
+            yield from taken(step[1])

@@ -1,0 +1,127 @@
+"""Configurations calculated side by side on all cores: of each its results, or what is wrong with it."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Iterator, Mapping, Sequence
+from contextlib import redirect_stdout
+from dataclasses import dataclass, field
+from hashlib import sha256
+from pathlib import Path
+from typing import Any
+
+from diecut_report.config import yaml_tree
+from diecut_report.config.discovery import Discovery
+from diecut_report.config.yaml_tree import Tree
+from diecut_report.errors import Problem, UserError
+from diecut_report.study.execution.engines import Engine, InProcess, Pool, Warm, results
+from diecut_report.study.execution.process_settings import settle
+
+ENDINGS = (".yaml", ".yml")
+MOST = 10_000  # machines of one check
+UNUSED = ("curves", "sections", "figures", "exports", "values", "assumptions", "sources", "errata", "absent", "lists")
+BAD, BROKEN = "bad", "error"  # states beside pass, warn and fail: the file is bad, a plugin broke
+
+
+@dataclass
+class CheckedMachine:
+    """Hold what came out of a configuration: its results without curves and print, or the words of what is wrong with it."""
+
+    file: str
+    status: str
+    results: dict[str, Any] = field(default_factory=dict)
+    words: list[str] = field(default_factory=list)
+
+    @property
+    def mechanisms(self) -> Mapping[str, Any]:
+        """Return the results of its mechanisms."""
+        found: Mapping[str, Any] = self.results.get("mechanisms", {})
+        return found
+
+
+def configurations(given: Sequence[Path]) -> list[Path]:
+    """Return the files to calculate: those named, and of folders all configurations, by name; UserError where there are none.
+
+    Studies and other YAML files of a folder are left out.
+    """
+    found: list[Path] = []
+    for path in given:
+        found += _of_folder(path) if path.is_dir() else [path]
+    if not found:
+        words = f"There is no configuration in {', '.join(map(str, given))}. Name files, or folders with .yaml files."
+        raise UserError(Problem(words))
+    if len(found) > MOST:
+        raise UserError(Problem(f"These are {len(found)} configurations; at most {MOST} are checked at once."))
+    return list(dict.fromkeys(found))
+
+
+def _of_folder(folder: Path) -> list[Path]:
+    files = sorted(path for path in folder.rglob("*") if path.suffix in ENDINGS and path.is_file())
+    return [path for path in files if _is_configuration(path)]
+
+
+def _is_configuration(path: Path) -> bool:
+    """Whether a file of a folder is meant; one that cannot be read is, so that its fault is told."""
+    try:
+        data = yaml_tree.load(path).data
+    except UserError:
+        return True
+    return isinstance(data, dict) and "mechanisms" in data
+
+
+def is_study(tree: Tree) -> bool:
+    """Return whether a file is a study rather than a configuration."""
+    return isinstance(tree.data, dict) and "base" in tree.data and "mechanisms" not in tree.data
+
+
+def machines(
+    files: Sequence[Path], folders: Sequence[str], jobs: int | None = None
+) -> Iterator[tuple[int, CheckedMachine]]:
+    """Yield each configuration's number and what came out, in the order in which they are ready."""
+    warm = Warm(sha256(repr((folders, os.getcwd())).encode()).hexdigest(), _loaded, (tuple(folders),))
+    count = min(jobs or os.cpu_count() or 1, len(files))
+    engine: Engine = Pool(count, warm) if count > 1 else InProcess(warm)
+    chunks = [(number, str(path)) for number, path in enumerate(files)]
+    with engine:
+        for (number, _), made in results(engine, calculated, chunks):
+            yield number, made
+
+
+def _loaded(folders: tuple[str, ...]) -> Discovery:
+    settle()
+    return Discovery(tuple(map(Path, folders)))
+
+
+def calculated(discovery: Discovery, chunk: tuple[int, str]) -> CheckedMachine:
+    """Return what comes out of a file."""
+    from diecut_report import pipeline
+
+    file = chunk[1]
+    try:
+        with open(os.devnull, "w") as nowhere, redirect_stdout(nowhere):  # a plugin may print
+            outcome, _ = pipeline.calc(Path(file), discovery, lambda _: None)
+    except UserError as error:
+        return CheckedMachine(file, BAD, {}, [str(problem) for problem in _all_faults(file, discovery, error)])
+    status = BROKEN if outcome.broken else str(outcome.results["status"])
+    return CheckedMachine(file, status, _lean(outcome.results), [str(error) for error in outcome.broken])
+
+
+def _all_faults(file: str, discovery: Discovery, error: UserError) -> Sequence[Problem]:
+    """All that is wrong with a file: calculating stops at the first kind of it."""
+    from diecut_report import pipeline
+
+    try:
+        pipeline.validate(Path(file), discovery)
+    except UserError as more:
+        return more.problems
+    return error.problems
+
+
+def _lean(whole: dict[str, Any]) -> dict[str, Any]:
+    """Results without what a comparison does not show, so that they travel fast between processes."""
+    kept = {
+        name: {key: part for key, part in data.items() if key not in UNUSED}
+        for name, data in whole["mechanisms"].items()
+    }
+    config = {key: part for key, part in whole["config"].items() if key in ("file", "sha256")}
+    return {**whole, "config": config, "mechanisms": kept, "comparisons": {}}

@@ -1,0 +1,119 @@
+"""The comparison of machines as HTML (one file, no network), PDF, XLSX, CSV and JSON."""
+
+from __future__ import annotations
+
+import csv
+import io
+import json
+from collections.abc import Callable, Iterator
+from pathlib import Path
+from typing import Any
+
+from markupsafe import Markup
+
+from diecut_report import __version__
+from diecut_report.report import html, pdf
+from diecut_report.report.i18n import Catalogue
+from diecut_report.report.page_engine import HTML, URLFetcher
+from diecut_report.study.machines.verdicts import MachineComparison, Verdict
+from diecut_report.study.storage.spreadsheets import workbook
+
+NAME = "machines"
+HEADS = (
+    "machine",
+    "verdict",
+    "governing check",
+    "utilisation",
+    "failed",
+    "not checked",
+    "warnings",
+    "file",
+    "what is wrong",
+)
+Rows = list[list[Any]]
+
+
+def page(made: MachineComparison) -> bytes:
+    """Return the comparison as one self-contained HTML page."""
+    return _filled(made, "screen").encode()
+
+
+def sheets(made: MachineComparison) -> bytes:
+    """Return the comparison as PDF (PDF/UA-1)."""
+    fetcher = URLFetcher(allowed_protocols={"data"}, allow_redirects=False, fail_on_errors=True)
+    with pdf._without_collection():
+        content: bytes = HTML(string=_filled(made, "print"), url_fetcher=fetcher).write_pdf(pdf_variant="pdf/ua-1")
+    return content
+
+
+def _filled(made: MachineComparison, kind: str) -> str:
+    faces = html._font_faces(tuple(html.FACES.items()))
+    style = "\n".join([faces, *(html._read(f"{name}.css") for name in ("report", kind, "summary", "machines"))])
+    return html._environment().get_template("machines.html.j2").render(
+        c=made, t=Catalogue("en"), kind=kind, policy=html.policy(""), style=Markup(style), version=__version__, shown=shown,
+    )  # fmt: skip
+
+
+def shown(cell: dict[str, Any] | None) -> str:
+    """Return a check of a machine as a cell: its utilisation in per cent, or its verdict; nothing where it is not made."""
+    if cell is None:
+        return ""
+    return (
+        str(cell["status"]).replace("_", " ") if cell["utilisation"] is None else f"{100 * cell['utilisation']:.4g} %"
+    )
+
+
+def table(made: MachineComparison) -> bytes:
+    """Return the verdicts, the matrix of checks, the inputs that differ and the advice as one CSV, each below its heads."""
+    text = io.StringIO()
+    writer = csv.writer(text, lineterminator="\n")
+    for rows in _tables(made).values():
+        writer.writerows(rows)
+        writer.writerow([])
+    return text.getvalue().encode()
+
+
+def _tables(made: MachineComparison) -> dict[str, Rows]:
+    return {
+        "verdicts": [list(HEADS), *map(_verdict, made.verdicts)],
+        "checks": [["check", "title", *made.machines],
+                   *([name, title, *map(_cell, cells)] for name, title, cells in made.checks)],
+        "differing inputs": [["input", "description", *made.machines],
+                             *([path, told, *cells] for path, told, cells in made.inputs)],
+        "advice": [["machine", "advice"], *([name, each] for name, told in made.advice for each in told)],
+    }  # fmt: skip
+
+
+def _verdict(of: Verdict) -> list[Any]:
+    return [
+        of.machine,
+        of.status,
+        of.governing,
+        of.utilisation,
+        of.failed,
+        of.not_checked,
+        of.warnings,
+        of.file,
+        "\n".join(of.words),
+    ]
+
+
+def _cell(cell: dict[str, Any] | None) -> str:
+    """A check in a table: its verdict with its utilisation."""
+    if cell is None:
+        return ""
+    return str(cell["status"]) + ("" if cell["utilisation"] is None else f" {cell['utilisation']:.6g}")
+
+
+def _json(made: MachineComparison) -> bytes:
+    return (json.dumps(made.as_data(), indent=1, ensure_ascii=False, allow_nan=False) + "\n").encode()
+
+
+FORMATS: dict[str, Callable[[MachineComparison], bytes]] = {
+    "html": page, "pdf": sheets, "xlsx": lambda made: workbook(_tables(made)), "csv": table, "json": _json,
+}  # fmt: skip
+
+
+def files(made: MachineComparison, folder: Path, formats: list[str]) -> Iterator[tuple[Path, bytes]]:
+    """Yield the files of a comparison, all made before any is written."""
+    yield from [(folder / f"{NAME}.{ending}", FORMATS[ending](made)) for ending in formats]

@@ -1,0 +1,38 @@
+"""The press as one machine: phases of all lines on the main shaft, interlocks, offsets, clearance, torques together."""
+
+from __future__ import annotations
+
+from diecut_report.api import Check, Mechanism, Source
+from diecut_report.plugins.cyclogram import steps
+from diecut_report.plugins.cyclogram.inputs import Cyclogram
+
+MECHANISM = Mechanism(
+    kind="cyclogram",
+    version="1.0",
+    title="Cyclogram of the press",
+    summary="The main shaft drives all mechanisms; one turn of it is a sheet. Each mechanism's phases are laid over the common period, "
+    "and interlocks say what must lie within what, so that the sheet rests while it is cut and the carriages pass while the cylinder "
+    "leaves them room. The offset of one line may be found, the one with the greatest margins. The torques of all lines are added at "
+    "the main shaft.",
+    inputs=Cyclogram,
+    chapters=(steps.shaft, steps.interlocks, steps.station, steps.torques),
+    key_results=("sheet_time", "line_offset", "best_margin", "productivity_limit", "clearance_least", "torque_mean", "torque_rms",
+                 "torque_peak", "power_peak", "energy_fluctuation", "energy_exchange"),
+    checks=(
+        Check(id="interlock", title="Interlocks of the lines", demand="length_demand", limit="length_available", unit="deg", tolerance=1e-9,
+              demand_label="needed with its margins", limit_label="available", source="timing",
+              consequence="interlock {part} does not hold. {interlock_verdict}"),
+        Check(id="equal_rates", title="Equal rates of press and lines", demand="rate_error", limit=1e-6, unit="1", demand_label="relative difference",
+              limit_label="accepted", source="kinematics",
+              consequence="line {part} runs at another rate than the press; let its speed follow press.productivity, as it does by default."),
+        Check(id="carriage_height", title="Height that the cylinder leaves the carriages", demand="carriage_clearance", limit="clearance_least",
+              unit="mm", demand_label="needed", limit_label="least over the period", source="geometry",
+              consequence="a carriage is hit; let the carriages stop elsewhere, lower them, or turn the transport by its offset."),
+    ),
+    assumptions=(
+        "The main shaft turns at constant speed; the lines are rigid and without backlash between them.",
+        "Only the interlocks that are given are judged.",
+        "Torques of lines that have none are not in the sum, nor is friction that is not given.",
+    ),
+    sources=(Source("timing", "Intervals of the phases on the main shaft over the common period; tents of the slack over the offset."),),
+)  # fmt: skip

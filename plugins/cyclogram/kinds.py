@@ -1,0 +1,63 @@
+"""What the cyclogram asks of mechanisms of each kind: their torque and what moves with how much energy."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from diecut_report.api import Curve, GivenMechanism
+
+TORQUES = {
+    "cylinder_drive": "crank_torque",
+    "cam_gear_transport": "drive_torque",
+    "geneva_transport": "torque",
+    "platen_press": "torque",
+    "circular_knife": "torque",
+}
+"""The curve of the torque at the line's own shaft, losses inside the mechanism included."""
+
+POSITION, STEP = "sheet_position", "sheet_step"
+"""The way of the sheet in a transport, and how far a step goes."""
+
+
+@dataclass(frozen=True)
+class Energy:
+    """Declare the kinetic energy of a kind: the curves and numbers that it takes, and what it makes of them."""
+
+    curves: tuple[str, ...]
+    numbers: tuple[str, ...]
+    of: Callable[..., Any]
+
+
+ENERGIES = {
+    "cylinder_drive": Energy(
+        ("cylinder_rotation", "cylinder_speed"),
+        ("reduced_inertia", "cylinder_radius", "static_unbalance"),
+        lambda turned, speed, inertia, radius, unbalance: (
+            (inertia + 2 * radius * unbalance * np.cos(turned)) * speed**2 / 2
+        ),
+    ),
+    "cam_gear_transport": Energy(("sheet_velocity",), ("conveyor_mass",), lambda v, mass: mass * v**2 / 2),
+    "geneva_transport": Energy(("wheel_speed",), ("driven_inertia",), lambda speed, inertia: inertia * speed**2 / 2),
+    "platen_press": Energy(("platen_velocity_true",), ("platen_mass",), lambda v, mass: mass * v**2 / 2),
+}
+
+
+def energy_curve(mechanism: GivenMechanism) -> tuple[Callable[[Any, Any], Any], list[Curve]] | None:
+    """Return the kinetic energy of a line over shares of its period, and the curves it is made of; None where it is not known."""
+    known = ENERGIES.get(mechanism.kind)
+    if known is None:
+        return None
+    curves = [curve for curve in map(mechanism.curve, known.curves) if curve is not None]
+    numbers = [number for number in map(mechanism.number, known.numbers) if number is not None]
+    if len(curves) < len(known.curves) or len(numbers) < len(known.numbers):
+        return None
+    return lambda share, middle: known.of(*(at(curve, share, middle) for curve in curves), *numbers), curves
+
+
+def at(curve: Curve, share: Any, middle: Any) -> Any:
+    """Return a curve at shares of its period, shape (points,), each in the smooth piece of its middle."""
+    return curve.values(np.asarray(share)[None, :], np.asarray(middle)[None, :], None)[0]

@@ -1,0 +1,192 @@
+"""The lines on the main shaft: their phases over the common period, from what the configuration names."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
+from fractions import Fraction
+from math import floor, pi
+from typing import Any
+
+import numpy as np
+from scipy.optimize import brentq
+
+from diecut_report.api import GivenMechanism, Refusal
+from diecut_report.mechanics.timing.intervals import Interval, Intervals
+from diecut_report.mechanics.timing.lines import DrivenLine, common_period, exact_turns
+from diecut_report.plugins.cyclogram.inputs import Passage
+from diecut_report.plugins.cyclogram.kinds import POSITION, STEP, at
+
+TURN = 2 * pi
+AUTO = "auto"
+
+
+@dataclass(frozen=True)
+class OwnPhase:
+    """Hold a phase of a line over its own turns (rad, 2π being the period of the mechanism), which repeats after ``every`` of them."""
+
+    intervals: Intervals
+    every: int = 1
+
+
+@dataclass(frozen=True, eq=False)
+class LineOnShaft:
+    """Hold a line: its mechanism, how it is driven, its phases, and whether its offset is to be found."""
+
+    mechanism: GivenMechanism
+    line: DrivenLine
+    efficiency: float
+    is_auto: bool
+    torque_curve: str
+    phases: Mapping[str, OwnPhase]
+
+    @property
+    def name(self) -> str:
+        """Return the name of its mechanism."""
+        return self.mechanism.name
+
+    @property
+    def periods(self) -> tuple[Fraction, ...]:
+        """Return the periods of its phases in turns of the main shaft."""
+        every = {1, *(phase.every for phase in self.phases.values())}
+        return tuple(map(self.line.period_turns, sorted(every)))
+
+    def on_main_shaft(self, phase: str, common: Fraction, number: int | None) -> Intervals:
+        """Return a phase, or one of its intervals alone, over the common period (rad)."""
+        own = self.phases[phase]
+        chosen = own.intervals if number is None else (own.intervals[number],)
+        return self.line.on_main_shaft(chosen, common, own.every)
+
+    def turned(self, by: float) -> LineOnShaft:
+        """Return the line with its zero later by a main-shaft angle."""
+        return replace(self, line=replace(self.line, offset=self.line.offset + by))
+
+
+def lines_of(given: Mapping[str, Any]) -> tuple[LineOnShaft, ...]:
+    """Return the lines that the configuration names; Refusal in words where they cannot be."""
+    found: list[LineOnShaft] = []
+    for index, mechanism in enumerate(given["lines.mechanism"]):
+        _sound(mechanism, index, found)
+        offset = of_part(given["lines.offset"], index)
+        turns = turns_of(given["lines.turns_per_sheet"][index], f"lines.{index}.turns_per_sheet")
+        passing = (given.get("lines.passing") or ())[index : index + 1] or (None,)
+        found.append(
+            LineOnShaft(
+                mechanism,
+                DrivenLine(turns, 0.0 if offset == AUTO else float(offset)),
+                float(of_part(given["lines.path_efficiency"], index)),
+                offset == AUTO,
+                given["lines.torque_curve"][index],
+                {**_own_phases(mechanism), **_passing(mechanism, passing[0] or (), f"lines.{index}.passing")},
+            )
+        )
+    automatic = [str(index) for index, each in enumerate(found) if each.is_auto]
+    if len(automatic) > 1:
+        words = "is auto, and so is another line's; one offset at most can be found, give the others a number"
+        raise Refusal(f"lines.{automatic[1]}.offset", words)
+    return tuple(found)
+
+
+def _sound(mechanism: Any, index: int, before: list[LineOnShaft]) -> None:
+    if mechanism.count > 1:
+        raise TypeError(f"{mechanism.name} stands for {mechanism.count} machines; a cyclogram is of one")
+    if any(mechanism.name == other.name for other in before):
+        raise Refusal(
+            f"lines.{index}.mechanism", f"is {mechanism.name}, which is a line already; name each mechanism once"
+        )
+    if not mechanism.has_period:
+        words = f"is {mechanism.name}, which runs over nothing that comes again, so that it has no phases; leave it out"
+        raise Refusal(f"lines.{index}.mechanism", words)
+
+
+def of_part(row: Any, index: int) -> Any:
+    """The value of a part of a row, which is a tuple where it holds texts."""
+    value = row[index] if isinstance(row, tuple) else row[0, index]
+    return np.ravel(value)[0] if isinstance(value, np.ndarray) else value
+
+
+def turns_of(text: str, key: str) -> Fraction:
+    try:
+        return exact_turns(Fraction(text.replace(" ", "")))
+    except (ValueError, ZeroDivisionError):
+        words = f"is “{text}”; a number or a ratio above zero such as 1/2 is needed, with a denominator of at most 64"
+        raise Refusal(key, words) from None
+
+
+def _own_phases(mechanism: GivenMechanism) -> dict[str, OwnPhase]:
+    found = {}
+    for name, phase in mechanism.phases.items():
+        share = TURN / phase.period()
+        found[name] = OwnPhase(tuple((start * share, end * share) for start, end in phase.intervals()))
+    return found
+
+
+def _passing(mechanism: GivenMechanism, given: tuple[Passage, ...], key: str) -> dict[str, OwnPhase]:
+    found = {}
+    for index, passage in enumerate(given):
+        start, end = (float(np.ravel(getattr(passage, side))[0]) for side in ("from", "to"))
+        first, every = passage.first % passage.every, passage.every
+        a, b = _stretch(mechanism, start, end, f"{key}.{index}")
+        found[passage.name] = OwnPhase(((a + TURN * first, b + TURN * first),), every)
+    return found
+
+
+def _stretch(mechanism: GivenMechanism, start: float, end: float, key: str) -> Interval:
+    """Own angles (rad) at which the sheet is at two places of its way: the one root each of the displacement, which never falls."""
+    step, position = mechanism.number(STEP), mechanism.curve(POSITION)
+    moving = mechanism.phases.get("moving")
+    if step is None or position is None or moving is None:
+        raise Refusal(key, f"tells what the sheet passes, but the way of the sheet is not known in {mechanism.name}")
+    if not start < end <= step * (1 + 1e-12):
+        words = f"goes from {start * 1e3:.6g} mm to {end * 1e3:.6g} mm; it must go forward, and no further than the step of {step * 1e3:.6g} mm"
+        raise Refusal(key, words)
+    ((low, high),) = moving.intervals()
+    period = moving.period()
+    low, high = (low - period, high - period) if high > period * (1 + 1e-12) else (low, high)
+
+    def way(place: float) -> float:
+        passed = floor(place / period)
+        share = np.array([place / period - passed])
+        return float(at(position, share, share)[0]) + passed * step
+
+    before = way(low)
+    roots = (_root(lambda place, s=wanted: way(place) - before - s, low, high, wanted, step) for wanted in (start, end))
+    a, b = (place * TURN / period for place in roots)
+    return a, b
+
+
+def _root(function: Any, low: float, high: float, wanted: float, step: float) -> float:
+    if wanted <= 0:
+        return low
+    return high if wanted >= step else float(brentq(function, low, high, xtol=1e-14, rtol=9e-16, maxiter=200))
+
+
+def common_turns(lines: tuple[LineOnShaft, ...]) -> Fraction:
+    """Return after how many turns of the main shaft all phases of all lines are where they were."""
+    return common_period(period for each in lines for period in each.periods)
+
+
+def named_phase(lines: tuple[LineOnShaft, ...], text: str, key: str) -> tuple[int, str, int | None]:
+    """Return which line, which of its phases, and which interval alone a text names; Refusal in words where it names none."""
+    name, _, rest = text.partition(".")
+    phase, _, number = rest.partition(".")
+    index = next((i for i, each in enumerate(lines) if each.name == name), None)
+    if index is None:
+        told = ", ".join(each.name for each in lines)
+        raise Refusal(key, f"is “{text}”, but {name} is not a line; the lines are {told}")
+    known = lines[index].phases
+    if phase not in known:
+        raise Refusal(key, f"is “{text}”, but {_no_phase(lines[index], phase)}")
+    if number and not (number.isdecimal() and int(number) < len(known[phase].intervals)):
+        words = f"is “{text}”, but the phase has {len(known[phase].intervals)} intervals, counted from 0"
+        raise Refusal(key, words)
+    return index, phase, int(number) if number else None
+
+
+def _no_phase(line: LineOnShaft, phase: str) -> str:
+    missing = line.mechanism.missing_keys(phase)
+    if missing:
+        return f"{line.name} has this phase only if {' and '.join(missing)} is given there"
+    if missing is not None:
+        return f"the phase {phase} does not apply to the machine {line.name}"
+    return f"{line.name} has no phase “{phase}”; it has {', '.join(line.phases)}"

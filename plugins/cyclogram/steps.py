@@ -1,0 +1,169 @@
+"""Chapters of the cyclogram."""
+
+from __future__ import annotations
+
+from math import degrees
+from typing import Any
+
+import numpy as np
+
+from diecut_report.api import Chapter, bind
+from diecut_report.mechanics import common
+from diecut_report.mechanics.timing.clearance import LeastClearance
+from diecut_report.plugins.cyclogram.clearances import clearance_of
+from diecut_report.plugins.cyclogram.timing import Timing, timing_of
+from diecut_report.plugins.cyclogram.torques import sum_of
+
+# fmt: off
+
+LINES = ("mechanism", "turns_per_sheet", "offset", "path_efficiency", "torque_curve", "passing")
+INTERLOCKS = ("name", "phase", "within", "apart_from", "margin")
+FRICTION = ("name", "torque", "power", "turns_per_sheet", "path_efficiency")
+STATION = ("cylinder", "transport", "carriage_stop", "carriage_width", "forward_direction")
+PHASES = "phases of the lines, laid over the common period of the main shaft"
+TIMING, SUM = ("timing",), ("sum",)
+
+shaft = Chapter("Main shaft", text="One turn of the main shaft is a sheet. All lines are where they were after the common period.")
+shaft.prepared("timing", timing_of, ("productivity", *(f"lines.{key}" for key in LINES), *(f"interlocks.{key}" for key in INTERLOCKS)))
+shaft.value("sheet_time", "T_s", "ms", "Time of a sheet, a turn of the main shaft", lambda productivity: 1 / productivity, source="kinematics")
+shaft.value("main_shaft_speed", "ω_m", "rpm", "Speed of the main shaft", lambda productivity: 2 * np.pi * productivity, source="kinematics")
+shaft.computed("sheets_per_period", "N_s", "1", "Sheets in the common period", lambda timing: float(timing.common), TIMING,
+               "least common multiple of the periods of all phases", digits=6)
+shaft.value("main_period", "P", "deg", "Common period of the main shaft", lambda sheets_per_period: 2 * np.pi * sheets_per_period)
+shaft.value("period_time", "T_P", "ms", "Time of the common period", lambda sheets_per_period, sheet_time: sheets_per_period * sheet_time)
+shaft.computed("line_turns", "i_k", "1", "Turns of each line for each sheet",
+               lambda timing: np.array([[float(each.line.turns) for each in timing.lines]]), TIMING, "as given", over="lines", output=False)
+shaft.computed("line_offset", "Φ_k", "deg", "Main-shaft angle at which each line's zero comes",
+               lambda timing: np.array([[each.line.offset for each in timing.lines]]), TIMING,
+               "as given; an automatic one is where the least slack of all interlocks is greatest", over="lines", digits=7)
+
+
+def _worst(name: str) -> Any:
+    return lambda timing: timing.row(getattr(each, name) for each in timing.worst)
+
+
+def _slack(timing: Timing) -> Any:
+    return timing.row(pair.least - timing.required(each) for pair, each in zip(timing.worst, timing.final, strict=True))
+
+
+interlocks = Chapter("Interlocks", text="A phase lies within another with the margins at its start and at its end; negative is the overlap by which "
+                                        "it does not. Of several intervals the one with the least margin is told.")
+for name, symbol, words, function in (
+    ("margin_start", "m_1", "Margin at the start", _worst("start")),
+    ("margin_end", "m_2", "Margin at the end", _worst("end")),
+    ("margin_required", "m_r", "Margin that is required", lambda timing: timing.row(timing.required(each) for each in timing.final)),
+    ("margin_least", "g", "Lesser of both margins", _worst("least")),
+    ("slack", "g_s", "What the lesser margin has above the required one", _slack),
+    ("held_length", "l_A", "Length of what must be held", _worst("inner_length")),
+):
+    interlocks.computed(name, symbol, "deg", words, function, TIMING, PHASES, over="interlocks", digits=6)
+for name, symbol, words, of in (("margin_start_time", "t_1", "Margin at the start, as a time", "margin_start"),
+                                ("margin_end_time", "t_2", "Margin at the end, as a time", "margin_end")):
+    interlocks.value(name, symbol, "ms", words, bind(lambda angle, main_shaft_speed: angle / main_shaft_speed, angle=of))
+interlocks.value("length_demand", "l_d", "deg", "Length that is needed, margins included",
+                 lambda held_length, margin_required: held_length + 2 * margin_required, output=False)
+interlocks.value("length_available", "l_v", "deg", "Length that there is", lambda held_length, margin_least: held_length + 2 * margin_least,
+                 output=False)
+interlocks.total("best_margin", "g_min", "deg", "Least slack of all interlocks", "min", of="slack", digits=6)
+interlocks.value("best_margin_time", "t_g", "ms", "The same as a time", bind(common.quotient, quantity="best_margin", by="main_shaft_speed"))
+
+
+def _limit(timing: Timing) -> float:
+    return timing.limit.value or 0.0
+
+
+interlocks.computed("is_limited", "k_n", "1", "Whether margins of time limit the productivity", lambda timing: float(timing.limit.value is not None),
+                    TIMING, "a margin is a time, and holds at some speed", output=False)
+interlocks.computed("productivity_limit", "n_max", "1/h", "Largest productivity that the margins of time allow", _limit, TIMING,
+                    "angles stay, times take more angle the faster the shaft turns; torques and accelerations are not judged", digits=7,
+                    exists=lambda is_limited: is_limited > 0)
+interlocks.computed("is_feasible", "k_Φ", "1", "Whether an offset that is to be found leaves all margins",
+                    lambda timing: float(bool(timing.best and timing.best.feasible)), TIMING, PHASES, output=False)
+interlocks.computed("offset_feasible_start", "Φ_a", "deg", "Least of the offsets about the one found that leave all margins",
+                    lambda timing: timing.feasible[0], TIMING, PHASES, digits=7, exists=lambda is_feasible: is_feasible > 0)
+interlocks.computed("offset_feasible_end", "Φ_b", "deg", "Greatest of them", lambda timing: timing.feasible[1], TIMING, PHASES, digits=7,
+                    exists=lambda is_feasible: is_feasible > 0)
+interlocks.computed("rate_error", "Δn", "1", "Own rate of each line off the press's, relative", lambda timing: np.array([timing.rate_errors]), TIMING,
+                    "own turns a second over turns for each sheet, held against the productivity", over="lines", output=False)
+
+
+def verdict(timing: Timing) -> str:
+    """Return what is to be said of interlocks that do not hold."""
+    told = [_of_interlock(timing, index) for index, each in enumerate(timing.final)
+            if timing.worst[index].least < timing.required(each)]
+    return " ".join([*told, *_offset(timing), *_speed(timing)])
+
+
+def _of_interlock(timing: Timing, index: int) -> str:
+    pair, each = timing.worst[index], timing.final[index]
+    if pair.outer is None:
+        return f"{each.name}: there is nothing that could hold it."
+    window = timing.needed[index]
+    needed = "" if np.isnan(window) else f", what holds it must be {degrees(window):.4f}° long"
+    return (f"{each.name}: its margins are {timing.told(pair.start)} at the start and {timing.told(pair.end)} at the end, "
+            f"{timing.told(timing.required(each))} are required{needed}.")
+
+
+def _offset(timing: Timing) -> list[str]:
+    if timing.moved is None or timing.best is None:
+        return []
+    name = timing.lines[timing.moved].name
+    best = f"The best offset of {name} is {degrees(timing.best.shift):.4f}°, which leaves {timing.told(timing.best.slack)}"
+    return [f"{best}." if timing.best.feasible else f"{best}: no offset holds all."]
+
+
+def _speed(timing: Timing) -> list[str]:
+    if timing.limit.reason == "angles_decide":
+        return ["Slowing the press down does not help: angles decide."]
+    if timing.limit.value is not None and timing.limit.value < timing.productivity:
+        return [f"The margins of time hold up to press.productivity = {timing.limit.value * 3600:.2f} 1/h."]
+    return []
+
+
+interlocks.words("interlock_verdict", verdict, TIMING)
+
+station = Chapter("Clearance of the carriages", needs=("station",), absent="not calculated: station is not given",
+                  text="The least height over all carriages, standing and moving, from the shape of the cylinder with its flat.")
+station.prepared("clearance", clearance_of, ("timing", *(f"station.{key}" for key in STATION)))
+CLEARANCE = "search over the common period, refined to 1e-13 of it"
+
+
+def _least(clearance: LeastClearance) -> float:
+    return clearance.height if np.isfinite(clearance.height) else 1e3
+
+
+station.computed("clearance_least", "Y_min", "mm", "Least height that the cylinder leaves the carriages", _least, ("clearance",), CLEARANCE, digits=6)
+station.computed("clearance_angle", "Φ_Y", "deg", "Main-shaft angle at which that is", lambda clearance: clearance.angle, ("clearance",), CLEARANCE,
+                 digits=6)
+station.computed("carriage_clearance", "c_r", "mm", "Clearance that the carriages need",
+                 lambda cylinder: cylinder.number("carriage_clearance") or 0.0, ("station.cylinder",), "as given to the cylinder's drive")
+
+torques = Chapter("Sum of the torques at the main shaft",
+                  text="A line's torque is i·M/η at the main shaft where the shaft drives, i·M·η where the line drives back.")
+torques.prepared("sum", sum_of, ("timing", *(f"friction.{key}" for key in FRICTION)))
+torques.words("torque_missing", lambda sum: ", ".join(sum.without) or "none", SUM)
+torques.abscissa("main_angle", "Φ", "deg", "Angle of the main shaft", "main_period", speed="main_shaft_speed", intervals=32,
+                 shown_at="torque_peak_at")
+torques.made_curve("main_shaft_torque", "M_Σ", "N*m", "Torque at the main shaft", lambda sum: sum.curve, SUM, "main_angle",
+                   "sum of the torques of all lines, each from its own calculation")
+torques.made_curve("greatest_torque", "M_g", "N*m", "Torque of the greatest consumer alone", lambda sum: sum.greatest, SUM, "main_angle",
+                   "the line with the greatest root mean square at the main shaft")
+torques.reduction("torque_peak", "M_peak", "N*m", "Greatest size of the torque", "abs_max", of="main_shaft_torque")
+torques.reduction("torque_max", "M_max", "N*m", "Greatest driving torque", "max", of="main_shaft_torque")
+torques.reduction("torque_min", "M_min", "N*m", "Greatest braking torque", "min", of="main_shaft_torque")
+torques.reduction("torque_mean", "M_mean", "N*m", "Mean torque", "mean", of="main_shaft_torque")
+torques.reduction("torque_rms", "M_rms", "N*m", "Root mean square torque", "rms", of="main_shaft_torque")
+torques.reduction("greatest_peak", "M_g,peak", "N*m", "Greatest size of the torque of the greatest consumer alone", "abs_max", of="greatest_torque")
+torques.reduction("greatest_rms", "M_g,rms", "N*m", "Root mean square torque of the greatest consumer alone", "rms", of="greatest_torque")
+torques.value("peak_ratio", "k_peak", "1", "Peak of the sum to that of the greatest consumer",
+              lambda torque_peak, greatest_peak: torque_peak / greatest_peak)
+torques.value("power_mean", "N_mean", "kW", "Mean power at the main shaft", lambda torque_mean, main_shaft_speed: torque_mean * main_shaft_speed)
+torques.value("power_peak", "N_peak", "kW", "Peak power at the main shaft", lambda torque_peak, main_shaft_speed: torque_peak * main_shaft_speed)
+torques.value("torque_excess", "ΔM", "N*m", "Torque above its mean", lambda main_shaft_torque, torque_mean: main_shaft_torque - torque_mean,
+              output=False)
+torques.accumulated("excess_energy", "E_x", "J", "Energy taken above the mean, from the start of the period", of="torque_excess")
+torques.reduction("energy_fluctuation", "ΔE", "J", "Range of the excess energy over the common period", "range", of="excess_energy")
+torques.computed("energy_exchange", "E_e", "J", "Energy that the lines lend one another",
+                 lambda sum: sum.energies.exchange if sum.energies else 0.0, SUM, "ranges of the lines' kinetic energies less the range of their sum")
+torques.value("torque_curve_turns", "N_t", "1", "Turns of the main shaft that the curve of the torque spans",
+              lambda sheets_per_period: sheets_per_period)

@@ -1,0 +1,60 @@
+"""Checks of the consistency of the press."""
+
+from __future__ import annotations
+
+from diecut_report.api import Check
+
+ROUNDING = 1e-9  # relative: a length that was taken over from the other is the same
+WHOLE = 1e-9  # by which pitches may miss a whole number
+LARGEST_INERTIA_ERROR = 5.0  # percent
+
+CHECKS = (
+    Check(id="format_rolled", check_class="function", title="Sheet in the feed and cylinder", demand="side_in_feed", limit="working_length",
+          unit="mm", tolerance=ROUNDING, demand_label="side of the sheet in the feed", limit_label="length that the cylinder unrolls",
+          source="geometry", consequence="the sheet is not cut over its whole {feed_side}; take a larger cylinder or a smaller sheet."),
+    Check(id="format_generatrix", check_class="function", title="Sheet across the feed and cylinder",
+          demand="side_across", limit="generatrix_length",
+          unit="mm", tolerance=ROUNDING, demand_label="side of the sheet across the feed", limit_label="generatrix of the cylinder",
+          source="geometry", consequence="the sheet reaches beyond the cylinder's end; take a longer cylinder or a smaller sheet."),
+    Check(id="step", check_class="function", title="Sheet and step", demand="side_in_feed", limit="sheet_step", unit="mm", tolerance=ROUNDING,
+          demand_label="side of the sheet in the feed", limit_label="step of the transport", source="geometry",
+          consequence="the next sheet comes to lie on this one; the step must be longer, or the sheet shorter."),
+    Check(id="sheet_gap", check_class="function", title="Room between two sheets",
+          demand="sheet_gap", limit="step_room", unit="mm", tolerance=ROUNDING,
+          demand_label="needed for grippers and carriage", limit_label="left by the step", source="geometry",
+          consequence="there is not room enough for grippers and carriage between two sheets; the step must be longer, or the sheet shorter."),
+    Check(id="actual_rate", check_class="function", title="Productivity and gears", demand="productivity", limit="actual_rate",
+          unit="1/h", severity="warn", tolerance=1e-6, demand_label="productivity", limit_label="what the gears give", source="kinematics",
+          consequence="the press makes {actual_rate} and not the {inputs.productivity} of press.productivity; choose pulleys and teeth nearer to "
+          "the ratio, or set press.productivity to what they give."),
+    Check(id="driven_inertia", check_class="strength", title="Inertia behind the clutch",
+          demand="equal_inertia", limit="clutch_inertia", unit="kg*m**2", tolerance=1e-3,
+          demand_label="inertia of equal heat at the crank", limit_label="inertia that the clutch is calculated with",
+          source="energy", consequence="an engagement at {start_angle} makes {slip_heat} of heat in {slip_time}; the crank feels "
+          "{crank_inertia_mean} in the mean and up to {crank_inertia_max} at {crank_inertia_max_at}: give the clutch a driven_inertia of at "
+          "least {equal_inertia:up}."),
+    Check(id="damper_velocity", check_class="strength", title="Speed at the dampers", demand="contact_speed", limit="damper_velocity",
+          unit="m/s", severity="warn", demand_label="speed at contact", limit_label="speed that the dampers are calculated with",
+          source="kinematics", consequence="the dampers are met faster than calculated; that speed is reached {way_inner} before the inner and "
+          "{way_outer} before the outer end: give the damper a velocity of at least {contact_speed:up}, or let it be met later."),
+    Check(id="conveyor_inertia", check_class="practice", title="Inertia of the conveyor", demand="inertia_error", limit=LARGEST_INERTIA_ERROR,
+          unit="%", severity="warn", demand_label="difference", limit_label="accepted", source="energy",
+          consequence="the conveyor of {conveyor_mass} has {conveyor_inertia} at the wheel, which is calculated with {wheel_inertia}; one of "
+          "both is not that of this press."),
+    Check(id="motor_thermal", check_class="strength", title="Heat of the motor", demand="motor_torque_rms", limit="motor_rated_torque",
+          unit="N*m", demand_label="root mean square of its torque", limit_label="rated torque", source="this method",
+          consequence="the motor gets too hot; it needs a rated power of at least {rating_needed:up}, or a heavier flywheel."),
+    Check(id="motor_peak", check_class="strength", title="Peak torque of the motor", demand="motor_torque_peak", limit="breakdown_torque",
+          unit="N*m", demand_label="greatest torque", limit_label="breakdown torque", source="this method",
+          consequence="the motor stalls; it needs a heavier flywheel than {flywheel_inertia} or a larger breakdown torque."),
+    Check(id="speed_swing", check_class="function", title="Fluctuation of the speed", demand="speed_swing", limit="speed_fluctuation",
+          unit="1", severity="warn", demand_label="by the motor's slip", limit_label="accepted", source="this method",
+          consequence="the flywheel of {flywheel_inertia} swings more than accepted; make it heavier."),
+    Check(id="register", check_class="function", title="Play in the register", demand="play_total", limit="register_tolerance", unit="mm",
+          demand_label="plays together", limit_label="allowed", source="geometry",
+          consequence="sheet and cut may lie further apart than allowed; take play out of the transport."),
+    Check(id="whole_pitches", check_class="function", title="Whole pitches a step", demand="pitch_error", limit=WHOLE, unit="1",
+          demand_label="from a whole number", limit_label="accepted", source="geometry",
+          consequence="a step of {pitches} pitches stops the chain at another tooth each time; change the ratio or the sprocket so that it is "
+          "a whole number."),
+)  # fmt: skip

@@ -1,0 +1,109 @@
+"""Chapters on what the cylinder's drive is to clutch, dampers and motor."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from diecut_report.api import Chapter, as_number, bind
+from diecut_report.mechanics.timing import motor_slip
+from diecut_report.mechanics.timing.engagement import inertia_at_crank
+from diecut_report.plugins.press_consistency import clutch, ends, motor
+
+# fmt: off
+
+CYLINDER = ("cylinder_mass", "cylinder_inertia", "cylinder_radius", "cylinder_rotation", "cylinder_speed", "crank_speed")
+ENGAGED = (*CYLINDER, "dead_center_outer", "dead_center_inner", "clutch_torque", "clutch_speed")
+TRAVEL = ("displacement", "velocity", "stroke", "dead_center_outer", "dead_center_inner")
+MOTOR = ("flywheel_torque", "output_speed", "flywheel_inertia", "flywheel_speed", "belt_ratio", "motor_rated_torque", "motor_speed",
+         "synchronous_speed")
+
+inertia = Chapter("Inertia that the crank feels",
+                  text="The inertia of equal kinetic energy; it is zero where the cylinder stands, and the unbalance makes it differ between the "
+                       "strokes.", needs=CYLINDER, absent="not calculated: there is no cylinder drive to take it from, or there are several")
+inertia.abscissa("crank_angle", "φ", "deg", "Crank angle", 2 * np.pi, shown_at="crank_inertia_max_at")
+inertia.from_curve("rotation", "θ", "deg", "Rotation of the cylinder", given="cylinder_rotation", abscissa="crank_angle", output=False)
+inertia.from_curve("speed", "ω_z", "rad/s", "Speed of the cylinder", given="cylinder_speed", abscissa="crank_angle", output=False)
+inertia.value("speed_ratio", "ω_31", "1", "Speed of the cylinder to the crank's", lambda speed, crank_speed: speed / crank_speed, source="kinematics",
+              output=False)
+inertia.value("crank_inertia", "I_red", "kg*m**2", "Inertia that the crank feels",
+              bind(inertia_at_crank, rotation="rotation", speed_ratio="speed_ratio"), source="energy")
+inertia.reduction("crank_inertia_mean", "I_m", "kg*m**2", "Its mean over a turn, for the run-up", "mean", of="crank_inertia")
+inertia.reduction("crank_inertia_max", "I_max", "kg*m**2", "Its greatest value", "max", of="crank_inertia")
+
+engagement = Chapter("Engagement of the clutch",
+                     text="From rest the net torque M′ gives the crank ω(φ) = √(2M′(φ − φ₀)/I_red(φ)); the slip ends where that first is the speed "
+                          "of the driving side. An inertia that does not change would make the same heat as the equal one.", needs=ENGAGED,
+                     absent="not calculated: there is no clutch or no cylinder drive to take it from, or there are several")
+engagement.require("clutch_pulls", lambda clutch_load, clutch_torque: clutch_load < clutch_torque, key="clutch_load",
+                   message="is {clutch_load}, but the slipping clutch carries {clutch_torque} only: the driven side never comes up to speed; "
+                           "lower the load while engaging")
+engagement.value("net_torque", "M′", "N*m", "Torque that accelerates", lambda clutch_torque, clutch_load: clutch_torque - clutch_load,
+                 source="mechanics")
+engagement.value("start_angle", "φ_0", "deg", "Crank angle of the engagement: as given", lambda engagement_angle: engagement_angle, source="input",
+                 needs=("engagement_angle",))
+engagement.computed("start_angle", "φ_0", "deg", "Crank angle of the engagement: the one with most heat", function=clutch.worst_angle,
+                    takes=clutch.TAKES, method="all crank angles tried", source="this method", lacks=("engagement_angle",))
+engagement.computed("slip_time", "t_s", "ms", "Time of the slip", function=clutch.slip_time, takes=(*clutch.TAKES, "start_angle"),
+                    method="Gauss–Legendre", source="this method")
+engagement.computed("driven_angle", "Δφ", "deg", "Angle that the crank turns meanwhile", function=clutch.driven_angle,
+                    takes=(*clutch.TAKES, "start_angle"), method="root of equal speeds", source="this method")
+engagement.value("lag_angle", "Δφ_l", "deg", "Angle that the driving side turns more",
+                 lambda clutch_speed, slip_time, driven_angle: clutch_speed * slip_time - driven_angle, source="kinematics")
+engagement.value("slip_heat", "Q", "J", "Heat of the engagement", lambda clutch_torque, lag_angle: clutch_torque * lag_angle, source="energy")
+engagement.value("equal_inertia", "I_eq", "kg*m**2", "Inertia that would make the same heat if it did not change",
+                 lambda slip_heat, net_torque, clutch_torque, clutch_speed: 2 * slip_heat * net_torque / (clutch_torque * clutch_speed**2),
+                 source="energy")
+
+ends_chapter = Chapter("Speed before the ends of the travel", needs=TRAVEL,
+                       text="The drive brings the cylinder to rest by itself; dampers that are met before its ends still take what it has there.",
+                       absent="not calculated: there is no cylinder drive to take it from, or there are several")
+ends_chapter.require("contact_within_stroke", lambda contact_distance, stroke: contact_distance < stroke, key="contact_distance",
+                     message="is {contact_distance}, but the whole stroke is {stroke}; dampers are met shortly before its ends",
+                     needs=("contact_distance",))
+ends_chapter.computed("contact_speed_inner", "v_in", "m/s", "Speed at contact before the inner end", function=ends.inner_speed,
+                      takes=(*ends.INNER, "contact_distance"), method="nested search", source="kinematics", needs=("contact_distance",))
+ends_chapter.computed("contact_speed_outer", "v_out", "m/s", "Speed at contact before the outer end", function=ends.outer_speed,
+                      takes=(*ends.INNER, "contact_distance"), method="nested search", source="kinematics", needs=("contact_distance",))
+ends_chapter.value("contact_speed", "v_k", "m/s", "Greater speed at contact",
+                   bind(ends.greater, one="contact_speed_inner", other="contact_speed_outer"), source="kinematics", needs=("contact_distance",))
+ends_chapter.computed("way_inner", "d_in", "mm", "Way before the inner end at which it has the speed that the dampers are calculated with",
+                      function=ends.inner_way, takes=(*ends.INNER, "damper_velocity"), method="nested search", source="kinematics",
+                      needs=("damper_velocity",))
+ends_chapter.computed("way_outer", "d_out", "mm", "Way before the outer end at which it has it", function=ends.outer_way,
+                      takes=(*ends.INNER, "damper_velocity"), method="nested search", source="kinematics", needs=("damper_velocity",))
+
+motor_chapter = Chapter("Motor behind its flywheel",
+                        text="With linear slip the motor follows the load as a lag of first order, M_m + τ·dM_m/dt = M_f: a flywheel shields it only "
+                             "where τ is long beside the time of a stroke.", needs=MOTOR,
+                        absent="not calculated: there is no drive train with a torque curve to take it from, or there are several")
+motor_chapter.require("motor_slips", lambda motor_speed, synchronous_speed: motor_speed < synchronous_speed, key="motor_speed",
+                      message="is {motor_speed}, but a motor under load turns slower than its synchronous speed {synchronous_speed}")
+motor_chapter.value("load_period", "T_f", "ms", "Time after which the load repeats",
+                    lambda load_turns, output_speed: load_turns * as_number(2 * np.pi) / as_number(output_speed), source="kinematics")
+motor_chapter.value("slip_stiffness", "k", "N*m*s/rad", "Torque of the motor for each radian a second of slip",
+                    bind(motor_slip.slip_stiffness, rated_torque="motor_rated_torque", rated_speed="motor_speed"), source="this method")
+motor_chapter.value("flywheel_stiffness", "k_f", "N*m*s/rad", "The same at the flywheel's shaft",
+                    bind(motor_slip.stiffness_at_flywheel, ratio="belt_ratio", efficiency="belt_efficiency"), source="energy")
+motor_chapter.value("time_constant", "τ", "ms", "Time constant of the lag",
+                    bind(motor_slip.time_constant, inertia="flywheel_inertia", stiffness_at_flywheel="flywheel_stiffness"), source="this method")
+for name, symbol, words, function in (("lagged_rms", "M_f,rms", "Root mean square of the motor's torque at the flywheel's shaft", motor.rms),
+                                      ("lagged_max", "M_f,max", "Greatest torque of the motor there", motor.largest),
+                                      ("lagged_min", "M_f,min", "Least torque of the motor there; negative where it brakes", motor.least)):
+    motor_chapter.computed(name, symbol, "N*m", words, function=function, takes=("flywheel_torque", "load_turns", "load_period", "time_constant"),
+                           method="exponentials on smooth pieces", source="this method", output=False)
+motor_chapter.value("motor_torque_rms", "M_rms", "N*m", "Root mean square of the motor's torque",
+                    lambda lagged_rms, belt_ratio, belt_efficiency: lagged_rms / (belt_ratio * belt_efficiency), source="energy")
+motor_chapter.value("motor_torque_max", "M_max", "N*m", "Greatest torque of the motor",
+                    lambda lagged_max, belt_ratio, belt_efficiency: lagged_max / (belt_ratio * belt_efficiency), source="energy")
+motor_chapter.value("motor_torque_min", "M_min", "N*m", "Least torque of the motor",
+                    lambda lagged_min, belt_ratio, belt_efficiency: lagged_min / (belt_ratio * belt_efficiency), source="energy")
+motor_chapter.value("motor_torque_peak", "M_peak", "N*m", "Greatest size of the motor's torque",
+                    bind(ends.greater_size, one="motor_torque_max", other="motor_torque_min"), source="this method")
+motor_chapter.value("breakdown_torque", "M_br", "N*m", "Breakdown torque of the motor",
+                    lambda breakdown_ratio, motor_rated_torque: breakdown_ratio * motor_rated_torque, source="this method",
+                    needs=("breakdown_ratio",))
+motor_chapter.value("speed_swing", "δ_a", "1", "Fluctuation of the flywheel's speed: greatest less least, to the mean",
+                    lambda lagged_max, lagged_min, flywheel_stiffness, flywheel_speed:
+                        (lagged_max - lagged_min) / (flywheel_stiffness * flywheel_speed), source="this method")
+motor_chapter.value("rating_needed", "P_n", "kW", "Rated power whose torque is that root mean square", lambda motor_torque_rms, motor_speed:
+                    motor_torque_rms * motor_speed, source="mechanics")

@@ -1,0 +1,157 @@
+"""Inputs of the consistency of the press: all are taken from the mechanisms that they name, or given here."""
+
+from __future__ import annotations
+
+from typing import Any, Literal
+
+from diecut_report.api import POINTS, Annotated, CurveInput, FromPress, Inputs, Quantity, Text
+
+
+class PressConsistency(Inputs):
+    """Keys of ``press_consistency``; each is optional, and a check is made where all that it needs is there."""
+
+    productivity: Annotated[
+        float | None,
+        Quantity("n", "1/h", "Productivity of the press", gt=0, press=FromPress("press.productivity", optional=True)),
+    ] = None
+    sheet_length: Annotated[
+        float | None,
+        Quantity("L_s", "mm", "Length of the sheet", gt=0, press=FromPress("press.sheet.length", optional=True)),
+    ] = None
+    sheet_width: Annotated[
+        float | None,
+        Quantity("B_s", "mm", "Width of the sheet", gt=0, press=FromPress("press.sheet.width", optional=True)),
+    ] = None
+    feed_side: Annotated[Literal["width", "length"], Text("Side of the sheet that lies in the direction of feed")] = (
+        "width"
+    )
+    sheet_gap: Annotated[
+        float | None,
+        Quantity("g_s", "mm", "Room that two sheets leave each other in the feed, for grippers and carriage", ge=0),
+    ] = None
+
+    cylinder: Annotated[str | None, Text("Mechanism that is the cylinder; without it the only cylinder_sizing")] = None
+    drive: Annotated[str | None, Text("Mechanism that drives it; without it the only cylinder_drive")] = None
+    transport: Annotated[
+        str | None, Text("Mechanism that moves the sheet; without it the only cam_gear_transport or geneva_transport")
+    ] = None
+    conveyor: Annotated[
+        str | None, Text("Mechanism that tells the conveyor's mass; without it the only cam_gear_transport")
+    ] = None
+    wheel: Annotated[
+        str | None, Text("Mechanism that tells the wheel's inertia; without it the only geneva_transport")
+    ] = None
+    train: Annotated[str | None, Text("Mechanism that drives the main shaft; without it the only drive_train")] = None
+    clutch: Annotated[str | None, Text("Clutch on the crank's shaft; without it the only clutch")] = None
+    damper: Annotated[str | None, Text("Dampers at the ends of the travel; without it the only damper")] = None
+
+    working_length: Annotated[
+        float | None, Quantity("l_1", "mm", "Length that the cylinder unrolls while it cuts", gt=0)
+    ] = None
+    generatrix_length: Annotated[float | None, Quantity("L", "mm", "Length of the cylinder's generatrix", gt=0)] = None
+
+    sheet_step: Annotated[float | None, Quantity("S", "mm", "Step of the sheet transport", gt=0)] = None
+    chain_pitch: Annotated[float | None, Quantity("p", "mm", "Pitch of the transport's chain", gt=0)] = None
+    sprocket_teeth: Annotated[
+        int | None, Quantity("z_s", "1", "Teeth of the transport's sprocket", ge=3, integer=True)
+    ] = None
+    sheet_play: Annotated[
+        float | None, Quantity("Δx", "mm", "Way by which the sheet can move either way in the dwell", ge=0)
+    ] = None
+    backlash: Annotated[
+        float, Quantity("Δx_b", "mm", "Further plays between transport and cylinder, at the sheet", ge=0)
+    ] = 0
+    register_tolerance: Annotated[
+        float | None, Quantity("[Δx]", "mm", "Allowed error of the cut's place on the sheet", gt=0)
+    ] = None
+    conveyor_mass: Annotated[
+        float | None, Quantity("m_c", "kg", "Mass of the conveyor: chains, gripper bars and sheets", gt=0)
+    ] = None
+    wheel_inertia: Annotated[
+        float | None,
+        Quantity("J_w", "kg*m**2", "Inertia that the Geneva wheel is calculated with, at its shaft", gt=0),
+    ] = None
+    travel_radius: Annotated[
+        float | None, Quantity("r_c", "mm", "Way of the conveyor for each radian of the wheel", gt=0)
+    ] = None
+
+    crank_speed: Annotated[float | None, Quantity("ω_1", "rpm", "Speed of the cylinder drive's crank", gt=0)] = None
+    output_speed: Annotated[
+        float | None, Quantity("ω_o", "rpm", "Speed that the drive train's output really has", gt=0)
+    ] = None
+    output_turns_per_sheet: Annotated[
+        float | None,
+        Quantity("i", "1", "Turns of that output for each sheet; without it those of the cylinder drive's crank", gt=0),
+    ] = None
+
+    cylinder_mass: Annotated[float | None, Quantity("m", "kg", "Mass of the cylinder", gt=0)] = None
+    cylinder_inertia: Annotated[
+        float | None, Quantity("I", "kg*m**2", "Moment of inertia of the cylinder about its axis", gt=0)
+    ] = None
+    cylinder_radius: Annotated[float | None, Quantity("R", "mm", "Radius of the cylinder", gt=0)] = None
+    static_unbalance: Annotated[float, Quantity("me", "kg*m", "Static unbalance of the cylinder", ge=0)] = 0
+    cylinder_rotation: Annotated[
+        Any | None, CurveInput("θ", "deg", "Rotation of the cylinder over a turn of its crank", referred=True)
+    ] = None
+    cylinder_speed: Annotated[
+        Any | None, CurveInput("ω_z", "rad/s", "Speed of the cylinder over a turn of its crank", referred=True)
+    ] = None
+    displacement: Annotated[
+        Any | None, CurveInput("x_z", "mm", "Way of the cylinder's axis over a turn of its crank", referred=True)
+    ] = None
+    velocity: Annotated[
+        Any | None, CurveInput("v_z", "m/s", "Velocity of the cylinder's axis over a turn of its crank", referred=True)
+    ] = None
+    stroke: Annotated[float | None, Quantity("S_max", "mm", "Stroke of the cylinder's axis", gt=0)] = None
+    dead_center_outer: Annotated[
+        float | None, Quantity("φ_out", "deg", "Crank angle of the outer dead centre", ge=0, le=360)
+    ] = None
+    dead_center_inner: Annotated[
+        float | None, Quantity("φ_in", "deg", "Crank angle of the inner dead centre", ge=0, le=720)
+    ] = None
+
+    clutch_torque: Annotated[
+        float | None, Quantity("M_c", "N*m", "Torque of the slipping clutch on the crank's shaft", gt=0)
+    ] = None
+    clutch_load: Annotated[
+        float, Quantity("M_l", "N*m", "Load torque of the driven side while the clutch slips", ge=0)
+    ] = 0
+    clutch_speed: Annotated[float | None, Quantity("ω_c", "rpm", "Speed of the clutch's driving side", gt=0)] = None
+    clutch_inertia: Annotated[
+        float | None, Quantity("J_c", "kg*m**2", "Inertia that the clutch is calculated with", gt=0)
+    ] = None
+    engagement_angle: Annotated[
+        float | None,
+        Quantity("φ_e", "deg", "Crank angle at which the clutch engages; without it the worst is taken", ge=0, lt=360),
+    ] = None
+
+    damper_velocity: Annotated[
+        float | None, Quantity("v_d", "m/s", "Speed at contact that the dampers are calculated with", gt=0)
+    ] = None
+    contact_distance: Annotated[
+        float | None, Quantity("d_c", "mm", "Way before the ends of the travel at which the dampers are met", gt=0)
+    ] = None
+
+    flywheel_torque: Annotated[
+        Any | None,
+        CurveInput("M_f", "N*m", "Load at the flywheel's shaft over the turns after which it repeats", referred=True),
+    ] = None
+    load_turns: Annotated[
+        int, Quantity("k_T", "1", "Turns of the drive train's output that this load spans", ge=1, integer=True)
+    ] = 1
+    flywheel_inertia: Annotated[float | None, Quantity("J", "kg*m**2", "Moment of inertia of the flywheel", gt=0)] = (
+        None
+    )
+    flywheel_speed: Annotated[float | None, Quantity("ω_f", "rpm", "Speed of the flywheel", gt=0)] = None
+    belt_ratio: Annotated[float | None, Quantity("i_b", "1", "Ratio from the motor to the flywheel", gt=0)] = None
+    belt_efficiency: Annotated[float, Quantity("η_b", "1", "Efficiency from the motor to the flywheel", gt=0, le=1)] = 1
+    motor_rated_torque: Annotated[float | None, Quantity("M_r", "N*m", "Rated torque of the motor", gt=0)] = None
+    motor_speed: Annotated[float | None, Quantity("n_m", "rpm", "Rated speed of the motor", gt=0)] = None
+    synchronous_speed: Annotated[float | None, Quantity("n_s", "rpm", "Synchronous speed of the motor", gt=0)] = None
+    breakdown_ratio: Annotated[
+        float | None, Quantity("k_b", "1", "Breakdown torque of the motor to its rated torque", ge=1)
+    ] = None
+    speed_fluctuation: Annotated[
+        float | None, Quantity("δ", "1", "Accepted fluctuation of the flywheel's speed", gt=0, lt=1)
+    ] = None
+    n_points: Annotated[int, POINTS] = 720

@@ -1,0 +1,27 @@
+"""Where the consistency of the press takes its inputs from."""
+
+from __future__ import annotations
+
+from diecut_report.api import Partner
+
+PARTNERS = (
+    Partner(key="cylinder", kinds=("cylinder_sizing",), takes={"working_length": "working_length", "generatrix_length": "generatrix_length"}),
+    Partner(key="drive", kinds=("cylinder_drive",), takes={
+        "cylinder_mass": "cylinder_mass", "cylinder_inertia": "cylinder_inertia", "cylinder_radius": "cylinder_radius",
+        "static_unbalance": "static_unbalance", "cylinder_rotation": "cylinder_rotation", "cylinder_speed": "cylinder_speed",
+        "displacement": "displacement", "velocity": "velocity", "stroke": "stroke", "crank_speed": "crank_speed",
+        "dead_center_outer": "dead_center_outer", "dead_center_inner": "dead_center_inner"}),
+    Partner(key="transport", kinds=("cam_gear_transport", "geneva_transport"), takes={
+        "sheet_step": "sheet_step", "chain_pitch": "chain_pitch", "sprocket_teeth": "sprocket_teeth", "sheet_play": "sheet_play"}),
+    Partner(key="conveyor", kinds=("cam_gear_transport",), takes={"conveyor_mass": "conveyor_mass"}),
+    Partner(key="wheel", kinds=("geneva_transport",), takes={"wheel_inertia": "driven_inertia", "travel_radius": "travel_radius"}),
+    Partner(key="train", kinds=("drive_train",), takes={
+        "output_speed": "output_speed", "flywheel_torque": "flywheel_torque", "load_turns": "torque_curve_turns",
+        "flywheel_inertia": "flywheel_inertia", "flywheel_speed": "shaft_2_speed", "belt_ratio": "vbelt_ratio_actual",
+        "belt_efficiency": "vbelt.efficiency", "motor_rated_torque": "motor_rated_torque", "motor_speed": "motor_speed",
+        "synchronous_speed": "synchronous_speed", "breakdown_ratio": "breakdown_ratio", "speed_fluctuation": "speed_fluctuation"}),
+    Partner(key="clutch", kinds=("clutch",), takes={
+        "clutch_torque": "design_torque", "clutch_load": "load_torque_at_engagement", "clutch_speed": "speed",
+        "clutch_inertia": "driven_inertia"}),
+    Partner(key="damper", kinds=("damper",), takes={"damper_velocity": "velocity"}),
+)  # fmt: skip

@@ -1,0 +1,81 @@
+"""Chapters on the sheet: its sides against cylinder and step, the rate that it comes at, its register, what moves it."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+
+from diecut_report.api import Chapter, as_number, bind, formula
+from diecut_report.mechanics import common
+
+# fmt: off
+
+BY_WIDTH, BY_LENGTH = ("feed_side=width",), ("feed_side=length",)
+CONVEYOR = ("conveyor_mass", "travel_radius", "wheel_inertia")
+
+
+
+@formula
+def actual_rate(output_speed: Any, turns_a_sheet: Any) -> Any:
+    """Sheets in a time at a speed of the output."""
+    return as_number(output_speed) / (as_number(2 * np.pi) * turns_a_sheet)
+
+
+@formula
+def rate_error(actual_rate: Any, productivity: Any) -> Any:
+    """What a rate is more than another one, relative."""
+    return actual_rate / productivity - 1
+
+
+SIDES = {"sheet_width": bind(common.same, quantity="sheet_width"), "sheet_length": bind(common.same, quantity="sheet_length")}
+
+sides = Chapter("Sheet, cylinder and step",
+                text="The cylinder must unroll over the whole side that lies in the feed, and reach along the whole other one; a step of the "
+                     "transport holds a sheet and what lies between two.")
+for feed, length, width in ((BY_WIDTH, "sheet_length", "sheet_width"), (BY_LENGTH, "sheet_width", "sheet_length")):
+    sides.value("side_in_feed", "s_f", "mm", f"Side of the sheet in the feed: its {width.removeprefix('sheet_')}",
+                SIDES[width],
+                source="input", needs=(*feed, width))
+    sides.value("side_across", "s_a", "mm", f"Side across it: its {length.removeprefix('sheet_')}",
+                SIDES[length],
+                source="input", needs=(*feed, length))
+    sides.value("step_room", "Δs", "mm", "Room that a step leaves between two sheets", lambda sheet_step, side_in_feed: sheet_step - side_in_feed,
+                source="geometry", needs=(*feed, width, "sheet_step"))
+
+rate = Chapter("Rate that the gears give",
+               text="The gears hold whole teeth and the pulleys standard diameters, so that the press turns a little off its productivity; all times "
+                    "are longer or shorter by that.", needs=("output_speed", "productivity"),
+               absent="not calculated: the drive train's output_speed and productivity are not both given")
+rate.value("turns_a_sheet", "i_o", "1", "Turns of the output for each sheet: as given", lambda output_turns_per_sheet: output_turns_per_sheet,
+           source="input", needs=("output_turns_per_sheet",))
+rate.value("turns_a_sheet", "i_o", "1", "Turns of the output for each sheet: those of the crank at the productivity",
+           lambda crank_speed, productivity: crank_speed / (2 * np.pi * productivity), source="kinematics", needs=("crank_speed",),
+           lacks=("output_turns_per_sheet",))
+rate.value("actual_rate", "n_a", "1/h", "Sheets that the press really makes", actual_rate, source="kinematics", needs=("output_turns_per_sheet",))
+rate.value("actual_rate", "n_a", "1/h", "Sheets that the press really makes", actual_rate, source="kinematics", needs=("crank_speed",),
+           lacks=("output_turns_per_sheet",))
+rate.value("rate_error", "Δn", "%", "What it makes more than its productivity, relative", rate_error, source="kinematics",
+           needs=("output_turns_per_sheet",))
+rate.value("rate_error", "Δn", "%", "What it makes more than its productivity, relative", rate_error, source="kinematics", needs=("crank_speed",),
+           lacks=("output_turns_per_sheet",))
+
+conveyor = Chapter("Inertia of the conveyor", needs=CONVEYOR,
+                   text="The wheel moves the conveyor's mass on the way that it makes for each radian.",
+                   absent="not calculated: conveyor_mass, travel_radius and wheel_inertia are not all given")
+conveyor.value("conveyor_inertia", "J_m", "kg*m**2", "Inertia of the conveyor's mass at the wheel's shaft",
+               lambda conveyor_mass, travel_radius: conveyor_mass * travel_radius**2, source="energy")
+conveyor.value("inertia_error", "Δ_J", "%", "Difference of the inertia that the wheel is calculated with, relative",
+               lambda wheel_inertia, conveyor_inertia: abs(wheel_inertia / conveyor_inertia - 1), source="energy")
+
+register = Chapter("Register",
+                   text="Plays add up, as each can stand at its end; a step of whole pitches stops the chain in the same place each time.")
+register.value("play_total", "Δx_Σ", "mm", "Plays of transport and lines together", lambda sheet_play, backlash: sheet_play + backlash,
+               source="geometry", needs=("sheet_play",))
+register.value("pitches", "n_p", "1", "Pitches of the chain for each step",
+               lambda sheet_step, chain_pitch: sheet_step / chain_pitch,
+               source="geometry", needs=("sheet_step", "chain_pitch"), digits=10)
+register.value("pitch_error", "Δn_p", "1", "What they miss a whole number by", lambda pitches: abs(pitches - np.floor(pitches + 1 / 2)),
+               source="geometry", needs=("sheet_step", "chain_pitch"))
+register.value("speed_ripple", "ε_v", "%", "Ripple of the chain's speed, as links lie on the sprocket as a polygon",
+               lambda sprocket_teeth: 1 - np.cos(np.pi / sprocket_teeth), source="geometry", needs=("sprocket_teeth",))

@@ -1,0 +1,131 @@
+"""What a kind takes from its partners by itself, and when it runs without being asked."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from diecut_report.config.discovery import Discovery
+from diecut_report.config.loader import load_config
+from diecut_report.config.references import texts
+from diecut_report.contract.mechanism import Partner
+from diecut_report.pipeline import calc
+from diecut_report.plugins.press_consistency import MECHANISM
+from tests.configs import DISCOVERY, EXAMPLE, HEAD, loaded, problems, saved
+
+DRIVE = """\
+  drive: {kind: cylinder_drive, cylinder_radius: 105 mm, cylinder_length: 700 mm, cylinder_mass: 80 kg, cylinder_inertia: 0.973 kg*m**2,
+          material_thickness: 0.6 mm, cutting_force_per_length: 25 N/mm, ejection_force_per_length: 5 N/mm}
+"""
+CLUTCH = "  clutch: {kind: clutch, torque: 300 N*m, shoe_radius: 120 mm, wedge_angle: 10 deg}\n"
+CROSS = """\
+  NAME: {kind: geneva_transport, center_distance: 240 mm, roller_radius: 16 mm, gear_ratio: 6, sprocket_teeth: 30, chain_pitch: 19.05 mm}
+"""
+TWO = CROSS.replace("NAME", "one") + CROSS.replace("NAME", "two").replace("gear_ratio: 6", "gear_ratio: 4")
+
+
+def references(folder: Path, text: str, name: str = "press_consistency") -> dict[str, str]:
+    """What the consistency takes, by its keys."""
+    instance = loaded(folder, text).instances[name]
+    assert instance is not None
+    return {str(key[0]): taken for key, taken in texts(instance.data)}
+
+
+def results(folder: Path, text: str) -> dict[str, Any]:
+    """The results of the consistency."""
+    outcome, _ = calc(saved(folder, text), DISCOVERY, lambda _: None)
+    found: dict[str, Any] = outcome.results["mechanisms"]["press_consistency"]
+    return found
+
+
+def test_two_partners_run_the_consistency_with_what_they_have(tmp_path: Path) -> None:
+    taken = references(tmp_path, HEAD + DRIVE + CLUTCH)
+    assert taken["drive"] == "drive"
+    assert taken["cylinder_mass"] == "${drive.cylinder_mass}"
+    assert taken["clutch_torque"] == "${clutch.design_torque}"
+    assert "clutch_speed" not in taken, "the clutch has none"
+    assert "sheet_step" not in taken
+
+
+@pytest.mark.parametrize("text", [HEAD + CLUTCH, HEAD + DRIVE])
+def test_a_single_mechanism_contradicts_no_other(tmp_path: Path, text: str) -> None:
+    assert "press_consistency" not in loaded(tmp_path, text).instances
+
+
+def test_what_is_not_wanted_is_not_added() -> None:
+    assert "press_consistency" in load_config(EXAMPLE, DISCOVERY).instances
+    assert "press_consistency" not in load_config(EXAMPLE, DISCOVERY, only_named=True).instances
+
+
+def test_a_block_of_the_kind_takes_the_place_of_the_one_that_runs_by_itself(tmp_path: Path) -> None:
+    text = HEAD + "  whole: {kind: press_consistency, cylinder_mass: 90 kg, sheet_gap: 20 mm}\n" + DRIVE + CLUTCH
+    assert "press_consistency" not in loaded(tmp_path, text).instances
+    taken = references(tmp_path, text, "whole")
+    assert taken["cylinder_mass"] == "90 kg", "what is given is not taken"
+    assert taken["stroke"] == "${drive.stroke}"
+
+
+def test_of_several_partners_none_is_taken_unless_it_is_named(tmp_path: Path) -> None:
+    assert "sheet_step" not in references(tmp_path, HEAD + DRIVE + TWO)
+    text = HEAD + "  whole: {kind: press_consistency, transport: two}\n" + DRIVE + TWO
+    assert references(tmp_path, text, "whole")["sheet_step"] == "${two.sheet_step}"
+
+
+@pytest.mark.parametrize(
+    "name, words",
+    [
+        ("tow", "is “tow”; the name of a mechanism of kind cam_gear_transport or geneva_transport is needed"),
+        (
+            "drive",
+            "is drive, of kind cylinder_drive; the name of a mechanism of kind cam_gear_transport or geneva_transport is needed.",
+        ),
+        ("3", "is “3”; the name of a mechanism"),
+    ],
+)
+def test_a_partner_that_is_none_is_told_with_its_place(tmp_path: Path, name: str, words: str) -> None:
+    text = HEAD + f"  whole: {{kind: press_consistency, transport: {name}}}\n" + DRIVE + TWO
+    (found,) = problems(tmp_path, text)
+    assert f"mechanisms.whole.transport: {words}" in found
+
+
+def test_a_name_that_is_taken_gets_a_number(tmp_path: Path) -> None:
+    named = CLUTCH.replace("clutch:", "press_consistency:", 1)
+    config = loaded(tmp_path, HEAD + DRIVE + named)
+    assert config.kinds["press_consistency_2"] == "press_consistency"
+
+
+def test_what_is_not_checked_says_where_it_would_come_from(tmp_path: Path) -> None:
+    found = {check["id"]: check for check in results(tmp_path, HEAD + DRIVE + TWO)["checks"]}
+    assert found["step"]["status"] == "not_checked"
+    assert found["step"]["message"].endswith(
+        "There is no cam_gear_transport or geneva_transport, or there are several: name one by transport."
+    )
+    found = {check["id"]: check for check in results(tmp_path, HEAD + DRIVE + CLUTCH)["checks"]}
+    assert "clutch.speed and clutch.driven_inertia are not there." in found["driven_inertia"]["message"]
+
+
+def test_what_a_partner_does_not_have_in_this_machine_is_left_out(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """A flat that never arrives at its lower end has no window there; what else is taken is checked all the same."""
+    ends = Partner(
+        key="drive", kinds=("cylinder_drive",), takes={"dead_center_inner": "clearance_inner_start", "stroke": "stroke"}
+    )
+    found = replace(DISCOVERY.mechanism("press_consistency"), partners=(*MECHANISM.partners, ends))
+    own = Discovery.mechanism
+    monkeypatch.setattr(Discovery, "mechanism", lambda self, kind: found if kind == found.kind else own(self, kind))
+    turning = DRIVE.replace("{kind", "{segment_height: 40 mm, carriage_clearance: 30 mm, sector_ratio: 3, kind")
+    inputs = results(tmp_path, HEAD + turning + CLUTCH)["inputs"]
+    assert inputs["stroke"]["path"] == "drive.stroke"
+    assert inputs.get("dead_center_inner", {}).get("value") is None
+
+
+def test_the_example_press_is_held_against_itself() -> None:
+    outcome, _ = calc(EXAMPLE, DISCOVERY, lambda _: None)
+    checks = {check["id"]: check["status"] for check in outcome.results["mechanisms"]["press_consistency"]["checks"]}
+    assert checks["driven_inertia"] == "fail"
+    assert checks["format_rolled"] == "pass"
+    assert checks["damper_velocity"] == "not_checked"

@@ -1,0 +1,74 @@
+"""Mistakes of authors in phases are told with the phase, what is wrong, and what to write instead."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any
+
+import numpy as np
+import pytest
+
+from diecut_report.api import POINTS, Annotated, Chapter, Inputs, Mechanism, Phase, Quantity
+from diecut_report.declaration import faults
+
+
+class Knife(Inputs):
+    begins: Annotated[float, Quantity("φ_1", "deg", "Where it begins")]
+    ends: Annotated[float, Quantity("φ_2", "deg", "Where it ends")]
+    blade: Annotated[float, Quantity("l", "mm", "Length")]
+    guard: Annotated[float | None, Quantity("φ_3", "deg", "Guard")] = None
+    speed: Annotated[float, Quantity("ω", "rpm", "Speed")]
+    n_points: Annotated[int, POINTS] = 36
+
+
+Declare = Callable[[Chapter], None]
+
+
+def told(declare: Declare) -> list[str]:
+    """What is said of a mechanism with these phases beside a sound one."""
+    chapter = Chapter("Knife")
+    chapter.abscissa("angle", "φ", "deg", "Angle", 2 * np.pi, speed="speed")
+    chapter.value("edge_way", "s", "mm", "Way", lambda angle, blade: angle * blade)
+    chapter.phase("cutting", "working", "Cutting", "angle", ("begins", "ends"))
+    chapter.phase("guarded", "window", "Guarded", "angle", (0, "guard"), needs=("guard",))
+    declare(chapter)
+    made = Mechanism(kind="knife", version="1", title="Knife", summary="Knife.", inputs=Knife, chapters=(chapter,))
+    return [str(fault) for fault in faults(made)]
+
+
+def test_sound_phases_pass() -> None:
+    assert told(lambda c: c.phase("free", "window", "Free", "angle", rest_of=("cutting",))) == []
+
+
+MISTAKES: dict[str, tuple[Declare, str]] = {
+    "an unknown role": (lambda c: c.phase("x", "workin", "X", "angle", (0, "ends")), "role 'workin' (did you mean 'working'?)"),  # type: ignore[arg-type]
+    "no form": (lambda c: c.phase("x", "rest", "X", "angle"), "needs one of three forms"),
+    "two forms": (lambda c: c.phase("x", "rest", "X", "angle", (0, "ends"), union=("cutting",)), "needs one of three forms"),
+    "no pair": (lambda c: c.phase("x", "rest", "X", "angle", "begins", "ends"), '("begins", "ends")'),  # type: ignore[arg-type]
+    "a place in mm": (lambda c: c.phase("x", "rest", "X", "angle", ("blade", "ends")), "goes to blade, in mm; its abscissa angle is in deg"),
+    "an unknown place": (lambda c: c.phase("x", "rest", "X", "angle", ("begin", "ends")), "begin, which nothing gives (did you mean 'begins'?)"),
+    "a curve as a place": (lambda c: c.phase("x", "rest", "X", "angle", ("edge_way", "ends")), "edge_way, a curve; a single number is wanted"),
+    "no abscissa": (lambda c: c.phase("x", "rest", "X", "blade", (0, "ends")), "blade, a number; the id of an Abscissa is wanted"),
+    "an unknown phase": (lambda c: c.phase("x", "rest", "X", "angle", union=("cuting",)), "not declared above it (did you mean 'cutting'?)"),
+    "a phase that may be absent": (lambda c: c.phase("x", "rest", "X", "angle", union=("guarded",)), "without guard; give both the same needs"),
+    "an optional place": (lambda c: c.phase("x", "rest", "X", "angle", (0, "guard")), "guard, which nothing gives without guard"),
+    "a phase twice": (lambda c: c.phase("cutting", "working", "X", "angle", (0, "ends")), "has the id of another step"),
+    "a speed in mm": (lambda c: c.abscissa("turn", "ψ", "deg", "Turn", 2 * np.pi, speed="blade"), "a speed in deg/s is needed"),
+}  # fmt: skip
+
+
+@pytest.mark.parametrize("what", MISTAKES)
+def test_a_mistake_is_told(what: str) -> None:
+    declare, words = MISTAKES[what]
+    found = told(declare)
+    assert any(words in text for text in found), found
+    assert all("test_phases.py" in text for text in found)
+
+
+def test_a_phase_is_a_step_with_a_name_of_its_own() -> None:
+    """A quantity may have the same name."""
+    chapter = Chapter("C")
+    chapter.phase("cutting", "working", "Cutting", "angle", ("a", "b"))
+    step: Any = chapter.steps[0]
+    assert isinstance(step, Phase)
+    assert (step.id, step.spans) == ("phases.cutting", (("a", "b"),))

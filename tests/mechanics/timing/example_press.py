@@ -1,0 +1,129 @@
+"""The example press: its phases as the derivation of the cyclogram prints them, and the curves of its lines as it calculates them."""
+
+from __future__ import annotations
+
+from fractions import Fraction
+from functools import cache
+
+import numpy as np
+
+from diecut_report.config.discovery import Discovery
+from diecut_report.config.loader import load_config
+from diecut_report.engine import Calculation, CurveHandle
+from diecut_report.expressions import Array
+from diecut_report.mechanics import four_bar
+from diecut_report.mechanics.timing.clearance import Station
+from diecut_report.mechanics.timing.engagement import inertia_at_crank
+from diecut_report.mechanics.timing.intervals import Intervals, complement
+from diecut_report.mechanics.timing.lines import DrivenLine
+from diecut_report.mechanics.timing.torque_sum import Curve, LineCurve
+from diecut_report.results.press_run import compute
+from tests.configs import EXAMPLE
+from tests.machines import number
+
+COMMON = Fraction(2)  # two sheets
+PERIOD = 4 * np.pi
+TURN = 2 * np.pi
+CRANK, SHAFT = Fraction(1, 2), Fraction(1)  # turns a sheet: of the cylinder's drive, of the transports
+SPEED = 6000 / 3600 * TURN
+
+EDGES: dict[str, tuple[tuple[float, float], ...]] = {  # degrees of the line's own shaft
+    "forward": ((18.8043, 203.0831),),
+    "cutting": ((58.5873, 153.9490), (254.0129, 342.4182)),
+    "contact": ((55.8619, 157.0511), (250.7741, 344.7650)),
+    "carriage_window": ((5.3076, 32.8088), (184.7527, 221.7606)),
+    "cam_dwell": ((0.0, 160.0),),
+    "cam_passing": ((242.2268, 277.7732),),
+    "geneva_moving": ((-60.0, 60.0),),
+    "geneva_passing": ((-16.1740, 16.1740),),
+}
+
+
+def phase(name: str, offset: float = 0.0) -> Intervals:
+    """A phase on the main shaft over two sheets, its line at an offset (degrees)."""
+    turns = SHAFT if name.startswith(("cam", "geneva")) else CRANK
+    own = tuple((np.radians(start), np.radians(end)) for start, end in EDGES[name])
+    return DrivenLine(turns, np.radians(offset)).on_main_shaft(own, COMMON)
+
+
+def dwell(transport: str, offset: float = 0.0) -> Intervals:
+    """The dwell of a transport."""
+    return phase("cam_dwell", offset) if transport == "cam" else complement(phase("geneva_moving", offset), PERIOD)
+
+
+def in_degrees(intervals: Intervals) -> list[tuple[float, float]]:
+    """The edges in degrees."""
+    return [(float(np.degrees(start)), float(np.degrees(end))) for start, end in intervals]
+
+
+@cache
+def calculations() -> dict[str, Calculation]:
+    """All mechanisms of the example press."""
+    return compute(load_config(EXAMPLE, Discovery([])), lambda _: None).calculations
+
+
+def curve(mechanism: str, name: str) -> tuple[Curve, Array]:
+    """A curve of a mechanism over its own turn, by shares, and its breakpoints."""
+    handle = CurveHandle(calculations()[mechanism], name)
+
+    def values(share: Array, middle: Array) -> Array:
+        found: Array = handle.values(share[None], middle[None], None)[0]
+        return found
+
+    return values, handle.breakpoints[0]
+
+
+def line_curve(mechanism: str, name: str, turns: Fraction, offset: float = 0.0) -> LineCurve:
+    """A curve of a mechanism on its line; the offset in degrees."""
+    return LineCurve(*curve(mechanism, name), DrivenLine(turns, np.radians(offset)))
+
+
+def of(mechanism: str, name: str) -> float:
+    """A number of a mechanism."""
+    return number(calculations()[mechanism], name)
+
+
+def rotation(main_angle: Array) -> Array:
+    """The rotation of the cylinder from its outer end."""
+    found: Array = of("drive", "sector_ratio") * (
+        _motion(main_angle / 2).rocker_direction - of("drive", "outer_direction")
+    )
+    return found
+
+
+def _motion(crank_angle: Array) -> four_bar.LinkageMotion:
+    ratios = (of("drive", f"inputs.{key}_ratio") for key in ("frame", "coupler", "rocker"))
+    return four_bar.motion(crank_angle, *ratios)
+
+
+def crank_inertia(crank_angle: Array, *, balanced: bool = False) -> Array:
+    """The inertia of the cylinder that its crank feels."""
+    motion = _motion(np.asarray(crank_angle))
+    ratio = of("drive", "sector_ratio")
+    unbalance = 0.0 if balanced else of("drive", "inputs.static_unbalance")
+    rolling = (of("drive", f"inputs.cylinder_{key}") for key in ("inertia", "mass", "radius"))
+    turned = ratio * (motion.rocker_direction - of("drive", "outer_direction"))
+    found: Array = inertia_at_crank(*rolling, unbalance, turned, ratio * motion.rocker_speed_ratio)
+    return found
+
+
+def dead_centers() -> Array:
+    """The crank angles where the cylinder stands."""
+    return np.array([of("drive", "dead_center_outer"), of("drive", "dead_center_inner")])
+
+
+def displacement(transport: str, offset: float, main_angle: Array) -> Array:
+    """The way of the carriages, counted from a rest; the offset in degrees."""
+    mechanism, start = ("feeder", 0.0) if transport == "cam" else ("cross", of("cross", "sheet_step") / 2)
+    turned = (main_angle - np.radians(offset)) / TURN
+    share = turned % 1
+    way = curve(mechanism, "sheet_position")[0](share, np.clip(share, 1e-9, 1 - 1e-9))
+    found: Array = way - start + (turned - share) * of("cross", "sheet_step")
+    return found
+
+
+def station(stop: float, *, with_feed: bool = True) -> Station:
+    """The cylinder over carriages of 20 mm that stand at a place (m)."""
+    radius, height = of("drive", "inputs.cylinder_radius"), of("drive", "inputs.segment_height")
+    half_angle = float(np.arccos(1 - height / radius))
+    return Station(radius, half_angle, of("drive", "stroke"), with_feed, stop, of("cross", "sheet_step"), 0.020)

@@ -1,0 +1,99 @@
+"""The height below the cylinder, against the printed numbers, dense samples and the outline of the cylinder itself."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from diecut_report.expressions import Array
+from diecut_report.mechanics.timing import clearance
+from tests.examples import examples
+from tests.mechanics.timing.example_press import PERIOD, displacement, rotation, station
+
+ROWS = [
+    ("geneva", 48.0, True, 28.9877),
+    ("geneva", 38.1164, True, 23.5725),
+    ("geneva", 38.1164, False, 23.7585),
+    ("cam", 141.0056, True, 14.7183),
+    ("cam", 141.0056, False, 11.6557),
+]
+
+
+@pytest.mark.parametrize("transport, offset, with_feed, expected", ROWS)
+def test_the_least_heights_are_the_printed_ones_and_those_of_dense_samples(
+    transport: str, offset: float, with_feed: bool, expected: float
+) -> None:
+    at = station(0.285, with_feed=with_feed)
+    found = clearance.least_clearance(at, rotation, lambda angle: displacement(transport, offset, angle), PERIOD)
+    assert found.height * 1e3 == pytest.approx(expected, abs=1e-4)
+    angle = np.linspace(0, PERIOD, 20_001)
+    dense = clearance.carriage_clearance(at, rotation(angle), displacement(transport, offset, angle)).min()
+    assert found.height == pytest.approx(dense, abs=5e-6)
+    assert found.height <= dense + 1e-12
+    here = np.array([found.angle])
+    there = clearance.carriage_clearance(at, rotation(here), displacement(transport, offset, here))
+    assert there[0] == pytest.approx(found.height, rel=1e-9)
+
+
+def test_the_least_height_is_where_it_is_printed() -> None:
+    found = clearance.least_clearance(
+        station(0.285), rotation, lambda angle: displacement("geneva", 48.0, angle), PERIOD
+    )
+    assert np.degrees(found.angle) == pytest.approx(340.967, abs=1e-3)
+
+
+def outline(radius: float, half_angle: float, tilt: float) -> Array:
+    """Points of the cylinder's outline about its axis, the flat turned clockwise by the tilt: shape (points, 2), x along the feed, y up."""
+    arc = np.linspace(half_angle, 2 * np.pi - half_angle, 20_001)
+    flat = np.linspace(-half_angle, half_angle, 2)
+    corners = radius * np.stack([np.sin(flat), -np.cos(flat)], axis=1)
+    chord = corners[0] + np.linspace(0, 1, 20_001)[:, None] * (corners[1] - corners[0])
+    points = np.concatenate([radius * np.stack([np.sin(arc), -np.cos(arc)], axis=1), chord])
+    clockwise = np.array([[np.cos(tilt), -np.sin(tilt)], [np.sin(tilt), np.cos(tilt)]])
+    return points @ clockwise
+
+
+@given(
+    turned=st.floats(0, 2 * np.pi),
+    way=st.floats(-3, 3),
+    stop=st.floats(-1, 1),
+    with_feed=st.booleans(),
+    width=st.floats(0.01, 0.2),
+)
+@examples(60)
+def test_the_height_over_the_carriages_is_that_of_the_outline(
+    turned: float, way: float, stop: float, with_feed: bool, width: float
+) -> None:
+    at = replace(station(stop, with_feed=with_feed), carriage_width=width)
+    direction = 1 if with_feed else -1
+    tilt = direction * (turned if turned <= np.pi else turned - 2 * np.pi)
+    # A cylinder that rolls along +x turns clockwise, so that its flat, down at the start, swings towards −x.
+    axis = np.array([direction * (at.radius * turned - at.stroke / 2), at.radius])
+    points = outline(at.radius, at.half_angle, tilt) + axis
+    middles = stop + way + at.step * np.arange(-12, 13)
+    below = [points[abs(points[:, 0] - middle) <= width / 2, 1] for middle in middles]
+    expected = min((each.min() for each in below if len(each)), default=np.inf)
+    found = clearance.carriage_clearance(at, np.array([turned]), np.array([way]))[0]
+    high = 0.9 * at.radius  # above it the side is so steep that points of an outline do not tell the height
+    assert min(found, high) == pytest.approx(min(expected, high), abs=5e-4 if expected > 0.3 * at.radius else 5e-5)
+
+
+@given(tilt=st.floats(-np.pi, np.pi))
+@examples(60)
+def test_the_lowest_point_of_the_profile_is_where_it_is_said(tilt: float) -> None:
+    at = station(0.0)
+    distance = np.linspace(-at.radius, at.radius, 20_001)[1:-1]
+    heights = clearance.profile_height(at, np.array(tilt), distance)
+    lowest = clearance.profile_height(at, np.array(tilt), clearance.lowest_distance(at, np.array(tilt)))
+    assert heights.min() == pytest.approx(float(lowest), abs=1e-6)
+    assert heights.min() >= lowest - 1e-12
+
+
+def test_no_carriage_below_the_cylinder_is_no_limit() -> None:
+    far = replace(station(10.0), step=100.0)
+    found = clearance.least_clearance(far, rotation, lambda angle: np.zeros_like(angle), PERIOD)
+    assert found.height == np.inf

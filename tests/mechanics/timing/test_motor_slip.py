@@ -1,0 +1,121 @@
+"""The motor behind its flywheel, against the printed numbers, harmonics in closed form and an integration in time."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+import pytest
+from scipy.integrate import solve_ivp
+
+from diecut_report.expressions import Array
+from diecut_report.mechanics.timing import motor_slip, torque_sum
+from diecut_report.mechanics.timing.legendre_pieces import LegendrePieces, split
+from tests.mechanics.timing.example_press import COMMON
+from tests.mechanics.timing.test_torque_sum import cam, cylinder
+
+RATED_SPEED = 1450 * np.pi / 30
+RATED = 1100 / RATED_SPEED
+BELT, BELT_EFFICIENCY, GEAR, GEAR_EFFICIENCY = 3.0, 0.95, 98 / 20, 0.97
+INERTIA = 1.150435
+FLYWHEEL_SPEED = RATED_SPEED / BELT
+STIFFNESS = motor_slip.stiffness_at_flywheel(
+    motor_slip.slip_stiffness(RATED, motor_slip.next_synchronous_speed(RATED_SPEED), RATED_SPEED), BELT, BELT_EFFICIENCY
+)
+
+
+def load(makers: list[Any]) -> LegendrePieces:
+    """The load at the flywheel's shaft over time, at the speed that the gears really give."""
+    total = torque_sum.torque_sum([make() for make in makers], COMMON).total
+    return torque_sum.carried_back(total, GEAR, GEAR_EFFICIENCY).scaled(GEAR / FLYWHEEL_SPEED)
+
+
+ROWS = [
+    ([cylinder], 1, 0.90629, 13.834, None, 0.07489),
+    ([cylinder, cam], 1, 0.90392, 13.745, -2.391, 0.07681),
+    ([cylinder, cam], 10, 0.74398, None, None, 0.00976),
+]
+
+
+@pytest.mark.parametrize("makers, times, rms, largest, least, fluctuation", ROWS)
+def test_the_motor_of_the_example_press_is_loaded_as_printed(
+    makers: list[Any], times: float, rms: float, largest: float | None, least: float | None, fluctuation: float
+) -> None:
+    tau = motor_slip.time_constant(times * INERTIA, STIFFNESS)
+    assert tau == pytest.approx(0.09725 * times, abs=1e-5 * times)
+    found = motor_slip.motor_response(load(makers), tau)
+    at_motor = 1 / (BELT * BELT_EFFICIENCY)
+    assert found.torque.rms * at_motor / RATED == pytest.approx(rms, abs=1e-5)
+    assert found.speed_fluctuation(STIFFNESS, FLYWHEEL_SPEED) == pytest.approx(fluctuation, abs=1e-5)
+    if largest:
+        assert found.largest * at_motor == pytest.approx(largest, abs=1e-3)
+    if least:
+        assert found.least * at_motor == pytest.approx(least, abs=1e-3)
+
+
+def test_the_periodic_torque_is_that_of_an_integration_in_time() -> None:
+    torque = load([cylinder, cam])
+    tau = motor_slip.time_constant(INERTIA, STIFFNESS)
+    found = motor_slip.motor_response(torque, tau).torque
+    period = torque.edges[-1]
+
+    def rate(time: float, motor: Array) -> Array:
+        return (torque.at(np.array(time)) - motor) / tau
+
+    state = found.at(np.array([0.0]))
+    for start, end in zip(torque.edges[:-1], torque.edges[1:], strict=True):
+        times = np.linspace(start, end, 6)[1:-1]
+        run = solve_ivp(
+            rate, (start, end), state, t_eval=[*times, end], rtol=1e-10, atol=1e-9, max_step=(end - start) / 4
+        )
+        assert run.y[0, :-1] == pytest.approx(found.at(times), abs=1e-5)
+        state = run.y[:, -1]
+    assert state[0] == pytest.approx(found.at(np.array(0.0)), abs=1e-5), f"after {period} s it is where it was"
+
+
+@pytest.mark.parametrize("times_lag", [1e-3, 0.3, 1.0, 30.0, 1e4])
+def test_a_harmonic_is_damped_and_delayed_in_closed_form(times_lag: float) -> None:
+    rate = 2 * np.pi / 0.6
+    tau = times_lag / rate
+    wave = LegendrePieces.of(lambda time, _: 5 + 3 * np.cos(rate * time), split(np.array([0.0, 0.6]), 0.05))
+    found = motor_slip.motor_response(wave, tau)
+    time = np.linspace(0, 0.6, 101)
+    expected = 5 + 3 * np.cos(rate * time - np.arctan(times_lag)) / np.hypot(1, times_lag)
+    assert found.torque.at(time) == pytest.approx(expected, abs=1e-8)
+    assert found.largest == pytest.approx(5 + 3 / np.hypot(1, times_lag), abs=1e-8)
+    assert found.torque.mean == pytest.approx(5)
+
+
+@pytest.mark.parametrize("tau", [1e-4, 0.05, 2.0])
+def test_a_load_that_jumps_is_followed_by_exponentials(tau: float) -> None:
+    edges = np.array([0.0, 0.2, 0.6])
+    jump = LegendrePieces.of(lambda _, middle: np.where(middle < 0.2, 4.0, -1.0), edges)
+    found = motor_slip.motor_response(jump, tau)
+    on, off = np.exp(-0.2 / tau), np.exp(-0.4 / tau)
+    start = (4 * (1 - on) * off - (1 - off)) / (1 - on * off)
+    top = 4 + (start - 4) * on
+    time = np.array([0.0, 0.1, 0.19999, 0.3, 0.5])
+    on_for, off_for = np.minimum(time, 0.2), np.maximum(time - 0.2, 0)
+    falling = -1 + (top + 1) * np.exp(-off_for / tau)
+    expected = np.where(time < 0.2, 4 + (start - 4) * np.exp(-on_for / tau), falling)
+    assert found.torque.at(time) == pytest.approx(expected, abs=1e-8)
+    assert (found.largest, found.least) == pytest.approx((top, start), abs=1e-8)
+
+
+def test_without_inertia_the_motor_follows_the_load() -> None:
+    torque = load([cylinder])
+    found = motor_slip.motor_response(torque, 0.0).torque
+    assert found.rms == pytest.approx(torque.rms, rel=1e-4)
+
+
+@pytest.mark.parametrize(
+    "rated, synchronous", [(1450, 1500), (2900, 3000), (960, 1000), (1500, 3000), (1499, 1500), (20, 20.134)]
+)
+def test_the_synchronous_speed_is_the_next_one_above(rated: float, synchronous: float) -> None:
+    found = motor_slip.next_synchronous_speed(rated * np.pi / 30)
+    assert found * 30 / np.pi == pytest.approx(synchronous, abs=1e-3)
+
+
+def test_no_motor_at_the_mains_turns_faster_than_one_pair_of_poles() -> None:
+    with pytest.raises(ValueError, match="no synchronous speed at 50 Hz is above"):
+        motor_slip.next_synchronous_speed(3000 * np.pi / 30)

@@ -1,0 +1,223 @@
+"""Margins, the best offset and the largest productivity, against the printed numbers and brute force."""
+
+from __future__ import annotations
+
+from math import inf
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from diecut_report.mechanics.timing import intervals, margins, offsets
+from diecut_report.mechanics.timing.intervals import Intervals
+from diecut_report.mechanics.timing.productivity import (
+    Interlock,
+    fixed_productivity_limit,
+    productivity_limit,
+    tents_of,
+)
+from tests.examples import examples
+from tests.mechanics.timing.example_press import PERIOD, TURN, dwell, in_degrees, phase
+
+MS = 1e-3
+
+
+def interlocks(transport: str, names: str, offset: float = 0.0, cut: float = 0.0, pas: float = 0.0) -> list[Interlock]:
+    """The interlocks of the example press; required margins in ms."""
+    all_of = {
+        "cutting": Interlock("cutting", phase("cutting"), dwell(transport, offset), "outer", margin_time=cut * MS),
+        "contact": Interlock("contact", phase("contact"), dwell(transport, offset), "outer", margin_time=cut * MS),
+        "passing": Interlock(
+            "passing", phase(f"{transport}_passing", offset), phase("carriage_window"), "inner", margin_time=pas * MS
+        ),
+    }
+    return [all_of[name] for name in names.split()]
+
+
+ROWS = [
+    ("cam", "cutting", 141.0056, -23.8309, None),
+    ("cam", "contact", 140.6270, -28.9031, None),
+    ("cam", "passing", 138.1164, 9.7280, (128.3884, 147.8444)),
+    ("cam", "cutting passing", 141.0056, -23.8309, None),
+    ("cam", "contact passing", 140.6270, -28.9031, None),
+    ("geneva", "cutting", 41.0056, 16.1691, (24.8365, 57.1747)),
+    ("geneva", "contact", 40.6270, 11.0969, (29.5301, 51.7238)),
+    ("geneva", "passing", 38.1164, 11.3273, (26.7891, 49.4437)),
+    ("geneva", "cutting passing", 38.1164, 11.3273, (26.7891, 49.4437)),
+    ("geneva", "contact passing", 39.4869, 9.9568, (29.5301, 49.4437)),
+]
+
+
+@pytest.mark.parametrize("transport, names, offset, slack, feasible", ROWS)
+def test_the_best_offsets_of_the_example_press_are_the_printed_ones(
+    transport: str, names: str, offset: float, slack: float, feasible: tuple[float, float] | None
+) -> None:
+    found = offsets.best_offset(tents_of(interlocks(transport, names), PERIOD, 1.0), TURN)
+    assert np.degrees(found.shift) == pytest.approx(offset, abs=2e-4)
+    assert np.degrees(found.slack) == pytest.approx(slack, abs=2e-4)
+    assert in_degrees(found.feasible) == ([pytest.approx(feasible, abs=2e-4)] if feasible else [])
+
+
+@pytest.mark.parametrize("transport, names, offset, slack, feasible", ROWS)
+def test_no_offset_of_a_grid_is_better_and_the_margins_there_are_the_slack(
+    transport: str, names: str, offset: float, slack: float, feasible: tuple[float, float] | None
+) -> None:
+    def at(degrees: float) -> float:
+        return min(least(each.inner, each.outer, PERIOD) for each in interlocks(transport, names, degrees))
+
+    found = offsets.best_offset(tents_of(interlocks(transport, names), PERIOD, 1.0), TURN)
+    assert at(float(np.degrees(found.shift))) == pytest.approx(found.slack, abs=1e-9)
+    grid = np.array([at(degrees) for degrees in np.arange(0, 360, 0.5)])
+    assert grid.max() <= found.slack + 1e-9
+    assert grid.max() >= found.slack - np.radians(0.25) - 1e-9
+    inside = [
+        0 <= degrees - feasible[0] <= feasible[1] - feasible[0] if feasible else False
+        for degrees in np.arange(0, 360, 0.5)
+    ]
+    assert list(grid >= 0) == inside
+
+
+def least(inner: Intervals, outer: Intervals, period: float) -> float:
+    """The least margin of all."""
+    pair = margins.worst(margins.margins_within(inner, outer, period))
+    return inf if pair is None else pair.least
+
+
+PAIRS = [
+    ("cam", 141.0056, "cutting", [(-23.8309, -6.8923), (7.0202, -23.8309)]),
+    ("cam", 141.0056, "passing", [(13.7269, 24.7424), (12.6172, 6.8388)]),
+    ("geneva", 38.1164, "cutting", [(19.0583, 30.2185), (49.9093, 13.2799)]),
+    ("geneva", 38.1164, "passing", [(12.4370, 29.2308), (11.3273, 11.3273)]),
+]
+
+
+@pytest.mark.parametrize("transport, offset, name, expected", PAIRS)
+def test_the_margins_of_each_interval_are_the_printed_ones(
+    transport: str, offset: float, name: str, expected: list[tuple[float, float]]
+) -> None:
+    (lock,) = interlocks(transport, name, offset)
+    found = margins.margins_within(lock.inner, lock.outer, PERIOD)
+    degrees = sorted((float(np.degrees(pair.start)), float(np.degrees(pair.end))) for pair in found)
+    assert degrees == [pytest.approx(pair, abs=3e-4) for pair in sorted(expected)]
+
+
+@pytest.mark.parametrize("name, expected", [("cutting", 207.6618), ("contact", 217.8062)])
+def test_the_needed_dwell_covers_both_strokes_laid_over_one_another(name: str, expected: float) -> None:
+    (lock,) = interlocks("cam", name)
+    found = offsets.needed_length(np.radians(160), tents_of([lock], PERIOD, 0.0), TURN)
+    assert np.degrees(found) == pytest.approx(expected, abs=2e-4)
+    both = intervals.merged(phase(name), TURN)
+    assert intervals.total_length(both) == pytest.approx(found, abs=1e-9)
+
+
+@pytest.mark.parametrize(
+    "transport, cut, pas, automatic, fixed",
+    [("cam", 10, 10, None, None), ("geneva", 10, 10, 11327.29, 11327.29), ("geneva", 15, 5, 10779.4, 8853.3)],
+)
+def test_the_largest_productivity_is_the_printed_one(
+    transport: str, cut: float, pas: float, automatic: float | None, fixed: float | None
+) -> None:
+    free = productivity_limit(interlocks(transport, "cutting passing", 0.0, cut, pas), PERIOD, TURN)
+    at = {"cam": 141.0056, "geneva": 38.1164}[transport]
+    stands = fixed_productivity_limit(interlocks(transport, "cutting passing", at, cut, pas), PERIOD)
+    for found, expected in ((free, automatic), (stands, fixed)):
+        if expected is None:
+            assert (found.value, found.reason) == (None, "angles_decide")
+        else:
+            assert found.value is not None
+            assert found.value * 3600 == pytest.approx(expected, rel=2e-5)
+
+
+def test_at_the_largest_productivity_an_offset_just_remains() -> None:
+    locks = interlocks("geneva", "cutting passing", 0.0, 15, 5)
+    limit = productivity_limit(locks, PERIOD, TURN).value
+    assert limit is not None
+    slack = [offsets.best_offset(tents_of(locks, PERIOD, limit * by), TURN).slack for by in (1 - 1e-6, 1 + 1e-6)]
+    assert slack[0] > 0 > slack[1]
+    assert max(map(abs, slack)) < 1e-5
+
+
+def test_without_a_margin_of_time_no_productivity_is_too_large() -> None:
+    locks = interlocks("geneva", "cutting passing")
+    for found in (productivity_limit(locks, PERIOD, TURN), fixed_productivity_limit(locks, PERIOD)):
+        assert found.reason in ("no_time_margin", "angles_decide")
+    assert productivity_limit(locks, PERIOD, TURN).reason == "no_time_margin"
+
+
+def test_an_interlock_apart_from_the_line_limits_productivity_too() -> None:
+    still = Interlock("still", ((1.0, 2.0),), ((0.5, 2.5),), None, margin_time=0.02)
+    found = productivity_limit([*interlocks("geneva", "cutting", 0.0, 10), still], PERIOD, TURN)
+    assert found.value == pytest.approx(0.5 / (TURN * 0.02))
+    fails = Interlock("fails", ((1.0, 2.0),), ((1.5, 2.5),), None)
+    assert (
+        productivity_limit([*interlocks("geneva", "cutting", 0.0, 10), fails], PERIOD, TURN).reason == "angles_decide"
+    )
+
+
+def test_nothing_lies_within_an_empty_set_and_everything_within_the_circle() -> None:
+    one: Intervals = ((1.0, 2.0),)
+    assert least(one, (), 5.0) == -inf
+    assert least(one, ((0.0, 5.0),), 5.0) == inf
+    assert least(((0.0, 5.0),), one, 5.0) == -inf
+    assert offsets.best_offset(offsets.tents(one, (), 5.0, "inner"), 5.0).slack == -inf
+    assert offsets.best_offset(offsets.tents(((0.0, 5.0),), one, 5.0, "inner"), 5.0) == offsets.BestOffset(
+        0.0, -inf, ()
+    )
+    assert offsets.best_offset(offsets.tents(one, ((0.0, 5.0),), 5.0, "inner"), 5.0) == offsets.BestOffset(
+        0.0, inf, ((0.0, 5.0),)
+    )
+    assert margins.worst(()) is None
+
+
+WHOLE = 24  # places on the circle of the random sets; edges at whole and margins at half places are met exactly
+sets = st.lists(st.tuples(st.integers(0, WHOLE - 1), st.integers(1, 10)), min_size=1, max_size=3).map(
+    lambda given: intervals.merged(((float(a), float(a + b)) for a, b in given), WHOLE)
+)
+
+
+@given(one=sets, other=sets)
+@examples(200)
+def test_a_margin_is_what_an_interval_can_grow_within_the_other_set(one: Intervals, other: Intervals) -> None:
+    for pair in margins.margins_within(one, other, WHOLE):
+        start, end = pair.inner
+        grown = [k / 2 for k in range(-2 * WHOLE, 2 * WHOLE) if end - start + k > 0]
+        holds = [by for by in grown if _is_inside((start - by, end + by), other)]
+        if np.isfinite(pair.least) and pair.least > -(end - start) / 2:
+            assert max(holds) == pytest.approx(pair.least)
+        elif pair.least == -inf:
+            assert not other or intervals.is_whole(one, WHOLE)
+    apart = margins.margins_apart(one, other, WHOLE)
+    assert apart == margins.margins_within(one, intervals.complement(other, WHOLE), WHOLE)
+
+
+def _is_inside(pair: tuple[float, float], other: Intervals) -> bool:
+    shifts = (-2 * WHOLE, -WHOLE, 0, WHOLE, 2 * WHOLE)
+    return any(start + k <= pair[0] and pair[1] <= end + k for start, end in other for k in shifts)
+
+
+@given(inner=sets, outer=sets, second=sets, moved=st.sampled_from(["inner", "outer"]), margin=st.integers(0, 2))
+@examples(200)
+def test_the_best_shift_is_that_of_brute_force(
+    inner: Intervals, outer: Intervals, second: Intervals, moved: offsets.Moved, margin: int
+) -> None:
+    rows = (
+        *offsets.tents(inner, outer, WHOLE, moved, margin),
+        *offsets.tents(second, outer, WHOLE, "inner" if moved == "inner" else "outer", 0),
+    )
+
+    def at(shift: float) -> float:
+        moves = (lambda each: intervals.shifted(each, shift, WHOLE), lambda each: each)
+        of_inner, of_outer = moves if moved == "inner" else moves[::-1]
+        return min(
+            least(of_inner(inner), of_outer(outer), WHOLE) - margin, least(of_inner(second), of_outer(outer), WHOLE)
+        )
+
+    found = offsets.best_offset(rows, WHOLE)
+    quarters = [at(k / 4) for k in range(4 * WHOLE)]
+    assert found.slack == pytest.approx(max(quarters))
+    if np.isfinite(found.slack):
+        assert at(found.shift) == pytest.approx(found.slack)
+        assert found.shift == next(k / 4 for k in range(4 * WHOLE) if quarters[k] >= max(quarters) - 1e-9)
+        feasible = [any(a <= k / 4 <= b for a, b in found.feasible) for k in range(4 * WHOLE)]
+        assert feasible == [each >= -1e-9 for each in quarters]

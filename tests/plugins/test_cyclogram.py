@@ -1,0 +1,356 @@
+"""The cyclogram of the example press against the numbers of its method, brute force on a fine grid, and words of faults."""
+
+from __future__ import annotations
+
+import json
+from functools import cache
+from math import degrees, pi
+from typing import Any
+
+import numpy as np
+import pytest
+import yaml
+
+from diecut_report.config.discovery import Discovery
+from diecut_report.config.loader import load_config
+from diecut_report.config.yaml_tree import parse
+from diecut_report.engine import Calculation, Impossible, calculate
+from diecut_report.engine.mechanism_handle import MechanismHandle
+from diecut_report.errors import UserError
+from diecut_report.plugins.cyclogram import MECHANISM
+from diecut_report.results.checks import check_results
+from diecut_report.results.document import document
+from diecut_report.results.press_run import Run, compute
+from tests.configs import EXAMPLE
+from tests.machines import inputs, number
+
+Data = dict[str, Any]
+DISCOVERY = Discovery()
+PASSING = [{"name": "passing", "from": "142.875 mm", "to": "428.625 mm"}]
+STATION = {"cylinder": "drive", "carriage_stop": "285 mm", "carriage_width": "20 mm", "forward_direction": "with"}
+
+
+def locks(which: str, transport: str, **margins: Any) -> list[Data]:
+    """The interlocks of the method by their short names."""
+    known = {
+        "cutting": {"phase": "drive.cutting", "within": f"{transport}.dwell"},
+        "contact": {"phase": "drive.contact", "within": f"{transport}.dwell"},
+        "passing": {"phase": f"{transport}.passing", "within": "drive.carriage_window"},
+    }
+    return [{"name": name, **known[name], "margin": margins.get(name, 0)} for name in which.split()]
+
+
+TEXT = EXAMPLE.read_text("utf-8")
+
+
+@cache
+def base() -> Run:
+    """The cylinder, its drive and both transports of the example press."""
+    return linked({})
+
+
+def linked(more: Data) -> Run:
+    """The same with more mechanisms, by a configuration."""
+    data = yaml.safe_load(TEXT)
+    kept = {name: data["mechanisms"][name] for name in ("cylinder", "drive", "feeder", "cross")}
+    data["mechanisms"] = kept | more
+    return compute(
+        load_config(parse(yaml.safe_dump(data, allow_unicode=True), "press.yaml"), DISCOVERY), lambda _: None
+    )
+
+
+def taken_whole(value: Any) -> Any:
+    """The keys with mechanisms in place of their names."""
+    if isinstance(value, list):
+        return [taken_whole(each) for each in value]
+    if not isinstance(value, dict):
+        return value
+    known = base().calculations
+    return {
+        key: MechanismHandle(known[each], each) if key in ("mechanism", "cylinder", "transport") else taken_whole(each)
+        for key, each in value.items()
+    }
+
+
+def keys_of(transport: str, interlocks: list[Data], offset: Any = "auto", **more: Any) -> Data:
+    """The keys of a cyclogram of the cylinder and one transport."""
+    lines = [
+        {"mechanism": "drive", "turns_per_sheet": "1/2", "path_efficiency": 0.97},
+        {"mechanism": transport, "offset": offset, "path_efficiency": 0.95, "passing": PASSING},
+    ]
+    return {"productivity": "6000 1/h", "lines": lines, "interlocks": interlocks} | more
+
+
+def press(transport: str, interlocks: list[Data], offset: Any = "auto", **more: Any) -> Calculation:
+    """The cyclogram of the example press with one transport."""
+    return calculate(MECHANISM, inputs(MECHANISM, taken_whole(keys_of(transport, interlocks, offset, **more))))
+
+
+@cache
+def example(transport: str, which: str) -> Calculation:
+    """The press with interlocks of the method, without margins."""
+    return press(transport, locks(which, transport))
+
+
+def check_of(calc: Calculation, name: str) -> Data:
+    """A check of the cyclogram."""
+    return next(check for check in check_results(calc) if check["id"] == name)
+
+
+def rows(calc: Calculation, name: str) -> list[float]:
+    """A row, in degrees."""
+    return [degrees(value) for value in calc[name][0]]
+
+
+ROWS = [
+    ("feeder", "cutting", 141.0056, -23.8309, None),
+    ("feeder", "contact", 140.6270, -28.9031, None),
+    ("feeder", "passing", 138.1164, 9.7280, (128.3884, 147.8444)),
+    ("feeder", "cutting passing", 141.0056, -23.8309, None),
+    ("feeder", "contact passing", 140.6270, -28.9031, None),
+    ("cross", "cutting", 41.0056, 16.1691, (24.8365, 57.1747)),
+    ("cross", "contact", 40.6270, 11.0969, (29.5301, 51.7238)),
+    ("cross", "passing", 38.1164, 11.3273, (26.7891, 49.4437)),
+    ("cross", "cutting passing", 38.1164, 11.3273, (26.7891, 49.4437)),
+    ("cross", "contact passing", 39.4869, 9.9568, (29.5301, 49.4437)),
+]
+
+
+@pytest.mark.parametrize(("transport", "which", "offset", "slack", "feasible"), ROWS)
+def test_the_automatic_offset_is_that_of_the_method(
+    transport: str, which: str, offset: float, slack: float, feasible: Any
+) -> None:
+    calc = example(transport, which)
+    assert rows(calc, "line_offset") == pytest.approx([0.0, offset], abs=6e-5)
+    assert degrees(number(calc, "best_margin")) == pytest.approx(slack, abs=6e-5)
+    found = [degrees(number(calc, f"offset_feasible_{end}")) for end in ("start", "end")]
+    assert found == pytest.approx(feasible, abs=6e-5) if feasible else np.isnan(found).all()
+
+
+def test_margins_at_both_ends_are_those_of_the_method() -> None:
+    calc = example("feeder", "cutting passing")
+    assert rows(calc, "margin_start") == pytest.approx([-23.8309, 12.6172], abs=6e-5)
+    assert rows(calc, "margin_end") == pytest.approx([-6.8923, 6.8388], abs=6e-5)
+    calc = example("cross", "cutting passing")
+    assert rows(calc, "margin_start") == pytest.approx([49.9093, 11.3273], abs=6e-5)
+    assert rows(calc, "margin_end") == pytest.approx([13.2799, 11.3273], abs=6e-5)
+
+
+SUMS = {
+    "feeder": (70.9560, 149.9328, 363.1615, -332.8959, 277.0757, 3803.0, 191.087),
+    "cross": (71.3934, 155.6199, 379.1602, -355.4616, 277.8589, 3970.6, 218.014),
+}
+SUM_NAMES = (
+    "torque_mean",
+    "torque_rms",
+    "torque_max",
+    "torque_min",
+    "energy_fluctuation",
+    "power_peak",
+    "energy_exchange",
+)
+
+
+@pytest.mark.parametrize("transport", SUMS)
+def test_torques_add_up_to_those_of_the_method(transport: str) -> None:
+    calc = example(transport, "cutting passing")
+    assert [number(calc, name) for name in SUM_NAMES] == pytest.approx(SUMS[transport], rel=2e-5)
+
+
+def test_torques_add_up_to_those_of_a_fine_grid() -> None:
+    calc, drive, cross = (
+        example("cross", "cutting passing"),
+        *(base().calculations[name] for name in ("drive", "cross")),
+    )
+    main = (np.arange(200_000) + 0.5) / 200_000 * 4 * pi
+    total = np.zeros_like(main)
+    for line, turns, offset, curve, efficiency in (
+        (drive, 0.5, 0.0, "crank_torque", 0.97),
+        (cross, 1.0, float(calc["line_offset"][0, 1]), "torque", 0.95),
+    ):
+        own = ((main - offset) * turns % (2 * pi))[None, :]
+        torque = line.sample(curve, own, line.domains["crank_angle"].middle_of(own))[0]
+        total += turns * np.where(torque > 0, torque / efficiency, torque * efficiency)
+    assert number(calc, "torque_mean") == pytest.approx(total.mean(), rel=1e-5)
+    assert number(calc, "torque_rms") == pytest.approx(np.sqrt((total**2).mean()), rel=1e-5)
+    excess = np.cumsum(total - total.mean()) * 4 * pi / len(main)
+    assert number(calc, "energy_fluctuation") == pytest.approx(np.ptp(excess), rel=1e-4)
+
+
+def test_friction_adds_to_the_mean_and_leaves_the_fluctuation() -> None:
+    friction = [{"name": "feeder", "torque": "5 N*m"}]
+    calc = press("feeder", locks("cutting passing", "feeder"), friction=friction)
+    assert number(calc, "torque_mean") == pytest.approx(75.9560, abs=6e-5)
+    assert number(calc, "energy_fluctuation") == pytest.approx(277.0757, abs=6e-5)
+    power = [{"name": "fan", "power": f"{5 * 2 * pi * 100 / 60} W", "turns_per_sheet": "3"}]
+    assert number(press("feeder", locks("cutting", "feeder"), friction=power), "torque_mean") == pytest.approx(
+        75.956, abs=6e-4
+    )
+
+
+@pytest.mark.parametrize(
+    ("transport", "offset", "direction", "least"),
+    [
+        ("cross", "48 deg", "with", 28.9877),
+        ("cross", "auto", "with", 23.5725),
+        ("cross", "auto", "against", 23.7585),
+        ("feeder", "auto", "with", 14.7183),
+        ("feeder", "auto", "against", 11.6557),
+    ],
+)
+def test_the_exact_clearance_is_that_of_the_method(transport: str, offset: str, direction: str, least: float) -> None:
+    station = STATION | {"transport": transport, "forward_direction": direction}
+    calc = press(transport, locks("cutting passing", transport), offset, station=station)
+    assert 1000 * number(calc, "clearance_least") == pytest.approx(least, abs=6e-5)
+    check = check_of(calc, "carriage_height")
+    assert (check["status"], check["demand"]) == ("fail", pytest.approx(0.030))
+
+
+def test_the_largest_productivity_is_that_of_the_method() -> None:
+    both = {"cutting": "10 ms", "passing": "10 ms"}
+    assert 3600 * number(
+        press("cross", locks("cutting passing", "cross", **both)), "productivity_limit"
+    ) == pytest.approx(11327.29, abs=6e-3)
+    unlike = {"cutting": "15 ms", "passing": "5 ms"}
+    auto = press("cross", locks("cutting passing", "cross", **unlike))
+    assert 3600 * number(auto, "productivity_limit") == pytest.approx(10779.4, abs=0.06)
+    fixed = press("cross", locks("cutting passing", "cross", **unlike), "38.1164 deg")
+    assert 3600 * number(fixed, "productivity_limit") == pytest.approx(8853.3, abs=0.06)
+    assert np.isnan(press("feeder", locks("cutting", "feeder", cutting="5 ms"))["productivity_limit"]).all()
+
+
+def test_a_failed_interlock_says_by_how_much_and_what_would_do() -> None:
+    check = check_of(press("feeder", locks("cutting passing", "feeder", cutting="5 ms")), "interlock")
+    assert check["status"] == "fail"
+    for words in (
+        "cutting: its margins are",
+        "5.0000 ms",
+        "The best offset of feeder is",
+        "no offset holds all",
+        "Slowing the press down does not help",
+    ):
+        assert words in check["message"]
+
+
+def test_a_press_whose_lines_run_at_other_rates_is_told() -> None:
+    check = check_of(press("cross", locks("cutting", "cross"), productivity="5000 1/h"), "equal_rates")
+    assert (check["status"], check["demand"]) == ("fail", pytest.approx(0.2))
+    assert "press.productivity" in check["message"]
+
+
+FAULTS: dict[str, tuple[Data, str]] = {
+    "a line twice": (
+        {"lines": [{"mechanism": "drive"}, {"mechanism": "drive"}]},
+        "lines.1.mechanism: is drive, which is a line already",
+    ),
+    "a mechanism without phases": (
+        {"lines": [{"mechanism": "cylinder"}]},
+        "lines.0.mechanism: is cylinder, which runs over nothing that comes again",
+    ),
+    "a ratio that is none": (
+        {"lines": [{"mechanism": "drive", "turns_per_sheet": "half"}]},
+        "lines.0.turns_per_sheet: is “half”; a number or a ratio",
+    ),
+    "an odd ratio": (
+        {"lines": [{"mechanism": "drive", "turns_per_sheet": "1/97"}]},
+        "with a denominator of at most 64",
+    ),
+    "two automatic offsets": (
+        {"lines": [{"mechanism": "drive", "offset": "auto"}, {"mechanism": "cross", "offset": "auto"}]},
+        "lines.1.offset: is auto, and so is another line's",
+    ),
+    "a phase that there is not": (
+        {"interlocks": [{"name": "a", "phase": "drive.cuting", "within": "cross.dwell"}]},
+        "interlocks.0.phase: is “drive.cuting”, but drive has no phase “cuting”; it has contact,",
+    ),
+    "a phase without its key": (
+        {"interlocks": [{"name": "a", "phase": "drive.cutting", "within": "cross.rest"}]},
+        "interlocks.0.within: is “cross.rest”, but cross has this phase only if rest_tolerance is given there",
+    ),
+    "no line": (
+        {"interlocks": [{"name": "a", "phase": "feeder.dwell", "within": "cross.dwell"}]},
+        "feeder is not a line; the lines are drive, cross",
+    ),
+    "an interval that there is not": (
+        {"interlocks": [{"name": "a", "phase": "drive.cutting.2", "within": "cross.dwell"}]},
+        "the phase has 2 intervals, counted from 0",
+    ),
+    "nothing to lie in": (
+        {"interlocks": [{"name": "a", "phase": "drive.cutting"}]},
+        "interlocks.0: needs one of within and apart_from",
+    ),
+    "a way beyond the step": (
+        {"lines": [{"mechanism": "cross", "passing": [{"name": "p", "from": "1 mm", "to": "600 mm"}]}]},
+        "lines.0.passing.0: goes from 1 mm to 600 mm; it must go forward, and no further than the step of 571.5 mm",
+    ),
+}
+
+
+@pytest.mark.parametrize("what", FAULTS)
+def test_what_cannot_be_is_told_in_words(what: str) -> None:
+    changes, words = FAULTS[what]
+    lines = [{"mechanism": "drive", "turns_per_sheet": "1/2"}, {"mechanism": "cross"}]
+    default = (
+        [{"name": "a", "phase": f"{changes['lines'][0]['mechanism']}.moving", "within": "cross.dwell"}]
+        if "lines" in changes
+        else []
+    )
+    with pytest.raises(Impossible) as error:
+        press("cross", changes.get("interlocks", default), lines=changes.get("lines", lines))
+    key, message = error.value.reasons[0]
+    assert words in f"{key}: {message}"
+
+
+def test_a_configuration_takes_mechanisms_by_their_names_and_tells_what_is_wrong_where_it_stands() -> None:
+    keys = {"kind": "cyclogram"} | keys_of("cross", locks("cutting", "cross", cutting="5 ms"))
+    run = linked({"timing": keys})
+    assert not run.errors
+    assert degrees(number(run.calculations["timing"], "best_margin")) == pytest.approx(16.1691 - 3, abs=6e-5)
+    found = run.results["timing"]["inputs"]
+    assert (found["lines.1.mechanism"]["value"], found["lines.1.offset"]["value"]) == ("cross", "auto")
+    assert found["interlocks.0.margin"]["display"]["text"] == "5 ms"
+    again = document(run)["config"]["resolved"]["mechanisms"]["timing"]
+    assert again["lines"][1] | {"path_efficiency": 0.95} == again["lines"][1]
+    assert (again["lines"][1]["mechanism"], again["lines"][1]["offset"]) == ("cross", "auto")
+    json.dumps(document(run))
+
+
+@pytest.mark.parametrize(
+    ("changes", "words"),
+    [
+        (
+            {"lines": [{"mechanism": "driv"}]},
+            "timing.lines.0.mechanism: there is no mechanism 'driv' (did you mean 'drive'?)",
+        ),
+        (
+            {"lines": [{"mechanism": "drive", "offset": "automatic"}]},
+            "an angle is needed, for example 60 deg; or auto.",
+        ),
+        (
+            {"lines": [{"mechanism": "${drive.crank_speed}"}]},
+            "timing.lines.0.mechanism: ${drive.crank_speed} is not a mechanism",
+        ),
+        (
+            {"interlocks": [{"name": "a", "phase": "drive.cutting", "within": "cross.rest"}]},
+            "timing.interlocks.0.within: is “cross.rest”",
+        ),
+    ],
+)
+def test_a_fault_of_a_configuration_names_its_place(changes: Data, words: str) -> None:
+    with pytest.raises(UserError) as error:
+        linked({"timing": {"kind": "cyclogram"} | keys_of("cross", locks("cutting", "cross")) | changes})
+    assert words in str(error.value), str(error.value)
+
+
+def test_one_interval_alone_may_be_held() -> None:
+    """The longer stroke's cutting governs; the shorter one's alone leaves more."""
+    alone = [{"name": "a", "phase": "drive.cutting.1", "within": "cross.dwell"}]
+    both = number(example("cross", "cutting"), "best_margin")
+    assert number(press("cross", alone), "best_margin") > both
+
+
+def test_apart_from_is_within_the_rest() -> None:
+    within = example("cross", "cutting")
+    apart = press("cross", [{"name": "a", "phase": "drive.cutting", "apart_from": "cross.moving"}])
+    assert apart["slack"] == pytest.approx(within["slack"])
+    assert apart["line_offset"] == pytest.approx(within["line_offset"])

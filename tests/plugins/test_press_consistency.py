@@ -1,0 +1,169 @@
+"""The consistency of the press: the printed numbers of the example, and what each check says of mechanisms that do not belong together."""
+
+from __future__ import annotations
+
+from functools import cache
+from typing import Any
+
+import numpy as np
+import pytest
+from scipy.optimize import brentq
+
+from diecut_report.engine import Calculation, CurveHandle, Impossible, calculate
+from diecut_report.plugins.press_consistency import MECHANISM
+from diecut_report.results.checks import check_results
+from tests.machines import inputs, number
+from tests.mechanics.timing.example_press import calculations
+from tests.plugins.presses import OF_DRIVE, OF_TRAIN, TYPED, taken, whole_press
+
+OF_CLUTCH = {
+    "clutch_torque": "design_torque",
+    "clutch_speed": "inputs.speed",
+    "clutch_inertia": "inputs.driven_inertia",
+}
+OF_CROSS = {
+    "sheet_step": "sheet_step",
+    "sheet_play": "sheet_play",
+    "travel_radius": "travel_radius",
+    "wheel_inertia": "inputs.driven_inertia",
+}
+
+
+@cache
+def example_keys() -> dict[str, Any]:
+    """What the check takes from the example press."""
+    found = calculations()
+    parts = (("drive", OF_DRIVE), ("train", OF_TRAIN), ("clutch", OF_CLUTCH), ("cross", OF_CROSS))
+    typed = {key: TYPED[key] for key in ("productivity", "sheet_length", "sheet_width", "working_length", "generatrix_length",
+                                         "chain_pitch", "sprocket_teeth", "conveyor_mass", "damper_velocity", "belt_efficiency")}  # fmt: skip
+    return typed | {key: value for name, names in parts for key, value in taken(found[name], names).items()}
+
+
+def consistency(keys: dict[str, Any], **changes: Any) -> Calculation:
+    """The check with changes; a key that is None is left out."""
+    given = {key: value for key, value in (keys | changes).items() if value is not None}
+    return calculate(MECHANISM, inputs(MECHANISM, given))
+
+
+def verdicts(calculation: Calculation) -> dict[str, str]:
+    """The status of each check that is made."""
+    return {check["id"]: check["status"] for check in check_results(calculation) if check["status"] != "not_checked"}
+
+
+PRINTED = {  # SI, of the derivation
+    "step_room": (0.1008, 1e-9), "actual_rate": (5918.367 / 3600, 1e-6), "rate_error": (-0.0136, 1e-4),
+    "crank_inertia_mean": (7.18859, 1e-5), "crank_inertia_max": (15.34397, 1e-5), "crank_inertia_max_at": (np.radians(328.928), 1e-4),
+    "equal_inertia": (15.0834, 1e-4), "slip_heat": (201.173, 1e-3), "lag_angle": (np.radians(15.5516), 1e-5),
+    "way_inner": (0.02503, 1e-5), "way_outer": (0.01342, 1e-5), "conveyor_inertia": (3.5740, 1e-4),
+    "time_constant": (0.09725, 1e-5), "motor_torque_max": (13.834, 1e-3), "speed_swing": (0.07489, 1e-5),
+    "motor_torque_rms": (0.90629 * 1100 / (1450 * np.pi / 30), 1e-4), "play_total": (0.2743e-3, 1e-7), "pitches": (30, 1e-12),
+    "speed_ripple": (0.00548, 1e-5),
+}  # fmt: skip
+
+
+@pytest.mark.parametrize("name", PRINTED)
+def test_the_numbers_of_the_example_press_are_the_printed_ones(name: str) -> None:
+    value, within = PRINTED[name]
+    assert number(consistency(example_keys()), name) == pytest.approx(value, abs=within)
+
+
+def test_the_example_press_is_judged_as_printed() -> None:
+    found = verdicts(consistency(example_keys()))
+    assert {name for name, status in found.items() if status == "fail"} == {"driven_inertia"}
+    assert {name for name, status in found.items() if status == "warn"} == {"actual_rate"}
+    assert found["format_rolled"] == found["motor_thermal"] == found["conveyor_inertia"] == "pass"
+    assert "sheet_gap" not in found
+    assert "register" not in found
+
+
+CHANGED = [  # what passes in the whole press, and a change with which it does not
+    ("format_rolled", {"working_length": "400 mm"}, "fail"),
+    ("format_rolled", {"sheet_width": "480 mm", "sheet_gap": None}, "fail"),
+    ("format_generatrix", {"generatrix_length": "690 mm"}, "fail"),
+    ("format_generatrix", {"feed_side": "length", "sheet_width": "720 mm", "sheet_gap": None}, "fail"),
+    ("step", {"sheet_width": "750 mm", "sheet_gap": None}, "fail"),
+    ("sheet_gap", {"sheet_gap": "101 mm"}, "fail"),
+    ("actual_rate", {"output_turns_per_sheet": 0.51}, "warn"),
+    ("driven_inertia", {"clutch_inertia": "0.8 kg*m**2"}, "fail"),
+    ("damper_velocity", {"contact_distance": "100 mm"}, "warn"),
+    ("conveyor_inertia", {"wheel_inertia": "1.5 kg*m**2"}, "warn"),
+    ("motor_thermal", {"motor_rated_torque": "3 N*m"}, "fail"),
+    ("motor_peak", {"breakdown_ratio": 1.0}, "fail"),
+    ("speed_swing", {"speed_fluctuation": 0.001}, "warn"),
+    ("register", {"backlash": "0.1 mm"}, "fail"),
+    ("whole_pitches", {"chain_pitch": "19 mm"}, "fail"),
+]
+
+
+@pytest.mark.parametrize("check, change, status", CHANGED)
+def test_mechanisms_that_do_not_belong_together_are_told_apart(check: str, change: dict[str, Any], status: str) -> None:
+    keys = whole_press()
+    assert verdicts(consistency(keys))[check] == "pass"
+    assert verdicts(consistency(keys, **change))[check] == status
+
+
+def test_a_step_across_the_other_side_needs_the_other_room() -> None:
+    keys = whole_press() | {"feed_side": "length", "sheet_gap": None}
+    found = consistency(keys)
+    assert (number(found, "side_in_feed"), number(found, "side_across")) == pytest.approx((0.7, 0.4707))
+
+
+@pytest.mark.parametrize("distance", [2.0, 10.0, 60.0, 300.0])
+def test_the_speed_at_contact_is_that_at_a_root_of_the_displacement(distance: float) -> None:
+    drive = calculations()["drive"]
+    found = consistency(example_keys(), contact_distance=distance)
+    ends = number(drive, "dead_center_outer"), number(drive, "dead_center_inner")
+    place, speed = (CurveHandle(drive, name) for name in ("displacement", "velocity"))
+
+    def at(curve: CurveHandle, angle: float) -> float:
+        share = np.array([[angle / (2 * np.pi) % 1]])
+        return float(curve.values(share, share, None)[0, 0])
+
+    strokes = {
+        "inner": (*ends, number(drive, "stroke") - distance / 1e3),
+        "outer": (ends[1], ends[0] + 2 * np.pi, distance / 1e3),
+    }
+    speeds = []
+    for end, (low, high, where) in strokes.items():
+        angle = brentq(lambda x, where=where: at(place, x) - where, low, high, xtol=1e-13)
+        speeds.append(abs(at(speed, angle)))
+        assert number(found, f"contact_speed_{end}") == pytest.approx(speeds[-1], rel=1e-7)
+    assert number(found, "contact_speed") == pytest.approx(max(speeds))
+
+
+def test_at_the_ways_that_are_told_the_cylinder_has_the_speed_of_the_dampers() -> None:
+    found = consistency(example_keys())
+    for end in ("inner", "outer"):
+        again = consistency(example_keys(), contact_distance=number(found, f"way_{end}") * 1e3)
+        assert number(again, f"contact_speed_{end}") == pytest.approx(0.6, rel=1e-6)
+
+
+def test_where_the_drive_is_always_slower_the_way_is_the_stroke() -> None:
+    found = consistency(example_keys(), damper_velocity="50 m/s")
+    assert number(found, "way_inner") == pytest.approx(number(found, "inputs.stroke"))
+
+
+def test_an_engagement_angle_that_is_given_is_taken() -> None:
+    found = consistency(example_keys(), engagement_angle="90 deg")
+    assert number(found, "start_angle") == pytest.approx(np.pi / 2)
+    assert number(found, "slip_heat") < number(consistency(example_keys()), "slip_heat")
+
+
+@pytest.mark.parametrize(
+    "change, key, words",
+    [
+        ({"clutch_load": "800 N*m"}, "clutch_load", "the driven side never comes up to speed"),
+        ({"motor_speed": "1600 rpm"}, "motor_speed", "a motor under load turns slower than its synchronous speed"),
+        ({"contact_distance": "700 mm"}, "contact_distance", "the whole stroke is"),
+    ],
+)
+def test_a_press_that_cannot_be_is_told_in_words(change: dict[str, Any], key: str, words: str) -> None:
+    with pytest.raises(Impossible, match=words) as refused:
+        consistency(example_keys(), **change)
+    assert refused.value.key == key
+
+
+def test_without_any_mechanism_nothing_is_claimed() -> None:
+    found = consistency({})
+    assert verdicts(found) == {}
+    assert not found.values
