@@ -70,8 +70,8 @@ def mesh(view: View) -> list[Shape]:
     return [
         _gear(view, 1, below, 1, -1),
         _gear(view, 2, above, -1, 1),
-        *(_circle(view, gear, kind, center, side) for gear, center, side in ((1, below, 1), (2, above, -1))
-          for kind in ("working_diameter", "tip_diameter", "base_diameter")),
+        *_circles(view, 1, below, 1),
+        *_circles(view, 2, above, -1),
         polyline([along(-reach), along(reach)], "centerline"),
         polyline([along(-approach), along(recess)], "mark"),
         point(along(-approach), "mark", "A"),
@@ -85,6 +85,13 @@ def _path(view: View, gear: int) -> float:
     """Length of the path of contact from the pitch point to the gear's tip circle."""
     base, tip = view[f"base_diameter_{gear}"] / 2, view[f"tip_diameter_{gear}"] / 2
     return sqrt(tip**2 - base**2) - base * tan(view["working_pressure_angle"])
+
+
+def _circles(view: View, gear: int, center: float, side: int) -> list[Shape]:
+    """The circles of a gear near the teeth; the base circle of a great wheel lies far below its roots."""
+    near = view[f"base_diameter_{gear}"] > view[f"root_diameter_{gear}"] - 2 * RIM * view["module"]
+    kinds = ("working_diameter", "tip_diameter", *(("base_diameter",) if near else ()))
+    return [_circle(view, gear, kind, center, side) for kind in kinds]
 
 
 def _circle(view: View, gear: int, kind: str, center: float, side: int) -> Shape:

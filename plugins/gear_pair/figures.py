@@ -20,9 +20,10 @@ from diecut_report.api import (
     mark,
 )
 from diecut_report.plugins.gear_pair import drawing
+from diecut_report.plugins.gear_pair.checks import GEARS
 from diecut_report.plugins.gear_pair.sizing import MODULES, SAFETIES, SERIES
 
-TOLD = {"pitting": "flank", "root": "root"}
+TOLD = {"pitting_safety": "flank, ", "root_safety": "root, "}
 SHARES = np.linspace(0.4, 2.0, 33)  # of the face width
 NEIGHBOURS = 4  # modules of the series on each side of the chosen one
 
@@ -46,8 +47,8 @@ def reserves(view: View) -> list[Shape]:
 
 
 def _told(name: str) -> str:
-    kind, _, gear = name.split("_")
-    return f"{TOLD[kind]} {gear}"
+    kind, gear = name[:-2], int(name[-1])
+    return TOLD[kind] + GEARS[gear]
 
 
 FIGURES = (
@@ -71,10 +72,22 @@ FIGURES = (
         title="Stresses and safeties",
         caption="Contact and root stresses of both gears, and their safeties.",
         groups=(
-            BarGroup(label="Contact stress", unit="MPa", bars=(("σ_H0", "nominal_contact_stress"), ("σ_H1", "contact_stress_1"), ("σ_H2", "contact_stress_2"))),
-            BarGroup(label="Root stress", unit="MPa", bars=(("σ_F1", "root_stress_1"), ("σ_F2", "root_stress_2"))),
-            BarGroup(label="Safety", unit="1", bars=(("S_H1", "pitting_safety_1"), ("S_H2", "pitting_safety_2"), ("S_F1", "root_safety_1"),
-                                                    ("S_F2", "root_safety_2"))),
+            BarGroup(
+                label="Contact stress",
+                unit="MPa",
+                bars=(("nominal", "nominal_contact_stress"), ("pinion", "contact_stress_1"), ("wheel", "contact_stress_2")),
+            ),
+            BarGroup(label="Root stress", unit="MPa", bars=(("pinion", "root_stress_1"), ("wheel", "root_stress_2"))),
+            BarGroup(
+                label="Safety",
+                unit="1",
+                bars=(
+                    ("flank, pinion", "pitting_safety_1"),
+                    ("flank, wheel", "pitting_safety_2"),
+                    ("root, pinion", "root_safety_1"),
+                    ("root, wheel", "root_safety_2"),
+                ),
+            ),
         ),
     ),
     Chart(

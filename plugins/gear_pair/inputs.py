@@ -22,6 +22,8 @@ class GearPair(Inputs):
         OneOf(("shift_2",), ("center_distance", "module"), shared=("module",), optional=True),
     )
 
+    curve_keys: ClassVar[dict[str, str]] = {"torque": "torque_curve"}
+
     module: Annotated[
         float | None,
         Quantity("m_n", "mm", "Normal module; where it is left out the least of ISO 54 that holds is taken", gt=0),
@@ -116,10 +118,10 @@ class GearPair(Inputs):
         float, Quantity("Y_NT2", "1", "Life factor of the wheel for the root", ge=0.85, le=2.5)
     ] = 1
     film_factor: Annotated[
-        float, Quantity("Z_LRvWX", "1", "Z_L·Z_R·Z_v·Z_W·Z_X: film, roughness, speed, hardening, size", ge=0.5, le=1.3)
+        float, Quantity("Z_LRvWX", "1", "Factors of film, roughness, speed, hardening and size together", ge=0.5, le=1.3)
     ] = 1
     notch_size_factor: Annotated[
-        float, Quantity("Y_δRX", "1", "Y_δrelT·Y_RrelT·Y_X: notch sensitivity, roughness, size", ge=0.5, le=1.3)
+        float, Quantity("Y_δRX", "1", "Factors of notch sensitivity, roughness and size together", ge=0.5, le=1.3)
     ] = 1
     alternating_factor: Annotated[
         float | None,

@@ -12,10 +12,10 @@ from diecut_report.plugins.gear_pair.mesh import TEETH
 # fmt: off
 
 FORM, CORRECTION = "ISO 6336-3:2006, 6", "ISO 6336-3:2006, 7"
-RACK = {"root_radius": "root_radius"}
 
-root_form = Chapter("Form of the tooth root", text="Virtual spur gears of the normal section, lengths in modules. The whole load acts at the outer point of "
-                    "single contact; the critical section lies where tangents at 30° to the tooth's centre line touch the root.")
+root_form = Chapter("Form of the tooth root",
+                    text="Virtual spur gears of the normal section, lengths in modules. The whole load acts at the outer point of single contact; the "
+                         "critical section lies where tangents at 30° to the tooth's centre line touch the root.")
 root_form.value("half_tip_width", "E", "1", "Distance of the rounding's centre from the middle of the rack's tooth", f.half_tip_width, source=FORM,
                 output=False)
 root_form.require("rack_possible", lambda half_tip_width: half_tip_width >= 0, key="root_radius",
@@ -45,7 +45,8 @@ for g, teeth in TEETH.items():
                              theta=f"root_angle_{g}", offset=f"tangent_offset_{g}", virtual_teeth=f"virtual_teeth_{g}"),
                    right=bind(lambda theta, center_height: 2 * center_height * np.sin(theta), theta=f"root_angle_{g}",
                               center_height=f"rounding_height_{g}"), source=FORM, output=False, digits=6, tolerance=1e-12)
-    root_form.value(f"chord_{g}", f"s_n{g}", "1", f"Chord of the root {g}, in modules", bind(f.root_chord, **own), source=FORM, output=False, digits=6)
+    root_form.value(f"chord_{g}", f"s_n{g}", "1", f"Chord of the root {g}, in modules", bind(f.root_chord, **own), source=FORM, output=False,
+                    digits=6)
     root_form.value(f"fillet_{g}", f"r_n{g}", "1", f"Radius of the root {g} there, in modules", bind(f.fillet_radius, **own), source=FORM,
                     output=False, digits=6)
     root_form.value(f"load_diameter_{g}", f"d_en{g}", "1", f"Diameter of the outer point of single contact of the gear {g}, in modules",

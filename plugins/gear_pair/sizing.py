@@ -60,8 +60,8 @@ def _value(step: Value, known: dict[str, Any]) -> Any:
 
 # fmt: off
 
-module = Chapter("Module", text="The rating below is gone through with each module of the preferred series; the least with which flank and root of both "
-                                "gears reach their safeties is enough.")
+module = Chapter("Module", text="The rating below is gone through with each module of the preferred series; the least with which flank and root of "
+                                "both gears reach their safeties is enough.")
 module.computed("module_least", "m_min", "mm", "Least preferred module that is enough", function=least_module, takes=TAKES,
                 method="the safeties of pitting and root below, with each module of ISO 54, series I, in turn; 0 where none is enough",
                 lacks=GIVEN_DISTANCE, output=False)
