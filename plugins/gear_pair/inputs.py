@@ -14,7 +14,7 @@ class Sector(Block):
     teeth_present: Annotated[int | None, Quantity("z_p", "1", "Teeth that the sector has", ge=1, integer=True)] = None
 
 
-class GearPair(Inputs):
+class ExternalGearPair(Inputs):
     """Keys of ``gear_pair``."""
 
     one_of: ClassVar[tuple[OneOf, ...]] = (

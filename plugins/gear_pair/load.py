@@ -29,7 +29,9 @@ load.value("torque_peak", "T_1", "N*m", "Greatest torque on the pinion", lambda 
            source="input")
 load.value("torque_peak", "T_1", "N*m", "Greatest torque on the pinion, of that on the wheel without losses",
            lambda torque, teeth_1, teeth_2: abs(torque) * teeth_1 / teeth_2, needs=("torque", "torque_on=wheel"), source="statics")
-load.require("loaded", lambda torque_peak: torque_peak > 0, key="torque", message="is 0; give the torque that the teeth carry")
+load.require("loaded", lambda torque_peak: torque_peak > 0, key="torque", message="is 0; give the torque that the teeth carry", lacks=CURVE)
+load.require("loaded_by_curve", lambda torque_peak: torque_peak > 0, key="torque_curve", needs=CURVE,
+             message="is 0 everywhere; give the torque that the teeth carry")
 load.value("reversing", "R_T", "1", "Whether the torque changes its sign over the cycle: each tooth is bent both ways",
            bind(lambda torque_max, torque_min, torque_peak, share: (torque_max > share * torque_peak) & (-torque_min > share * torque_peak),
                 share=REVERSED), needs=CURVE, source="this method")

@@ -9,7 +9,7 @@ import pytest
 from diecut_report.config.discovery import Discovery
 from diecut_report.config.schema import block_schema
 from diecut_report.errors import UserError
-from diecut_report.plugins.gear_pair.inputs import GearPair
+from diecut_report.plugins.gear_pair.inputs import ExternalGearPair
 from tests.configs import HEAD, loaded
 
 DRIVE = (
@@ -68,5 +68,5 @@ def test_both_keys_are_too_many(tmp_path: Path) -> None:
 
 
 def test_the_schema_allows_a_list_too() -> None:
-    ways = block_schema(GearPair, True)["properties"]["torque"]["anyOf"]
+    ways = block_schema(ExternalGearPair, True)["properties"]["torque"]["anyOf"]
     assert any(way.get("type") == "array" for way in ways) and any(way.get("type") == "number" for way in ways)

@@ -259,6 +259,7 @@ def test_the_modules_beside_the_chosen_one_are_shown() -> None:
     [
         ({"teeth_1": 70}, "teeth_1", "exchange the gears"),
         ({"torque": 0}, "torque", "give the torque"),
+        ({"torque": None, "torque_curve": [0, 0, 0, 0]}, "torque_curve", "is 0 everywhere"),
         ({"shift_1": -1, "shift_2": -1, "teeth_1": 10, "teeth_2": 12}, "shift_1", "take greater shifts"),
         ({"root_radius": 0.8}, "root_radius", "the roundings of the rack's tip overlap"),
         ({"shift_1": 1.4, "teeth_1": 12}, "shift_1", "ends in a point below its tip circle"),
