@@ -25,9 +25,9 @@ MECHANISM = Mechanism(
         "greater, so that the pressure of the hub, which governs, is unchanged.",
         "The limit of 0.9 times the strength and the share of 0.75 of the second key were confirmed by a public implementation of method C only, not "
         "in the standard itself.",
-        "Not covered (method B): support and hardness factors, friction between shaft and hub, uneven spread of the load over the length, diagrams of "
-        "load peaks. Nor the notch that the keyway makes in the shaft, sliding hubs, press fits with a key, woodruff and taper keys, bursting of the "
-        "hub.",
+        "Not covered (method B): support and hardness factors, friction between shaft and hub, uneven spread of the load over the length, diagrams "
+        "of load peaks. Nor the notch that the keyway makes in the shaft, sliding hubs, press fits with a key, woodruff and taper keys, bursting of "
+        "the hub.",
         "A peak of every turn is a regular load: it counts in the equivalent torque, not with the factor of rare peaks.",
     ),
     sources=(

@@ -41,7 +41,8 @@ load.value("torque_peak", "T_max", "N*m", "Greatest torque: that of the cycle", 
            source="this method")
 load.value("reversing", "R_T", "1", "Whether the torque changes its sign over the cycle",
            bind(lambda torque_greatest, torque_least, torque_size, share:
-                    (torque_greatest > share * torque_size) & (-torque_least > share * torque_size), share=REVERSED), needs=CURVE, source="this method")
+                    (torque_greatest > share * torque_size) & (-torque_least > share * torque_size), share=REVERSED), needs=CURVE,
+           source="this method")
 load.value("reversing", "R_T", "1", "Whether the torque changes its sign: a single torque does not", lambda torque_size: torque_size < 0, lacks=CURVE,
            source="this method")
 load.choice("key_share", "φ_k", "1", "Share of the second key", case(lambda: 1, "one key", lambda key_count: key_count < 2),

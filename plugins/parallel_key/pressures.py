@@ -23,8 +23,8 @@ for part, load in CASES:
     _, factor, end, words = LOADS[load]
     allowed.value(f"allowed_{part}{load}", f"p_{PARTS[part]}zul{end}", "MPa", f"Allowed pressure of the {part}, {words} load",
                   bind(f.allowed_pressure, factor=factor, strength=f"yield_{part}"), source=METHOD, output=False)
-allowed.value("allowed_shear", "τ_zul", "MPa", "Allowed shear stress of the key", lambda yield_key: yield_key / np.sqrt(3), source="strength of materials",
-              output=False)
+allowed.value("allowed_shear", "τ_zul", "MPa", "Allowed shear stress of the key", lambda yield_key: yield_key / np.sqrt(3),
+              source="strength of materials", output=False)
 for part, load in CASES:
     force, _, end, words = LOADS[load]
     needed.value(f"length_{part}{load}", f"l_{PARTS[part]}{end}", "mm", f"Bearing length that the {part} needs, {words} load",

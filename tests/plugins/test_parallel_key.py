@@ -63,8 +63,10 @@ def test_the_keys_of_gear_and_crank(diameter: float, length: float, expected: tu
         key_length=length,
         torque_curve=[494.1107, 100, -327.404, 0],
     )
-    found = [number(calc, "width") * 1e3, number(calc, "height") * 1e3, number(calc, "bearing_length") * 1e3, number(calc, "key_force"),
-             *(number(calc, name) / 1e6 for name in ("pressure_shaft", "pressure_hub", "shear_stress")), number(calc, "pressure_hub") / number(calc, "allowed_hub")]  # fmt: skip
+    sizes = [number(calc, name) * 1e3 for name in ("width", "height", "bearing_length")]
+    stresses = [number(calc, name) / 1e6 for name in ("pressure_shaft", "pressure_hub", "shear_stress")]
+    utilisation = number(calc, "pressure_hub") / number(calc, "allowed_hub")
+    found = [*sizes, number(calc, "key_force"), *stresses, utilisation]
     assert found == pytest.approx(expected, rel=2e-4)
     assert checks(calc)["reversing"]["status"] == "warn"
     assert calc["governing"][0, 0] == "key, equivalent load"  # pressed as the hub is, of weaker steel
