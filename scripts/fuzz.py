@@ -3,32 +3,33 @@
     .venv/bin/python -m pip install atheris          # once; it is needed for nothing else
     .venv/bin/python scripts/fuzz.py TARGET [LIBFUZZER OPTIONS]
     .venv/bin/python scripts/fuzz.py all SECONDS     # each target for so long, one after the other
+    .venv/bin/python scripts/fuzz.py keep TARGET     # the few of what has grown that reach as much, into the kept corpus
 
 TARGET is config, study, unit, condition, constraint, table or stored. What a reader refuses in words is right; all else stops the run: another
 exception, even one that a library only prints, more than 20 s for one input, more than 500 MB. The input that does it is left as
-``crash-*`` in the current folder. The corpus lies in tests/hostile/corpus/TARGET and is kept: its inputs are read in each test run.
-It grows from them, from sound inputs and from the words of the program (tests/hostile/seeds.py), and is to be kept small:
-
-    .venv/bin/python scripts/fuzz.py TARGET -merge=1 NEW_FOLDER      # what of it reaches new code, into its own folder
+``crash-*`` in the current folder: it goes into tests/hostile/corpus/TARGET, whose inputs are read in each test run. What is new grows
+in build/fuzz/TARGET from that corpus, from sound inputs and from the words of the program (tests/hostile/seeds.py).
 """
 
 from __future__ import annotations
 
 import os
+import shlex
 import subprocess
 import sys
 from collections.abc import Iterable, Iterator
 from pathlib import Path
-from tempfile import TemporaryDirectory
 
 ROOT = Path(__file__).parents[1]
 CORPUS = ROOT / "tests" / "hostile" / "corpus"
 TARGETS = ("config", "study", "unit", "condition", "constraint", "table", "stored")
+KEEP = "-set_cover_merge=1"  # of libFuzzer: the fewest inputs that reach as much
+GROWN = ROOT / "build" / "fuzz"
 LIMITS = [
-    "-rss_limit_mb=1000",
+    "-rss_limit_mb=750",
     "-timeout=20",
     "-max_len=20000",
-]  # the program itself takes 500 MB with the instruments in it
+]  # the program itself takes 250 MB with the instruments in it
 
 
 def fuzz(target: str, options: list[str]) -> None:
@@ -39,8 +40,6 @@ def fuzz(target: str, options: list[str]) -> None:
         sys.path.insert(0, str(ROOT))
         from tests.hostile.readers import READERS
         from tests.hostile.seeds import seeds, words
-    folder = CORPUS / target
-    folder.mkdir(parents=True, exist_ok=True)
     read = READERS[target]()
     ignored: list[BaseException] = []
     sys.unraisablehook = lambda fault: ignored.append(fault.exc_value or RuntimeError(str(fault.err_msg)))
@@ -50,22 +49,33 @@ def fuzz(target: str, options: list[str]) -> None:
         if ignored:
             raise ignored.pop()
 
-    with TemporaryDirectory() as made:
-        files = [*_written(Path(made), seeds(target), words(target))]
-        atheris.Setup([sys.argv[0], str(folder), *files, *LIMITS, *options], checked)
-        atheris.Fuzz()
+    grown, kept = GROWN / target / "grown", CORPUS / target
+    grown.mkdir(parents=True, exist_ok=True)
+    kept.mkdir(parents=True, exist_ok=True)
+    folders = [kept, grown] if KEEP in options else [grown, kept]  # what is new goes into the first
+    files = [*map(str, folders), *_written(GROWN / target, seeds(target), words(target))]
+    atheris.Setup([_again(GROWN / target, target), *files, *LIMITS, *options], checked)
+    atheris.Fuzz()
 
 
 def _written(folder: Path, seeds: Iterable[bytes], words: Iterable[str]) -> Iterator[str]:
     """Write the sound inputs and the words as files; the arguments that name them."""
     sound = folder / "seeds"
-    sound.mkdir()
+    sound.mkdir(exist_ok=True)
     for number, seed in enumerate(seeds):
         (sound / str(number)).write_bytes(seed)
     yield str(sound)
     if escaped := ["".join(f"\\x{byte:02x}" for byte in word.encode()) for word in sorted(words)]:
         (folder / "words").write_text("".join(f'"{word}"\n' for word in escaped))
         yield f"-dict={folder / 'words'}"
+
+
+def _again(folder: Path, target: str) -> str:
+    """Write the command that libFuzzer begins other processes of itself by, as it does to keep the few."""
+    script = folder / "run"
+    script.write_text(f'#!/bin/sh\nexec {shlex.quote(sys.executable)} -P {shlex.quote(__file__)} {target} "$@"\n')
+    script.chmod(0o755)
+    return str(script)
 
 
 def main() -> int:
@@ -75,6 +85,8 @@ def main() -> int:
         codes = {name: subprocess.call([sys.executable, "-P", __file__, name, seconds]) for name in TARGETS}
         print("\n".join(f"{name:10} {'nothing found' if code == 0 else 'see above'}" for name, code in codes.items()))
         return int(any(codes.values()))
+    if sys.argv[1:2] == ["keep"]:
+        sys.argv[1:] = [*sys.argv[2:3], KEEP]
     if len(sys.argv) < 2 or sys.argv[1] not in TARGETS:
         print(__doc__)
         return 2

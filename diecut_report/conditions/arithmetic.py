@@ -19,6 +19,12 @@ from diecut_report.quantities.units import Kind, unit
 
 WITHOUT_VALUE = "a division by zero, the root of a number below zero, or a number too large to calculate with"
 
+WORDS = (
+    ("the condition ", "the expression "),
+    ("Write several conditions.", "Write it in a simpler way."),
+    ("a name, a number or a quantity", "a reference, a number or a quantity"),
+)
+
 
 @dataclass(frozen=True)
 class Expression:
@@ -56,11 +62,21 @@ class Expression:
 
 def read_expression(text: str, find: Find) -> Expression:
     """Read an expression; ConditionError in words, with the place, for what it may not say. ``find`` says what a reference is."""
-    whole = parsed_words(calculation(text))
-    made = parts.quantity(ConditionReader(whole, find, exact=True).part(whole.body, 0))
+    try:
+        whole = parsed_words(calculation(text))
+        made = parts.quantity(ConditionReader(whole, find, exact=True).part(whole.body, 0))
+    except ConditionError as fault:
+        raise ConditionError(_of_expression(fault.words), fault.place) from None
     if not names(made.node):
         raise ConditionError("the expression refers to nothing; write the value itself.", 0)
     return Expression(text.strip(), made.node, made.kind)
+
+
+def _of_expression(words: str) -> str:
+    """Words of the grammar, which tell of conditions."""
+    for of_condition, of_expression in WORDS:
+        words = words.replace(of_condition, of_expression)
+    return words
 
 
 def _faults(node: Node, value_of: Callable[[str], Any]) -> Iterator[str]:

@@ -6,7 +6,7 @@ from collections.abc import Mapping
 from graphlib import CycleError, TopologicalSorter
 
 from diecut_report.config.instances import Instance
-from diecut_report.config.references import Node, Target
+from diecut_report.config.targets import Node, Target
 from diecut_report.errors import Problem
 
 

@@ -17,8 +17,9 @@ from diecut_report.config.discovery import Discovery, DuplicateKind, UnknownKind
 from diecut_report.config.hidden_letters import seeming_latin
 from diecut_report.config.instances import Instance
 from diecut_report.config.model import PRESS, ConfigDocument, Press, Project
-from diecut_report.config.references import Linker, Node, Target, texts
+from diecut_report.config.references import Linker, texts
 from diecut_report.config.source_hashes import plugin_hash, program_hash
+from diecut_report.config.targets import Node, Target
 from diecut_report.config.validation import ConfigPlace, declared, keys_of, spread_out, told, validate
 from diecut_report.config.yaml_tree import KeyPath, Tree
 from diecut_report.contract.inputs import SI, Block, CurveInput, Pending, Text

@@ -44,6 +44,9 @@ class View(Protocol):
     def curve(self, name: str) -> list[float]:
         """Return a curve (or an abscissa) at the samples of the results, SI."""
 
+    def prepared(self, name: str) -> Any:
+        """Return what plain code prepared, by its id."""
+
     def varied(self, inputs: Mapping[str, Any], *names: str) -> dict[str, Array]:
         """Return numbers of the machine calculated again with other inputs (SI; arrays of one length give arrays of it).
 

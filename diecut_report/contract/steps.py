@@ -267,8 +267,8 @@ class Phase(Step):
 
     ``role`` is what it does: ``working`` (a tool on the product), ``rest``, ``moving``, ``window`` (room for another part).
     Each of ``spans`` goes from one place to another: ids of numbers, or plain numbers; a place that does not exist for a
-    machine leaves its span out. ``period`` is the id of what repeats, where that is not the abscissa's own period. Instead of them ``union`` names phases that are taken together, or ``rest_of`` those
-    that leave it the rest of the period.
+    machine leaves its span out. ``period`` is the id of what repeats, where that is not the abscissa's own period. Instead
+    of them ``union`` names phases that are taken together, or ``rest_of`` those that leave it the rest of the period.
     """
 
     role: str

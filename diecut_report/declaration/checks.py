@@ -32,7 +32,7 @@ def _when(names: DeclaredNames, check: Check) -> list[When]:
     givers = [[giver.when for giver in names.givers(name)] for name in check.named]
     found = []
     for chosen in product(*givers):
-        when = When(frozenset(check.needs + check.only_with))
+        when = When(frozenset((*check.needs, *check.only_with)))
         for other in chosen:
             when = when.with_(other)
         found.append(when)

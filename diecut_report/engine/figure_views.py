@@ -65,6 +65,10 @@ class MachineView:
         samples = self.calc.domains[name].samples if name in self.calc.domains else self.calc.curve_samples(name)
         return [float(value) for value in samples[0]]
 
+    def prepared(self, name: str) -> Any:
+        """Return what plain code prepared, by its id."""
+        return self.calc.inputs[name]
+
     def heights(self, name: str, abscissa: str) -> list[float]:
         """Return a curve of a plot at the places that are drawn, SI; of a spectrum the values of its line."""
         spectrum = next((each for each in self.calc.mechanism.spectra if each.id == abscissa), None)

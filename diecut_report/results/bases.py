@@ -8,7 +8,7 @@ from diecut_report.config.basis import ASSUMED, GIVEN, Basis, weakest
 from diecut_report.config.instances import slots
 from diecut_report.config.loader import Config
 from diecut_report.config.model import PRESS
-from diecut_report.config.references import Node, Target
+from diecut_report.config.targets import Node, Target
 from diecut_report.contract.sections import taken
 from diecut_report.engine import Calculation
 from diecut_report.engine.steps.rerun import needed

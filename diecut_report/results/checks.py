@@ -19,6 +19,7 @@ from diecut_report.results import unchecked
 Data = dict[str, Any]
 Status = Literal["pass", "warn", "fail", "not_checked"]
 ROUNDING = 1e-12
+AT_LIMIT = 1e-9  # relative
 PLACE_DIGITS = 6
 
 
@@ -142,13 +143,19 @@ def _check(calc: Calculation, check: Check) -> Data:
         "message": message[0].upper() + message[1:],
         **{key: text for key, text in told.items() if key.endswith(("_label", "_display"))},
         **_further(calc, check, found, pair, part),
-        **({"sized_to_limit": True} if is_sized(calc.given, check) else {}),
+        **({"sized_to_limit": True} if is_sized(calc.given, check) or _is_at_limit(told) else {}),
     }
 
 
 def is_sized(given: frozenset[str], check: Check) -> bool:
     """Return whether the program sized what a check compares to its limit, so that the check shows no reserve."""
     return check.sized_unless is not None and given.isdisjoint(check.sized_unless)
+
+
+def _is_at_limit(told: Data) -> bool:
+    """Whether a size that passes is its limit, as one that was taken over from it, and so neither shows nor lacks a reserve."""
+    ratio = told["utilisation"]
+    return told["status"] == "pass" and ratio is not None and abs(ratio - 1) <= AT_LIMIT
 
 
 def _told(check: Check, found: JudgedCheck, pair: int, part: int) -> Data:

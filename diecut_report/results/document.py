@@ -6,11 +6,13 @@ from collections.abc import Iterator
 from typing import Any
 
 from diecut_report import __version__
+from diecut_report.config.basis import GIVEN
 from diecut_report.config.hidden_letters import printable
 from diecut_report.config.instances import Instance
 from diecut_report.config.loader import Config
 from diecut_report.config.model import PRESS, Press
 from diecut_report.config.source_hashes import plugin_code, program_hash
+from diecut_report.config.targets import Node
 from diecut_report.config.validation import declared, keys_of
 from diecut_report.contract.inputs import Block, CurveInput, InOtherUnit, Quantity, TakenWhole, flatten
 from diecut_report.contract.mechanism import Mechanism
@@ -131,23 +133,27 @@ def _press(run: Run) -> Data:
 
 
 def resolved(run: Run) -> Data:
-    """Return the config with every reference and default put in: SI values as texts that read back exactly."""
-    config = run.config
+    """Return the config with every reference and default put in: SI values as texts that read back exactly, with what they rest on."""
+    config, bases = run.config, Bases(run.config, run.calculations)
     mechanisms = {}
     for name, kind in config.kinds.items():
         block, instance = run.blocks.get(name), config.instances[name]
-        mechanisms[name] = {"kind": kind} | (_plain(block, instance) if block and instance else {})
+        mechanisms[name] = {"kind": kind} | (_plain(block, (name,), instance, bases) if block and instance else {})
     press = config.instances[PRESS]
     assert press is not None
     return {"schema_version": 1, "project": config.project.model_dump(exclude_none=True),
-            PRESS: _plain(run.blocks[PRESS], press), "mechanisms": mechanisms}  # fmt: skip
+            PRESS: _plain(run.blocks[PRESS], (PRESS,), press, bases), "mechanisms": mechanisms}  # fmt: skip
 
 
-def _plain(block: Block, instance: Instance) -> Data:
+def _plain(block: Block, node: Node, instance: Instance, bases: Bases) -> Data:
     values = {name: getattr(block, name) for name in type(block).model_fields}
     values = {name: value for name, value in values.items() if value is not None}
     idle = set(_idle(block, values))
-    return {name: _plain_value(block, name, value, instance) for name, value in values.items() if name not in idle}
+    return {
+        name: _plain_value(block, (*node, name), value, instance, bases)
+        for name, value in values.items()
+        if name not in idle
+    }
 
 
 def _idle(block: Block, values: Data) -> Iterator[str]:
@@ -158,21 +164,29 @@ def _idle(block: Block, values: Data) -> Iterator[str]:
         yield from (name for name in defaults if rule.fault(values.keys() - {name}) != fault)
 
 
-def _plain_value(block: Block, name: str, value: Any, instance: Instance) -> Any:
-    meta = keys_of(type(block))[name].meta
+def _plain_value(block: Block, node: Node, value: Any, instance: Instance, bases: Bases) -> Any:
+    meta = keys_of(type(block))[str(node[-1])].meta
     match value:
         case Block():
-            return _plain(value, instance)
+            return _plain(value, node, instance, bases)
         case [Block(), *_]:
-            return [_plain(part, instance) for part in value]
+            return [_plain(part, (*node, index), instance, bases) for index, part in enumerate(value)]
         case CurveHandle(calculation=_):
-            return instance.data[name]
+            return instance.data[str(node[-1])]
         case InOtherUnit(value=number, unit=unit):
             return as_given(number, unit)
         case TakenWhole():
             return str(value)
         case tuple() if isinstance(meta, CurveInput):
-            return [as_given(part, meta.unit) for part in value]
-        case float() if isinstance(meta, Quantity):
-            return as_given(value, meta.unit)
+            return _resting([as_given(part, meta.unit) for part in value], node, bases)
+        case int() | float() if isinstance(meta, Quantity):
+            return _resting(as_given(value, meta.unit) if isinstance(value, float) else value, node, bases)
     return value
+
+
+def _resting(value: Any, node: Node, bases: Bases) -> Any:
+    """A value, as a block where something is to be said of it."""
+    basis, note = bases.of(node), bases.said(node).note
+    said = {"basis": basis} if basis not in ("", GIVEN) else {}
+    said |= {"note": note} if note else {}
+    return {"value": value} | said if said else value

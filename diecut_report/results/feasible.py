@@ -46,6 +46,8 @@ class _FeasibilityRun(Run):
         inputs = flatten(block)
         given = frozenset(inputs) | texts_given(inputs)
         names = [*self._referred_to(instance.name), *_conditions(mechanism, given)]
+        if self._is_taken_whole(instance.name):
+            return calculate(mechanism, inputs)
         try:
             return calculate(mechanism, inputs, 1, needed(mechanism, given, names))
         except Impossible:  # its words may name what these steps do not know
@@ -57,6 +59,11 @@ class _FeasibilityRun(Run):
     def _referred_to(self, name: str) -> Iterator[str]:
         for target in self.config.links.values():
             yield from (str(single.result) for single in target.single if single.instance == name and single.result)
+
+    def _is_taken_whole(self, name: str) -> bool:
+        """Whether another mechanism takes it, or a phase of it, which is more than a few of its results."""
+        links = self.config.links.values()
+        return any(link.instance == name and (link.is_mechanism or link.phase_unit is not None) for link in links)
 
 
 def _concerns(problem: Problem, name: str) -> bool:

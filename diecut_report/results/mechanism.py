@@ -11,18 +11,17 @@ import numpy as np
 
 from diecut_report.config.source_hashes import plugin_code
 from diecut_report.contract.inputs import CurveInput, Quantity, TakenWhole, list_titles
-from diecut_report.contract.mechanism import Profile
 from diecut_report.contract.result_names import ResultName, count_name, pattern, place_name, result_names
 from diecut_report.contract.spectra import Spectrum, SpectrumLine
 from diecut_report.contract.steps import SILENT, Crossings, Step
 from diecut_report.engine import Calculation
 from diecut_report.engine.calculation import Unproven
-from diecut_report.engine.drawable import curve_named, guarded
 from diecut_report.engine.figure_views import figures
 from diecut_report.engine.printing.items import section_items
 from diecut_report.quantities.formatting import shortest, shown
 from diecut_report.quantities.units import unit
 from diecut_report.results.checks import applies, check_results
+from diecut_report.results.exports import exports
 from diecut_report.results.phases import phases, phases_absent
 from diecut_report.results.summary import RANK, counts, failed_self_tests
 from diecut_report.results.unchecked import missing
@@ -286,21 +285,3 @@ def _limits(calc: Calculation, name: str) -> Data:
         "left": before[:-1][joint].tolist(),
         "right": after[1:][joint].tolist(),
     }
-
-
-def exports(calc: Calculation) -> list[Data]:
-    """Return the profiles that are written beside the report; one that fails is kept with what went wrong (``error``)."""
-    return [_export(calc, p) for p in calc.mechanism.exports if calc.given.issuperset(p.needs)]
-
-
-def _export(calc: Calculation, profile: Profile) -> Data:
-    said = {"id": profile.id, "title": profile.title, "type": "profile"}
-    columns = list(profile.columns)
-
-    def made() -> Data:
-        abscissa = curve_named(calc, columns[0])
-        for name in columns:
-            curve_named(calc, name, abscissa)
-        return said | {"abscissa": abscissa, "columns": columns}
-
-    return guarded(made, said | {"abscissa": "", "columns": columns}, profile.at)

@@ -13,22 +13,17 @@ from diecut_report.config.discovery import said
 from diecut_report.config.instances import Instance, Slot, slots
 from diecut_report.config.loader import Config, substituted
 from diecut_report.config.model import PRESS
-from diecut_report.config.references import Node, Target
+from diecut_report.config.targets import Node, Target
 from diecut_report.config.validation import declared, validate
 from diecut_report.contract.inputs import SI, Block, CurveInput, Quantity, flatten
 from diecut_report.contract.mechanism import Mechanism
-from diecut_report.contract.phases import PREFIX
-from diecut_report.contract.result_names import named
-from diecut_report.engine import Calculation, CurveHandle, Impossible, calculate
-from diecut_report.engine.mechanism_handle import MechanismHandle
-from diecut_report.engine.phases import PhaseHandle
+from diecut_report.engine import Calculation, Impossible, calculate
 from diecut_report.errors import PluginError, Problem, UserError
-from diecut_report.expressions import Array
 from diecut_report.limits import MAX_COMPARISONS
-from diecut_report.quantities.plausible import without_rounding
 from diecut_report.results.bases import Bases
 from diecut_report.results.comparisons import Found, Uncomparable, compared, found
 from diecut_report.results.mechanism import Origin, Provenance, SelfTestFailed, mechanism_results
+from diecut_report.results.taken_over import Absent, output
 
 Data = dict[str, Any]
 Tell = Callable[[str], None]
@@ -36,10 +31,6 @@ Tell = Callable[[str], None]
 
 class Unavailable(LookupError):
     """Stand for a value that a broken or skipped mechanism would have given."""
-
-
-class Absent(LookupError):
-    """Stand for a value that this machine does not have; the text says so."""
 
 
 class Valueless(ValueError):
@@ -265,39 +256,3 @@ def _provenance(slot: Slot, target: Target | None, typed: str | None) -> Provena
         return Provenance("expression", "", typed, tuple(term.path for term in target.terms))
     origin: Origin = "default" if not slot.is_given else "reference" if target else "given"
     return Provenance(origin, target.path if target else "", typed)
-
-
-def number(calc: Calculation, name: str) -> Array | None:
-    """Return a number or text by its name in the results, shape (variants,); None where there is no such one."""
-    if name in calc.values:
-        return calc.values[name][:, 0]
-    part = named(name, calc.steps)
-    row = calc.values.get(part.id) if part and part.role == "part" else None
-    return row[:, part.index] if part and row is not None and part.index < row.shape[1] else None
-
-
-def phase(calc: Calculation, name: str, target: Target) -> PhaseHandle:
-    """Return a phase as a reference takes it over. Absent where the (first) machine does not have it."""
-    handle = PhaseHandle(calc, name.removeprefix(PREFIX), f"${{{target.path}}}")
-    if not handle.intervals():
-        raise Absent("does not apply to this machine.")
-    return handle
-
-
-def output(calc: Calculation, name: str, target: Target) -> Any:
-    """Return a result as a reference takes it over: a curve, a number with its SI unit, or a text. Absent where there is none."""
-    if target.is_mechanism:
-        return MechanismHandle(calc, target.instance)
-    if target.phase_unit:
-        return phase(calc, name, target)
-    if calc.axis.get(name) in calc.domains:
-        return CurveHandle(calc, name)
-    numbers = number(calc, name)
-    if numbers is None:
-        raise Absent("does not exist for this machine.")
-    value = numbers[0]
-    if isinstance(value, str):
-        return value
-    if math.isnan(value):
-        raise Absent("does not apply to this machine.")
-    return SI(float(without_rounding(value, str(target.unit))), str(target.unit), target.path)

@@ -53,7 +53,7 @@ def forms(mechanism: Mechanism) -> Iterator[Mechanism]:
         for given in map(frozenset, combinations(sorted(keys), count)):
             absent = (keys - given) | _excluded(mechanism.inputs, given)
             chapters = tuple(replace(c, steps=_in_form(c, given, absent)) for c in mechanism.chapters)
-            checks = tuple(c for c in mechanism.checks if absent.isdisjoint(c.needs + c.only_with))
+            checks = tuple(c for c in mechanism.checks if absent.isdisjoint((*c.needs, *c.only_with)))
             inputs = cast(type[Inputs], in_form(mechanism.inputs, given))
             yield replace(mechanism, inputs=inputs, chapters=chapters, checks=checks)
 

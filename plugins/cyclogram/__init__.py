@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from diecut_report.api import Check, Mechanism, Source
 from diecut_report.plugins.cyclogram import steps
+from diecut_report.plugins.cyclogram.figures import FIGURES
 from diecut_report.plugins.cyclogram.inputs import Cyclogram
 
 MECHANISM = Mechanism(
@@ -19,16 +20,20 @@ MECHANISM = Mechanism(
     key_results=("sheet_time", "line_offset", "best_margin", "productivity_limit", "clearance_least", "torque_mean", "torque_rms",
                  "torque_peak", "power_peak", "energy_fluctuation", "energy_exchange"),
     checks=(
-        Check(id="interlock", title="Interlocks of the lines", demand="length_demand", limit="length_available", unit="deg", tolerance=1e-9,
+        Check(id="interlock", check_class="function", title="Interlocks of the lines",
+              demand="length_demand", limit="length_available", unit="deg", tolerance=1e-9,
               demand_label="needed with its margins", limit_label="available", source="timing",
               consequence="interlock {part} does not hold. {interlock_verdict}"),
-        Check(id="equal_rates", title="Equal rates of press and lines", demand="rate_error", limit=1e-6, unit="1", demand_label="relative difference",
+        Check(id="equal_rates", check_class="function", title="Equal rates of press and lines",
+              demand="rate_error", limit=1e-6, unit="1", demand_label="relative difference",
               limit_label="accepted", source="kinematics",
               consequence="line {part} runs at another rate than the press; let its speed follow press.productivity, as it does by default."),
-        Check(id="carriage_height", title="Height that the cylinder leaves the carriages", demand="carriage_clearance", limit="clearance_least",
+        Check(id="carriage_height", check_class="function", title="Height that the cylinder leaves the carriages",
+              demand="carriage_clearance", limit="clearance_least",
               unit="mm", demand_label="needed", limit_label="least over the period", source="geometry",
               consequence="a carriage is hit; let the carriages stop elsewhere, lower them, or turn the transport by its offset."),
     ),
+    figures=FIGURES,
     assumptions=(
         "The main shaft turns at constant speed; the lines are rigid and without backlash between them.",
         "Only the interlocks that are given are judged.",

@@ -28,7 +28,7 @@ def clearance_of(given: Mapping[str, Any]) -> LeastClearance:
     stop, width = (float(given[f"station.{key}"][0, 0]) for key in ("carriage_stop", "carriage_width"))
     station = Station(radius, half, stroke, given["station.forward_direction"] == "with", stop, step, width)
     rotation = _over_main(cylinder, "cylinder_rotation", "station.cylinder", 0.0)
-    return least_clearance(station, rotation, _way(transport, step), timing.period)
+    return least_clearance(station, rotation, way_of(transport, step), timing.period)
 
 
 def _line(timing: Timing, mechanism: GivenMechanism, key: str) -> LineOnShaft:
@@ -62,8 +62,8 @@ def _over_main(line: LineOnShaft, name: str, key: str, gain: float) -> Callable[
     return over
 
 
-def _way(line: LineOnShaft, step: float) -> Callable[[Any], Any]:
-    """The way of the carriages from where they stand in the dwell."""
+def way_of(line: LineOnShaft, step: float) -> Callable[[Any], Any]:
+    """Return the way of the carriages from where they stand in the dwell, over main-shaft angles."""
     position = _over_main(line, POSITION, "station.transport", step)
     rests = line.mechanism.phases["dwell"].intervals()[0][0] / line.mechanism.period()
     curve = line.mechanism.curve(POSITION)

@@ -23,7 +23,7 @@ class Passage(Block):
     first: Annotated[int, Quantity("k_0", "1", "Number of the first step that passes", ge=0, le=11, integer=True)] = 0
 
 
-class DrivenLine(Block):
+class LineKeys(Block):
     """A mechanism that the main shaft drives."""
 
     mechanism: Annotated[Any, MechanismInput("Mechanism of the line")]
@@ -91,7 +91,7 @@ class Cyclogram(Inputs):
         float | None,
         Quantity("n", "1/h", "Sheets an hour", gt=0, press=FromPress("press.productivity")),
     ] = None
-    lines: Annotated[list[DrivenLine], Text("Mechanisms that the main shaft drives")]
+    lines: Annotated[list[LineKeys], Text("Mechanisms that the main shaft drives")]
     interlocks: Annotated[list[InterlockKeys], Text("What must lie within, or apart from, what")]
     station: Annotated[StationKeys | None, Text("Where the carriages stand; with it the exact clearance")] = None
     friction: Annotated[list[FrictionKeys], Text("Consumers of a constant torque")] = []  # noqa: RUF012

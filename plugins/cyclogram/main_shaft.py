@@ -11,7 +11,7 @@ from typing import Any
 import numpy as np
 from scipy.optimize import brentq
 
-from diecut_report.api import GivenMechanism, Refusal
+from diecut_report.api import GivenMechanism, Refusal, told
 from diecut_report.mechanics.timing.intervals import Interval, Intervals
 from diecut_report.mechanics.timing.lines import DrivenLine, common_period, exact_turns
 from diecut_report.plugins.cyclogram.inputs import Passage
@@ -138,7 +138,7 @@ def _stretch(mechanism: GivenMechanism, start: float, end: float, key: str) -> I
     if step is None or position is None or moving is None:
         raise Refusal(key, f"tells what the sheet passes, but the way of the sheet is not known in {mechanism.name}")
     if not start < end <= step * (1 + 1e-12):
-        words = f"goes from {start * 1e3:.6g} mm to {end * 1e3:.6g} mm; it must go forward, and no further than the step of {step * 1e3:.6g} mm"
+        words = f"goes from {told(start, 'mm', 6)} to {told(end, 'mm', 6)}; it must go forward, and no further than the step of {told(step, 'mm')}"
         raise Refusal(key, words)
     ((low, high),) = moving.intervals()
     period = moving.period()
@@ -172,13 +172,13 @@ def named_phase(lines: tuple[LineOnShaft, ...], text: str, key: str) -> tuple[in
     phase, _, number = rest.partition(".")
     index = next((i for i, each in enumerate(lines) if each.name == name), None)
     if index is None:
-        told = ", ".join(each.name for each in lines)
-        raise Refusal(key, f"is “{text}”, but {name} is not a line; the lines are {told}")
-    known = lines[index].phases
-    if phase not in known:
+        known = ", ".join(each.name for each in lines)
+        raise Refusal(key, f"is “{text}”, but {name} is not a line; the lines are {known}")
+    own = lines[index].phases
+    if phase not in own:
         raise Refusal(key, f"is “{text}”, but {_no_phase(lines[index], phase)}")
-    if number and not (number.isdecimal() and int(number) < len(known[phase].intervals)):
-        words = f"is “{text}”, but the phase has {len(known[phase].intervals)} intervals, counted from 0"
+    if number and not (number.isdecimal() and int(number) < len(own[phase].intervals)):
+        words = f"is “{text}”, but the phase has {len(own[phase].intervals)} intervals, counted from 0"
         raise Refusal(key, words)
     return index, phase, int(number) if number else None
 

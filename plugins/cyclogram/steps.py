@@ -2,12 +2,11 @@
 
 from __future__ import annotations
 
-from math import degrees
 from typing import Any
 
 import numpy as np
 
-from diecut_report.api import Chapter, bind
+from diecut_report.api import Chapter, bind, told
 from diecut_report.mechanics import common
 from diecut_report.mechanics.timing.clearance import LeastClearance
 from diecut_report.plugins.cyclogram.clearances import clearance_of
@@ -89,9 +88,9 @@ interlocks.computed("rate_error", "Δn", "1", "Own rate of each line off the pre
 
 def verdict(timing: Timing) -> str:
     """Return what is to be said of interlocks that do not hold."""
-    told = [_of_interlock(timing, index) for index, each in enumerate(timing.final)
+    failed = [_of_interlock(timing, index) for index, each in enumerate(timing.final)
             if timing.worst[index].least < timing.required(each)]
-    return " ".join([*told, *_offset(timing), *_speed(timing)])
+    return " ".join([*failed, *_offset(timing), *_speed(timing)])
 
 
 def _of_interlock(timing: Timing, index: int) -> str:
@@ -99,7 +98,7 @@ def _of_interlock(timing: Timing, index: int) -> str:
     if pair.outer is None:
         return f"{each.name}: there is nothing that could hold it."
     window = timing.needed[index]
-    needed = "" if np.isnan(window) else f", what holds it must be {degrees(window):.4f}° long"
+    needed = "" if np.isnan(window) else f", what holds it must be {told(window, 'deg', 7)} long"
     return (f"{each.name}: its margins are {timing.told(pair.start)} at the start and {timing.told(pair.end)} at the end, "
             f"{timing.told(timing.required(each))} are required{needed}.")
 
@@ -108,7 +107,7 @@ def _offset(timing: Timing) -> list[str]:
     if timing.moved is None or timing.best is None:
         return []
     name = timing.lines[timing.moved].name
-    best = f"The best offset of {name} is {degrees(timing.best.shift):.4f}°, which leaves {timing.told(timing.best.slack)}"
+    best = f"The best offset of {name} is {told(timing.best.shift, 'deg', 7)}, which leaves {timing.told(timing.best.slack)}"
     return [f"{best}." if timing.best.feasible else f"{best}: no offset holds all."]
 
 

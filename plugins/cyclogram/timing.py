@@ -6,12 +6,12 @@ from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from fractions import Fraction
 from functools import cached_property
-from math import degrees, inf, pi
+from math import inf, pi
 from typing import Any
 
 import numpy as np
 
-from diecut_report.api import InOtherUnit, Refusal
+from diecut_report.api import InOtherUnit, Refusal, told
 from diecut_report.mechanics.timing.intervals import Interval, Intervals, complement
 from diecut_report.mechanics.timing.lines import common_period
 from diecut_report.mechanics.timing.margins import PairMargin, margins_within, worst
@@ -165,7 +165,7 @@ class Timing:
 
     def told(self, angle: float) -> str:
         """Return an angle of the main shaft in words, with its time."""
-        return f"{degrees(angle):.4f}° ({angle / TURN * self.sheet_time * 1e3:.4f} ms)"
+        return f"{told(angle, 'deg', 6)} ({told(angle / TURN * self.sheet_time, 'ms', 6)})"
 
 
 def timing_of(given: Mapping[str, Any]) -> Timing:

@@ -17,7 +17,8 @@ MECHANISM = Mechanism(
     "moves from rest to rest, the link swings about it. Calculated are its motion, the peaks of its acceleration in the motion and after it, "
     "related to those of a rigid drive, its overshoot, and the torque of the drive; and which law of motion loads this link least.",
     inputs=ElasticFollower,
-    chapters=(motion.drive, motion.times, motion.by_law, motion.by_curve, response.response_chapter, response.settling, response.peaks_chapter, response.compared,
+    chapters=(motion.drive, motion.times, motion.by_law, motion.by_curve, response.response_chapter, response.settling, response.peaks_chapter,
+              response.compared,
               advice_chapter),
     key_results=("natural_frequency", "tuning_ratio", "peak_ratio", "residual_ratio", "acceleration_peak", "acceleration_rigid", "overshoot",
                  "torque_peak", "recommended_law"),

@@ -127,11 +127,11 @@ def of_drive(drive: DriveKind, own: Iterable[Step]) -> Chapter:
     chapter = Chapter(f"{drive.name[0].upper()}{drive.name[1:]}", needs=(drive.key,), absent=f"The {drive.name}: there is no block {drive.key}.")
     chapter.add(tuple(_told_apart(step, drive) for step in prefixed(f"{drive.key}_", family, shared=())))
     low, contact, leave = (f"{drive.key}_{place}_angle" for place in ("lowest", "contact", "leave"))
-    for name, role, words, span in (
-        ("working", "working", "the knife leads the signature", (contact, low)),
-        ("below", "working", "the edge is below the table", (contact, leave)),
+    for name, words, span in (
+        ("working", "the knife leads the signature", (contact, low)),
+        ("below", "the edge is below the table", (contact, leave)),
     ):
-        chapter.phase(f"{drive.key}_{name}", role, f"{drive.name[0].upper()}{drive.name[1:]}: {words}", "crank_angle", span)
+        chapter.phase(f"{drive.key}_{name}", "working", f"{drive.name[0].upper()}{drive.name[1:]}: {words}", "crank_angle", span)
     chapter.phase(f"{drive.key}_clear", "window", f"{drive.name[0].upper()}{drive.name[1:]}: the edge is above the table", "crank_angle",
                   rest_of=(f"{drive.key}_below",))
     return chapter

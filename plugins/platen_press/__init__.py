@@ -16,7 +16,8 @@ MECHANISM = Mechanism(
     "relax after the dead centre while the platen stands. Calculated are contact and dwell, the platen's ideal and true motion, the force of the "
     "rods, the torque at the main shaft split into useful torque and friction, and work and power of a cycle.",
     inputs=PlatenPress,
-    chapters=(motion.machine, motion.contact, motion.motion_chapter, motion.window, torque.forces, torque.friction, torque.guides, torque.torque_chapter,
+    chapters=(motion.machine, motion.contact, motion.motion_chapter, motion.window, torque.forces, torque.friction, torque.guides,
+              torque.torque_chapter,
               torque.return_chapter,
               torque.work, *torque.PRESSURES),
     key_results=("cutting_start_angle", "dwell_end_angle", "velocity_at_contact", "friction_arm", "torque_dead_center", "torque_max",

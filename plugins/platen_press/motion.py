@@ -144,7 +144,9 @@ window.require("clearance_within_stroke",
                        "opens, its stroke {stroke} less the stretch {drive_deformation}")
 window.value("clear_travel", "u_w", "mm", "Travel of the platen from the dead centre at which the clearance is left",
              lambda carriage_clearance, drive_deformation: carriage_clearance + drive_deformation, output=False)
-window.value("window_start", "φ_w1", "deg", "Crank angle at which the window opens", bind(slider_crank.inner_crank_angle_at, displacement="clear_travel"),
+window.value("window_start", "φ_w1", "deg", "Crank angle at which the window opens",
+             bind(slider_crank.inner_crank_angle_at, displacement="clear_travel"),
              source="closed form", digits=6)
-window.value("window_end", "φ_w2", "deg", "Crank angle at which it closes", lambda window_start: 2 * np.pi - window_start, source="symmetry", digits=6)
+window.value("window_end", "φ_w2", "deg", "Crank angle at which it closes", lambda window_start: 2 * np.pi - window_start, source="symmetry",
+             digits=6)
 window.phase("carriage_window", "window", "Room for the carriages", "crank_angle", ("window_start", "window_end"))

@@ -20,7 +20,7 @@ MECHANISM = Mechanism(
     inputs=PressConsistency,
     chapters=(sheet.sides, sheet.rate, drive.inertia, drive.engagement, drive.ends_chapter, sheet.conveyor, drive.motor_chapter, sheet.register),
     key_results=("step_room", "actual_rate", "crank_inertia_mean", "crank_inertia_max", "slip_heat", "equal_inertia", "way_inner", "way_outer",
-                 "motor_torque_rms", "motor_torque_max", "speed_swing", "play_total"),
+                 "motor_torque_rms", "motor_torque_peak", "speed_swing", "play_total"),
     checks=CHECKS,
     figures=FIGURES,
     partners=PARTNERS,

@@ -9,6 +9,9 @@ WHOLE = 1e-9  # by which pitches may miss a whole number
 LARGEST_INERTIA_ERROR = 5.0  # percent
 
 CHECKS = (
+    Check(id="timing", check_class="function", title="Timing of the press", demand=0.0, limit="timing_slack", unit="deg", tolerance=1e-9,
+          demand_label="needed", limit_label="least slack of the interlocks", source="this method",
+          consequence="the mechanisms are in each other's way; the cyclogram says which, by how much, and which offset is best."),
     Check(id="format_rolled", check_class="function", title="Sheet in the feed and cylinder", demand="side_in_feed", limit="working_length",
           unit="mm", tolerance=ROUNDING, demand_label="side of the sheet in the feed", limit_label="length that the cylinder unrolls",
           source="geometry", consequence="the sheet is not cut over its whole {feed_side}; take a larger cylinder or a smaller sheet."),

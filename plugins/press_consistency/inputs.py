@@ -43,8 +43,13 @@ class PressConsistency(Inputs):
     ] = None
     train: Annotated[str | None, Text("Mechanism that drives the main shaft; without it the only drive_train")] = None
     clutch: Annotated[str | None, Text("Clutch on the crank's shaft; without it the only clutch")] = None
+    timing: Annotated[str | None, Text("Cyclogram of the press; without it the only cyclogram")] = None
     damper: Annotated[str | None, Text("Dampers at the ends of the travel; without it the only damper")] = None
 
+    timing_slack: Annotated[
+        float | None,
+        Quantity("g_min", "deg", "Least slack of all interlocks on the main shaft; negative where one fails"),
+    ] = None
     working_length: Annotated[
         float | None, Quantity("l_1", "mm", "Length that the cylinder unrolls while it cuts", gt=0)
     ] = None

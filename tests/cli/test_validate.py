@@ -7,7 +7,7 @@ from pathlib import Path
 import pytest
 
 from diecut_report.cli.main import main
-from tests.configs import GOOD, HEAD, LEVER, saved
+from tests.configs import GOOD, HEAD, LEVER, YAML, saved
 from tests.study.studies import BASE, STUDY
 
 IMPOSSIBLE = """\
@@ -31,6 +31,14 @@ def test_what_cannot_be_and_what_is_wrong_is_told_at_once(tmp_path: Path, capfd:
     )
     assert found[2].startswith("8:99: mechanisms.clutch.5 mm: is what a decimal comma leaves behind it")
     assert len(found) == 3
+
+
+def test_the_examples_are_valid(
+    capfd: pytest.CaptureFixture[str],
+) -> None:  # among them one that takes mechanisms whole
+    files = [str(path) for path in YAML if path.stem.startswith("flat_cylinder_press")]
+    assert main(["validate", *files]) == 0
+    assert capfd.readouterr().err.splitlines() == [f"{file}: valid" for file in files]
 
 
 def test_what_refers_to_what_is_wrong_is_left_alone(tmp_path: Path, capfd: pytest.CaptureFixture[str]) -> None:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 from pathlib import Path
 from typing import Any
 
@@ -80,3 +81,14 @@ WRONG = [
 def test_a_wrong_block_is_told_with_its_place(tmp_path: Path, force: str, message: str) -> None:
     found = problems(tmp_path, LEVER + f"  b: {{kind: lever, force: {force}}}\n")
     assert len(found) == 1 and message in found[0]
+
+
+def test_the_resolved_config_rests_on_the_same(chain: dict[str, Any], tmp_path: Path) -> None:
+    again = results(tmp_path, json.dumps(chain["config"]["resolved"]))
+    for name, mechanism in chain["mechanisms"].items():
+        for key, row in mechanism["inputs"].items():
+            found = again["mechanisms"][name]["inputs"][key]
+            wanted = [row.get("basis", "given"), row.get("note"), row["value"]]
+            assert [found.get("basis", "given"), found.get("note"), found["value"]] == wanted, key
+    assert again["press"] == chain["press"]
+    assert again["config"]["resolved"] == chain["config"]["resolved"]

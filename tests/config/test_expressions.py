@@ -107,6 +107,8 @@ WRONG = [
     ("arm: '${a.arm} + 5 mn'", "'mn' is not a known unit"),
     ("arm: '(${a.arm} + 5 mm'", "')' is missing before the end."),
     ("arm: '${a.arm} +'", "is missing before the end."),
+    ("arm: '${a.arm} */ 2'", "a reference, a number or a quantity is missing before '/'."),
+    ("arm: '${a.arm}" + "**1" * 120 + "'", "the expression is nested deeper than 100 levels"),
     ("arm: '${a.arm} mm'", "'mm' is not expected here"),
     ("arm: '${a.arm} < 3'", "is not allowed here; allowed: references, numbers"),
     ("arm: '${a.arm} and ${a.arm}'", "'and' is not expected here"),
@@ -121,7 +123,7 @@ WRONG = [
     ("arm: '${a.arm} + ${b.moment} / 1 N'", "refers to itself: b.arm → b.moment → b.arm."),
     ("grade: '${a.grade} + ${a.arm}'", "mixes a reference with text"),
     ("armm: '${a.arm} + 2 mm'", "is an unknown key"),
-    (f"arm: '{'(' * 50}${{a.arm}}{')' * 50}'", "brackets stand too deep in each other"),
+    (f"arm: '{'(' * 50}${{a.arm}}{')' * 50}'", "brackets stand too deep in each other. Write it in a simpler way."),
     (f"arm: '${{a.arm}}{' + 1 mm' * 100}'", "has 708 characters; at most 500 are allowed"),
 ]  # fmt: skip
 

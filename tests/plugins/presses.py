@@ -28,7 +28,7 @@ TYPED: dict[str, Any] = {
     "generatrix_length": "700 mm", "sheet_step": "571.5 mm", "chain_pitch": "19.05 mm", "sprocket_teeth": 30, "sheet_play": "0.2743 mm",
     "register_tolerance": "0.3 mm", "conveyor_mass": "12 kg", "wheel_inertia": "3.57 kg*m**2", "travel_radius": "545.7423 mm",
     "clutch_torque": "741.166 N*m", "clutch_load": "20 N*m", "clutch_speed": "49.32 rpm", "clutch_inertia": "16 kg*m**2",
-    "damper_velocity": "0.6 m/s", "contact_distance": "10 mm", "belt_efficiency": 0.95, "n_points": 72,
+    "damper_velocity": "0.6 m/s", "contact_distance": "10 mm", "timing_slack": "5 deg", "belt_efficiency": 0.95, "n_points": 72,
 }  # fmt: skip
 
 

@@ -180,7 +180,7 @@ def test_few_teeth_are_a_warning() -> None:
     assert "take a module of 8 mm" in few["message"]
     assert checks(stepper(module="8 mm"))["tooth_undercut"]["status"] == "pass"
     assert checks(stepper(module="5 mm"))["tooth_undercut"]["status"] == "pass"
-    assert "tooth_undercut" not in checks(stepper())
+    assert checks(stepper())["tooth_undercut"]["missing"] == ["module"]
 
 
 # --- sheet, torque, forces -------------------------------------------------------------------------------------------
@@ -262,8 +262,9 @@ def test_the_contact_pressure_is_that_of_roller_and_profile_as_cylinders() -> No
 
 
 def test_the_sheets_acceleration_is_judged_where_a_limit_is_given() -> None:
-    assert "sheet_acceleration" not in checks(stepper(**CONVEYOR))
-    assert "sheet_acceleration" not in checks(stepper(allowable_sheet_acceleration="1 m/s**2"))
+    assert checks(stepper(**CONVEYOR))["sheet_acceleration"]["missing"] == ["allowable_sheet_acceleration"]
+    made = checks(stepper(allowable_sheet_acceleration="1 m/s**2"))
+    assert made["sheet_acceleration"]["missing"] == ["sprocket_teeth", "chain_pitch"]
     for allowed, status in ((117, "fail"), (118, "pass")):
         assert (
             checks(stepper(**CONVEYOR, allowable_sheet_acceleration=f"{allowed} m/s**2"))["sheet_acceleration"][
@@ -483,7 +484,10 @@ def test_all_that_the_method_promises_is_in_the_results() -> None:
 def test_without_further_keys_nothing_of_sheet_and_cams_is_said() -> None:
     results = mechanism_results(stepper(), {})
     assert not any(name.startswith(("sheet_", "cam_", "torque")) for name in (*results["outputs"], *results["curves"]))
-    assert [check["id"] for check in results["checks"]] == ["return_time", "gear_turn"]
+    assert [check["id"] for check in results["checks"] if check["status"] != "not_checked"] == [
+        "return_time",
+        "gear_turn",
+    ]
     assert results["exports"] == []
 
 
@@ -518,5 +522,7 @@ def test_teeth_are_counted_in_whole_numbers() -> None:
 
 
 def test_a_limit_that_nothing_is_held_against_is_told() -> None:
-    absent = mechanism_results(stepper(allowable_sheet_acceleration="50 m/s**2"), {})["absent"]
-    assert any("not checked, though allowable_sheet_acceleration is given" in part["text"] for part in absent)
+    found = mechanism_results(stepper(allowable_sheet_acceleration="50 m/s**2"), {})
+    unmade = next(check for check in found["checks"] if check["id"] == "sheet_acceleration")
+    assert (unmade["status"], unmade["missing"]) == ("not_checked", ["sprocket_teeth", "chain_pitch"])
+    assert "sprocket_teeth and chain_pitch are not given" in unmade["message"]

@@ -132,4 +132,4 @@ def test_what_is_allowed_is_checked_when_it_is_given(key: str, quantity: str, un
         check = checks(clutch(COOLED, **{key: f"{value * share!r} {unit}"}))[name]
         assert check["status"] == status
         assert check["utilisation"] == pytest.approx(1 / share)
-    assert name not in checks(clutch(COOLED))
+    assert checks(clutch(COOLED))[name]["missing"] == [key]

@@ -21,6 +21,8 @@ from diecut_report.plugins.cyclogram import MECHANISM
 from diecut_report.results.checks import check_results
 from diecut_report.results.document import document
 from diecut_report.results.press_run import Run, compute
+from diecut_report.study.definition.base_inputs import find_input
+from diecut_report.study.execution.variant_rows import calculate_rows
 from tests.configs import EXAMPLE
 from tests.machines import inputs, number
 
@@ -53,6 +55,7 @@ def linked(more: Data) -> Run:
     """The same with more mechanisms, by a configuration."""
     data = yaml.safe_load(TEXT)
     kept = {name: data["mechanisms"][name] for name in ("cylinder", "drive", "feeder", "cross")}
+    kept["cross"]["driven_inertia"] = "3.57 kg*m**2"  # as the method has it
     data["mechanisms"] = kept | more
     return compute(
         load_config(parse(yaml.safe_dump(data, allow_unicode=True), "press.yaml"), DISCOVERY), lambda _: None
@@ -224,7 +227,7 @@ def test_a_failed_interlock_says_by_how_much_and_what_would_do() -> None:
     assert check["status"] == "fail"
     for words in (
         "cutting: its margins are",
-        "5.0000 ms",
+        "(5 ms) are required",
         "The best offset of feeder is",
         "no offset holds all",
         "Slowing the press down does not help",
@@ -354,3 +357,29 @@ def test_apart_from_is_within_the_rest() -> None:
     apart = press("cross", [{"name": "a", "phase": "drive.cutting", "apart_from": "cross.moving"}])
     assert apart["slack"] == pytest.approx(within["slack"])
     assert apart["line_offset"] == pytest.approx(within["line_offset"])
+
+
+def test_the_drive_train_takes_the_sum_over_all_turns_of_the_main_shaft() -> None:
+    train = {
+        "kind": "drive_train", "motor_speed": "1450 rpm", "output_speed": "${timing.main_shaft_speed}", "torque_mean": "${timing.torque_mean}",
+        "torque_peak": "${timing.torque_peak}", "torque_curve": "${timing.main_shaft_torque}", "torque_curve_turns": "${timing.torque_curve_turns}",
+        "vbelt": {"section": "SPA", "driver_diameter": "125 mm", "center_distance": "600 mm"}, "power_per_belt": "3.5 kW",
+        "gears": [{"driver_teeth": 20, "driven_teeth": 98, "efficiency": 1}], "speed_fluctuation": 0.1,
+    }  # fmt: skip
+    run = linked(
+        {"timing": {"kind": "cyclogram"} | keys_of("cross", locks("cutting passing", "cross")), "train": train}
+    )
+    assert not run.errors
+    assert number(run.calculations["train"], "energy_fluctuation") == pytest.approx(277.8589, abs=6e-5)
+
+
+def test_a_study_of_the_timing_goes_machine_by_machine() -> None:
+    keys = {"kind": "cyclogram"} | keys_of("cross", locks("cutting passing", "cross"), "30 deg")
+    base_config = linked({"timing": keys}).config
+    offset = find_input(base_config, "mechanisms.timing.lines.1.offset")
+    rows_found = calculate_rows(base_config, {offset: np.radians([38.1164, 60.0])}, 2)
+    assert np.degrees(rows_found.columns["timing.best_margin"]) == pytest.approx(
+        [11.3273, 11.3273 - (60 - 38.1164)], abs=6e-4
+    )
+    assert list(rows_found.columns["timing.checks.interlock.status"]) == ["pass", "fail"]
+    assert "cyclogram" in rows_found.slow

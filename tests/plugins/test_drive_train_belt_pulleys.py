@@ -160,7 +160,8 @@ def test_the_figure_draws_the_cylinder_on_the_die_below() -> None:
 
 def test_the_example_wraps_its_pulley_on_the_side_away_from_the_die() -> None:
     block = yaml.safe_load(EXAMPLE.read_text(encoding="utf-8"))["mechanisms"]["train"]["toothed_belt"]
-    calc = train(toothed_belt=block | {"cylinder_radius": "105 mm"})
+    values = {key: given["value"] if isinstance(given, dict) else given for key, given in block.items()}
+    calc = train(toothed_belt=values | {"cylinder_radius": "105 mm"})
     assert block["engagement"] == "away"
     assert set(statuses(calc).values()) == {"pass"}
     assert number(calc, "teeth_in_mesh_min") >= 6

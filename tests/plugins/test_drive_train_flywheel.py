@@ -71,6 +71,13 @@ def test_the_swing_of_the_speed_is_held_against_the_motors_slip(speed: str, sync
     assert number(given_speed, "swing_to_slip") == pytest.approx(2.9, rel=1e-9)
 
 
+def test_a_curve_over_several_turns_swings_over_all_of_them() -> None:
+    """The same values over twice the angle are twice the work."""
+    once, twice = train(torque_curve=UNEVEN), train(torque_curve=UNEVEN, torque_curve_turns=2)
+    assert number(twice, "energy_fluctuation") == pytest.approx(2 * number(once, "energy_fluctuation"), rel=1e-9)
+    assert number(twice, "flywheel_torque_mean") == pytest.approx(number(once, "flywheel_torque_mean"), rel=1e-9)
+
+
 def test_a_steady_torque_needs_no_flywheel() -> None:
     calc = train(torque_curve=[200.0] * 12, torque_peak=200)
     assert number(calc, "energy_fluctuation") == pytest.approx(0, abs=1e-9)

@@ -236,10 +236,10 @@ def test_the_example_is_the_machine_of_these_tests() -> None:
     text = next(path for path in EXAMPLES if path.name == "folding_knife.yaml").read_text("utf-8")
     for said in (
         "carrier_radius: 65.656 mm",
-        "crank_radius: 35 mm",
-        "rod_length: 140 mm",
-        "knife_arm: 107 mm",
-        "working_depth: 40 mm",
+        "crank_radius: {value: 35 mm",
+        "rod_length: {value: 140 mm",
+        "knife_arm: {value: 107 mm",
+        "working_depth: {value: 40 mm",
     ):
         assert said in text
 

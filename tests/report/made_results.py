@@ -172,8 +172,8 @@ def check(name: str) -> Data:
     """A check that passes."""
     shown = {"text": "1", "unit": "N"}
     return {"id": name, "title": "A compared force", "class": "strength", "status": "pass", "demand": 1.0, "limit": 1.0, "operator": "<=",
-            "unit": "N", "utilisation": 1.0,
-            "source": "", "message": "Force 1 N, limit 1 N.", "demand_label": "force", "limit_label": "limit", "demand_display": shown,
+            "unit": "N", "utilisation": 1.0, "source": "",
+            "message": "Force 1 N, limit 1 N.", "demand_label": "force", "limit_label": "limit", "demand_display": shown,
             "limit_display": shown, "margin_display": {"text": "0", "unit": "N"}}  # fmt: skip
 
 

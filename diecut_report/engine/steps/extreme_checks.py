@@ -37,7 +37,7 @@ def searched(calc: Calculation) -> Iterator[tuple[Value, Array]]:
 def is_made(calc: Calculation, check: Check) -> bool:
     """Return whether a check is made: what it needs is given, and the calculation has what it compares."""
     there = all(name in calc.values or name in calc.inputs or name in calc.curves for name in check.named)
-    return there and calc.given.issuperset(check.needs + check.only_with)
+    return there and calc.given.issuperset((*check.needs, *check.only_with))
 
 
 @cache

@@ -7,7 +7,6 @@ from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
-from scipy.optimize import elementwise
 
 from diecut_report.expressions import Array, formula
 from diecut_report.mechanics.timing.legendre_pieces import NODES, WEIGHTS
@@ -15,8 +14,10 @@ from diecut_report.mechanics.timing.legendre_pieces import NODES, WEIGHTS
 TURN = 2 * np.pi
 AT = 1e-9  # rad from a dead centre that is none
 LOOKS = 41  # places up to the next dead centre at which the end of a slip is looked for
-STARTS = 72  # engagement angles that are tried over a turn
-ZOOMS = 3  # times that the worst of them is looked at closer
+CLOSER = 33  # places of a closer look at it
+NESTED = 6  # times that it is looked at closer
+STARTS = 48  # engagement angles that are tried over a turn
+ZOOMS = 5  # times that the worst of them is looked at closer
 ACROSS = 17  # places of a closer look
 PIECES = 3  # of a slip, in which its time is integrated
 _SHARES = ((np.arange(PIECES)[:, None] + (NODES + 1) / 2) / PIECES).ravel()
@@ -110,18 +111,14 @@ def _driven_angles(inertia: Inertia, dead_centers: Array, clutch: SlippingClutch
         )
     ahead = (dead_centers - starts[:, None]) % TURN
     longest = np.where(ahead > AT, ahead, TURN).min(axis=1, keepdims=True)
-    looks = longest * np.linspace(0, 1, LOOKS)
-
-    def excess(driven: Array, start: Array) -> Array:
-        return clutch.net * driven - inertia(start + driven) * clutch.speed**2 / 2
-
-    ended = excess(looks, starts[:, None]) >= 0
-    ended[:, -1] = True
-    first = np.argmax(ended, axis=1)
-    rows = np.flatnonzero(first > 0)
-    found = np.zeros_like(starts)
-    brackets = looks[rows, first[rows] - 1], looks[rows, first[rows]]
-    found[rows] = elementwise.find_root(excess, brackets, args=(starts[rows],)).x if len(rows) else 0.0
+    low, high = np.zeros_like(longest), longest
+    for looks in (LOOKS, *(CLOSER,) * NESTED):
+        driven = low + (high - low) * np.linspace(0, 1, looks)
+        ended = clutch.net * driven >= inertia(starts[:, None] + driven) * clutch.speed**2 / 2
+        ended[:, -1] = True
+        first = np.argmax(ended, axis=1)[:, None]
+        low, high = (np.take_along_axis(driven, each, axis=1) for each in (np.maximum(first - 1, 0), first))
+    found: Array = (low + high)[:, 0] / 2
     return found
 
 

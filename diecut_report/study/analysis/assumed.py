@@ -4,11 +4,13 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator, Mapping
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
 
 from diecut_report.config.loader import Config
+from diecut_report.errors import PluginError
 from diecut_report.expressions import Array
 from diecut_report.results.assumed import MOVES
 from diecut_report.results.summary import governing
@@ -23,15 +25,15 @@ SHARE = 0.1  # of a value, downwards and upwards
 def moves(config: Config, results: Data) -> list[dict[str, Any]]:
     """Return the assumed values that move a governing check of a mechanism: path, check and change of its utilisation.
 
-    Nothing where a plugin cannot take arrays: then the order is that of the file.
+    Mechanisms whose plugin cannot take arrays are left out, with those that refer to them.
     """
     varied = {path: found for path in results["summary"]["assumed"] if (found := _number(config, path))}
     names = _governing(results)
     if not varied or not names:
         return []
     try:
-        made = calculated(config, dict(_columns(list(varied.values()))), 1 + 2 * len(varied))
-    except NotOnArrays:
+        made = _calculated(config, dict(_columns(list(varied.values()))), 1 + 2 * len(varied))
+    except NotOnArrays:  # not of one mechanism that could be left out: the order is that of the file
         return []
     try:
         return list(_moved(made, list(varied), names))
@@ -39,8 +41,23 @@ def moves(config: Config, results: Data) -> list[dict[str, Any]]:
         made.release()
 
 
+def _calculated(config: Config, values: dict[Input, Array], count: int) -> CalculatedVariants:
+    """All variants of what can be calculated together; the others are as if their plugins were broken."""
+    left_out: dict[str, PluginError] = dict(config.broken)
+    while True:
+        try:
+            return calculated(replace(config, broken=left_out), dict(values), count)
+        except NotOnArrays as fault:
+            names = [name for name, kind in config.kinds.items() if kind == fault.kind and name not in left_out]
+            if not names:
+                raise
+            left_out |= {name: PluginError(fault.words, fault.kind, name) for name in names}
+
+
 def _number(config: Config, path: str) -> tuple[Input, float] | None:
-    """An input with its value in the file; None for what is not a single number there, and for whole numbers, which have no tenth."""
+    """An input with its value in the file; None for what is not a single number there (also words, and a time in place of an angle), and
+    for whole numbers, which have no tenth.
+    """
     try:
         asked = find_input(config, path)
     except UnknownPath:
@@ -48,7 +65,8 @@ def _number(config: Config, path: str) -> tuple[Input, float] | None:
     instance = config.instances[asked.instance]
     if instance is None or (asked.instance, *asked.key) in config.links or asked.unit is None or asked.is_integer:
         return None
-    return asked, float(instance.value(asked.key))
+    value = instance.value(asked.key)
+    return (asked, float(value)) if isinstance(value, int | float) else None
 
 
 def _columns(varied: list[tuple[Input, float]]) -> Iterator[tuple[Input, Array]]:

@@ -9,7 +9,7 @@ from diecut_report.conditions.formula_tree import as_formula
 from diecut_report.conditions.words import ConditionError
 from diecut_report.config.loader import Config
 from diecut_report.config.model import PRESS
-from diecut_report.config.references import Target
+from diecut_report.config.targets import Target
 from diecut_report.contract.inputs import Quantity
 from diecut_report.expressions import Formula, Node, transform
 from diecut_report.study.conditions.constraints import Term

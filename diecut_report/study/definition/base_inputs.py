@@ -10,7 +10,8 @@ from diecut_report.config.dependency_order import ordered
 from diecut_report.config.instances import Instance
 from diecut_report.config.loader import Config, substituted
 from diecut_report.config.model import PRESS, Press
-from diecut_report.config.references import Linker, Target
+from diecut_report.config.references import Linker
+from diecut_report.config.targets import Target
 from diecut_report.config.validation import declared, keys_of, validate
 from diecut_report.config.yaml_tree import KeyPath
 from diecut_report.contract.inputs import (

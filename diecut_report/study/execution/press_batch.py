@@ -13,7 +13,7 @@ from diecut_report.conditions.arithmetic import WITHOUT_VALUE
 from diecut_report.config.discovery import said
 from diecut_report.config.instances import Instance
 from diecut_report.config.loader import Config
-from diecut_report.config.references import Target
+from diecut_report.config.targets import Target
 from diecut_report.config.validation import declared, validate
 from diecut_report.config.yaml_tree import KeyPath
 from diecut_report.contract.inputs import SI, Quantity, flatten
@@ -23,7 +23,8 @@ from diecut_report.engine.phases import PhaseHandle
 from diecut_report.errors import PluginError, Problem
 from diecut_report.expressions import Array
 from diecut_report.quantities.plausible import without_rounding
-from diecut_report.results.press_run import Absent, Run, number, output
+from diecut_report.results.press_run import Run
+from diecut_report.results.taken_over import Absent, number, output
 from diecut_report.study.definition.base_inputs import Input, with_values
 
 Values = Mapping[Input, Array | str]

@@ -1,0 +1,87 @@
+"""Page 1: sorted by utilisation, what governs, what is not checked, and what holds no reserve."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import pytest
+
+from diecut_report.report.document import document
+from diecut_report.report.equations import Equations
+from diecut_report.report.i18n import Catalogue
+from diecut_report.results.summary import governing, summary
+from tests.report.made_results import check, mechanism, sample
+
+SHOWN = {"text": "16", "unit": "N"}
+
+
+def judged(name: str, ratio: float | None, status: str = "pass", **more: Any) -> dict[str, Any]:
+    return check(name) | {"status": status, "utilisation": ratio} | more
+
+
+def unchecked(name: str, key: str) -> dict[str, Any]:
+    return judged(
+        name,
+        None,
+        "not_checked",
+        limit=None,
+        limit_display=None,
+        margin_display=None,
+        demand_display=SHOWN,
+        missing=[key],
+    )
+
+
+def page(*checks: dict[str, Any]) -> Any:
+    results = sample()
+    ranks = [one["status"] for one in checks if one["status"] != "not_checked"]
+    worst = next((status for status in ("fail", "warn") if status in ranks), "pass")
+    results["mechanisms"] = {"train": mechanism("Train", checks=list(checks), status=worst)}
+    results |= {
+        "comparisons": {},
+        "status": worst,
+        "governing": governing(results["mechanisms"]),
+        "summary": summary(results["mechanisms"]),
+    }
+    words = Catalogue("en")
+    return document(results, Equations(words, lambda _: 0.0), words)
+
+
+def test_the_summary_is_sorted_by_utilisation_what_fails_first_and_what_was_sized_last() -> None:
+    found = page(judged("low", 0.2), judged("high", 0.9), judged("sized", 0.99, sized_to_limit=True), judged("over", 1.5, "fail"),
+                 judged("missed", None, "fail"), judged("odd", 1.01, "warn"), judged("own", 0.5, **{"class": "numerical"}))  # fmt: skip
+    assert [row.id for row in found.checks] == ["missed", "over", "odd", "high", "low", "sized"]
+    assert [row.id for row in found.sized] == ["sized"] and found.governing.id == "missed"
+    assert found.counts == ["2 of 6 checks fail", "1 with a warning", "3 pass"]
+    assert found.notes == ["1 self-test of the calculation holds."]
+
+
+def test_a_failure_without_a_utilisation_tells_by_how_much_in_words() -> None:
+    found = page(judged("missed", None, "fail", margin_display={"text": "-10", "unit": "mm"}))
+    assert (found.governing.utilisation, found.governing.used) == ("–", "10\N{NO-BREAK SPACE}mm beyond the limit")
+
+
+@pytest.mark.parametrize(
+    ("checks", "verdict", "face"),
+    [
+        ([judged("a", 0.5)], "All checks pass.", "pass"),
+        ([judged("a", 0.5), unchecked("b", "rated")], "No check fails, but not everything is checked.", "incomplete"),
+        ([unchecked("b", "rated")], "Nothing is checked.", "incomplete"),
+        ([judged("a", 1.1, "warn"), unchecked("b", "rated")], "No check fails, but some warn, and not everything is checked.", "warn"),
+        ([judged("a", 1.1, "fail"), unchecked("b", "rated")], "Checks fail.", "fail"),
+        ([], "There are no checks.", "pass"),
+    ],
+)  # fmt: skip
+def test_all_checks_pass_is_said_where_all_are_made_alone(
+    checks: list[dict[str, Any]], verdict: str, face: str
+) -> None:
+    found = page(*checks)
+    assert (found.verdict, found.face) == (verdict, face)
+
+
+def test_what_is_not_checked_stands_apart_with_what_it_needs() -> None:
+    found = page(judged("a", 0.5), unchecked("b", "rated"))
+    assert [(row.id, row.missing, row.demand, row.limit) for row in found.unchecked] == [
+        ("b", ("rated",), "16\N{NO-BREAK SPACE}N", "–")
+    ]
+    assert found.counts == ["1 passes", "1 not checked"] and found.chapters[0].count("not_checked") == 1

@@ -1,0 +1,69 @@
+"""What a report says of assumed values: how many they are, and those first that move a governing check."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+
+import pytest
+
+from diecut_report.cli.main import main
+from diecut_report.config.yaml_tree import load
+from diecut_report.results.assumed import Assumed, ordered
+from diecut_report.study.analysis.variant_config import _value
+from tests.configs import GOOD, HEAD, saved
+
+# the moment is force times arm, 200 N·m of 250 N·m allowed; nothing judges the width
+TEXT = HEAD.replace("thickness: 0.6 mm", "width: {value: 400 mm, basis: assumed}") + (
+    "  a: {kind: lever, width: {value: 20 mm, basis: assumed}, teeth: {value: 30, basis: assumed}, "
+    "force: {value: 2 kN, basis: assumed, note: from the layout}, arm: '${press.sheet.width} / 4', "
+    "allowable_moment: {value: 250 N*m, basis: assumed}}\n"
+)
+
+
+@pytest.fixture(scope="module")
+def out(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """A folder with the report of the lever above."""
+    folder = tmp_path_factory.mktemp("assumed")
+    config = saved(folder, TEXT)
+    arguments = ["report", str(config), "-o", str(folder), "--format", "html,json", "--quiet", "--plugins", str(GOOD)]
+    assert main(arguments) == 0
+    return folder
+
+
+def test_those_that_move_a_governing_check_come_first(out: Path) -> None:
+    results = json.loads((out / "press.json").read_text("utf-8"))
+    found = ordered(results)
+    assert [each.path for each in found] == [
+        "mechanisms.a.allowable_moment",  # 0.8 / 0.9 - 0.8 = 0.0889
+        "press.sheet.width",  # 0.8 · 0.1, through the expression
+        "mechanisms.a.force",
+        "mechanisms.a.width",  # moves nothing
+        "mechanisms.a.teeth",
+    ]
+    assert [each.change for each in found] == pytest.approx([0.8 / 0.9 - 0.8, 0.08, 0.08, 0, 0], rel=1e-5)
+    assert {each.check for each in found[:3]} == {"a.moment"}
+
+
+def test_page_1_tells_how_many_they_are_and_which_move_a_check(out: Path) -> None:
+    page = (out / "press.html").read_text("utf-8")
+    line = page[page.index("Rests on 5 assumed values, those first that move a governing check") :][:400]
+    assert '<span class="key">mechanisms.a.allowable_moment</span> (moves a.moment)' in line and "and 2 more." in line
+
+
+def test_the_input_table_shows_expression_basis_and_note(out: Path) -> None:
+    page = (out / "press.html").read_text("utf-8")
+    assert "${press.sheet.width} / 4" in page and "calculated, assumed" in page
+    assert 'assumed<span class="sub">from the layout</span>' in page
+
+
+def test_results_without_weights_keep_the_order_of_the_file() -> None:
+    assert ordered({"summary": {"assumed": ["b", "a"]}}) == [Assumed("b"), Assumed("a")]
+    assert ordered({}) == []
+
+
+def test_a_variants_value_stands_in_the_block_of_its_quantity(tmp_path: Path) -> None:
+    tree = load(saved(tmp_path, TEXT))
+    assert _value(tree, ("mechanisms", "a", "force")) == ("mechanisms", "a", "force", "value")
+    assert _value(tree, ("mechanisms", "a", "arm")) == ("mechanisms", "a", "arm")
+    assert _value(tree, ("mechanisms", "a", "parts", 0, "length")) == ("mechanisms", "a", "parts", 0, "length")
