@@ -7,13 +7,14 @@ from typing import Any
 
 import numpy as np
 import pytest
-from hypothesis import given
+from hypothesis import assume, given
 from hypothesis import strategies as st
 from pydantic import ValidationError
 
 from diecut_report.engine import Calculation, Impossible, calculate
-from diecut_report.mechanics import contact
+from diecut_report.mechanics import contact, involute
 from diecut_report.plugins.gear_pair import MECHANISM
+from diecut_report.plugins.gear_pair import formulas as f
 from diecut_report.plugins.gear_pair.sizing import MODULES
 from diecut_report.results.mechanism import mechanism_results
 from tests.examples import examples
@@ -199,6 +200,15 @@ def test_forces_on_the_tooth_make_up_the_normal_force(keys: dict[str, Any]) -> N
     assert normal == pytest.approx(reference, rel=1e-9)
 
 
+@given(teeth=st.integers(5, 40), height=st.floats(-2, 1), helix=st.floats(0, 0.5))
+@examples(60)
+def test_a_tip_lies_above_the_base_circle_where_its_radius_is_greater(teeth: int, height: float, helix: float) -> None:
+    alpha = float(involute.transverse_pressure_angle(radians(20), helix))
+    reference = teeth / cos(helix) / 2
+    assume(abs(reference + height - reference * cos(alpha)) > 1e-9)
+    assert bool(f.tip_above_base(teeth, alpha, helix, height)) is (reference + height > reference * cos(alpha))
+
+
 # --- load ------------------------------------------------------------------------------------------------------------
 
 
@@ -225,7 +235,9 @@ def test_a_curve_counts_with_its_peak_and_bends_both_ways() -> None:
 
 def test_assumed_factors_are_named_and_given_ones_are_not() -> None:
     assert checks(pair(HELICAL))["k_factors"]["status"] == "pass"
+    assert number(pair(), "factors_assumed") == 4
     check = checks(pair(dynamic_factor=1.2))["k_factors"]
+    assert check["demand"] == 3
     assert check["status"] == "warn"
     assert "application_factor, face_load_factor and transverse_load_factor are assumed" in check["message"]
 
