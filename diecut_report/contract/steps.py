@@ -174,13 +174,14 @@ class Computed(Step):
 
     ``function`` takes the quantities ``takes`` by position: numbers as arrays of shape (variants, 1), texts, the handles of
     curve inputs (``Curve`` in ``contract.given``). It gives an array of shape (variants, 1), SI; of shape (variants, parts) where
-    it gives a row for the list ``over``.
+    it gives a row for the list ``over``, or for what ``PartNames`` declares; or with ``is_text`` a text for each variant.
     """
 
     function: Callable[..., Any]
     takes: tuple[str, ...]
     method: str
     over: str = ""
+    is_text: bool = False
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -281,14 +282,18 @@ class Phase(Step):
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class Prepared(Step):
-    """Declare what plain code makes of a machine once, and several steps ask: any object, no quantity.
+    """Declare what plain code makes of a machine once (``for_many``: of many at once), and several steps ask: any object, no quantity.
 
-    ``function`` takes one mapping: of the inputs and quantities ``holds`` those that there are, in the form in which
-    ``Computed`` takes them.
+    ``function`` takes one mapping: those of the inputs and quantities ``holds`` that there are, as ``Computed`` takes them.
     """
 
     function: Callable[..., Any]
     holds: tuple[str, ...]
+    for_many: bool = False
 
 
-SILENT = Breakpoints | Require | Clash | Words | Phase | Prepared  # steps that give no quantity
+class SilentStep(Step):
+    """Declare the base of other steps that give no quantity."""
+
+
+SILENT = Breakpoints | Require | Clash | Words | Phase | Prepared | SilentStep  # steps that give no quantity

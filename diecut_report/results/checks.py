@@ -192,12 +192,19 @@ def _where(calc: Calculation, check: Check, pair: int, part: int, count: int) ->
         return f" at {at['symbol']} = {with_unit(at['text'], at['unit'])}", {}
     if _is_row(calc, check):
         places = {"part": part + 1, "next": (part + 1) % count + 1, "index": part}
-        return f" at part {part + 1} of {count}", places
+        names = _part_names(calc, check)
+        return f" at {names[part]}" if names else f" at part {part + 1} of {count}", places
     return "", {}
 
 
 def _is_row(calc: Calculation, check: Check) -> bool:
     return any(name in calc.axis and calc.axis[name] not in calc.domains for name in check.named)
+
+
+def _part_names(calc: Calculation, check: Check) -> tuple[str, ...]:
+    """The names of the parts that a check runs over, where they have some."""
+    found = (calc.part_names.get(calc.axis.get(name, "")) for name in check.named)
+    return next((names for names in found if names), ())
 
 
 def _at(calc: Calculation, check: Check, pair: int) -> dict[str, str]:
@@ -216,7 +223,9 @@ def _further(calc: Calculation, check: Check, found: JudgedCheck, pair: int, par
     there = found.there[0].T
     pairs = worst(found.demand[0].T, found.limit[0].T, found.held[0].T, found.ratio[0].T, there)
     parts = [_told(check, found, int(p), i) if there[i].any() else {"status": None} for i, p in enumerate(pairs)]
-    return {"part": part + 1, "parts": parts}
+    names = _part_names(calc, check)
+    told = [one | {"name": name} for one, name in zip(parts, names, strict=True)] if names else parts
+    return {"part": part + 1, "parts": told} | ({"part_name": names[part]} if names else {})
 
 
 def _texts(demand: float, limit: float, display: str) -> dict[str, dict[str, str]]:

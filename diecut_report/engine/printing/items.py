@@ -6,6 +6,7 @@ from collections.abc import Callable
 from typing import Any
 
 from diecut_report.contract.binding import Binding, Bound, bound
+from diecut_report.contract.code_steps import ComputedCurve, PartTable
 from diecut_report.contract.part_steps import Interpolated, Lookup, Neighbour, Part, Pick, Running, Total
 from diecut_report.contract.result_names import place_name
 from diecut_report.contract.steps import (
@@ -34,6 +35,7 @@ from diecut_report.engine.printing.shown_place import (
     marks,
     place_of,
     place_shown,
+    shown_part,
     value_at,
 )
 from diecut_report.engine.printing.substitution import (
@@ -88,11 +90,15 @@ def items(calc: Calculation, step: Step) -> list[Item]:
         case Accumulated() | Derivative():
             return [_of_curve(calc, step)]
         case Computed() if step.id in calc.axis:
-            return [tables.table(calc, step, [step.id])]
+            return [] if calc.axis[step.id] in calc.part_names else [tables.table(calc, step, [step.id])]
         case MadeCurve():
             return [_made(calc, step)]
         case Computed() | CurvePeriod():
             return [_computed(calc, step)]
+        case ComputedCurve():
+            return [_computed(calc, step) | {"at": place_shown(calc, step.abscissa, False)}]
+        case PartTable(parts=parts, columns=columns):
+            return [tables.of_parts(calc, step, calc.part_names[parts], list(columns))]
         case Lookup() if step.id in calc.axis:
             return [tables.looked_up(calc, step)]
         case Total() | Pick() | Lookup() | Part():
@@ -119,6 +125,10 @@ def _value(calc: Calculation, step: Value, part: Bound) -> list[Item]:
     item = _head(step) | {"type": "formula"} | _formula(calc, part, step, axis, elsewhere)
     if axis in calc.domains:
         item |= located(calc, str(axis), elsewhere)
+    elif axis in calc.part_names:
+        item["note"] = " ".join(
+            filter(None, (item.get("note"), f"Shown for: {calc.part_names[axis][shown_part(calc, step.id)]}."))
+        )
     elif axis is not None:
         return [
             item,
@@ -251,9 +261,12 @@ def _reduction(calc: Calculation, step: Reduction) -> Item:
     return item
 
 
-def _computed(calc: Calculation, step: Computed | CurvePeriod) -> Item:
-    method = step.method if isinstance(step, Computed) else f"the period of {calc.meta[step.given].symbol}"
-    result = shown(value_at(calc, step.id, None), step.unit, step.digits)
+def _computed(calc: Calculation, step: Computed | ComputedCurve | CurvePeriod) -> Item:
+    method = f"the period of {calc.meta[step.given].symbol}" if isinstance(step, CurvePeriod) else step.method
+    if isinstance(step, Computed) and step.is_text:
+        result: Item = {"text": calc[step.id][0, 0], "unit": "1"}
+    else:
+        result = shown(value_at(calc, step.id, calc.axis.get(step.id)), step.unit, step.digits)
     return _head(step) | {"type": "found", "relation": None, "method": method, "result": result}
 
 
