@@ -189,14 +189,15 @@ class Steps(PhaseForm, MadeCurveForm):
     def words(
         self,
         id: str,
-        function: Callable[..., str],
+        function: Callable[..., str | tuple[str, ...]],
         takes: tuple[str, ...],
         *,
+        each_part: bool = False,
         output: bool = True,
         **when: Unpack[StepCondition],
     ) -> None:
         """Declare a text that plain code makes of numbers, for messages: see ``Words``."""
-        self.add(Words(id=id, function=function, takes=takes, output=output, **when))
+        self.add(Words(id=id, function=function, takes=takes, each_part=each_part, output=output, **when))
 
     def total(
         self, id: str, symbol: str, unit: str, description: str, operation: Literal["sum", "product", "min", "max"], of: str, *,

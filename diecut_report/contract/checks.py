@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from collections.abc import Callable, Iterable, Iterator, Sequence
+from dataclasses import dataclass, replace
 from typing import Literal
 
 from diecut_report.contract.place import placed
@@ -31,6 +32,9 @@ class Check:
     apply at all it is left out: an option of a text, a block or an alternative of its inputs was not chosen, or a key of
     ``only_with`` is not given. ``sized_unless`` names the inputs in place of which the program sizes what is compared to
     its own limit; () where it always does. Such a check shows no reserve while they are not given.
+
+    A row whose parts have names is one check for each of them with ``named_by``, the text input of their names
+    (``interlocks.name``): ``part_id`` makes the check's id of ``{id}`` and ``{name}``, and ``{part}`` is then the name.
     """
 
     id: str
@@ -51,6 +55,10 @@ class Check:
     sized_unless: tuple[str, ...] | None = None
     at_least: str | float | None = None
     at_least_label: str = "at least"
+    named_by: str = ""
+    part_id: str = "{id}_{name}"
+    part_name: str = ""
+    index: int | None = None
     at: str = placed()
 
     @property
@@ -59,7 +67,19 @@ class Check:
         upper = ((self.demand, self.limit),)
         return upper if self.at_least is None else (*upper, (self.at_least, self.demand))
 
+    def of_part(self, index: int, name: str) -> Check:
+        """Return the check of one part alone."""
+        own = self.part_id.format(id=self.id, name=name)
+        return replace(self, id=own, title=f"{self.title}: {name}", part_name=name, index=index)
+
     @property
     def named(self) -> tuple[str, ...]:
         """Return the ids of the quantities that are compared, each once."""
         return tuple(dict.fromkeys(side for pair in self.pairs for side in pair if isinstance(side, str)))
+
+
+def by_part(checks: Iterable[Check], names: Callable[[str], Sequence[str] | None]) -> Iterator[Check]:
+    """Yield checks with those of named parts one by one; ``names`` gives the names of parts, None where they are not there."""
+    for check in checks:
+        found = names(check.named_by) if check.named_by else None
+        yield from [check] if found is None else (check.of_part(index, name) for index, name in enumerate(found))

@@ -198,11 +198,13 @@ class CurvePeriod(Step):
 class Words(Step):
     """Declare a text made by plain code, for messages (``{id}``): ``function`` takes the numbers (SI) and texts ``takes`` of one machine.
 
-    It is made only where a message or a drawing asks for it.
+    It is made only where a message or a drawing asks for it. With ``each_part`` it is a text for each part of a row: the
+    function gives a tuple of them.
     """
 
-    function: Callable[..., str]
+    function: Callable[..., str | tuple[str, ...]]
     takes: tuple[str, ...]
+    each_part: bool = False
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)

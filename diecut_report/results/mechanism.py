@@ -20,7 +20,7 @@ from diecut_report.engine.figure_views import figures
 from diecut_report.engine.printing.items import section_items
 from diecut_report.quantities.formatting import shortest, shown
 from diecut_report.quantities.units import unit
-from diecut_report.results.checks import applies, check_results
+from diecut_report.results.checks import applies, check_results, checks_of
 from diecut_report.results.exports import exports
 from diecut_report.results.phases import phases, phases_absent
 from diecut_report.results.summary import RANK, counts, failed_self_tests
@@ -110,10 +110,11 @@ def absent(calc: Calculation, provenance: Mapping[str, Provenance]) -> list[Data
         for s in calc.mechanism.chapters
         if s.absent and not calc.given.issuperset(s.needs)
     ]
-    made = {check.id for check in calc.mechanism.checks if applies(calc, check) or missing(calc, check)}
+    checks = checks_of(calc)
+    made = {check.id for check in checks if applies(calc, check) or missing(calc, check)}
     unmade = [
         {"title": c.title, "text": f"not checked, though {c.limit} is given: what it limits is not calculated"}
-        for c in calc.mechanism.checks
+        for c in checks
         if _is_limit_given(calc, str(c.limit), provenance) and c.id not in made
     ]
     return left_out + unmade
