@@ -6,7 +6,10 @@ from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass, replace
 from typing import Literal
 
+import numpy as np
+
 from diecut_report.contract.place import placed
+from diecut_report.expressions import Array
 
 CheckClass = Literal["function", "strength", "practice", "numerical"]
 UNDECLARED: CheckClass = None  # type: ignore[assignment]  # no allowed class: the declaration check tells which there are
@@ -22,7 +25,8 @@ class Check:
 
     For an upper bound the demand is the machine's and the limit the allowed value; for a lower bound the demand is
     what is required and the limit what there is, so that the utilisation is required / available.
-    ``severity`` "warn" makes a failing check a warning. ``consequence`` says what a failure means and what to change.
+    ``severity`` "warn" makes a failing check a warning, beyond the utilisation ``fails_beyond`` still a failure.
+    ``consequence`` says what a failure means and what to change.
 
     ``check_class`` must be given: "function" (the machine does not do what it is for), "strength" (a part breaks, wears,
     slips or overheats), "practice" (a rule of experience is left) or "numerical" (a self-test of the calculation, which is
@@ -49,6 +53,7 @@ class Check:
     source: str = ""
     operator: Literal["<=", "<"] = "<="
     severity: Literal["fail", "warn"] = "fail"
+    fails_beyond: float | None = None
     tolerance: float = 0.0
     needs: tuple[str, ...] = ()
     only_with: tuple[str, ...] = ()
@@ -66,6 +71,11 @@ class Check:
         """Return what is held against what, the first not above the second: demand and limit, then the lower bound and demand."""
         upper = ((self.demand, self.limit),)
         return upper if self.at_least is None else (*upper, (self.at_least, self.demand))
+
+    def is_failure(self, utilisation: Array) -> Array:
+        """Return whether the check fails where it does not hold; else that is a warning."""
+        beyond = np.inf if self.fails_beyond is None else self.fails_beyond
+        return np.full(np.shape(utilisation), True) if self.severity == "fail" else np.asarray(utilisation) > beyond
 
     def of_part(self, index: int, name: str) -> Check:
         """Return the check of one part alone."""

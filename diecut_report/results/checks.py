@@ -163,7 +163,7 @@ def _told(check: Check, found: JudgedCheck, pair: int, part: int) -> Data:
     demand, limit, ratio = (float(side[0, pair, part]) for side in (found.demand, found.limit, found.ratio))
     labels = (check.at_least_label, check.demand_label) if pair else (check.demand_label, check.limit_label)
     return {
-        "status": "pass" if found.held[0, pair, part] else check.severity,
+        "status": "pass" if found.held[0, pair, part] else "fail" if check.is_failure(np.array(ratio)) else "warn",
         "demand": demand,
         "limit": limit,
         "utilisation": None if math.isnan(ratio) else ratio,

@@ -200,7 +200,7 @@ def verdicts(calculations: Mapping[str, Calculation], count: int) -> Verdicts:
                 }
                 continue
             names.append(f"{name}.checks.{check.id}")
-            codes.append(np.where(there, np.where(held, PASS, FAIL if check.severity == "fail" else WARN), 0))
+            codes.append(np.where(there, np.where(held, PASS, np.where(check.is_failure(ratio), FAIL, WARN)), 0))
             ratios.append(np.where(there, ratio, np.nan))
             sized.append(is_sized(calc.given, check))
     shape = (len(names), count)
