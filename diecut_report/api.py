@@ -43,6 +43,7 @@ from diecut_report.contract.inputs import (
     Quantity,
     Text,
 )
+from diecut_report.contract.listings import Cell, Column
 from diecut_report.contract.mechanism import Comparison, Erratum, Mechanism, Partner, Profile, Source
 from diecut_report.contract.options import case
 from diecut_report.contract.part_steps import Interpolated, Lookup, Neighbour, Part, Pick, Running, Total
@@ -88,7 +89,8 @@ from diecut_report.standards import (
 
 __all__ = [
     "GRAVITY", "POINTS", "Abscissa", "Accumulated", "Annotated", "BarGroup", "Bars", "Binding", "Block", "Bound", "Breakpoints", "ByText",
-    "Case", "Chapter", "Chart", "Check", "Choice", "Clash", "Comparison", "Computed", "Constant", "Crossings", "Curve", "CurveInput",
+    "Case", "Cell", "Chapter", "Chart", "Check", "Choice", "Clash", "Column", "Comparison", "Computed", "Constant", "Crossings", "Curve",
+    "CurveInput",
     "CurvePeriod", "Derivative", "Drawing", "Erratum", "Formula", "FromCurve", "FromPress", "GivenMechanism", "GivenPhase", "InOtherUnit",
     "Inputs", "Interpolated", "Level", "Lookup", "MadeCurve", "Mark", "Mechanism", "MechanismInput", "Neighbour", "OneOf", "Panel", "Part",
     "Partner", "Phase", "PhaseInput", "Pick", "Plot", "Point", "Polar", "Profile", "Quantity", "Reduction", "Refusal", "Require", "Root", "Running",
