@@ -185,7 +185,7 @@ def _quantity(meta: Quantity, default: Any, refers: bool) -> Schema:
     said += [f"Default: from {meta.press.path}"] if meta.press else []
     number = {"type": "integer" if meta.integer else "number", **limits}
     text = {"type": "string", "maxLength": MAX_TEXT, "pattern": f"{EXPRESSION}|{NUMBER}" if refers else NUMBER}
-    words = [{"enum": list(meta.words)}] if meta.words else []
+    words: list[Schema] = [{"enum": list(meta.words)}] if meta.words else []
     if isinstance(meta, Varying) and meta.extremes:
         ends = {name: {"anyOf": [number, text]} for name in ("min", "max")}
         words.append({"type": "object", "required": [*ends], "additionalProperties": False, "properties": ends})
