@@ -13,6 +13,7 @@ from typing import Any, Literal, Unpack
 from diecut_report.contract.between import Between, Interpolation
 from diecut_report.contract.binding import as_binding, bind
 from diecut_report.contract.code_steps import CodeForm
+from diecut_report.contract.listings import ListingForm
 from diecut_report.contract.made_curves import MadeCurveForm
 from diecut_report.contract.options import Options, StepCondition, Written
 from diecut_report.contract.part_steps import Interpolated, Lookup, Neighbour, Part, Pick, Running, Total
@@ -44,7 +45,7 @@ from diecut_report.standards import StandardSeries, StandardTable
 
 
 @dataclass(eq=False)
-class Steps(PhaseForm, MadeCurveForm, CodeForm):
+class Steps(PhaseForm, MadeCurveForm, CodeForm, ListingForm):
     """Hold declared steps in the order in which they are calculated; a family of them may be added to several chapters."""
 
     steps: Sequence[Step] = field(default=(), kw_only=True)
@@ -189,14 +190,15 @@ class Steps(PhaseForm, MadeCurveForm, CodeForm):
     def words(
         self,
         id: str,
-        function: Callable[..., str],
+        function: Callable[..., str | tuple[str, ...]],
         takes: tuple[str, ...],
         *,
+        each_part: bool = False,
         output: bool = True,
         **when: Unpack[StepCondition],
     ) -> None:
         """Declare a text that plain code makes of numbers, for messages: see ``Words``."""
-        self.add(Words(id=id, function=function, takes=takes, output=output, **when))
+        self.add(Words(id=id, function=function, takes=takes, each_part=each_part, output=output, **when))
 
     def total(
         self, id: str, symbol: str, unit: str, description: str, operation: Literal["sum", "product", "min", "max"], of: str, *,

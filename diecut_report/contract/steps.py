@@ -199,11 +199,13 @@ class CurvePeriod(Step):
 class Words(Step):
     """Declare a text made by plain code, for messages (``{id}``): ``function`` takes the numbers (SI) and texts ``takes`` of one machine.
 
-    It is made only where a message or a drawing asks for it.
+    It is made only where a message or a drawing asks for it. With ``each_part`` it is a text for each part of a row: the
+    function gives a tuple of them.
     """
 
-    function: Callable[..., str]
+    function: Callable[..., str | tuple[str, ...]]
     takes: tuple[str, ...]
+    each_part: bool = False
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -282,10 +284,7 @@ class Phase(Step):
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class Prepared(Step):
-    """Declare what plain code makes of a machine once (``for_many``: of many at once), and several steps ask: any object, no quantity.
-
-    ``function`` takes one mapping: those of the inputs and quantities ``holds`` that there are, as ``Computed`` takes them.
-    """
+    """Declare an object that plain code makes of a machine once (``for_many``: of many at once) of those of ``holds`` that there are."""
 
     function: Callable[..., Any]
     holds: tuple[str, ...]

@@ -100,7 +100,9 @@ def _asked(step: Step) -> Iterator[Asked]:
         case Pick(of=of):
             yield "of", of, ROW, ""
         case Words():
-            yield from (("takes", name, ROW | {"text", "prepared"}, "a number or a text") for name in step.takes)
+            yield from (
+                ("takes", name, ROW | {"text", "prepared"} | CURVE_INPUT, "a number or a text") for name in step.takes
+            )
         case Computed() | MadeCurve() | PartNames():
             yield from (
                 ("takes", name, PLAIN, "a number, a text, or what is taken by reference") for name in step.takes

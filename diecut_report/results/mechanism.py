@@ -15,13 +15,13 @@ from diecut_report.contract.result_names import ResultName, count_name, pattern,
 from diecut_report.contract.spectra import Spectrum, SpectrumLine
 from diecut_report.contract.steps import SILENT, Crossings, Step
 from diecut_report.contract.varying import Varying
-from diecut_report.engine import Calculation
+from diecut_report.engine import Calculation, listings
 from diecut_report.engine.calculation import Unproven
 from diecut_report.engine.figure_views import figures
 from diecut_report.engine.printing.items import section_items
 from diecut_report.quantities.formatting import shortest, shown
 from diecut_report.quantities.units import unit
-from diecut_report.results.checks import applies, check_results
+from diecut_report.results.checks import applies, check_results, checks_of
 from diecut_report.results.exports import exports
 from diecut_report.results.phases import phases, phases_absent
 from diecut_report.results.summary import RANK, counts, failed_self_tests
@@ -73,6 +73,7 @@ def mechanism_results(calc: Calculation, provenance: Mapping[str, Provenance]) -
         "inputs": inputs(calc, provenance),
         "lists": list_titles(mechanism.inputs) | {name: calc.steps[name].description for name in calc.part_names},
         **numbers(calc),
+        **listings.results(calc),
         "curves": curves(calc),
         "phases": phases(calc),
         "phases_absent": phases_absent(calc),
@@ -112,10 +113,11 @@ def absent(calc: Calculation, provenance: Mapping[str, Provenance]) -> list[Data
         for s in calc.mechanism.chapters
         if s.absent and not calc.given.issuperset(s.needs)
     ]
-    made = {check.id for check in calc.mechanism.checks if applies(calc, check) or missing(calc, check)}
+    checks = checks_of(calc)
+    made = {check.id for check in checks if applies(calc, check) or missing(calc, check)}
     unmade = [
         {"title": c.title, "text": f"not checked, though {c.limit} is given: what it limits is not calculated"}
-        for c in calc.mechanism.checks
+        for c in checks
         if _is_limit_given(calc, str(c.limit), provenance) and c.id not in made
     ]
     return left_out + unmade
@@ -201,8 +203,8 @@ def _rowed(calc: Calculation, step: Step) -> Data:
     if step.id in calc.axis:
         home = {} if step.numbered else {"list": calc.axis[step.id]}
         names = result_names(step, len(row))
-        rows = (_number(step, value) | home for value in row)
-        return {each.name: found | _part(step, each, **home) for each, found in zip(names, rows, strict=True)}
+        there = [(each, value) for each, value in zip(names, row, strict=True) if value == value]  # no NaN
+        return {each.name: _number(step, value) | home | _part(step, each, **home) for each, value in there}
     if not isinstance(row[0], str) and math.isnan(row[0]):
         return {}
     found = _number(step, row[0])

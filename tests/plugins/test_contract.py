@@ -39,6 +39,8 @@ ALIKE = {  # quantities that a step takes over under another id
         ("output_turns_per_sheet", "turns_a_sheet"),
         ("engagement_angle", "start_angle"),
     ],
+    "gear_pair": [("torque_curve", "torque_given")],
+    "parallel_key": [("torque_curve", "torque_over_cycle")],
     "transport_comparison": [("gear_speed", "cam_gear_speed"), ("gear_acceleration", "cam_gear_acceleration")],
 }
 NEVER_REFUSED = {"damper", "elastic_follower"}

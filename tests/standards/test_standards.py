@@ -198,7 +198,7 @@ def test_a_series_ascends_without_a_gap(series: StandardSeries) -> None:
 @pytest.mark.wheel
 def test_the_files_are_the_documented_ones() -> None:
     assert {form: standard_ids(form) for form in FORMS} == {
-        "values": ("iec_60072_ratings", "renard_r10", "renard_r20", "renard_r40"),
+        "values": ("din_6885_lengths", "iec_60072_ratings", "iso_54_modules", "renard_r10", "renard_r20", "renard_r40"),
         "table": (
             "iso_606_pitches",
             "motor_synchronous_speeds",

@@ -7,6 +7,7 @@ from typing import Any
 
 from diecut_report.contract.binding import Binding, Bound, bound
 from diecut_report.contract.code_steps import ComputedCurve, PartTable
+from diecut_report.contract.listings import Listing
 from diecut_report.contract.part_steps import Interpolated, Lookup, Neighbour, Part, Pick, Running, Total
 from diecut_report.contract.result_names import place_name
 from diecut_report.contract.steps import (
@@ -24,6 +25,7 @@ from diecut_report.contract.steps import (
     Value,
     Words,
 )
+from diecut_report.engine import listings
 from diecut_report.engine.calculation import Calculation, Unproven
 from diecut_report.engine.printing import tables
 from diecut_report.engine.printing.definitions import definitions
@@ -86,7 +88,7 @@ def items(calc: Calculation, step: Step) -> list[Item]:
         case Reduction():
             return [_reduction(calc, step)]
         case Crossings():
-            return [_crossings(calc, step)]
+            return [tables.crossings(calc, step)]
         case Accumulated() | Derivative():
             return [_of_curve(calc, step)]
         case Computed() if step.id in calc.axis:
@@ -105,6 +107,8 @@ def items(calc: Calculation, step: Step) -> list[Item]:
             return [_head(step) | tables.number(calc, step)]
         case Running():
             return [tables.table(calc, step, [step.of, step.id])]
+        case Listing():
+            return listings.printed(calc, step)
         case Neighbour() | Words():  # a neighbour stands beside its part in the table of what takes it
             return []
         case Abscissa(points=points):
@@ -285,15 +289,3 @@ def _of_curve(calc: Calculation, step: Accumulated | Derivative) -> Item:
         "at": place_shown(calc, axis, False), "method": METHODS[operation],
         "residual": {"text": number_text(calc.proof[step.id], 2), "unit": "1"},
     }  # fmt: skip
-
-
-def _crossings(calc: Calculation, step: Crossings) -> Item:
-    places = [float(x) for x in calc[step.id][0] if x == x]
-    if not places:
-        return _head(step) | {"type": "note", "text": f"{step.description}: there is none."}
-    tables = [[str(i), number_text(x / unit(step.unit).factor, 6)] for i, x in enumerate(places, 1)]
-    columns = [
-        {"title": "No.", "symbol": "", "unit": "1"},
-        {"title": step.description, "symbol": step.symbol, "unit": step.unit},
-    ]
-    return {"type": "table", "id": step.id, "title": step.description, "columns": columns, "rows": tables}

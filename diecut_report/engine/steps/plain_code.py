@@ -61,8 +61,12 @@ def partners(step: Clash, found: Any, shape: tuple[int, ...]) -> Array:
     return given
 
 
-def text(step: Words | Computed, found: Any) -> str:
-    """Return the text that a function gives; Misdeclared where it is none."""
+def text(step: Words | Computed, found: Any, part: int = 0) -> str:
+    """Return the text that a function gives, of one for each part that of a part; Misdeclared where it is none."""
+    if isinstance(step, Words) and step.each_part:
+        if not (isinstance(found, tuple) and all(isinstance(each, str) for each in found)):
+            raise _told(step, step.function, reprlib.repr(found), "a tuple of texts, one for each part")
+        return str(found[part])
     if not isinstance(found, str):
         raise _told(step, step.function, reprlib.repr(found), 'a text, f"…"')
     return found
