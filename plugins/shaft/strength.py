@@ -93,7 +93,7 @@ _number(bending, "energy_difference", "ΔU/U", "1", "Energy of the bent shaft le
 
 fatigue = Chapter("Fatigue", text="Stress of a material point that turns with the shaft by θ, at ψ from y: σ = N/A − (M_xy cos(ψ + θ) + "
                                   "M_xz sin(ψ + θ))/W_b. Ranges of bending and torsion are combined as if in phase; ψ and the side of a place "
-                                  "(before or behind its load) are those of the least safety.")
+                                  "(before or behind its load) are those of the least safety, found by a scan of 120 directions and bounded search.")
 STATES = ("under_load", *FACTORS.values())
 fatigue.prepared("states", lambda given: _states(*map(given.get, STATES)), STATES, for_many=True)
 
@@ -106,8 +106,6 @@ _state(fatigue, "sigma_a", "σ_a", "MPa", "Amplitude of the normal stress", "sig
 _state(fatigue, "sigma_m", "σ_m", "MPa", "Mean of the normal stress", "sigma_m", "middle of the range over the cycle")
 _state(fatigue, "torque_upper", "T_o", "N*m", "Greatest torque over the cycle there", "torque_upper", "over the cycle")
 _state(fatigue, "torque_lower", "T_u", "N*m", "Least torque over the cycle there", "torque_lower", "over the cycle")
-_state(fatigue, "direction", "ψ", "deg", "Direction of the material point of the least safety", "direction",
-       "scan of 120 directions, then a bounded search")
 fatigue.value("tau_a", "τ_a", "MPa", "Amplitude of the shear stress",
               lambda torque_upper, torque_lower, place_modulus: (torque_upper - torque_lower) / (4 * place_modulus),
               source="Shigley 7-2", output=False)

@@ -116,7 +116,7 @@ class UnderLoad:
         angles = self.cycle.angle(variants)
         count = sides.xy.shape[1]
         found = [[_worst(sides, own, angles[v], place, v) for place in range(count)] for v in range(len(variants))]
-        names = ("sigma_a", "sigma_m", "torque_upper", "torque_lower", "direction")
+        names = ("sigma_a", "sigma_m", "torque_upper", "torque_lower")
         table = np.array(found)
         return {name: table[:, :, i] for i, name in enumerate(names)}
 
@@ -148,7 +148,7 @@ def _worst(sides: Sides, own: dict[str, Array], angle: Array, place: int, varian
 def _of_side(
     sides: Sides, side: int, angle: Array, place: int, variant: int, own: dict[str, float]
 ) -> tuple[float, ...]:
-    """Safety, σ_a, σ_m, greatest and least torque, and the direction ψ of the material point, on one side of a place."""
+    """Safety, σ_a, σ_m, greatest and least torque, on one side of a place."""
     at = (side, place, variant)
     xy, xz, axial, torque = sides.xy[at], sides.xz[at], sides.axial[at] / own["area"], sides.torque[at]
     turned = np.stack([xy * np.cos(angle) + xz * np.sin(angle), xz * np.cos(angle) - xy * np.sin(angle)], axis=1)
@@ -175,4 +175,4 @@ def _of_side(
         step *= NARROWED
     safety, sigma_a, sigma_m = judged(np.array([best]))
     sigma_m = np.where(np.abs(sigma_m) < ROUNDING * (np.abs(sigma_a) + np.abs(sigma_m)), 0.0, sigma_m)
-    return float(safety[0]), float(sigma_a[0]), float(sigma_m[0]), most, least, best % (2 * np.pi)
+    return float(safety[0]), float(sigma_a[0]), float(sigma_m[0]), most, least
