@@ -230,6 +230,14 @@ FAULTS: dict[str, tuple[Mechanism, str]] = {
         made(require(key="amr")),
         "step long: the key 'amr' is not an input (did you mean 'arm'?)",
     ),
+    "names of parts of a check that has none": (
+        made(checks=(check(named_by="bars.length"),)),
+        "check strong: is one check for each of bars.length, but compares no row over repeated parts",
+    ),
+    "names of parts that are numbers": (
+        made(checks=(check(demand="bars.length", unit="mm", named_by="bars.length"),)),
+        "check strong: is one check for each of bars.length, which is not a text of repeated parts",
+    ),
     "an unknown id in a consequence": (
         made(checks=(check(consequence="see {momnt}"),)),
         "check strong: the consequence names momnt, which nothing gives",

@@ -29,6 +29,7 @@ from tests.plugins.keys import OWN, TURNING
 from tests.plugins.keys import SIZED as SIZED_KEY
 from tests.plugins.platens import GUIDED
 from tests.plugins.presses import whole_press
+from tests.plugins.shafts import CRANKSHAFT, LAYSHAFT, STANDING
 from tests.plugins.steppers import LOADED, PUBLISHED
 from tests.validation.rows_circular_knife import KEYS as CIRCULAR
 from tests.validation.rows_damper import WORKED as DAMPER
@@ -121,6 +122,7 @@ FULL: dict[str, dict[str, dict[str, Any]]] = {
     "parallel_key": {"turning": TURNING | {"n_points": 72}, "sized": SIZED_KEY, "own dimensions": OWN},
     "platen_press": {"guided": GUIDED | {"n_points": 72, "crank_pin_length": "100 mm"}},
     "press_consistency": {"whole": whole_press()},
+    "shaft": {"crank": CRANKSHAFT | {"speed": 50}, "lay": LAYSHAFT, "standing": STANDING},
 }  # fmt: skip
 WIDELY: dict[str, Ranges] = {
     "cam_gear_transport": {"dwell_angle": (1.5, 4.2), "sector_stop_sweep": (0.1, 0.6), "arm_length": (0.05, 0.1), "cycles_per_hour": (1, 2)},
@@ -148,6 +150,7 @@ WIDELY: dict[str, Ranges] = {
                      "cycles_per_hour": (0.1, 2), "offset_force": (-0.02, 0.02), "friction": (0, 0.3)},
     "press_consistency": {"clutch_load": (0, 900), "clutch_speed": (2, 12), "contact_distance": (0.005, 0.9),
                           "flywheel_inertia": (0.1, 20), "damper_velocity": (0.1, 4)},
+    "shaft": {"bearing_a": (0.0, 0.06), "bearing_b": (0.2, 0.32), "yield_strength": (3e8, 1.2e9), "tensile_strength": (4e8, 1e9)},
 }  # fmt: skip
 
 

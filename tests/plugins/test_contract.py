@@ -142,7 +142,11 @@ def unit_of(calc: Calculation, name: str) -> str:
 def scales(calc: Calculation) -> dict[str, float]:
     """The greatest number in each unit: a difference of such numbers is no more exact than they are."""
     found: dict[str, float] = {}
-    numbers = {name: values for name, values in calc.inputs.items() if isinstance(calc.meta.get(name), Quantity)}
+    numbers = {
+        name: values
+        for name, values in calc.inputs.items()
+        if isinstance(calc.meta.get(name), Quantity) and isinstance(values, np.ndarray)
+    }
     for name, values in (numbers | calc.values | {name: calc.curve_samples(name) for name in calc.curves}).items():
         if values.dtype != object and np.isfinite(values).any():
             unit = unit_of(calc, name)
