@@ -18,7 +18,7 @@ PUBLISHED, MENDED = (
     for stem in ("flat_cylinder_press", "flat_cylinder_press_mended")
 )
 GUIDE = Path(__file__).parents[1] / "docs" / "mending-a-press.md"
-TIMING = {"timing.interlock", "consistency.timing"}
+TIMING = {"timing.interlock_sheet_rests", "consistency.timing"}
 CYLINDER = {"cylinder.wall_at_flat", "cylinder.radius", "cylinder.closed_section"}
 RATE = {"consistency.actual_rate"}
 CLUTCH: set[str] = set()
