@@ -106,6 +106,10 @@ def _key(model: type[Block], name: str, refers: bool) -> Schema:
     match meta:
         case Quantity():
             quantity = _quantity(meta, default, refers) | shown
+            if name in model.curve_keys:
+                curve = keys_of(model)[model.curve_keys[name]].meta
+                assert isinstance(curve, CurveInput), "the declaration check has seen to it"
+                return quantity | {"anyOf": [*quantity["anyOf"], *_curve(curve)["anyOf"]]}
             return quantity | _listed(quantity, len(model.spread[name])) if name in model.spread else quantity
         case CurveInput():
             return _curve(meta)

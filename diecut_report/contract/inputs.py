@@ -159,6 +159,8 @@ class Block(BaseModel):
     one_of: ClassVar[tuple[OneOf, ...]] = ()
     spread: ClassVar[Mapping[str, tuple[str, ...]]] = {}
     """Keys whose value may be a list, each with the single keys that the values of the list stand for, in order."""
+    curve_keys: ClassVar[Mapping[str, str]] = {}
+    """Keys of numbers whose value may be a curve, each with the key that takes the curve; one of both is needed (``one_of``)."""
 
 
 class Inputs(Block):

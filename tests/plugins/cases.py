@@ -24,6 +24,7 @@ from tests.plugins.clutches import COOLED
 from tests.plugins.drive_trains import EXAMPLE as TRAIN
 from tests.plugins.drive_trains import PAIRS, UNEVEN
 from tests.plugins.followers import SHAFT
+from tests.plugins.gears import AT_DISTANCE, SECTOR, SIZED
 from tests.plugins.platens import GUIDED
 from tests.plugins.presses import whole_press
 from tests.plugins.steppers import LOADED, PUBLISHED
@@ -112,6 +113,7 @@ FULL: dict[str, dict[str, dict[str, Any]]] = {
         "shaft": SHAFT | {"n_points": 72, "motion_law": "modified_trapezoidal", "allowable_torque": 100},
         "slide": SLIDE | {"n_points": 72, "allowable_torque": 100},
     },
+    "gear_pair": {"sector": SECTOR | {"n_points": 72}, "sized": SIZED, "at distance": AT_DISTANCE},
     "geneva_transport": {"loaded": CROSS},
     "knife_drive": {side: KNIVES | {"crank_rocker": LINKAGE | {"lowest_dead_center": side}} for side in ("outer", "inner")},
     "platen_press": {"guided": GUIDED | {"n_points": 72, "crank_pin_length": "100 mm"}},
@@ -130,6 +132,8 @@ WIDELY: dict[str, Ranges] = {
     "damper": {"kinetic_energy": (1, 500), "drive.force": (1, 5000), "ring_width": (1e-3, 0.2)},
     "drive_train": {"output_speed": (5, 40), "vbelt.center_distance": (0.5, 0.9), "toothed_belt.shaft_speed": (2, 60)},
     "elastic_follower": {"stiffness": (1e3, 9e4), "damping_ratio": (0, 0.5), "dwell_cycles": (0.5, 9)},
+    "gear_pair": {"teeth_1": (8, 40), "teeth_2": (20, 90), "helix_angle": (0, 0.5), "shift_1": (-0.5, 1), "torque": (5, 3000),
+                  "face_width": (0.01, 0.1), "root_radius": (0.1, 0.5), "center_distance": (0.15, 0.2)},
     "geneva_transport": {"slots": (3, 18), "center_distance": (0.05, 0.3), "roller_radius": (0.004, 0.03), "crank_speed": (3, 20),
                          "driven_inertia": (0.1, 9), "locking_clearance": (0, 2e-4)},
     "knife_drive": {"working_depth": (0.005, 0.06), "cylinder_rate": (2, 12), "planetary.carrier_radius": (0.012, 0.08),
