@@ -43,13 +43,20 @@ cycle.from_curve("velocity_over", "v_φ", "m/s", "Velocity as given", given="vel
 cycle.from_curve("acceleration_over", "a_φ", "m/s**2", "Acceleration as given", given="acceleration_curve", abscissa="cycle_angle", output=False,
                  needs=(CONVEYOR, "acceleration_curve"))
 
+cycle.reduction("velocity_size", "v_m", "m/s", "Greatest size of the velocity", "abs_max", of="velocity_over", output=False, **VELOCITY)
+cycle.value("velocity_margin", "v_k", "m/s", "Size of the velocity above what counts as rest",
+            bind(lambda speed, size, still: abs(speed) - still * size, speed="velocity_over", size="velocity_size", still=STILL),
+            source="this method", output=False, **VELOCITY)
+cycle.crossings("rest_edge", "φ_r", "deg", "Where a rest begins or ends", of="velocity_margin", output=False, **VELOCITY)
+cycle.breakpoints("rests", "cycle_angle", "rest_edge", **VELOCITY)
+
 motion = Chapter("Motion",
                  text="The chain lies on the sprocket as a polygon: at an even speed of the shaft its velocity rises and falls with each tooth, "
                       "and jumps in its acceleration where a joint meets the sprocket.")
 motion.value("velocity", "v", "m/s", "Mean velocity of the chain",
              bind(f.mean_velocity, teeth="teeth_1"), source="kinematics", digits=6, **DRIVEN)
 motion.value("velocity", "v", "m/s", "Size of the velocity", bind(lambda given: abs(given), given="inputs.velocity"), needs=(CONVEYOR, "velocity"), source="input")
-motion.reduction("velocity", "v", "m/s", "Greatest velocity over the cycle", "abs_max", of="velocity_over", **VELOCITY)
+motion.value("velocity", "v", "m/s", "Greatest velocity over the cycle", lambda velocity_size: velocity_size, source="this method", **VELOCITY)
 motion.value("angular_speed", "ω", "rad/s", "Angular speed of the driving sprocket", lambda speed: speed, source="input", **DRIVEN)
 motion.value("angular_speed", "ω", "rad/s", "Greatest angular speed of the driving sprocket",
              lambda velocity, sprocket_diameter_1: as_angle(velocity / (sprocket_diameter_1 / 2)), source="kinematics", **CONVEYED)
@@ -76,8 +83,7 @@ useful.value("moving_mass_total", "m_tot", "kg", "Mass that is accelerated, with
 useful.value("resistance", "F_w", "N", "Force against the motion", bind(f.resistance, friction="friction_coefficient", mass="moving_mass_with_chain"),
              source="this method", **CONVEYED)
 useful.value("moving_over", "k_φ", "1", "Whether the chain moves",
-             bind(lambda speed, size, still: abs(speed) > still * size, speed="velocity_over", size="velocity", still=STILL), per_piece=True,
-             source="this method", output=False, **VELOCITY)
+             lambda velocity_margin: velocity_margin > 0, per_piece=True, source="this method", output=False, **VELOCITY)
 useful.value("moving", "k_v", "1", "Whether the chain moves", lambda velocity: velocity > 0, needs=(CONVEYOR, "velocity"), source="this method",
              output=False)
 
