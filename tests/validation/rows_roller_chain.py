@@ -36,8 +36,10 @@ def bhandari(name: str) -> float:
 
 
 BOOK, SOLUTIONS, TABLES = "Bhandari, example 14.1", "Shigley, solutions", "ANSI B29.1, no. 40"
+# fmt: off
 ROWS = (
-    Row(BOOK, "breaking load over useful tension", "11.722224", "1", lambda: bhandari("breaking_load") / bhandari("useful_tension")),
+    Row(BOOK, "breaking load over power by mean velocity", "11.722224", "1",
+        lambda: bhandari("breaking_load") / (bhandari("power") / bhandari("velocity"))),
     Row(SOLUTIONS, "links X₀ of 19 and 38 teeth, a = 40 p (17-27)", "108.7", "1", lambda: distant(19, 38, "links_exact")),
     Row(SOLUTIONS, "even links (17-27)", "110", "1", lambda: distant(19, 38, "links")),
     Row(SOLUTIONS, "distance of the axes in pitches (17-27)", "40.64", "1", lambda: distant(19, 38, "center_distance_adjusted", 1 / 12.7e-3)),
