@@ -19,8 +19,8 @@ ROWS = {
 TITLE = "Roller chains of ISO 606, series B, one strand"
 SOURCES = ("Donghua, Drive Chains, catalogue 2020 (all columns)",
            "Galaxy Chain, roller chains to BS 228, DIN 8187 and ISO 606 (pitch, rollers, widths, pins; breaking loads and masses near by)")
-LEFT_OUT = ("Breaking loads are the lower of both, ISO 606 minima (Donghua 18.0, 22.4, 29.0, 60, 95, 160 kN; Galaxy 17.80, 22.27, 28.94, 60.92, 95.16, "
-            "160.04 kN). Plate thickness and mass are Donghua's; Galaxy's masses are within 8 %.")
+LEFT_OUT = ("Breaking loads are the lower of both, ISO 606 minima (Donghua 18.0, 22.4, 29.0, 60, 95, 160 kN; Galaxy 17.80, 22.27, 28.94, 60.92, "
+            "95.16, 160.04 kN). Plate thickness and mass are Donghua's; Galaxy's masses are within 8 %.")
 
 CHAINS = own_table(title=TITLE, columns=COLUMNS, rows=ROWS, sources=SOURCES, left_out=LEFT_OUT)
 BY_PITCH = own_table(title=f"{TITLE}, by their pitch", columns=COLUMNS, rows=tuple(ROWS.values()), sources=SOURCES, left_out=LEFT_OUT)

@@ -7,9 +7,7 @@ from diecut_report.plugins.roller_chain.inputs import CONVEYOR, DRIVE
 from diecut_report.plugins.roller_chain.strength import USUAL_PITCHES
 
 ROUNDING = 1e-9  # relative: what is typed in at its limit reaches it
-STRONGER = (
-    "take a chain of at least {breaking_load_needed:up} breaking load, more strands or a larger sprocket (less tension)."
-)
+STRONGER = "take a chain of at least {breaking_load_needed:up} breaking load, more strands or a larger sprocket (less tension)."
 
 # fmt: off
 
@@ -46,8 +44,8 @@ CHECKS = (
           tolerance=ROUNDING, needs=(DRIVE, "power_rating"), demand_label="power with application factor", limit_label="rated", source="ANSI B29.1",
           consequence="the chain does not last 15 000 h, by its {rating_governing}; take a larger chain, more strands or more teeth."),
     Check(id="slack_side", check_class="practice", title="Slack of the returning strand", demand="useful_tension", limit="slack_tension", unit="N",
-          severity="warn", tolerance=ROUNDING, needs=(CONVEYOR,), demand_label="useful tension when the drive brakes", limit_label="sag and pretension",
-          source="statics",
+          severity="warn", tolerance=ROUNDING, needs=(CONVEYOR,), demand_label="useful tension when the drive brakes",
+          limit_label="sag and pretension", source="statics",
           consequence="the returning strand goes slack when the drive brakes; give it a tensioner, or set pretension to at least "
           "{pretension_needed:up}."),
     Check(id="length_formula", check_class="practice", title="Formula of the length", demand="links_residual", limit=0.01, unit="1", severity="warn",

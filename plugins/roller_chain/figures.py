@@ -35,7 +35,11 @@ Array = NDArray[np.float64]
 
 def loop(view: View) -> list[Shape]:
     """The chain over its sprockets."""
-    center, small, large = view["center_distance_adjusted"], view["sprocket_diameter_1"] / 2, view["sprocket_diameter_2"] / 2
+    center, small, large = (
+        view["center_distance_adjusted"],
+        view["sprocket_diameter_1"] / 2,
+        view["sprocket_diameter_2"] / 2,
+    )
     slope = acos((small - large) / center)  # direction of the contact points from the line through the axes
     second = (center, 0.0)
     shapes: list[Shape] = [
@@ -46,7 +50,10 @@ def loop(view: View) -> list[Shape]:
         point(second, "pivot"),
         arc((0.0, 0.0), small, slope, 2 * pi - slope, "link"),
         arc(second, large, -slope, slope, "link"),
-        *(polyline([_on((0.0, 0.0), small, side * slope), _on(second, large, side * slope)], "link") for side in (1, -1)),
+        *(
+            polyline([_on((0.0, 0.0), small, side * slope), _on(second, large, side * slope)], "link")
+            for side in (1, -1)
+        ),
     ]
     below = -1.25 * max(small, large)
     return [

@@ -128,9 +128,7 @@ def total_mass(hanging: Any, inertia: Any, diameter: Any) -> Any:
 
 
 @formula
-def whole_tension(
-    application: Any, useful: Any, centrifugal: Any, sag: Any, chordal: Any, pretension: Any
-) -> Any:
+def whole_tension(application: Any, useful: Any, centrifugal: Any, sag: Any, chordal: Any, pretension: Any) -> Any:
     """Tension of the tight strand."""
     return application * useful + centrifugal + sag + chordal + pretension
 

@@ -16,7 +16,8 @@ BOTH = {"teeth_1": "teeth_1", "teeth_2": "driven_teeth"}
 GIVEN_DISTANCE = ("center_distance",)
 
 TAKEN = {
-    "pitch": ("p", "mm", "Pitch"), "pin_diameter": ("d_p", "mm", "Diameter of the pins"), "breaking_load": ("F_B", "kN", "Breaking load of one strand"),
+    "pitch": ("p", "mm", "Pitch"), "pin_diameter": ("d_p", "mm", "Diameter of the pins"),
+    "breaking_load": ("F_B", "kN", "Breaking load of one strand"),
     "mass_per_length": ("q", "kg/m", "Mass per length of one strand"),
 }
 MEASURED = {"inner_width": ("b_1", "mm", "Width between the inner plates"), "plate_thickness": ("t_i", "mm", "Thickness of the inner plates")}
@@ -38,8 +39,8 @@ chain.value("bearing_area", "A", "mm**2", "Bearing area of a joint: as given", b
             needs=("bearing_area",), source="input")
 
 loop = Chapter("Loop over the sprockets",
-               text="The number of links follows from the distance of the axes and is even, so that no link is cranked; with whole links the distance "
-                    "is adjusted. The formulas of catalogues are held against the exact polygon.")
+               text="The number of links follows from the distance of the axes and is even, so that no link is cranked; with whole links the "
+                    "distance is adjusted. The formulas of catalogues are held against the exact polygon.")
 loop.value("teeth_small", "z_s", "1", "Teeth of the smaller sprocket", lambda teeth_1, driven_teeth: np.minimum(teeth_1, driven_teeth),
            source="geometry", whole=True, output=False)
 for g, teeth in TEETH.items():
@@ -52,7 +53,8 @@ loop.require("sprockets_apart", lambda center_distance, center_least: center_dis
                      "{center_least:up}")
 loop.value("links_exact", "X_0", "1", "Links that the distance of the axes asks for", bind(f.exact_links, center="center_distance", **BOTH),
            needs=GIVEN_DISTANCE, source=SHIGLEY, digits=7)
-loop.value("links", "X", "1", "Links: the next even number", bind(f.even_links, exact="links_exact"), needs=GIVEN_DISTANCE, source=SHIGLEY, whole=True)
+loop.value("links", "X", "1", "Links: the next even number", bind(f.even_links, exact="links_exact"), needs=GIVEN_DISTANCE, source=SHIGLEY,
+           whole=True)
 loop.value("links", "X", "1", "Links: as given", bind(lambda given: given, given="inputs.links"), lacks=GIVEN_DISTANCE, source="input", whole=True)
 loop.value("links_free", "B", "1", "Links that are not on the sprockets", bind(f.free_links, **BOTH), source=SHIGLEY, output=False, digits=6)
 loop.value("links_discriminant", "D_X", "1", "What must be above zero for whole links to fit", bind(f.discriminant, free="links_free", **BOTH),

@@ -58,11 +58,13 @@ class RollerChain(Inputs):
     teeth_1: Annotated[int, Quantity("z_1", "1", "Teeth of the driving sprocket", ge=6, le=150, integer=True)]
     teeth_2: Annotated[
         int | None,
-        Quantity("z_2", "1", "Teeth of the driven sprocket; without it those of the driving one", ge=6, le=150, integer=True),
+        Quantity(
+            "z_2", "1", "Teeth of the driven sprocket; without it those of the driving one", ge=6, le=150, integer=True
+        ),
     ] = None
-    center_distance: Annotated[
-        float | None, Quantity("a", "mm", "Distance of the sprockets' axes; or links", gt=0)
-    ] = None
+    center_distance: Annotated[float | None, Quantity("a", "mm", "Distance of the sprockets' axes; or links", gt=0)] = (
+        None
+    )
     links: Annotated[
         int | None, Quantity("X", "1", "Links of the chain; or center_distance", ge=8, le=100_000, integer=True)
     ] = None
@@ -112,14 +114,14 @@ class RollerChain(Inputs):
     ] = 0
     application_factor: Annotated[
         float | None,
-        Quantity("K_A", "1", "Application factor; 1 without it where a curve holds the dynamics, and for a conveyor", ge=1),
+        Quantity(
+            "K_A", "1", "Application factor; 1 without it where a curve holds the dynamics, and for a conveyor", ge=1
+        ),
     ] = None
     sag: Annotated[
         float, Quantity("f_a", "1", "Sag of the slack strand to the distance of the axes", ge=0.005, le=0.05)
     ] = 0.02
-    inclination: Annotated[
-        float, Quantity("ψ", "deg", "Inclination of the line through the axes", ge=0, le=90)
-    ] = 0
+    inclination: Annotated[float, Quantity("ψ", "deg", "Inclination of the line through the axes", ge=0, le=90)] = 0
     pretension: Annotated[float, Quantity("F_v", "N", "Pretension of each strand", ge=0)] = 0
     allowable_bearing_pressure: Annotated[
         float | None,
@@ -127,11 +129,15 @@ class RollerChain(Inputs):
     ] = None
     required_safety_static: Annotated[
         float,
-        Quantity("S_1", "1", "Required safety against breaking, static: usual value, not of a standard; never below 2", ge=1),
+        Quantity(
+            "S_1", "1", "Required safety against breaking, static: usual value, not of a standard; never below 2", ge=1
+        ),
     ] = 7
     required_safety_dynamic: Annotated[
         float,
-        Quantity("S_2", "1", "Required safety against breaking, dynamic: usual value, not of a standard; never below 2", ge=1),
+        Quantity(
+            "S_2", "1", "Required safety against breaking, dynamic: usual value, not of a standard; never below 2", ge=1
+        ),
     ] = 5
     power_rating: Annotated[
         Literal["ansi_b29_1"] | None, Text("Rating of a drive: that of ANSI chains of the same pitch")

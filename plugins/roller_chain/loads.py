@@ -55,7 +55,8 @@ motion = Chapter("Motion",
                       "and jumps in its acceleration where a joint meets the sprocket.")
 motion.value("velocity", "v", "m/s", "Mean velocity of the chain",
              bind(f.mean_velocity, teeth="teeth_1"), source="kinematics", digits=6, **DRIVEN)
-motion.value("velocity", "v", "m/s", "Size of the velocity", bind(lambda given: abs(given), given="inputs.velocity"), needs=(CONVEYOR, "velocity"), source="input")
+motion.value("velocity", "v", "m/s", "Size of the velocity", bind(lambda given: abs(given), given="inputs.velocity"),
+             needs=(CONVEYOR, "velocity"), source="input")
 motion.value("velocity", "v", "m/s", "Greatest velocity over the cycle", lambda velocity_size: velocity_size, source="this method", **VELOCITY)
 motion.value("angular_speed", "ω", "rad/s", "Angular speed of the driving sprocket", lambda speed: speed, source="input", **DRIVEN)
 motion.value("angular_speed", "ω", "rad/s", "Greatest angular speed of the driving sprocket",

@@ -77,7 +77,9 @@ def _loop(known: Known, pitch: float, teeth: tuple[Any, Any]) -> tuple[Array, Ar
     return np.where(wanted > 0, wanted, f.adjusted_center(pitch, free, room)), links
 
 
-def _motion(known: Known, mass: float, length: Array, diameters: Sequence[Array], pitch: float) -> tuple[Array, Array, Array]:
+def _motion(
+    known: Known, mass: float, length: Array, diameters: Sequence[Array], pitch: float
+) -> tuple[Array, Array, Array]:
     """Useful tension, velocity and angular speed, each a number or over the cycle."""
     if "speed" in known:
         speed = known["speed"]

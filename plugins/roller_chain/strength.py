@@ -15,8 +15,8 @@ RATED = ("power_rating",)
 RATED_TEETH = (11, 45)
 
 safety = Chapter("Safety against breaking",
-                 text="The required safeties 7 (static) and 5 (dynamic) are usual values and not those of a standard. A maker's guide (Diamond Chain) "
-                      "puts the limit for repeated loads at a sixth of the breaking load and for any single load at a half.")
+                 text="The required safeties 7 (static) and 5 (dynamic) are usual values and not those of a standard. A maker's guide (Diamond "
+                      "Chain) puts the limit for repeated loads at a sixth of the breaking load and for any single load at a half.")
 safety.value("safety_dynamic", "S_dyn", "1", "Safety against breaking under all tensions", lambda breaking_load, tension_peak:
              breaking_load / tension_peak, source="practice", digits=6)
 safety.value("safety_static", "S_stat", "1", "Safety against breaking under the static tensions", lambda breaking_load, tension_static:

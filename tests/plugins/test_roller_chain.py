@@ -136,7 +136,9 @@ def swept(keys: dict[str, Any], pitch: float, mass: float, count: int = 360_000)
 
 @pytest.mark.parametrize("left_out", ["", "acceleration", "velocity"])
 def test_the_peak_of_a_conveyor_is_that_of_many_places(left_out: str) -> None:
-    keys = without(GRIPPERS, f"{left_out}_curve") | ({left_out: -20 if left_out == "acceleration" else 2} if left_out else {})
+    keys = without(GRIPPERS, f"{left_out}_curve") | (
+        {left_out: -20 if left_out == "acceleration" else 2} if left_out else {}
+    )
     found, expected = chain(keys), swept(keys, 0.01905, 1.15)
     assert number(found, "tension_peak") == pytest.approx(expected.max(), rel=1e-6)
     assert number(found, "safety_dynamic") == pytest.approx(28_900 / expected.max(), rel=1e-6)
@@ -158,7 +160,9 @@ def test_of_a_torque_curve_the_greatest_size_counts() -> None:
 
 def test_power_and_torque_are_two_forms_of_one_load() -> None:
     power = 200 * 300 * 2 * pi / 60 / 1000
-    assert number(chain(without(DRIVE, "torque"), power=power), "tension_peak") == pytest.approx(number(chain(), "tension_peak"))
+    assert number(chain(without(DRIVE, "torque"), power=power), "tension_peak") == pytest.approx(
+        number(chain(), "tension_peak")
+    )
 
 
 def test_the_sag_is_that_of_a_rope_under_its_weight() -> None:
@@ -167,7 +171,9 @@ def test_the_sag_is_that_of_a_rope_under_its_weight() -> None:
     low, high = 1.0, 1000.0
     for _ in range(100):
         middle = (low + high) / 2
-        low, high = (middle, high) if middle / weight * (np.cosh(weight * span / 2 / middle) - 1) > drop else (low, middle)
+        low, high = (
+            (middle, high) if middle / weight * (np.cosh(weight * span / 2 / middle) - 1) > drop else (low, middle)
+        )
     assert number(chain(), "sag_tension") == pytest.approx(low, rel=2e-3)
 
 
@@ -189,7 +195,9 @@ def test_the_rating_is_that_of_the_smaller_sprocket() -> None:
 
 def chain_name(found: Any) -> str:
     """The chain of a machine by its pitch."""
-    return next(name for name, pitch in CHAINS.by_name("pitch").items() if abs(pitch / 1e3 - number(found, "pitch")) < 1e-9)
+    return next(
+        name for name, pitch in CHAINS.by_name("pitch").items() if abs(pitch / 1e3 - number(found, "pitch")) < 1e-9
+    )
 
 
 # --- the choice of a chain -------------------------------------------------------------------------------------------
@@ -197,7 +205,10 @@ def chain_name(found: Any) -> str:
 LOADS = [
     *(RATED | {"power": power} for power in (1, 6, 20, 60)),
     *(without(UNEVEN, "chain") | {"torque_curve": [scale, 0, -scale / 2, 0]} for scale in (100, 1500)),
-    *(without(GRIPPERS, "chain") | {"moving_mass": mass, "allowable_bearing_pressure": 60} for mass in (1, 50, 150, 300)),
+    *(
+        without(GRIPPERS, "chain") | {"moving_mass": mass, "allowable_bearing_pressure": 60}
+        for mass in (1, 50, 150, 300)
+    ),
     without(GRIPPERS, "chain", "velocity_curve") | {"velocity": 2, "moving_mass": 150},
 ]
 
@@ -224,8 +235,8 @@ def holds(found: Any) -> bool:
 
 def test_a_custom_chain_takes_what_is_given() -> None:
     found = chain(CUSTOM)
-    assert [number(found, key) for key in ("pitch", "bearing_area", "breaking_load", "mass_per_length")] == pytest.approx(
-        [0.02, 90e-6, 30_000, 1.2]
-    )
+    assert [
+        number(found, key) for key in ("pitch", "bearing_area", "breaking_load", "mass_per_length")
+    ] == pytest.approx([0.02, 90e-6, 30_000, 1.2])
     assert number(chain(bearing_area=89), "bearing_area") == pytest.approx(89e-6)
     assert number(chain(pin_diameter=6), "bearing_area") == pytest.approx(6 * (11.68 + 3.7) * 1e-6)
