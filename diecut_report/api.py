@@ -6,6 +6,7 @@ from diecut_report.contract.binding import Binding, Bound, ByText, bind
 from diecut_report.contract.chapters import Chapter, Steps
 from diecut_report.contract.charts import chart_panel, fill, level, line, mark, vertical
 from diecut_report.contract.checks import Check
+from diecut_report.contract.code_steps import ComputedCurve, PartNames, PartTable
 from diecut_report.contract.figures import (
     BarGroup,
     Bars,
@@ -43,6 +44,7 @@ from diecut_report.contract.inputs import (
     Quantity,
     Text,
 )
+from diecut_report.contract.listings import Cell, Column
 from diecut_report.contract.mechanism import Comparison, Erratum, Mechanism, Partner, Profile, Source
 from diecut_report.contract.options import case
 from diecut_report.contract.part_steps import Interpolated, Lookup, Neighbour, Part, Pick, Running, Total
@@ -65,6 +67,7 @@ from diecut_report.contract.steps import (
     FromCurve,
     MadeCurve,
     Phase,
+    Prepared,
     Reduction,
     Require,
     Root,
@@ -72,6 +75,7 @@ from diecut_report.contract.steps import (
     Value,
     Words,
 )
+from diecut_report.contract.varying import Extremes, Varying
 from diecut_report.expressions import GRAVITY, Constant, Formula, arccos, as_angle, as_number, formula
 from diecut_report.quantities.formatting import below, outward, si, told
 from diecut_report.standards import (
@@ -88,12 +92,14 @@ from diecut_report.standards import (
 
 __all__ = [
     "GRAVITY", "POINTS", "Abscissa", "Accumulated", "Annotated", "BarGroup", "Bars", "Binding", "Block", "Bound", "Breakpoints", "ByText",
-    "Case", "Chapter", "Chart", "Check", "Choice", "Clash", "Comparison", "Computed", "Constant", "Crossings", "Curve", "CurveInput",
-    "CurvePeriod", "Derivative", "Drawing", "Erratum", "Formula", "FromCurve", "FromPress", "GivenMechanism", "GivenPhase", "InOtherUnit",
-    "Inputs", "Interpolated", "Level", "Lookup", "MadeCurve", "Mark", "Mechanism", "MechanismInput", "Neighbour", "OneOf", "Panel", "Part",
-    "Partner", "Phase", "PhaseInput", "Pick", "Plot", "Point", "Polar", "Profile", "Quantity", "Reduction", "Refusal", "Require", "Root", "Running",
+    "Case", "Cell", "Chapter", "Chart", "Check", "Choice", "Clash", "Column", "Comparison", "Computed", "ComputedCurve", "Constant", "Crossings",
+    "Curve",
+    "CurveInput", "CurvePeriod", "Derivative", "Drawing", "Erratum", "Extremes", "Formula", "FromCurve", "FromPress", "GivenMechanism",
+    "GivenPhase", "InOtherUnit", "Inputs", "Interpolated", "Level", "Lookup", "MadeCurve", "Mark", "Mechanism", "MechanismInput", "Neighbour",
+    "OneOf", "Panel", "Part", "PartNames", "PartTable", "Partner", "Phase", "PhaseInput", "Pick", "Plot", "Point", "Polar", "Prepared",
+    "Profile", "Quantity", "Reduction", "Refusal", "Require", "Root", "Running",
     "Series", "Shape", "Source", "Span", "Spectrum", "SpectrumLine", "StandardFault", "StandardSeries", "StandardTable", "Step", "Steps",
-    "Text", "Total", "Value", "View", "Words", "arc", "arccos", "arrow", "as_angle", "as_number", "below", "bind", "box", "case",
+    "Text", "Total", "Value", "Varying", "View", "Words", "arc", "arccos", "arrow", "as_angle", "as_number", "below", "bind", "box", "case",
     "chart_panel", "circle", "dimension", "fill", "formula", "label", "level", "line", "mark", "outward", "own_series", "own_table",
     "point", "polyline", "prefixed", "radius_dimension", "region", "si", "standard_series", "standard_series_by", "standard_table",
     "table_beside", "told", "vertical",

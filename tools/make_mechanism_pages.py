@@ -43,7 +43,8 @@ def page(mechanism: Mechanism) -> Iterator[str]:
     yield "\n## Checks\n"
     yield from _table("id", "class", "demanded", "limited by", "source")
     yield from (
-        f"| `{c.id}` | {c.check_class} | {c.demand_label} | {c.limit_label} | {c.source} |" for c in mechanism.checks
+        f"| `{c.of_part(0, 'NAME').id if c.named_by else c.id}` | {c.check_class} | {c.demand_label} | {c.limit_label} | {c.source} |"
+        for c in mechanism.checks
     )
     yield "\n## Assumptions\n"
     yield from (f"- {text}" for text in mechanism.assumptions)

@@ -15,7 +15,7 @@ def linked(instances: Mapping[str, Instance | None]) -> Linker:
     What a mechanism gives may depend on that, and so whether a reference to it is a curve: it is asked until nothing moves.
     """
     linker = Linker(instances)
-    while any([_moved(instance, linker) for instance in instances.values() if instance is not None]):
+    while any(_moved(instance, linker) for instance in instances.values() if instance is not None):
         linker = Linker(instances)
     return linker
 

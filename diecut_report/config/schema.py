@@ -14,6 +14,7 @@ from diecut_report.contract.inputs import Block, CurveInput, MechanismInput, Pha
 from diecut_report.contract.mechanism import Mechanism
 from diecut_report.contract.placeholders import OneOf
 from diecut_report.contract.unit_variants import in_all_units
+from diecut_report.contract.varying import Varying
 from diecut_report.limits import MAX_CURVE_VALUES, MAX_MECHANISMS, MAX_PARTS, MAX_TEXT
 from diecut_report.quantities.units import pretty
 
@@ -180,7 +181,7 @@ def _unit(meta: Quantity | CurveInput) -> str:
 
 
 def _with_unit(number: Any, meta: Quantity) -> str:
-    return f"{number} {pretty(meta.unit)}".rstrip()
+    return f"{number} {'' if number in meta.words else pretty(meta.unit)}".rstrip()
 
 
 def _quantity(meta: Quantity, default: Any, refers: bool) -> Schema:
@@ -195,7 +196,12 @@ def _quantity(meta: Quantity, default: Any, refers: bool) -> Schema:
     said += [f"Default: from {meta.press.path}"] if meta.press else []
     number = {"type": "integer" if meta.integer else "number", **limits}
     text = {"type": "string", "maxLength": MAX_TEXT, "pattern": f"{EXPRESSION}|{NUMBER}" if refers else NUMBER}
-    words = [{"enum": list(meta.words)}] if meta.words else []
+    words: list[Schema] = [{"enum": list(meta.words)}] if meta.words else []
+    if isinstance(meta, Varying) and meta.extremes:
+        ends = {name: {"anyOf": [number, text]} for name in ("min", "max")}
+        words.append({"type": "object", "required": [*ends], "additionalProperties": False, "properties": ends})
+    if meta.listed:
+        number = {"enum": list(meta.listed)}
     return {
         "description": ". ".join(said) + ".",
         "anyOf": [number, *words, text, *([_stated([number, text])] if refers else [])],

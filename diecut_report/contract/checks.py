@@ -2,10 +2,14 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from collections.abc import Callable, Iterable, Iterator, Sequence
+from dataclasses import dataclass, replace
 from typing import Literal
 
+import numpy as np
+
 from diecut_report.contract.place import placed
+from diecut_report.expressions import Array
 
 CheckClass = Literal["function", "strength", "practice", "numerical"]
 UNDECLARED: CheckClass = None  # type: ignore[assignment]  # no allowed class: the declaration check tells which there are
@@ -21,7 +25,8 @@ class Check:
 
     For an upper bound the demand is the machine's and the limit the allowed value; for a lower bound the demand is
     what is required and the limit what there is, so that the utilisation is required / available.
-    ``severity`` "warn" makes a failing check a warning. ``consequence`` says what a failure means and what to change.
+    ``severity`` "warn" makes a failing check a warning, beyond the utilisation ``fails_beyond`` still a failure.
+    ``consequence`` says what a failure means and what to change.
 
     ``check_class`` must be given: "function" (the machine does not do what it is for), "strength" (a part breaks, wears,
     slips or overheats), "practice" (a rule of experience is left) or "numerical" (a self-test of the calculation, which is
@@ -31,6 +36,9 @@ class Check:
     apply at all it is left out: an option of a text, a block or an alternative of its inputs was not chosen, or a key of
     ``only_with`` is not given. ``sized_unless`` names the inputs in place of which the program sizes what is compared to
     its own limit; () where it always does. Such a check shows no reserve while they are not given.
+
+    A row whose parts have names is one check for each of them with ``named_by``, the text input of their names
+    (``interlocks.name``): ``part_id`` makes the check's id of ``{id}`` and ``{name}``, and ``{part}`` is then the name.
     """
 
     id: str
@@ -45,12 +53,17 @@ class Check:
     source: str = ""
     operator: Literal["<=", "<"] = "<="
     severity: Literal["fail", "warn"] = "fail"
+    fails_beyond: float | None = None
     tolerance: float = 0.0
     needs: tuple[str, ...] = ()
     only_with: tuple[str, ...] = ()
     sized_unless: tuple[str, ...] | None = None
     at_least: str | float | None = None
     at_least_label: str = "at least"
+    named_by: str = ""
+    part_id: str = "{id}_{name}"
+    part_name: str = ""
+    index: int | None = None
     at: str = placed()
 
     @property
@@ -59,7 +72,24 @@ class Check:
         upper = ((self.demand, self.limit),)
         return upper if self.at_least is None else (*upper, (self.at_least, self.demand))
 
+    def is_failure(self, utilisation: Array) -> Array:
+        """Return whether the check fails where it does not hold; else that is a warning."""
+        beyond = np.inf if self.fails_beyond is None else self.fails_beyond
+        return np.full(np.shape(utilisation), True) if self.severity == "fail" else np.asarray(utilisation) > beyond
+
+    def of_part(self, index: int, name: str) -> Check:
+        """Return the check of one part alone."""
+        own = self.part_id.format(id=self.id, name=name)
+        return replace(self, id=own, title=f"{self.title}: {name}", part_name=name, index=index)
+
     @property
     def named(self) -> tuple[str, ...]:
         """Return the ids of the quantities that are compared, each once."""
         return tuple(dict.fromkeys(side for pair in self.pairs for side in pair if isinstance(side, str)))
+
+
+def by_part(checks: Iterable[Check], names: Callable[[str], Sequence[str] | None]) -> Iterator[Check]:
+    """Yield checks with those of named parts one by one; ``names`` gives the names of parts, None where they are not there."""
+    for check in checks:
+        found = names(check.named_by) if check.named_by else None
+        yield from [check] if found is None else (check.of_part(index, name) for index, name in enumerate(found))

@@ -45,6 +45,14 @@ class Curve(Protocol):
     def breakpoints(self) -> Array:
         """Return the inner edges of the curve's smooth pieces, as shares, ascending, shape (variants, places)."""
 
+    @property
+    def joints(self) -> Array:
+        """Return those of them where the curve jumps or has a corner."""
+
+    @property
+    def cycle(self) -> str:
+        """Return the id of what the curve runs over: of two curves over one cycle it is the same."""
+
 
 @dataclass(frozen=True)
 class FromPress:

@@ -58,11 +58,22 @@ def _wrong(names: DeclaredNames, check: Check) -> Iterator[str]:
     axes = {giver.axis for givers in sides.values() for giver in givers if giver.axis}
     if len(axes) > 1:
         yield f"compares what runs over {' with what runs over '.join(sorted(axes))}; compare numbers, or curves over one abscissa"
+    yield from _names_of_parts(names, check)
     made = _when(names, check)
     if not made:
         yield "is never made: what it needs and what it compares is never given together"
     parts = OF_PARTS if any(names.kinds(name) == {"row"} for name in sides) else ()
     yield from dict.fromkeys(f"the consequence names {text}" for when in made for text in named(names, check.consequence, when, parts))  # fmt: skip
+
+
+def _names_of_parts(names: DeclaredNames, check: Check) -> Iterator[str]:
+    """What is wrong with the names of parts, each of which is to have a check of its own."""
+    if not check.named_by:
+        return
+    if not any(giver.kind == "row" for name in check.named for giver in names.givers(name)):
+        yield f"is one check for each of {check.named_by}, but compares no row over repeated parts; leave named_by out"
+    elif check.named_by not in names.world.keys or {giver.kind for giver in names.givers(check.named_by)} - {"text"}:
+        yield f"is one check for each of {check.named_by}, which is not a text of repeated parts"
 
 
 def _units(names: DeclaredNames, giver: Giver, check: Check) -> set[str]:

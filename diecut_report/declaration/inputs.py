@@ -75,7 +75,8 @@ def _block(model: type[Block], place: str, prefix: str = "") -> Iterator[Fault]:
     known = {name: meta_of(model, name) for name in model.model_fields}
     for key, curve in model.curve_keys.items():
         if not isinstance(known.get(key), Quantity) or not isinstance(known.get(curve), CurveInput):
-            yield Fault(place, f"curve_keys of {model.__name__}", f"lay {key} on {curve}; a Quantity and a CurveInput of the inputs are needed")  # fmt: skip
+            text = f"lay {key} on {curve}; a Quantity and a CurveInput of the inputs are needed"
+            yield Fault(place, f"curve_keys of {model.__name__}", text)
 
 
 def _absent(declared: FieldInfo) -> Iterator[str]:

@@ -7,7 +7,7 @@ from typing import Any, Literal, NamedTuple
 
 import numpy as np
 
-from diecut_report.contract.checks import Check
+from diecut_report.contract.checks import Check, by_part
 from diecut_report.engine import Calculation
 from diecut_report.engine.printing.substitution import filled
 from diecut_report.engine.steps.extreme_checks import is_made
@@ -19,6 +19,7 @@ from diecut_report.results import unchecked
 Data = dict[str, Any]
 Status = Literal["pass", "warn", "fail", "not_checked"]
 ROUNDING = 1e-12
+AT_LIMIT = 1e-9  # relative
 PLACE_DIGITS = 6
 
 
@@ -44,15 +45,21 @@ class JudgedCheck(NamedTuple):
 
 def check_results(calc: Calculation) -> list[Data]:
     """Return each check with demand, limit, margin, utilisation and verdict; one that needs more keys as not checked."""
-    ids = {check.id for check in calc.mechanism.checks if applies(calc, check)}
+    checks = checks_of(calc)
+    ids = {check.id for check in checks if applies(calc, check)}
     found = []
-    for check in calc.mechanism.checks:
+    for check in checks:
         if applies(calc, check):
             found.append(_check(calc, check))
         elif check.id not in ids and (missing := unchecked.missing(calc, check)):
             ids.add(check.id)
             found.append(unchecked.result(calc, check, missing))
     return found
+
+
+def checks_of(calc: Calculation) -> list[Check]:
+    """Return the checks of a mechanism, those of named parts one by one."""
+    return list(by_part(calc.mechanism.checks, calc.inputs.get))
 
 
 def applies(calc: Calculation, check: Check) -> bool:
@@ -98,7 +105,8 @@ def _compared(calc: Calculation, check: Check) -> Array:
         for number, pair in enumerate(check.pairs)
     ]
     alike = np.broadcast_arrays(*(side for pair in pairs for side in pair), np.empty((calc.count, 1)))[:-1]
-    return np.stack([np.stack(alike[::2], axis=1), np.stack(alike[1::2], axis=1)])
+    found = np.stack([np.stack(alike[::2], axis=1), np.stack(alike[1::2], axis=1)])
+    return found if check.index is None else found[..., [check.index]]
 
 
 def _sides(calc: Calculation, check: Check, pair: tuple[str | float, ...]) -> tuple[Array, ...]:
@@ -142,7 +150,7 @@ def _check(calc: Calculation, check: Check) -> Data:
         "message": message[0].upper() + message[1:],
         **{key: text for key, text in told.items() if key.endswith(("_label", "_display"))},
         **_further(calc, check, found, pair, part),
-        **({"sized_to_limit": True} if is_sized(calc.given, check) else {}),
+        **({"sized_to_limit": True} if is_sized(calc.given, check) or _is_at_limit(told) else {}),
     }
 
 
@@ -151,12 +159,18 @@ def is_sized(given: frozenset[str], check: Check) -> bool:
     return check.sized_unless is not None and given.isdisjoint(check.sized_unless)
 
 
+def _is_at_limit(told: Data) -> bool:
+    """Whether a size that passes is its limit, as one that was taken over from it, and so neither shows nor lacks a reserve."""
+    ratio = told["utilisation"]
+    return told["status"] == "pass" and ratio is not None and abs(ratio - 1) <= AT_LIMIT
+
+
 def _told(check: Check, found: JudgedCheck, pair: int, part: int) -> Data:
     """What is reported of one pair of sides (0: demand and limit, 1: lower bound and demand), of one part."""
     demand, limit, ratio = (float(side[0, pair, part]) for side in (found.demand, found.limit, found.ratio))
     labels = (check.at_least_label, check.demand_label) if pair else (check.demand_label, check.limit_label)
     return {
-        "status": "pass" if found.held[0, pair, part] else check.severity,
+        "status": "pass" if found.held[0, pair, part] else "fail" if check.is_failure(np.array(ratio)) else "warn",
         "demand": demand,
         "limit": limit,
         "utilisation": None if math.isnan(ratio) else ratio,
@@ -178,19 +192,28 @@ def _beside(calc: Calculation, check: Check, found: JudgedCheck, pair: int, part
     return f" ({label} {with_unit(*shown(float(side[0, 1 - pair, part]), check.unit).values())})"
 
 
-def _where(calc: Calculation, check: Check, pair: int, part: int, count: int) -> tuple[str, dict[str, int]]:
+def _where(calc: Calculation, check: Check, pair: int, part: int, count: int) -> tuple[str, dict[str, int | str]]:
     """Where a check governs, in words: a place of the abscissa, a part of a row; and what a message may name of that."""
     if (check.id, pair) in calc.judged:
         at = _at(calc, check, pair)
         return f" at {at['symbol']} = {with_unit(at['text'], at['unit'])}", {}
+    if check.index is not None:
+        return "", {"part": check.part_name, "index": check.index}
     if _is_row(calc, check):
-        places = {"part": part + 1, "next": (part + 1) % count + 1, "index": part}
-        return f" at part {part + 1} of {count}", places
+        places: dict[str, int | str] = {"part": part + 1, "next": (part + 1) % count + 1, "index": part}
+        names = _part_names(calc, check)
+        return f" at {names[part]}" if names else f" at part {part + 1} of {count}", places
     return "", {}
 
 
 def _is_row(calc: Calculation, check: Check) -> bool:
     return any(name in calc.axis and calc.axis[name] not in calc.domains for name in check.named)
+
+
+def _part_names(calc: Calculation, check: Check) -> tuple[str, ...]:
+    """The names of the parts that a check runs over, where they have some."""
+    found = (calc.part_names.get(calc.axis.get(name, "")) for name in check.named)
+    return next((names for names in found if names), ())
 
 
 def _at(calc: Calculation, check: Check, pair: int) -> dict[str, str]:
@@ -204,12 +227,14 @@ def _further(calc: Calculation, check: Check, found: JudgedCheck, pair: int, par
     """Of a curve the place where it governs; of a row the part that governs, and all parts."""
     if (check.id, pair) in calc.judged:
         return {"at": _at(calc, check, pair)}
-    if not _is_row(calc, check):
+    if check.index is not None or not _is_row(calc, check):
         return {}
     there = found.there[0].T
     pairs = worst(found.demand[0].T, found.limit[0].T, found.held[0].T, found.ratio[0].T, there)
     parts = [_told(check, found, int(p), i) if there[i].any() else {"status": None} for i, p in enumerate(pairs)]
-    return {"part": part + 1, "parts": parts}
+    names = _part_names(calc, check)
+    told = [one | {"name": name} for one, name in zip(parts, names, strict=True)] if names else parts
+    return {"part": part + 1, "parts": told} | ({"part_name": names[part]} if names else {})
 
 
 def _texts(demand: float, limit: float, display: str) -> dict[str, dict[str, str]]:

@@ -14,17 +14,19 @@ from diecut_report.contract.inputs import CurveInput, Quantity, TakenWhole, list
 from diecut_report.contract.result_names import ResultName, count_name, pattern, place_name, result_names
 from diecut_report.contract.spectra import Spectrum, SpectrumLine
 from diecut_report.contract.steps import SILENT, Crossings, Step
-from diecut_report.engine import Calculation
+from diecut_report.contract.varying import Varying
+from diecut_report.engine import Calculation, listings
 from diecut_report.engine.calculation import Unproven
 from diecut_report.engine.figure_views import figures
 from diecut_report.engine.printing.items import section_items
 from diecut_report.quantities.formatting import shortest, shown
 from diecut_report.quantities.units import unit
-from diecut_report.results.checks import applies, check_results
+from diecut_report.results.checks import applies, check_results, checks_of
 from diecut_report.results.exports import exports
 from diecut_report.results.phases import phases, phases_absent
 from diecut_report.results.summary import RANK, counts, failed_self_tests
 from diecut_report.results.unchecked import missing
+from diecut_report.results.varying_inputs import varying
 
 Data = dict[str, Any]
 
@@ -69,8 +71,9 @@ def mechanism_results(calc: Calculation, provenance: Mapping[str, Provenance]) -
         "assumptions": list(mechanism.assumptions),
         "sources": [{"id": s.id, "citation": s.citation} for s in mechanism.sources],
         "inputs": inputs(calc, provenance),
-        "lists": list_titles(mechanism.inputs),
+        "lists": list_titles(mechanism.inputs) | {name: calc.steps[name].description for name in calc.part_names},
         **numbers(calc),
+        **listings.results(calc),
         "curves": curves(calc),
         "phases": phases(calc),
         "phases_absent": phases_absent(calc),
@@ -110,10 +113,11 @@ def absent(calc: Calculation, provenance: Mapping[str, Provenance]) -> list[Data
         for s in calc.mechanism.chapters
         if s.absent and not calc.given.issuperset(s.needs)
     ]
-    made = {check.id for check in calc.mechanism.checks if applies(calc, check) or missing(calc, check)}
+    checks = checks_of(calc)
+    made = {check.id for check in checks if applies(calc, check) or missing(calc, check)}
     unmade = [
         {"title": c.title, "text": f"not checked, though {c.limit} is given: what it limits is not calculated"}
-        for c in calc.mechanism.checks
+        for c in checks
         if _is_limit_given(calc, str(c.limit), provenance) and c.id not in made
     ]
     return left_out + unmade
@@ -139,6 +143,8 @@ def inputs(calc: Calculation, provenance: Mapping[str, Provenance]) -> Data:
         parted = name in calc.axis
         parts = row[0] if parted and isinstance(row, np.ndarray) else row if parted else [row]
         for index, part in enumerate(parts):
+            if part is None:  # left out of this part of the list
+                continue
             home = calc.axis[name] if parted else ""
             path = f"{home}.{index}{name.removeprefix(home)}" if parted else name
             found[path] = _input(meta, part) | _origin(provenance.get(path))
@@ -168,6 +174,8 @@ def _input(meta: Any, value: Any) -> Data:
         text = "a curve" if is_curve else str(value)
         return {"value": text if is_curve else value, "unit": unit(meta.unit).si if is_curve else "1", "symbol": meta.symbol,
                 "description": meta.description, "display": {"text": text, "unit": "1"}}  # fmt: skip
+    if isinstance(meta, Varying) and not isinstance(value, float | np.ndarray):
+        return varying(meta, value)
     number = float(np.ravel(value)[0])
     return {
         "value": int(number) if meta.integer else number,
@@ -195,8 +203,8 @@ def _rowed(calc: Calculation, step: Step) -> Data:
     if step.id in calc.axis:
         home = {} if step.numbered else {"list": calc.axis[step.id]}
         names = result_names(step, len(row))
-        rows = (_number(step, value) | home for value in row)
-        return {each.name: found | _part(step, each, **home) for each, found in zip(names, rows, strict=True)}
+        there = [(each, value) for each, value in zip(names, row, strict=True) if value == value]  # no NaN
+        return {each.name: _number(step, value) | home | _part(step, each, **home) for each, value in there}
     if not isinstance(row[0], str) and math.isnan(row[0]):
         return {}
     found = _number(step, row[0])

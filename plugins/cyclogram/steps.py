@@ -6,12 +6,14 @@ from typing import Any
 
 import numpy as np
 
-from diecut_report.api import Chapter, bind, told
+from diecut_report.api import Chapter, bind
 from diecut_report.mechanics import common
 from diecut_report.mechanics.timing.clearance import LeastClearance
+from diecut_report.plugins.cyclogram import listings
 from diecut_report.plugins.cyclogram.clearances import clearance_of
 from diecut_report.plugins.cyclogram.timing import Timing, timing_of
 from diecut_report.plugins.cyclogram.torques import sum_of
+from diecut_report.plugins.cyclogram.words import verdicts
 
 # fmt: off
 
@@ -35,6 +37,8 @@ shaft.computed("line_turns", "i_k", "1", "Turns of each line for each sheet",
 shaft.computed("line_offset", "Φ_k", "deg", "Main-shaft angle at which each line's zero comes",
                lambda timing: np.array([[each.line.offset for each in timing.lines]]), TIMING,
                "as given; an automatic one is where the least slack of all interlocks is greatest", over="lines", digits=7)
+shaft.listing("main_phases", "Phases on the main shaft", listings.PHASES, listings.phases, TIMING)
+shaft.words("line_name", lambda timing: tuple(each.name for each in timing.lines), TIMING, each_part=True)
 
 
 def _worst(name: str) -> Any:
@@ -86,40 +90,14 @@ interlocks.computed("rate_error", "Δn", "1", "Own rate of each line off the pre
                     "own turns a second over turns for each sheet, held against the productivity", over="lines", output=False)
 
 
-def verdict(timing: Timing) -> str:
-    """Return what is to be said of interlocks that do not hold."""
-    failed = [_of_interlock(timing, index) for index, each in enumerate(timing.final)
-            if timing.worst[index].least < timing.required(each)]
-    return " ".join([*failed, *_offset(timing), *_speed(timing)])
-
-
-def _of_interlock(timing: Timing, index: int) -> str:
-    pair, each = timing.worst[index], timing.final[index]
-    if pair.outer is None:
-        return f"{each.name}: there is nothing that could hold it."
-    window = timing.needed[index]
-    needed = "" if np.isnan(window) else f", what holds it must be {told(window, 'deg', 7)} long"
-    return (f"{each.name}: its margins are {timing.told(pair.start)} at the start and {timing.told(pair.end)} at the end, "
-            f"{timing.told(timing.required(each))} are required{needed}.")
-
-
-def _offset(timing: Timing) -> list[str]:
-    if timing.moved is None or timing.best is None:
-        return []
-    name = timing.lines[timing.moved].name
-    best = f"The best offset of {name} is {told(timing.best.shift, 'deg', 7)}, which leaves {timing.told(timing.best.slack)}"
-    return [f"{best}." if timing.best.feasible else f"{best}: no offset holds all."]
-
-
-def _speed(timing: Timing) -> list[str]:
-    if timing.limit.reason == "angles_decide":
-        return ["Slowing the press down does not help: angles decide."]
-    if timing.limit.value is not None and timing.limit.value < timing.productivity:
-        return [f"The margins of time hold up to press.productivity = {timing.limit.value * 3600:.2f} 1/h."]
-    return []
-
-
-interlocks.words("interlock_verdict", verdict, TIMING)
+interlocks.computed("is_window", "k_w", "1", "Whether each is held by one interval of each period, so that a length can be told",
+                    lambda timing: np.array([np.isfinite(timing.needed_lengths)]).astype(float), TIMING, PHASES, over="interlocks", output=False)
+interlocks.computed("needed_length", "l_n", "deg", "Length that what holds it must have, for the interlock alone at its best offset",
+                    lambda timing: np.nan_to_num([timing.needed_lengths]), TIMING, "length of the one interval less twice the greatest slack",
+                    over="interlocks", digits=6, exists=lambda is_window: is_window > 0)
+interlocks.listing("margins", "Margins of each interval", listings.MARGINS, listings.margins, TIMING)
+interlocks.listing("offsets", "Offsets that leave all margins", listings.OFFSETS, listings.offsets, TIMING)
+interlocks.words("interlock_verdict", verdicts, TIMING, each_part=True)
 
 station = Chapter("Clearance of the carriages", needs=("station",), absent="not calculated: station is not given",
                   text="The least height over all carriages, standing and moving, from the shape of the cylinder with its flat.")

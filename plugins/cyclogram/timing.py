@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from fractions import Fraction
 from functools import cached_property
 from math import inf, pi
@@ -26,6 +27,7 @@ from diecut_report.mechanics.timing.productivity import (
 from diecut_report.plugins.cyclogram.main_shaft import LineOnShaft, common_turns, lines_of, named_phase
 
 TURN = 2 * pi
+NAME = re.compile("[A-Za-z][A-Za-z0-9_]*")
 
 
 @dataclass(frozen=True, eq=False)
@@ -138,12 +140,44 @@ class Timing:
         found = needed_length(each.outer[0][1] - each.outer[0][0], rows, self.span)
         return found if np.isfinite(found) else np.nan
 
+    def name_of(self, side: tuple[int, str, int | None]) -> str:
+        """Return how the configuration names a phase."""
+        line, phase, number = side
+        return ".".join([self.drawn[line].name, phase, *([] if number is None else [str(number)])])
+
+    def trial(self, index: int) -> Timing | None:
+        """Return the timing with an offset to be found that an interlock depends on: the automatic one, else its later line's.
+
+        None where its two phases belong to one line.
+        """
+        sides = {self.held[index].inner[0], self.held[index].outer[0]}
+        if len(sides) == 1:
+            return None
+        if self.moved in sides:
+            return self
+        return self._free(max(sides))
+
+    def _free(self, line: int) -> Timing:
+        """The timing with the offset of one line to be found, the others as they are."""
+        lines = list(self.lines)
+        own = replace(lines[line].line, offset=0.0)
+        lines[line] = replace(lines[line], line=own, is_auto=True)
+        return Timing(
+            self.productivity, tuple(replace(each, is_auto=i == line) for i, each in enumerate(lines)), self.held
+        )
+
     @cached_property
     def limit(self) -> ProductivityLimit:
         """Return the largest productivity that the margins of time allow."""
         if self.moved is None:
             return fixed_productivity_limit(self.final, self.period)
         return productivity_limit(self.interlocks(self.drawn), self.period, self.span)
+
+    @cached_property
+    def needed_lengths(self) -> list[float]:
+        """Return the same, with an offset to be found where they are all fixed."""
+        trials = [self.trial(index) for index in range(len(self.held))]
+        return [np.nan if trial is None else trial.needed[index] for index, trial in enumerate(trials)]
 
     @property
     def feasible(self) -> Interval:
@@ -165,7 +199,11 @@ class Timing:
 
     def told(self, angle: float) -> str:
         """Return an angle of the main shaft in words, with its time."""
-        return f"{told(angle, 'deg', 6)} ({told(angle / TURN * self.sheet_time, 'ms', 6)})"
+        return f"{told(angle, 'deg', 6)} ({told(self.time(angle), 'ms', 6)})"
+
+    def time(self, angle: float) -> float:
+        """Return the time in which the main shaft turns by an angle, s."""
+        return angle / TURN * self.sheet_time
 
 
 def timing_of(given: Mapping[str, Any]) -> Timing:
@@ -173,6 +211,10 @@ def timing_of(given: Mapping[str, Any]) -> Timing:
     lines = lines_of(given)
     held = tuple(_held(given, index, lines) for index in range(len(given["interlocks.name"])))
     names = [each.name for each in held]
+    strange = next((index for index, name in enumerate(names) if not NAME.fullmatch(name)), None)
+    if strange is not None:
+        words = f"is “{names[strange]}”; its check is called after it, so that it must be letters, digits and _, such as sheet_rests"
+        raise Refusal(f"interlocks.{strange}.name", words)
     again = next((index for index, name in enumerate(names) if name in names[:index]), None)
     if again is not None:
         raise Refusal(f"interlocks.{again}.name", f"is {names[again]}, the name of another one; give each its own")

@@ -18,7 +18,7 @@ for g in TEETH:
     advice_chapter.words(f"pitting_advice_{g}", advice.against_pitting(g), (f"sigma_h_lim_{g}", *safety, "face_width", "face_width_wanted"),
                          output=False)
     advice_chapter.words(f"root_advice_{g}", advice.against_breakage(g),
-                         (f"sigma_f_lim_{g}", *strength, "face_width", "face_width_wanted", "face_load", "face_load_root"), output=False)
+                         (f"sigma_f_lim_{g}", *strength, "face_width", "face_width_wanted", "face_load_factor", "face_load_root"), output=False)
 advice_chapter.words("module_advice", advice.greater_module, ("module", "module_least"), lacks=GIVEN_DISTANCE, output=False)
 advice_chapter.words("module_advice", advice.greater_module_and_distance, ("module",), needs=GIVEN_DISTANCE, output=False)
 SHIFTS = ("shift_1", "shift_min_1", "shift_2", "shift_min_2")

@@ -9,7 +9,6 @@ import numpy as np
 from diecut_report.api import as_angle, as_number, formula
 from diecut_report.mechanics.involute import involute
 
-
 # --- geometry --------------------------------------------------------------------------------------------------------
 
 

@@ -14,7 +14,7 @@ class Sector(Block):
     teeth_present: Annotated[int | None, Quantity("z_p", "1", "Teeth that the sector has", ge=1, integer=True)] = None
 
 
-class GearPair(Inputs):
+class ExternalGearPair(Inputs):
     """Keys of ``gear_pair``."""
 
     one_of: ClassVar[tuple[OneOf, ...]] = (
@@ -93,11 +93,15 @@ class GearPair(Inputs):
     ]
     sigma_f_lim_1: Annotated[
         float,
-        Quantity("σ_Flim1", "MPa", "Nominal bending endurance limit of the pinion (ISO 6336-5; twice that is σ_FE)", gt=0),
+        Quantity(
+            "σ_Flim1", "MPa", "Nominal bending endurance limit of the pinion (ISO 6336-5; twice that is σ_FE)", gt=0
+        ),
     ]
     sigma_f_lim_2: Annotated[
         float,
-        Quantity("σ_Flim2", "MPa", "Nominal bending endurance limit of the wheel (ISO 6336-5; twice that is σ_FE)", gt=0),
+        Quantity(
+            "σ_Flim2", "MPa", "Nominal bending endurance limit of the wheel (ISO 6336-5; twice that is σ_FE)", gt=0
+        ),
     ]
     elastic_modulus_1: Annotated[float, Quantity("E_1", "GPa", "Modulus of elasticity of the pinion (steel)", gt=0)] = (
         206
@@ -118,7 +122,8 @@ class GearPair(Inputs):
         float, Quantity("Y_NT2", "1", "Life factor of the wheel for the root", ge=0.85, le=2.5)
     ] = 1
     film_factor: Annotated[
-        float, Quantity("Z_LRvWX", "1", "Factors of film, roughness, speed, hardening and size together", ge=0.5, le=1.3)
+        float,
+        Quantity("Z_LRvWX", "1", "Factors of film, roughness, speed, hardening and size together", ge=0.5, le=1.3),
     ] = 1
     notch_size_factor: Annotated[
         float, Quantity("Y_δRX", "1", "Factors of notch sensitivity, roughness and size together", ge=0.5, le=1.3)

@@ -29,15 +29,17 @@ load.value("torque_peak", "T_1", "N*m", "Greatest torque on the pinion", lambda 
            source="input")
 load.value("torque_peak", "T_1", "N*m", "Greatest torque on the pinion, of that on the wheel without losses",
            lambda torque, teeth_1, teeth_2: abs(torque) * teeth_1 / teeth_2, needs=("torque", "torque_on=wheel"), source="statics")
-load.require("loaded", lambda torque_peak: torque_peak > 0, key="torque", message="is 0; give the torque that the teeth carry")
+load.require("loaded", lambda torque_peak: torque_peak > 0, key="torque", message="is 0; give the torque that the teeth carry", lacks=CURVE)
+load.require("loaded_by_curve", lambda torque_peak: torque_peak > 0, key="torque_curve", needs=CURVE,
+             message="is 0 everywhere; give the torque that the teeth carry")
 load.value("reversing", "R_T", "1", "Whether the torque changes its sign over the cycle: each tooth is bent both ways",
            bind(lambda torque_max, torque_min, torque_peak, share: (torque_max > share * torque_peak) & (-torque_min > share * torque_peak),
                 share=REVERSED), needs=CURVE, source="this method")
 load.value("reversing", "R_T", "1", "Whether the torque changes its sign: a single torque does not",
            lambda torque_peak: torque_peak < 0, lacks=CURVE, source="this method")
-load.value("alternating", "Y_M", "1", "Factor of alternating bending: as given", lambda alternating_factor: alternating_factor,
+load.value("alternating_factor", "Y_M", "1", "Factor of alternating bending: as given", bind(lambda given: given, given="inputs.alternating_factor"),
            needs=("alternating_factor",), source="input")
-load.choice("alternating", "Y_M", "1", "Factor of alternating bending",
+load.choice("alternating_factor", "Y_M", "1", "Factor of alternating bending",
             case(lambda: 0.7, "the torque has both signs, so that each tooth is bent both ways", lambda reversing: reversing > 0),
             case(lambda: 1, "the torque keeps its sign"), lacks=("alternating_factor",), source="ISO 6336-5 (idlers)")
 
@@ -48,11 +50,11 @@ FACTORS = {"application": ("K_A", "Application factor", 1.25), "dynamic": ("K_V"
 factors = Chapter("K factors", text="The factors of ISO 6336-1 are given, not calculated; those that are not given are assumed.")
 for name, (symbol, words, assumed) in FACTORS.items():
     key = f"{name}_factor"
-    factors.value(f"{name}", symbol, "1", f"{words}: as given", bind(lambda given: given, given=key), needs=(key,), source="input")
-    factors.value(f"{name}", symbol, "1", f"{words}: assumed", bind(lambda assumed: assumed, assumed=assumed), lacks=(key,), source="this method")
-factors.value("transverse_load", "K_Hα", "1", "Transverse load factor: as given", lambda transverse_load_factor: transverse_load_factor,
-              needs=("transverse_load_factor",), source="input")
-factors.choice("transverse_load", "K_Hα", "1", "Transverse load factor: assumed",
+    factors.value(key, symbol, "1", f"{words}: as given", bind(lambda given: given, given=f"inputs.{key}"), needs=(key,), source="input")
+    factors.value(key, symbol, "1", f"{words}: assumed", bind(lambda assumed: assumed, assumed=assumed), lacks=(key,), source="this method")
+factors.value("transverse_load_factor", "K_Hα", "1", "Transverse load factor: as given",
+              bind(lambda given: given, given="inputs.transverse_load_factor"), needs=("transverse_load_factor",), source="input")
+factors.choice("transverse_load_factor", "K_Hα", "1", "Transverse load factor: assumed",
                case(lambda: 1.2, "the teeth are helical", lambda helix_angle: helix_angle > 0), case(lambda: 1, "the teeth are straight"),
                lacks=("transverse_load_factor",), source="this method")
 for name in (*FACTORS, "transverse_load"):

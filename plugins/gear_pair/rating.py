@@ -11,7 +11,7 @@ from diecut_report.plugins.gear_pair.mesh import GIVEN_DISTANCE, ISO_21771, TEET
 # fmt: off
 
 PITTING, ROOT, STATICS = "ISO 6336-2:2006", "ISO 6336-3:2006", "statics"
-FACTORS = {"application": "application", "dynamic": "dynamic", "transverse": "transverse_load"}
+FACTORS = {"application": "application_factor", "dynamic": "dynamic_factor", "transverse": "transverse_load_factor"}
 
 sizes = Chapter("Sizes")
 for g, teeth in TEETH.items():
@@ -104,7 +104,7 @@ for g, teeth in TEETH.items():
     pitting.value(f"contact_factor_{g}", "Z_B" if g == 1 else "Z_D", "1", f"Single pair contact factor of the gear {g}",
                   bind(f.contact_factor, single_contact=f"single_contact_{g}"), source=f"{PITTING}, 6", digits=6)
     pitting.value(f"contact_stress_{g}", f"σ_H{g}", "MPa", f"Contact stress of the gear {g}",
-                  bind(f.contact_stress, nominal="nominal_contact_stress", contact_factor=f"contact_factor_{g}", face="face_load", **FACTORS),
+                  bind(f.contact_stress, nominal="nominal_contact_stress", contact_factor=f"contact_factor_{g}", face="face_load_factor", **FACTORS),
                   source=f"{PITTING}, 5", digits=6)
     pitting.value(f"pitting_safety_{g}", f"S_H{g}", "1", f"Safety of the gear {g} against pitting",
                   bind(f.pitting_safety, limit=f"sigma_h_lim_{g}", life=f"life_factor_h_{g}", film="film_factor", stress=f"contact_stress_{g}"),
@@ -116,7 +116,7 @@ root_stress.value("tooth_height", "h", "mm", "Height of the teeth",
 root_stress.value("face_to_height", "r", "1", "Face width to the height of the teeth, 3 at least",
                   lambda face_width, tooth_height: np.maximum(face_width / tooth_height, 3), source="ISO 6336-1", output=False)
 root_stress.value("face_load_root", "K_Fβ", "1", "Face load factor of the root",
-                  bind(f.face_factor_root, face_factor="face_load", slenderness="face_to_height"), source="ISO 6336-1, 7", digits=6)
+                  bind(f.face_factor_root, face_factor="face_load_factor", slenderness="face_to_height"), source="ISO 6336-1, 7", digits=6)
 root_stress.value("helix_factor_root", "Y_β", "1", "Helix angle factor of the root", f.helix_factor_root, source=f"{ROOT}, 8", digits=6)
 for g in TEETH:
     root_stress.value(f"nominal_root_stress_{g}", f"σ_F0{g}", "MPa", f"Nominal stress at the root {g}",
@@ -126,7 +126,7 @@ for g in TEETH:
                       bind(f.root_stress, nominal=f"nominal_root_stress_{g}", face="face_load_root", **FACTORS), source=f"{ROOT}, 5", digits=6)
     root_stress.value(f"root_safety_{g}", f"S_F{g}", "1", f"Safety of the root {g} against breakage",
                       bind(f.root_safety, limit=f"sigma_f_lim_{g}", life=f"life_factor_f_{g}", notch="notch_size_factor",
-                           stress=f"root_stress_{g}"), source=f"{ROOT}, 5", digits=6)
+                           alternating="alternating_factor", stress=f"root_stress_{g}"), source=f"{ROOT}, 5", digits=6)
 
 over_cycle = Chapter("Forces over the cycle", needs=("torque_curve",))
 over_cycle.value("tangential_force_curve", "F_tφ", "N", "Tangential force at the reference circle, signed as the torque",
@@ -134,7 +134,7 @@ over_cycle.value("tangential_force_curve", "F_tφ", "N", "Tangential force at th
 over_cycle.value("nominal_contact_curve", "σ_H0φ", "MPa", "Nominal contact stress",
                  bind(f.nominal_contact_stress, force="tangential_force_curve", diameter="pitch_diameter_1"), source=f"{PITTING}, 5", output=False)
 over_cycle.value("contact_stress_curve", "σ_H1φ", "MPa", "Contact stress of the pinion",
-                 bind(f.contact_stress, nominal="nominal_contact_curve", contact_factor="contact_factor_1", face="face_load", **FACTORS),
+                 bind(f.contact_stress, nominal="nominal_contact_curve", contact_factor="contact_factor_1", face="face_load_factor", **FACTORS),
                  source=f"{PITTING}, 5")
 
 sector = Chapter("Sector", needs=("sector",), absent="sector is not given: the wheel turns full circles",

@@ -14,8 +14,8 @@ from diecut_report.plugins.gear_pair.mesh import TEETH
 FORM, CORRECTION = "ISO 6336-3:2006, 6", "ISO 6336-3:2006, 7"
 
 root_form = Chapter("Form of the tooth root",
-                    text="Virtual spur gears of the normal section, lengths in modules. The whole load acts at the outer point of single contact; the "
-                         "critical section lies where tangents at 30° to the tooth's centre line touch the root.")
+                    text="Virtual spur gears of the normal section, lengths in modules. The whole load acts at the outer point of single contact. "
+                         "The critical section lies where tangents at 30° to the tooth's centre line touch the root.")
 root_form.value("half_tip_width", "E", "1", "Distance of the rounding's centre from the middle of the rack's tooth", f.half_tip_width, source=FORM,
                 output=False)
 root_form.require("rack_possible", lambda half_tip_width: half_tip_width >= 0, key="root_radius",

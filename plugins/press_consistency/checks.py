@@ -6,6 +6,7 @@ from diecut_report.api import Check
 
 ROUNDING = 1e-9  # relative: a length that was taken over from the other is the same
 WHOLE = 1e-9  # by which pitches may miss a whole number
+FURTHEST_RATE = 0.02  # below the productivity, as for the speed of the drive train's output
 LARGEST_INERTIA_ERROR = 5.0  # percent
 
 CHECKS = (
@@ -27,7 +28,8 @@ CHECKS = (
           demand_label="needed for grippers and carriage", limit_label="left by the step", source="geometry",
           consequence="there is not room enough for grippers and carriage between two sheets; the step must be longer, or the sheet shorter."),
     Check(id="actual_rate", check_class="function", title="Productivity and gears", demand="productivity", limit="actual_rate",
-          unit="1/h", severity="warn", tolerance=1e-6, demand_label="productivity", limit_label="what the gears give", source="kinematics",
+          unit="1/h", severity="warn", fails_beyond=1 / (1 - FURTHEST_RATE), tolerance=1e-6,
+          demand_label="productivity", limit_label="what the gears give", source="kinematics",
           consequence="the press makes {actual_rate} and not the {inputs.productivity} of press.productivity; choose pulleys and teeth nearer to "
           "the ratio, or set press.productivity to what they give."),
     Check(id="driven_inertia", check_class="strength", title="Inertia behind the clutch",
@@ -46,13 +48,13 @@ CHECKS = (
           "both is not that of this press."),
     Check(id="motor_thermal", check_class="strength", title="Heat of the motor", demand="motor_torque_rms", limit="motor_rated_torque",
           unit="N*m", demand_label="root mean square of its torque", limit_label="rated torque", source="this method",
-          consequence="the motor gets too hot; it needs a rated power of at least {rating_needed:up}, or a heavier flywheel."),
+          consequence="the motor gets too hot; {thermal_advice}."),
     Check(id="motor_peak", check_class="strength", title="Peak torque of the motor", demand="motor_torque_peak", limit="breakdown_torque",
           unit="N*m", demand_label="greatest torque", limit_label="breakdown torque", source="this method",
-          consequence="the motor stalls; it needs a heavier flywheel than {flywheel_inertia} or a larger breakdown torque."),
+          consequence="the motor stalls; {peak_advice}, or a larger breakdown torque."),
     Check(id="speed_swing", check_class="function", title="Fluctuation of the speed", demand="speed_swing", limit="speed_fluctuation",
           unit="1", severity="warn", demand_label="by the motor's slip", limit_label="accepted", source="this method",
-          consequence="the flywheel of {flywheel_inertia} swings more than accepted; make it heavier."),
+          consequence="the flywheel of {flywheel_inertia} swings more than accepted; {swing_advice}."),
     Check(id="register", check_class="function", title="Play in the register", demand="play_total", limit="register_tolerance", unit="mm",
           demand_label="plays together", limit_label="allowed", source="geometry",
           consequence="sheet and cut may lie further apart than allowed; take play out of the transport."),

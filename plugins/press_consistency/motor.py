@@ -33,13 +33,13 @@ def least(torque: Curve, turns: Array, period: Array, time_constant: Array) -> A
 def _each(torque: Curve, turns: Array, period: Array, lag: Array, result: Callable[[MotorResponse], float]) -> Array:
     """A number of each machine's motor, at the flywheel's shaft."""
     rows = range(len(period))
-    loads = (_load(torque, float(turns[row, 0]), row).scaled(float(period[row, 0])) for row in rows)
+    loads = (load_of(torque, float(turns[row, 0]), row).scaled(float(period[row, 0])) for row in rows)
     found = [result(motor_response(load, float(lag[row, 0]))) for row, load in zip(rows, loads, strict=True)]
     return np.array(found)[:, None]
 
 
-def _load(torque: Curve, turns: float, row: int) -> LegendrePieces:
-    """The load over shares of its period."""
+def load_of(torque: Curve, turns: float, row: int = 0) -> LegendrePieces:
+    """Return the load over shares of its period."""
     rows, inner = np.array([row]), torque.breakpoints
     edges = unique_edges(inner[min(row, len(inner) - 1)], 0.0, 1.0)
     return LegendrePieces.of(

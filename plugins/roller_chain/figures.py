@@ -55,7 +55,7 @@ def loop(view: View) -> list[Shape]:
             for side in (1, -1)
         ),
     ]
-    below = -1.25 * max(small, large)
+    above, below = 1.15 * max(small, large), -1.25 * max(small, large)
     return [
         *shapes,
         *_joints(view, 0.0, small, "teeth_1"),
@@ -63,7 +63,7 @@ def loop(view: View) -> list[Shape]:
         dimension((0.0, 0.0), second, below, view.text("center_distance_adjusted")),
         radius_dimension((0.0, 0.0), small, 2.6, view.text("sprocket_diameter_1")),
         radius_dimension(second, large, 0.6, view.text("sprocket_diameter_2")),
-        arrow((0.35 * center, 0.5 * (small + large)), (0.65 * center, 0.5 * (small + large)), text=view.text("velocity")),
+        arrow((0.35 * center, above), (0.65 * center, above), text=view.text("velocity")),
         label((0.35 * center, 0.0), f"{view.text('links')}, {view.text('chain_length')}"),
     ]  # fmt: skip
 

@@ -6,9 +6,18 @@ from typing import Any
 
 import numpy as np
 
-from diecut_report.api import Chapter, as_angle, bind
+from diecut_report.api import Chapter, Curve, as_angle, bind
 from diecut_report.plugins.roller_chain import formulas as f
 from diecut_report.plugins.roller_chain.inputs import CONVEYOR, DRIVE
+
+ANY = "list"  # what a list of values runs over: whatever takes it
+
+
+def one_cycle(acceleration: Curve, velocity: Curve, like: Any) -> Any:
+    """Whether both curves run over one cycle, of each machine."""
+    alike = ANY in (acceleration.cycle, velocity.cycle) or acceleration.cycle == velocity.cycle
+    return np.full(np.shape(like), float(alike))
+
 
 # fmt: off
 
@@ -35,6 +44,11 @@ for use, keys in OUT_OF_PLACE.items():
         cycle.require(f"{key}_out_of_place", lambda teeth_1: teeth_1 < 0, key=key, needs=(use, key),
                       message=f"has no use beside {use.replace('=', ': ')}; remove it, or set use to "
                               f"{'drive' if use == CONVEYOR else 'conveyor'}")
+BOTH_CURVES: Way = {"needs": (CONVEYOR, "acceleration_curve", "velocity_curve")}
+cycle.computed("one_cycle", "k_z", "1", "Whether both curves run over one cycle", function=one_cycle,
+               takes=("acceleration_curve", "velocity_curve", "teeth_1"), method="what both run over is compared", output=False, **BOTH_CURVES)
+cycle.require("same_cycle", lambda one_cycle: one_cycle > 0, key="velocity_curve",
+              message="runs over another cycle than acceleration; give both over one cycle, or one of them as a number", **BOTH_CURVES)
 for way in CURVES:
     cycle.abscissa("cycle_angle", "φ", "deg", "Angle of the cycle, one turn a period of the curves", period=2 * np.pi, shown_at="tension_peak_at",
                    **way)

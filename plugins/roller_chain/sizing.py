@@ -157,6 +157,10 @@ for use, load in WAYS:
                   takes=tuple(f"inputs.{name}" if name in load else name for name in names),
                   method="all tensions below, with each chain of the table in turn, over the cycle where curves are given; 0 where none is enough",
                   needs=(use, *load), lacks=("chain",), output=False)
+size.choice("designation", "C", "1", "The chain that is taken",
+            *(case(name, f"its pitch is {pitch:g} mm", bind(lambda pitch, own: pitch <= own, own=Constant(si(pitch, "mm") * (1 + SAME), name, "m")))
+              for name, pitch in list(CHAINS.by_name("pitch").items())[:-1]),
+            case(CHAINS.names[-1], "its pitch is the greatest"), lacks=("chain",), source="ISO 606")
 for key in OVERRIDES:
     size.require(f"{key}_of_a_chain", lambda teeth_1: teeth_1 < 0, key=key, needs=(key,), lacks=("chain",),
                  message="has no use without a chain; give chain, or set chain to custom with "

@@ -26,8 +26,11 @@ from tests.plugins.drive_trains import EXAMPLE as TRAIN
 from tests.plugins.drive_trains import PAIRS, UNEVEN
 from tests.plugins.followers import SHAFT
 from tests.plugins.gears import AT_DISTANCE, SECTOR, SIZED
+from tests.plugins.keys import OWN, TURNING
+from tests.plugins.keys import SIZED as SIZED_KEY
 from tests.plugins.platens import GUIDED
 from tests.plugins.presses import whole_press
+from tests.plugins.shafts import CRANKSHAFT, LAYSHAFT, STANDING
 from tests.plugins.steppers import LOADED, PUBLISHED
 from tests.validation.rows_circular_knife import KEYS as CIRCULAR
 from tests.validation.rows_damper import WORKED as DAMPER
@@ -117,6 +120,7 @@ FULL: dict[str, dict[str, dict[str, Any]]] = {
     "gear_pair": {"sector": SECTOR | {"n_points": 72}, "sized": SIZED, "at distance": AT_DISTANCE},
     "geneva_transport": {"loaded": CROSS},
     "knife_drive": {side: KNIVES | {"crank_rocker": LINKAGE | {"lowest_dead_center": side}} for side in ("outer", "inner")},
+    "parallel_key": {"turning": TURNING | {"n_points": 72}, "sized": SIZED_KEY, "own dimensions": OWN},
     "platen_press": {"guided": GUIDED | {"n_points": 72, "crank_pin_length": "100 mm"}},
     "press_consistency": {"whole": whole_press()},
     "roller_chain": {
@@ -125,6 +129,7 @@ FULL: dict[str, dict[str, dict[str, Any]]] = {
         "even velocity": chains.without(chains.GRIPPERS, "velocity_curve", "chain") | {"velocity": 1},
         "numbers": chains.without(chains.GRIPPERS, "velocity_curve", "acceleration_curve") | {"velocity": 1, "acceleration": 30},
     },
+    "shaft": {"crank": CRANKSHAFT | {"speed": 50}, "lay": LAYSHAFT, "standing": STANDING},
 }  # fmt: skip
 WIDELY: dict[str, Ranges] = {
     "cam_gear_transport": {"dwell_angle": (1.5, 4.2), "sector_stop_sweep": (0.1, 0.6), "arm_length": (0.05, 0.1), "cycles_per_hour": (1, 2)},
@@ -146,12 +151,15 @@ WIDELY: dict[str, Ranges] = {
     "knife_drive": {"working_depth": (0.005, 0.06), "cylinder_rate": (2, 12), "planetary.carrier_radius": (0.012, 0.08),
                     "crank_slider.crank_radius": (0.02, 0.05), "crank_slider.rod_length": (0.045, 0.2),
                     "crank_rocker.crank": (0.012, 0.04), "crank_rocker.knife_arm": (0.08, 0.25), "grip_angle": (0.02, 0.2)},
+    "parallel_key": {"shaft_diameter": (0.006, 0.22), "torque": (1, 9000), "chamfer": (0, 0.004), "key_length": (0.01, 0.12),
+                     "torque_peak": (300, 2000)},
     "platen_press": {"material_thickness": (1e-4, 3e-3), "drive_deformation": (1e-4, 2e-3), "rod_length": (0.08, 1.2),
                      "cycles_per_hour": (0.1, 2), "offset_force": (-0.02, 0.02), "friction": (0, 0.3)},
     "roller_chain": {"teeth_1": (6, 60), "center_distance": (0.05, 2), "links": (20, 400), "torque": (1, 3000), "speed": (1, 200),
                      "strands": (1, 4), "moving_mass": (0, 50), "power": (100, 50000)},
     "press_consistency": {"clutch_load": (0, 900), "clutch_speed": (2, 12), "contact_distance": (0.005, 0.9),
                           "flywheel_inertia": (0.1, 20), "damper_velocity": (0.1, 4)},
+    "shaft": {"bearing_a": (0.0, 0.06), "bearing_b": (0.2, 0.32), "yield_strength": (3e8, 1.2e9), "tensile_strength": (4e8, 1e9)},
 }  # fmt: skip
 
 

@@ -22,7 +22,12 @@ SECTOR: dict[str, Any] = STEEL | {
     "module": 4, "teeth_1": 35, "teeth_2": 212, "face_width": 40, "torque_curve": [248.37, 100, -20, -133.57, 0, 50, 100, 200],
     "application_factor": 1, "sector": {"swing": "59.4576 deg", "teeth_present": 39},
 }  # fmt: skip
-AT_DISTANCE: dict[str, Any] = HELICAL | {"center_distance": 177, "keep_clearance": True, "torque_on": "wheel", "alternating_factor": 0.8}
+AT_DISTANCE: dict[str, Any] = HELICAL | {
+    "center_distance": 177,
+    "keep_clearance": True,
+    "torque_on": "wheel",
+    "alternating_factor": 0.8,
+}
 del AT_DISTANCE["shift_2"]
 SIZED: dict[str, Any] = {key: value for key, value in HELICAL.items() if key != "module"}
 

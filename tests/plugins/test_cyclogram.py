@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+from dataclasses import replace
 from functools import cache
 from math import degrees, pi
 from typing import Any
@@ -18,10 +19,12 @@ from diecut_report.engine import Calculation, Impossible, calculate
 from diecut_report.engine.mechanism_handle import MechanismHandle
 from diecut_report.errors import UserError
 from diecut_report.plugins.cyclogram import MECHANISM
+from diecut_report.plugins.cyclogram.timing import Timing
 from diecut_report.results.checks import check_results
 from diecut_report.results.document import document
 from diecut_report.results.press_run import Run, compute
 from diecut_report.study.definition.base_inputs import find_input
+from diecut_report.study.execution.result_columns import columns_of
 from diecut_report.study.execution.variant_rows import calculate_rows
 from tests.configs import EXAMPLE
 from tests.machines import inputs, number
@@ -222,17 +225,74 @@ def test_the_largest_productivity_is_that_of_the_method() -> None:
     assert np.isnan(press("feeder", locks("cutting", "feeder", cutting="5 ms"))["productivity_limit"]).all()
 
 
+def test_each_interlock_is_a_check_of_its_own() -> None:
+    calc = example("feeder", "cutting passing")
+    cutting, passing = (check_of(calc, f"interlock_{name}") for name in ("cutting", "passing"))
+    assert degrees(cutting["demand"]) == pytest.approx(190.7232, abs=2e-4)
+    assert degrees(cutting["limit"]) == pytest.approx(190.7232 - 2 * 23.8309, abs=3e-4)
+    assert (cutting["status"], passing["status"]) == ("fail", "pass")
+    assert cutting["utilisation"] == pytest.approx(190.7232 / 143.0614, rel=1e-5)
+    assert degrees(passing["limit"]) == pytest.approx(277.7732 - 242.2268 + 2 * 6.8388, abs=3e-4)
+    assert "parts" not in cutting
+    assert cutting["title"] == "Interlock: cutting"
+
+
+def test_a_phase_apart_from_itself_fails_and_within_itself_passes() -> None:
+    drawn = [{"name": "never", "phase": "cross.dwell", "apart_from": "cross.dwell"},
+             {"name": "both", "phase": "drive.cutting", "within": "drive.cutting"}]  # fmt: skip
+    calc = press("cross", drawn)
+    never, both = (check_of(calc, f"interlock_{name}") for name in ("never", "both"))
+    assert (never["status"], never["utilisation"]) == ("fail", None)
+    assert (both["status"], both["utilisation"]) == ("pass", pytest.approx(1))
+    assert "no offset changes it" in never["message"]
+
+
+WHOLE = ((0.0, 4 * pi),)
+
+
+@pytest.mark.parametrize(("outer", "status"), [((), "fail"), (WHOLE, "pass")])
+def test_an_interlock_with_nothing_or_all_to_lie_in(outer: Any, status: str, monkeypatch: pytest.MonkeyPatch) -> None:
+    kept = Timing._interlock
+    monkeypatch.setattr(Timing, "_interlock", lambda *given: replace(kept(*given), outer=outer))
+    check = check_of(press("cross", locks("cutting", "cross", cutting="5 ms")), "interlock_cutting")
+    assert check["status"] == status
+    if status == "fail":
+        assert check["utilisation"] is None
+        assert "leaves nothing that could hold it" in check["message"]
+
+
 def test_a_failed_interlock_says_by_how_much_and_what_would_do() -> None:
-    check = check_of(press("feeder", locks("cutting passing", "feeder", cutting="5 ms")), "interlock")
+    check = check_of(press("feeder", locks("cutting passing", "feeder", cutting="5 ms")), "interlock_cutting")
     assert check["status"] == "fail"
     for words in (
-        "cutting: its margins are",
-        "(5 ms) are required",
-        "The best offset of feeder is",
+        "drive.cutting does not lie within feeder.dwell: the margins are",
+        "3° (5 ms) are required",
+        "The best offset of feeder is 141.0056",
         "no offset holds all",
-        "Slowing the press down does not help",
+        "feeder.dwell must be 213.66",
+        "press.productivity does not help: angles decide",
     ):
         assert words in check["message"]
+
+
+def test_an_interlock_at_a_fixed_offset_is_told_the_best_one() -> None:
+    check = check_of(press("cross", locks("cutting passing", "cross"), "0 deg"), "interlock_cutting")
+    assert check["status"] == "fail"
+    assert "The best offset of cross is 38.1164" in check["message"]
+    assert "leaves a slack of 11.327" in check["message"]
+
+
+def test_a_dwell_of_the_length_that_is_needed_holds_the_cutting() -> None:
+    run = linked({"timing": {"kind": "cyclogram"} | keys_of("feeder", locks("cutting", "feeder"))})
+    assert "feeder.dwell must be 207.66" in check_of(run.calculations["timing"], "interlock_cutting")["message"]
+    data = yaml.safe_load(TEXT)["mechanisms"]["feeder"] | {"dwell_angle": "207.662 deg"}
+    run = linked({"feeder": data, "timing": {"kind": "cyclogram"} | keys_of("feeder", locks("cutting", "feeder"))})
+    assert 0 <= degrees(number(run.calculations["timing"], "best_margin")) < 1e-3
+
+
+def test_a_name_that_no_check_can_bear_is_told() -> None:
+    with pytest.raises(Impossible, match="must be letters, digits and _"):
+        press("cross", [{"name": "sheet rests", "phase": "drive.cutting", "within": "cross.dwell"}])
 
 
 def test_a_press_whose_lines_run_at_other_rates_is_told() -> None:
@@ -381,5 +441,8 @@ def test_a_study_of_the_timing_goes_machine_by_machine() -> None:
     assert np.degrees(rows_found.columns["timing.best_margin"]) == pytest.approx(
         [11.3273, 11.3273 - (60 - 38.1164)], abs=6e-4
     )
-    assert list(rows_found.columns["timing.checks.interlock.status"]) == ["pass", "fail"]
+    assert list(rows_found.columns["timing.checks.interlock_cutting.status"]) == ["pass", "fail"]
+    assert list(rows_found.columns["timing.checks.interlock_passing.status"]) == ["pass", "fail"]
+    known = {column.name for column in columns_of(base_config)}
+    assert {name for name in rows_found.columns if ".checks." in name} <= known
     assert "cyclogram" in rows_found.slow

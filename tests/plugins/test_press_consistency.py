@@ -2,16 +2,20 @@
 
 from __future__ import annotations
 
+import re
 from functools import cache
 from typing import Any
 
 import numpy as np
 import pytest
+import yaml
 from scipy.optimize import brentq
 
 from diecut_report.engine import Calculation, CurveHandle, Impossible, calculate
+from diecut_report.plugins.drive_train import MECHANISM as DRIVE_TRAIN
 from diecut_report.plugins.press_consistency import MECHANISM
 from diecut_report.results.checks import check_results
+from tests.configs import EXAMPLE
 from tests.machines import inputs, number
 from tests.mechanics.timing.example_press import calculations
 from tests.plugins.presses import OF_DRIVE, OF_TRAIN, TYPED, taken, whole_press
@@ -30,9 +34,30 @@ OF_CROSS = {
 
 
 @cache
+def train_of_the_crank() -> Calculation:
+    """A drive train that the cylinder's drive alone loads, down to the crank, as the derivation has it."""
+    drive, keys = calculations()["drive"], yaml.safe_load(EXAMPLE.read_text("utf-8"))["mechanisms"]["train"]
+    keys = {key: value for key, value in keys.items() if key not in ("kind", "torque_curve_turns")} | {
+        "gears": [{"driver_teeth": 20, "driven_teeth": 98}, {"driver_teeth": 24, "driven_teeth": 48}],
+        "torque_curve": CurveHandle(drive, "crank_torque"),
+        "output_speed": "50 rpm", "torque_mean": number(drive, "crank_torque_mean"), "torque_peak": number(drive, "crank_torque_peak"),
+    }  # fmt: skip
+    return calculate(DRIVE_TRAIN, inputs(DRIVE_TRAIN, {key: plain(value) for key, value in keys.items()}))
+
+
+def plain(value: Any) -> Any:
+    """Values without what they rest on."""
+    if isinstance(value, list):
+        return [plain(each) for each in value]
+    if not isinstance(value, dict):
+        return value
+    return value["value"] if "value" in value else {key: plain(each) for key, each in value.items()}
+
+
+@cache
 def example_keys() -> dict[str, Any]:
     """What the check takes from the example press."""
-    found = calculations()
+    found = calculations() | {"train": train_of_the_crank()}
     parts = (("drive", OF_DRIVE), ("train", OF_TRAIN), ("clutch", OF_CLUTCH), ("cross", OF_CROSS))
     typed = {key: TYPED[key] for key in ("productivity", "sheet_length", "sheet_width", "working_length", "generatrix_length",
                                          "chain_pitch", "sprocket_teeth", "conveyor_mass", "damper_velocity", "belt_efficiency")}  # fmt: skip
@@ -84,7 +109,8 @@ CHANGED = [  # what passes in the whole press, and a change with which it does n
     ("format_generatrix", {"feed_side": "length", "sheet_width": "720 mm", "sheet_gap": None}, "fail"),
     ("step", {"sheet_width": "750 mm", "sheet_gap": None}, "fail"),
     ("sheet_gap", {"sheet_gap": "101 mm"}, "fail"),
-    ("actual_rate", {"output_turns_per_sheet": 0.51}, "warn"),
+    ("actual_rate", {"output_turns_per_sheet": 0.505}, "warn"),
+    ("actual_rate", {"output_turns_per_sheet": 0.515}, "fail"),
     ("driven_inertia", {"clutch_inertia": "0.8 kg*m**2"}, "fail"),
     ("damper_velocity", {"contact_distance": "100 mm"}, "warn"),
     ("conveyor_inertia", {"wheel_inertia": "1.5 kg*m**2"}, "warn"),
@@ -168,3 +194,49 @@ def test_without_any_mechanism_nothing_is_claimed() -> None:
     found = consistency({})
     assert verdicts(found) == {}
     assert not found.values
+
+
+HOT = {
+    "motor_thermal": {"motor_rated_torque": "6 N*m"},
+    "motor_peak": {"breakdown_ratio": 1.5},
+    "speed_swing": {"speed_fluctuation": 0.02},
+}
+
+
+@pytest.mark.parametrize("check", HOT)
+def test_a_flywheel_as_heavy_as_is_advised_is_enough_and_a_lighter_one_is_not(check: str) -> None:
+    keys = example_keys() | HOT[check]
+    needed = advised(check, keys, r"(?:flywheel|inertia) of at least ([\d.]+) kg")
+    assert verdicts(consistency(keys, flywheel_inertia=f"{needed} kg*m**2"))[check] == "pass"
+    assert verdicts(consistency(keys, flywheel_inertia=f"{0.99 * needed} kg*m**2"))[check] != "pass"
+
+
+@pytest.mark.parametrize("check", ["motor_thermal", "motor_peak"])
+def test_a_motor_of_the_slip_or_of_the_power_that_is_advised_is_enough(check: str) -> None:
+    keys = example_keys() | HOT[check]
+    slip = advised(check, keys, r"slip of at least ([\d.]+) rpm")
+    assert verdicts(consistency(keys, motor_speed=f"{1500 - slip} rpm"))[check] == "pass"
+    assert verdicts(consistency(keys, motor_speed=f"{1500 - 0.99 * slip} rpm"))[check] != "pass"
+    power = advised(check, keys, r"power of at least ([\d.]+) kW") * 1000 / (1450 * np.pi / 30)
+    assert verdicts(consistency(keys, motor_rated_torque=f"{power} N*m"))[check] == "pass"
+    assert verdicts(consistency(keys, motor_rated_torque=f"{0.99 * power} N*m"))[check] != "pass"
+
+
+def test_a_motor_below_the_mean_torque_is_helped_by_power_alone() -> None:
+    message = message_of("motor_thermal", example_keys() | {"motor_rated_torque": "3 N*m"})
+    assert "kW" in message
+    assert "flywheel" not in message
+
+
+def advised(check: str, keys: dict[str, Any], pattern: str) -> float:
+    """The number that a check's message advises."""
+    found = re.search(pattern, message_of(check, keys))
+    assert found, message_of(check, keys)
+    return float(found[1])
+
+
+def message_of(check: str, keys: dict[str, Any]) -> str:
+    """What a check that does not hold says."""
+    found = next(each for each in check_results(consistency(keys)) if each["id"] == check)
+    assert found["status"] != "pass"
+    return str(found["message"])

@@ -11,6 +11,7 @@ from jsonschema import Draft202012Validator
 
 from diecut_report.config.schema import config_schema
 from diecut_report.engine import Impossible
+from diecut_report.errors import UserError
 from diecut_report.plugins.roller_chain import MECHANISM
 from diecut_report.results.press_run import compute
 from tests.configs import HEAD, loaded, problems
@@ -175,6 +176,14 @@ def test_keys_of_numbers_take_the_curves_of_another_mechanism(tmp_path: Path) ->
     top = number(stepper, "sheet_acceleration_max")
     mass = 9.6 + 2 * 1.15 * 240 * 0.01905
     assert number(found, "useful_tension") == pytest.approx((mass * top + 0.1 * mass * 9.80665) / 2, rel=1e-6)
+
+
+def test_curves_over_two_cycles_are_refused(tmp_path: Path) -> None:
+    keys = "slots: 6, center_distance: 240 mm, roller_radius: 16 mm, gear_ratio: 6, sprocket_teeth: 30, chain_pitch: 19.05 mm"
+    cross = f"  g: {{kind: geneva_transport, {keys}}}\n"
+    mixed = REFERRED.replace("t.sheet_velocity", "g.sheet_velocity")
+    with pytest.raises(UserError, match="runs over another cycle than acceleration"):
+        compute(loaded(tmp_path, HEAD + STEPPER + cross + mixed), lambda _: None)
 
 
 @pytest.mark.parametrize("keys", [DRIVE, CUSTOM, UNEVEN, RATED, GRIPPERS])

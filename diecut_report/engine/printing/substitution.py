@@ -41,7 +41,7 @@ def printed(calc: Calculation, name: str, variant: int = 0, part: int = 0, up: b
     """Return a quantity as one would say it: ``40 mm``; of a row the value of one part; rounded up or down where ``up`` says so."""
     step = calc.steps.get(name)
     if isinstance(step, Words):
-        return plain_code.text(step, step.function(*(_plain(calc[taken], variant) for taken in step.takes)))
+        return plain_code.text(step, step.function(*(_plain(calc[taken], variant) for taken in step.takes)), part)
     row: Any = calc[name]
     if isinstance(row, str | tuple):
         return row if isinstance(row, str) else str(row[part])
@@ -61,7 +61,9 @@ def _plain(value: Any, variant: int) -> Any:
     return float(found) if isinstance(found, int | float | np.number | np.bool_) else found
 
 
-def filled(calc: Calculation, text: str, variant: int = 0, places: Mapping[str, int] = MappingProxyType({})) -> str:
+def filled(
+    calc: Calculation, text: str, variant: int = 0, places: Mapping[str, int | str] = MappingProxyType({})
+) -> str:
     """Return a message with its ``{ids}`` printed; of rows the part at ``places["index"]``; ``places`` stand for themselves.
 
     ``{id:up}`` and ``{id:down}`` are rounded that way: what "at least" and "at most" name must be enough.
@@ -70,7 +72,7 @@ def filled(calc: Calculation, text: str, variant: int = 0, places: Mapping[str, 
     def said(found: re.Match[str]) -> str:
         name = found[1]
         up = {"up": True, "down": False}.get(found[2])
-        return str(places[name]) if name in places else printed(calc, name, variant, places.get("index", 0), up)
+        return str(places[name]) if name in places else printed(calc, name, variant, int(places.get("index", 0)), up)
 
     return NAMED.sub(said, text)
 

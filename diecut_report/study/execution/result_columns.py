@@ -12,17 +12,18 @@ from diecut_report.config.discovery import said
 from diecut_report.config.instances import Instance
 from diecut_report.config.loader import Config
 from diecut_report.config.model import PRESS
-from diecut_report.contract.checks import Check
+from diecut_report.contract.checks import Check, by_part
 from diecut_report.contract.inputs import list_inputs
+from diecut_report.contract.mechanism import is_text
 from diecut_report.contract.missing_keys import missing_keys
 from diecut_report.contract.result_names import CROSSING_COLUMNS, ResultName, count_name, result_names
-from diecut_report.contract.steps import SILENT, Choice, Crossings, Step, Value
+from diecut_report.contract.steps import SILENT, Crossings, Step, Value
 from diecut_report.engine import Calculation
 from diecut_report.engine.steps.extreme_checks import is_made
 from diecut_report.errors import PluginError
 from diecut_report.expressions import Array
 from diecut_report.quantities.units import unit
-from diecut_report.results.checks import is_sized, judged
+from diecut_report.results.checks import checks_of, is_sized, judged
 from diecut_report.results.unchecked import is_of_machine, missing
 from diecut_report.study.execution.press_batch import of_plugin
 from diecut_report.study.storage.description import Kind, ResultColumn
@@ -98,7 +99,7 @@ def _names(step: Step, parts: int | None) -> list[ResultName]:
 
 
 def _kind(step: Step) -> Kind:
-    if isinstance(step, Choice) and isinstance(step.cases[0].value, str):
+    if is_text(step):
         return "text"
     if isinstance(step, Value) and step.is_condition:
         return "bool"
@@ -116,17 +117,29 @@ def _reported(instance: Instance) -> Iterator[Check]:
     mechanism = instance.mechanism
     assert mechanism is not None
     ids: set[str] = set()
-    for check in mechanism.checks:
+    for check in by_part(mechanism.checks, lambda names: _names_of_parts(instance, names)):
         if check.id not in ids and is_of_machine(check) and missing_keys(mechanism, check, instance.given) is not None:
             ids.add(check.id)
             yield check
+
+
+def _names_of_parts(instance: Instance, path: str) -> list[str] | None:
+    """The names that a list's blocks have in the config; None where there is no such list."""
+    home, _, key = path.rpartition(".")
+    blocks = instance.data.get(home)
+    return [str(block[key]) for block in blocks] if blocks else None
 
 
 def output_values(name: str, calc: Calculation) -> dict[str, Array]:
     """Return the outputs of many variants by column; NaN (None for texts and flags) where there is none."""
     found: dict[str, Array] = {}
     for step in calc.steps.values():
-        if not step.output or isinstance(step, SILENT) or step.id not in calc.values:
+        if (
+            not step.output
+            or isinstance(step, SILENT)
+            or step.id not in calc.values
+            or calc.axis.get(step.id) in calc.part_names
+        ):
             continue
         values = calc.values[step.id]
         if isinstance(step, Crossings):
@@ -181,7 +194,7 @@ def verdicts(calculations: Mapping[str, Calculation], count: int) -> Verdicts:
     names, codes, ratios, sized, unchecked = [], [], [], [], []
     faults: dict[int, str] = {}
     for name, calc in calculations.items():
-        for check in calc.mechanism.checks:
+        for check in checks_of(calc):
             if not is_made(calc, check):
                 unchecked += [f"{name}.checks.{check.id}"] if missing(calc, check) else []
                 continue
@@ -193,7 +206,7 @@ def verdicts(calculations: Mapping[str, Calculation], count: int) -> Verdicts:
                 }
                 continue
             names.append(f"{name}.checks.{check.id}")
-            codes.append(np.where(there, np.where(held, PASS, FAIL if check.severity == "fail" else WARN), 0))
+            codes.append(np.where(there, np.where(held, PASS, np.where(check.is_failure(ratio), FAIL, WARN)), 0))
             ratios.append(np.where(there, ratio, np.nan))
             sized.append(is_sized(calc.given, check))
     shape = (len(names), count)
