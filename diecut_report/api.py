@@ -43,6 +43,7 @@ from diecut_report.contract.inputs import (
     Quantity,
     Text,
 )
+from diecut_report.contract.listings import Cell, ListedColumn
 from diecut_report.contract.mechanism import Comparison, Erratum, Mechanism, Partner, Profile, Source
 from diecut_report.contract.options import case
 from diecut_report.contract.part_steps import Interpolated, Lookup, Neighbour, Part, Pick, Running, Total
@@ -88,9 +89,11 @@ from diecut_report.standards import (
 
 __all__ = [
     "GRAVITY", "POINTS", "Abscissa", "Accumulated", "Annotated", "BarGroup", "Bars", "Binding", "Block", "Bound", "Breakpoints", "ByText",
-    "Case", "Chapter", "Chart", "Check", "Choice", "Clash", "Comparison", "Computed", "Constant", "Crossings", "Curve", "CurveInput",
+    "Case", "Cell", "Chapter", "Chart", "Check", "Choice", "Clash", "Comparison", "Computed", "Constant", "Crossings", "Curve",
+    "CurveInput",
     "CurvePeriod", "Derivative", "Drawing", "Erratum", "Formula", "FromCurve", "FromPress", "GivenMechanism", "GivenPhase", "InOtherUnit",
-    "Inputs", "Interpolated", "Level", "Lookup", "MadeCurve", "Mark", "Mechanism", "MechanismInput", "Neighbour", "OneOf", "Panel", "Part",
+    "Inputs", "Interpolated", "Level", "ListedColumn", "Lookup", "MadeCurve", "Mark", "Mechanism", "MechanismInput", "Neighbour", "OneOf", "Panel",
+    "Part",
     "Partner", "Phase", "PhaseInput", "Pick", "Plot", "Point", "Polar", "Profile", "Quantity", "Reduction", "Refusal", "Require", "Root", "Running",
     "Series", "Shape", "Source", "Span", "Spectrum", "SpectrumLine", "StandardFault", "StandardSeries", "StandardTable", "Step", "Steps",
     "Text", "Total", "Value", "View", "Words", "arc", "arccos", "arrow", "as_angle", "as_number", "below", "bind", "box", "case",

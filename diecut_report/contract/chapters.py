@@ -12,6 +12,7 @@ from typing import Any, Literal, Unpack
 
 from diecut_report.contract.between import Between, Interpolation
 from diecut_report.contract.binding import as_binding, bind
+from diecut_report.contract.listings import ListingForm
 from diecut_report.contract.made_curves import MadeCurveForm
 from diecut_report.contract.options import Options, StepCondition, Written
 from diecut_report.contract.part_steps import Interpolated, Lookup, Neighbour, Part, Pick, Running, Total
@@ -43,7 +44,7 @@ from diecut_report.standards import StandardSeries, StandardTable
 
 
 @dataclass(eq=False)
-class Steps(PhaseForm, MadeCurveForm):
+class Steps(PhaseForm, MadeCurveForm, ListingForm):
     """Hold declared steps in the order in which they are calculated; a family of them may be added to several chapters."""
 
     steps: Sequence[Step] = field(default=(), kw_only=True)

@@ -117,6 +117,12 @@ class GivenMechanism(Protocol):
     def number(self, name: str) -> float | None:
         """Return a number (an output, a value or an input) by its id, SI; None where there is none."""
 
+    def row(self, name: str) -> tuple[float, ...]:
+        """Return a row over repeated parts by its id, SI; nothing where there is none."""
+
+    def texts(self, name: str) -> tuple[str, ...]:
+        """Return a text input of all repeated parts, mechanisms by their names; nothing where there is none."""
+
     def curve(self, name: str) -> Curve | None:
         """Return a curve by its id, over shares of its period; None where there is none."""
 

@@ -62,6 +62,15 @@ class MechanismHandle(TakenWhole):
             return None
         return float(found[0, 0])
 
+    def row(self, name: str) -> tuple[float, ...]:
+        """Return a row over repeated parts by its id, SI; nothing where there is none."""
+        found = self.calculation.values.get(name)
+        return () if found is None else tuple(float(value) for value in found[0])
+
+    def texts(self, name: str) -> tuple[str, ...]:
+        """Return a text input of all repeated parts, mechanisms by their names; nothing where there is none."""
+        return tuple(str(text) for text in self.calculation.inputs.get(name, ()))
+
     def curve(self, name: str) -> CurveHandle | None:
         """Return a curve by its id, over shares of its period; None where there is none."""
         return CurveHandle(self.calculation, name) if name in self.calculation.curves else None

@@ -14,7 +14,7 @@ from diecut_report.contract.inputs import CurveInput, Quantity, TakenWhole, list
 from diecut_report.contract.result_names import ResultName, count_name, pattern, place_name, result_names
 from diecut_report.contract.spectra import Spectrum, SpectrumLine
 from diecut_report.contract.steps import SILENT, Crossings, Step
-from diecut_report.engine import Calculation
+from diecut_report.engine import Calculation, listings
 from diecut_report.engine.calculation import Unproven
 from diecut_report.engine.figure_views import figures
 from diecut_report.engine.printing.items import section_items
@@ -71,6 +71,7 @@ def mechanism_results(calc: Calculation, provenance: Mapping[str, Provenance]) -
         "inputs": inputs(calc, provenance),
         "lists": list_titles(mechanism.inputs),
         **numbers(calc),
+        **listings.results(calc),
         "curves": curves(calc),
         "phases": phases(calc),
         "phases_absent": phases_absent(calc),
@@ -196,8 +197,8 @@ def _rowed(calc: Calculation, step: Step) -> Data:
     if step.id in calc.axis:
         home = {} if step.numbered else {"list": calc.axis[step.id]}
         names = result_names(step, len(row))
-        rows = (_number(step, value) | home for value in row)
-        return {each.name: found | _part(step, each, **home) for each, found in zip(names, rows, strict=True)}
+        there = [(each, value) for each, value in zip(names, row, strict=True) if value == value]  # no NaN
+        return {each.name: _number(step, value) | home | _part(step, each, **home) for each, value in there}
     if not isinstance(row[0], str) and math.isnan(row[0]):
         return {}
     found = _number(step, row[0])

@@ -57,6 +57,11 @@ class LineOnShaft:
         chosen = own.intervals if number is None else (own.intervals[number],)
         return self.line.on_main_shaft(chosen, common, own.every)
 
+    def role(self, phase: str) -> str:
+        """Return what a phase is: working, rest, moving or window; what the sheet passes is moving."""
+        own = self.mechanism.phases.get(phase)
+        return own.role if own is not None else "moving"
+
     def turned(self, by: float) -> LineOnShaft:
         """Return the line with its zero later by a main-shaft angle."""
         return replace(self, line=replace(self.line, offset=self.line.offset + by))
@@ -70,6 +75,7 @@ def lines_of(given: Mapping[str, Any]) -> tuple[LineOnShaft, ...]:
         offset = of_part(given["lines.offset"], index)
         turns = turns_of(given["lines.turns_per_sheet"][index], f"lines.{index}.turns_per_sheet")
         passing = (given.get("lines.passing") or ())[index : index + 1] or (None,)
+        ways = _passing(mechanism, passing[0] or (), f"lines.{index}.passing")
         found.append(
             LineOnShaft(
                 mechanism,
@@ -77,7 +83,7 @@ def lines_of(given: Mapping[str, Any]) -> tuple[LineOnShaft, ...]:
                 float(of_part(given["lines.path_efficiency"], index)),
                 offset == AUTO,
                 given["lines.torque_curve"][index],
-                {**_own_phases(mechanism), **_passing(mechanism, passing[0] or (), f"lines.{index}.passing")},
+                {**_own_phases(mechanism), **ways},
             )
         )
     automatic = [str(index) for index, each in enumerate(found) if each.is_auto]
@@ -125,6 +131,9 @@ def _passing(mechanism: GivenMechanism, given: tuple[Passage, ...], key: str) ->
     found = {}
     for index, passage in enumerate(given):
         start, end = (float(np.ravel(getattr(passage, side))[0]) for side in ("from", "to"))
+        if passage.name in mechanism.phases or passage.name in found:
+            words = f"is {passage.name}, the name of another phase of {mechanism.name}; give it one of its own"
+            raise Refusal(f"{key}.{index}.name", words)
         first, every = passage.first % passage.every, passage.every
         a, b = _stretch(mechanism, start, end, f"{key}.{index}")
         found[passage.name] = OwnPhase(((a + TURN * first, b + TURN * first),), every)

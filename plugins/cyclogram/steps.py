@@ -9,6 +9,7 @@ import numpy as np
 from diecut_report.api import Chapter, bind
 from diecut_report.mechanics import common
 from diecut_report.mechanics.timing.clearance import LeastClearance
+from diecut_report.plugins.cyclogram import listings
 from diecut_report.plugins.cyclogram.clearances import clearance_of
 from diecut_report.plugins.cyclogram.timing import Timing, timing_of
 from diecut_report.plugins.cyclogram.torques import sum_of
@@ -36,6 +37,7 @@ shaft.computed("line_turns", "i_k", "1", "Turns of each line for each sheet",
 shaft.computed("line_offset", "Φ_k", "deg", "Main-shaft angle at which each line's zero comes",
                lambda timing: np.array([[each.line.offset for each in timing.lines]]), TIMING,
                "as given; an automatic one is where the least slack of all interlocks is greatest", over="lines", digits=7)
+shaft.listing("main_phases", "Phases on the main shaft", listings.PHASES, listings.phases, TIMING)
 shaft.words("line_name", lambda timing: tuple(each.name for each in timing.lines), TIMING, each_part=True)
 
 
@@ -88,6 +90,13 @@ interlocks.computed("rate_error", "Δn", "1", "Own rate of each line off the pre
                     "own turns a second over turns for each sheet, held against the productivity", over="lines", output=False)
 
 
+interlocks.computed("is_window", "k_w", "1", "Whether each is held by one interval of each period, so that a length can be told",
+                    lambda timing: np.array([np.isfinite(timing.needed_lengths)]).astype(float), TIMING, PHASES, over="interlocks", output=False)
+interlocks.computed("needed_length", "l_n", "deg", "Length that what holds it must have, for the interlock alone at its best offset",
+                    lambda timing: np.nan_to_num([timing.needed_lengths]), TIMING, "length of the one interval less twice the greatest slack",
+                    over="interlocks", digits=6, exists=lambda is_window: is_window > 0)
+interlocks.listing("margins", "Margins of each interval", listings.MARGINS, listings.margins, TIMING)
+interlocks.listing("offsets", "Offsets that leave all margins", listings.OFFSETS, listings.offsets, TIMING)
 interlocks.words("interlock_verdict", verdicts, TIMING, each_part=True)
 
 station = Chapter("Clearance of the carriages", needs=("station",), absent="not calculated: station is not given",

@@ -173,6 +173,12 @@ class Timing:
             return fixed_productivity_limit(self.final, self.period)
         return productivity_limit(self.interlocks(self.drawn), self.period, self.span)
 
+    @cached_property
+    def needed_lengths(self) -> list[float]:
+        """Return the same, with an offset to be found where they are all fixed."""
+        trials = [self.trial(index) for index in range(len(self.held))]
+        return [np.nan if trial is None else trial.needed[index] for index, trial in enumerate(trials)]
+
     @property
     def feasible(self) -> Interval:
         """Return the feasible offsets about the one found, rad; without any it alone."""
@@ -193,7 +199,11 @@ class Timing:
 
     def told(self, angle: float) -> str:
         """Return an angle of the main shaft in words, with its time."""
-        return f"{told(angle, 'deg', 6)} ({told(angle / TURN * self.sheet_time, 'ms', 6)})"
+        return f"{told(angle, 'deg', 6)} ({told(self.time(angle), 'ms', 6)})"
+
+    def time(self, angle: float) -> float:
+        """Return the time in which the main shaft turns by an angle, s."""
+        return angle / TURN * self.sheet_time
 
 
 def timing_of(given: Mapping[str, Any]) -> Timing:

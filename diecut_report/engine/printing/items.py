@@ -6,6 +6,7 @@ from collections.abc import Callable
 from typing import Any
 
 from diecut_report.contract.binding import Binding, Bound, bound
+from diecut_report.contract.listings import Listing
 from diecut_report.contract.part_steps import Interpolated, Lookup, Neighbour, Part, Pick, Running, Total
 from diecut_report.contract.result_names import place_name
 from diecut_report.contract.steps import (
@@ -23,6 +24,7 @@ from diecut_report.contract.steps import (
     Value,
     Words,
 )
+from diecut_report.engine import listings
 from diecut_report.engine.calculation import Calculation, Unproven
 from diecut_report.engine.printing import tables
 from diecut_report.engine.printing.definitions import definitions
@@ -99,6 +101,8 @@ def items(calc: Calculation, step: Step) -> list[Item]:
             return [_head(step) | tables.number(calc, step)]
         case Running():
             return [tables.table(calc, step, [step.of, step.id])]
+        case Listing():
+            return listings.printed(calc, step)
         case Neighbour() | Words():  # a neighbour stands beside its part in the table of what takes it
             return []
         case Abscissa(points=points):

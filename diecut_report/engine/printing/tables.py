@@ -38,9 +38,10 @@ def table(calc: Calculation, step: Step, names: list[str]) -> Item:
 def _cell(calc: Calculation, name: str, part: int) -> str:
     row = calc[name]
     value = row[0, min(part, row.shape[1] - 1)]
-    return (
-        str(value) if isinstance(value, str) else number_text(float(value) / unit(calc.step_or_input(name).unit).factor)
-    )
+    if isinstance(value, str):
+        return value
+    is_absent = np.isnan(float(value))
+    return "–" if is_absent else number_text(float(value) / unit(calc.step_or_input(name).unit).factor)
 
 
 def number(calc: Calculation, step: Total | Pick | Lookup | Part) -> Item:

@@ -8,6 +8,7 @@ from typing import Any
 
 import numpy as np
 
+from diecut_report.contract.listings import Listing
 from diecut_report.contract.mechanism import Mechanism
 from diecut_report.contract.part_steps import Interpolated, Lookup, Neighbour, Part, Pick, Running, Total
 from diecut_report.contract.refusal import Refusal
@@ -70,7 +71,7 @@ def calculate(
         steps = [step for _, step in mechanism.active(calc.given) if only is None or step.id in only]
         for i, step in enumerate(steps):
             prefetch.look(calc, steps[i:])
-            if isinstance(step, Words | Phase):
+            if isinstance(step, Words | Phase | Listing):
                 continue
             try:
                 if isinstance(step, prefetch.Asking):

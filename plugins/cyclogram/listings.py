@@ -1,0 +1,55 @@
+"""Tables of the cyclogram: all phases on the main shaft, the margins of each interval, the offsets that leave all margins."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from math import isfinite, pi
+from typing import Any
+
+from diecut_report.api import Cell, ListedColumn
+from diecut_report.plugins.cyclogram.timing import Timing
+
+Rows = Iterator[tuple[Cell, ...]]
+TURN = 2 * pi
+
+PHASES = (
+    ListedColumn("phase", "Phase"), ListedColumn("role", "Role"),
+    ListedColumn("start", "from", "Φ_1", "deg"), ListedColumn("end", "to", "Φ_2", "deg"),
+    ListedColumn("start_time", "from", "t_1", "ms"), ListedColumn("end_time", "to", "t_2", "ms"), ListedColumn("time", "Time", "Δt", "ms"),
+)  # fmt: skip
+MARGINS = (
+    ListedColumn("interlock", "Interlock"), ListedColumn("start", "from", "Φ_1", "deg"), ListedColumn("end", "to", "Φ_2", "deg"),
+    ListedColumn("margin_start", "Margin at the start", "m_1", "deg"), ListedColumn("margin_end", "Margin at the end", "m_2", "deg"),
+    ListedColumn("margin_start_time", "Margin at the start", "t_1", "ms"), ListedColumn("margin_end_time", "Margin at the end", "t_2", "ms"),
+)  # fmt: skip
+OFFSETS = (
+    ListedColumn("line", "Line"),
+    ListedColumn("start", "from", "Φ_a", "deg"),
+    ListedColumn("end", "to", "Φ_b", "deg"),
+)
+
+
+def phases(given: Mapping[str, Any]) -> Rows:
+    """Return each interval of each phase over the common period, as angle and as time."""
+    timing: Timing = given["timing"]
+    for line in timing.lines:
+        for name in line.phases:
+            for start, end in line.on_main_shaft(name, timing.common, None):
+                times = (timing.time(start), timing.time(end), timing.time(end - start))
+                yield (f"{line.name}.{name}", line.role(name), start, end, *times)
+
+
+def margins(given: Mapping[str, Any]) -> Rows:
+    """Return the margins of each interval that is held; none where it is not bounded, or nothing could hold it."""
+    timing: Timing = given["timing"]
+    for held, pairs in zip(timing.held, timing.pairs, strict=True):
+        for pair in pairs:
+            bounds = [each if isfinite(each) else None for each in (pair.start, pair.end)]
+            yield (held.name, *pair.inner, *bounds, *(None if each is None else timing.time(each) for each in bounds))
+
+
+def offsets(given: Mapping[str, Any]) -> Rows:
+    """Return all intervals of the offset that is to be found in which all interlocks hold."""
+    timing: Timing = given["timing"]
+    if timing.best is not None and timing.moved is not None:
+        yield from ((timing.lines[timing.moved].name, *interval) for interval in timing.best.feasible)
