@@ -31,7 +31,8 @@ NUMBERS: tuple[Way, ...] = (
     {"needs": (DRIVE,), "lacks": ("torque_curve",)},
     {"needs": (CONVEYOR, "acceleration", "velocity")},
 )
-DRIVEN, CONVEYED = {"needs": (DRIVE,)}, {"needs": (CONVEYOR,)}
+DRIVEN: Way = {"needs": (DRIVE,)}
+CONVEYED: Way = {"needs": (CONVEYOR,)}
 OUT_OF_PLACE = {
     CONVEYOR: {"speed": "rpm", "torque": "", "torque_curve": "", "power": "", "power_rating": ""},
     DRIVE: {"moving_mass": "", "acceleration": "", "acceleration_curve": "", "velocity": "", "velocity_curve": ""},

@@ -8,14 +8,16 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from diecut_report.api import Chapter, Curve, bind, si
+from diecut_report.api import Chapter, Curve, bind, case, si
 from diecut_report.plugins.roller_chain import formulas as f
 from diecut_report.plugins.roller_chain.chains import CHAINS, COLUMNS
+from diecut_report.plugins.roller_chain.formulas import INCH
 from diecut_report.plugins.roller_chain.inputs import CONVEYOR, DRIVE, OVERRIDES
 from diecut_report.plugins.roller_chain.loads import STILL
 
 Array = NDArray[np.float64]
 POINTS = 129  # of each smooth piece of a curve over the cycle
+SAME = 1e-6  # relative: pitches so near are one
 MARGIN = 1e-4  # relative: what the curve may rise between them
 TABLE = {name: np.array([si(value, unit) for value in CHAINS.column(name).values]) for name, unit in COLUMNS.items()}
 """The chains' values, SI, in their order."""
@@ -142,8 +144,8 @@ size.value("driven_teeth", "z_2", "1", "Teeth of the driven sprocket: those of t
            source="input", whole=True, output=False)
 size.value("application", "K_A", "1", "Application factor: as given", lambda application_factor: application_factor,
            needs=("application_factor",), source="input", output=False)
-for use in ((DRIVE, "torque_curve"), (CONVEYOR,)):
-    size.value("application", "K_A", "1", "Application factor: the loads are dynamic ones", lambda: 1, needs=use, lacks=("application_factor",),
+for chosen in ((DRIVE, "torque_curve"), (CONVEYOR,)):
+    size.value("application", "K_A", "1", "Application factor: the loads are dynamic ones", lambda: 1, needs=chosen, lacks=("application_factor",),
                source="this method", output=False)
 WANTED = {"distance_wanted": ("center_distance", "a_w", "mm", "Distance of the axes"), "links_wanted": ("links", "X_w", "1", "Links"),
           "pressure_allowed": ("allowable_bearing_pressure", "p_w", "MPa", "Allowed pressure of the joints")}
@@ -157,10 +159,6 @@ for use, load in WAYS:
                   takes=tuple(f"inputs.{name}" if name in load else name for name in names),
                   method="all tensions below, with each chain of the table in turn, over the cycle where curves are given; 0 where none is enough",
                   needs=(use, *load), lacks=("chain",), output=False)
-size.choice("designation", "C", "1", "The chain that is taken",
-            *(case(name, f"its pitch is {pitch:g} mm", bind(lambda pitch, own: pitch <= own, own=Constant(si(pitch, "mm") * (1 + SAME), name, "m")))
-              for name, pitch in list(CHAINS.by_name("pitch").items())[:-1]),
-            case(CHAINS.names[-1], "its pitch is the greatest"), lacks=("chain",), source="ISO 606")
 for key in OVERRIDES:
     size.require(f"{key}_of_a_chain", lambda teeth_1: teeth_1 < 0, key=key, needs=(key,), lacks=("chain",),
                  message="has no use without a chain; give chain, or set chain to custom with "
@@ -170,3 +168,8 @@ size.require("chain_exists", lambda pitch_least: pitch_least > 0, key="chain", l
                      "custom")
 size.pick("pitch", "p", "mm", "Pitch: the smallest chain that is enough", "above", of="pitch_least", series=CHAINS.series("pitch"),
           lacks=("chain",), source="ISO 606")
+INCHES = {name: pitch / 25.4 for name, pitch in CHAINS.by_name("pitch").items()}
+size.choice("designation", "C", "1", "The chain that is taken",
+            *(case(name, f"its pitch is {round(16 * inches):d}/16 inch", bind(lambda pitch, own: pitch / INCH <= own, own=inches * (1 + SAME)))
+              for name, inches in list(INCHES.items())[:-1]),
+            case(CHAINS.names[-1], "its pitch is the greatest"), lacks=("chain",), source="ISO 606")
