@@ -12,6 +12,7 @@ from diecut_report.config.model import Press, Project
 from diecut_report.config.validation import keys_of
 from diecut_report.contract.inputs import Block, CurveInput, MechanismInput, PhaseInput, Quantity, Text
 from diecut_report.contract.mechanism import Mechanism
+from diecut_report.contract.placeholders import OneOf
 from diecut_report.contract.unit_variants import in_all_units
 from diecut_report.contract.varying import Varying
 from diecut_report.limits import MAX_CURVE_VALUES, MAX_MECHANISMS, MAX_PARTS, MAX_TEXT
@@ -85,15 +86,25 @@ def _of_kind(mechanism: Mechanism) -> Schema:
 
 def block_schema(model: type[Block], refers: bool = True) -> Schema:
     """Return the schema of a block of keys; its texts may be references where it ``refers``."""
-    groups = [
-        {"anyOf": [{"required": list(group)} for group in rule.groups]} for rule in model.one_of if not rule.optional
-    ]
+    groups = [_needed(model, rule) for rule in model.one_of if not rule.optional]
     return {
         "type": "object",
         "required": [name for name, field in model.model_fields.items() if field.is_required()],
         "additionalProperties": False,
         "properties": {name: _key(model, name, refers) for name in model.model_fields},
     } | ({"allOf": groups} if groups else {})
+
+
+def _needed(model: type[Block], rule: OneOf) -> Schema:
+    """Keys of which one group is needed, where the text of the rule is chosen."""
+    typed_as = {curve: key for key, curve in model.curve_keys.items()}
+    groups = [*rule.groups, *(tuple(typed_as.get(key, key) for key in group) for group in rule.groups)]
+    needed: Schema = {"anyOf": [{"required": list(group)} for group in dict.fromkeys(groups)]}
+    if not rule.when:
+        return needed
+    key, _, text = rule.when.partition("=")
+    typed = {} if model.model_fields[key].default == text else {"required": [key]}
+    return {"if": {"properties": {key: {"const": text}}, **typed}, "then": needed}
 
 
 def _key(model: type[Block], name: str, refers: bool) -> Schema:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any, Protocol
 
@@ -70,11 +70,19 @@ class OneOf:
     """Name inputs of which one group is needed: ``OneOf(("torque",), ("power", "speed"))``.
 
     One group must be given completely, and nothing of another one, but for the keys that are ``shared``: these have a use
-    beside each group. Where it is ``optional`` a default holds without any of the keys.
+    beside each group. Where it is ``optional`` a default holds without any of the keys. With ``when`` it is asked only where
+    a text of the same block is chosen: ``when="use=drive"``.
     """
 
-    def __init__(self, *groups: tuple[str, ...], shared: tuple[str, ...] = (), optional: bool = False) -> None:
-        self.groups, self.shared, self.optional = groups, shared, optional
+    def __init__(
+        self, *groups: tuple[str, ...], shared: tuple[str, ...] = (), optional: bool = False, when: str = ""
+    ) -> None:
+        self.groups, self.shared, self.optional, self.when = groups, shared, optional, when
+
+    def is_asked(self, texts: Mapping[str, Any]) -> bool:
+        """Return whether the text is chosen with which the rule holds, of the values of a block with their defaults."""
+        key, _, text = self.when.partition("=")
+        return not key or texts.get(key) == text
 
     def fault(self, given: Iterable[str]) -> str:
         """Return what is wrong with the keys that are given, in words; empty where nothing is."""

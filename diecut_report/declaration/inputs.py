@@ -65,7 +65,10 @@ def _block(model: type[Block], place: str, prefix: str = "") -> Iterator[Fault]:
         if inner:
             yield from _block(inner[0], place, f"{prefix}{name}.")
     for rule in model.one_of:
-        for key in sorted(set().union(*rule.groups, rule.shared) - set(model.model_fields)):
+        for key in sorted(
+            set().union(*rule.groups, rule.shared, filter(None, [rule.when.partition("=")[0]]))
+            - set(model.model_fields)
+        ):
             yield Fault(place, f"one_of of {model.__name__}", f"names {key}, which is not an input{nearest(key, model.model_fields)}")  # fmt: skip
     for key in sorted({single for keys in model.spread.values() for single in keys} - set(model.model_fields)):
         yield Fault(place, f"spread of {model.__name__}", f"names {key}, which is not an input{nearest(key, model.model_fields)}")  # fmt: skip

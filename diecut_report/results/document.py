@@ -160,7 +160,7 @@ def _plain(block: Block, node: Node, instance: Instance, bases: Bases) -> Data:
 
 def _idle(block: Block, values: Data) -> Iterator[str]:
     """Return the defaults that have no use beside what is given: as given keys they would be refused."""
-    for rule in type(block).one_of:
+    for rule in filter(lambda rule: rule.is_asked(values), type(block).one_of):
         fault = rule.fault(values)
         defaults = [name for name in values if name not in block.model_fields_set] if fault else []
         yield from (name for name in defaults if rule.fault(values.keys() - {name}) != fault)

@@ -20,6 +20,7 @@ from diecut_report.results.comparisons import Found
 from diecut_report.results.press_run import Run, compute
 from tests.configs import EXAMPLES
 from tests.machines import PUBLISHED_CYLINDER, PUBLISHED_DRIVE, UNBALANCED, inputs
+from tests.plugins import chains
 from tests.plugins.clutches import COOLED
 from tests.plugins.drive_trains import EXAMPLE as TRAIN
 from tests.plugins.drive_trains import PAIRS, UNEVEN
@@ -122,6 +123,12 @@ FULL: dict[str, dict[str, dict[str, Any]]] = {
     "parallel_key": {"turning": TURNING | {"n_points": 72}, "sized": SIZED_KEY, "own dimensions": OWN},
     "platen_press": {"guided": GUIDED | {"n_points": 72, "crank_pin_length": "100 mm"}},
     "press_consistency": {"whole": whole_press()},
+    "roller_chain": {
+        "grippers": chains.GRIPPERS | {"n_points": 72}, "uneven": chains.UNEVEN | {"n_points": 72}, "custom": chains.CUSTOM,
+        "rated": chains.RATED, "even acceleration": chains.without(chains.GRIPPERS, "acceleration_curve") | {"acceleration": 30},
+        "even velocity": chains.without(chains.GRIPPERS, "velocity_curve", "chain") | {"velocity": 1},
+        "numbers": chains.without(chains.GRIPPERS, "velocity_curve", "acceleration_curve") | {"velocity": 1, "acceleration": 30},
+    },
     "shaft": {"crank": CRANKSHAFT | {"speed": 50}, "lay": LAYSHAFT, "standing": STANDING},
 }  # fmt: skip
 WIDELY: dict[str, Ranges] = {
@@ -148,6 +155,8 @@ WIDELY: dict[str, Ranges] = {
                      "torque_peak": (300, 2000)},
     "platen_press": {"material_thickness": (1e-4, 3e-3), "drive_deformation": (1e-4, 2e-3), "rod_length": (0.08, 1.2),
                      "cycles_per_hour": (0.1, 2), "offset_force": (-0.02, 0.02), "friction": (0, 0.3)},
+    "roller_chain": {"teeth_1": (6, 60), "center_distance": (0.05, 2), "links": (20, 400), "torque": (1, 3000), "speed": (1, 200),
+                     "strands": (1, 4), "moving_mass": (0, 50), "power": (100, 50000)},
     "press_consistency": {"clutch_load": (0, 900), "clutch_speed": (2, 12), "contact_distance": (0.005, 0.9),
                           "flywheel_inertia": (0.1, 20), "damper_velocity": (0.1, 4)},
     "shaft": {"bearing_a": (0.0, 0.06), "bearing_b": (0.2, 0.32), "yield_strength": (3e8, 1.2e9), "tensile_strength": (4e8, 1e9)},

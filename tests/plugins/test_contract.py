@@ -39,6 +39,12 @@ ALIKE = {  # quantities that a step takes over under another id
         ("output_turns_per_sheet", "turns_a_sheet"),
         ("engagement_angle", "start_angle"),
     ],
+    "roller_chain": [
+        ("application_factor", "application"),
+        ("center_distance", "center"),
+        ("teeth_2", "driven_teeth"),
+        *((f"{name}_curve", f"{name}_over") for name in ("torque", "velocity", "acceleration")),
+    ],
     "gear_pair": [("torque_curve", "torque_given")],
     "parallel_key": [("torque_curve", "torque_over_cycle")],
     "transport_comparison": [("gear_speed", "cam_gear_speed"), ("gear_acceleration", "cam_gear_acceleration")],
