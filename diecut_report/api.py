@@ -44,7 +44,7 @@ from diecut_report.contract.inputs import (
     Quantity,
     Text,
 )
-from diecut_report.contract.listings import Cell, Column
+from diecut_report.contract.listings import Cell, ListedColumn
 from diecut_report.contract.mechanism import Comparison, Erratum, Mechanism, Partner, Profile, Source
 from diecut_report.contract.options import case
 from diecut_report.contract.part_steps import Interpolated, Lookup, Neighbour, Part, Pick, Running, Total
@@ -92,10 +92,11 @@ from diecut_report.standards import (
 
 __all__ = [
     "GRAVITY", "POINTS", "Abscissa", "Accumulated", "Annotated", "BarGroup", "Bars", "Binding", "Block", "Bound", "Breakpoints", "ByText",
-    "Case", "Cell", "Chapter", "Chart", "Check", "Choice", "Clash", "Column", "Comparison", "Computed", "ComputedCurve", "Constant", "Crossings",
+    "Case", "Cell", "Chapter", "Chart", "Check", "Choice", "Clash", "Comparison", "Computed", "ComputedCurve", "Constant", "Crossings",
     "Curve",
     "CurveInput", "CurvePeriod", "Derivative", "Drawing", "Erratum", "Extremes", "Formula", "FromCurve", "FromPress", "GivenMechanism",
-    "GivenPhase", "InOtherUnit", "Inputs", "Interpolated", "Level", "Lookup", "MadeCurve", "Mark", "Mechanism", "MechanismInput", "Neighbour",
+    "GivenPhase", "InOtherUnit", "Inputs", "Interpolated", "Level", "ListedColumn", "Lookup", "MadeCurve", "Mark", "Mechanism", "MechanismInput",
+    "Neighbour",
     "OneOf", "Panel", "Part", "PartNames", "PartTable", "Partner", "Phase", "PhaseInput", "Pick", "Plot", "Point", "Polar", "Prepared",
     "Profile", "Quantity", "Reduction", "Refusal", "Require", "Root", "Running",
     "Series", "Shape", "Source", "Span", "Spectrum", "SpectrumLine", "StandardFault", "StandardSeries", "StandardTable", "Step", "Steps",

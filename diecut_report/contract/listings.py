@@ -13,7 +13,7 @@ from diecut_report.contract.steps import Prepared
 Cell = float | str | None
 
 
-class Column(NamedTuple):
+class ListedColumn(NamedTuple):
     """Hold a column of a listing: its id in the results, what it is, its symbol and display unit; texts have no unit."""
 
     id: str
@@ -29,16 +29,16 @@ class Listing(Prepared):
     It is made only where results are told, of one machine.
     """
 
-    columns: tuple[Column, ...]
+    heads: tuple[ListedColumn, ...]
 
 
 class ListingForm:
     """Give chapters the call that declares a listing."""
 
     def listing(
-        self: StepHolder, id: str, description: str, columns: tuple[Column, ...], function: Callable[..., Iterable[Sequence[Cell]]],
+        self: StepHolder, id: str, description: str, columns: tuple[ListedColumn, ...], function: Callable[..., Iterable[Sequence[Cell]]],
         holds: tuple[str, ...], **when: Unpack[StepCondition],
     ) -> None:  # fmt: skip
         """Declare a table that plain code makes: see ``Listing``."""
-        own: dict[str, Any] = {"columns": columns, "function": function, "holds": holds}
+        own: dict[str, Any] = {"heads": columns, "function": function, "holds": holds}
         self.add(Listing(id=id, description=description, **own, **when))

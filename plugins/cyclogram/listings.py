@@ -6,22 +6,27 @@ from collections.abc import Iterator, Mapping
 from math import isfinite, pi
 from typing import Any
 
-from diecut_report.api import Cell, Column
+from diecut_report.api import Cell, ListedColumn
 from diecut_report.plugins.cyclogram.timing import Timing
 
 Rows = Iterator[tuple[Cell, ...]]
 TURN = 2 * pi
 
 PHASES = (
-    Column("phase", "Phase"), Column("role", "Role"), Column("start", "from", "Φ_1", "deg"), Column("end", "to", "Φ_2", "deg"),
-    Column("start_time", "from", "t_1", "ms"), Column("end_time", "to", "t_2", "ms"), Column("time", "Time", "Δt", "ms"),
+    ListedColumn("phase", "Phase"), ListedColumn("role", "Role"),
+    ListedColumn("start", "from", "Φ_1", "deg"), ListedColumn("end", "to", "Φ_2", "deg"),
+    ListedColumn("start_time", "from", "t_1", "ms"), ListedColumn("end_time", "to", "t_2", "ms"), ListedColumn("time", "Time", "Δt", "ms"),
 )  # fmt: skip
 MARGINS = (
-    Column("interlock", "Interlock"), Column("start", "from", "Φ_1", "deg"), Column("end", "to", "Φ_2", "deg"),
-    Column("margin_start", "Margin at the start", "m_1", "deg"), Column("margin_end", "Margin at the end", "m_2", "deg"),
-    Column("margin_start_time", "Margin at the start", "t_1", "ms"), Column("margin_end_time", "Margin at the end", "t_2", "ms"),
+    ListedColumn("interlock", "Interlock"), ListedColumn("start", "from", "Φ_1", "deg"), ListedColumn("end", "to", "Φ_2", "deg"),
+    ListedColumn("margin_start", "Margin at the start", "m_1", "deg"), ListedColumn("margin_end", "Margin at the end", "m_2", "deg"),
+    ListedColumn("margin_start_time", "Margin at the start", "t_1", "ms"), ListedColumn("margin_end_time", "Margin at the end", "t_2", "ms"),
 )  # fmt: skip
-OFFSETS = (Column("line", "Line"), Column("start", "from", "Φ_a", "deg"), Column("end", "to", "Φ_b", "deg"))
+OFFSETS = (
+    ListedColumn("line", "Line"),
+    ListedColumn("start", "from", "Φ_a", "deg"),
+    ListedColumn("end", "to", "Φ_b", "deg"),
+)
 
 
 def phases(given: Mapping[str, Any]) -> Rows:

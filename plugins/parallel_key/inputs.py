@@ -23,7 +23,7 @@ class ParallelKey(Inputs):
         float | None,
         Quantity("l", "mm", "Length of the key; without it the least standard length that holds is taken", gt=0),
     ] = None
-    form: Annotated[Literal["A", "B"], Text("Form of the key's ends: A round, B square")]
+    form: Annotated[Literal["A", "B"], Text("Form of the key's ends: A round, B square")] = "A"
     key_count: Annotated[int, Quantity("i", "1", "Keys around the shaft", ge=1, le=2, integer=True)] = 1
     torque: Annotated[
         float | None,

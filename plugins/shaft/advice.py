@@ -14,7 +14,7 @@ from diecut_report.plugins.shaft import formulas
 
 Array = NDArray[Any]
 SMALLEST, GREATEST = 0.2, 50.0  # times the given size
-HALVINGS = 50
+HALVINGS = 30
 MARGIN = 1.002  # as the material point of the least safety moves a little
 
 enough = Chapter("Sizes that would be enough",

@@ -113,6 +113,8 @@ class Cycle:
         """Return the shaft's angle at the instants that are looked at, (rows, instants)."""
         share, middle = self.share[rows], self.middle[rows]
         if isinstance(self.rotation, str):
+            if share.shape[1] == 1:  # loads that are constant, beneath which the shaft turns all the same
+                share = np.tile(np.arange(INSTANTS) / INSTANTS, (len(rows), 1))
             return share * (2 * np.pi * self.turns[rows][:, None] if self.rotation == "turning" else 0.0)
         return np.broadcast_to(_value(self.rotation, share, middle, rows, len(self.turns)), share.shape)
 
@@ -182,9 +184,8 @@ def cycle(
         columns(pitch_radius, count, variants, np.inf),
         *(columns(each, count, variants, 0.0) for each in (pressure, helix, mesh)),
     )
-    stands = not curves and not (isinstance(rotation, str) and rotation == "turning")
     joints = [np.broadcast_to(curve.joints, (variants, curve.joints.shape[1])) for curve in curves.values()]
-    share, middle, edges = _instants(joints, variants, 1 if stands else INSTANTS)
+    share, middle, edges = _instants(joints, variants, INSTANTS if curves else 1)
     return Cycle(
         tuple(names), columns(places, count, variants), columns(offset, count, variants, 0.0), columns(mass, count, variants, 0.0),
         given, gears, rotation if is_curve(rotation) or isinstance(rotation, str) else "none", turns[:, 0], share, middle, edges,

@@ -107,7 +107,7 @@ _state(fatigue, "sigma_m", "σ_m", "MPa", "Mean of the normal stress", "sigma_m"
 _state(fatigue, "torque_upper", "T_o", "N*m", "Greatest torque over the cycle there", "torque_upper", "over the cycle")
 _state(fatigue, "torque_lower", "T_u", "N*m", "Least torque over the cycle there", "torque_lower", "over the cycle")
 _state(fatigue, "direction", "ψ", "deg", "Direction of the material point of the least safety", "direction",
-       "scan of 360 directions, then a bounded search")
+       "scan of 120 directions, then a bounded search")
 fatigue.value("tau_a", "τ_a", "MPa", "Amplitude of the shear stress",
               lambda torque_upper, torque_lower, place_modulus: (torque_upper - torque_lower) / (4 * place_modulus),
               source="Shigley 7-2", output=False)

@@ -173,6 +173,12 @@ def test_flank_stresses_are_those_of_hertz(teeth: tuple[int, int], shifts: tuple
         )
 
 
+@pytest.mark.parametrize(("overlap", "expected"), [(0, 1.1), (0.5, 1.05), (1, 1.0), (2, 1.0)])
+def test_overlap_takes_the_single_contact_away_in_proportion(overlap: float, expected: float) -> None:
+    assert f.contact_factor(1.1, overlap) == pytest.approx(expected, rel=1e-14)
+    assert f.contact_factor(0.9, overlap) == 1.0
+
+
 @pytest.mark.parametrize("gear", [1, 2])
 def test_the_load_of_the_root_acts_a_base_pitch_from_the_start_of_contact(gear: int) -> None:
     calc = pair()

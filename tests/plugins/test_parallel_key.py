@@ -167,6 +167,10 @@ def test_a_rare_peak_presses_against_its_own_limit() -> None:
     assert number(calc, "safety_hub_peak") == pytest.approx(1.5 * 0.9 * 370e6 / number(calc, "pressure_hub_peak"))
 
 
+def test_a_peak_that_is_the_torque_itself_is_taken() -> None:
+    assert number(key(torque_peak=494), "key_force_peak") == pytest.approx(number(key(), "key_force"), rel=1e-14)
+
+
 def test_own_dimensions_and_a_chamfer_are_taken() -> None:
     calc = key(OWN)
     assert number(calc, "bearing_length") == pytest.approx(0.063)
