@@ -139,7 +139,10 @@ TORQUE = "speed: 300 rpm, torque: 200 N*m, application_factor: 1, center_distanc
             "chain: 12B, speed: 300 rpm, center_distance: 600 mm, torque: 3 N*m",
             "application_factor is missing beside torque",
         ),
-        ("chain: 12B, torque: 3 N*m, application_factor: 1, center_distance: 600 mm", "speed is needed"),
+        (
+            "chain: 12B, torque: 3 N*m, application_factor: 1, center_distance: 600 mm",
+            "speed is needed with use: drive",
+        ),
         (f"chain: 12B, links: 90, {TORQUE}", "center_distance and links are both given"),
         ("chain: 12B, speed: 9 rpm, torque: 3 N*m, application_factor: 1", "center_distance, or links is needed"),
         ("chain: 12B, speed: 9 rpm, torque: 3 N*m, application_factor: 1, links: 90.5", "90.5 is not a whole number"),
