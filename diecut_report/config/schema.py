@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from functools import partial
-from typing import Any, get_args
+from typing import Any, get_args, get_origin
 
 from diecut_report.config.basis import BASES
 from diecut_report.config.loader import NAME, RESERVED
@@ -209,6 +209,8 @@ def _quantity(meta: Quantity, default: Any, refers: bool) -> Schema:
 
 
 def _text(annotation: Any) -> Schema:
+    if get_origin(annotation) is list:
+        return {"type": "array", "maxItems": MAX_PARTS, "items": _text(get_args(annotation)[0])}
     options = [part for part in (get_args(annotation) or (annotation,)) if part is not type(None)]
     if options == [bool]:
         return {"type": "boolean"}

@@ -250,6 +250,8 @@ def flatten(block: Block, prefix: str = "", within_part: bool = False) -> dict[s
                 continue
             case Block():
                 flat |= {prefix + name: True} | flatten(value, f"{prefix}{name}.")
+            case [str(), *_]:
+                flat[prefix + name] = tuple(value)
             case [Block(), *_] if within_part:
                 flat[prefix + name] = tuple(value)
             case [Block(), *_]:

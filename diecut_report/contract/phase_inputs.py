@@ -123,6 +123,9 @@ class GivenMechanism(Protocol):
     def texts(self, name: str) -> tuple[str, ...]:
         """Return a text input of all repeated parts, mechanisms by their names; nothing where there is none."""
 
+    def listing(self, name: str) -> list[list[float | str | None]]:
+        """Return the rows of a table that it lists, by its id, SI; nothing where there is none."""
+
     def curve(self, name: str) -> Curve | None:
         """Return a curve by its id, over shares of its period; None where there is none."""
 

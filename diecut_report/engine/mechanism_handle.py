@@ -6,9 +6,11 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from diecut_report.contract.listings import Cell, Listing
 from diecut_report.contract.phase_inputs import TakenWhole
 from diecut_report.contract.phases import PREFIX
 from diecut_report.contract.steps import Phase
+from diecut_report.engine import listings
 from diecut_report.engine.calculation import Calculation, CurveHandle
 from diecut_report.engine.phases import PhaseHandle, phases_of, speed_of
 
@@ -70,6 +72,11 @@ class MechanismHandle(TakenWhole):
     def texts(self, name: str) -> tuple[str, ...]:
         """Return a text input of all repeated parts, mechanisms by their names; nothing where there is none."""
         return tuple(str(text) for text in self.calculation.inputs.get(name, ()))
+
+    def listing(self, name: str) -> list[list[Cell]]:
+        """Return the rows of a table that it lists, by its id, SI; nothing where there is none."""
+        step = self.calculation.steps.get(name)
+        return listings.rows(self.calculation, step) if isinstance(step, Listing) else []
 
     def curve(self, name: str) -> CurveHandle | None:
         """Return a curve by its id, over shares of its period; None where there is none."""

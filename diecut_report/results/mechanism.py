@@ -171,8 +171,9 @@ def _input(meta: Any, value: Any) -> Data:
                 "display": {"text": str(value), "unit": "1"}}  # fmt: skip
     if not isinstance(meta, Quantity):
         is_curve = isinstance(meta, CurveInput)
-        text = "a curve" if is_curve else str(value)
-        return {"value": text if is_curve else value, "unit": unit(meta.unit).si if is_curve else "1", "symbol": meta.symbol,
+        text = "a curve" if is_curve else ", ".join(value) if isinstance(value, tuple) else str(value)
+        plain = list(value) if isinstance(value, tuple) else value
+        return {"value": text if is_curve else plain, "unit": unit(meta.unit).si if is_curve else "1", "symbol": meta.symbol,
                 "description": meta.description, "display": {"text": text, "unit": "1"}}  # fmt: skip
     if isinstance(meta, Varying) and not isinstance(value, float | np.ndarray):
         return varying(meta, value)

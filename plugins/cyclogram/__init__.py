@@ -7,6 +7,12 @@ from diecut_report.plugins.cyclogram import steps
 from diecut_report.plugins.cyclogram.figures import FIGURES
 from diecut_report.plugins.cyclogram.inputs import Cyclogram
 
+NOT_COVERED = (
+    "Not checked: when grippers open and close.",
+    "Not checked: feeder and delivery, and the stripping of the waste.",
+    "Not checked: whether the flat sweeps over parts that are no carriages.",
+)
+
 MECHANISM = Mechanism(
     kind="cyclogram",
     version="1.0",
@@ -35,8 +41,9 @@ MECHANISM = Mechanism(
     ),
     figures=FIGURES,
     assumptions=(
-        "The main shaft turns at constant speed; the lines are rigid and without backlash between them.",
+        "The main shaft turns at constant speed: angles hold, times vary by its fluctuation. The lines are rigid and without backlash between them.",
         "Only the interlocks that are given are judged.",
+        *NOT_COVERED,
         "Torques of lines that have none are not in the sum, nor is friction that is not given.",
     ),
     sources=(Source("timing", "Intervals of the phases on the main shaft over the common period; tents of the slack over the offset."),),

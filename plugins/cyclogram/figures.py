@@ -2,11 +2,26 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from math import pi
 
 import numpy as np
 
-from diecut_report.api import Chart, Drawing, Shape, View, box, chart_panel, label, line, mark, polyline, told, vertical
+from diecut_report.api import (
+    Chart,
+    Drawing,
+    Shape,
+    View,
+    arc,
+    chart_panel,
+    circle,
+    label,
+    line,
+    mark,
+    polyline,
+    told,
+    vertical,
+)
 from diecut_report.mechanics.timing.intervals import Intervals
 from diecut_report.mechanics.timing.offsets import slack
 from diecut_report.mechanics.timing.productivity import tents_of
@@ -15,19 +30,33 @@ from diecut_report.plugins.cyclogram.kinds import POSITION, STEP
 from diecut_report.plugins.cyclogram.timing import Timing
 from diecut_report.plugins.cyclogram.torques import Sum
 
-WIDTH, HIGH, BAR, LABELS = 8.0, 0.3, 0.2, 3.2  # of the whole period, a row, a bar, the names
+WIDTH, HIGH, BAR = 8.0, 0.44, 0.22  # of the whole period, a row, a bar
+INNER, RING, LAYER = 0.8, 0.8, 0.22  # of the rings: the innermost radius, a line, a role of its phases
+LAYERS = {"working": "link", "rest": "outline", "window": "hidden"}
 TURN = 2 * pi
 POINTS = 721
 
 
-def _bars(intervals: Intervals, period: float, y: float, role: str) -> list[Shape]:
-    """Bars of a row; what passes the end of the period goes on at its start."""
-    shapes = []
+def _pieces(intervals: Intervals, period: float) -> Iterator[tuple[float, float]]:
+    """Both ends of each interval as shares of the period; what passes its end goes on at its start."""
     for start, end in intervals:
         for a, b in ((start, min(end, period)), (0.0, end - period)):
             if b > a:
-                shapes.append(box(((a + b) / 2 / period * WIDTH, y), (b - a) / period * WIDTH, BAR, [], role))
-    return shapes
+                yield a / period, b / period
+
+
+def _bars(intervals: Intervals, period: float, y: float, role: str) -> list[Shape]:
+    """Bars of a row."""
+    low, high = y - BAR / 2, y + BAR / 2
+    ends = [(a * WIDTH, b * WIDTH) for a, b in _pieces(intervals, period)]
+    return [polyline([(a, low), (b, low), (b, high), (a, high)], role, closed=True) for a, b in ends]
+
+
+def _brackets(intervals: Intervals, period: float, y: float) -> list[Shape]:
+    """What must be held, as brackets over the row."""
+    low, high = y - BAR / 2, y + BAR * 0.8
+    ends = [(a * WIDTH, b * WIDTH) for a, b in _pieces(intervals, period)]
+    return [polyline([(a, low), (a, high), (b, high), (b, low)], "mark") for a, b in ends]
 
 
 def _scale(timing: Timing, bottom: float) -> list[Shape]:
@@ -37,8 +66,15 @@ def _scale(timing: Timing, bottom: float) -> list[Shape]:
     for index in range(count + 1):
         x = index / count * WIDTH
         shapes.append(polyline([(x, HIGH), (x, bottom)], "centerline"))
-        shapes.append(label((x, HIGH * 1.4), told(index * TURN / 4, "deg")))
+        shapes.append(label((x, HIGH * 1.5), told(index * TURN / 4, "deg"), "center"))
     return shapes
+
+
+def _shades(timing: Timing, bottom: float) -> list[Shape]:
+    """The dwells through all rows."""
+    dwells = [each.on_main_shaft("dwell", timing.common, None) for each in timing.lines if "dwell" in each.phases]
+    pieces = [(a * WIDTH, b * WIDTH) for dwell in dwells for a, b in _pieces(dwell, timing.period)]
+    return [polyline([(a, HIGH / 2), (b, HIGH / 2), (b, bottom), (a, bottom)], "shade", closed=True) for a, b in pieces]
 
 
 def rows(view: View) -> list[Shape]:
@@ -47,17 +83,51 @@ def rows(view: View) -> list[Shape]:
     shapes, y = [], 0.0
     for each in timing.lines:
         for name in each.phases:
-            shapes.append(label((-0.1, y), f"{each.name}.{name}", "right"))
+            shapes.append(label((-0.2, y), f"{each.name}.{name}", "right"))
             shapes += _bars(each.on_main_shaft(name, timing.common, None), timing.period, y, "outline")
             y -= HIGH
         y -= HIGH / 2
     for interlock, pair in zip(timing.final, timing.worst, strict=True):
-        shapes.append(label((-0.1, y), interlock.name, "right"))
+        shapes.append(label((-0.2, y), interlock.name, "right"))
         shapes += _bars(interlock.outer, timing.period, y, "ghost")
-        shapes += _bars(interlock.inner, timing.period, y, "body")
-        shapes.append(label((WIDTH + 0.1, y), f"{told(pair.start, 'deg')}, {told(pair.end, 'deg')}", "left"))
-        y -= HIGH
-    return [*_scale(timing, y), *shapes]
+        shapes += _brackets(interlock.inner, timing.period, y)
+        shapes.append(label((WIDTH + 0.2, y), f"{told(pair.start, 'deg')}, {told(pair.end, 'deg')}", "left"))
+        y -= 1.3 * HIGH
+    return [*_shades(timing, y), *_scale(timing, y), *shapes]
+
+
+def rings(view: View) -> list[Shape]:
+    """A ring for each line, the common period once round, clockwise from the top."""
+    timing: Timing = view.prepared("timing")
+    shapes: list[Shape] = []
+    for index, each in enumerate(timing.lines):
+        radius = INNER + index * RING
+        shapes += [circle((0.0, 0.0), radius, "ghost"), label((0.0, radius - 0.1), each.name, "center")]
+        for name in each.phases:
+            role = each.role(name)
+            if role in LAYERS:
+                own = radius + LAYER * (1 + list(LAYERS).index(role)) / 1.5
+                pieces = _pieces(each.on_main_shaft(name, timing.common, None), timing.period)
+                shapes += [
+                    arc((0.0, 0.0), own, TURN / 4 - b * TURN, TURN / 4 - a * TURN, LAYERS[role]) for a, b in pieces
+                ]
+    outside = INNER + len(timing.lines) * RING
+    return [*shapes, *_spokes(timing, outside)]
+
+
+def _spokes(timing: Timing, outside: float) -> list[Shape]:
+    """Lines at each quarter of a sheet, and what they stand for."""
+    count = round(4 * float(timing.common))
+    ends = [(np.sin(k / count * TURN), np.cos(k / count * TURN)) for k in range(count)]
+    shapes = [polyline([(INNER * x, INNER * y), (outside * x, outside * y)], "centerline") for x, y in ends]
+    said = (told(k * TURN / 4, "deg") for k in range(count))
+    return [
+        *shapes,
+        *(
+            label((1.12 * outside * x, 1.08 * outside * y), text, "center")
+            for (x, y), text in zip(ends, said, strict=True)
+        ),
+    ]
 
 
 def over_main_shaft(view: View) -> list[Shape]:
@@ -103,8 +173,16 @@ FIGURES = (
         id="cyclogram",
         title="Cyclogram",
         caption="When each mechanism does what, over the common period of the main shaft; below, for each interlock, what must be held "
-        "(full) within what holds it (light), with the least margins at the start and at the end.",
+        "(brackets) within what holds it (light), with the least margins at the start and at the end. Shaded: dwell.",
         build=rows,
+        schematic=True,
+    ),
+    Drawing(
+        id="rings",
+        title="Cyclogram, once round",
+        caption="The common period once round, clockwise from the top, a ring for each line. From inside to outside: working (heavy), at rest "
+        "(full), leaving room for others (dashed).",
+        build=rings,
         schematic=True,
     ),
     Chart(

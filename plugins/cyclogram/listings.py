@@ -7,7 +7,9 @@ from math import isfinite, pi
 from typing import Any
 
 from diecut_report.api import Cell, ListedColumn
+from diecut_report.plugins.cyclogram.kinds import ENERGIES, POSITION
 from diecut_report.plugins.cyclogram.timing import Timing
+from diecut_report.plugins.cyclogram.torques import energy_of, torque_of
 
 Rows = Iterator[tuple[Cell, ...]]
 TURN = 2 * pi
@@ -27,6 +29,7 @@ OFFSETS = (
     ListedColumn("start", "from", "Φ_a", "deg"),
     ListedColumn("end", "to", "Φ_b", "deg"),
 )
+LACKING = (ListedColumn("what", "What"), ListedColumn("because", "Because"))
 
 
 def phases(given: Mapping[str, Any]) -> Rows:
@@ -53,3 +56,25 @@ def offsets(given: Mapping[str, Any]) -> Rows:
     timing: Timing = given["timing"]
     if timing.best is not None and timing.moved is not None:
         yield from ((timing.lines[timing.moved].name, *interval) for interval in timing.best.feasible)
+
+
+def lacking(given: Mapping[str, Any]) -> Rows:
+    """Return what is not checked, or not in the sum, because something is not given."""
+    timing: Timing = given["timing"]
+    for line in timing.lines:
+        transports = line.mechanism.curve(POSITION) is not None
+        if transports and not set(line.phases) - set(line.mechanism.phases):
+            yield f"carriages of {line.name} against the window", f"passing of {line.name} is not given"
+        if transports and "station.transport" not in given:
+            yield f"height over the carriages of {line.name}, carriage_height", "station is not given"
+        if torque_of(line) is None:
+            yield f"torque of {line.name}", f"{line.name} has none; the sum is too small by it"
+        if line.mechanism.kind in ENERGIES and energy_of(line) is None:
+            numbers = [key for key in ENERGIES[line.mechanism.kind].numbers if line.mechanism.number(key) is None]
+            yield (
+                f"kinetic energy of {line.name}",
+                f"{' and '.join(numbers)} of {line.name} is not given; it lends nothing",
+            )
+    for held in timing.held:
+        if held.angle == held.time == 0:
+            yield f"margin of {held.name}", "margin is not given; 0 is taken"

@@ -97,6 +97,7 @@ interlocks.computed("needed_length", "l_n", "deg", "Length that what holds it mu
                     over="interlocks", digits=6, exists=lambda is_window: is_window > 0)
 interlocks.listing("margins", "Margins of each interval", listings.MARGINS, listings.margins, TIMING)
 interlocks.listing("offsets", "Offsets that leave all margins", listings.OFFSETS, listings.offsets, TIMING)
+interlocks.listing("lacking", "Not checked", listings.LACKING, listings.lacking, ("timing", "station.transport"))
 interlocks.words("interlock_verdict", verdicts, TIMING, each_part=True)
 
 station = Chapter("Clearance of the carriages", needs=("station",), absent="not calculated: station is not given",
@@ -142,5 +143,7 @@ torques.accumulated("excess_energy", "E_x", "J", "Energy taken above the mean, f
 torques.reduction("energy_fluctuation", "ΔE", "J", "Range of the excess energy over the common period", "range", of="excess_energy")
 torques.computed("energy_exchange", "E_e", "J", "Energy that the lines lend one another",
                  lambda sum: sum.energies.exchange if sum.energies else 0.0, SUM, "ranges of the lines' kinetic energies less the range of their sum")
+torques.computed("kinetic_energy_mean", "E_m", "J", "Kinetic energy of all lines whose is known, in the mean",
+                 lambda sum: sum.energies.total.mean if sum.energies else 0.0, SUM, "Gauss–Legendre between the breakpoints")
 torques.value("torque_curve_turns", "N_t", "1", "Turns of the main shaft that the curve of the torque spans",
               lambda sheets_per_period: sheets_per_period)

@@ -98,14 +98,14 @@ class Sum:
     @cached_property
     def energies(self) -> EnergySum | None:
         """Return the kinetic energies of the lines of which they are known; None where that is none."""
-        found = [curve for curve in map(_energy, self.timing.lines) if curve is not None]
+        found = [curve for curve in map(energy_of, self.timing.lines) if curve is not None]
         return energy_exchange(found, self.timing.common) if found else None
 
 
 def sum_of(given: Mapping[str, Any]) -> Sum:
     """Return what takes torque from the main shaft: the lines with a torque, and constant consumers."""
     timing: Timing = given["timing"]
-    torques = {line.name: _torque(line) for line in timing.lines}
+    torques = {line.name: torque_of(line) for line in timing.lines}
     consumers = [
         Consumer(line.name, torque, line.efficiency)
         for line in timing.lines
@@ -115,14 +115,16 @@ def sum_of(given: Mapping[str, Any]) -> Sum:
     return Sum(timing, tuple(consumers), tuple(name for name, torque in torques.items() if torque is None))
 
 
-def _torque(line: LineOnShaft) -> LineCurve | None:
+def torque_of(line: LineOnShaft) -> LineCurve | None:
+    """Return the torque at a line's own shaft; None where it is not known."""
     curve = line.mechanism.curve(line.torque_curve or TORQUES.get(line.mechanism.kind, ""))
     if curve is None:
         return None
     return LineCurve(lambda share, middle: at(curve, share, middle), curve.breakpoints[0], line.line)
 
 
-def _energy(line: LineOnShaft) -> LineCurve | None:
+def energy_of(line: LineOnShaft) -> LineCurve | None:
+    """Return the kinetic energy of a line; None where it is not known."""
     found = energy_curve(line.mechanism)
     if found is None:
         return None

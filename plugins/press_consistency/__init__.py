@@ -18,13 +18,16 @@ MECHANISM = Mechanism(
     "dampers, the conveyor's mass against the wheel's inertia, the motor against a load that its flywheel smooths in part, the plays "
     "against the register.",
     inputs=PressConsistency,
-    chapters=(sheet.sides, sheet.rate, drive.inertia, drive.engagement, drive.ends_chapter, sheet.conveyor, drive.motor_chapter, sheet.register),
+    chapters=(sheet.sides, sheet.rate, drive.inertia, drive.engagement, drive.coupling,
+              drive.ends_chapter, sheet.conveyor, drive.motor_chapter, sheet.stopping, sheet.register),
     key_results=("step_room", "actual_rate", "crank_inertia_mean", "crank_inertia_max", "slip_heat", "equal_inertia", "way_inner", "way_outer",
                  "motor_torque_rms", "motor_torque_peak", "speed_swing", "play_total"),
     checks=CHECKS,
     figures=FIGURES,
     partners=PARTNERS,
     assumptions=(
+        "Not checked: when grippers open and close; feeder, delivery and stripping; elasticity and backlash between the lines; whether the flat "
+        "sweeps over parts that are no carriages; the uneven speed of the main shaft, by which times vary while angles hold.",
         "What two mechanisms share is judged where both tell it; what only one tells is not checked.",
         "The clutch slips with a constant torque, and its driving side keeps its speed.",
         "The motor's torque falls in proportion to its speed between the synchronous and the rated one, and goes on so beyond.",

@@ -38,6 +38,10 @@ CHECKS = (
           source="energy", consequence="an engagement at {start_angle} makes {slip_heat} of heat in {slip_time}; the crank feels "
           "{crank_inertia_mean} in the mean and up to {crank_inertia_max} at {crank_inertia_max_at}: give the clutch a driven_inertia of at "
           "least {equal_inertia:up}."),
+    Check(id="clutch_position", check_class="function", title="Clutch and offsets of the lines", demand="lines_out_of_step", limit=0.0,
+          unit="1", demand_label="lines that lose step", limit_label="accepted", source="kinematics",
+          consequence="a friction clutch engages at any angle, and its slip turns what it drives back, so that {clutch_lines} lose the offset to the "
+          "other lines; let the clutch drive all lines, or take one that engages at one angle only (single_position: true)."),
     Check(id="damper_velocity", check_class="strength", title="Speed at the dampers", demand="contact_speed", limit="damper_velocity",
           unit="m/s", severity="warn", demand_label="speed at contact", limit_label="speed that the dampers are calculated with",
           source="kinematics", consequence="the dampers are met faster than calculated; that speed is reached {way_inner} before the inner and "

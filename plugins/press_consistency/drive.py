@@ -7,7 +7,7 @@ import numpy as np
 from diecut_report.api import Chapter, as_number, bind
 from diecut_report.mechanics.timing import motor_slip
 from diecut_report.mechanics.timing.engagement import inertia_at_crank
-from diecut_report.plugins.press_consistency import clutch, ends, motor, motor_advice
+from diecut_report.plugins.press_consistency import clutch, ends, motor, motor_advice, on_main_shaft
 
 # fmt: off
 
@@ -53,6 +53,13 @@ engagement.value("slip_heat", "Q", "J", "Heat of the engagement", lambda clutch_
 engagement.value("equal_inertia", "I_eq", "kg*m**2", "Inertia that would make the same heat if it did not change",
                  lambda slip_heat, net_torque, clutch_torque, clutch_speed: 2 * slip_heat * net_torque / (clutch_torque * clutch_speed**2),
                  source="energy")
+
+coupling = Chapter("Clutch and offsets of the lines", needs=("timing", "clutch_drives", "clutch_torque"),
+                   absent="not calculated: clutch_drives is not given, or there is no clutch or no cyclogram to take it from")
+coupling.computed("lines_out_of_step", "N_c", "1", "Lines that lose their offset to the others where the clutch engages",
+                  function=on_main_shaft.lines_out_of_step, takes=("clutch_drives", "single_position", "timing"),
+                  method="those that the clutch drives, unless these are all or it engages at one angle only", source="kinematics")
+coupling.words("clutch_lines", on_main_shaft.listed, ("clutch_drives",))
 
 ends_chapter = Chapter("Speed before the ends of the travel", needs=TRAVEL,
                        text="The drive brings the cylinder to rest by itself; dampers that are met before its ends still take what it has there.",

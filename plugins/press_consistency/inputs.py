@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Any, Literal
 
-from diecut_report.api import POINTS, Annotated, CurveInput, FromPress, Inputs, Quantity, Text
+from diecut_report.api import POINTS, Annotated, CurveInput, FromPress, Inputs, MechanismInput, Quantity, Text
 
 
 class PressConsistency(Inputs):
@@ -43,7 +43,7 @@ class PressConsistency(Inputs):
     ] = None
     train: Annotated[str | None, Text("Mechanism that drives the main shaft; without it the only drive_train")] = None
     clutch: Annotated[str | None, Text("Clutch on the crank's shaft; without it the only clutch")] = None
-    timing: Annotated[str | None, Text("Cyclogram of the press; without it the only cyclogram")] = None
+    timing: Annotated[Any | None, MechanismInput("Cyclogram of the press; without it the only cyclogram")] = None
     damper: Annotated[str | None, Text("Dampers at the ends of the travel; without it the only damper")] = None
 
     timing_slack: Annotated[
@@ -125,9 +125,19 @@ class PressConsistency(Inputs):
     clutch_inertia: Annotated[
         float | None, Quantity("J_c", "kg*m**2", "Inertia that the clutch is calculated with", gt=0)
     ] = None
+    clutch_drives: Annotated[list[str], Text("Lines of the cyclogram that the clutch couples, by their names")] = []  # noqa: RUF012
+    single_position: Annotated[bool, Text("Whether the clutch engages at one angle only")] = False
     engagement_angle: Annotated[
         float | None,
         Quantity("φ_e", "deg", "Crank angle at which the clutch engages; without it the worst is taken", ge=0, lt=360),
+    ] = None
+
+    brake_torque: Annotated[float | None, Quantity("M_b", "N*m", "Torque of the brake at the main shaft", gt=0)] = None
+    shaft_torque_mean: Annotated[
+        float | None, Quantity("M_mean", "N*m", "Mean torque of all lines at the main shaft")
+    ] = None
+    lines_energy: Annotated[
+        float | None, Quantity("E_k", "J", "Kinetic energy of all lines, in the mean over the common period", ge=0)
     ] = None
 
     damper_velocity: Annotated[

@@ -23,6 +23,7 @@ PARTNERS = (
     Partner(key="clutch", kinds=("clutch",), takes={
         "clutch_torque": "design_torque", "clutch_load": "load_torque_at_engagement", "clutch_speed": "speed",
         "clutch_inertia": "driven_inertia"}),
-    Partner(key="timing", kinds=("cyclogram",), takes={"timing_slack": "best_margin"}),
+    Partner(key="timing", kinds=("cyclogram",), takes={
+        "timing_slack": "best_margin", "shaft_torque_mean": "torque_mean", "lines_energy": "kinetic_energy_mean"}),
     Partner(key="damper", kinds=("damper",), takes={"damper_velocity": "velocity"}),
 )  # fmt: skip

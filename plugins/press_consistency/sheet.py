@@ -6,8 +6,9 @@ from typing import Any
 
 import numpy as np
 
-from diecut_report.api import Chapter, as_number, bind, formula
+from diecut_report.api import Chapter, as_angle, as_number, bind, formula
 from diecut_report.mechanics import common
+from diecut_report.plugins.press_consistency import on_main_shaft
 
 # fmt: off
 
@@ -59,6 +60,22 @@ rate.value("rate_error", "Δn", "%", "What it makes more than its productivity, 
            needs=("output_turns_per_sheet",))
 rate.value("rate_error", "Δn", "%", "What it makes more than its productivity, relative", rate_error, source="kinematics", needs=("crank_speed",),
            lacks=("output_turns_per_sheet",))
+
+for needs, lacks in ((("output_turns_per_sheet",), ()), (("crank_speed",), ("output_turns_per_sheet",))):
+    rate.listing("times", "Times at the rate that the gears give", on_main_shaft.TIMES, on_main_shaft.times,
+                 ("timing", "productivity", "actual_rate"), needs=("timing", *needs), lacks=lacks)
+
+STOPPED = ("brake_torque", "flywheel_inertia", "flywheel_speed", "shaft_torque_mean", "lines_energy", "productivity", "output_speed")
+stopping = Chapter("Stopping", needs=STOPPED, text="The brake and the mean load take the energy of flywheel and lines; the speed falls evenly.",
+                   absent="not calculated: brake_torque is not given, or flywheel and cyclogram are not there")
+stopping.value("energy_running", "E_0", "J", "Kinetic energy of flywheel and lines",
+               lambda flywheel_inertia, flywheel_speed, lines_energy: flywheel_inertia * flywheel_speed**2 / 2 + lines_energy, source="energy")
+stopping.value("stopping_angle", "Φ_b", "deg", "Angle of the main shaft until it stands",
+               lambda energy_running, brake_torque, shaft_torque_mean: as_angle(energy_running / (brake_torque + shaft_torque_mean)), source="energy")
+for needs, lacks in ((("output_turns_per_sheet",), ()), (("crank_speed",), ("output_turns_per_sheet",))):
+    stopping.value("stopping_time", "t_b", "s", "Time until it stands",
+                   lambda stopping_angle, actual_rate: 2 * as_number(stopping_angle) / (as_number(2 * np.pi) * actual_rate), source="kinematics",
+                   needs=needs, lacks=lacks)
 
 conveyor = Chapter("Inertia of the conveyor", needs=CONVEYOR,
                    text="The wheel moves the conveyor's mass on the way that it makes for each radian.",

@@ -446,3 +446,103 @@ def test_a_study_of_the_timing_goes_machine_by_machine() -> None:
     known = {column.name for column in columns_of(base_config)}
     assert {name for name in rows_found.columns if ".checks." in name} <= known
     assert "cyclogram" in rows_found.slow
+
+
+def clutched(**changes: Any) -> Data:
+    """The checks and outputs of the consistency of a press with a clutch and a cyclogram."""
+    keys = {"kind": "cyclogram"} | keys_of("cross", locks("cutting passing", "cross"))
+    block = {"kind": "press_consistency", "transport": "cross", "clutch_torque": "741 N*m", "productivity": "6000 1/h",
+             "output_speed": f"{100 * 5918.367 / 6000} rpm", "output_turns_per_sheet": 1} | changes  # fmt: skip
+    run = linked({"timing": keys, "consistency": block})
+    assert not run.errors
+    return run.results["consistency"]
+
+
+@pytest.mark.parametrize(
+    ("changes", "status", "demand"),
+    [
+        ({"clutch_drives": ["drive"]}, "fail", 1),
+        ({"clutch_drives": ["drive"], "single_position": True}, "pass", 0),
+        ({"clutch_drives": ["cross", "drive"]}, "pass", 0),
+    ],
+)
+def test_a_friction_clutch_loses_the_offset_of_the_lines_that_it_drives_alone(
+    changes: Data, status: str, demand: float
+) -> None:
+    check = next(each for each in clutched(**changes)["checks"] if each["id"] == "clutch_position")
+    assert (check["status"], check["demand"]) == (status, demand)
+    assert status == "pass" or "so that drive lose the offset" in check["message"]
+
+
+def test_lines_of_a_clutch_must_be_lines() -> None:
+    keys = {"kind": "cyclogram"} | keys_of("cross", locks("cutting", "cross"))
+    block = {"kind": "press_consistency", "transport": "cross", "clutch_torque": "741 N*m", "clutch_drives": ["feeder"]}
+    with pytest.raises(
+        UserError, match="clutch_drives: names feeder, which is not a line of timing; these are drive, cross"
+    ):
+        linked({"timing": keys, "consistency": block})
+
+
+def test_without_the_lines_of_the_clutch_its_position_is_not_checked() -> None:
+    check = next(each for each in clutched()["checks"] if each["id"] == "clutch_position")
+    assert (check["status"], check["missing"]) == ("not_checked", ["clutch_drives"])
+
+
+def test_all_times_are_told_at_the_rate_that_the_gears_give() -> None:
+    times = {row[0]: row[1:] for row in clutched()["listings"]["times"]["rows"]}
+    assert times["sheet"] == pytest.approx([0.6, 3600 / 5918.367])
+    assert times["passing, margin at the end"][0] == pytest.approx(29.2308 * 0.6 / 360, abs=1e-6)
+    assert times["passing, margin at the end"][1] == pytest.approx(29.2308 / 360 * 3600 / 5918.367, abs=1e-6)
+
+
+def test_the_brake_takes_the_energy_of_flywheel_and_lines() -> None:
+    found = clutched(brake_torque="50 N*m", flywheel_inertia="1.15 kg*m**2", flywheel_speed="483.3 rpm")["outputs"]
+    timing = example("cross", "cutting passing")
+    energy = 1.15 * (483.3 * 2 * pi / 60) ** 2 / 2 + number(timing, "kinetic_energy_mean")
+    angle = energy / (50 + 71.3934)
+    assert found["stopping_angle"]["value"] == pytest.approx(angle, rel=1e-5)
+    assert found["stopping_time"]["value"] == pytest.approx(2 * angle / (2 * pi * 5918.367 / 3600), rel=1e-5)
+
+
+def test_the_mean_energy_is_that_of_a_fine_grid() -> None:
+    drive, cross = (base().calculations[name] for name in ("drive", "cross"))
+    own = (np.arange(100_000)[None, :] + 0.5) / 100_000 * 2 * pi
+
+    def curve(calc: Calculation, name: str) -> Any:
+        return calc.sample(name, own, calc.domains["crank_angle"].middle_of(own))[0]
+
+    turned, speed = curve(drive, "cylinder_rotation"), curve(drive, "cylinder_speed")
+    unbalance = 2 * number(drive, "cylinder_radius") * number(drive, "static_unbalance") * np.cos(turned)
+    energy = (number(drive, "reduced_inertia") + unbalance) * speed**2 / 2
+    wheel = 3.57 * curve(cross, "wheel_speed") ** 2 / 2
+    assert number(example("cross", "cutting"), "kinetic_energy_mean") == pytest.approx(
+        energy.mean() + wheel.mean(), rel=1e-5
+    )
+
+
+def test_what_is_not_given_is_listed() -> None:
+    lines = [{"mechanism": "drive", "turns_per_sheet": "1/2"}, {"mechanism": "cross"}]
+    calc = press("cross", locks("cutting", "cross"), lines=lines)
+    said = {f"{what}: {because}" for what, because in listed(calc, "lacking")}
+    assert said == {
+        "carriages of cross against the window: passing of cross is not given",
+        "height over the carriages of cross, carriage_height: station is not given",
+        "margin of cutting: margin is not given; 0 is taken",
+    }
+    station = STATION | {"transport": "cross"}
+    full = press("cross", locks("cutting", "cross", cutting="5 ms"), station=station)
+    assert listed(full, "lacking") == []
+
+
+def test_a_line_without_a_torque_makes_the_sum_too_small_and_is_named() -> None:
+    data = yaml.safe_load(TEXT)["mechanisms"]["feeder"]
+    data.pop("conveyor_mass")
+    keys = {"kind": "cyclogram"} | keys_of("feeder", locks("cutting", "feeder"))
+    timing = linked({"feeder": data, "timing": keys}).calculations["timing"]
+    said = [f"{what}: {because}" for what, because in listed(timing, "lacking")]
+    assert "kinetic energy of feeder: conveyor_mass of feeder is not given; it lends nothing" in said
+
+
+def listed(calc: Calculation, name: str) -> list[list[Any]]:
+    """The rows of a table."""
+    return MechanismHandle(calc, "timing").listing(name)

@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+import math
 from math import degrees
 from typing import Any
 
 import pytest
 
+from diecut_report.engine.figure_views import figures
 from diecut_report.results.mechanism import mechanism_results
 from tests.plugins.test_cyclogram import example, locks, press
 
@@ -72,3 +74,28 @@ def test_a_length_is_told_only_where_one_window_holds_an_interlock() -> None:
     outputs = mechanism_results(press("feeder", locks("contact passing", "feeder")), {})["outputs"]
     assert degrees(outputs["needed_length.0"]["value"]) == pytest.approx(217.8062, abs=NEAR)
     assert "needed_length.1" not in outputs
+
+
+def shapes(name: str) -> list[dict[str, Any]]:
+    """The shapes of a figure of the press with the cam-gear transport."""
+    found = {figure["id"]: figure for figure in figures(example("feeder", "cutting passing"))}
+    assert "error" not in found[name]
+    return list(found[name]["shapes"])
+
+
+def test_the_dwell_is_shaded_and_interlocks_are_brackets_with_their_margins() -> None:
+    drawn = shapes("cyclogram")
+    shades = [shape["points"] for shape in drawn if shape.get("role") == "shade"]
+    edges = sorted(90 * points[0][0] for points in shades)  # 720 degrees are 8 wide
+    assert edges == pytest.approx([141.0056, 501.0056], abs=1e-3)
+    brackets = [shape["points"] for shape in drawn if shape.get("role") == "mark"]
+    assert [90 * points[0][0] for points in brackets[:2]] == pytest.approx([117.1747, 508.0258], abs=1e-3)
+    texts = {shape["text"] for shape in drawn if shape["shape"] == "label"}
+    assert {"-23.83°, -6.892°", "12.62°, 6.839°"} <= texts
+
+
+def test_a_ring_stands_for_each_line() -> None:
+    drawn = shapes("rings")
+    assert sum(shape["shape"] == "circle" for shape in drawn) == 2
+    rests = [shape["end"] - shape["start"] for shape in drawn if shape.get("role") == "outline"]
+    assert rests.count(pytest.approx(math.radians(160 / 2))) >= 2  # the dwell of either sheet: two are once round

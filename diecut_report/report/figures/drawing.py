@@ -20,6 +20,7 @@ from diecut_report.report.i18n import Catalogue
 
 Array = NDArray[Any]
 Shape = Mapping[str, Any]
+BODY = "#f1f4f6"
 DASHED, DASH_DOT = (0, (5, 2.5)), (0, (12, 2, 2, 2))
 ROLES: dict[str, dict[str, Any]] = {
     "outline": {"color": INK, "linewidth": 1.1},
@@ -31,8 +32,8 @@ ROLES: dict[str, dict[str, Any]] = {
     "ghost": {"color": "#93a0ac", "linewidth": 0.8, "zorder": 1.6},
     "mark": {"color": ACCENT, "linewidth": 1.2, "zorder": 4},
     "body": {"color": INK, "linewidth": 0.9},
+    "shade": {"color": BODY, "linewidth": 0.0, "zorder": 1.0},
 }
-BODY = "#f1f4f6"
 HEAD, STOUT = 5.5, 0.28  # of arrows, and what its strokes add to the head
 SMALLER = (1.0, 0.87, 0.75, 0.64, 0.5)  # how much smaller a drawing is tried, so that its texts find places
 WORTH = 25.0  # what stands in the way of texts, for which the drawing is rather made a step smaller
@@ -74,9 +75,10 @@ class Shapes(DrawingSheet):
         points = self._points(shape["points"])
         if shape["closed"]:
             points = np.vstack([points, points[:1]])
-        if shape["role"] == "body":
+        if shape["role"] in ("body", "shade"):
             self.axes.fill(points[:, 0], points[:, 1], color=BODY, linewidth=0, zorder=1)
-        self._line(points, **_look(shape))
+        if shape["role"] != "shade":
+            self._line(points, **_look(shape))
         if shape["role"] == "ground":
             self._ground(points)
 

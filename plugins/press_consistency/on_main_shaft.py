@@ -1,0 +1,52 @@
+"""What the cyclogram tells of the press: which lines a clutch takes out of step, and all times at the rate that the gears give."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from typing import Any
+
+from diecut_report.api import Cell, GivenMechanism, ListedColumn, Refusal
+
+TIMES = (
+    ListedColumn("what", "What"), ListedColumn("time", "At the productivity", "t", "ms"),
+    ListedColumn("actual_time", "At the rate that the gears give", "t_a", "ms"),
+)  # fmt: skip
+MARGIN_START, MARGIN_END, PHASE_TIME = 5, 6, 6  # columns of the cyclogram's tables
+
+
+def lines_out_of_step(drives: tuple[str, ...], single_position: bool, timing: GivenMechanism) -> float:
+    """Return how many lines lose their offset to the others where the clutch engages; Refusal where one is named that is not a line."""
+    lines = timing.texts("lines.mechanism")
+    strange = next((name for name in drives if name not in lines), None)
+    if strange is not None:
+        raise Refusal(
+            "clutch_drives", f"names {strange}, which is not a line of {timing.name}; these are {', '.join(lines)}"
+        )
+    return 0.0 if single_position or set(drives) == set(lines) else float(len(set(drives)))
+
+
+def listed(drives: tuple[str, ...]) -> str:
+    """Return the lines that a clutch drives, in words."""
+    return ", ".join(drives)
+
+
+def times(given: Mapping[str, Any]) -> Iterator[tuple[Cell, ...]]:
+    """Return the times of a sheet, of all phases and of all margins, at the productivity and at the actual rate."""
+    timing: GivenMechanism = given["timing"]
+    slower = float(given["productivity"][0, 0] / given["actual_rate"][0, 0])
+    for what, time in _times(timing):
+        yield what, time, None if time is None else time * slower
+
+
+def _times(timing: GivenMechanism) -> Iterator[tuple[str, float | None]]:
+    yield "sheet", timing.number("sheet_time")
+    yield "common period", timing.number("period_time")
+    for row in timing.listing("main_phases"):
+        yield str(row[0]), _number(row[PHASE_TIME])
+    for row in timing.listing("margins"):
+        yield f"{row[0]}, margin at the start", _number(row[MARGIN_START])
+        yield f"{row[0]}, margin at the end", _number(row[MARGIN_END])
+
+
+def _number(cell: Cell) -> float | None:
+    return cell if isinstance(cell, float) else None
