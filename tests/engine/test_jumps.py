@@ -31,7 +31,7 @@ def test_what_does_not_jump_is_the_same_at_the_end_and_just_inside(path: Any) ->
             with np.errstate(all="ignore"):
                 known = calc.sampler_of(axis, places, pieces.middle[row][:, None], pieces.variant[row])
                 for name in set(curves) - jumps(calc, axis):
-                    values = np.broadcast_to(known[name], places.shape)
+                    values = np.broadcast_to(known[name], places.shape).astype(float)
                     apart = np.abs(values[:, :2] - values[:, [2, -1]])
                     assert (apart <= JUMP * np.abs(values).max()).all(), name
 

@@ -37,6 +37,7 @@ from diecut_report.api import (
     bind,
     formula,
 )
+from diecut_report.contract.between import Between
 from diecut_report.contract.binding import Bound
 from diecut_report.engine import calculate
 from diecut_report.expressions import Node
@@ -392,6 +393,8 @@ def test_but_for_the_angle_kinds_are_those_of_pint() -> None:
     seen = 0
     for mechanism in built_in():
         for name, link, found in of_formulas(mechanism):
+            if isinstance(link.formula, Between):  # takes plain numbers of a table: its kinds have a test of their own
+                continue
             expected = by_pint(link, units_of(mechanism))
             if found is not None and expected is not None:
                 seen += 1
