@@ -101,8 +101,8 @@ class OneOf:
             missing = [key for key in begun[0] if key not in known]
             beside = [key for key in begun[0] if key in known]
             return f"{listed(missing)} is missing beside {listed(beside)}; give {told}."
-        beside = f" with {self.when.replace('=', ': ')}" if self.when else ""
-        return "" if self.optional else f"{told} is needed{beside}."
+        chosen = f" with {self.when.replace('=', ': ')}" if self.when else ""
+        return "" if self.optional else f"{told} is needed{chosen}."
 
 
 def listed(keys: Sequence[str]) -> str:
