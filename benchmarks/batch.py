@@ -32,7 +32,7 @@ from diecut_report.study.execution import worker
 from diecut_report.study.execution.study_run import Where, run_study
 
 CONFIGS = Path(import_module("diecut_report.configs").__path__[0])
-STUDY, BASE = CONFIGS / "flat_cylinder_study.yaml", CONFIGS / "flat_cylinder_press.yaml"
+STUDY, BASE = CONFIGS / "flat_cylinder_study.yaml", CONFIGS / "flat_cylinder_mechanisms.yaml"
 PRESS_ROWS, CORES_ROWS, ROUNDS = 4096, 131072, 5
 SIZES = (1_000, 10_000, 100_000, 1_000_000)
 DRIVE = """\

@@ -36,6 +36,7 @@ BASE: dict[str, float] = {
     "cutting_arc_fraction": 0.712481, "efficiency_sector": 0.96, "efficiency_gear": 1, "efficiency_four_bar": 0.95,
     "efficiency_bearings": 0.99, "efficiency_chain": 0.95, "n_points": 720, "min_transmission_angle": np.radians(40),
     "segment_height": 0.04, "carriage_clearance": 0.03, "crank_length": 0.1, "pinion_radius": 0.07, "pressure_angle": np.radians(20),
+    "standstill_rotation": np.radians(2),
 }  # fmt: skip
 SPANS: dict[str, tuple[float, float]] = {  # of the factors that each variant's inputs are multiplied by
     "frame_ratio": (0.99, 1.03), "rocker_ratio": (0.95, 1.05), "crank_speed": (0.8, 1.2), "cylinder_mass": (0.9, 1.3),

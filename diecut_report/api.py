@@ -6,6 +6,7 @@ from diecut_report.contract.binding import Binding, Bound, ByText, bind
 from diecut_report.contract.chapters import Chapter, Steps
 from diecut_report.contract.charts import chart_panel, fill, level, line, mark, vertical
 from diecut_report.contract.checks import Check
+from diecut_report.contract.code_steps import ComputedCurve, PartNames, PartTable
 from diecut_report.contract.figures import (
     BarGroup,
     Bars,
@@ -66,6 +67,7 @@ from diecut_report.contract.steps import (
     FromCurve,
     MadeCurve,
     Phase,
+    Prepared,
     Reduction,
     Require,
     Root,
@@ -73,6 +75,7 @@ from diecut_report.contract.steps import (
     Value,
     Words,
 )
+from diecut_report.contract.varying import Extremes, Varying
 from diecut_report.expressions import GRAVITY, Constant, Formula, arccos, as_angle, as_number, formula
 from diecut_report.quantities.formatting import below, outward, si, told
 from diecut_report.standards import (
@@ -89,14 +92,15 @@ from diecut_report.standards import (
 
 __all__ = [
     "GRAVITY", "POINTS", "Abscissa", "Accumulated", "Annotated", "BarGroup", "Bars", "Binding", "Block", "Bound", "Breakpoints", "ByText",
-    "Case", "Cell", "Chapter", "Chart", "Check", "Choice", "Clash", "Comparison", "Computed", "Constant", "Crossings", "Curve",
-    "CurveInput",
-    "CurvePeriod", "Derivative", "Drawing", "Erratum", "Formula", "FromCurve", "FromPress", "GivenMechanism", "GivenPhase", "InOtherUnit",
-    "Inputs", "Interpolated", "Level", "ListedColumn", "Lookup", "MadeCurve", "Mark", "Mechanism", "MechanismInput", "Neighbour", "OneOf", "Panel",
-    "Part",
-    "Partner", "Phase", "PhaseInput", "Pick", "Plot", "Point", "Polar", "Profile", "Quantity", "Reduction", "Refusal", "Require", "Root", "Running",
+    "Case", "Cell", "Chapter", "Chart", "Check", "Choice", "Clash", "Comparison", "Computed", "ComputedCurve", "Constant", "Crossings",
+    "Curve",
+    "CurveInput", "CurvePeriod", "Derivative", "Drawing", "Erratum", "Extremes", "Formula", "FromCurve", "FromPress", "GivenMechanism",
+    "GivenPhase", "InOtherUnit", "Inputs", "Interpolated", "Level", "ListedColumn", "Lookup", "MadeCurve", "Mark", "Mechanism", "MechanismInput",
+    "Neighbour",
+    "OneOf", "Panel", "Part", "PartNames", "PartTable", "Partner", "Phase", "PhaseInput", "Pick", "Plot", "Point", "Polar", "Prepared",
+    "Profile", "Quantity", "Reduction", "Refusal", "Require", "Root", "Running",
     "Series", "Shape", "Source", "Span", "Spectrum", "SpectrumLine", "StandardFault", "StandardSeries", "StandardTable", "Step", "Steps",
-    "Text", "Total", "Value", "View", "Words", "arc", "arccos", "arrow", "as_angle", "as_number", "below", "bind", "box", "case",
+    "Text", "Total", "Value", "Varying", "View", "Words", "arc", "arccos", "arrow", "as_angle", "as_number", "below", "bind", "box", "case",
     "chart_panel", "circle", "dimension", "fill", "formula", "label", "level", "line", "mark", "outward", "own_series", "own_table",
     "point", "polyline", "prefixed", "radius_dimension", "region", "si", "standard_series", "standard_series_by", "standard_table",
     "table_beside", "told", "vertical",

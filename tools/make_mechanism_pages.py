@@ -74,7 +74,8 @@ def _inputs(model: type[Block], prefix: str = "") -> Iterator[str]:
 def _choices(model: type[Block]) -> Iterator[str]:
     """What must be given of several, in words."""
     for rule in model.one_of:
-        yield f"\nGive {_groups(rule)}."
+        key, _, text = rule.when.partition("=")
+        yield f"\nWith `{key}: {text}` give {_groups(rule)}." if key else f"\nGive {_groups(rule)}."
 
 
 def _groups(rule: OneOf) -> str:

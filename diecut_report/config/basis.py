@@ -9,6 +9,7 @@ from typing import Any
 from diecut_report.config.validation import ConfigPlace, keys_of, told
 from diecut_report.config.yaml_tree import KeyPath
 from diecut_report.contract.inputs import Block, CurveInput, Quantity
+from diecut_report.contract.varying import Varying
 from diecut_report.errors import Problem, nearest
 
 ASSUMED, GIVEN = "assumed", "given"
@@ -59,6 +60,12 @@ class BasisReader:
             return [self._inner(known.block, part, (*key, index)) for index, part in enumerate(given)]
         if known.block:
             return self._inner(known.block, given, key)
+        if (
+            isinstance(known.meta, Varying)
+            and known.meta.extremes
+            and {"min", "max"} & set(given if isinstance(given, dict) else ())
+        ):
+            return given
         if isinstance(known.meta, Quantity | CurveInput) and isinstance(given, dict):
             return self._stated(known.meta, given, key)
         return given

@@ -11,6 +11,7 @@ from diecut_report.config.basis import Basis
 from diecut_report.config.validation import ConfigPlace, keys_of
 from diecut_report.config.yaml_tree import KeyPath
 from diecut_report.contract.chapters import Chapter
+from diecut_report.contract.code_steps import PartNames
 from diecut_report.contract.inputs import (
     Block,
     CurveInput,
@@ -115,7 +116,10 @@ class Instance:
         """The results that have a value for each part of a list, with that list."""
         if self.mechanism is None:
             return {}
-        lists = set(list_inputs(self.model).values())
+        lists = {
+            *list_inputs(self.model).values(),
+            *(s.id for _, s in self.mechanism.steps if isinstance(s, PartNames)),
+        }
         return {name: home for name, home in self.mechanism.axes(self.given).items() if home in lists}
 
     def value(self, key: KeyPath) -> Any:

@@ -11,6 +11,7 @@ from typing import Any, get_args
 from diecut_report.config import partners, yaml_tree
 from diecut_report.config.basis import BasisReader
 from diecut_report.config.caps import too_much
+from diecut_report.config.curve_keys import linked
 from diecut_report.config.dependency_order import ordered
 from diecut_report.config.discovery import Discovery, DuplicateKind, UnknownKind, said
 from diecut_report.config.hidden_letters import seeming_latin
@@ -75,7 +76,7 @@ def examined(given: Path | Tree, discovery: Discovery, *, only_named: bool = Fal
         raise UserError(excess)
     discovery.extend()
     reader = _ConfigReader(tree, discovery, only_named)
-    linker = Linker(reader.instances)
+    linker = linked(reader.instances)
     order, loops = ordered(reader.instances, linker.links)
     problems = [*reader.problems, *linker.problems, *_wrong_values(reader, linker), *loops]
     if problems:

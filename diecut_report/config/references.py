@@ -21,6 +21,7 @@ from diecut_report.config.validation import declared
 from diecut_report.config.yaml_tree import KeyPath
 from diecut_report.contract.inputs import Block, CurveInput, FromPress, MechanismInput, Meta, Quantity, fields
 from diecut_report.contract.result_names import count_name, has_own_names, named, names_ahead
+from diecut_report.contract.varying import Varying
 from diecut_report.errors import Problem, nearest
 from diecut_report.quantities.units import pretty, unit
 
@@ -221,6 +222,10 @@ class Linker:
             raise Unresolved(
                 f"${{{path}}} is a list that holds references itself ({held[0]}), and cannot be referred to; write its values here."
             )
+        if isinstance(meta, Varying) and _varies(instance.data, key):
+            raise Unresolved(
+                f"${{{path}}} is not a single number, but may vary over a cycle; write here what it is given as."
+            )
         si = unit(meta.unit).si if isinstance(meta, Quantity | CurveInput) else None
         return Target(path, instance.name, key, unit=si, is_curve=isinstance(meta, CurveInput))
 
@@ -256,6 +261,13 @@ def _known(instance: Instance) -> list[str]:
     later = {each.name for step in several for each in names_ahead(step) if each.index > 0}
     single = [name for name in instance.results if name not in later]
     return list(dict.fromkeys([*single, *(name for name, _ in fields(instance.model))]))
+
+
+def _varies(data: Any, key: KeyPath) -> bool:
+    """Whether something else than a number is written there; what is left out has its default, a number."""
+    for part in key:
+        data = data[part] if isinstance(part, int) or part in data else 0
+    return isinstance(data, dict) or (isinstance(data, str) and ("${" in data or data[:1].isalpha()))
 
 
 def _check_index(path: str, data: Any, key: KeyPath) -> None:

@@ -12,7 +12,9 @@ from diecut_report.config.model import Press, Project
 from diecut_report.config.validation import keys_of
 from diecut_report.contract.inputs import Block, CurveInput, MechanismInput, PhaseInput, Quantity, Text
 from diecut_report.contract.mechanism import Mechanism
+from diecut_report.contract.placeholders import OneOf
 from diecut_report.contract.unit_variants import in_all_units
+from diecut_report.contract.varying import Varying
 from diecut_report.limits import MAX_CURVE_VALUES, MAX_MECHANISMS, MAX_PARTS, MAX_TEXT
 from diecut_report.quantities.units import pretty
 
@@ -84,15 +86,25 @@ def _of_kind(mechanism: Mechanism) -> Schema:
 
 def block_schema(model: type[Block], refers: bool = True) -> Schema:
     """Return the schema of a block of keys; its texts may be references where it ``refers``."""
-    groups = [
-        {"anyOf": [{"required": list(group)} for group in rule.groups]} for rule in model.one_of if not rule.optional
-    ]
+    groups = [_needed(model, rule) for rule in model.one_of if not rule.optional]
     return {
         "type": "object",
         "required": [name for name, field in model.model_fields.items() if field.is_required()],
         "additionalProperties": False,
         "properties": {name: _key(model, name, refers) for name in model.model_fields},
     } | ({"allOf": groups} if groups else {})
+
+
+def _needed(model: type[Block], rule: OneOf) -> Schema:
+    """Keys of which one group is needed, where the text of the rule is chosen."""
+    typed_as = {curve: key for key, curve in model.curve_keys.items()}
+    groups = [*rule.groups, *(tuple(typed_as.get(key, key) for key in group) for group in rule.groups)]
+    needed: Schema = {"anyOf": [{"required": list(group)} for group in dict.fromkeys(groups)]}
+    if not rule.when:
+        return needed
+    key, _, text = rule.when.partition("=")
+    typed = {} if model.model_fields[key].default == text else {"required": [key]}
+    return {"if": {"properties": {key: {"const": text}}, **typed}, "then": needed}
 
 
 def _key(model: type[Block], name: str, refers: bool) -> Schema:
@@ -106,6 +118,10 @@ def _key(model: type[Block], name: str, refers: bool) -> Schema:
     match meta:
         case Quantity():
             quantity = _quantity(meta, default, refers) | shown
+            if name in model.curve_keys:
+                curve = keys_of(model)[model.curve_keys[name]].meta
+                assert isinstance(curve, CurveInput), "the declaration check has seen to it"
+                return quantity | {"anyOf": [*quantity["anyOf"], *_curve(curve)["anyOf"]]}
             return quantity | _listed(quantity, len(model.spread[name])) if name in model.spread else quantity
         case CurveInput():
             return _curve(meta)
@@ -165,7 +181,7 @@ def _unit(meta: Quantity | CurveInput) -> str:
 
 
 def _with_unit(number: Any, meta: Quantity) -> str:
-    return f"{number} {pretty(meta.unit)}".rstrip()
+    return f"{number} {'' if number in meta.words else pretty(meta.unit)}".rstrip()
 
 
 def _quantity(meta: Quantity, default: Any, refers: bool) -> Schema:
@@ -180,7 +196,12 @@ def _quantity(meta: Quantity, default: Any, refers: bool) -> Schema:
     said += [f"Default: from {meta.press.path}"] if meta.press else []
     number = {"type": "integer" if meta.integer else "number", **limits}
     text = {"type": "string", "maxLength": MAX_TEXT, "pattern": f"{EXPRESSION}|{NUMBER}" if refers else NUMBER}
-    words = [{"enum": list(meta.words)}] if meta.words else []
+    words: list[Schema] = [{"enum": list(meta.words)}] if meta.words else []
+    if isinstance(meta, Varying) and meta.extremes:
+        ends = {name: {"anyOf": [number, text]} for name in ("min", "max")}
+        words.append({"type": "object", "required": [*ends], "additionalProperties": False, "properties": ends})
+    if meta.listed:
+        number = {"enum": list(meta.listed)}
     return {
         "description": ". ".join(said) + ".",
         "anyOf": [number, *words, text, *([_stated([number, text])] if refers else [])],

@@ -105,7 +105,8 @@ def _choices(model: type[Block], data: Any, place: ConfigPlace, key: KeyPath = (
     if not isinstance(data, dict):
         return
     given = [name for name, value in data.items() if value is not None]
-    for fault in filter(None, (rule.fault(given) for rule in model.one_of)):
+    texts = {name: data.get(name, field.default) for name, field in model.model_fields.items()}
+    for fault in filter(None, (rule.fault(given) for rule in model.one_of if rule.is_asked(texts))):
         yield place.problem(key, fault, at_key=True)
     for name, (_, _, block, is_list) in keys_of(model).items():
         if block and name in data:

@@ -12,6 +12,7 @@ from typing import Any, Literal, Unpack
 
 from diecut_report.contract.between import Between, Interpolation
 from diecut_report.contract.binding import as_binding, bind
+from diecut_report.contract.code_steps import CodeForm
 from diecut_report.contract.listings import ListingForm
 from diecut_report.contract.made_curves import MadeCurveForm
 from diecut_report.contract.options import Options, StepCondition, Written
@@ -44,7 +45,7 @@ from diecut_report.standards import StandardSeries, StandardTable
 
 
 @dataclass(eq=False)
-class Steps(PhaseForm, MadeCurveForm, ListingForm):
+class Steps(PhaseForm, MadeCurveForm, CodeForm, ListingForm):
     """Hold declared steps in the order in which they are calculated; a family of them may be added to several chapters."""
 
     steps: Sequence[Step] = field(default=(), kw_only=True)
@@ -156,12 +157,11 @@ class Steps(PhaseForm, MadeCurveForm, ListingForm):
 
     def computed(
         self, id: str, symbol: str, unit: str, description: str, function: Callable[..., Any], takes: tuple[str, ...], method: str,
-        *, over: str = "", **options: Unpack[Options],
+        *, over: str = "", is_text: bool = False, **options: Unpack[Options],
     ) -> None:  # fmt: skip
         """Declare a number that plain code finds, where no closed formula tells it: see ``Computed``."""
-        self._give(
-            Computed, id, symbol, unit, description, options, function=function, takes=takes, method=method, over=over
-        )
+        own = {"function": function, "takes": takes, "method": method, "over": over, "is_text": is_text}
+        self._give(Computed, id, symbol, unit, description, options, **own)
 
     def curve_period(
         self, id: str, symbol: str, unit: str, description: str, given: str, otherwise: str, **options: Unpack[Options]

@@ -35,6 +35,7 @@ class Quantity:
     ``plausible`` are the least and the greatest size that a machine may have, zero aside, where they are not those of
     the kind of quantity (``quantities.plausible``): ("1 mm", "10 m"). ``words`` are texts that may stand in place of a number,
     and are taken as they are. ``or_unit`` is another kind of unit in which it may be given: it is then an ``InOtherUnit``.
+    ``listed`` are the only numbers that are allowed.
     """
 
     symbol: str
@@ -50,6 +51,7 @@ class Quantity:
     plausible: tuple[str, str] | None = None
     words: tuple[str, ...] = ()
     or_unit: str = ""
+    listed: tuple[float, ...] = ()
     at: str = placed()
 
     @cached_property
@@ -62,6 +64,8 @@ class Quantity:
         """Return the range in words, for example ``> 0 mm, ≤ 80 mm``; empty without bounds."""
         limits = [(sign, getattr(self, name)) for name, sign in BOUNDS]
         shown = pretty(self.unit)
+        if self.listed:
+            return f"{', '.join(f'{value:g}' for value in self.listed)} {shown}".rstrip()
         return ", ".join(f"{sign} {limit:g} {shown}".rstrip() for sign, limit in limits if limit is not None)
 
     def validate(self, given: Any) -> Any:
@@ -128,7 +132,8 @@ class Quantity:
 
     def _within(self, shown: Any) -> Any:
         """Whether numbers in the display unit keep the bounds."""
-        return within(shown, [getattr(self, name) for name, _ in BOUNDS])
+        held = within(shown, [getattr(self, name) for name, _ in BOUNDS])
+        return held & np.isin(np.round(shown, 9), self.listed) if self.listed else held
 
     @cached_property
     def sizes(self) -> Plausible:
@@ -159,6 +164,8 @@ class Block(BaseModel):
     one_of: ClassVar[tuple[OneOf, ...]] = ()
     spread: ClassVar[Mapping[str, tuple[str, ...]]] = {}
     """Keys whose value may be a list, each with the single keys that the values of the list stand for, in order."""
+    curve_keys: ClassVar[Mapping[str, str]] = {}
+    """Keys of numbers whose value may be a curve, each with the key that takes the curve; one of both is needed (``one_of``)."""
 
 
 class Inputs(Block):

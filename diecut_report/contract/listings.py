@@ -29,7 +29,7 @@ class Listing(Prepared):
     It is made only where results are told, of one machine.
     """
 
-    columns: tuple[ListedColumn, ...]
+    heads: tuple[ListedColumn, ...]
 
 
 class ListingForm:
@@ -40,5 +40,5 @@ class ListingForm:
         holds: tuple[str, ...], **when: Unpack[StepCondition],
     ) -> None:  # fmt: skip
         """Declare a table that plain code makes: see ``Listing``."""
-        own: dict[str, Any] = {"columns": columns, "function": function, "holds": holds}
+        own: dict[str, Any] = {"heads": columns, "function": function, "holds": holds}
         self.add(Listing(id=id, description=description, **own, **when))

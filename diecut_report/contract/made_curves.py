@@ -21,6 +21,8 @@ class MadeCurveForm:
         own: dict[str, Any] = {"function": function, "takes": takes, "abscissa": abscissa, "method": method, **options}
         self.add(MadeCurve(id=id, symbol=symbol, unit=unit, description=description, **own))
 
-    def prepared(self: StepHolder, id: str, function: Callable[..., Any], holds: tuple[str, ...]) -> None:
+    def prepared(
+        self: StepHolder, id: str, function: Callable[..., Any], holds: tuple[str, ...], *, for_many: bool = False
+    ) -> None:
         """Declare what plain code makes of inputs once, for steps that take it by its id: see ``Prepared``."""
-        self.add(Prepared(id=id, function=function, holds=holds))
+        self.add(Prepared(id=id, function=function, holds=holds, for_many=for_many))

@@ -8,6 +8,7 @@ from functools import cached_property
 
 from diecut_report.contract.chapters import Chapter
 from diecut_report.contract.checks import Check
+from diecut_report.contract.code_steps import ComputedCurve
 from diecut_report.contract.figures import Figure
 from diecut_report.contract.inputs import CurveInput, Inputs, fields, list_inputs
 from diecut_report.contract.part_steps import Lookup, Neighbour, Running
@@ -38,7 +39,7 @@ def axes(steps: tuple[Step, ...], inputs: type[Inputs]) -> dict[str, str]:
         match step:
             case Abscissa():
                 found[step.id] = step.id
-            case FromCurve():
+            case FromCurve() | ComputedCurve():
                 found[step.id] = step.abscissa
             case Accumulated(of=of) | Derivative(of=of) | Neighbour(of=of) | Running(of=of):
                 found[step.id] = found[of]
@@ -52,6 +53,13 @@ def axes(steps: tuple[Step, ...], inputs: type[Inputs]) -> dict[str, str]:
                     raise ValueError(f"{step.id} mixes {' and '.join(sorted(own))}")
                 found |= {step.id: own.pop()} if own else {}
     return found
+
+
+def is_text(step: Step) -> bool:
+    """Return whether a step gives a text."""
+    if isinstance(step, Computed):
+        return step.is_text
+    return isinstance(step, Choice) and isinstance(step.cases[0].value, str)
 
 
 @dataclass(frozen=True, eq=False)
@@ -176,7 +184,7 @@ class Mechanism:
                 of_place = found[self.axis_of(step.of, given) or ""][0] if each.role == "place" else None  # type: ignore[attr-defined]
                 found[each.name] = {"count": "1", "place": of_place}.get(each.role, si), False
             if not isinstance(step, Crossings):
-                text = isinstance(step, Choice) and isinstance(step.cases[0].value, str)
+                text = is_text(step)
                 found[step.id] = None if text else si, self.axis_of(step.id, given) is not None
         return found
 

@@ -60,7 +60,8 @@ def _completing(mechanism: Mechanism, missing: frozenset[str], given: frozenset[
     if any(key.rpartition(".")[0] not in given for key in missing if "." in key):  # of a block that is not there
         return None
     known = {key for key in given if "=" not in key}
-    if any(_clashes(rule, home, known, missing) for home, rule in _rules(mechanism.inputs)):
+    rules = [each for each in _rules(mechanism.inputs) if not each[1].when or "".join((each[0], each[1].when)) in given]
+    if any(_clashes(rule, home, known, missing) for home, rule in rules):
         return None
     return missing
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any, Protocol
 
@@ -45,6 +45,14 @@ class Curve(Protocol):
     def breakpoints(self) -> Array:
         """Return the inner edges of the curve's smooth pieces, as shares, ascending, shape (variants, places)."""
 
+    @property
+    def joints(self) -> Array:
+        """Return those of them where the curve jumps or has a corner."""
+
+    @property
+    def cycle(self) -> str:
+        """Return the id of what the curve runs over: of two curves over one cycle it is the same."""
+
 
 @dataclass(frozen=True)
 class FromPress:
@@ -62,11 +70,19 @@ class OneOf:
     """Name inputs of which one group is needed: ``OneOf(("torque",), ("power", "speed"))``.
 
     One group must be given completely, and nothing of another one, but for the keys that are ``shared``: these have a use
-    beside each group. Where it is ``optional`` a default holds without any of the keys.
+    beside each group. Where it is ``optional`` a default holds without any of the keys. With ``when`` it is asked only where
+    a text of the same block is chosen: ``when="use=drive"``.
     """
 
-    def __init__(self, *groups: tuple[str, ...], shared: tuple[str, ...] = (), optional: bool = False) -> None:
-        self.groups, self.shared, self.optional = groups, shared, optional
+    def __init__(
+        self, *groups: tuple[str, ...], shared: tuple[str, ...] = (), optional: bool = False, when: str = ""
+    ) -> None:
+        self.groups, self.shared, self.optional, self.when = groups, shared, optional, when
+
+    def is_asked(self, texts: Mapping[str, Any]) -> bool:
+        """Return whether the text is chosen with which the rule holds, of the values of a block with their defaults."""
+        key, _, text = self.when.partition("=")
+        return not key or texts.get(key) == text
 
     def fault(self, given: Iterable[str]) -> str:
         """Return what is wrong with the keys that are given, in words; empty where nothing is."""
@@ -85,7 +101,8 @@ class OneOf:
             missing = [key for key in begun[0] if key not in known]
             beside = [key for key in begun[0] if key in known]
             return f"{listed(missing)} is missing beside {listed(beside)}; give {told}."
-        return "" if self.optional else f"{told} is needed."
+        beside = f" with {self.when.replace('=', ': ')}" if self.when else ""
+        return "" if self.optional else f"{told} is needed{beside}."
 
 
 def listed(keys: Sequence[str]) -> str:

@@ -174,13 +174,14 @@ class Computed(Step):
 
     ``function`` takes the quantities ``takes`` by position: numbers as arrays of shape (variants, 1), texts, the handles of
     curve inputs (``Curve`` in ``contract.given``). It gives an array of shape (variants, 1), SI; of shape (variants, parts) where
-    it gives a row for the list ``over``.
+    it gives a row for the list ``over``, or for what ``PartNames`` declares; or with ``is_text`` a text for each variant.
     """
 
     function: Callable[..., Any]
     takes: tuple[str, ...]
     method: str
     over: str = ""
+    is_text: bool = False
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -283,14 +284,15 @@ class Phase(Step):
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class Prepared(Step):
-    """Declare what plain code makes of a machine once, and several steps ask: any object, no quantity.
-
-    ``function`` takes one mapping: of the inputs and quantities ``holds`` those that there are, in the form in which
-    ``Computed`` takes them.
-    """
+    """Declare an object that plain code makes of a machine once (``for_many``: of many at once) of those of ``holds`` that there are."""
 
     function: Callable[..., Any]
     holds: tuple[str, ...]
+    for_many: bool = False
 
 
-SILENT = Breakpoints | Require | Clash | Words | Phase | Prepared  # steps that give no quantity
+class SilentStep(Step):
+    """Declare the base of other steps that give no quantity."""
+
+
+SILENT = Breakpoints | Require | Clash | Words | Phase | Prepared | SilentStep  # steps that give no quantity

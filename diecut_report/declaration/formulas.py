@@ -7,6 +7,7 @@ from inspect import signature
 from typing import Any
 
 from diecut_report.contract.binding import Binding, Bound, ByText, bound
+from diecut_report.contract.code_steps import ComputedCurve
 from diecut_report.contract.mechanism import Mechanism
 from diecut_report.contract.part_steps import Lookup, Pick
 from diecut_report.contract.steps import Case, Choice, Prepared, Root, Step
@@ -96,10 +97,18 @@ def _choices(step: Step, names: DeclaredNames, when: When) -> Iterator[str]:
     if hasattr(step, "function") and not callable(function):
         yield f"the function is {function!r}, which cannot be called; name one without brackets"
     elif callable(function):
-        yield from _signature(function, 1 if isinstance(step, Prepared) else len(getattr(step, "takes", ())))
+        if isinstance(step, ComputedCurve):
+            yield from _signature(
+                function, OF_CURVE, "it is called with the object, x, the middles of the pieces and the rows"
+            )
+        else:
+            yield from _signature(function, 1 if isinstance(step, Prepared) else len(getattr(step, "takes", ())))
 
 
-def _signature(function: Callable[..., object], given: int) -> Iterator[str]:
+OF_CURVE = 4  # what the function of a computed curve takes
+
+
+def _signature(function: Callable[..., object], given: int, called: str = "") -> Iterator[str]:
     """A function that cannot be called with so many things by position."""
     try:
         parameters = signature(function)
@@ -109,7 +118,8 @@ def _signature(function: Callable[..., object], given: int) -> Iterator[str]:
         parameters.bind(*range(given))
     except TypeError:
         asked = [p for p in parameters.parameters.values() if p.default is p.empty and p.kind is not p.VAR_POSITIONAL]
-        yield f"its function takes {len(asked)}, and takes names {given}: each is given by its position"
+        named = called or f"takes names {given}: each is given by its position"
+        yield f"its function takes {len(asked)}, and {named}"
 
 
 def _complete(names: DeclaredNames, by: str, rows: Mapping[str, Any], when: When, what: str) -> Iterator[str]:

@@ -12,7 +12,7 @@ from pydantic import PydanticSchemaGenerationError, TypeAdapter
 from pydantic.fields import FieldInfo
 
 from diecut_report.contract.bounds import BOUNDS
-from diecut_report.contract.inputs import Block, Meta, Quantity, Text, meta_of, nested
+from diecut_report.contract.inputs import Block, CurveInput, Meta, Quantity, Text, meta_of, nested
 from diecut_report.contract.mechanism import Mechanism
 from diecut_report.declaration.input_places import of_class, of_field
 from diecut_report.declaration.names import DeclaredNames
@@ -65,10 +65,18 @@ def _block(model: type[Block], place: str, prefix: str = "") -> Iterator[Fault]:
         if inner:
             yield from _block(inner[0], place, f"{prefix}{name}.")
     for rule in model.one_of:
-        for key in sorted(set().union(*rule.groups, rule.shared) - set(model.model_fields)):
+        for key in sorted(
+            set().union(*rule.groups, rule.shared, filter(None, [rule.when.partition("=")[0]]))
+            - set(model.model_fields)
+        ):
             yield Fault(place, f"one_of of {model.__name__}", f"names {key}, which is not an input{nearest(key, model.model_fields)}")  # fmt: skip
     for key in sorted({single for keys in model.spread.values() for single in keys} - set(model.model_fields)):
         yield Fault(place, f"spread of {model.__name__}", f"names {key}, which is not an input{nearest(key, model.model_fields)}")  # fmt: skip
+    known = {name: meta_of(model, name) for name in model.model_fields}
+    for key, curve in model.curve_keys.items():
+        if not isinstance(known.get(key), Quantity) or not isinstance(known.get(curve), CurveInput):
+            text = f"lay {key} on {curve}; a Quantity and a CurveInput of the inputs are needed"
+            yield Fault(place, f"curve_keys of {model.__name__}", text)
 
 
 def _absent(declared: FieldInfo) -> Iterator[str]:

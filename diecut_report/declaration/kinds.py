@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from diecut_report.contract.binding import Binding, bound
+from diecut_report.contract.code_steps import ComputedCurve, PartNames, PartTable
 from diecut_report.contract.mechanism import Mechanism
 from diecut_report.contract.part_steps import (
     Lookup,
@@ -44,10 +45,11 @@ NUMBER, ROW, CURVE = (
     frozenset({"number", "row", "curve", "abscissa"}),
 )
 CURVE_INPUT = frozenset({"curve input"})
-PLAIN = ROW | {"text", "curve input", "phase", "mechanism", "prepared", "crossings"}
+PARTS = frozenset({"list of parts"})
+PLAIN = ROW | {"text", "curve input", "phase", "mechanism", "prepared", "crossings", "varying"}
 SAID = {
     NUMBER: "a single number", ROW: "a number or a row over repeated parts", CURVE: "a number, a row or a curve",
-    CURVE_INPUT: "an input declared as a CurveInput",
+    CURVE_INPUT: "an input declared as a CurveInput", PARTS: "the id of PartNames",
 }  # fmt: skip
 Asked = tuple[str, str, frozenset[str], str]  # the field, the name in it, what it may be, and what is wanted in words
 
@@ -101,11 +103,14 @@ def _asked(step: Step) -> Iterator[Asked]:
             yield from (
                 ("takes", name, ROW | {"text", "prepared"} | CURVE_INPUT, "a number or a text") for name in step.takes
             )
-        case Computed() | MadeCurve():
+        case Computed() | MadeCurve() | PartNames():
             yield from (
                 ("takes", name, PLAIN, "a number, a text, or what is taken by reference") for name in step.takes
             )
             yield from _over(step)
+        case PartTable(parts=parts, columns=columns):
+            yield "parts", parts, PARTS, ""
+            yield from (("columns", name, frozenset({"row"}), "a row over repeated parts") for name in columns)
         case Clash():
             yield from (("takes", name, ROW, "") for name in step.takes)
         case _:
@@ -127,6 +132,9 @@ def _over(step: Step) -> Iterator[Asked]:
             yield "abscissa", abscissa, *axis
             yield from (("given", given, CURVE_INPUT, ""),) if given else ()
             yield from ((f, getattr(step, f), NUMBER, "") for f in ("start", "lasts") if getattr(step, f))
+        case ComputedCurve(abscissa=abscissa, of=of):
+            yield "abscissa", abscissa, *axis
+            yield "of", of, frozenset({"prepared"}), "what is prepared"
         case Prepared(holds=holds):
             yield from (("holds", name, PLAIN | {"block"}, "an input or a number") for name in holds)
         case Phase(abscissa=abscissa, spans=spans, period=period):

@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from functools import cached_property
 from typing import NamedTuple
 
+from diecut_report.contract.code_steps import ComputedCurve, PartNames, PartTable
 from diecut_report.contract.inputs import CurveInput, MechanismInput, PhaseInput, Quantity, Text
 from diecut_report.contract.mechanism import Mechanism
 from diecut_report.contract.part_steps import Lookup, Neighbour, Running
@@ -29,9 +30,10 @@ from diecut_report.contract.steps import (
     Value,
     Words,
 )
+from diecut_report.contract.varying import Varying
 from diecut_report.declaration.world import Key, When, World, world
 
-NO_QUANTITY = Breakpoints | Require | Clash | Phase
+NO_QUANTITY = Breakpoints | Require | Clash | Phase | PartTable
 
 
 class Giver(NamedTuple):
@@ -84,7 +86,18 @@ class DeclaredNames:
             return
         when = self.when(number)
         for kind, axis in _kinds(step, found):
-            yield step.id, Giver(when, kind, axis, None if kind == "text" else step.unit, step, number, step.units)
+            yield (
+                step.id,
+                Giver(
+                    when,
+                    kind,
+                    axis,
+                    None if kind in ("text", "prepared", "list of parts") else step.unit,
+                    step,
+                    number,
+                    step.units,
+                ),
+            )
         for each in names_ahead(step):
             if each.role == "place" and isinstance(step, Reduction):
                 places = [axis for curve in found.get(step.of, ()) for axis in found.get(curve.axis, ())]
@@ -123,6 +136,8 @@ def _input(key: Key) -> Giver:
     match key.meta:
         case _ if key.is_block:
             kind = "block"
+        case Varying():
+            return Giver(when, "varying", key.home, key.meta.unit)
         case Quantity():
             return Giver(when, kind, key.home, key.meta.unit, units=key.meta.units)
         case PhaseInput():
@@ -154,7 +169,11 @@ def _kinds(step: Step, found: dict[str, list[Giver]]) -> set[tuple[str, str]]:
             return {("text", axis) for _, axis in over(*_names(step))} or {("text", "")}
         case Abscissa():
             return {("abscissa", step.id)}
-        case FromCurve(abscissa=axis):
+        case Computed(is_text=True):
+            return {("text", "")}
+        case PartNames():
+            return {("list of parts", "")}
+        case FromCurve(abscissa=axis) | ComputedCurve(abscissa=axis):
             return {("curve", axis)}
         case Crossings():
             return {("crossings", "")}

@@ -84,7 +84,10 @@ class World:
             *(t for other in never for t in sorted(other.needs | other.lacks)),
         ]
         paths = [token.partition("=")[0] for token in tokens]
-        grouped = [{f"{home}{key}" for group in rule.groups for key in group} for home, rule in self.rules]
+        grouped = [
+            {f"{home}{key}" for key in chain((rule.when.partition("=")[0],) * bool(rule.when), *rule.groups)}
+            for home, rule in self.rules
+        ]
         paths += [key for keys in grouped if keys.intersection(paths) for key in sorted(keys)]
         found = [above for path in paths for above in (*_above(path), path)]
         return [path for path in dict.fromkeys(found) if path in self.keys]
@@ -106,6 +109,8 @@ class World:
 def _keeps(home: str, rule: OneOf, known: Mapping[str, Given], keys: Mapping[str, Key]) -> bool:
     """Whether a rule lets these be given; a key with a default is there without being typed, so that it may stand in no group."""
     names = {key: f"{home}{key}" for group in rule.groups for key in group}
+    if rule.when and not _holds(f"{home}{rule.when}", known):
+        return True
     if not all(path in known for path in names.values()) or (home and known.get(home.removesuffix(".")) is None):
         return True
     typed = [key for key, path in names.items() if known[path] is not None and not keys[path].has_default]

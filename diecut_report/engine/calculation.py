@@ -10,12 +10,14 @@ from weakref import proxy
 import numpy as np
 
 from diecut_report.contract.binding import Binding, bound
+from diecut_report.contract.code_steps import ComputedCurve
 from diecut_report.contract.inputs import Meta, Quantity, fields, texts_given
 from diecut_report.contract.mechanism import Mechanism
 from diecut_report.contract.phase_inputs import TakenWhole
 from diecut_report.contract.steps import Accumulated, Choice, Derivative, FromCurve, Step, Value
 from diecut_report.contract.unit_variants import in_form
 from diecut_report.engine import named_quantity
+from diecut_report.engine.input_rows import alone, row
 from diecut_report.engine.numerics.chebyshev import PieceSeries
 from diecut_report.engine.numerics.curve_evaluation import MANY, Curves
 from diecut_report.engine.numerics.domain import Domain
@@ -23,7 +25,7 @@ from diecut_report.engine.numerics.sample_cache import SampleCache
 from diecut_report.expressions import Array
 
 Found = tuple[Array, Array, Array]  # of an extreme: value, place, middle of its piece
-CurveStep = Value | Choice | FromCurve | Accumulated | Derivative
+CurveStep = Value | Choice | FromCurve | ComputedCurve | Accumulated | Derivative
 
 
 class Impossible(Exception):
@@ -55,6 +57,11 @@ class CurveHandle:
     def abscissa(self) -> Step:
         """Return what the curve runs over, as it is declared."""
         return self.calculation.steps[self.calculation.axis[self.curve_id]]
+
+    @property
+    def cycle(self) -> str:
+        """Return the id of what the curve runs over: of two curves over one cycle it is the same."""
+        return self.abscissa.id
 
     def values(self, share: Array, middle: Array, rows: Array | None) -> Array:
         """Return values at shares of the period, shape (rows, points), each in the smooth piece of its middle (a share too).
@@ -102,6 +109,7 @@ class SampledCurve:
         return np.arange(len(self.numbers))[None, :] / len(self.numbers)
 
     joints = breakpoints
+    cycle = "list"  # of values, over whatever takes it
 
     def gain(self, rows: Array | None) -> Array:
         """Return nothing: the curve closes."""
@@ -132,6 +140,7 @@ class Calculation:
         self.values: dict[str, Array] = {}
         self.curves: dict[str, CurveStep] = {}
         self.domains: dict[str, Domain] = {}
+        self.part_names: dict[str, tuple[str, ...]] = {}  # of the repeated parts that follow from the inputs
         self.series: dict[str, PieceSeries] = {}
         self.branch: dict[str, Array] = {}  # for each choice, the case taken by each variant
         self.middle: dict[str, Array] = {}  # for each place of an extreme, the middle of its smooth piece
@@ -240,6 +249,9 @@ class CurveSampler:
         match step:
             case FromCurve():
                 return self._taken_over(step)
+            case ComputedCurve():
+                found: Array = step.function(self.owner.inputs[step.of], self.x, self.mid, self.rows)
+                return found
             case Accumulated() | Derivative():
                 return self.owner.series[name].values(self.x, self.mid, self.rows)
             case Value(per_piece=True) | Choice(per_piece=True) if self.mid is not self.x:
@@ -278,16 +290,10 @@ def _column(value: Any, variants: int) -> Any:
         case bool() | str() | CurveHandle() | SampledCurve() | TakenWhole():
             return value
         case tuple():
-            return _row(value, variants)
+            return row(value, variants)
         case np.ndarray():
             return np.ascontiguousarray(value, dtype=float).reshape(variants, -1)
-    return np.full((variants, 1), value, dtype=float)
-
-
-def _row(value: tuple[Any, ...], variants: int) -> Any:
-    if any(isinstance(v, str | bool | tuple | TakenWhole | type(None)) for v in value):
-        return value
-    return np.stack([np.broadcast_to(np.asarray(v, dtype=float), (variants,)) for v in value], axis=1)
+    return alone(value, variants)
 
 
 __all__ = ["Calculation", "CurveHandle", "CurveSampler", "Impossible", "SampledCurve", "Side", "Unproven"]

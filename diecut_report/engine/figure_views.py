@@ -58,7 +58,7 @@ class MachineView:
 
     def words(self, name: str) -> list[str]:
         """Return a text input of all repeated parts."""
-        return [str(text) for text in self.calc.inputs[name]]
+        return [str(text) for text in self.calc.part_names.get(name) or self.calc.inputs[name]]
 
     def curve(self, name: str) -> list[float]:
         """Return a curve (or an abscissa) at the samples of the results, SI."""

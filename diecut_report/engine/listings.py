@@ -20,8 +20,8 @@ def rows(calc: Calculation, step: Listing) -> list[list[Cell]]:
     known = {name: calc[name] for name in step.holds if name in calc.values or name in calc.inputs}
     found = [[_plain(cell) for cell in row] for row in step.function(known)]
     for row in found:
-        if len(row) != len(step.columns) or any(isinstance(cell, float) and not math.isfinite(cell) for cell in row):
-            words = f"step {step.id}: its function gives the row {row}; {len(step.columns)} texts and finite numbers are wanted"
+        if len(row) != len(step.heads) or any(isinstance(cell, float) and not math.isfinite(cell) for cell in row):
+            words = f"step {step.id}: its function gives the row {row}; {len(step.heads)} texts and finite numbers are wanted"
             raise Misdeclared(words, step.at)
     return found
 
@@ -36,7 +36,7 @@ def results(calc: Calculation) -> Data:
     for step in calc.steps.values():
         if isinstance(step, Listing):
             columns = [
-                {"id": each.id, "description": each.description, "unit": unit(each.unit).si} for each in step.columns
+                {"id": each.id, "description": each.description, "unit": unit(each.unit).si} for each in step.heads
             ]
             found[step.id] = {"description": step.description, "columns": columns, "rows": rows(calc, step)}
     return {"listings": found} if found else {}
@@ -44,8 +44,8 @@ def results(calc: Calculation) -> Data:
 
 def printed(calc: Calculation, step: Listing) -> list[Data]:
     """Return a listing as a table of the calculation; none where it has no rows."""
-    columns = [{"title": each.description, "symbol": each.symbol, "unit": each.unit} for each in step.columns]
-    factors = [unit(each.unit).factor for each in step.columns]
+    columns = [{"title": each.description, "symbol": each.symbol, "unit": each.unit} for each in step.heads]
+    factors = [unit(each.unit).factor for each in step.heads]
     lines = [[_text(cell, factor) for cell, factor in zip(row, factors, strict=True)] for row in rows(calc, step)]
     return [{"type": "table", "title": step.description, "columns": columns, "rows": lines}] if lines else []
 

@@ -204,6 +204,12 @@ class _Filler:
         description: str = row["description"]
         return description if number is None else self.words.say("nth", text=description, n=number)
 
+    def _of_part(self, check: Data) -> str:
+        """The title of a check, with the part of a row that governs."""
+        if "part_name" in check:
+            return f"{check['title']}, {check['part_name']}"
+        return self._nth({"description": check["title"]}, check.get("part"))
+
     def _files(self) -> Iterator[File]:
         """The files beside the report."""
         mechanism = self.mechanism
@@ -227,7 +233,7 @@ class _Filler:
             chapter=self.part.letter,
             chapter_title=self.part.title,
             anchor=f"c-{self.part.letter}-{check['id']}",
-            title=self._nth({"description": check["title"]}, check.get("part")),
+            title=self._of_part(check),
             status=check["status"],
             demand=texts["demand"],
             demand_label=check["demand_label"],

@@ -83,7 +83,7 @@ def document(results: Data, equations: Equations, words: Catalogue) -> ReportDoc
         checks=checks,
         unchecked=[row for row in every if row.status == "not_checked"],
         notes=list(_notes(every, words)),
-        failures=[row for row in checks if row.status == "fail"],
+        failures=_failures(checks),
         press_rows=[rested(quantity_row(row, decimal), row, words) for row in results["press"]["fields"]],
         chapters=chapters,
         sources=_sources(results),
@@ -150,6 +150,11 @@ def _counts(checks: list[CheckRow], chapters: list[PrintedChapter], words: Catal
         yield words.say("count_pass" if found["pass"] > 1 else "count_pass_one", n=found["pass"])
     if found["not_checked"]:
         yield words.say("count_not_checked", n=found["not_checked"])
+
+
+def _failures(checks: list[CheckRow]) -> list[CheckRow]:
+    """Return what fails, first what the machine does not do that it is for, then what breaks."""
+    return sorted((row for row in checks if row.status == "fail"), key=lambda row: row.check_class != "function")
 
 
 def _notes(checks: list[CheckRow], words: Catalogue) -> Iterator[str]:

@@ -118,7 +118,7 @@ class Tables:
         parts = list(enumerate(check["parts"], 1))
         columns = [self._side(check, side) for side in ("demand", "limit")]
         columns += [PrintedColumn(self.words[key], Markup(""), "", "", "") for key in ("utilisation", "verdict")]
-        lines = [(str(number), self._judged(check, part)) for number, part in parts]
+        lines = [(part.get("name", str(number)), self._judged(check, part)) for number, part in parts]
         return PartsTable(self._number(), check["title"], "", columns, lines)
 
     def _side(self, check: Data, side: str) -> PrintedColumn:

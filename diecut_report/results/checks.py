@@ -19,6 +19,7 @@ from diecut_report.results import unchecked
 Data = dict[str, Any]
 Status = Literal["pass", "warn", "fail", "not_checked"]
 ROUNDING = 1e-12
+AT_LIMIT = 1e-9  # relative
 PLACE_DIGITS = 6
 
 
@@ -149,13 +150,19 @@ def _check(calc: Calculation, check: Check) -> Data:
         "message": message[0].upper() + message[1:],
         **{key: text for key, text in told.items() if key.endswith(("_label", "_display"))},
         **_further(calc, check, found, pair, part),
-        **({"sized_to_limit": True} if is_sized(calc.given, check) else {}),
+        **({"sized_to_limit": True} if is_sized(calc.given, check) or _is_at_limit(told) else {}),
     }
 
 
 def is_sized(given: frozenset[str], check: Check) -> bool:
     """Return whether the program sized what a check compares to its limit, so that the check shows no reserve."""
     return check.sized_unless is not None and given.isdisjoint(check.sized_unless)
+
+
+def _is_at_limit(told: Data) -> bool:
+    """Whether a size that passes is its limit, as one that was taken over from it, and so neither shows nor lacks a reserve."""
+    ratio = told["utilisation"]
+    return told["status"] == "pass" and ratio is not None and abs(ratio - 1) <= AT_LIMIT
 
 
 def _told(check: Check, found: JudgedCheck, pair: int, part: int) -> Data:
@@ -194,12 +201,19 @@ def _where(calc: Calculation, check: Check, pair: int, part: int, count: int) ->
         return "", {"part": check.part_name, "index": check.index}
     if _is_row(calc, check):
         places: dict[str, int | str] = {"part": part + 1, "next": (part + 1) % count + 1, "index": part}
-        return f" at part {part + 1} of {count}", places
+        names = _part_names(calc, check)
+        return f" at {names[part]}" if names else f" at part {part + 1} of {count}", places
     return "", {}
 
 
 def _is_row(calc: Calculation, check: Check) -> bool:
     return any(name in calc.axis and calc.axis[name] not in calc.domains for name in check.named)
+
+
+def _part_names(calc: Calculation, check: Check) -> tuple[str, ...]:
+    """The names of the parts that a check runs over, where they have some."""
+    found = (calc.part_names.get(calc.axis.get(name, "")) for name in check.named)
+    return next((names for names in found if names), ())
 
 
 def _at(calc: Calculation, check: Check, pair: int) -> dict[str, str]:
@@ -218,7 +232,9 @@ def _further(calc: Calculation, check: Check, found: JudgedCheck, pair: int, par
     there = found.there[0].T
     pairs = worst(found.demand[0].T, found.limit[0].T, found.held[0].T, found.ratio[0].T, there)
     parts = [_told(check, found, int(p), i) if there[i].any() else {"status": None} for i, p in enumerate(pairs)]
-    return {"part": part + 1, "parts": parts}
+    names = _part_names(calc, check)
+    told = [one | {"name": name} for one, name in zip(parts, names, strict=True)] if names else parts
+    return {"part": part + 1, "parts": told} | ({"part_name": names[part]} if names else {})
 
 
 def _texts(demand: float, limit: float, display: str) -> dict[str, dict[str, str]]:

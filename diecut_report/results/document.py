@@ -14,8 +14,10 @@ from diecut_report.config.model import PRESS, Press
 from diecut_report.config.source_hashes import plugin_code, program_hash
 from diecut_report.config.targets import Node
 from diecut_report.config.validation import declared, keys_of
+from diecut_report.config.yaml_tree import KeyPath
 from diecut_report.contract.inputs import Block, CurveInput, InOtherUnit, Quantity, TakenWhole, flatten
 from diecut_report.contract.mechanism import Mechanism
+from diecut_report.contract.varying import Extremes
 from diecut_report.engine import CurveHandle
 from diecut_report.limits import MAX_COMPARISONS
 from diecut_report.quantities.formatting import as_given, shortest
@@ -158,7 +160,7 @@ def _plain(block: Block, node: Node, instance: Instance, bases: Bases) -> Data:
 
 def _idle(block: Block, values: Data) -> Iterator[str]:
     """Return the defaults that have no use beside what is given: as given keys they would be refused."""
-    for rule in type(block).one_of:
+    for rule in filter(lambda rule: rule.is_asked(values), type(block).one_of):
         fault = rule.fault(values)
         defaults = [name for name in values if name not in block.model_fields_set] if fault else []
         yield from (name for name in defaults if rule.fault(values.keys() - {name}) != fault)
@@ -172,7 +174,9 @@ def _plain_value(block: Block, node: Node, value: Any, instance: Instance, bases
         case [Block(), *_]:
             return [_plain(part, (*node, index), instance, bases) for index, part in enumerate(value)]
         case CurveHandle(calculation=_):
-            return instance.data[str(node[-1])]
+            return _written(instance.data, node[1:])
+        case Extremes(low=low, high=high) if isinstance(meta, Quantity):
+            return {"min": as_given(low, meta.unit), "max": as_given(high, meta.unit)}
         case InOtherUnit(value=number, unit=unit):
             return as_given(number, unit)
         case TakenWhole():
@@ -182,6 +186,13 @@ def _plain_value(block: Block, node: Node, value: Any, instance: Instance, bases
         case int() | float() if isinstance(meta, Quantity):
             return _resting(as_given(value, meta.unit) if isinstance(value, float) else value, node, bases)
     return value
+
+
+def _written(data: Any, key: KeyPath) -> Any:
+    """What stands in the file at a key."""
+    for part in key:
+        data = data[part]
+    return data
 
 
 def _resting(value: Any, node: Node, bases: Bases) -> Any:

@@ -14,6 +14,7 @@ from diecut_report.contract.inputs import CurveInput, Quantity, TakenWhole, list
 from diecut_report.contract.result_names import ResultName, count_name, pattern, place_name, result_names
 from diecut_report.contract.spectra import Spectrum, SpectrumLine
 from diecut_report.contract.steps import SILENT, Crossings, Step
+from diecut_report.contract.varying import Varying
 from diecut_report.engine import Calculation, listings
 from diecut_report.engine.calculation import Unproven
 from diecut_report.engine.figure_views import figures
@@ -25,6 +26,7 @@ from diecut_report.results.exports import exports
 from diecut_report.results.phases import phases, phases_absent
 from diecut_report.results.summary import RANK, counts, failed_self_tests
 from diecut_report.results.unchecked import missing
+from diecut_report.results.varying_inputs import varying
 
 Data = dict[str, Any]
 
@@ -69,7 +71,7 @@ def mechanism_results(calc: Calculation, provenance: Mapping[str, Provenance]) -
         "assumptions": list(mechanism.assumptions),
         "sources": [{"id": s.id, "citation": s.citation} for s in mechanism.sources],
         "inputs": inputs(calc, provenance),
-        "lists": list_titles(mechanism.inputs),
+        "lists": list_titles(mechanism.inputs) | {name: calc.steps[name].description for name in calc.part_names},
         **numbers(calc),
         **listings.results(calc),
         "curves": curves(calc),
@@ -141,6 +143,8 @@ def inputs(calc: Calculation, provenance: Mapping[str, Provenance]) -> Data:
         parted = name in calc.axis
         parts = row[0] if parted and isinstance(row, np.ndarray) else row if parted else [row]
         for index, part in enumerate(parts):
+            if part is None:  # left out of this part of the list
+                continue
             home = calc.axis[name] if parted else ""
             path = f"{home}.{index}{name.removeprefix(home)}" if parted else name
             found[path] = _input(meta, part) | _origin(provenance.get(path))
@@ -171,6 +175,8 @@ def _input(meta: Any, value: Any) -> Data:
         plain = list(value) if isinstance(value, tuple) else value
         return {"value": text if is_curve else plain, "unit": unit(meta.unit).si if is_curve else "1", "symbol": meta.symbol,
                 "description": meta.description, "display": {"text": text, "unit": "1"}}  # fmt: skip
+    if isinstance(meta, Varying) and not isinstance(value, float | np.ndarray):
+        return varying(meta, value)
     number = float(np.ravel(value)[0])
     return {
         "value": int(number) if meta.integer else number,

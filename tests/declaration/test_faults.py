@@ -138,6 +138,10 @@ class Torn(Arm):
     one_of: ClassVar[tuple[OneOf, ...]] = (OneOf(("force",), ("torc",)),)
 
 
+class Laid(Arm):
+    curve_keys: ClassVar[dict[str, str]] = {"force": "force_curve"}
+
+
 class Needed(Inputs):
     ratio: Annotated[float, Quantity("i", "1", "Ratio")]
 
@@ -359,6 +363,10 @@ FAULTS: dict[str, tuple[Mechanism, str]] = {
     "an input in an unknown unit": (
         made(inputs=with_input(Annotated[float, Quantity("x", "mmm", "X")], 1)),
         "input extra: has the unit 'mmm'",
+    ),
+    "a curve on an unknown key": (
+        made(inputs=Laid),
+        "curve_keys of Laid: lay force on force_curve; a Quantity and a CurveInput of the inputs are needed",
     ),
     "a rule of an unknown key": (made(inputs=Torn), "one_of of Torn: names torc, which is not an input"),
     "units beside an unknown key": (

@@ -20,7 +20,7 @@ from diecut_report.engine.numerics.curve_evaluation import MANY, Curves
 from diecut_report.mechanics.motion_laws import LAWS
 from diecut_report.study.definition.base_inputs import Input, UnknownPath, find_input, known_paths
 from diecut_report.study.execution.press_batch import calculated
-from tests.configs import EXAMPLES
+from tests.configs import ON_ARRAYS
 
 COUNT = 2 * MANY
 SPREAD = 0.02  # of each number about that of the example
@@ -91,7 +91,7 @@ def _terms(calc: Calculation, axis: str, name: str, plain: Any) -> float:
     return max(map(float, sizes), default=0.0)
 
 
-@pytest.mark.parametrize("path", EXAMPLES, ids=lambda path: path.stem)
+@pytest.mark.parametrize("path", ON_ARRAYS, ids=lambda path: path.stem)
 def test_compiled_curves_are_the_plain_formulas(path: Any) -> None:
     base = load_config(path, Discovery([]))
     for seed in range(2):
@@ -105,7 +105,7 @@ def test_compiled_curves_are_the_plain_formulas(path: Any) -> None:
 
 @pytest.mark.parametrize("law", LAWS)
 def test_compiled_motion_laws_are_the_plain_formulas(law: str) -> None:
-    base = load_config(next(path for path in EXAMPLES if path.stem == "flat_cylinder_press"), Discovery([]))
+    base = load_config(next(path for path in ON_ARRAYS if path.stem == "flat_cylinder_mechanisms"), Discovery([]))
     calc = machines(base, {"mechanisms.feeder.motion_law": law}, 3)["feeder"]
     assert calc.inputs["motion_law"] == law
     for axis, curves in axes(calc):
@@ -115,7 +115,7 @@ def test_compiled_motion_laws_are_the_plain_formulas(law: str) -> None:
 def test_all_kinds_that_have_curves_are_compared() -> None:
     found = {
         instance.mechanism.kind
-        for path in EXAMPLES
+        for path in ON_ARRAYS
         for instance in load_config(path, Discovery([])).instances.values()
         if instance and instance.mechanism and instance.mechanism.axes(instance.given)
     }
@@ -123,7 +123,7 @@ def test_all_kinds_that_have_curves_are_compared() -> None:
 
 
 def test_the_comparison_sees_a_wrong_term(monkeypatch: pytest.MonkeyPatch) -> None:
-    base = load_config(next(path for path in EXAMPLES if path.stem == "flat_cylinder_press"), Discovery([]))
+    base = load_config(next(path for path in ON_ARRAYS if path.stem == "flat_cylinder_mechanisms"), Discovery([]))
     calc = machines(base, {}, 0)["drive"]
 
     class Wrong(Program):

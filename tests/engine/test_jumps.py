@@ -12,7 +12,7 @@ from diecut_report.config.loader import load_config
 from diecut_report.engine import Calculation
 from diecut_report.engine.numerics.discontinuities import jumping
 from diecut_report.engine.numerics.sample_cache import JUMP
-from tests.configs import EXAMPLES
+from tests.configs import ON_ARRAYS
 from tests.engine.test_compiled import axes, machines
 
 
@@ -20,7 +20,7 @@ def jumps(calc: Calculation, axis: str) -> frozenset[str]:
     return jumping(tuple(calc.curves.items()), axis)
 
 
-@pytest.mark.parametrize("path", EXAMPLES, ids=lambda path: path.stem)
+@pytest.mark.parametrize("path", ON_ARRAYS, ids=lambda path: path.stem)
 def test_what_does_not_jump_is_the_same_at_the_end_and_just_inside(path: Any) -> None:
     for calc in machines(load_config(path, Discovery([])), {}, 5).values():
         for axis, curves in axes(calc):
@@ -37,7 +37,7 @@ def test_what_does_not_jump_is_the_same_at_the_end_and_just_inside(path: Any) ->
 
 
 def test_the_drive_jumps_only_where_the_direction_of_power_decides() -> None:
-    base = load_config(next(path for path in EXAMPLES if path.stem == "flat_cylinder_press"), Discovery([]))
+    base = load_config(next(path for path in ON_ARRAYS if path.stem == "flat_cylinder_mechanisms"), Discovery([]))
     calc = machines(base, {}, 6)["drive"]
     assert jumps(calc, "crank_angle") == {
         "rocker_torque", "crank_torque", "coupler_force", "rocker_bearing_force", "crank_bearing_force_x", "crank_bearing_force_y",

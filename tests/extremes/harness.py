@@ -19,6 +19,9 @@ from diecut_report.results.document import document
 from diecut_report.results.press_run import compute
 from tests.plugins.cases import DISCOVERY, FULL, OF_KINDS
 
+ALONE = {
+    kind: machines for kind, machines in FULL.items() if not OF_KINDS[kind].partners
+}  # others take curves of a whole press
 NOT_A_NUMBER = re.compile(r"(?<![\w.])[-+−]?(?:nan|inf|infinity)(?![\w])", re.IGNORECASE)
 BEYOND = (1e-300, 1e-12, 1e12, 1e300)
 BESIDE = 1e-6  # how far inside its bounds a value stands, as a share of it

@@ -9,14 +9,14 @@ import pytest
 from diecut_report.contract.inputs import Quantity
 from diecut_report.quantities.plausible import Plausible
 from tests.extremes.examples import example_extremes, example_fault
-from tests.extremes.harness import FULL, extremes, fault, values
+from tests.extremes.harness import ALONE, extremes, fault, values
 from tests.plugins.cases import CONFIGS
 
 SAMPLE = 16  # of a kind
 FEW = {"elastic_follower": 4, "platen_press": 6, "circular_knife": 8}  # of those that take longest
 
 
-@pytest.mark.parametrize("kind", FULL)
+@pytest.mark.parametrize("kind", ALONE)
 def test_a_sample_of_single_extremes_is_numbers_or_words(kind: str) -> None:
     cases = [case for case in extremes(kind, short=True) if "n_points" not in case.key]
     chosen = random.Random(kind).sample(cases, FEW.get(kind, SAMPLE))
@@ -24,9 +24,16 @@ def test_a_sample_of_single_extremes_is_numbers_or_words(kind: str) -> None:
 
 
 @pytest.mark.nightly
-@pytest.mark.parametrize("kind", FULL)
+@pytest.mark.parametrize("kind", ALONE)
 def test_every_single_extreme_is_numbers_or_words(kind: str) -> None:
     assert [f"{case.name}: {found}" for case in extremes(kind) if (found := fault(case))] == []
+
+
+def test_a_sample_of_extremes_of_what_holds_a_press_together_is_numbers_or_words() -> None:
+    homes = ("timing", "consistency")
+    cases = [case for case in example_extremes("flat_cylinder_press_mended") if case.key[1] in homes]
+    chosen = random.Random(1).sample(cases, 8)
+    assert [f"{case.name}: {found}" for case in chosen if (found := example_fault(case))] == []
 
 
 @pytest.mark.nightly

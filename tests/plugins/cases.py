@@ -20,12 +20,17 @@ from diecut_report.results.comparisons import Found
 from diecut_report.results.press_run import Run, compute
 from tests.configs import EXAMPLES
 from tests.machines import PUBLISHED_CYLINDER, PUBLISHED_DRIVE, UNBALANCED, inputs
+from tests.plugins import chains
 from tests.plugins.clutches import COOLED
 from tests.plugins.drive_trains import EXAMPLE as TRAIN
 from tests.plugins.drive_trains import PAIRS, UNEVEN
 from tests.plugins.followers import SHAFT
+from tests.plugins.gears import AT_DISTANCE, SECTOR, SIZED
+from tests.plugins.keys import OWN, TURNING
+from tests.plugins.keys import SIZED as SIZED_KEY
 from tests.plugins.platens import GUIDED
 from tests.plugins.presses import whole_press
+from tests.plugins.shafts import CRANKSHAFT, LAYSHAFT, STANDING
 from tests.plugins.steppers import LOADED, PUBLISHED
 from tests.validation.rows_circular_knife import KEYS as CIRCULAR
 from tests.validation.rows_damper import WORKED as DAMPER
@@ -112,10 +117,19 @@ FULL: dict[str, dict[str, dict[str, Any]]] = {
         "shaft": SHAFT | {"n_points": 72, "motion_law": "modified_trapezoidal", "allowable_torque": 100},
         "slide": SLIDE | {"n_points": 72, "allowable_torque": 100},
     },
+    "gear_pair": {"sector": SECTOR | {"n_points": 72}, "sized": SIZED, "at distance": AT_DISTANCE},
     "geneva_transport": {"loaded": CROSS},
     "knife_drive": {side: KNIVES | {"crank_rocker": LINKAGE | {"lowest_dead_center": side}} for side in ("outer", "inner")},
+    "parallel_key": {"turning": TURNING | {"n_points": 72}, "sized": SIZED_KEY, "own dimensions": OWN},
     "platen_press": {"guided": GUIDED | {"n_points": 72, "crank_pin_length": "100 mm"}},
     "press_consistency": {"whole": whole_press()},
+    "roller_chain": {
+        "grippers": chains.GRIPPERS | {"n_points": 72}, "uneven": chains.UNEVEN | {"n_points": 72}, "custom": chains.CUSTOM,
+        "rated": chains.RATED, "even acceleration": chains.without(chains.GRIPPERS, "acceleration_curve") | {"acceleration": 30},
+        "even velocity": chains.without(chains.GRIPPERS, "velocity_curve", "chain") | {"velocity": 1},
+        "numbers": chains.without(chains.GRIPPERS, "velocity_curve", "acceleration_curve") | {"velocity": 1, "acceleration": 30},
+    },
+    "shaft": {"crank": CRANKSHAFT | {"speed": 50}, "lay": LAYSHAFT, "standing": STANDING},
 }  # fmt: skip
 WIDELY: dict[str, Ranges] = {
     "cam_gear_transport": {"dwell_angle": (1.5, 4.2), "sector_stop_sweep": (0.1, 0.6), "arm_length": (0.05, 0.1), "cycles_per_hour": (1, 2)},
@@ -130,15 +144,22 @@ WIDELY: dict[str, Ranges] = {
     "damper": {"kinetic_energy": (1, 500), "drive.force": (1, 5000), "ring_width": (1e-3, 0.2)},
     "drive_train": {"output_speed": (5, 40), "vbelt.center_distance": (0.5, 0.9), "toothed_belt.shaft_speed": (2, 60)},
     "elastic_follower": {"stiffness": (1e3, 9e4), "damping_ratio": (0, 0.5), "dwell_cycles": (0.5, 9)},
+    "gear_pair": {"teeth_1": (8, 40), "teeth_2": (20, 90), "helix_angle": (0, 0.5), "shift_1": (-0.5, 1), "torque": (5, 3000),
+                  "face_width": (0.01, 0.1), "root_radius": (0.1, 0.5), "center_distance": (0.15, 0.2)},
     "geneva_transport": {"slots": (3, 18), "center_distance": (0.05, 0.3), "roller_radius": (0.004, 0.03), "crank_speed": (3, 20),
                          "driven_inertia": (0.1, 9), "locking_clearance": (0, 2e-4)},
     "knife_drive": {"working_depth": (0.005, 0.06), "cylinder_rate": (2, 12), "planetary.carrier_radius": (0.012, 0.08),
                     "crank_slider.crank_radius": (0.02, 0.05), "crank_slider.rod_length": (0.045, 0.2),
                     "crank_rocker.crank": (0.012, 0.04), "crank_rocker.knife_arm": (0.08, 0.25), "grip_angle": (0.02, 0.2)},
+    "parallel_key": {"shaft_diameter": (0.006, 0.22), "torque": (1, 9000), "chamfer": (0, 0.004), "key_length": (0.01, 0.12),
+                     "torque_peak": (300, 2000)},
     "platen_press": {"material_thickness": (1e-4, 3e-3), "drive_deformation": (1e-4, 2e-3), "rod_length": (0.08, 1.2),
                      "cycles_per_hour": (0.1, 2), "offset_force": (-0.02, 0.02), "friction": (0, 0.3)},
+    "roller_chain": {"teeth_1": (6, 60), "center_distance": (0.05, 2), "links": (20, 400), "torque": (1, 3000), "speed": (1, 200),
+                     "strands": (1, 4), "moving_mass": (0, 50), "power": (100, 50000)},
     "press_consistency": {"clutch_load": (0, 900), "clutch_speed": (2, 12), "contact_distance": (0.005, 0.9),
                           "flywheel_inertia": (0.1, 20), "damper_velocity": (0.1, 4)},
+    "shaft": {"bearing_a": (0.0, 0.06), "bearing_b": (0.2, 0.32), "yield_strength": (3e8, 1.2e9), "tensile_strength": (4e8, 1e9)},
 }  # fmt: skip
 
 

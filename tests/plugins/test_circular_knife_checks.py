@@ -65,8 +65,18 @@ def test_within_the_limits_of_the_geometry_a_knife_is_calculated(limit: str, cha
 
 def test_a_sound_knife_passes_all_checks() -> None:
     found = checks(knife())
-    assert list(found) == ["reach", "shear_angle", "expulsion", "monotonic", "entry", "shear_resistance"]
-    assert found.pop("shear_resistance")["missing"] == ["rule_force"]
+    assert list(found) == [
+        "reach",
+        "shear_angle",
+        "expulsion",
+        "monotonic",
+        "entry",
+        "shear_resistance",
+        "force",
+        "torque",
+    ]
+    missing = [found.pop(name)["missing"] for name in ("shear_resistance", "force", "torque")]
+    assert missing == [["rule_force"], ["allowable_force"], ["allowable_torque"]]
     assert {check["status"] for check in found.values()} == {"pass"}
     assert found["reach"]["utilisation"] == pytest.approx(41 / (120**2 - 112**2) ** 0.5, rel=1e-12)
 

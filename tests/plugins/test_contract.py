@@ -39,6 +39,14 @@ ALIKE = {  # quantities that a step takes over under another id
         ("output_turns_per_sheet", "turns_a_sheet"),
         ("engagement_angle", "start_angle"),
     ],
+    "roller_chain": [
+        ("application_factor", "application"),
+        ("center_distance", "center"),
+        ("teeth_2", "driven_teeth"),
+        *((f"{name}_curve", f"{name}_over") for name in ("torque", "velocity", "acceleration")),
+    ],
+    "gear_pair": [("torque_curve", "torque_given")],
+    "parallel_key": [("torque_curve", "torque_over_cycle")],
     "transport_comparison": [("gear_speed", "cam_gear_speed"), ("gear_acceleration", "cam_gear_acceleration")],
 }
 NEVER_REFUSED = {"damper", "elastic_follower"}
@@ -140,7 +148,11 @@ def unit_of(calc: Calculation, name: str) -> str:
 def scales(calc: Calculation) -> dict[str, float]:
     """The greatest number in each unit: a difference of such numbers is no more exact than they are."""
     found: dict[str, float] = {}
-    numbers = {name: values for name, values in calc.inputs.items() if isinstance(calc.meta.get(name), Quantity)}
+    numbers = {
+        name: values
+        for name, values in calc.inputs.items()
+        if isinstance(calc.meta.get(name), Quantity) and isinstance(values, np.ndarray)
+    }
     for name, values in (numbers | calc.values | {name: calc.curve_samples(name) for name in calc.curves}).items():
         if values.dtype != object and np.isfinite(values).any():
             unit = unit_of(calc, name)

@@ -55,6 +55,10 @@ WITHOUT = {
         "inertia_force_max": "judged where it matters, at the dead centre",
         "power_mean": "a demand on the motor",
     },
+    "roller_chain": {
+        "tension_peak": "judged as safety against breaking and as pressure of the joints",
+        "velocity": "follows from teeth and speed; the pressure that a maker allows falls with it",
+    },
 }
 
 

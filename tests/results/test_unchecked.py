@@ -113,7 +113,7 @@ def test_what_is_not_checked_changes_no_status_and_is_counted() -> None:
 
 
 def test_a_value_sized_to_its_limit_does_not_govern_unless_it_fails() -> None:
-    sized = check("doubled", 16.0, id="sized", sized_unless=("width",))
+    sized = check("doubled", 16.5, id="sized", sized_unless=("width",))
     results = mechanism_results(calculated(sized, check("doubled", 160.0, id="far")), {})
     assert results["checks"][0]["sized_to_limit"] is True and "sized_to_limit" not in results["checks"][1]
     assert governing({"bar": results}) == {"mechanism": "bar", "check": "far"}
@@ -121,6 +121,13 @@ def test_a_value_sized_to_its_limit_does_not_govern_unless_it_fails() -> None:
     assert governing({"bar": given}) == {"mechanism": "bar", "check": "sized"}
     failing = mechanism_results(calculated(sized, check("doubled", 160.0, id="far"), force=9), {})
     assert governing({"bar": failing}) == {"mechanism": "bar", "check": "sized"}
+
+
+def test_a_value_that_is_its_limit_does_not_govern() -> None:
+    """As a length that was taken over from what it is held against."""
+    results = mechanism_results(calculated(check("doubled", 16.0, id="same"), check("doubled", 160.0, id="far")), {})
+    assert results["checks"][0]["sized_to_limit"] is True
+    assert governing({"bar": results}) == {"mechanism": "bar", "check": "far"}
 
 
 def test_self_tests_are_counted_apart_and_never_govern() -> None:

@@ -158,6 +158,20 @@ def test_the_least_diameters_stand_in_two_tables() -> None:
         assert len(agreeing) >= 2, section
 
 
+# Saarstahl, material specification sheets by DIN EN 10083: up to a diameter (mm) the least tensile and yield strength (MPa).
+SAARSTAHL = {
+    "42CrMo4+QT": {16: (1100, 900), 40: (1000, 750), 100: (900, 650), 160: (800, 550), 250: (750, 500)},
+    "C45E+QT": {16: (700, 490), 40: (650, 430), 100: (630, 370)},
+    "C45E+N": {16: (620, 340), 100: (580, 305), 250: (560, 275)},
+}
+
+
+@pytest.mark.parametrize(("id", "column"), [("steel_tensile_strengths", 0), ("steel_yield_strengths", 1)])
+def test_the_strengths_of_steels_are_those_of_another_maker(id: str, column: int) -> None:
+    known = {f"{grade} ≤ {size} mm": both[column] for grade, sizes in SAARSTAHL.items() for size, both in sizes.items()}
+    assert dict(standard_table(id).values) == known
+
+
 # --- every file ------------------------------------------------------------------------------------------------------
 
 
@@ -184,8 +198,15 @@ def test_a_series_ascends_without_a_gap(series: StandardSeries) -> None:
 @pytest.mark.wheel
 def test_the_files_are_the_documented_ones() -> None:
     assert {form: standard_ids(form) for form in FORMS} == {
-        "values": ("iec_60072_ratings", "renard_r10", "renard_r20", "renard_r40"),
-        "table": ("iso_606_pitches", "motor_synchronous_speeds", "toothed_belt_pitches", "vbelt_least_diameter"),
+        "values": ("din_6885_lengths", "iec_60072_ratings", "iso_54_modules", "renard_r10", "renard_r20", "renard_r40"),
+        "table": (
+            "iso_606_pitches",
+            "motor_synchronous_speeds",
+            "steel_tensile_strengths",
+            "steel_yield_strengths",
+            "toothed_belt_pitches",
+            "vbelt_least_diameter",
+        ),
         "by": ("iso_4184_lengths",),
         "from": ("renard_r40_lengths",),
     }

@@ -24,7 +24,7 @@ from tests.configs import EXAMPLES
 
 Values = Mapping[str, Any]
 VARIED: dict[str, dict[str, tuple[float, float] | list[str]]] = {
-    "flat_cylinder_press.yaml": {
+    "flat_cylinder_mechanisms.yaml": {
         "mechanisms.drive.crank_speed": (4.0, 12.0), "mechanisms.cylinder.bore_radius": (0.03, 0.12),
         "press.sheet.thickness": (3e-4, 1.2e-3), "press.productivity": (0.5, 2.5), "mechanisms.feeder.motion_law": ["cycloidal", "modified_sine"],
     },
@@ -92,7 +92,7 @@ def rounding(mechanism: dict[str, Any], unit: str) -> float:
     return 1e-12 * max(alike, default=0.0)
 
 
-@pytest.mark.parametrize(("name", "count"), [("flat_cylinder_press.yaml", 3), ("elastic_transport.yaml", 2)])
+@pytest.mark.parametrize(("name", "count"), [("flat_cylinder_mechanisms.yaml", 3), ("elastic_transport.yaml", 2)])
 def test_each_machine_among_many_is_the_one_alone(name: str, count: int) -> None:
     """Through references from mechanism to mechanism; each kind on its own is held to it in tests/plugins/test_contract.py."""
     check_rows(name, count)
@@ -147,7 +147,7 @@ def _same_numbers(rows: Rows, row: int, found: dict[str, Any]) -> None:
 
 
 def test_an_output_that_a_machine_does_not_have_is_empty() -> None:
-    name, count = "flat_cylinder_press.yaml", 8
+    name, count = "flat_cylinder_mechanisms.yaml", 8
     base, values = config(name), drawn(name, count)
     rows = together(base, values, count)
     kept = {key: values for key, values in rows.columns.items() if key.startswith("drive.flank_change")}
@@ -158,7 +158,7 @@ def test_an_output_that_a_machine_does_not_have_is_empty() -> None:
 
 
 def test_curves_come_on_demand_as_each_machine_alone_has_them() -> None:
-    name, count = "flat_cylinder_press.yaml", 3
+    name, count = "flat_cylinder_mechanisms.yaml", 3
     base, values = config(name), drawn(name, count)
     rows = calculate_rows(
         base,
@@ -185,7 +185,7 @@ def test_the_columns_are_known_before(name: str) -> None:
 
 
 def test_machines_with_unlike_numbers_of_samples_have_the_curves_that_they_ask_for() -> None:
-    base = config("flat_cylinder_press.yaml")
+    base = config("flat_cylinder_mechanisms.yaml")
     points = np.array([90.0, 180.0, 90.0])
     rows = calculate_rows(base, {find_input(base, "mechanisms.drive.n_points"): points}, 3, ["drive.crank_torque"])
     assert not rows.slow

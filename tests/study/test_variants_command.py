@@ -22,10 +22,10 @@ from tests.configs import EXAMPLES
 from tests.shared import once
 from tests.study.stored_study import many, ten
 
-PRESS = "flat_cylinder_press.yaml"
+PRESS = "flat_cylinder_mechanisms.yaml"
 STUDY = """\
 schema_version: 1
-base: flat_cylinder_press.yaml
+base: flat_cylinder_mechanisms.yaml
 sample: {method: latin_hypercube, count: 6, seed: 4}
 vary:
   press.productivity: {from: 4800 1/h, to: 7800 1/h}

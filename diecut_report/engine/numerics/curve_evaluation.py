@@ -111,14 +111,10 @@ class _Columns:
     def __init__(self, values: Sequence[Any]) -> None:
         self.values = list(values)
         self.tables: list[tuple[list[int], Array]] = []
-        for kind in (float, bool):
-            own = [
-                i
-                for i, value in enumerate(values)
-                if isinstance(value, np.ndarray) and value.ndim and value.dtype == kind
-            ]
-            if own:
-                self.tables.append((own, np.stack([values[i][:, 0] for i in own])))
+        columns = {i: value for i, value in enumerate(values) if isinstance(value, np.ndarray) and value.ndim}
+        for kind in dict.fromkeys(value.dtype for value in columns.values()):  # numbers, flags, counts
+            own = [i for i, value in columns.items() if value.dtype == kind]
+            self.tables.append((own, np.stack([values[i][:, 0] for i in own])))
 
     def of(self, rows: Array) -> list[Any]:
         """These rows of the columns, in the columns' order."""

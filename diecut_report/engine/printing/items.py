@@ -6,6 +6,7 @@ from collections.abc import Callable
 from typing import Any
 
 from diecut_report.contract.binding import Binding, Bound, bound
+from diecut_report.contract.code_steps import ComputedCurve, PartTable
 from diecut_report.contract.listings import Listing
 from diecut_report.contract.part_steps import Interpolated, Lookup, Neighbour, Part, Pick, Running, Total
 from diecut_report.contract.result_names import place_name
@@ -36,6 +37,7 @@ from diecut_report.engine.printing.shown_place import (
     marks,
     place_of,
     place_shown,
+    shown_part,
     value_at,
 )
 from diecut_report.engine.printing.substitution import (
@@ -86,15 +88,19 @@ def items(calc: Calculation, step: Step) -> list[Item]:
         case Reduction():
             return [_reduction(calc, step)]
         case Crossings():
-            return [_crossings(calc, step)]
+            return [tables.crossings(calc, step)]
         case Accumulated() | Derivative():
             return [_of_curve(calc, step)]
         case Computed() if step.id in calc.axis:
-            return [tables.table(calc, step, [step.id])]
+            return [] if calc.axis[step.id] in calc.part_names else [tables.table(calc, step, [step.id])]
         case MadeCurve():
             return [_made(calc, step)]
         case Computed() | CurvePeriod():
             return [_computed(calc, step)]
+        case ComputedCurve():
+            return [_computed(calc, step) | {"at": place_shown(calc, step.abscissa, False)}]
+        case PartTable(parts=parts, columns=columns):
+            return [tables.of_parts(calc, step, calc.part_names[parts], list(columns))]
         case Lookup() if step.id in calc.axis:
             return [tables.looked_up(calc, step)]
         case Total() | Pick() | Lookup() | Part():
@@ -123,6 +129,10 @@ def _value(calc: Calculation, step: Value, part: Bound) -> list[Item]:
     item = _head(step) | {"type": "formula"} | _formula(calc, part, step, axis, elsewhere)
     if axis in calc.domains:
         item |= located(calc, str(axis), elsewhere)
+    elif axis in calc.part_names:
+        item["note"] = " ".join(
+            filter(None, (item.get("note"), f"Shown for: {calc.part_names[axis][shown_part(calc, step.id)]}."))
+        )
     elif axis is not None:
         return [
             item,
@@ -255,9 +265,12 @@ def _reduction(calc: Calculation, step: Reduction) -> Item:
     return item
 
 
-def _computed(calc: Calculation, step: Computed | CurvePeriod) -> Item:
-    method = step.method if isinstance(step, Computed) else f"the period of {calc.meta[step.given].symbol}"
-    result = shown(value_at(calc, step.id, None), step.unit, step.digits)
+def _computed(calc: Calculation, step: Computed | ComputedCurve | CurvePeriod) -> Item:
+    method = f"the period of {calc.meta[step.given].symbol}" if isinstance(step, CurvePeriod) else step.method
+    if isinstance(step, Computed) and step.is_text:
+        result: Item = {"text": calc[step.id][0, 0], "unit": "1"}
+    else:
+        result = shown(value_at(calc, step.id, calc.axis.get(step.id)), step.unit, step.digits)
     return _head(step) | {"type": "found", "relation": None, "method": method, "result": result}
 
 
@@ -276,15 +289,3 @@ def _of_curve(calc: Calculation, step: Accumulated | Derivative) -> Item:
         "at": place_shown(calc, axis, False), "method": METHODS[operation],
         "residual": {"text": number_text(calc.proof[step.id], 2), "unit": "1"},
     }  # fmt: skip
-
-
-def _crossings(calc: Calculation, step: Crossings) -> Item:
-    places = [float(x) for x in calc[step.id][0] if x == x]
-    if not places:
-        return _head(step) | {"type": "note", "text": f"{step.description}: there is none."}
-    tables = [[str(i), number_text(x / unit(step.unit).factor, 6)] for i, x in enumerate(places, 1)]
-    columns = [
-        {"title": "No.", "symbol": "", "unit": "1"},
-        {"title": step.description, "symbol": step.symbol, "unit": step.unit},
-    ]
-    return {"type": "table", "id": step.id, "title": step.description, "columns": columns, "rows": tables}

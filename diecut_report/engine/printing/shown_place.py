@@ -7,6 +7,7 @@ from typing import Any
 import numpy as np
 
 from diecut_report.contract.binding import bound
+from diecut_report.contract.code_steps import PartNames
 from diecut_report.contract.steps import Abscissa, Choice, Value
 from diecut_report.engine.calculation import Calculation
 from diecut_report.engine.printing.substitution import Elsewhere
@@ -36,7 +37,14 @@ def value_at(calc: Calculation, name: str, axis: str | None, *, flag: bool = Fal
         place, middle = shown_place(calc, str(axis))
         sampler = calc.kept(f"shown {flag}", str(axis), lambda _: (middle if flag else place, middle), FIRST)
         return float(np.ravel(sampler[name])[0])  # a constant is a curve too
-    return float(calc[name][0, 0])
+    row = calc[name]
+    return float(row[0, shown_part(calc, name) if row.shape[1] > 1 else 0])
+
+
+def shown_part(calc: Calculation, name: str) -> int:
+    """Return which part of a row formulas are shown with, from 0; 0 of a number too."""
+    names = calc.steps.get(calc.axis.get(name, ""))
+    return int(calc[names.shown_at][0, 0]) if isinstance(names, PartNames) and names.shown_at else 0
 
 
 def is_elsewhere(calc: Calculation, step: Value | Choice, axis: str | None) -> bool:

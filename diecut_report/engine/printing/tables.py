@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 
 from diecut_report.contract.part_steps import Lookup, Part, Pick, Total
-from diecut_report.contract.steps import Step
+from diecut_report.contract.steps import Crossings, Step
 from diecut_report.engine.calculation import Calculation
 from diecut_report.engine.printing.substitution import printed
 from diecut_report.engine.steps.part_rows import given_of, series_of
@@ -33,6 +33,15 @@ def table(calc: Calculation, step: Step, names: list[str]) -> Item:
     count = calc[step.id].shape[1]
     lines = [[str(i + 1), *(_cell(calc, name, i) for name in names)] for i in range(count)]
     return {"type": "table", "title": step.description, "columns": columns, "rows": lines}
+
+
+def of_parts(calc: Calculation, step: Step, parts: Sequence[str], names: list[str]) -> Item:
+    """Return rows over declared parts: a line for each part by its name."""
+    declared = [calc.step_or_input(name) for name in names]
+    columns = [{"title": "Place", "symbol": "", "unit": "1"}]
+    columns += [{"title": d.description, "symbol": d.symbol, "unit": d.unit} for d in declared]
+    lines = [[part, *(_cell(calc, name, i) for name in names)] for i, part in enumerate(parts)]
+    return {"type": "table", "id": step.id, "title": step.description, "columns": columns, "rows": lines}
 
 
 def _cell(calc: Calculation, name: str, part: int) -> str:
@@ -117,3 +126,17 @@ def _tables(taken_from: object) -> Item:
     if isinstance(taken_from, StandardTable | StandardSeries):
         return {"note": sources_told(taken_from)}
     return {}
+
+
+def crossings(calc: Calculation, step: Crossings) -> Item:
+    """Return the places where a curve changes its sign, a line for each; a note where there is none."""
+    head = {"id": step.id, "symbol": step.symbol, "description": step.description, "source": step.source}
+    places = [float(x) for x in calc[step.id][0] if x == x]
+    if not places:
+        return head | {"type": "note", "text": f"{step.description}: there is none."}
+    lines = [[str(i), number_text(x / unit(step.unit).factor, 6)] for i, x in enumerate(places, 1)]
+    columns = [
+        {"title": "No.", "symbol": "", "unit": "1"},
+        {"title": step.description, "symbol": step.symbol, "unit": step.unit},
+    ]
+    return {"type": "table", "id": step.id, "title": step.description, "columns": columns, "rows": lines}

@@ -9,9 +9,27 @@ from typing import Any
 
 import numpy as np
 
+from diecut_report.contract.code_steps import ComputedCurve, PartNames
 from diecut_report.contract.place import Misdeclared
 from diecut_report.contract.steps import Clash, Computed, Step, Words
+from diecut_report.engine.calculation import Calculation
 from diecut_report.expressions import Array
+
+
+def part_names(calc: Calculation, step: PartNames) -> None:
+    """Name the parts that rows run over."""
+    found = step.function(*(calc[name] for name in step.takes))
+    if not found or not all(isinstance(each, str) for each in found):
+        raise _told(step, step.function, reprlib.repr(found), "a list of texts")
+    calc.part_names[step.id] = tuple(found)
+
+
+def curve(calc: Calculation, step: ComputedCurve) -> None:
+    """Take note of a curve, and cut its abscissa where it has corners."""
+    calc.curves[step.id] = step
+    if step.joints is not None:
+        places = step.joints(calc.inputs[step.of])
+        calc.domains[step.abscissa].cut(np.broadcast_to(places, (calc.count, places.shape[1])))
 
 
 def number(step: Computed, found: Any, count: int) -> Array:
@@ -30,6 +48,11 @@ def row(step: Computed, found: Any, count: int) -> Array:
     return np.broadcast_to(np.atleast_2d(given), (count, given.shape[-1])).astype(float)
 
 
+def texts(step: Computed, found: Any) -> Array:
+    """Return the texts that a function gives for all variants, shape (variants, 1)."""
+    return np.array([text(step, each) for each in found], dtype=object)[:, None]
+
+
 def partners(step: Clash, found: Any, shape: tuple[int, ...]) -> Array:
     """Return which part each part clashes with, of the shape of the rows that it takes; Misdeclared where it is none."""
     given = _numbers(step, step.function, found, "an array of indices")
@@ -38,9 +61,9 @@ def partners(step: Clash, found: Any, shape: tuple[int, ...]) -> Array:
     return given
 
 
-def text(step: Words, found: Any, part: int = 0) -> str:
+def text(step: Words | Computed, found: Any, part: int = 0) -> str:
     """Return the text that a function gives, of one for each part that of a part; Misdeclared where it is none."""
-    if step.each_part:
+    if isinstance(step, Words) and step.each_part:
         if not (isinstance(found, tuple) and all(isinstance(each, str) for each in found)):
             raise _told(step, step.function, reprlib.repr(found), "a tuple of texts, one for each part")
         return str(found[part])

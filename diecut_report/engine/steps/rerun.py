@@ -11,7 +11,7 @@ from diecut_report.contract.inputs import texts_given
 from diecut_report.contract.mechanism import Mechanism
 from diecut_report.contract.result_names import named
 from diecut_report.contract.sections import taken
-from diecut_report.contract.steps import SILENT, Abscissa, Breakpoints, Step
+from diecut_report.contract.steps import SILENT, Abscissa, Breakpoints, Prepared, Step
 from diecut_report.engine.calculation import Calculation, Impossible, Unproven
 from diecut_report.engine.steps.run import calculate
 from diecut_report.expressions import Array
@@ -73,11 +73,16 @@ def needed(mechanism: Mechanism, given: frozenset[str], names: Sequence[str]) ->
         if step is None or step.id in found:
             continue
         found.add(step.id)
-        pending += taken(step) - {getattr(step, "shown_at", "")}  # where formulas are shown matters in print only
+        pending += _asked(step) - {getattr(step, "shown_at", "")}  # where formulas are shown matters in print only
         pending += _of_abscissa(steps, step)
     return found | {
         s.id for s in steps if isinstance(s, SILENT) and not isinstance(s, Breakpoints) and _known(s, own, found)
     }
+
+
+def _asked(step: Step) -> frozenset[str]:
+    """Return the ids that a step takes, with those that plain code takes where they are there."""
+    return taken(step) | frozenset(step.holds) if isinstance(step, Prepared) else taken(step)
 
 
 def _of_abscissa(steps: Sequence[Step], step: Step) -> list[str]:
@@ -94,5 +99,5 @@ def _giver(name: str, own: Mapping[str, Step]) -> Step | None:
 
 
 def _known(step: Step, own: Mapping[str, Step], found: set[str]) -> bool:
-    givers = [_giver(name, own) for name in taken(step)]
+    givers = [_giver(name, own) for name in _asked(step)]
     return all(giver is None or giver.id in found for giver in givers)

@@ -8,6 +8,7 @@ from typing import Any
 
 import numpy as np
 
+from diecut_report.contract.code_steps import ComputedCurve, PartNames, PartTable
 from diecut_report.contract.listings import Listing
 from diecut_report.contract.mechanism import Mechanism
 from diecut_report.contract.part_steps import Interpolated, Lookup, Neighbour, Part, Pick, Running, Total
@@ -205,7 +206,7 @@ def _from_curve(calc: Calculation, step: FromCurve) -> None:
 
 
 def _prepared(calc: Calculation, step: Prepared) -> None:
-    if calc.count > 1:
+    if calc.count > 1 and not step.for_many:
         raise TypeError(f"{step.id} is made of one machine, and was asked for {calc.count}")
     known = {name: calc[name] for name in step.holds if name in calc.values or name in calc.inputs}
     calc.inputs[step.id] = _called(step, [known])
@@ -252,6 +253,9 @@ def _computed(calc: Calculation, step: Computed) -> None:
     found = _called(step, taken)
     if calc.count > 1 and np.shape(found)[:1] != (calc.count,) and any(isinstance(each, np.ndarray) for each in taken):
         raise TypeError(f"{step.id} was given {calc.count} machines and has one value for all")
+    if step.is_text:
+        calc.values[step.id] = plain_code.texts(step, found)
+        return
     give = plain_code.row if step.over else plain_code.number
     calc.values[step.id] = calc.existing(step, give(step, found, calc.count))
 
@@ -260,7 +264,7 @@ RUN: dict[type[Step], Callable[[Calculation, Any], None]] = {
     Value: _value, Choice: _choice, Root: _root, Abscissa: _abscissa, Breakpoints: _breakpoints, Crossings: _crossings,
     Reduction: _reduction, Accumulated: _accumulated, Derivative: _derivative, FromCurve: _from_curve,
     CurvePeriod: _curve_period, Computed: _computed, MadeCurve: _made_curve,
-    Prepared: _prepared,
+    Prepared: _prepared, ComputedCurve: plain_code.curve, PartNames: plain_code.part_names, PartTable: lambda _, __: None,
     Require: feasibility.require, Clash: feasibility.clash,
     Total: part_rows.total, Neighbour: part_rows.neighbour, Running: part_rows.running, Part: part_rows.part, Lookup: part_rows.lookup,
     Pick: part_rows.pick, Interpolated: interpolation.interpolated,

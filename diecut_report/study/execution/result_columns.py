@@ -14,9 +14,10 @@ from diecut_report.config.loader import Config
 from diecut_report.config.model import PRESS
 from diecut_report.contract.checks import Check, by_part
 from diecut_report.contract.inputs import list_inputs
+from diecut_report.contract.mechanism import is_text
 from diecut_report.contract.missing_keys import missing_keys
 from diecut_report.contract.result_names import CROSSING_COLUMNS, ResultName, count_name, result_names
-from diecut_report.contract.steps import SILENT, Choice, Crossings, Step, Value
+from diecut_report.contract.steps import SILENT, Crossings, Step, Value
 from diecut_report.engine import Calculation
 from diecut_report.engine.steps.extreme_checks import is_made
 from diecut_report.errors import PluginError
@@ -98,7 +99,7 @@ def _names(step: Step, parts: int | None) -> list[ResultName]:
 
 
 def _kind(step: Step) -> Kind:
-    if isinstance(step, Choice) and isinstance(step.cases[0].value, str):
+    if is_text(step):
         return "text"
     if isinstance(step, Value) and step.is_condition:
         return "bool"
@@ -133,7 +134,12 @@ def output_values(name: str, calc: Calculation) -> dict[str, Array]:
     """Return the outputs of many variants by column; NaN (None for texts and flags) where there is none."""
     found: dict[str, Array] = {}
     for step in calc.steps.values():
-        if not step.output or isinstance(step, SILENT) or step.id not in calc.values:
+        if (
+            not step.output
+            or isinstance(step, SILENT)
+            or step.id not in calc.values
+            or calc.axis.get(step.id) in calc.part_names
+        ):
             continue
         values = calc.values[step.id]
         if isinstance(step, Crossings):

@@ -8,6 +8,7 @@ from pathlib import PurePath
 from typing import Any
 
 from diecut_report.quantities.units import pretty
+from diecut_report.results.summary import SELF_TEST
 from diecut_report.study.machines.calculation import BAD, CheckedMachine
 
 Data = Mapping[str, Any]
@@ -76,7 +77,8 @@ def verdict(machine: CheckedMachine, name: str) -> Verdict:
 
 def _checks(machine: CheckedMachine) -> Iterator[tuple[str, Data]]:
     for name, data in machine.mechanisms.items():
-        yield from ((f"{name}.{check['id']}", check) for check in data["checks"])
+        own = (check for check in data["checks"] if check.get("class") != SELF_TEST)
+        yield from ((f"{name}.{check['id']}", check) for check in own)
 
 
 def names(files: Sequence[str]) -> list[str]:

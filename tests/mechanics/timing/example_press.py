@@ -18,7 +18,7 @@ from diecut_report.mechanics.timing.intervals import Intervals, complement
 from diecut_report.mechanics.timing.lines import DrivenLine
 from diecut_report.mechanics.timing.torque_sum import Curve, LineCurve
 from diecut_report.results.press_run import compute
-from tests.configs import EXAMPLE
+from tests.configs import MECHANISMS
 from tests.machines import number
 
 COMMON = Fraction(2)  # two sheets
@@ -59,7 +59,7 @@ def in_degrees(intervals: Intervals) -> list[tuple[float, float]]:
 @cache
 def calculations() -> dict[str, Calculation]:
     """All mechanisms of the example press."""
-    return compute(load_config(EXAMPLE, Discovery([])), lambda _: None).calculations
+    return compute(load_config(MECHANISMS, Discovery([])), lambda _: None).calculations
 
 
 def curve(mechanism: str, name: str) -> tuple[Curve, Array]:

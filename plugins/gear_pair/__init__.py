@@ -1,0 +1,47 @@
+"""External gear pair, also sector and pinion: geometry (ISO 21771), pitting and tooth root (ISO 6336-2, -3:2006, method B)."""
+
+from __future__ import annotations
+
+from diecut_report.api import Mechanism, Source
+from diecut_report.plugins.gear_pair import load, rating
+from diecut_report.plugins.gear_pair.checks import CHECKS, advice_chapter
+from diecut_report.plugins.gear_pair.figures import FIGURES
+from diecut_report.plugins.gear_pair.inputs import ExternalGearPair
+from diecut_report.plugins.gear_pair.mesh import mesh
+from diecut_report.plugins.gear_pair.root_form import root_form
+from diecut_report.plugins.gear_pair.sizing import module
+
+MECHANISM = Mechanism(
+    kind="gear_pair",
+    version="1.0",
+    title="External gear pair",
+    summary="Geometry, forces and safety against pitting and breakage of the tooth roots of an external spur or helical pair, of full wheels or of "
+    "pinion and sector. The K factors are given, not calculated. Where the module is left out, the least preferred one is taken with which flank "
+    "and root of both gears hold.",
+    inputs=ExternalGearPair,
+    chapters=(load.cycle, load.load, load.factors, mesh, root_form, module, rating.sizes, rating.forces, rating.pitting, rating.root_stress,
+              rating.over_cycle, rating.sector, advice_chapter),
+    key_results=("module", "center_distance", "shift_2", "contact_ratio", "tangential_force", "pitting_safety_1", "pitting_safety_2", "root_safety_1",
+                 "root_safety_2"),
+    checks=CHECKS,
+    figures=FIGURES,
+    assumptions=(
+        "Edition 2006 of ISO 6336: that of 2019 adds f_ε to Y_F for helical gears and divides Y_β by cos³β; for spur gears with a contact ratio "
+        "below 2 both agree.",
+        "Not covered: the calculation of the K factors (ISO 6336-1), scuffing, micropitting, flank breakage, static overload, load spectra, internal "
+        "gears, racks, bevels, protuberance and grinding notches, thin rims (Y_B > 1), deep teeth (Y_DT < 1), virtual contact ratios from 2 on.",
+        "The greatest torque of the cycle acts wherever in the mesh, on every tooth; no losses between pinion and wheel.",
+        "A torque that changes its sign bends each tooth both ways: Y_M = 0.7, safe where the reverse torque is the smaller. A reversing sector "
+        "rattles through its backlash at each change of flank; the application factor must hold that shock.",
+        "The teeth are without backlash in all lengths; both gears are cut by the same basic rack.",
+    ),
+    sources=(
+        Source("ISO 21771", "ISO 21771:2007, Gears. Cylindrical involute gears and gear pairs. Concepts and geometry."),
+        Source("ISO 6336-1", "ISO 6336-1:2006, Calculation of load capacity of spur and helical gears. Part 1: Basic principles, introduction and "
+               "general influence factors."),
+        Source("ISO 6336-2:2006", "ISO 6336-2:2006, Part 2: Calculation of surface durability (pitting), with corrigendum 1:2008."),
+        Source("ISO 6336-3:2006", "ISO 6336-3:2006, Part 3: Calculation of tooth bending strength."),
+        Source("ISO 6336-5", "ISO 6336-5, Part 5: Strength and quality of materials."),
+        Source("ISO 54", "ISO 54, Cylindrical gears for general engineering and for heavy engineering. Modules."),
+    ),
+)  # fmt: skip

@@ -1,0 +1,146 @@
+"""Inputs of the gear pair."""
+
+from __future__ import annotations
+
+from typing import Any, ClassVar, Literal
+
+from diecut_report.api import POINTS, Annotated, Block, CurveInput, Inputs, OneOf, Quantity, Text
+
+
+class Sector(Block):
+    """Keys of the block ``sector``: the wheel is a part of a full circle and swings."""
+
+    swing: Annotated[float, Quantity("γ", "deg", "Swing of the sector, from end to end", gt=0, lt=360)]
+    teeth_present: Annotated[int | None, Quantity("z_p", "1", "Teeth that the sector has", ge=1, integer=True)] = None
+
+
+class ExternalGearPair(Inputs):
+    """Keys of ``gear_pair``."""
+
+    one_of: ClassVar[tuple[OneOf, ...]] = (
+        OneOf(("torque",), ("torque_curve",)),
+        OneOf(("shift_2",), ("center_distance", "module"), shared=("module",), optional=True),
+    )
+
+    curve_keys: ClassVar[dict[str, str]] = {"torque": "torque_curve"}
+
+    module: Annotated[
+        float | None,
+        Quantity("m_n", "mm", "Normal module; where it is left out the least of ISO 54 that holds is taken", gt=0),
+    ] = None
+    teeth_1: Annotated[int, Quantity("z_1", "1", "Teeth of the pinion", ge=5, integer=True)]
+    teeth_2: Annotated[
+        int,
+        Quantity("z_2", "1", "Teeth of the wheel, not fewer; of a sector those of the full circle", ge=5, integer=True),
+    ]
+    face_width: Annotated[float, Quantity("b", "mm", "Face width in mesh, the smaller of both", gt=0)]
+    helix_angle: Annotated[float, Quantity("β", "deg", "Helix angle at the reference circle", ge=0, le=30)] = 0
+    pressure_angle: Annotated[float, Quantity("α_n", "deg", "Normal pressure angle", ge=14.5, le=25)] = 20
+    shift_1: Annotated[float, Quantity("x_1", "1", "Profile shift of the pinion, in modules", ge=-1, le=1.5)] = 0
+    shift_2: Annotated[
+        float | None,
+        Quantity(
+            "x_2",
+            "1",
+            "Profile shift of the wheel, in modules; 0 without it and without center_distance",
+            ge=-1,
+            le=1.5,
+        ),
+    ] = None
+    center_distance: Annotated[
+        float | None, Quantity("a", "mm", "Distance of the axes; with it the wheel's shift follows", gt=0)
+    ] = None
+    addendum: Annotated[
+        float, Quantity("h_aP", "1", "Addendum of the basic rack, in modules (ISO 53, profile A)", gt=0)
+    ] = 1.0
+    dedendum: Annotated[
+        float, Quantity("h_fP", "1", "Dedendum of the basic rack, in modules (ISO 53, profile A)", gt=0)
+    ] = 1.25
+    root_radius: Annotated[
+        float, Quantity("ρ_fP", "1", "Root radius of the basic rack, in modules (ISO 53, profile A)", gt=0)
+    ] = 0.38
+    keep_clearance: Annotated[
+        bool, Text("Whether the tips are shortened so that the tip clearance stays that of the basic rack")
+    ] = False
+    torque: Annotated[
+        float | None,
+        Quantity("T", "N*m", "Torque, signed; a reference to a curve over a cycle is taken as torque_curve"),
+    ] = None
+    torque_curve: Annotated[
+        Any | None, CurveInput("T_φ", "N*m", "Torque over a cycle, signed, in the place of torque")
+    ] = None
+    torque_on: Annotated[Literal["pinion", "wheel"], Text("Gear on which the torque acts")] = "pinion"
+    speed: Annotated[
+        float | None, Quantity("n_1", "rpm", "Speed of the pinion; with it pitch velocity and power", gt=0)
+    ] = None
+    application_factor: Annotated[
+        float | None,
+        Quantity("K_A", "1", "Application factor; 1.25 without it (1 where a torque curve holds the dynamics)", ge=1),
+    ] = None
+    dynamic_factor: Annotated[float | None, Quantity("K_V", "1", "Dynamic factor; 1.1 without it", ge=1)] = None
+    face_load_factor: Annotated[
+        float | None, Quantity("K_Hβ", "1", "Face load factor for pitting; 1.3 without it", ge=1)
+    ] = None
+    transverse_load_factor: Annotated[
+        float | None,
+        Quantity("K_Hα", "1", "Transverse load factor; without it 1 for spur and 1.2 for helical teeth", ge=1),
+    ] = None
+    sigma_h_lim_1: Annotated[
+        float, Quantity("σ_Hlim1", "MPa", "Pitting endurance limit of the pinion (ISO 6336-5)", gt=0)
+    ]
+    sigma_h_lim_2: Annotated[
+        float, Quantity("σ_Hlim2", "MPa", "Pitting endurance limit of the wheel (ISO 6336-5)", gt=0)
+    ]
+    sigma_f_lim_1: Annotated[
+        float,
+        Quantity(
+            "σ_Flim1", "MPa", "Nominal bending endurance limit of the pinion (ISO 6336-5; twice that is σ_FE)", gt=0
+        ),
+    ]
+    sigma_f_lim_2: Annotated[
+        float,
+        Quantity(
+            "σ_Flim2", "MPa", "Nominal bending endurance limit of the wheel (ISO 6336-5; twice that is σ_FE)", gt=0
+        ),
+    ]
+    elastic_modulus_1: Annotated[float, Quantity("E_1", "GPa", "Modulus of elasticity of the pinion (steel)", gt=0)] = (
+        206
+    )
+    elastic_modulus_2: Annotated[float, Quantity("E_2", "GPa", "Modulus of elasticity of the wheel (steel)", gt=0)] = (
+        206
+    )
+    life_factor_h_1: Annotated[
+        float, Quantity("Z_NT1", "1", "Life factor of the pinion for pitting", ge=0.85, le=1.6)
+    ] = 1
+    life_factor_h_2: Annotated[
+        float, Quantity("Z_NT2", "1", "Life factor of the wheel for pitting", ge=0.85, le=1.6)
+    ] = 1
+    life_factor_f_1: Annotated[
+        float, Quantity("Y_NT1", "1", "Life factor of the pinion for the root", ge=0.85, le=2.5)
+    ] = 1
+    life_factor_f_2: Annotated[
+        float, Quantity("Y_NT2", "1", "Life factor of the wheel for the root", ge=0.85, le=2.5)
+    ] = 1
+    film_factor: Annotated[
+        float,
+        Quantity("Z_LRvWX", "1", "Factors of film, roughness, speed, hardening and size together", ge=0.5, le=1.3),
+    ] = 1
+    notch_size_factor: Annotated[
+        float, Quantity("Y_δRX", "1", "Factors of notch sensitivity, roughness and size together", ge=0.5, le=1.3)
+    ] = 1
+    alternating_factor: Annotated[
+        float | None,
+        Quantity(
+            "Y_M",
+            "1",
+            "Factor of alternating bending; without it 0.7 where the torque has both signs, else 1",
+            gt=0,
+            le=1,
+        ),
+    ] = None
+    required_pitting_safety: Annotated[float, Quantity("S_Hmin", "1", "Required safety against pitting", ge=1)] = 1.0
+    required_root_safety: Annotated[
+        float, Quantity("S_Fmin", "1", "Required safety against breakage of the root", ge=1)
+    ] = 1.4
+    sector: Annotated[Sector | None, Text("The wheel is a sector that swings")] = None
+    n_points: Annotated[int, POINTS] = 360

@@ -1,0 +1,67 @@
+"""Chapters on the load: the torque on the pinion over a cycle, its peak, whether it turns round, and the K factors."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from diecut_report.api import Chapter, bind, case
+from diecut_report.plugins.gear_pair import advice
+
+# fmt: off
+
+CURVE = ("torque_curve",)
+REVERSED = 1e-6  # share of the torque's size up to which the other sign is rounding
+
+cycle = Chapter("Torque over the cycle", needs=CURVE, text="One period of the referred curve is laid over one turn of the cycle angle.")
+cycle.abscissa("cycle_angle", "φ", "deg", "Angle of the cycle, one turn a period of the torque", period=2 * np.pi, shown_at="torque_size_at")
+cycle.from_curve("torque_given", "T_φ", "N*m", "Torque as given", given="torque_curve", abscissa="cycle_angle", output=False)
+cycle.value("torque_pinion_curve", "T_1φ", "N*m", "Torque on the pinion", lambda torque_given: torque_given, needs=("torque_on=pinion",),
+            source="input")
+cycle.value("torque_pinion_curve", "T_1φ", "N*m", "Torque on the pinion, of that on the wheel without losses",
+            lambda torque_given, teeth_1, teeth_2: torque_given * teeth_1 / teeth_2, needs=("torque_on=wheel",), source="statics")
+cycle.reduction("torque_size", "T_m", "N*m", "Greatest size of the torque on the pinion", "abs_max", of="torque_pinion_curve", output=False)
+cycle.reduction("torque_max", "T_max", "N*m", "Greatest torque on the pinion", "max", of="torque_pinion_curve")
+cycle.reduction("torque_min", "T_min", "N*m", "Least torque on the pinion", "min", of="torque_pinion_curve")
+
+load = Chapter("Load", text="A peak of every turn is a regular load: the greatest torque of the cycle counts in full.")
+load.value("torque_peak", "T_1", "N*m", "Greatest torque on the pinion", lambda torque_size: torque_size, needs=CURVE, source="this method")
+load.value("torque_peak", "T_1", "N*m", "Greatest torque on the pinion", lambda torque: abs(torque), needs=("torque", "torque_on=pinion"),
+           source="input")
+load.value("torque_peak", "T_1", "N*m", "Greatest torque on the pinion, of that on the wheel without losses",
+           lambda torque, teeth_1, teeth_2: abs(torque) * teeth_1 / teeth_2, needs=("torque", "torque_on=wheel"), source="statics")
+load.require("loaded", lambda torque_peak: torque_peak > 0, key="torque", message="is 0; give the torque that the teeth carry", lacks=CURVE)
+load.require("loaded_by_curve", lambda torque_peak: torque_peak > 0, key="torque_curve", needs=CURVE,
+             message="is 0 everywhere; give the torque that the teeth carry")
+load.value("reversing", "R_T", "1", "Whether the torque changes its sign over the cycle: each tooth is bent both ways",
+           bind(lambda torque_max, torque_min, torque_peak, share: (torque_max > share * torque_peak) & (-torque_min > share * torque_peak),
+                share=REVERSED), needs=CURVE, source="this method")
+load.value("reversing", "R_T", "1", "Whether the torque changes its sign: a single torque does not",
+           lambda torque_peak: torque_peak < 0, lacks=CURVE, source="this method")
+load.value("alternating_factor", "Y_M", "1", "Factor of alternating bending: as given", bind(lambda given: given, given="inputs.alternating_factor"),
+           needs=("alternating_factor",), source="input")
+load.choice("alternating_factor", "Y_M", "1", "Factor of alternating bending",
+            case(lambda: 0.7, "the torque has both signs, so that each tooth is bent both ways", lambda reversing: reversing > 0),
+            case(lambda: 1, "the torque keeps its sign"), lacks=("alternating_factor",), source="ISO 6336-5 (idlers)")
+
+FACTORS = {"application": ("K_A", "Application factor", 1.25), "dynamic": ("K_V", "Dynamic factor", 1.1),
+           "face_load": ("K_Hβ", "Face load factor for pitting", 1.3)}
+"""The K factors by the beginning of their keys: symbol, words, and what is assumed without the key."""
+
+factors = Chapter("K factors", text="The factors of ISO 6336-1 are given, not calculated; those that are not given are assumed.")
+for name, (symbol, words, assumed) in FACTORS.items():
+    key = f"{name}_factor"
+    factors.value(key, symbol, "1", f"{words}: as given", bind(lambda given: given, given=f"inputs.{key}"), needs=(key,), source="input")
+    factors.value(key, symbol, "1", f"{words}: assumed", bind(lambda assumed: assumed, assumed=assumed), lacks=(key,), source="this method")
+factors.value("transverse_load_factor", "K_Hα", "1", "Transverse load factor: as given",
+              bind(lambda given: given, given="inputs.transverse_load_factor"), needs=("transverse_load_factor",), source="input")
+factors.choice("transverse_load_factor", "K_Hα", "1", "Transverse load factor: assumed",
+               case(lambda: 1.2, "the teeth are helical", lambda helix_angle: helix_angle > 0), case(lambda: 1, "the teeth are straight"),
+               lacks=("transverse_load_factor",), source="this method")
+for name in (*FACTORS, "transverse_load"):
+    key = f"{name}_factor"
+    factors.value(f"{name}_assumed", f"n_{name[0]}", "1", f"Whether {key} is assumed", lambda: 0, needs=(key,), output=False)
+    factors.value(f"{name}_assumed", f"n_{name[0]}", "1", f"Whether {key} is assumed", lambda: 1, lacks=(key,), output=False)
+factors.value("factors_assumed", "n_K", "1", "K factors that are assumed",
+              lambda application_assumed, dynamic_assumed, face_load_assumed, transverse_load_assumed:
+                  application_assumed + dynamic_assumed + face_load_assumed + transverse_load_assumed, whole=True, source="this method")
+factors.words("assumed_told", advice.assumed_factors, tuple(f"{name}_assumed" for name in (*FACTORS, "transverse_load")), output=False)

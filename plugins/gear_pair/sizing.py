@@ -1,0 +1,73 @@
+"""The module: as given, or the least of the preferred series with which flank and root of both gears hold."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import Any
+
+import numpy as np
+
+from diecut_report.api import Bound, Chapter, Formula, Value, bind, si, standard_series
+from diecut_report.plugins.gear_pair import advice, rating
+from diecut_report.plugins.gear_pair.mesh import GIVEN_DISTANCE, TEETH
+
+MODULES = standard_series("iso_54_modules")
+SERIES = np.array([si(value, MODULES.unit) for value in MODULES.values])
+SAFETIES = {f"{kind}_safety_{g}": f"required_{kind}_safety" for kind in ("pitting", "root") for g in TEETH}
+"""The safeties that the module settles, each with the one that is required."""
+
+
+def _rating() -> tuple[Value, ...]:
+    """The steps of the rating that the safeties follow from, in their order."""
+    chapters = (rating.sizes, rating.forces, rating.pitting, rating.root_stress)
+    steps = [step for chapter in chapters for step in chapter.steps if isinstance(step, Value)]
+    wanted = set(SAFETIES)
+    for step in reversed(steps):
+        wanted |= {name for name in step.takes() if isinstance(name, str)} if step.id in wanted else set()
+    return tuple(step for step in steps if step.id in wanted)
+
+
+RATING = _rating()
+
+
+def _taken() -> Iterator[str]:
+    """What the rating takes beside the module and what its own steps give."""
+    given = {"module"} | {step.id for step in RATING}
+    yield from dict.fromkeys(
+        name for step in RATING for name in step.takes() if isinstance(name, str) and name not in given
+    )
+    yield from dict.fromkeys(SAFETIES.values())
+
+
+TAKES = tuple(_taken())
+
+
+def least_module(*taken: Any) -> Any:
+    """Least module of the series with which all safeties are reached, shape (variants, 1); 0 where none is enough."""
+    known: dict[str, Any] = dict(zip(TAKES, taken, strict=True)) | {"module": SERIES}
+    for step in RATING:
+        known[step.id] = _value(step, known)
+    held = np.all([known[name] >= known[required] for name, required in SAFETIES.items()], axis=0)
+    first = SERIES[np.argmax(held, axis=1)]
+    return np.where(held.any(axis=1), first, 0.0)[:, None]
+
+
+def _value(step: Value, known: dict[str, Any]) -> Any:
+    formula = step.formula.formula if isinstance(step.formula, Bound) else step.formula
+    assert isinstance(formula, Formula), "the rating has no formula that a text chooses"
+    return formula(*(known[name] if isinstance(name, str) else name for name in step.takes()))
+
+
+# fmt: off
+
+module = Chapter("Module", text="The rating below is gone through with each module of the preferred series; the least with which flank and root of "
+                                "both gears reach their safeties is enough.")
+module.computed("module_least", "m_min", "mm", "Least preferred module that is enough", function=least_module, takes=TAKES,
+                method="the safeties of pitting and root below, with each module of ISO 54, series I, in turn; 0 where none is enough",
+                lacks=GIVEN_DISTANCE, output=False)
+module.words("no_module", advice.no_module, ("face_width",), lacks=("module",), output=False)
+module.require("module_exists", lambda module_least: module_least > 0, key="face_width", lacks=("module",),
+               message="is {face_width}, with which no module of ISO 54 carries the torque; {no_module}")
+module.pick("module", "m_n", "mm", "Normal module: the least that is enough", "above", of="module_least", series=MODULES, lacks=("module",),
+            source="ISO 54")
+module.value("module", "m_n", "mm", "Normal module: as given", bind(lambda given: given, given="inputs.module"), needs=("module",), source="input")

@@ -1,0 +1,56 @@
+"""Checks of the parallel key, and the chapter of words that they end with."""
+
+from __future__ import annotations
+
+from diecut_report.api import Chapter, Check, told
+from diecut_report.plugins.parallel_key.dimensions import LONGEST
+from diecut_report.plugins.parallel_key.load import METHOD
+
+ROUNDING = 1e-9  # relative: what is typed in at its limit reaches it
+
+
+def longer(least: float, standard: float, count: float) -> str:
+    """The length that holds, where there is a standard one."""
+    if least > LONGEST * (1 + ROUNDING):
+        return "no standard key is long enough: take a thicker shaft or stronger material"
+    second = "" if count > 1 else ", or take key_count: 2"
+    return f"set key_length to at least {told(standard, 'mm')}{second} or stronger material"
+
+
+# fmt: off
+
+advice = Chapter("Advice")
+advice.words("length_advice", longer, ("least_key_length", "standard_key_length", "key_count"), output=False)
+SIZED = ("key_length",)
+
+
+def _pressure(part: str) -> Check:
+    return Check(id=f"pressure_{part}", check_class="strength", title=f"Pressure of the {part}", demand=f"pressure_{part}", limit=f"allowed_{part}",
+                 unit="MPa", tolerance=ROUNDING, sized_unless=SIZED, demand_label="pressure", limit_label="allowed", source=METHOD,
+                 consequence=f"the {part} yields where the key bears; {{length_advice}}.")
+
+
+CHECKS = (
+    _pressure("shaft"), _pressure("hub"), _pressure("key"),
+    Check(id="pressure_peak", check_class="strength", title="Pressure under the greatest torque", demand=1.0, limit="safety_peak", unit="1",
+          tolerance=ROUNDING, sized_unless=SIZED, demand_label="required safety", limit_label="least safety of shaft, hub and key", source=METHOD,
+          consequence="a part yields at the peak; {length_advice}."),
+    Check(id="shear", check_class="strength", title="Shear of the key", demand="shear_stress", limit="allowed_shear", unit="MPa", tolerance=ROUNDING,
+          sized_unless=SIZED, demand_label="shear stress", limit_label="allowed", source="strength of materials",
+          consequence="the key is sheared off; {length_advice}."),
+    Check(id="length_ratio", check_class="practice", title="Length to diameter", demand="bearing_length", limit="longest_wanted", unit="mm",
+          severity="warn", tolerance=ROUNDING, demand_label="bearing length", limit_label="1.3 diameters", source=METHOD,
+          consequence="the load no longer spreads over so long a key; take a thicker shaft, two keys or stronger material."),
+    Check(id="reversing", check_class="practice", title="Reversing torque", demand="reversal_left_out", limit=0.0, unit="1", severity="warn",
+          demand_label="changes its sign, judged as steady", limit_label="accepted", source="DIN 6892, method B",
+          consequence="the key works loose where the torque turns round often; set load_direction_factor by the number of reversals (below 1)."),
+    Check(id="two_keys", check_class="practice", title="Two keys in a brittle hub", demand="key_count", limit=1.0, unit="1", severity="warn",
+          needs=("brittle_hub=true",), demand_label="keys", limit_label="accepted in a brittle hub", source=METHOD,
+          consequence="a brittle hub does not even out the load of two keys; take one key, or a hub of steel."),
+    Check(id="standard_length", check_class="practice", title="Standard length", demand="length_off", limit=0.0, unit="mm", severity="warn",
+          tolerance=1e-9, demand_label="off the nearest standard length", limit_label="accepted", source="DIN 6885-1",
+          consequence="no key of the shelf is so long; the nearest one has {nearest_length}."),
+    Check(id="hub_length", check_class="practice", title="Key within the hub", demand="key_length", limit="hub_length", unit="mm", severity="warn",
+          needs=("hub_length",), tolerance=ROUNDING, demand_label="key", limit_label="hub", source="geometry",
+          consequence="what stands out of the hub does not bear; take a longer hub or a shorter key."),
+)

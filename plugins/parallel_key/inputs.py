@@ -1,0 +1,69 @@
+"""Inputs of the parallel key."""
+
+from __future__ import annotations
+
+from typing import Any, ClassVar, Literal
+
+from diecut_report.api import POINTS, Annotated, CurveInput, Inputs, OneOf, Quantity, Text
+
+
+class ParallelKey(Inputs):
+    """Keys of ``parallel_key``."""
+
+    one_of: ClassVar[tuple[OneOf, ...]] = (
+        OneOf(("torque", "application_factor"), ("torque_curve",), shared=("application_factor",)),
+        OneOf(("width", "height", "depth_shaft", "depth_hub"), optional=True),
+    )
+    curve_keys: ClassVar[dict[str, str]] = {"torque": "torque_curve"}
+
+    shaft_diameter: Annotated[
+        float, Quantity("d", "mm", "Diameter of the shaft; the table has keys for 10 (not included) to 200 mm", gt=0)
+    ]
+    key_length: Annotated[
+        float | None,
+        Quantity("l", "mm", "Length of the key; without it the least standard length that holds is taken", gt=0),
+    ] = None
+    form: Annotated[Literal["A", "B"], Text("Form of the key's ends: A round, B square")] = "A"
+    key_count: Annotated[int, Quantity("i", "1", "Keys around the shaft", ge=1, le=2, integer=True)] = 1
+    torque: Annotated[
+        float | None,
+        Quantity("T", "N*m", "Torque, signed; a reference to a curve over a cycle is taken as torque_curve"),
+    ] = None
+    torque_curve: Annotated[
+        Any | None, CurveInput("T_φ", "N*m", "Torque over a cycle, signed, in the place of torque")
+    ] = None
+    torque_peak: Annotated[
+        float | None,
+        Quantity("T_max", "N*m", "Rare peak of the torque; without it the greatest size of the torque", gt=0),
+    ] = None
+    application_factor: Annotated[
+        float | None,
+        Quantity("K_A", "1", "Application factor; 1 without it beside a curve, which holds the dynamics", ge=1),
+    ] = None
+    yield_shaft: Annotated[float, Quantity("R_eW", "MPa", "Yield strength of the shaft", gt=0)]
+    yield_hub: Annotated[
+        float, Quantity("R_eN", "MPa", "Yield strength of the hub; of a brittle one its tensile strength", gt=0)
+    ]
+    yield_key: Annotated[
+        float, Quantity("R_eP", "MPa", "Yield strength of the key (C45+C; set that of your own)", gt=0)
+    ] = 335
+    brittle_hub: Annotated[bool, Text("Whether the hub is of grey cast iron")] = False
+    load_peak_factor: Annotated[
+        float, Quantity("f_L", "1", "Load peak factor: raises what rare peaks may press", ge=1, le=1.5)
+    ] = 1.0
+    load_direction_factor: Annotated[
+        float, Quantity("f_w", "1", "Load direction factor: lowers what a reversing torque may press", ge=0.5, le=1)
+    ] = 1.0
+    chamfer: Annotated[
+        float, Quantity("s", "mm", "Chamfer of the key, taken off the heights that bear in shaft and hub", ge=0)
+    ] = 0
+    hub_length: Annotated[float | None, Quantity("l_H", "mm", "Length of the hub", gt=0)] = None
+    width: Annotated[float | None, Quantity("b", "mm", "Width of the key; the table's without it", gt=0)] = None
+    height: Annotated[float | None, Quantity("h", "mm", "Height of the key; the table's without it", gt=0)] = None
+    depth_shaft: Annotated[
+        float | None, Quantity("t_1", "mm", "Depth of the shaft's keyway; the table's without it", gt=0)
+    ] = None
+    depth_hub: Annotated[
+        float | None, Quantity("t_2", "mm", "Depth of the hub's keyway; the table's without it", gt=0)
+    ] = None
+    n_points: Annotated[int, POINTS] = 360

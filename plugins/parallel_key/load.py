@@ -1,0 +1,51 @@
+"""Chapters on the torque and the force on the key."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from diecut_report.api import Chapter, bind, case
+from diecut_report.plugins.parallel_key import formulas as f
+
+# fmt: off
+
+CURVE = ("torque_curve",)
+REVERSED = 1e-6  # share of the torque's size up to which the other sign is rounding
+ROUNDING = 1e-9
+METHOD = "DIN 6892, method C"
+
+cycle = Chapter("Torque over the cycle", needs=CURVE, text="One period of the referred curve is laid over one turn of the cycle angle.")
+cycle.abscissa("cycle_angle", "φ", "deg", "Angle of the cycle, one turn a period of the torque", period=2 * np.pi, shown_at="torque_size_at")
+cycle.from_curve("torque_over_cycle", "T_φ", "N*m", "Torque as given", given="torque_curve", abscissa="cycle_angle")
+cycle.reduction("torque_size", "T_m", "N*m", "Greatest size of the torque", "abs_max", of="torque_over_cycle", output=False)
+cycle.reduction("torque_greatest", "T_up", "N*m", "Greatest torque", "max", of="torque_over_cycle", output=False)
+cycle.reduction("torque_least", "T_low", "N*m", "Least torque", "min", of="torque_over_cycle", output=False)
+
+load = Chapter("Load", text="A peak of every turn is a regular load and counts in the equivalent torque; torque_peak is a rare one.")
+load.value("torque_size", "T_m", "N*m", "Size of the torque", lambda torque: abs(torque), lacks=CURVE, source="input", output=False)
+load.require("loaded", lambda torque_size: torque_size > 0, key="torque", message="is 0; give the torque that the key carries", lacks=CURVE)
+load.require("loaded_by_curve", lambda torque_size: torque_size > 0, key="torque_curve", needs=CURVE,
+             message="is 0 everywhere; give the torque that the key carries")
+load.value("application_factor", "K_A", "1", "Application factor: as given", bind(lambda given: given, given="inputs.application_factor"),
+           needs=("application_factor",), source="input")
+load.value("application_factor", "K_A", "1", "Application factor: the curve holds the dynamics", lambda: 1, lacks=("application_factor",),
+           source="this method")
+load.value("torque_equivalent", "T_eq", "N*m", "Equivalent torque", lambda application_factor, torque_size: application_factor * torque_size,
+           source=METHOD)
+load.require("peak_is_greatest", bind(lambda peak, torque_size, rounding: peak >= torque_size * (1 - rounding), peak="inputs.torque_peak",
+                                      rounding=ROUNDING), key="torque_peak", needs=("torque_peak",),
+             message="is {inputs.torque_peak}, less than the torque of {torque_size} that acts anyway; give the greatest one, or remove the key")
+load.value("torque_peak", "T_max", "N*m", "Greatest torque: as given", bind(lambda given: given, given="inputs.torque_peak"), needs=("torque_peak",),
+           source="input")
+load.value("torque_peak", "T_max", "N*m", "Greatest torque: that of the cycle", lambda torque_size: torque_size, lacks=("torque_peak",),
+           source="this method")
+load.value("reversing", "R_T", "1", "Whether the torque changes its sign over the cycle",
+           bind(lambda torque_greatest, torque_least, torque_size, share:
+                    (torque_greatest > share * torque_size) & (-torque_least > share * torque_size), share=REVERSED), needs=CURVE,
+           source="this method")
+load.value("reversing", "R_T", "1", "Whether the torque changes its sign: a single torque does not", lambda torque_size: torque_size < 0, lacks=CURVE,
+           source="this method")
+load.choice("key_share", "φ_k", "1", "Share of the second key", case(lambda: 1, "one key", lambda key_count: key_count < 2),
+            case(lambda: 0.75, "the second key of two bears less"), source=METHOD, output=False)
+load.value("key_force", "F", "N", "Force on one key, equivalent", bind(f.key_force, torque="torque_equivalent"), source=METHOD)
+load.value("key_force_peak", "F_max", "N", "Force on one key, greatest", bind(f.key_force, torque="torque_peak"), source=METHOD)

@@ -1,0 +1,40 @@
+"""Roller chain after ISO 606, series B: geometry, chordal action, tension, safety, joint pressure, approximate power rating."""
+
+from __future__ import annotations
+
+from diecut_report.api import Mechanism, Source
+from diecut_report.plugins.roller_chain import geometry, loads, sizing, strength
+from diecut_report.plugins.roller_chain.checks import CHECKS
+from diecut_report.plugins.roller_chain.figures import FIGURES
+from diecut_report.plugins.roller_chain.inputs import RollerChain
+
+MECHANISM = Mechanism(
+    kind="roller_chain",
+    version="1.0",
+    title="Roller chain",
+    summary="A chain of ISO 606, series B, that drives a shaft or conveys: loop over two sprockets, unevenness by the polygon, tension of a strand "
+    "over the cycle, safety against breaking, pressure of the joints. Where the chain is left out, the smallest that holds is taken.",
+    inputs=RollerChain,
+    chapters=(loads.cycle, sizing.size, geometry.chain, geometry.loop, loads.motion, loads.useful, loads.tension, strength.safety, strength.rating,
+              strength.limits),
+    key_results=("pitch", "links", "center_distance_adjusted", "velocity", "useful_tension", "tension_peak", "safety_dynamic", "safety_static",
+                 "bearing_pressure"),
+    checks=CHECKS,
+    figures=FIGURES,
+    assumptions=(
+        "The whole mass that a conveyor moves is taken to hang on one side, which is safe; in a closed loop its weight is balanced. When the drive "
+        "brakes, the other side is tight by the same amount.",
+        "Of a torque or an acceleration the size counts: where it changes its sign, the other strand is the tight one.",
+        "Strands that run side by side share the load evenly.",
+        "The required safeties 7 and 5 are usual values; no standard confirms them here.",
+        "Tensions take the distance of the axes as it is given; where links are given, the one at which they fit.",
+        "Not covered: selection charts and wear life of ISO 10823, attachments and bent lugs, friction of guides in curves, stretch and resonance of "
+        "the strands, elongation by wear. A cranked link loses about a fifth of the breaking load: a warning only.",
+    ),
+    sources=(
+        Source("ISO 606", "ISO 606, Short-pitch transmission precision roller and bush chains, attachments and associated chain sprockets."),
+        Source("Shigley", "Budynas R. G., Nisbett J. K. Shigley's Mechanical Engineering Design. McGraw-Hill; section 17-5, roller chain."),
+        Source("ANSI B29.1", "ANSI/ASME B29.1, Precision power transmission roller chains, attachments, and sprockets; power ratings as given by "
+               "Shigley, eq. 17-32, 17-33."),
+    ),
+)  # fmt: skip

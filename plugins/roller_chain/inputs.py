@@ -1,0 +1,145 @@
+"""Inputs of the roller chain."""
+
+from __future__ import annotations
+
+from typing import Any, ClassVar, Literal
+
+from diecut_report.api import POINTS, Annotated, CurveInput, Inputs, OneOf, Quantity, Text
+
+DRIVE, CONVEYOR, CUSTOM = "use=drive", "use=conveyor", "chain=custom"
+OVERRIDES = ("pitch", "pin_diameter", "bearing_area", "breaking_load", "mass_per_length")
+
+
+class RollerChain(Inputs):
+    """Keys of ``roller_chain``."""
+
+    one_of: ClassVar[tuple[OneOf, ...]] = (
+        OneOf(OVERRIDES, when=CUSTOM),
+        OneOf(("center_distance",), ("links",)),
+        OneOf(("speed",), when=DRIVE),
+        OneOf(
+            ("torque", "application_factor"),
+            ("torque_curve",),
+            ("power", "application_factor"),
+            shared=("application_factor",),
+            when=DRIVE,
+        ),
+        OneOf(("acceleration",), ("acceleration_curve",), when=CONVEYOR),
+        OneOf(("velocity",), ("velocity_curve",), when=CONVEYOR),
+        OneOf(("moving_mass",), when=CONVEYOR),
+    )
+    curve_keys: ClassVar[dict[str, str]] = {
+        "torque": "torque_curve",
+        "acceleration": "acceleration_curve",
+        "velocity": "velocity_curve",
+    }
+
+    chain: Annotated[
+        Literal["08B", "10B", "12B", "16B", "20B", "24B", "custom"] | None,
+        Text("Chain of ISO 606, series B; where it is left out the smallest that holds is taken"),
+    ] = None
+    pitch: Annotated[float | None, Quantity("p", "mm", "Pitch; without it that of the chain", gt=0)] = None
+    pin_diameter: Annotated[
+        float | None, Quantity("d_p", "mm", "Diameter of the pins; without it that of the chain", gt=0)
+    ] = None
+    bearing_area: Annotated[
+        float | None,
+        Quantity("A", "mm**2", "Bearing area of a joint; without it pin diameter times length of the bush", gt=0),
+    ] = None
+    breaking_load: Annotated[
+        float | None, Quantity("F_B", "kN", "Breaking load of one strand; without it that of the chain", gt=0)
+    ] = None
+    mass_per_length: Annotated[
+        float | None, Quantity("q", "kg/m", "Mass per length of one strand; without it that of the chain", gt=0)
+    ] = None
+    strands: Annotated[
+        int, Quantity("s", "1", "Parallel chains or strands that share the load", ge=1, le=4, integer=True)
+    ] = 1
+    teeth_1: Annotated[int, Quantity("z_1", "1", "Teeth of the driving sprocket", ge=6, le=150, integer=True)]
+    teeth_2: Annotated[
+        int | None,
+        Quantity(
+            "z_2", "1", "Teeth of the driven sprocket; without it those of the driving one", ge=6, le=150, integer=True
+        ),
+    ] = None
+    center_distance: Annotated[float | None, Quantity("a", "mm", "Distance of the sprockets' axes; or links", gt=0)] = (
+        None
+    )
+    links: Annotated[
+        int | None, Quantity("X", "1", "Links of the chain; or center_distance", ge=8, le=100_000, integer=True)
+    ] = None
+    speed: Annotated[float | None, Quantity("n_1", "rpm", "Speed of the driving sprocket of a drive", gt=0)] = None
+    use: Annotated[Literal["drive", "conveyor"], Text("Whether the chain drives a shaft or conveys")] = "drive"
+    torque: Annotated[
+        float | None,
+        Quantity(
+            "T_1", "N*m", "Torque of the driving sprocket; a reference to a curve over a cycle is taken as torque_curve"
+        ),
+    ] = None
+    torque_curve: Annotated[
+        Any | None, CurveInput("T_φ", "N*m", "Torque of the driving sprocket over a cycle, in the place of torque")
+    ] = None
+    power: Annotated[float | None, Quantity("P", "kW", "Power of a drive, in the place of torque", gt=0)] = None
+    acceleration: Annotated[
+        float | None,
+        Quantity(
+            "a_c",
+            "m/s**2",
+            "Acceleration of a conveyor's chain; a reference to a curve is taken as acceleration_curve",
+        ),
+    ] = None
+    acceleration_curve: Annotated[
+        Any | None, CurveInput("a_φ", "m/s**2", "Acceleration of a conveyor's chain over a cycle")
+    ] = None
+    velocity: Annotated[
+        float | None,
+        Quantity("v_c", "m/s", "Velocity of a conveyor's chain; a reference to a curve is taken as velocity_curve"),
+    ] = None
+    velocity_curve: Annotated[
+        Any | None, CurveInput("v_φ", "m/s", "Velocity of a conveyor's chain over the same cycle")
+    ] = None
+    moving_mass: Annotated[
+        float | None,
+        Quantity("m", "kg", "Grippers, bars and load on all strands of a conveyor, without the chains", ge=0),
+    ] = None
+    driven_inertia: Annotated[
+        float,
+        Quantity("J", "kg*m**2", "What a conveyor's chain accelerates beyond, at the driven sprocket", ge=0),
+    ] = 0
+    friction_coefficient: Annotated[
+        float, Quantity("μ", "1", "Friction of what a conveyor's chain moves, by its weight", ge=0)
+    ] = 0.1
+    process_force: Annotated[
+        float, Quantity("F_p", "N", "Force along a conveyor's chain against its motion, on all strands", ge=0)
+    ] = 0
+    application_factor: Annotated[
+        float | None,
+        Quantity(
+            "K_A", "1", "Application factor; 1 without it where a curve holds the dynamics, and for a conveyor", ge=1
+        ),
+    ] = None
+    sag: Annotated[
+        float, Quantity("f_a", "1", "Sag of the slack strand to the distance of the axes", ge=0.005, le=0.05)
+    ] = 0.02
+    inclination: Annotated[float, Quantity("ψ", "deg", "Inclination of the line through the axes", ge=0, le=90)] = 0
+    pretension: Annotated[float, Quantity("F_v", "N", "Pretension of each strand", ge=0)] = 0
+    allowable_bearing_pressure: Annotated[
+        float | None,
+        Quantity("p_zul", "MPa", "Allowed pressure of the joints by the maker; it falls with velocity", gt=0),
+    ] = None
+    required_safety_static: Annotated[
+        float,
+        Quantity(
+            "S_1", "1", "Required safety against breaking, static: usual value, not of a standard; never below 2", ge=1
+        ),
+    ] = 7
+    required_safety_dynamic: Annotated[
+        float,
+        Quantity(
+            "S_2", "1", "Required safety against breaking, dynamic: usual value, not of a standard; never below 2", ge=1
+        ),
+    ] = 5
+    power_rating: Annotated[
+        Literal["ansi_b29_1"] | None, Text("Rating of a drive: that of ANSI chains of the same pitch")
+    ] = None
+    n_points: Annotated[int, POINTS] = 360

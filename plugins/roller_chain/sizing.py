@@ -1,0 +1,175 @@
+"""The chain that is left out: the smallest of ISO 606, series B, whose safeties and joints hold."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from diecut_report.api import Chapter, Curve, bind, case, si
+from diecut_report.plugins.roller_chain import formulas as f
+from diecut_report.plugins.roller_chain.chains import CHAINS, COLUMNS
+from diecut_report.plugins.roller_chain.formulas import INCH
+from diecut_report.plugins.roller_chain.inputs import CONVEYOR, DRIVE, OVERRIDES
+from diecut_report.plugins.roller_chain.loads import STILL
+
+Array = NDArray[np.float64]
+POINTS = 129  # of each smooth piece of a curve over the cycle
+SAME = 1e-6  # relative: pitches so near are one
+MARGIN = 1e-4  # relative: what the curve may rise between them
+TABLE = {name: np.array([si(value, unit) for value in CHAINS.column(name).values]) for name, unit in COLUMNS.items()}
+"""The chains' values, SI, in their order."""
+ALWAYS = ("teeth_1", "driven_teeth", "distance_wanted", "links_wanted", "strands", "sag", "inclination", "pretension", "application",
+          "required_safety_dynamic", "required_safety_static", "pressure_allowed")  # fmt: skip
+CONVEYED = ("moving_mass", "driven_inertia", "friction_coefficient", "process_force")
+CURVES = ("torque_curve", "acceleration_curve", "velocity_curve")
+
+Known = Mapping[str, Any]
+
+
+def least_pitch(known: Known) -> Array:
+    """Pitch of the smallest chain that holds, shape (variants, 1); 0 where none does."""
+    found = np.zeros(np.shape(known["teeth_1"]))
+    for row in reversed(range(len(TABLE["pitch"]))):
+        own = {name: values[row] for name, values in TABLE.items()}
+        found = np.where(_holds(known, own), own["pitch"], found)
+    return found
+
+
+def _holds(known: Known, own: Known) -> Any:
+    """Whether the safeties and the joints of a chain hold, of each machine."""
+    peak, static = _tensions(known, own)
+    held = own["breaking_load"] >= known["required_safety_dynamic"] * peak
+    held = held & (own["breaking_load"] >= known["required_safety_static"] * static)
+    area = f.bearing_area(own["pin_diameter"], own["inner_width"], own["plate_thickness"])
+    return held & ((known["pressure_allowed"] == 0) | (peak <= known["pressure_allowed"] * area))
+
+
+def _tensions(known: Known, own: Known) -> tuple[Array, Array]:
+    """Greatest tension and greatest static tension with a chain, each of shape (variants, 1); NaN where it does not go round."""
+    pitch, mass = own["pitch"], own["mass_per_length"]
+    teeth = known["teeth_1"], known["driven_teeth"]
+    diameters = [f.pitch_diameter(pitch, z) for z in teeth]
+    center, links = _loop(known, pitch, teeth)
+    useful, velocity, angular = _motion(known, mass, links * pitch, diameters, pitch)
+    always = f.sag_tension(mass, center, known["sag"], known["inclination"])
+    round_circles, shock = f.centrifugal(mass, velocity), f.chordal(mass, center, f.chordal_step(angular, pitch))
+    fits = center > (diameters[0] + diameters[1]) / 2
+    peak = f.whole_tension(known["application"], useful, round_circles, always, shock, known["pretension"])
+    static = f.quiet_tension(useful, round_circles, always, known["pretension"])
+    return _greatest(peak, fits), _greatest(static, fits)
+
+
+def _greatest(over: Array, fits: Array) -> Array:
+    """The greatest value over the cycle, a little more where it is sampled."""
+    top = over.max(axis=1, keepdims=True)
+    return np.where(fits, top * (1 + MARGIN) if over.shape[1] > 1 else top, np.nan)
+
+
+def _loop(known: Known, pitch: float, teeth: tuple[Any, Any]) -> tuple[Array, Array]:
+    """Distance of the axes and links, one of which is wanted; NaN where the links are too few."""
+    wanted = known["distance_wanted"]
+    from_distance = f.even_links(f.exact_links(np.where(wanted > 0, wanted, np.nan), pitch, *teeth))
+    links = np.where(wanted > 0, from_distance, known["links_wanted"])
+    free = f.free_links(links, *teeth)
+    inner = f.discriminant(free, *teeth)
+    room = np.where((inner > 0) & (free > 0), inner, np.nan)
+    return np.where(wanted > 0, wanted, f.adjusted_center(pitch, free, room)), links
+
+
+def _motion(
+    known: Known, mass: float, length: Array, diameters: Sequence[Array], pitch: float
+) -> tuple[Array, Array, Array]:
+    """Useful tension, velocity and angular speed, each a number or over the cycle."""
+    if "speed" in known:
+        speed = known["speed"]
+        torque = known["power"] / speed if "power" in known else _over(known, "torque")
+        useful = f.drive_tension(torque, known["strands"], diameters[0])
+        return useful, f.mean_velocity(known["teeth_1"], pitch, speed), speed
+    velocity = _over(known, "velocity")
+    hanging = f.hanging_mass(known["moving_mass"], known["strands"], mass, length)
+    total = f.total_mass(hanging, known["driven_inertia"], diameters[1])
+    against = f.resistance(known["friction_coefficient"], hanging, known["process_force"])
+    moving = abs(velocity) > STILL * abs(velocity).max(axis=1, keepdims=True)
+    useful = f.conveyor_tension(total, _over(known, "acceleration"), moving, against, known["strands"])
+    return useful, velocity, velocity / (diameters[0] / 2)
+
+
+def _over(known: Known, name: str) -> Array:
+    """A number, or a curve at many places of the cycle, shape (variants, places): all curves at the same ones."""
+    curve = known.get(f"{name}_curve")
+    if curve is None:
+        return np.asarray(known[name], dtype=float)
+    places, middles = _places([known[key] for key in CURVES if key in known])
+    return np.asarray(curve.values(places, middles, None), dtype=float)
+
+
+def _places(curves: Sequence[Curve]) -> tuple[Array, Array]:
+    """Places of the cycle in each smooth piece of all curves, with the middles of the pieces."""
+    inner = _side_by_side([np.clip(curve.breakpoints, 0, 1) for curve in curves])
+    ends = np.ones((len(inner), 1))
+    edges = np.sort(np.concatenate([0 * ends, inner, ends], axis=1), axis=1)
+    share = (1 - np.cos(np.linspace(0, np.pi, POINTS))) / 2
+    places = edges[:, :-1, None] + np.diff(edges, axis=1)[:, :, None] * share
+    middles = np.broadcast_to(((edges[:, :-1] + edges[:, 1:]) / 2)[:, :, None], places.shape)
+    return places.reshape(len(edges), -1), middles.reshape(len(edges), -1)
+
+
+def _side_by_side(parts: Sequence[Array]) -> Array:
+    rows = max(len(part) for part in parts)
+    return np.concatenate([np.broadcast_to(part, (rows, part.shape[1])) for part in parts], axis=1)
+
+
+# fmt: off
+
+WAYS: tuple[tuple[str, tuple[str, ...]], ...] = (
+    (DRIVE, ("speed", "torque")), (DRIVE, ("speed", "torque_curve")), (DRIVE, ("speed", "power")),
+    *((CONVEYOR, (acceleration, velocity)) for acceleration in ("acceleration", "acceleration_curve") for velocity in ("velocity", "velocity_curve")),
+)
+"""What the load follows from."""
+
+
+def _least(*names: str) -> Callable[..., Array]:
+    """The choice, of numbers in the order of these names."""
+    return lambda *taken: least_pitch(dict(zip(names, taken, strict=True)))
+
+
+size = Chapter("Choice of the chain", text="Where chain is left out, each chain of the table is tried; the smallest with which both safeties and the "
+                                           "pressure of the joints hold is taken.")
+size.value("driven_teeth", "z_2", "1", "Teeth of the driven sprocket: as given", bind(lambda given: given, given="teeth_2"), needs=("teeth_2",),
+           source="input", whole=True, output=False)
+size.value("driven_teeth", "z_2", "1", "Teeth of the driven sprocket: those of the driving one", lambda teeth_1: teeth_1, lacks=("teeth_2",),
+           source="input", whole=True, output=False)
+size.value("application", "K_A", "1", "Application factor: as given", lambda application_factor: application_factor,
+           needs=("application_factor",), source="input", output=False)
+for chosen in ((DRIVE, "torque_curve"), (CONVEYOR,)):
+    size.value("application", "K_A", "1", "Application factor: the loads are dynamic ones", lambda: 1, needs=chosen, lacks=("application_factor",),
+               source="this method", output=False)
+WANTED = {"distance_wanted": ("center_distance", "a_w", "mm", "Distance of the axes"), "links_wanted": ("links", "X_w", "1", "Links"),
+          "pressure_allowed": ("allowable_bearing_pressure", "p_w", "MPa", "Allowed pressure of the joints")}
+for key, (given, symbol, unit, words) in WANTED.items():
+    size.value(key, symbol, unit, f"{words}: as given", bind(lambda given: given, given=f"inputs.{given}"), needs=(given,), lacks=("chain",),
+               source="input", output=False)
+    size.value(key, symbol, unit, f"{words}: 0, for it is not given", lambda: 0, lacks=("chain", given), source="input", output=False)
+for use, load in WAYS:
+    names = (*ALWAYS, *load, *(CONVEYED if use == CONVEYOR else ()))
+    size.computed("pitch_least", "p_min", "mm", "Pitch of the smallest chain that is enough", function=_least(*names),
+                  takes=tuple(f"inputs.{name}" if name in load else name for name in names),
+                  method="all tensions below, with each chain of the table in turn, over the cycle where curves are given; 0 where none is enough",
+                  needs=(use, *load), lacks=("chain",), output=False)
+for key in OVERRIDES:
+    size.require(f"{key}_of_a_chain", lambda teeth_1: teeth_1 < 0, key=key, needs=(key,), lacks=("chain",),
+                 message="has no use without a chain; give chain, or set chain to custom with "
+                         "pitch, pin_diameter, bearing_area, breaking_load and mass_per_length")
+size.require("chain_exists", lambda pitch_least: pitch_least > 0, key="chain", lacks=("chain",),
+             message="is left out, and no chain from 08B to 24B is enough; give more strands, a larger sprocket or less load, or set chain to "
+                     "custom")
+size.pick("pitch", "p", "mm", "Pitch: the smallest chain that is enough", "above", of="pitch_least", series=CHAINS.series("pitch"),
+          lacks=("chain",), source="ISO 606")
+INCHES = {name: pitch / 25.4 for name, pitch in CHAINS.by_name("pitch").items()}
+size.choice("designation", "C", "1", "The chain that is taken",
+            *(case(name, f"its pitch is {round(16 * inches):d}/16 inch", bind(lambda pitch, own: pitch / INCH <= own, own=inches * (1 + SAME)))
+              for name, inches in list(INCHES.items())[:-1]),
+            case(CHAINS.names[-1], "its pitch is the greatest"), lacks=("chain",), source="ISO 606")

@@ -1,0 +1,75 @@
+"""Chapters on what the chain bears: safeties against breaking, pressure of the joints, power rating; and what to change."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from diecut_report.api import Chapter, bind, case
+from diecut_report.plugins.roller_chain import formulas as f
+from diecut_report.plugins.roller_chain.inputs import CONVEYOR, DRIVE
+
+# fmt: off
+
+UNEVENNESS, USUAL_PITCHES = 0.02, (30, 50)
+RATED = ("power_rating",)
+RATED_TEETH = (11, 45)
+
+safety = Chapter("Safety against breaking",
+                 text="The required safeties 7 (static) and 5 (dynamic) are usual values and not those of a standard. A maker's guide (Diamond "
+                      "Chain) puts the limit for repeated loads at a sixth of the breaking load and for any single load at a half.")
+safety.value("safety_dynamic", "S_dyn", "1", "Safety against breaking under all tensions", lambda breaking_load, tension_peak:
+             breaking_load / tension_peak, source="practice", digits=6)
+safety.value("safety_static", "S_stat", "1", "Safety against breaking under the static tensions", lambda breaking_load, tension_static:
+             breaking_load / tension_static, source="practice", digits=6)
+safety.value("bearing_pressure", "p_r", "MPa", "Pressure of the joints", lambda tension_peak, bearing_area: tension_peak / bearing_area,
+             source="statics")
+safety.value("breaking_load_needed", "F_B,min", "kN", "Breaking load that both safeties need",
+             lambda required_safety_dynamic, tension_peak, required_safety_static, tension_static:
+                 np.maximum(required_safety_dynamic * tension_peak, required_safety_static * tension_static), source="practice", output=False)
+safety.value("bearing_area_needed", "A_min", "mm**2", "Bearing area that the allowed pressure needs",
+             lambda tension_peak, allowable_bearing_pressure: tension_peak / allowable_bearing_pressure, needs=("allowable_bearing_pressure",),
+             source="statics", output=False)
+
+rating = Chapter("Power rating", needs=(DRIVE, *RATED), absent="the power is not rated: power_rating is not given, or the chain conveys",
+                 text="Rating of ANSI B29.1 chains, taken for series B of the same pitch: 15 000 h, a chain of 100 links, lubricated as "
+                      "recommended. It holds for the smaller sprocket.")
+rating.require("teeth_rated", bind(lambda teeth_small, least, most: (teeth_small >= least) & (teeth_small <= most), least=RATED_TEETH[0],
+                                   most=RATED_TEETH[1]), key="teeth_1",
+               message="leaves the smaller sprocket {teeth_small} teeth, and the rating holds for 11 to 45; change the teeth, or leave out "
+                       "power_rating")
+rating.value("speed_small", "n_s", "rpm", "Speed of the smaller sprocket", lambda speed, teeth_1, teeth_small: speed * teeth_1 / teeth_small,
+             source="kinematics", output=False)
+rating.value("plate_power", "P_1", "kW", "Power up to which the plates of one strand last",
+             bind(f.plate_power, teeth="teeth_small", speed="speed_small"), source="ANSI B29.1")
+rating.value("roller_power", "P_2", "kW", "Power up to which the rollers of one strand last",
+             bind(f.roller_power, teeth="teeth_small", speed="speed_small"), source="ANSI B29.1")
+rating.choice("strand_factor", "k_s", "1", "Factor of the strands",
+              *(case((lambda: 1.0, lambda: 1.7, lambda: 2.5)[count - 1], f"{count} strand{'s' * (count > 1)}",
+                     bind(lambda strands, count: strands == count, count=count)) for count in (1, 2, 3)),
+              case(lambda: 3.3, "4 strands"), source="ANSI B29.1", output=False)
+rating.value("rated_power", "P_zul", "kW", "Rated power", lambda plate_power, roller_power, strand_factor:
+             strand_factor * np.minimum(plate_power, roller_power), source="ANSI B29.1")
+rating.choice("rating_governing", "G", "1", "What governs the rating",
+              case("plate", "the plates last up to less power than the rollers", lambda plate_power, roller_power: plate_power <= roller_power),
+              case("roller", "the rollers last up to less power than the plates"), source="ANSI B29.1")
+rating.value("design_power", "P_d", "kW", "Power with the application factor", lambda application, torque_carried, angular_speed:
+             application * torque_carried * angular_speed, source="power", output=False)
+
+limits = Chapter("Limits of practice")
+limits.value("teeth_usual", "z_u", "1", "Least usual teeth of a drive", lambda: 17, needs=(DRIVE,), source="practice", output=False)
+limits.value("teeth_usual", "z_u", "1", "Least usual teeth of a conveyor", lambda: 12, needs=(CONVEYOR,), source="practice", output=False)
+limits.value("teeth_even_running", "z_e", "1", "Teeth with which the velocity falls by at most 2 %",
+             bind(lambda share: np.ceil(np.pi / np.arccos(1 - share)), share=UNEVENNESS), source="geometry", output=False, whole=True)
+limits.value("links_next", "X_n", "1", "Next even number of links", lambda links, links_odd: links + links_odd, source="this method", output=False,
+             whole=True)
+limits.value("center_low", "a_30", "mm", "Thirty pitches", bind(lambda pitch, count: count * pitch, count=USUAL_PITCHES[0]), source="practice",
+             output=False)
+limits.value("center_high", "a_50", "mm", "Fifty pitches", bind(lambda pitch, count: count * pitch, count=USUAL_PITCHES[1]), source="practice",
+             output=False)
+limits.value("center_wrapped", "a_β", "mm", "Distance of the axes from which the smaller sprocket is wrapped by 120°",
+             lambda sprocket_diameter_1, sprocket_diameter_2: abs(sprocket_diameter_2 - sprocket_diameter_1) / (2 * np.cos(np.pi / 3)),
+             source="geometry", output=False)
+limits.value("slack_tension", "F_l", "N", "Tension of the returning strand at rest", lambda sag_tension, pretension: sag_tension + pretension,
+             needs=(CONVEYOR,), source="statics", output=False)
+limits.value("pretension_needed", "F_v,min", "N", "Pretension with which the returning strand stays tight",
+             lambda useful_tension, sag_tension: useful_tension - sag_tension, needs=(CONVEYOR,), source="statics", output=False)

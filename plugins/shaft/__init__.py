@@ -1,0 +1,43 @@
+"""Stepped shaft on two bearings (Shigley, chapters 6 and 7)."""
+
+from __future__ import annotations
+
+from diecut_report.api import Mechanism, Source
+from diecut_report.plugins.shaft import advice, geometry, steels, strength
+from diecut_report.plugins.shaft.checks import CHECKS
+from diecut_report.plugins.shaft.figures import FIGURES
+from diecut_report.plugins.shaft.inputs import Shaft
+
+MECHANISM = Mechanism(
+    kind="shaft",
+    version="1.0",
+    title="Stepped shaft on two bearings",
+    summary="A round stepped shaft turns, stands or swings on two bearings under loads that are constant or vary over a cycle. Calculated are "
+    "reactions, bending moment, torque, deflection, slopes, twist, the safety against fatigue and yield at each shoulder, notch, bearing and "
+    "load, and the critical speed.",
+    inputs=Shaft,
+    chapters=(
+        geometry.sections, steels.steel, geometry.places, geometry.notches, geometry.endurance, strength.loads, strength.bending, strength.fatigue,
+        strength.yielding, strength.critical, advice.enough,
+    ),
+    key_results=("reaction_a_max", "reaction_b_max", "bending_moment_max", "fatigue_safety", "fatigue_place", "yield_safety", "deflection_max",
+                 "bearing_slope_max", "critical_speed", "shaft_mass"),
+    checks=CHECKS,
+    figures=FIGURES,
+    assumptions=(
+        "The bearings are rigid and without clearance, their reactions act at points; the shaft bends by Euler and Bernoulli, without shear "
+        "deflection and gyroscopic effect. Its own weight does not bend it unless it is given as loads.",
+        "Infinite life only. Ranges of bending and torsion are combined as if in phase, the axial stress takes the notch factor of bending, and a "
+        "compressive mean stress counts like a tensile one: all on the safe side. The shear stress of the transverse force is neglected.",
+        "Published fits of stress concentrations differ by up to a tenth; no more of their digits mean anything.",
+        "Not covered: more than two bearings, finite life, DIN 743, fretting beyond the factor of a press fit, torsional vibration.",
+    ),
+    sources=(
+        Source("Shigley", "Budynas R. G., Nisbett J. K. Shigley's Mechanical Engineering Design. 10th ed. McGraw-Hill, 2015, chapters 6 and 7."),
+        Source("Peterson", "Pilkey W. D. Peterson's Stress Concentration Factors. 2nd ed. Wiley, 1997, charts 3.10 and 3.12."),
+        Source("EN 10083", "EN 10083, Steels for quenching and tempering: least strengths of round bars, as makers' tables agree on them "
+               "(docs/standards.md)."),
+        Source("DIN 743-2", "DIN 743-2:2012, Calculation of load capacity of shafts and axles, part 2: theoretical stress concentration factors and "
+               "fatigue notch factors, table 1."),
+    ),
+)  # fmt: skip

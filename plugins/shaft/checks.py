@@ -1,0 +1,50 @@
+"""Checks of the shaft."""
+
+from __future__ import annotations
+
+from diecut_report.api import Check
+
+ROUNDING = 1e-9
+GROWN = "with all diameters, bores and fillet radii {} times as great it is met."
+
+CHECKS = (
+    Check(id="fatigue", check_class="strength", title="Fatigue", demand="required_fatigue_safety", limit="place_safety", unit="1",
+          demand_label="required safety", limit_label="safety", tolerance=ROUNDING, source="Shigley 7-7",
+          consequence="a crack would begin at the {fatigue_place}, at {fatigue_position} from the left end; " + GROWN.format("{fatigue_growth:up}")),
+    Check(id="yield", check_class="strength", title="Yield", demand="required_yield_safety", limit="yield_safety", unit="1",
+          demand_label="required safety", limit_label="safety", tolerance=ROUNDING, source="Shigley 7-16",
+          consequence="the shaft would bend for good at {nominal_position} from the left end; " + GROWN.format("{yield_growth:up}")),
+    Check(id="yield_notch", check_class="practice", title="Yield in a notch", demand=1.0, limit="place_yield_safety", unit="1", severity="warn",
+          demand_label="safety at least", limit_label="safety with the notch", tolerance=ROUNDING, source="Shigley 7-16",
+          consequence="the ground of a notch yields; a steel of a yield strength of {notch_yield:up} or a thicker shaft avoids it."),
+    Check(id="bearing_slope", check_class="practice", title="Slope at the bearings", demand="bearing_slope_max", limit="allowable_bearing_slope",
+          unit="mrad", severity="warn", demand_label="greatest slope", limit_label="accepted", tolerance=ROUNDING, source="Shigley table 7-2",
+          consequence="rollers and balls are loaded unevenly (deep groove balls bear 1 to 3 mrad, cylindrical rollers 0.8 to 1.2 mrad); "
+                      "with all diameters, bores and fillet radii {slope_growth:up} times as great it is met."),
+    Check(id="critical_speed", check_class="practice", title="Critical speed", demand="twice_speed", limit="critical_speed", unit="rpm",
+          severity="warn", needs=("speed",), demand_label="twice the speed", limit_label="critical speed", tolerance=ROUNDING, source="Shigley 7-6",
+          consequence="the shaft runs too near to its critical speed; take a speed of at most {half_critical:down}, or a thicker or shorter shaft."),
+    Check(id="deflection", check_class="function", title="Deflection", demand="deflection_max", limit="allowable_deflection", unit="um",
+          needs=("allowable_deflection",), demand_label="greatest deflection", limit_label="allowed", tolerance=ROUNDING, source="key",
+          consequence="what runs on the shaft leaves its place; " + GROWN.format("{deflection_growth:up}")),
+    Check(id="twist", check_class="function", title="Twist", demand="twist_by_length", limit="allowable_twist", unit="deg/m",
+          needs=("allowable_twist",), demand_label="twist by length", limit_label="allowed", tolerance=ROUNDING, source="key",
+          consequence="the shaft is too soft in torsion; " + GROWN.format("{twist_growth:up}")),
+    Check(id="notch_range", check_class="practice", title="Range of the fillets", demand="fillet_ratio", limit=4.0, at_least=0.25, unit="1",
+          severity="warn", demand_label="step to radius", limit_label="charts end at", at_least_label="charts begin at", tolerance=ROUNDING,
+          source="Peterson, charts 3.10 and 3.12",
+          consequence="the factors of shoulder {part} are taken beyond the charts, and are uncertain; take a fillet radius of a quarter of the "
+                      "step's height up to the height itself."),
+    Check(id="hollow_notch", check_class="practice", title="Bore at a fillet", demand="bore_ratio", limit=0.5, unit="1", severity="warn",
+          demand_label="bore to diameter", limit_label="charts end at", tolerance=ROUNDING, source="Peterson",
+          consequence="the charts are for solid shafts, and the factors of shoulder {part} uncertain; take a smaller bore."),
+    Check(id="size", check_class="practice", title="Size of the shaft", demand="greatest_effective", limit=254.0, unit="mm", severity="warn",
+          demand_label="effective diameter", limit_label="size factor known up to", tolerance=ROUNDING, source="Shigley 6-20",
+          consequence="the size factor of 254 mm is taken, which is too good for a thicker shaft; ask for tests of so thick a section."),
+    Check(id="energy", check_class="numerical", title="Energy of the bent shaft", demand="energy_difference", limit=1e-8, unit="1",
+          demand_label="difference from the work of the loads", limit_label="rounding", source="Castigliano",
+          consequence="the deflection line does not fit the moments."),
+    Check(id="critical_bounds", check_class="numerical", title="Bounds of the critical speed", demand="critical_speed",
+          limit="critical_speed_rayleigh", at_least="critical_speed_dunkerley", unit="rpm", tolerance=1e-6, demand_label="critical speed",
+          limit_label="Rayleigh", at_least_label="Dunkerley", source="Shigley 7-6", consequence="the eigenvalue is wrong."),
+)  # fmt: skip

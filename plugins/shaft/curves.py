@@ -1,0 +1,94 @@
+"""Curves of the shaft: reactions over the cycle; moments, torque and deflection along it."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from diecut_report.plugins.shaft.statics import Statics
+from diecut_report.plugins.shaft.under_load import UnderLoad
+
+Array = NDArray[Any]
+Curve = Callable[[UnderLoad, Array, Array, Array | None], Array]
+BEARINGS = {"a": 0, "b": 1}
+
+
+def reaction(bearing: str) -> Curve:
+    """Return the size of a bearing's reaction over the cycle."""
+
+    def curve(under: UnderLoad, angle: Array, middle: Array, rows: Array | None) -> Array:
+        found: Array = np.hypot(*under.reactions(angle, middle, rows)[BEARINGS[bearing]])
+        return found
+
+    return curve
+
+
+def reaction_in(bearing: str, plane: int) -> Curve:
+    """Return a bearing's reaction in y (0) or z (1) over the cycle."""
+
+    def curve(under: UnderLoad, angle: Array, middle: Array, rows: Array | None) -> Array:
+        found: Array = under.reactions(angle, middle, rows)[BEARINGS[bearing]][plane]
+        return found
+
+    return curve
+
+
+def along(of: Callable[[Statics, Array, Array], Array]) -> Curve:
+    """Return a curve along the shaft: ``of`` the shaft, its places (places, 1) and the side, 0 or 1, of each."""
+
+    def curve(under: UnderLoad, x: Array, middle: Array, rows: Array | None) -> Array:
+        return np.stack([of(statics, places, side) for statics, places, side in under.along(x, middle, rows)])
+
+    return curve
+
+
+def _on_side(values: Array, side: Array) -> Array:
+    """Values (2, places, 1, instants) on the side of each place, (places, instants)."""
+    found: Array = values[side, np.arange(values.shape[1]), 0]
+    return found
+
+
+@along
+def bending_moment(statics: Statics, places: Array, side: Array) -> Array:
+    """The greatest bending moment over the cycle."""
+    found: Array = np.max(_on_side(statics.sides(places).bending, side), axis=1)
+    return found
+
+
+@along
+def torque(statics: Statics, places: Array, side: Array) -> Array:
+    """The greatest size of the torque over the cycle."""
+    found: Array = np.max(_on_side(statics.sides(places).torque_size, side), axis=1)
+    return found
+
+
+def moment_in(plane: int) -> Curve:
+    """Return the moment in a plane, x-y (0) or x-z (1), at the instant of the greatest moment."""
+
+    def at(statics: Statics, places: Array, side: Array) -> Array:
+        bending = statics.sides(statics.x).bending
+        instant = int(np.unravel_index(np.argmax(bending), bending.shape)[3])
+        sides = statics.sides(places)
+        return _on_side((sides.xy, sides.xz)[plane], side)[:, instant]
+
+    return along(at)
+
+
+@along
+def deflection(statics: Statics, places: Array, _: Array) -> Array:
+    """The deflection at the instant of its greatest value."""
+    still = statics.at_instant(statics.greatest_deflection[1])
+    lines = still.bent(np.sort(np.concatenate([statics.x, places]), axis=0))
+    found: Array = np.hypot(*(line.at(places)[0] for line in lines))[:, 0, 0]
+    return found
+
+
+@along
+def diameter(statics: Statics, places: Array, side: Array) -> Array:
+    """The shaft's diameter."""
+    sections = [statics.body.section_of(places, behind=each)[:, 0] for each in (False, True)]
+    found: Array = statics.body.diameter[np.where(side, sections[1], sections[0]), 0]
+    return found

@@ -1,0 +1,252 @@
+"""The loads over one cycle: numbers, curves and extremes made into forces, couples and torques at instants of the cycle."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from diecut_report.api import Curve, Extremes, Refusal
+from diecut_report.plugins.shaft.body import columns
+
+Array = NDArray[Any]
+INSTANTS = 720  # of a cycle, beside both limits at each joint of a curve
+COMPONENTS = ("force_y", "force_z", "axial_force", "torque", "couple_xy", "couple_xz")
+
+
+@dataclass(frozen=True)
+class Instants:
+    """Loads at instants of some variants: (loads, variants, instants) each, and the shaft's angle (variants, instants)."""
+
+    force_y: Array
+    force_z: Array
+    axial_force: Array
+    torque: Array
+    couple_xy: Array
+    couple_xz: Array
+
+
+@dataclass(frozen=True)
+class Gears:
+    """The toothings of loads, (loads, variants) each; where there is none the pitch radius is infinite."""
+
+    radius: Array
+    pressure: Array
+    helix: Array
+    mesh: Array
+
+    def forces(self, torque: Array) -> tuple[Array, Array, Array]:
+        """Return the forces in x, y and z of torques (loads, variants, instants)."""
+        radius, pressure, helix, mesh = (
+            each[:, :, None] for each in (self.radius, self.pressure, self.helix, self.mesh)
+        )
+        tangential = torque / radius
+        radial = np.abs(tangential) * np.tan(pressure) / np.cos(helix)
+        across = -tangential * np.sin(mesh) - radial * np.cos(mesh), tangential * np.cos(mesh) - radial * np.sin(mesh)
+        return tangential * np.tan(helix), *across
+
+    def levers(self) -> tuple[Array, Array]:
+        """Return what an axial force is multiplied by to give the couples xy and xz, (loads, variants, 1)."""
+        radius = np.where(np.isfinite(self.radius), self.radius, 0.0)
+        return (-radius * np.cos(self.mesh))[:, :, None], (-radius * np.sin(self.mesh))[:, :, None]
+
+
+@dataclass(frozen=True)
+class Cycle:
+    """The loads of all variants: places (loads, variants), what is given of each component, and the instants that are looked at."""
+
+    names: tuple[str, ...]
+    places: Array
+    offset: Array
+    mass: Array
+    given: dict[str, tuple[Any, ...]]
+    gears: Gears
+    rotation: Any
+    turns: Array
+    share: Array
+    middle: Array
+    edges: Array
+
+    @property
+    def count(self) -> int:
+        """Return how many loads there are."""
+        return len(self.names)
+
+    def at(self, share: Array, middle: Array, rows: Array) -> Instants:
+        """Return the loads at shares of the cycle (rows, instants), each in the smooth piece of its middle; rows are variants."""
+        own = {name: self._component(name, share, middle, rows) for name in COMPONENTS}
+        torque = self._balanced(own["torque"])
+        gears = Gears(*(each[:, rows] for each in vars(self.gears).values()))
+        axial, across_y, across_z = gears.forces(torque)
+        force_y, force_z = own["force_y"] + across_y, own["force_z"] + across_z
+        offset = self.offset[:, rows][:, :, None]
+        lever_y, lever_z = gears.levers()
+        return Instants(
+            force_y,
+            force_z,
+            own["axial_force"] + axial,
+            torque,
+            own["couple_xy"] + force_y * offset + lever_y * axial,
+            own["couple_xz"] + force_z * offset + lever_z * axial,
+        )
+
+    def _component(self, name: str, share: Array, middle: Array, rows: Array) -> Array:
+        found = [_value(each, share, middle, rows, self.places.shape[1]) for each in self.given[name]]
+        return np.stack([np.broadcast_to(each, share.shape) for each in found])
+
+    def _balanced(self, torque: Array) -> Array:
+        """The torques with that of the load that balances them, which stands as 0."""
+        if self.balance is None:
+            return torque
+        torque[self.balance] = -np.sum(torque, axis=0)
+        return torque
+
+    @property
+    def balance(self) -> int | None:
+        """Return which load balances the torques."""
+        return next((i for i, each in enumerate(self.given["torque"]) if isinstance(each, str)), None)
+
+    def angle(self, rows: Array) -> Array:
+        """Return the shaft's angle at the instants that are looked at, (rows, instants)."""
+        share, middle = self.share[rows], self.middle[rows]
+        if isinstance(self.rotation, str):
+            if share.shape[1] == 1:  # loads that are constant, beneath which the shaft turns all the same
+                share = np.tile(np.arange(INSTANTS) / INSTANTS, (len(rows), 1))
+            return share * (2 * np.pi * self.turns[rows][:, None] if self.rotation == "turning" else 0.0)
+        return np.broadcast_to(_value(self.rotation, share, middle, rows, len(self.turns)), share.shape)
+
+    def extremes(self, name: str) -> Iterator[tuple[int, Array, Array]]:
+        """Yield the loads of which only extremes are given, with these, (variants,) each."""
+        for index, each in enumerate(self.given[name]):
+            if isinstance(each, Extremes):
+                low, high = (
+                    np.broadcast_to(np.asarray(end, dtype=float), (self.places.shape[1],))
+                    for end in (each.low, each.high)
+                )
+                yield index, low, high
+
+    def bounds(self, name: str, weights: Array) -> tuple[Array, Array]:
+        """Return the least and greatest sum of what is given by extremes, with weights (points, loads, variants): (points, variants, 1)."""
+        low, high = np.zeros((2, len(weights), weights.shape[2]))
+        for index, least, most in self.extremes(name):
+            ends = weights[:, index] * least, weights[:, index] * most
+            low, high = low + np.minimum(*ends), high + np.maximum(*ends)
+        return low[:, :, None], high[:, :, None]
+
+    def of(self, rows: Array) -> Cycle:
+        """Return the cycle of some variants, of which only the extremes and places are asked."""
+        return Cycle(
+            self.names, self.places[:, rows], self.offset[:, rows], self.mass[:, rows],
+            {name: tuple(_extremes_of(each, rows) for each in given) for name, given in self.given.items()},
+            self.gears, self.rotation, self.turns[rows], self.share[rows], self.middle[rows], self.edges[rows],
+        )  # fmt: skip
+
+
+def _extremes_of(given: Any, rows: Array) -> Any:
+    if not isinstance(given, Extremes):
+        return given
+    ends: list[Any] = [given.low, given.high]
+    return Extremes(*(end[rows] if np.ndim(end) else end for end in ends))
+
+
+def _value(given: Any, share: Array, middle: Array, rows: Array, variants: int) -> Array:
+    """What is given at instants (rows, instants): a curve or a number; what is known otherwise counts as 0 here."""
+    if is_curve(given):
+        found: Array = given.values(share, middle, rows if variants > 1 else None)
+        return found
+    if given is None or isinstance(given, str | Extremes):
+        return np.zeros((1, 1))
+    return np.broadcast_to(np.asarray(given, dtype=float).ravel(), (variants,))[rows][:, None]
+
+
+def is_curve(given: Any) -> bool:
+    """Return whether a curve is given."""
+    return hasattr(given, "values")
+
+
+def cycle(
+    names: Any, places: Any, force_y: Any, force_z: Any, axial_force: Any, torque: Any, couple_xy: Any, couple_xz: Any, offset: Any,
+    mass: Any, pitch_radius: Any, pressure: Any, helix: Any, mesh: Any, rotation: Any, turns: Array,
+) -> Cycle:  # fmt: skip
+    """Return the loads of what is given; Refusal where curves run over other cycles, or torques cannot be told."""
+    if names is None:
+        raise Refusal("loads", "is empty; give at least one load")
+    variants, count = len(turns), len(names)
+    parts = (force_y, force_z, axial_force, torque, couple_xy, couple_xz)
+    given = {name: _parts(part) for name, part in zip(COMPONENTS, parts, strict=True)}
+    curves = _curves(given, rotation)
+    _of_one_cycle(curves)
+    _telling(names, given, pitch_radius)
+    gears = Gears(
+        columns(pitch_radius, count, variants, np.inf),
+        *(columns(each, count, variants, 0.0) for each in (pressure, helix, mesh)),
+    )
+    joints = [np.broadcast_to(curve.joints, (variants, curve.joints.shape[1])) for curve in curves.values()]
+    share, middle, edges = _instants(joints, variants, INSTANTS if curves else 1)
+    return Cycle(
+        tuple(names), columns(places, count, variants), columns(offset, count, variants, 0.0), columns(mass, count, variants, 0.0),
+        given, gears, rotation if is_curve(rotation) or isinstance(rotation, str) else "none", turns[:, 0], share, middle, edges,
+    )  # fmt: skip
+
+
+def _parts(given: Any) -> tuple[Any, ...]:
+    """What is given of each load: a column for each where all are numbers."""
+    return tuple(given.T) if isinstance(given, np.ndarray) else tuple(given)
+
+
+def _curves(given: dict[str, tuple[Any, ...]], rotation: Any) -> dict[str, Curve]:
+    """The curves with their keys."""
+    found = {
+        f"loads.{i}.{name}": each for name, parts in given.items() for i, each in enumerate(parts) if is_curve(each)
+    }
+    return found | ({"rotation": rotation} if is_curve(rotation) else {})
+
+
+def _of_one_cycle(curves: dict[str, Curve]) -> None:
+    if not curves:
+        return
+    first, one = next(iter(curves.items()))
+    for key, other in curves.items():
+        if other.cycle != one.cycle:
+            raise Refusal(
+                key,
+                f"is a curve over {other.cycle}, but {first} is one over {one.cycle}; all curves of a shaft run over one and the same "
+                "cycle: give one of the two as a number",
+            )
+
+
+def _telling(names: Any, given: dict[str, tuple[Any, ...]], pitch_radius: Any) -> None:
+    """Whether the torques can be told: at most one balances, and none with a toothing is known by its extremes alone."""
+    balancing = [i for i, each in enumerate(given["torque"]) if isinstance(each, str)]
+    if len(balancing) > 1:
+        told = " and ".join(str(names[i]) for i in balancing)
+        raise Refusal(
+            f"loads.{balancing[1]}.torque",
+            f"is balance, as that of another load ({told}); only one load can balance the others",
+        )
+    bounded = [i for i, each in enumerate(given["torque"]) if isinstance(each, Extremes)]
+    unknown = bounded + (balancing if bounded else [])
+    for index in unknown:
+        if pitch_radius is not None and not isinstance(pitch_radius, np.ndarray) and pitch_radius[index] is None:
+            continue
+        if pitch_radius is not None:
+            words = "has a gear, whose forces need the torque at each instant; give the torque as a number or a curve, or the forces without gear"
+            raise Refusal(
+                f"loads.{index}.torque", f"is known by its extremes alone, but the load {names[index]} {words}"
+            )
+
+
+def _instants(joints: list[Array], variants: int, count: int) -> tuple[Array, Array, Array]:
+    """Shares of the cycle with the middles of their pieces (variants, instants), and the pieces' edges (variants, edges)."""
+    ends = np.zeros((variants, 1)), np.ones((variants, 1))
+    edges = np.sort(np.nan_to_num(np.concatenate([*ends, *joints], axis=1)), axis=1)
+    middles = (edges[:, :-1] + edges[:, 1:]) / 2
+    even = np.tile(np.arange(count) / count, (variants, 1))
+    piece = np.minimum(np.sum(edges[:, :, None] <= even[:, None], axis=1) - 1, middles.shape[1] - 1)
+    if not joints:
+        return even, np.take_along_axis(middles, piece, axis=1), edges
+    share = np.concatenate([even, edges[:, :-1], edges[:, 1:]], axis=1)
+    return share, np.concatenate([np.take_along_axis(middles, piece, axis=1), middles, middles], axis=1), edges

@@ -1,0 +1,138 @@
+"""Figures of the shaft."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from diecut_report.api import Chart, Drawing, Panel, Plot, Series, Shape, View, chart_panel, level, line, mark
+from diecut_report.plugins.shaft.drawing import shaft
+
+ALONG = Plot(
+    id="along",
+    title="Moments, torque and deflection along the shaft",
+    caption="The bending moment in both planes at the instant of its greatest value; the greatest bending moment and the greatest size of the "
+    "torque over the cycle at each place; the deflection at the instant of its greatest value.",
+    abscissa="position",
+    panels=(
+        Panel(
+            title="Bending moment",
+            unit="N*m",
+            series=(
+                Series(curve="bending_moment", label="greatest over the cycle"),
+                Series(curve="moment_xy", label="in x–y at its instant"),
+                Series(curve="moment_xz", label="in x–z at its instant"),
+            ),
+        ),
+        Panel(title="Torque", unit="N*m", series=(Series(curve="torque", label="greatest over the cycle"),)),
+        Panel(title="Deflection", unit="um", series=(Series(curve="deflection", label="at its greatest"),)),
+    ),
+)
+REACTIONS = Plot(
+    id="reactions",
+    title="Reactions over the cycle",
+    caption="Forces of the bearings on the shaft, as they load the bearings over a cycle.",
+    abscissa="cycle_angle",
+    panels=(
+        Panel(
+            title="Reaction",
+            unit="kN",
+            series=(Series(curve="reaction_a", label="bearing A"), Series(curve="reaction_b", label="bearing B")),
+        ),
+    ),
+)
+TOLD = 20.0  # a safety above that is drawn there
+
+
+def _places(view: View) -> list[Shape]:
+    """The safety of each place over its position."""
+    x, safety, names = view.row("place_x"), view.row("place_safety"), view.words("places")
+    order = np.argsort(x, kind="stable")
+    least: dict[float, tuple[float, str]] = {}
+    for i in order:
+        found = least.get(round(x[i], 9))
+        if found is None or safety[i] < found[0]:
+            least[round(x[i], 9)] = (safety[i], names[i])
+    shown = [(place, min(each, TOLD), name) for place, (each, name) in least.items()]
+    stems = np.array([end for place, height, _ in shown for end in ((place, 0.0), (place, height), (place, np.nan))])
+    return [
+        chart_panel(
+            "Safety against fatigue", "1", "Position", "x", "mm",
+            lines=[line(stems[:, 0], stems[:, 1], "least safety at each place")],
+            marks=[mark(place, height, name) for place, height, name in shown],
+            levels=[level(view["required_fatigue_safety"], "required")],
+        )
+    ]  # fmt: skip
+
+
+def _goodman(view: View) -> list[Shape]:
+    """The governing place in the diagram of Goodman."""
+    index = int(view["governing_place"])
+    alternating, mean = (
+        float(
+            np.hypot(
+                view.row("k_f")[index] * view.row(f"sigma_{part}")[index],
+                3**0.5 * view.row("k_fs")[index] * view.row(f"tau_{part}")[index],
+            )
+        )
+        for part in "am"
+    )
+    limit, strength, required = view["endurance_limit"], view["tensile_strength"], view["required_fatigue_safety"]
+    return [
+        chart_panel(
+            "Equivalent amplitude", "MPa", "Equivalent mean", "σ_m′", "MPa",
+            lines=[
+                line([0, strength], [limit, 0], "Goodman's line"),
+                line([0, strength / required], [limit / required, 0], "with the required safety"),
+                line([0, mean], [0, alternating], view.words("places")[index]),
+            ],
+            marks=[mark(mean, alternating, view.text("fatigue_safety"))],
+        )
+    ]  # fmt: skip
+
+
+def _amplitudes(view: View) -> list[Shape]:
+    """Amplitudes of normal and shear stress with the notch, at all places."""
+    normal, shear = (
+        [factor * stress for factor, stress in zip(view.row(k), view.row(name), strict=True)]
+        for k, name in (("k_f", "sigma_a"), ("k_fs", "tau_a"))
+    )
+    index = int(view["governing_place"])
+    turn = np.linspace(0, np.pi / 2, 91)
+    size = view["endurance_limit"] / view["required_fatigue_safety"]
+    return [
+        chart_panel(
+            "Amplitude of the shear stress × K_fs", "MPa", "Amplitude of the normal stress × K_f", "K_f σ_a", "MPa",
+            lines=[line(size * np.cos(turn), size * np.sin(turn) / 3**0.5, "endurance limit by the required safety, without mean stress")],
+            marks=[mark(x, y, view.words("places")[i] if i == index else "") for i, (x, y) in enumerate(zip(normal, shear, strict=True))],
+        )
+    ]  # fmt: skip
+
+
+FIGURES = (
+    Drawing(
+        id="shaft",
+        title="Shaft",
+        caption="To scale: sections with their bore, bearings (triangles; the locating one filled), loads (arrows) and notches (marks).",
+        build=shaft,
+    ),
+    ALONG,
+    REACTIONS,
+    Chart(
+        id="safety",
+        title="Safety against fatigue at each place",
+        caption="Of places at one position the least; above 20 it is drawn at 20.",
+        build=_places,
+    ),
+    Chart(
+        id="amplitudes",
+        title="Stress amplitudes",
+        caption="Each place with its notch factors; the named one has the least safety.",
+        build=_amplitudes,
+    ),
+    Chart(
+        id="goodman",
+        title="Goodman diagram of the governing place",
+        caption="Equivalent amplitude over equivalent mean stress, both with the notch factors.",
+        build=_goodman,
+    ),
+)

@@ -1,0 +1,294 @@
+"""What the loads do to the shaft: forces in its sections, reactions, deflection, twist, critical speed, over the cycle."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from functools import cached_property
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from diecut_report.mechanics import beams
+from diecut_report.mechanics.beams import SAME_PLACE, Bent, Loading, Supports
+from diecut_report.plugins.shaft import formulas
+from diecut_report.plugins.shaft.body import Body
+from diecut_report.plugins.shaft.cycle import Cycle, Instants
+
+Array = NDArray[Any]
+BLOCK = 16  # variants at once
+WITHIN = np.linspace(0, 1, 5)  # of a piece, where the greatest deflection is looked for over the cycle
+FINE = np.linspace(0, 1, 101)  # and at its instant
+
+
+@dataclass(frozen=True)
+class Sides:
+    """Forces in the sections just before (0) and just behind (1) some places, each (2, places, variants, instants); intervals added apart."""
+
+    xy: Array
+    xz: Array
+    torque: Array
+    axial: Array
+    torque_bounds: tuple[Array, Array]
+    axial_bounds: tuple[Array, Array]
+
+    @property
+    def bending(self) -> Array:
+        """Return the resultant bending moment."""
+        return np.hypot(self.xy, self.xz)
+
+    @property
+    def torque_size(self) -> Array:
+        """Return the greatest size that the torque may have."""
+        low, high = self.torque_bounds
+        size: Array = np.maximum(np.abs(self.torque + low), np.abs(self.torque + high))
+        return size
+
+    @property
+    def axial_size(self) -> Array:
+        """Return the greatest size that the axial force may have."""
+        low, high = self.axial_bounds
+        size: Array = np.maximum(np.abs(self.axial + low), np.abs(self.axial + high))
+        return size
+
+
+@dataclass(frozen=True)
+class Statics:
+    """Hold some variants of the shaft under their loads; numbers are (variants,)."""
+
+    body: Body
+    cycle: Cycle
+    loads: Instants
+    supports: Supports
+    locating: Array
+    elastic: Array
+    shear: Array
+    density: Array
+
+    @cached_property
+    def planes(self) -> tuple[Loading, Loading]:
+        """Return the loading in both planes, held by the bearings."""
+        loads, places = self.loads, self.cycle.places
+        planes = (loads.force_y, loads.couple_xy), (loads.force_z, loads.couple_xz)
+        return tuple(Loading(places, force, couple).held(self.supports) for force, couple in planes)  # type: ignore[return-value]
+
+    @property
+    def reactions(self) -> Array:
+        """Return the reactions: (bearing, plane, variants, instants)."""
+        return np.stack([plane.forces[-2:] for plane in self.planes], axis=1)
+
+    @cached_property
+    def x(self) -> Array:
+        """Return all places where something begins or acts, ascending, (points, variants)."""
+        found: Array = np.sort(np.concatenate([self.body.ends[[0, -1]], self.body.x]), axis=0)
+        return found
+
+    def sides(self, x: Array) -> Sides:
+        """Return the forces in the sections at places (places, variants)."""
+        xy, xz = (np.stack(plane.moments(x)) for plane in self.planes)
+        torque = np.stack(beams.before_and_behind(x, self.cycle.places, self.loads.torque))
+        held = np.concatenate([self.cycle.places, self.locating[None]])
+        axial = np.concatenate([self.loads.axial_force, -np.sum(self.loads.axial_force, axis=0, keepdims=True)])
+        return Sides(
+            xy, xz, torque, -np.stack(beams.before_and_behind(x, held, axial)),
+            self._both(self._torque_bounds, x), self._both(self._axial_bounds, x),
+        )  # fmt: skip
+
+    def _both(self, bounds: Callable[[Array], tuple[Array, Array]], x: Array) -> tuple[Array, Array]:
+        before, behind = bounds(x - 2 * SAME_PLACE), bounds(x + 2 * SAME_PLACE)
+        return np.stack([before[0], behind[0]]), np.stack([before[1], behind[1]])
+
+    def _left_of(self, x: Array, places: Array) -> Array:
+        """Which loads stand left of x, (points, loads, variants)."""
+        return (places[None] < x[:, None]).astype(float)
+
+    def _torque_bounds(self, x: Array) -> tuple[Array, Array]:
+        """What torques known by their extremes may add at x; the load that balances takes them away again."""
+        weights = self._left_of(x, self.cycle.places)
+        if self.cycle.balance is not None:
+            weights = weights - weights[:, [self.cycle.balance]]
+        return self.cycle.bounds("torque", weights)
+
+    def _axial_bounds(self, x: Array) -> tuple[Array, Array]:
+        weights = self._left_of(x, self.locating[None]) - self._left_of(x, self.cycle.places)
+        return self.cycle.bounds("axial_force", weights)
+
+    # --- deflection ----------------------------------------------------------------------------------------------------
+
+    def stiffness_of(self, x: Array) -> Array:
+        """Return E I between one place and the next, (places - 1, variants)."""
+        diameter, bore = self.section_between(x)
+        stiffness: Array = self.elastic * beams.second_moment(diameter, bore)
+        return stiffness
+
+    def section_between(self, x: Array) -> tuple[Array, Array]:
+        """Return diameter and bore between one place and the next."""
+        index = self.body.section_of((x[:-1] + x[1:]) / 2, behind=True)
+        return tuple(np.take_along_axis(each, index, axis=0) for each in (self.body.diameter, self.body.bore))  # type: ignore[return-value]
+
+    @cached_property
+    def lines(self) -> tuple[Bent, Bent]:
+        """Return the deflection lines of both planes at all places."""
+        return self.bent(self.x)
+
+    def bent(self, x: Array) -> tuple[Bent, Bent]:
+        """Return the deflection lines of both planes at places that hold all others."""
+        stiffness = self.stiffness_of(x)
+        return tuple(beams.bent(x, stiffness, plane, self.supports) for plane in self.planes)  # type: ignore[return-value]
+
+    def resultants(self, places: Array) -> tuple[Array, Array]:
+        """Return resultant deflection and slope at places (places, variants) among all, (places, variants, instants)."""
+        (y, turned_y), (z, turned_z) = (line.at(places) for line in self.lines)
+        return np.hypot(y, z), np.hypot(turned_y, turned_z)
+
+    @cached_property
+    def greatest_deflection(self) -> tuple[Array, Array]:
+        """Return the greatest deflection of all (variants,), and at which instant it is, its index."""
+        coarse = _between(self.x, WITHIN)
+        size = np.hypot(*(line.deflection for line in self.bent(coarse)))
+        instant = np.argmax(np.max(size, axis=0), axis=1)
+        fine = _between(self.x, FINE)
+        at = self.at_instant(instant)
+        return np.max(np.hypot(*(line.deflection for line in at.bent(fine))), axis=(0, 2)), instant
+
+    def at_instant(self, instant: Array) -> Statics:
+        """The same at one instant of each variant."""
+        picked = {
+            name: np.take_along_axis(each, instant[None, :, None], axis=2) for name, each in vars(self.loads).items()
+        }
+        return Statics(
+            self.body,
+            self.cycle,
+            Instants(**picked),
+            self.supports,
+            self.locating,
+            self.elastic,
+            self.shear,
+            self.density,
+        )
+
+    @cached_property
+    def twist(self) -> Array:
+        """Return the greatest twist between the outermost torques, (variants,)."""
+        diameter, bore = self.section_between(self.x)
+        compliance = np.diff(self.x, axis=0) / (2 * self.shear * beams.second_moment(diameter, bore))
+        middle = (self.x[:-1] + self.x[1:]) / 2
+        torque, _ = beams.before_and_behind(middle, self.cycle.places, self.loads.torque)
+        known = np.sum(torque * compliance[:, :, None], axis=0)
+        weights = self._left_of(middle, self.cycle.places)
+        if self.cycle.balance is not None:
+            weights = weights - weights[:, [self.cycle.balance]]
+        low, high = self.cycle.bounds("torque", np.sum(weights * compliance[:, None], axis=0)[None])
+        found: Array = np.max(np.maximum(np.abs(known + low[0]), np.abs(known + high[0])), axis=1)
+        return found
+
+    @property
+    def torque_span(self) -> Array:
+        """Return the distance of the outermost torques, (variants,)."""
+        acts = np.any(self.loads.torque != 0, axis=2)
+        for index, low, high in self.cycle.extremes("torque"):
+            acts[index] |= (low != 0) | (high != 0)
+        if any(True for _ in self.cycle.extremes("torque")) and self.cycle.balance is not None:
+            acts[self.cycle.balance] = True
+        places = self.cycle.places
+        found: Array = np.max(np.where(acts, places, -np.inf), axis=0) - np.min(np.where(acts, places, np.inf), axis=0)
+        return np.where(np.isfinite(found), found, 0.0)
+
+    @property
+    def energy_difference(self) -> Array:
+        """Return the energy of the bent shaft less the work of its loads, to the energy, the greatest over the cycle."""
+        stiffness = self.stiffness_of(self.x)
+        energy = sum(beams.bending_energy(self.x, stiffness, plane) for plane in self.planes)
+        work = sum(beams.work(line, plane) for line, plane in zip(self.lines, self.planes, strict=True))
+        greatest = np.max(energy, axis=1, keepdims=True)
+        found: Array = np.max(np.abs(energy - work), axis=1) / np.where(greatest > 0, greatest, 1)[:, 0]
+        return found
+
+    def critical(self) -> beams.Critical:
+        """Return the critical speed with its bounds."""
+        diameter, bore = self.section_between(self.x)
+        weights = self.density * beams.circle_area(diameter, bore) * np.diff(self.x, axis=0)
+        stiffness = self.stiffness_of(self.x)
+        return beams.critical(self.x, stiffness, weights, self.supports, self.cycle.places, self.cycle.mass)
+
+    @cached_property
+    def nominal(self) -> dict[str, Array]:
+        """Return where the nominal stress is greatest over shaft and cycle, and the forces there, (variants,) each."""
+        sides = self.sides(self.x)
+        index = np.stack([self.body.section_of(self.x, behind=each) for each in (False, True)])
+        diameter, bore = (
+            np.take_along_axis(each[None], index, axis=1) for each in (self.body.diameter, self.body.bore)
+        )
+        area, modulus = beams.circle_area(diameter, bore), 2 * beams.second_moment(diameter, bore) / diameter
+        forces = sides.axial_size, sides.bending, sides.torque_size
+        stress = formulas.yield_stress(*forces, area[..., None], modulus[..., None], 1.0, 1.0)
+        found = {"nominal_axial": forces[0], "nominal_moment": forces[1], "nominal_torque": forces[2]}
+        found |= {
+            "nominal_diameter": diameter[..., None],
+            "nominal_bore": bore[..., None],
+            "nominal_position": self.x[None, :, :, None],
+        }
+        return {name: _picked(each, stress) for name, each in found.items()}
+
+    def numbers(self) -> dict[str, Array]:
+        """Return all numbers, (variants,) each."""
+        sides, reactions = self.sides(self.x), np.hypot(self.reactions[:, 0], self.reactions[:, 1])
+        low, high = sides.torque_bounds
+        deflection, slope = self.resultants(
+            np.stack([*self.body.ends[[0, -1]], self.supports.first, self.supports.second])
+        )
+        locating = np.sum(self.loads.axial_force, axis=0)
+        bounds = self.cycle.bounds("axial_force", np.ones((1, *self.cycle.places.shape)))
+        critical = self.critical()
+        return {
+            "reaction_a": np.max(reactions[0], axis=1),
+            "reaction_b": np.max(reactions[1], axis=1),
+            "axial_reaction": np.max(np.maximum(*(np.abs(locating + each[0]) for each in bounds)), axis=1),
+            "bending_moment": np.max(sides.bending, axis=(0, 1, 3)),
+            "torque_max": np.max(sides.torque + high, axis=(0, 1, 3)),
+            "torque_min": np.min(sides.torque + low, axis=(0, 1, 3)),
+            "torque_left": self._torque_left(),
+            "torque_scale": self._torque_scale(),
+            "deflection": self.greatest_deflection[0],
+            "deflection_end": np.max(deflection[:2], axis=(0, 2)),
+            "slope_a": np.max(slope[2], axis=1),
+            "slope_b": np.max(slope[3], axis=1),
+            "twist": self.twist,
+            "torque_span": self.torque_span,
+            "energy_difference": self.energy_difference,
+            "critical": critical.speed,
+            "rayleigh": critical.rayleigh,
+            "dunkerley": critical.dunkerley,
+            **self.nominal,
+        }
+
+    def _torque_left(self) -> Array:
+        """What the torques add up to where none balances them, the greatest over the cycle."""
+        if self.cycle.balance is not None:
+            return np.zeros(len(self.elastic))
+        low, high = self.cycle.bounds("torque", np.ones((1, *self.cycle.places.shape)))
+        left = np.sum(self.loads.torque, axis=0)
+        found: Array = np.max(np.maximum(np.abs(left + low[0]), np.abs(left + high[0])), axis=1)
+        return found
+
+    def _torque_scale(self) -> Array:
+        sizes = [np.max(np.abs(self.loads.torque), axis=(0, 2))]
+        sizes += [np.maximum(np.abs(low), np.abs(high)) for _, low, high in self.cycle.extremes("torque")]
+        found: Array = np.max(np.stack(sizes), axis=0)
+        return found
+
+
+def _between(x: Array, shares: Array) -> Array:
+    """Places between each place and the next, with them, ascending."""
+    inner = x[:-1, None] + np.diff(x, axis=0)[:, None] * shares[None, :, None]
+    found: Array = inner.reshape(-1, x.shape[1])
+    return found
+
+
+def _picked(values: Array, by: Array) -> Array:
+    """Values where ``by`` (sides, places, variants, instants) is greatest, (variants,)."""
+    full = np.moveaxis(np.broadcast_to(values, by.shape), 2, 0).reshape(by.shape[2], -1)
+    index = np.argmax(np.moveaxis(by, 2, 0).reshape(by.shape[2], -1), axis=1)
+    found: Array = np.take_along_axis(full, index[:, None], axis=1)[:, 0]
+    return found

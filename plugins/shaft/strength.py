@@ -1,0 +1,171 @@
+"""The chapters on loads, deflection, fatigue, yield and critical speed."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+
+from diecut_report.api import Chapter, bind
+from diecut_report.mechanics import beams
+from diecut_report.plugins.shaft import curves, formulas
+from diecut_report.plugins.shaft.body import Body
+from diecut_report.plugins.shaft.cycle import Cycle, cycle
+from diecut_report.plugins.shaft.under_load import Array, UnderLoad
+
+# fmt: off
+
+CYCLE = ("loads.name", "loads.position", "loads.force_y", "loads.force_z", "loads.axial_force", "loads.torque", "loads.couple_xy",
+         "loads.couple_xz", "loads.offset", "loads.mass", "loads.gear.pitch_radius", "loads.gear.pressure_angle", "loads.gear.helix_angle",
+         "loads.gear.mesh_angle", "rotation", "turns_per_cycle")
+LOADED = ("body", "cycle", "bearing_a", "bearing_b", "locating", "elastic_modulus", "shear_modulus", "density")
+OVER_CYCLE = "over 720 instants of the cycle and both limits at each joint of the loads"
+INTEGRATED = "E I v″ = M exactly, piece by piece, " + OVER_CYCLE
+FACTORS = {"k_f": "k_f", "k_fs": "k_fs", "endurance": "place_endurance", "area": "place_area", "modulus": "place_modulus",
+           "tensile_strength": "tensile_strength"}
+
+
+def _under_load(body: Body, cycle: Cycle, bearing_a: Array, bearing_b: Array, locating: str, *elastic: Array) -> UnderLoad:
+    return UnderLoad(body, cycle, bearing_a[:, 0], bearing_b[:, 0], locating == "a", *(each[:, 0] for each in elastic))
+
+
+def _states(under_load: UnderLoad, *factors: Array) -> dict[str, Array]:
+    wide = np.broadcast_shapes(*(each.shape for each in factors))
+    return under_load.states({name: np.broadcast_to(each, wide) for name, each in zip(FACTORS, factors, strict=True)})
+
+
+def _number(chapter: Chapter, id: str, symbol: str, unit: str, description: str, name: str, method: str, **options: Any) -> None:
+    """A number of the shaft under its loads."""
+    chapter.computed(id, symbol, unit, description, lambda under_load: under_load.numbers[name], ("under_load",), method, **options)
+
+
+loads = Chapter("Loads and reactions",
+                text="Reactions are forces on the shaft. In each plane R_B = −(Σ F_i (x_i − x_A) + Σ C_j)/(x_B − x_A), R_A = −Σ F_i − R_B; behind x "
+                     "M = Σ F_i (x − x_i) − Σ C_j, T = Σ T_i and N = −Σ F_x,i of what acts before x. A torque known by its extremes adds as an "
+                     "interval.")
+loads.prepared("cycle", lambda given: cycle(*map(given.get, CYCLE)), CYCLE, for_many=True)
+loads.prepared("under_load", lambda given: _under_load(*map(given.get, LOADED)), LOADED, for_many=True)
+_number(loads, "torque_left", "ΣT", "N*m", "What the torques add up to", "torque_left", OVER_CYCLE, output=False)
+_number(loads, "torque_scale", "T_i,max", "N*m", "Greatest torque of a load", "torque_scale", OVER_CYCLE, output=False)
+loads.require("torques_balance", lambda torque_left, torque_scale: torque_left <= 1e-6 * torque_scale, key="loads",
+              message="have torques that add up to {torque_left}, so that the shaft would not turn evenly; correct them, or give one load "
+                      "torque: balance")
+_number(loads, "reaction_a_max", "R_A", "N", "Greatest reaction of bearing A", "reaction_a", OVER_CYCLE, source="statics")
+_number(loads, "reaction_b_max", "R_B", "N", "Greatest reaction of bearing B", "reaction_b", OVER_CYCLE, source="statics")
+_number(loads, "axial_reaction_max", "R_x", "N", "Greatest axial force on the locating bearing", "axial_reaction", OVER_CYCLE, source="statics")
+_number(loads, "bending_moment_max", "M_b,max", "N*m", "Greatest bending moment", "bending_moment", OVER_CYCLE, source="statics")
+_number(loads, "torque_max", "T_max", "N*m", "Greatest torque in the shaft", "torque_max", OVER_CYCLE, source="statics")
+_number(loads, "torque_min", "T_min", "N*m", "Least torque in the shaft", "torque_min", OVER_CYCLE, source="statics")
+loads.abscissa("cycle_angle", "φ", "deg", "Angle of the cycle: a whole turn of it is one cycle", 2 * np.pi)
+for bearing, sign in (("a", "A"), ("b", "B")):
+    loads.computed_curve(f"reaction_{bearing}", f"R_{sign}(φ)", "N", f"Reaction of bearing {sign} over the cycle", curves.reaction(bearing),
+                         "under_load", "cycle_angle", "by statics", joints=lambda under_load: under_load.cycle_joints, source="statics")
+    for plane, axis in enumerate("yz"):
+        loads.computed_curve(f"reaction_{bearing}_{axis}", f"R_{sign}{axis}", "N", f"Reaction of bearing {sign} in {axis} over the cycle",
+                             curves.reaction_in(bearing, plane), "under_load", "cycle_angle", "by statics", source="statics")
+loads.abscissa("position", "x_s", "mm", "Position along the shaft", "length")
+loads.computed_curve("bending_moment", "M_b(x)", "N*m", "Greatest bending moment over the cycle, along the shaft", curves.bending_moment,
+                     "under_load", "position", OVER_CYCLE, joints=lambda under_load: under_load.joints, source="statics")
+for plane, axis in enumerate("yz"):
+    loads.computed_curve(f"moment_x{axis}", f"M_x{axis}", "N*m", f"Moment in the plane x–{axis} at the instant of the greatest one",
+                         curves.moment_in(plane), "under_load", "position", OVER_CYCLE, source="statics")
+loads.computed_curve("torque", "T(x)", "N*m", "Greatest size of the torque over the cycle, along the shaft", curves.torque, "under_load", "position",
+                     OVER_CYCLE, source="statics")
+loads.computed_curve("diameter", "d(x)", "mm", "Diameter along the shaft", curves.diameter, "under_load", "position", "as it is given")
+
+bending = Chapter("Deflection and twist")
+_number(bending, "deflection_max", "v_max", "um", "Greatest deflection", "deflection", INTEGRATED, source="Euler–Bernoulli")
+_number(bending, "deflection_end", "v_e", "um", "Greatest deflection of the shaft's ends", "deflection_end", INTEGRATED, source="Euler–Bernoulli")
+_number(bending, "slope_a", "v′_A", "mrad", "Greatest slope at bearing A", "slope_a", INTEGRATED, source="Euler–Bernoulli")
+_number(bending, "slope_b", "v′_B", "mrad", "Greatest slope at bearing B", "slope_b", INTEGRATED, source="Euler–Bernoulli")
+bending.value("bearing_slope_max", "v′_max", "mrad", "Greatest slope at a bearing", lambda slope_a, slope_b: np.maximum(slope_a, slope_b),
+              source="Euler–Bernoulli")
+_number(bending, "twist", "ϑ", "deg", "Greatest twist between the outermost torques", "twist", "Σ T h/(2 G I), " + OVER_CYCLE, source="Saint-Venant",
+        )
+_number(bending, "torque_span", "l_T", "mm", "Distance of the outermost torques", "torque_span", "of the loads that have one", output=False)
+bending.value("twist_by_length", "ϑ′", "deg/m", "Twist by length between the outermost torques",
+              lambda twist, torque_span: twist / torque_span, exists=lambda torque_span: torque_span > 0, source="Saint-Venant",
+              output=False)
+bending.computed_curve("deflection", "v(x)", "um", "Deflection at the instant of its greatest value", curves.deflection, "under_load", "position",
+                       INTEGRATED, source="Euler–Bernoulli")
+_number(bending, "energy_difference", "ΔU/U", "1", "Energy of the bent shaft less the work of its loads, to the greatest energy",
+        "energy_difference", "∫ M²/(2 E I) dx against half the loads times their ways (Castigliano)", output=False)
+
+fatigue = Chapter("Fatigue", text="Stress of a material point that turns with the shaft by θ, at ψ from y: σ = N/A − (M_xy cos(ψ + θ) + "
+                                  "M_xz sin(ψ + θ))/W_b. Ranges of bending and torsion are combined as if in phase; ψ and the side of a place "
+                                  "(before or behind its load) are those of the least safety, found by a scan of 120 directions and bounded search.")
+STATES = ("under_load", *FACTORS.values())
+fatigue.prepared("states", lambda given: _states(*map(given.get, STATES)), STATES, for_many=True)
+
+
+def _state(chapter: Chapter, id: str, symbol: str, unit: str, description: str, name: str, method: str) -> None:
+    chapter.computed(id, symbol, unit, description, lambda states: states[name], ("states",), method, over="places", output=False)
+
+
+_state(fatigue, "sigma_a", "σ_a", "MPa", "Amplitude of the normal stress", "sigma_a", "half the range over the cycle")
+_state(fatigue, "sigma_m", "σ_m", "MPa", "Mean of the normal stress", "sigma_m", "middle of the range over the cycle")
+_state(fatigue, "torque_upper", "T_o", "N*m", "Greatest torque over the cycle there", "torque_upper", "over the cycle")
+_state(fatigue, "torque_lower", "T_u", "N*m", "Least torque over the cycle there", "torque_lower", "over the cycle")
+fatigue.value("tau_a", "τ_a", "MPa", "Amplitude of the shear stress",
+              lambda torque_upper, torque_lower, place_modulus: (torque_upper - torque_lower) / (4 * place_modulus),
+              source="Shigley 7-2", output=False)
+fatigue.value("tau_m", "τ_m", "MPa", "Mean of the shear stress",
+              lambda torque_upper, torque_lower, place_modulus: (torque_upper + torque_lower) / (4 * place_modulus),
+              source="Shigley 7-2", output=False)
+fatigue.value("place_safety", "n_f", "1", "Safety against fatigue", bind(formulas.goodman, endurance="place_endurance"), source="Shigley 7-7")
+fatigue.total("fatigue_safety", "n_f,min", "1", "Least safety against fatigue", "min", of="place_safety", source="Shigley 7-7")
+fatigue.computed("governing_place", "i_f", "1", "Index of the place of the least safety, from 0", lambda row: np.argmin(row, axis=1)[:, None],
+                 ("place_safety",), "the least of all places", output=False, whole=True)
+fatigue.computed("fatigue_place", "P_f", "1", "Place of the least safety against fatigue",
+                 lambda body, index: [body.names[int(each)] for each in index[:, 0]], ("body", "governing_place"), "the least of all places",
+                 is_text=True)
+
+
+def _at_governing(chapter: Chapter, id: str, symbol: str, unit: str, description: str, of: str) -> None:
+    chapter.computed(id, symbol, unit, description, lambda row, index: np.take_along_axis(row, index.astype(int), axis=1),
+                     (of, "governing_place"), "of the place of the least safety")
+
+
+_at_governing(fatigue, "fatigue_position", "x_f", "mm", "Position of the least safety against fatigue", "place_x")
+_at_governing(fatigue, "endurance_limit", "S_e,f", "MPa", "Endurance limit at the place of the least safety", "place_endurance")
+
+yielding = Chapter("Yield")
+for name, symbol, unit, description in (("nominal_position", "x_y", "mm", "Where the nominal stress is greatest"),
+                                        ("nominal_diameter", "d_y", "mm", "Diameter there"), ("nominal_bore", "d_iy", "mm", "Bore there"),
+                                        ("nominal_axial", "N_y", "N", "Axial force there"), ("nominal_moment", "M_by", "N*m", "Bending moment there"),
+                                        ("nominal_torque", "T_y", "N*m", "Torque there")):
+    _number(yielding, name, symbol, unit, description, name, "at the place and instant of the greatest stress, of all places on both sides",
+            output=False)
+yielding.value("nominal_area", "A_y", "mm**2", "Area there", bind(beams.circle_area, diameter="nominal_diameter", bore="nominal_bore"),
+               source="geometry", output=False)
+yielding.value("nominal_modulus", "W_by", "mm**3", "Section modulus there",
+               bind(lambda diameter, bore: 2 * beams.second_moment(diameter, bore) / diameter, diameter="nominal_diameter", bore="nominal_bore"),
+               source="geometry", output=False)
+yielding.value("von_mises_max", "σ_vM", "MPa", "Greatest nominal stress",
+               bind(formulas.yield_stress, axial_force="nominal_axial", moment="nominal_moment", torque="nominal_torque", area="nominal_area",
+                    modulus="nominal_modulus", k_f=1.0, k_fs=1.0), source="Shigley 7-15")
+yielding.value("yield_safety", "n_y", "1", "Safety against yield, nominal", bind(formulas.safety, strength="yield_strength", stress="von_mises_max"),
+               source="Shigley 7-16")
+for name, symbol, unit, description in (("yield_axial", "N_v", "N", "Axial force at the instant of the greatest stress with the notch"),
+                                        ("yield_moment", "M_bv", "N*m", "Bending moment then"), ("yield_torque", "T_v", "N*m", "Torque then")):
+    _state(yielding, name, symbol, unit, description, name, "at the instant and on the side of the greatest stress")
+yielding.value("notch_stress", "σ_vM,n", "MPa", "Greatest stress with the notch",
+               bind(formulas.yield_stress, axial_force="yield_axial", moment="yield_moment", torque="yield_torque", area="place_area",
+                    modulus="place_modulus"), source="Shigley 7-15", output=False)
+yielding.value("place_yield_safety", "n_y,n", "1", "Safety against yield with the notch",
+               bind(formulas.safety, strength="yield_strength", stress="notch_stress"), source="Shigley 7-16")
+yielding.total("yield_safety_notch", "n_y,notch", "1", "Least safety against yield with the notches", "min", of="place_yield_safety",
+               source="Shigley 7-16")
+yielding.part_table("place_table", "All places", "places",
+                    ("place_x", "place_diameter", "k_t", "k_ts", "k_f", "k_fs", "sigma_a", "sigma_m", "tau_a", "tau_m", "place_endurance",
+                     "place_safety", "place_yield_safety"))
+
+critical = Chapter("Critical speed", text="The shaft bends without mass; the masses of the loads, and its own in eight lumps of each piece, move "
+                                          "across it.")
+_number(critical, "critical_speed", "n_crit", "rpm", "Lowest critical speed", "critical",
+        "greatest eigenvalue of √m_i δ_ij √m_j with the exact deflections δ_ij for unit forces", source="Shigley 7-6")
+_number(critical, "critical_speed_rayleigh", "n_R", "rpm", "Critical speed by Rayleigh, from above", "rayleigh",
+        "ω² = Σ f_i y_i/Σ m_i y_i² with f_i = m_i g, downwards on overhangs", source="Shigley 7-23")
+_number(critical, "critical_speed_dunkerley", "n_D", "rpm", "Critical speed by Dunkerley, from below", "dunkerley", "1/ω² = Σ m_i δ_ii",
+        source="Shigley 7-32")
+critical.value("twice_speed", "2n", "rpm", "Twice the speed", lambda speed: 2 * speed, source="Shigley 7-6", needs=("speed",), output=False)

@@ -1,0 +1,178 @@
+"""The shaft under its loads, for all variants: numbers, curves over the cycle and along the shaft, and the state of each place."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from functools import cached_property
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from diecut_report.mechanics.beams import Loading, Supports
+from diecut_report.plugins.shaft import formulas
+from diecut_report.plugins.shaft.body import Body
+from diecut_report.plugins.shaft.cycle import Cycle
+from diecut_report.plugins.shaft.statics import BLOCK, Sides, Statics
+
+Array = NDArray[Any]
+DIRECTIONS = np.arange(120) * np.pi / 60  # of the material point that is looked at first
+NARROWED = 0.1  # of the step between directions, at each turn of the bounded search
+TURNS = 3
+ROUNDING = 1e-12  # share of a stress that is no stress
+
+
+@dataclass(frozen=True)
+class UnderLoad:
+    """Hold the shaft, its loads and its bearings; inputs are (variants,)."""
+
+    body: Body
+    cycle: Cycle
+    bearing_a: Array
+    bearing_b: Array
+    at_a: bool  # the locating bearing
+    elastic: Array
+    shear: Array
+    density: Array
+
+    @property
+    def variants(self) -> int:
+        """Return how many variants there are."""
+        return len(self.bearing_a)
+
+    def blocks(self) -> Iterator[tuple[Array, Statics]]:
+        """Yield the variants in blocks, each with the shaft under its loads."""
+        for start in range(0, self.variants, BLOCK):
+            rows = np.arange(start, min(start + BLOCK, self.variants))
+            yield rows, self.of(rows, self.cycle.share[rows], self.cycle.middle[rows])
+
+    def of(self, rows: Array, share: Array, middle: Array) -> Statics:
+        """Return variants under their loads at shares of the cycle (rows, instants)."""
+        body = self.body
+        arrays = {name: each[:, rows] for name, each in vars(body).items() if isinstance(each, np.ndarray)}
+        supports = Supports(self.bearing_a[rows], self.bearing_b[rows])
+        return Statics(
+            Body(**vars(body) | arrays), self.cycle.of(rows), self.cycle.at(share, middle, rows), supports,
+            supports.first if self.at_a else supports.second, self.elastic[rows], self.shear[rows], self.density[rows],
+        )  # fmt: skip
+
+    @cached_property
+    def numbers(self) -> dict[str, Array]:
+        """Return all numbers, (variants, 1) each."""
+        found = [block.numbers() for _, block in self.blocks()]
+        return {name: np.concatenate([each[name] for each in found])[:, None] for name in found[0]}
+
+    # --- curves over the cycle ---------------------------------------------------------------------------------------------
+
+    @property
+    def cycle_joints(self) -> Array:
+        """Return the cycle angles where a load jumps or has a corner, (variants, places)."""
+        return 2 * np.pi * self.cycle.edges[:, 1:-1]
+
+    def reactions(self, angle: Array, middle: Array, rows: Array | None) -> Array:
+        """Return the reactions (bearing, plane, rows, places) at cycle angles (rows, places)."""
+        own = np.zeros(len(angle), dtype=int) if rows is None and self.variants == 1 else rows
+        chosen = np.arange(self.variants) if own is None else own
+        share = angle / (2 * np.pi)
+        inner = np.broadcast_to(middle / (2 * np.pi), share.shape)
+        loads = self.cycle.at(share, inner, chosen)
+        supports = Supports(self.bearing_a[chosen], self.bearing_b[chosen])
+        places = self.cycle.places[:, chosen]
+        planes = (loads.force_y, loads.couple_xy), (loads.force_z, loads.couple_xz)
+        return np.stack([np.stack(Loading(places, *plane).reactions(supports)) for plane in planes], axis=1)
+
+    # --- curves along the shaft ---------------------------------------------------------------------------------------------
+
+    @property
+    def joints(self) -> Array:
+        """Return the places inside the shaft where something begins or acts, (variants, places)."""
+        x = np.concatenate([self.body.ends[1:-1], self.cycle.places, self.bearing_a[None], self.bearing_b[None]]).T
+        inside = (x > 0) & (x < self.body.length[:, None])
+        return np.where(inside, x, np.nan)
+
+    def along(self, x: Array, middle: Array, rows: Array | None) -> Iterator[tuple[Statics, Array, Array]]:
+        """Yield for each row of places (rows, places) the shaft, its places (places, 1), and 0 before and 1 behind for each of them."""
+        chosen = (
+            np.zeros(len(x), dtype=int) if self.variants == 1 else np.arange(self.variants) if rows is None else rows
+        )
+        inner = np.broadcast_to(middle, x.shape)
+        for own, variant, mid in zip(x, chosen, inner, strict=True):
+            row = np.array([variant])
+            yield self.of(row, self.cycle.share[row], self.cycle.middle[row]), own[:, None], (mid > own).astype(int)
+
+    # --- the state of each place --------------------------------------------------------------------------------------------
+
+    def states(self, factors: dict[str, Array]) -> dict[str, Array]:
+        """Return the forces and stresses that judge each place (variants, places), with rows of factors of that shape."""
+        rows: list[dict[str, Array]] = []
+        for variants, block in self.blocks():
+            own = {name: each[variants].T for name, each in factors.items()}
+            sides = block.sides(block.body.x)
+            rows.append(_yielding(sides, own) | self._fatigue(variants, sides, own))
+        return {name: np.concatenate([each[name] for each in rows]) for name in rows[0]}
+
+    def _fatigue(self, variants: Array, sides: Sides, own: dict[str, Array]) -> dict[str, Array]:
+        angles = self.cycle.angle(variants)
+        count = sides.xy.shape[1]
+        found = [[_worst(sides, own, angles[v], place, v) for place in range(count)] for v in range(len(variants))]
+        names = ("sigma_a", "sigma_m", "torque_upper", "torque_lower")
+        table = np.array(found)
+        return {name: table[:, :, i] for i, name in enumerate(names)}
+
+
+def _yielding(sides: Sides, own: dict[str, Array]) -> dict[str, Array]:
+    """The forces at the instant and on the side where the stress with the notch is greatest, (variants, places)."""
+    forces = {"yield_axial": sides.axial_size, "yield_moment": sides.bending, "yield_torque": sides.torque_size}
+    factors = (own[name][None, :, :, None] for name in ("area", "modulus", "k_f", "k_fs"))
+    stress = formulas.yield_stress(*forces.values(), *factors)
+    flat = np.moveaxis(stress, 0, 2).reshape(*stress.shape[1:3], -1)
+    index = np.argmax(flat, axis=2)[:, :, None]
+    return {
+        name: np.take_along_axis(
+            np.moveaxis(np.broadcast_to(each, stress.shape), 0, 2).reshape(flat.shape), index, axis=2
+        )[:, :, 0].T
+        for name, each in forces.items()
+    }
+
+
+def _worst(sides: Sides, own: dict[str, Array], angle: Array, place: int, variant: int) -> tuple[float, ...]:
+    """The stresses at the material point, on the side of a place, where the safety against fatigue is least."""
+    factors = {name: float(each[place, variant]) for name, each in own.items()}
+    forces = (sides.xy, sides.xz, sides.torque, sides.axial, *sides.torque_bounds, *sides.axial_bounds)
+    is_even = all(np.array_equal(each[0, place, variant], each[1, place, variant]) for each in forces)
+    each_side = [_of_side(sides, side, angle, place, variant, factors) for side in ((0,) if is_even else (0, 1))]
+    return min(each_side, key=lambda found: found[0])[1:]
+
+
+def _of_side(
+    sides: Sides, side: int, angle: Array, place: int, variant: int, own: dict[str, float]
+) -> tuple[float, ...]:
+    """Safety, σ_a, σ_m, greatest and least torque, on one side of a place."""
+    at = (side, place, variant)
+    xy, xz, axial, torque = sides.xy[at], sides.xz[at], sides.axial[at] / own["area"], sides.torque[at]
+    turned = np.stack([xy * np.cos(angle) + xz * np.sin(angle), xz * np.cos(angle) - xy * np.sin(angle)], axis=1)
+    bending = turned / own["modulus"]
+    low, high = (float(each[at][0]) for each in sides.torque_bounds)
+    least, most = float(np.min(torque)) + low, float(np.max(torque)) + high
+    shear = [each / (2 * own["modulus"]) for each in ((most - least) / 2, (most + least) / 2)]
+    bounds = [float(each[at][0]) / own["area"] for each in sides.axial_bounds]
+
+    def judged(psi: Array) -> tuple[Array, Array, Array]:
+        stress = axial[:, None] - bending @ np.stack([np.cos(psi), np.sin(psi)])
+        upper, lower = np.max(stress, axis=0) + bounds[1], np.min(stress, axis=0) + bounds[0]
+        normal = (upper - lower) / 2, (upper + lower) / 2
+        safety = formulas.goodman.function(
+            *normal, *shear, own["k_f"], own["k_fs"], own["endurance"], own["tensile_strength"]
+        )
+        return safety, *normal
+
+    is_symmetric = not np.any(axial) and not any(bounds)  # opposite points then have opposite stresses
+    psi, step = DIRECTIONS[: len(DIRECTIONS) // 2] if is_symmetric else DIRECTIONS, float(DIRECTIONS[1])
+    for _ in range(TURNS):
+        best = float(psi[np.argmin(judged(psi)[0])])
+        psi = best + np.linspace(-step, step, 21)
+        step *= NARROWED
+    safety, sigma_a, sigma_m = judged(np.array([best]))
+    sigma_m = np.where(np.abs(sigma_m) < ROUNDING * (np.abs(sigma_a) + np.abs(sigma_m)), 0.0, sigma_m)
+    return float(safety[0]), float(sigma_a[0]), float(sigma_m[0]), most, least

@@ -1,0 +1,320 @@
+"""Gear pairs against Hertz's contact, lengths on the line of action, balances, brute force over modules, and the sheet's numbers."""
+
+from __future__ import annotations
+
+from math import cos, degrees, hypot, pi, radians, sin, sqrt, tan
+from typing import Any
+
+import numpy as np
+import pytest
+from hypothesis import assume, given
+from hypothesis import strategies as st
+from pydantic import ValidationError
+
+from diecut_report.engine import Calculation, Impossible, calculate
+from diecut_report.mechanics import contact, involute
+from diecut_report.plugins.gear_pair import MECHANISM
+from diecut_report.plugins.gear_pair import formulas as f
+from diecut_report.plugins.gear_pair.sizing import MODULES
+from diecut_report.results.mechanism import mechanism_results
+from tests.examples import examples
+from tests.machines import inputs, number
+from tests.plugins.gears import AT_DISTANCE, HELICAL, SECTOR, SIZED, SPUR, STEEL, checks, pair
+
+SAFE = {"pitting_safety_1": 1.0, "pitting_safety_2": 1.0, "root_safety_1": 1.4, "root_safety_2": 1.4}
+STRENGTH = ("pitting_1", "pitting_2", "root_1", "root_2")
+GEARS = st.fixed_dictionaries(
+    {
+        "teeth_1": st.integers(17, 40),
+        "teeth_2": st.integers(41, 120),
+        "helix_angle": st.sampled_from([0, 8, 15, 22]),
+        "shift_1": st.floats(0, 0.5),
+        "shift_2": st.floats(-0.3, 0.4),
+        "face_width": st.floats(10, 80),
+        "torque": st.floats(5, 2000),
+    }
+)
+
+
+def numbers(calc: Calculation, *names: str) -> list[float]:
+    """Several numbers of a pair."""
+    return [number(calc, name) for name in names]
+
+
+# --- the sheet's numbers ---------------------------------------------------------------------------------------------
+
+
+def test_sector_and_pinion_of_the_sheet() -> None:
+    calc = pair(SECTOR, torque_curve=[248.37, 248.37, -133.57, 0])
+    expected = {
+        "pitch_diameter_1": 0.14, "pitch_diameter_2": 0.848, "center_distance": 0.494, "contact_ratio": 1.80105, "zone_factor": 2.49457,
+        "contact_ratio_factor": 0.85615, "contact_factor_1": 1.03446, "nominal_contact_stress": 348.282e6, "contact_stress_1": 430.84e6,
+        "contact_stress_2": 416.48e6, "pitting_safety_1": 1.780, "pitting_safety_2": 1.842, "form_factor_1": 1.18121, "form_factor_2": 1.07732,
+        "stress_factor_1": 2.07166, "stress_factor_2": 2.39451, "face_load_root": 1.22835, "root_stress_1": 73.325e6, "root_stress_2": 77.298e6,
+        "root_safety_1": 5.995, "root_safety_2": 5.687, "teeth_swept": 35.014, "teeth_needed": 38, "alternating_factor": 0.7,
+        "pinion_rotation": radians(360.143), "tangential_force": 3548.21, "normal_force": 3775.92,
+    }  # fmt: skip
+    for name, value in expected.items():
+        assert number(calc, name) == pytest.approx(value, rel=3e-4), name
+    assert bool(calc["reversing"][0, 0])
+
+
+def test_main_gears_of_the_sheet() -> None:
+    keys = STEEL | {
+        "module": 5,
+        "teeth_1": 24,
+        "teeth_2": 48,
+        "face_width": 50,
+        "torque": 494.1107,
+        "torque_on": "wheel",
+        "application_factor": 1,
+    }
+    calc = pair(keys)
+    expected = {
+        "tangential_force": 4117.59, "contact_ratio": 1.674705, "contact_factor_1": 1.043614, "nominal_contact_stress": 422.924e6,
+        "contact_stress_1": 527.80e6, "contact_stress_2": 505.74e6, "form_factor_1": 1.455722, "form_factor_2": 1.304185,
+        "stress_factor_1": 1.886282, "stress_factor_2": 2.039845, "root_stress_1": 61.109e6, "root_stress_2": 59.205e6,
+    }  # fmt: skip
+    for name, value in expected.items():
+        assert number(calc, name) == pytest.approx(value, rel=3e-4), name
+
+
+def test_helical_pair_of_the_sheet() -> None:
+    speed = 1274.118 * pi / 30
+    keys = STEEL | {"module": 3, "teeth_1": 17, "teeth_2": 38, "helix_angle": 15, "shift_1": 0.2, "shift_2": -0.2, "face_width": 40,
+                    "torque": 7300 / speed, "speed": 1274.118}  # fmt: skip
+    calc = pair(keys)
+    expected = {
+        "tangential_force": 2072.470, "contact_ratio": 1.508496, "overlap_ratio": 1.098462, "zone_factor": 2.424735,
+        "contact_ratio_factor": 0.814194, "nominal_contact_stress": 454.367e6, "form_factor_1": 1.379297, "form_factor_2": 1.581843,
+        "stress_factor_1": 2.002374, "stress_factor_2": 1.812126, "helix_factor_root": 0.875, "power_peak": 7300,
+    }  # fmt: skip
+    for name, value in expected.items():
+        assert number(calc, name) == pytest.approx(value, rel=1e-4), name
+    assert degrees(number(calc, "working_pressure_angle")) == pytest.approx(20.646896, abs=1e-6)
+
+
+def test_a_distance_of_65_asks_for_negative_shifts() -> None:
+    keys = STEEL | {
+        "module": 2.5,
+        "teeth_1": 11,
+        "teeth_2": 41,
+        "helix_angle": 14,
+        "center_distance": 65,
+        "face_width": 18,
+        "torque": 10,
+    }
+    calc = pair(keys, shift_1=0.2)
+    assert 0.2 + number(calc, "shift_2") == pytest.approx(-0.701684, abs=1e-6)
+    assert degrees(number(calc, "working_pressure_angle")) == pytest.approx(15.21281, abs=1e-5)
+    assert number(calc, "overlap_ratio") == pytest.approx(0.554444, abs=1e-6)
+
+
+@pytest.mark.parametrize(("teeth", "least"), [(17, 0.00566), (18, -0.05283)])
+def test_seventeen_teeth_are_the_last_that_are_undercut(teeth: int, least: float) -> None:
+    calc = pair(teeth_1=teeth)
+    assert number(calc, "shift_min_1") == pytest.approx(least, abs=5e-6)
+    assert checks(calc)["undercut"]["status"] == ("warn" if teeth == 17 else "pass")
+
+
+# --- geometry and contact by other ways ------------------------------------------------------------------------------
+
+
+@given(keys=GEARS)
+@examples(30)
+def test_the_contact_ratio_is_that_of_lengths_on_the_line_of_action(keys: dict[str, Any]) -> None:
+    calc = pair(STEEL | {"module": 4} | keys)
+    (da1, da2), (db1, db2) = ([number(calc, f"{kind}_diameter_{g}") for g in (1, 2)] for kind in ("tip", "base"))
+    a, alpha, pitch = numbers(calc, "center_distance", "working_pressure_angle", "base_pitch")
+    length = (sqrt(da1**2 - db1**2) + sqrt(da2**2 - db2**2)) / 2 - a * sin(alpha)
+    assert number(calc, "contact_ratio") == pytest.approx(length / pitch, rel=1e-9)
+    assert number(calc, "working_diameter_1") / 2 * cos(alpha) == pytest.approx(db1 / 2, rel=1e-12)
+
+
+@given(keys=GEARS)
+@examples(30)
+def test_a_given_distance_gives_back_the_shift_that_made_it(keys: dict[str, Any]) -> None:
+    free = pair(STEEL | {"module": 4} | keys)
+    bound = {name: value for name, value in keys.items() if name != "shift_2"}
+    again = pair(STEEL | {"module": 4} | bound, center_distance=f"{number(free, 'center_distance')!r} m")
+    assert number(again, "shift_2") == pytest.approx(keys["shift_2"], abs=1e-9)
+    for name in ("contact_ratio", "contact_stress_1", "root_stress_2", "tip_clearance_1"):
+        assert number(again, name) == pytest.approx(number(free, name), rel=1e-7), name
+
+
+def test_without_shifts_the_axes_stand_at_their_reference_distance() -> None:
+    calc = pair(HELICAL | {"shift_1": 0.25, "shift_2": -0.25})
+    assert number(calc, "center_distance") == pytest.approx(number(calc, "reference_distance"), rel=1e-14)
+
+
+@pytest.mark.parametrize("teeth", [(35, 212), (19, 104), (24, 61)])
+@pytest.mark.parametrize("shifts", [(0.0, 0.0), (0.5, 0.15)])
+def test_flank_stresses_are_those_of_hertz(teeth: tuple[int, int], shifts: tuple[float, float]) -> None:
+    """At the pitch point but for Z_ε, and at both inner points of single contact."""
+    keys = SPUR | {"teeth_1": teeth[0], "teeth_2": teeth[1], "shift_1": shifts[0], "shift_2": shifts[1]}
+    calc = pair(keys)
+    line = number(calc, "center_distance") * sin(number(calc, "working_pressure_angle"))
+    pitch_point = number(calc, "base_diameter_1") / 2 * tan(number(calc, "working_pressure_angle"))
+    modulus = contact.effective_modulus_alike(206e9, 0.3)
+
+    def pressure(place: float) -> float:
+        return float(
+            contact.contact_pressure(number(calc, "normal_force"), modulus, place * (line - place) / line, 0.04)
+        )
+
+    at_pitch = number(calc, "nominal_contact_stress") / number(calc, "contact_ratio_factor")
+    assert at_pitch == pytest.approx(pressure(pitch_point), rel=1e-9)
+    ends = [sqrt(number(calc, f"tip_diameter_{g}") ** 2 - number(calc, f"base_diameter_{g}") ** 2) / 2 for g in (1, 2)]
+    step = number(calc, "base_pitch")
+    inner = (ends[0] - step, line - (ends[1] - step))  # a base pitch before the end of contact, from either side
+    for gear, place in zip((1, 2), inner, strict=True):
+        assert number(calc, f"single_contact_{gear}") == pytest.approx(
+            pressure(place) / pressure(pitch_point), rel=1e-9
+        )
+
+
+@pytest.mark.parametrize(("overlap", "expected"), [(0, 1.1), (0.5, 1.05), (1, 1.0), (2, 1.0)])
+def test_overlap_takes_the_single_contact_away_in_proportion(overlap: float, expected: float) -> None:
+    assert f.contact_factor(1.1, overlap) == pytest.approx(expected, rel=1e-14)
+    assert f.contact_factor(0.9, overlap) == 1.0
+
+
+@pytest.mark.parametrize("gear", [1, 2])
+def test_the_load_of_the_root_acts_a_base_pitch_from_the_start_of_contact(gear: int) -> None:
+    calc = pair()
+    line = number(calc, "center_distance") * sin(number(calc, "working_pressure_angle"))
+    mate_end = sqrt(number(calc, f"tip_diameter_{3 - gear}") ** 2 - number(calc, f"base_diameter_{3 - gear}") ** 2) / 2
+    along = line - mate_end + number(calc, "base_pitch")
+    radius = hypot(along, number(calc, f"base_diameter_{gear}") / 2)
+    assert number(calc, f"load_diameter_{gear}") * 0.004 / 2 == pytest.approx(radius, rel=1e-9)
+
+
+@given(keys=GEARS)
+@examples(30)
+def test_forces_on_the_tooth_make_up_the_normal_force(keys: dict[str, Any]) -> None:
+    calc = pair(STEEL | {"module": 4} | keys)
+    at_pitch, radial, normal = numbers(calc, "working_force", "radial_force", "normal_force")
+    axial = (
+        at_pitch
+        * tan(radians(keys["helix_angle"]))
+        * number(calc, "working_diameter_1")
+        / number(calc, "pitch_diameter_1")
+    )
+    assert normal == pytest.approx(sqrt(at_pitch**2 + radial**2 + axial**2), rel=1e-9)
+    assert number(calc, "axial_force") == pytest.approx(axial, rel=1e-9)
+    reference = number(calc, "tangential_force") / (cos(radians(20)) * cos(radians(keys["helix_angle"])))
+    assert normal == pytest.approx(reference, rel=1e-9)
+
+
+@given(teeth=st.integers(5, 40), height=st.floats(-2, 1), helix=st.floats(0, 0.5))
+@examples(60)
+def test_a_tip_lies_above_the_base_circle_where_its_radius_is_greater(teeth: int, height: float, helix: float) -> None:
+    alpha = float(involute.transverse_pressure_angle(radians(20), helix))
+    reference = teeth / cos(helix) / 2
+    assume(abs(reference + height - reference * cos(alpha)) > 1e-9)
+    assert bool(f.tip_above_base(teeth, alpha, helix, height)) is (reference + height > reference * cos(alpha))
+
+
+# --- load ------------------------------------------------------------------------------------------------------------
+
+
+def test_a_torque_on_the_wheel_is_the_less_on_the_pinion() -> None:
+    on_pinion, on_wheel = pair(torque=100), pair(torque=-100 * 61 / 24, torque_on="wheel")
+    assert number(on_wheel, "torque_peak") == pytest.approx(number(on_pinion, "torque_peak"), rel=1e-14)
+    assert number(on_wheel, "root_safety_1") == pytest.approx(number(on_pinion, "root_safety_1"), rel=1e-14)
+
+
+def test_a_curve_counts_with_its_peak_and_bends_both_ways() -> None:
+    calc = pair(SECTOR)
+    torque = np.interp(np.arange(360) / 360, np.arange(9) / 8, [248.37, 100, -20, -133.57, 0, 50, 100, 200, 248.37])
+    np.testing.assert_allclose(calc.curve_samples("tangential_force_curve")[0], torque / 0.07, rtol=1e-9, atol=1e-6)
+    assert np.max(calc.curve_samples("contact_stress_curve")) == pytest.approx(
+        number(calc, "contact_stress_1"), rel=1e-9
+    )
+    steady = pair(SECTOR, torque_curve=[248.37, 100, 20, 133])
+    assert not bool(steady["reversing"][0, 0])
+    assert number(calc, "root_safety_1") == pytest.approx(0.7 * number(steady, "root_safety_1"), rel=1e-12)
+    assert number(pair(SECTOR, alternating_factor=1), "root_safety_1") == pytest.approx(
+        number(steady, "root_safety_1"), rel=1e-12
+    )
+
+
+def test_assumed_factors_are_named_and_given_ones_are_not() -> None:
+    assert checks(pair(HELICAL))["k_factors"]["status"] == "pass"
+    assert number(pair(), "factors_assumed") == 4
+    check = checks(pair(dynamic_factor=1.2))["k_factors"]
+    assert check["demand"] == 3
+    assert check["status"] == "warn"
+    assert "application_factor, face_load_factor and transverse_load_factor are assumed" in check["message"]
+
+
+# --- sizing ----------------------------------------------------------------------------------------------------------
+
+
+@given(keys=GEARS)
+@examples(12)
+def test_the_module_is_the_least_of_the_series_with_which_all_holds(keys: dict[str, Any]) -> None:
+    values = np.array(MODULES.values)
+    given_modules = calculate(MECHANISM, inputs(MECHANISM, STEEL | keys) | {"module": values / 1e3}, len(values))
+    held = np.all([given_modules[name] >= required for name, required in SAFE.items()], axis=0)[:, 0]
+    calc = pair(STEEL | keys)
+    assert number(calc, "module") * 1e3 == pytest.approx(values[held].min(), rel=1e-12)
+    assert {checks(calc)[name]["status"] for name in STRENGTH} == {"pass"}
+
+
+def test_the_modules_beside_the_chosen_one_are_shown() -> None:
+    results = mechanism_results(pair(SIZED), {})
+    found = next(item for section in results["sections"] for item in section["items"] if item.get("id") == "module")
+    assert number(pair(SIZED), "module") == pytest.approx(0.004)
+    assert "neighbours not taken: 3 mm, 5 mm" in found["method"]
+
+
+# --- bad input -------------------------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize(
+    ("changes", "key", "words"),
+    [
+        ({"teeth_1": 70}, "teeth_1", "exchange the gears"),
+        ({"torque": 0}, "torque", "give the torque"),
+        ({"torque": None, "torque_curve": [0, 0, 0, 0]}, "torque_curve", "is 0 everywhere"),
+        ({"shift_1": -1, "shift_2": -1, "teeth_1": 10, "teeth_2": 12}, "shift_1", "take greater shifts"),
+        ({"root_radius": 0.8}, "root_radius", "the roundings of the rack's tip overlap"),
+        ({"shift_1": 1.4, "teeth_1": 12}, "shift_1", "ends in a point below its tip circle"),
+        ({"addendum": 0.4}, "addendum", "parts before the next one meets"),
+        ({"addendum": 1.3, "dedendum": 1.5, "root_radius": 0.2, "teeth_1": 60}, "addendum", "no single pair carries"),
+        ({"center_distance": 150}, "center_distance", "the base circles of 24 and 61 teeth overlap"),
+        ({"center_distance": 185}, "center_distance", "asks for a profile shift"),
+    ],
+)
+def test_what_no_gears_can_be_made_of_is_refused_in_words(changes: dict[str, Any], key: str, words: str) -> None:
+    with pytest.raises(Impossible) as refused:
+        pair(**changes)
+    assert refused.value.key == key and words in refused.value.message
+
+
+def test_a_torque_that_no_module_carries_is_refused_in_words() -> None:
+    with pytest.raises(Impossible, match="no module of ISO 54 carries the torque"):
+        pair(STEEL | {"teeth_1": 24, "teeth_2": 61, "face_width": 2, "torque": 1e6})
+
+
+def test_more_teeth_than_the_full_circle_has_are_refused() -> None:
+    with pytest.raises(Impossible, match="more than the 212 of the full circle"):
+        pair(SECTOR, sector={"swing": "59 deg", "teeth_present": 213})
+
+
+@pytest.mark.parametrize(
+    "changes",
+    [{"teeth_1": 4}, {"helix_angle": 31}, {"shift_1": 1.6}, {"pressure_angle": 14}, {"addendum": 0}, {"module": 0}],
+)
+def test_keys_out_of_their_range_are_refused(changes: dict[str, Any]) -> None:
+    with pytest.raises(ValidationError):
+        inputs(MECHANISM, SPUR | changes)
+
+
+def test_a_wheel_at_a_distance_and_a_curve_on_the_wheel_are_calculated() -> None:
+    calc = pair(AT_DISTANCE)
+    assert number(calc, "center_distance") == pytest.approx(0.177, rel=1e-12)
+    assert number(calc, "tip_clearance_1") == pytest.approx(0.25 * 0.004, rel=1e-9)
+    both = calculate(MECHANISM, inputs(MECHANISM, SECTOR | {"torque_on": "wheel"}))
+    assert number(both, "torque_peak") == pytest.approx(248.37 * 35 / 212, rel=1e-12)

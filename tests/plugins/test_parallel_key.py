@@ -1,0 +1,230 @@
+"""Parallel keys against the sheet's numbers, moments of pressures summed up, brute force over lengths, and bad input."""
+
+from __future__ import annotations
+
+from math import sqrt
+from typing import Any
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+from pydantic import ValidationError
+
+from diecut_report.engine import Impossible
+from diecut_report.plugins.parallel_key import MECHANISM
+from diecut_report.plugins.parallel_key.dimensions import KEYS, LENGTHS
+from tests.examples import examples
+from tests.machines import inputs, number
+from tests.plugins.keys import KEY, OWN, SIZED, TURNING, checks, key
+
+STRENGTH = ("pressure_shaft", "pressure_hub", "pressure_key", "pressure_peak", "shear")
+DRAWN = st.fixed_dictionaries(
+    {
+        "shaft_diameter": st.floats(10.5, 200),
+        "form": st.sampled_from(["A", "B"]),
+        "key_count": st.sampled_from([1, 2]),
+        "torque": st.floats(1, 3000),
+        "application_factor": st.floats(1, 2),
+        "yield_shaft": st.floats(200, 900),
+        "yield_hub": st.floats(150, 900),
+        "yield_key": st.floats(300, 600),
+        "load_direction_factor": st.floats(0.5, 1),
+        "load_peak_factor": st.floats(1, 1.5),
+    }
+)
+
+
+# --- the sheet's numbers ---------------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize(("diameter", "pressures"), [(50, (73.321, 115.219, 28.805)), (45, (81.468, 128.021, 32.005))])
+def test_a_key_of_63_mm_carries_494_newton_metres(diameter: float, pressures: tuple[float, float, float]) -> None:
+    calc = key(shaft_diameter=diameter)
+    assert [number(calc, name) * 1e3 for name in ("width", "height", "depth_shaft", "bearing_length")] == pytest.approx(
+        [14, 9, 5.5, 49]
+    )
+    assert number(calc, "key_force") == pytest.approx(2 * 494 / (diameter / 1e3))
+    found = [number(calc, name) / 1e6 for name in ("pressure_shaft", "pressure_hub", "shear_stress")]
+    assert found == pytest.approx(pressures, abs=6e-4)
+
+
+@pytest.mark.parametrize(
+    ("diameter", "length", "expected"),
+    [
+        (55, 70, (16, 10, 54, 17968, 55.46, 83.18, 20.80, 0.2498)),
+        (50, 50, (14, 9, 36, 19764, 99.82, 156.86, 39.22, 0.4711)),
+    ],
+)
+def test_the_keys_of_gear_and_crank(diameter: float, length: float, expected: tuple[float, ...]) -> None:
+    calc = key(
+        TURNING | {"key_count": 1, "brittle_hub": False},
+        shaft_diameter=diameter,
+        key_length=length,
+        torque_curve=[494.1107, 100, -327.404, 0],
+    )
+    sizes = [number(calc, name) * 1e3 for name in ("width", "height", "bearing_length")]
+    stresses = [number(calc, name) / 1e6 for name in ("pressure_shaft", "pressure_hub", "shear_stress")]
+    utilisation = number(calc, "pressure_hub") / number(calc, "allowed_hub")
+    found = [*sizes, number(calc, "key_force"), *stresses, utilisation]
+    assert found == pytest.approx(expected, rel=2e-4)
+    assert checks(calc)["reversing"]["status"] == "warn"
+    assert calc["governing"][0, 0] == "key, equivalent load"  # pressed as the hub is, of weaker steel
+
+
+def test_a_second_key_takes_half_as_much_again() -> None:
+    one, two = key(), key(key_count=2)
+    for name in ("pressure_shaft", "pressure_hub", "pressure_key_peak", "shear_stress"):
+        assert number(two, name) == pytest.approx(number(one, name) / 1.5, rel=1e-14)
+
+
+def test_the_public_code_needs_441_megapascals() -> None:
+    keys = {"shaft_diameter": 30, "form": "A", "key_length": 43, "key_count": 2, "torque": 535.93, "application_factor": 1.75,
+            "yield_shaft": 900, "yield_hub": 900, "yield_key": 900}  # fmt: skip
+    assert number(key(keys), "pressure_hub") == pytest.approx(396.985e6, rel=1e-6)
+    assert checks(key(keys | {"yield_hub": 441.1, "yield_key": 441.1}))["pressure_hub"]["status"] == "pass"
+    assert checks(key(keys | {"yield_hub": 441.0}))["pressure_hub"]["status"] == "fail"
+
+
+def test_in_every_row_the_hub_bears_less_than_the_shaft_and_the_key_has_play() -> None:
+    for d, b, h, t1, t2 in zip(*(KEYS.column(name).values for name in ("d", "b", "h", "t1", "t2")), strict=True):
+        assert h - t1 < t1 and 0.2 - 1e-9 <= t1 + t2 - h <= 0.4 + 1e-9 and b < d
+
+
+@pytest.mark.parametrize(("diameter", "width"), [(10.01, 4), (12, 4), (12.001, 5), (38, 10), (38.1, 12), (200, 45)])
+def test_a_diameter_at_the_end_of_a_row_belongs_to_it(diameter: float, width: float) -> None:
+    assert number(key(shaft_diameter=diameter, key_length=100), "width") == pytest.approx(width / 1e3)
+
+
+# --- by other ways ---------------------------------------------------------------------------------------------------
+
+
+@given(keys=DRAWN)
+@examples(25)
+def test_pressures_summed_over_the_key_carry_the_torque(keys: dict[str, Any]) -> None:
+    """Slices of the bearing length, each with its force at half the diameter; two keys together carry one and a half."""
+    calc = key(KEY | keys | {"key_length": 140})
+    slices = np.full(1000, number(calc, "bearing_length") / 1000)
+    shared = {1: 1.0, 2: 1.5}[keys["key_count"]]
+    for part, height in (("shaft", "height_shaft"), ("hub", "height_hub")):
+        moment = (
+            np.sum(number(calc, f"pressure_{part}") * number(calc, height) * slices)
+            * keys["shaft_diameter"]
+            / 2e3
+            * shared
+        )
+        assert moment == pytest.approx(keys["torque"] * keys["application_factor"], rel=1e-9)
+    force = number(calc, "shear_stress") * number(calc, "width") * number(calc, "bearing_length")
+    assert force * keys["shaft_diameter"] / 2e3 * shared == pytest.approx(keys["torque"], rel=1e-9)
+
+
+@given(keys=DRAWN)
+@examples(12)
+def test_the_length_is_the_least_standard_one_that_holds(keys: dict[str, Any]) -> None:
+    given_keys = {name: value for name, value in KEY.items() if name != "key_length"} | keys
+    try:
+        sized = key(given_keys)
+    except Impossible:
+        assert not _holds(given_keys, 280)
+        return
+    length = number(sized, "key_length") * 1e3
+    assert _holds(given_keys, length)
+    shorter = [each for each in LENGTHS.values if each < length - 1e-6]
+    assert not shorter or not _holds(given_keys, shorter[-1])
+
+
+def _holds(keys: dict[str, Any], length: float) -> bool:
+    """Whether a key of this length passes, by the pressures as a sheet writes them."""
+    row = int(np.searchsorted(KEYS.column("d").values, keys["shaft_diameter"]))
+    b, h, t1 = (KEYS.column(name).values[row] for name in ("b", "h", "t1"))
+    bearing = length - b if keys["form"] == "A" else length
+    if bearing <= 0:
+        return False
+    peak = 2e3 * keys["torque"] / (keys["shaft_diameter"] * (1 if keys["key_count"] == 1 else 1.5))
+    limits = [(t1, keys["yield_shaft"]), (h - t1, keys["yield_hub"]), (min(t1, h - t1), keys["yield_key"])]
+    regular = all(
+        keys["application_factor"] * peak / (height * bearing) <= keys["load_direction_factor"] * 0.9 * limit
+        for height, limit in limits
+    )
+    rare = all(peak / (height * bearing) <= keys["load_peak_factor"] * 0.9 * limit for height, limit in limits)
+    return regular and rare and peak / (b * bearing) <= keys["yield_key"] / sqrt(3)
+
+
+# --- load, own dimensions, checks ------------------------------------------------------------------------------------
+
+
+def test_a_curve_counts_with_its_greatest_size_and_no_factor() -> None:
+    calc = key(TURNING)
+    assert number(calc, "torque_equivalent") == pytest.approx(494.11) and bool(calc["reversing"][0, 0])
+    assert checks(calc)["two_keys"]["status"] == "warn"
+    assert checks(key(TURNING, load_direction_factor=0.9))["reversing"]["status"] == "pass"
+    assert "two_keys" not in checks(key(key_count=2))
+
+
+def test_a_rare_peak_presses_against_its_own_limit() -> None:
+    calc = key(KEY | {"torque_peak": 900, "load_peak_factor": 1.5})
+    assert number(calc, "pressure_hub_peak") == pytest.approx(900 / 494 * number(calc, "pressure_hub"))
+    assert number(calc, "safety_hub_peak") == pytest.approx(1.5 * 0.9 * 370e6 / number(calc, "pressure_hub_peak"))
+
+
+def test_a_peak_that_is_the_torque_itself_is_taken() -> None:
+    assert number(key(torque_peak=494), "key_force_peak") == pytest.approx(number(key(), "key_force"), rel=1e-14)
+
+
+def test_own_dimensions_and_a_chamfer_are_taken() -> None:
+    calc = key(OWN)
+    assert number(calc, "bearing_length") == pytest.approx(0.063)
+    assert number(calc, "height_shaft") == pytest.approx(0.005) and number(calc, "height_hub") == pytest.approx(0.004)
+
+
+def test_a_key_that_fails_is_told_the_length_that_holds() -> None:
+    keys = KEY | {"key_length": 25}
+    for name in ("pressure_hub", "pressure_key"):
+        check = checks(key(keys, yield_hub=300))[name]
+        assert check["status"] == "fail" and "set key_length to at least" in check["message"]
+    told = number(key(keys, yield_hub=300), "required_key_length") * 1e3
+    assert f"at least {told:g} mm" in checks(key(keys, yield_hub=300))["pressure_hub"]["message"]
+    again = checks(key(keys, yield_hub=300, key_length=told))
+    assert {again[name]["status"] for name in STRENGTH} == {"pass"}
+
+
+def test_a_key_that_no_standard_length_saves_is_told_so() -> None:
+    check = checks(key(torque=9000))["pressure_hub"]
+    assert check["status"] == "fail" and "no standard key is long enough" in check["message"]
+    assert "required_key_length" not in key(torque=9000).values or np.isnan(
+        key(torque=9000)["required_key_length"][0, 0]
+    )
+
+
+def test_practice_is_watched() -> None:
+    found = checks(key(key_length=95, hub_length=80))
+    assert [found[name]["status"] for name in ("length_ratio", "standard_length", "hub_length")] == ["warn"] * 3
+    assert checks(key(SIZED))["standard_length"]["status"] == "pass"
+    assert checks(key())["hub_length"]["status"] == "not_checked"
+
+
+@pytest.mark.parametrize(
+    ("changes", "name", "words"),
+    [
+        ({"shaft_diameter": 10}, "shaft_diameter", "give width, height, depth_shaft and depth_hub"),
+        ({"shaft_diameter": 201}, "shaft_diameter", "has no key"),
+        ({"key_length": 14}, "key_length", "take a longer key, or form B"),
+        ({"torque": 0}, "torque", "give the torque"),
+        ({"torque_peak": 400}, "torque_peak", "less than the torque"),
+        ({"chamfer": 4}, "chamfer", "leaves no height to bear"),
+        ({"width": 15, "height": 5, "depth_shaft": 5.5, "depth_hub": 4}, "depth_shaft", "sinks whole"),
+        ({"key_length": None, "torque": 9000}, "shaft_diameter", "the longest standard key"),
+    ],
+)
+def test_what_no_key_can_be_is_refused_in_words(changes: dict[str, Any], name: str, words: str) -> None:
+    with pytest.raises(Impossible) as refused:
+        key({each: value for each, value in (KEY | changes).items() if value is not None})
+    assert refused.value.key == name and words in refused.value.message
+
+
+@pytest.mark.parametrize(
+    "changes", [{"form": "C"}, {"key_count": 3}, {"load_peak_factor": 1.6}, {"load_direction_factor": 0.4}]
+)
+def test_keys_out_of_their_range_are_refused(changes: dict[str, Any]) -> None:
+    with pytest.raises(ValidationError):
+        inputs(MECHANISM, KEY | changes)

@@ -1,0 +1,390 @@
+"""The stepped shaft: the method's worked example, closed forms, brute force over instants and material points, advice that is followed."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+import pytest
+from numpy.testing import assert_allclose
+
+from diecut_report.engine import Calculation, Impossible
+from diecut_report.plugins.shaft import MECHANISM
+from diecut_report.results.checks import check_results
+from tests.machines import inputs, number
+from tests.plugins.shafts import CRANK, CRANKSHAFT, GEAR, LAYSHAFT, SECTIONS, STANDING, crankshaft, row, shaft
+
+SHOULDER_1, SHOULDER_2, SHOULDER_3 = "shoulder 1", "shoulder 2", "shoulder 3"
+GEAR_KEY, CRANK_KEY = "notch 1 (keyseat_end_mill)", "notch 2 (keyseat_end_mill)"
+
+
+def checks(calculation: Calculation) -> dict[str, str]:
+    """The verdicts of a shaft by their ids."""
+    return {check["id"]: check["status"] for check in check_results(calculation)}
+
+
+# --- the worked example of the method ----------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize(
+    ("name", "expected"),
+    [
+        ("reaction_a_max", 4444.857),
+        ("reaction_b_max", 15476.789),
+        ("fatigue_safety", 1.7132),
+        ("yield_safety", 9.2425),
+        ("slope_b", 0.72818e-3),
+        ("deflection_end", 93.967e-6),
+    ],
+)
+def test_the_crankshaft_has_the_numbers_of_the_method(name: str, expected: float) -> None:
+    assert number(crankshaft(), name) == pytest.approx(expected, rel=5e-5)
+
+
+def test_each_place_of_the_crankshaft_has_the_safety_of_the_method() -> None:
+    safety = row(crankshaft(), "place_safety")
+    expected = {SHOULDER_3: 1.7132, SHOULDER_2: 2.0842, CRANK_KEY: 2.0201, GEAR_KEY: 2.5999, SHOULDER_1: 8.7896}
+    assert_allclose([safety[name] for name in expected], list(expected.values()), rtol=5e-5)
+    stresses = [row(crankshaft(), name)[SHOULDER_3] / 1e6 for name in ("sigma_a", "tau_a", "tau_m")]
+    assert_allclose(stresses, [61.0788, 16.7253, 3.4021], rtol=5e-5)
+    assert row(crankshaft(), "sigma_m")[SHOULDER_3] == pytest.approx(0, abs=1)
+    assert crankshaft()["fatigue_place"][0, 0] == SHOULDER_3
+
+
+def test_the_notches_of_the_crankshaft_have_the_factors_of_the_method() -> None:
+    found = [row(crankshaft(), name) for name in ("k_t", "k_ts", "k_f", "k_fs")]
+    assert_allclose([each[SHOULDER_3] for each in found], [2.0893, 1.6418, 1.9479, 1.5743], rtol=5e-5)
+    assert_allclose([each[CRANK_KEY] for each in found[2:]], [1.9414, 2.7148], rtol=5e-5)
+    assert row(crankshaft(), "place_endurance")[CRANK_KEY] == pytest.approx(222.21e6, rel=5e-5)
+
+
+def test_the_critical_speed_is_that_of_the_method_between_its_bounds() -> None:
+    names = ("critical_speed", "critical_speed_rayleigh", "critical_speed_dunkerley")
+    found = [number(crankshaft(), name) * 30 / np.pi for name in names]
+    assert_allclose(found, [40568, 40578, 37154], rtol=2e-5)
+
+
+def test_the_deflection_at_the_gear_is_that_of_the_method() -> None:
+    assert crankshaft().sample("deflection", np.array([[0.13]]), np.array([[0.13]]))[0, 0] == pytest.approx(
+        32.391e-6, rel=5e-5
+    )
+
+
+@pytest.mark.parametrize(
+    ("step", "radius", "great", "k_t", "k_ts"),
+    [(5, 2.5, 60, 1.9564, 1.5600), (2.5, 2, 60, 1.9261, 1.5381), (3, 3, 38, 1.6819, 1.3684)],
+)
+def test_shoulders_have_the_factors_of_petersons_charts(
+    step: float, radius: float, great: float, k_t: float, k_ts: float
+) -> None:
+    sections = [{"length": 100, "diameter": great - 2 * step}, {"length": 240, "diameter": great}]
+    sections[0]["fillet_radius"] = radius
+    calculation = shaft(CRANKSHAFT, sections=sections, notches=[])
+    found = [calculation[name][0, 0] for name in ("k_t", "k_ts")]
+    assert found == pytest.approx([k_t, k_ts], rel=5e-5)
+
+
+# --- closed forms and brute force ---------------------------------------------------------------------------------------
+
+
+def test_constant_loads_on_a_turning_shaft_alternate_fully_in_bending() -> None:
+    calculation = shaft(CRANKSHAFT, loads=[GEAR | {"torque": 100}, CRANK])
+    sigma_a, sigma_m = row(calculation, "sigma_a"), row(calculation, "sigma_m")
+    modulus = np.pi * 0.05**3 / 32
+    assert sigma_a[SHOULDER_3] == pytest.approx(9994 * (0.355 - 0.28) / modulus, rel=1e-9)
+    assert max(map(abs, sigma_m.values())) < 1e-6 * sigma_a[SHOULDER_3]
+
+
+def test_constant_loads_on_a_standing_shaft_do_not_tire_it() -> None:
+    calculation = shaft(STANDING)
+    assert max(row(calculation, "sigma_a").values()) == 0
+    assert max(row(calculation, "sigma_m").values()) > 1e6
+    assert number(calculation, "size_share") == 0.37
+
+
+class Turned:
+    """A curve of this test's own: a force of constant size that turns with the shaft (1), or against it (-1)."""
+
+    curve_id, cycle = "turned", "crank_angle"
+    breakpoints = joints = np.empty((1, 0))
+
+    def __init__(self, function: Any) -> None:
+        self.function = function
+
+    def values(self, share: Any, middle: Any, rows: Any) -> Any:
+        """Return the force at shares of the cycle."""
+        return self.function(2 * np.pi * share)
+
+
+@pytest.mark.parametrize(("sense", "amplitude"), [(1, 0.0), (-1, 1.0)])
+def test_a_load_that_turns_with_the_shaft_does_not_tire_it_one_against_it_does(sense: int, amplitude: float) -> None:
+    load = {
+        "name": "out of balance",
+        "position": 130,
+        "force_y": Turned(lambda a: 1000 * np.cos(a)),
+        "force_z": Turned(lambda a: sense * 1000 * np.sin(a)),
+    }
+    calculation = shaft(CRANKSHAFT, loads=[load])
+    modulus = np.pi * 0.055**3 / 32
+    stress = 1000 * 0.12 * 0.105 / 0.225 / modulus
+    assert row(calculation, "sigma_a")[GEAR_KEY] == pytest.approx(amplitude * stress, rel=1e-4, abs=1e-3)
+
+
+def test_the_fatigue_of_any_loads_is_that_of_brute_force() -> None:
+    """Sum reactions, moments and stresses anew at each instant and material point, place by place."""
+    curves = {
+        "force_y": Turned(lambda a: 3000 * np.cos(a) - 500),
+        "force_z": Turned(lambda a: 2000 * np.sin(2 * a)),
+        "torque": Turned(lambda a: 200 + 100 * np.sin(a)),
+        "axial_force": Turned(lambda a: 800 * np.cos(3 * a)),
+        "couple_xz": Turned(lambda a: 40 * np.sin(a)),
+    }
+    calculation = shaft(
+        CRANKSHAFT,
+        loads=[{"name": "all", "position": 130} | curves, {"name": "out", "position": 310, "torque": "balance"}],
+    )
+    angle = np.linspace(0, 2 * np.pi, 1441)
+    values = {name: curve.function(angle) for name, curve in curves.items()}
+    span, arm = 0.225, 0.105
+    r_by, r_bz = -values["force_y"] * arm / span, -(values["force_z"] * arm + values["couple_xz"]) / span
+    x, modulus, area = 0.13, np.pi * 0.055**3 / 32, np.pi * 0.055**2 / 4
+    k_f, k_fs = (row(calculation, name)[GEAR_KEY] for name in ("k_f", "k_fs"))
+    endurance = row(calculation, "place_endurance")[GEAR_KEY]
+    least = np.inf
+    for behind in (False, True):
+        m_y = -(values["force_y"] + r_by) * (x - 0.025)
+        m_z = -(values["force_z"] + r_bz) * (x - 0.025) - behind * values["couple_xz"]
+        axial = values["axial_force"] * (1 - behind)
+        torque = values["torque"] * behind
+        for psi in np.linspace(0, 2 * np.pi, 721):
+            stress = axial / area - (m_y * np.cos(psi + angle) + m_z * np.sin(psi + angle)) / modulus
+            normal = np.ptp(stress) / 2, (stress.max() + stress.min()) / 2
+            shear = np.ptp(torque) / 4 / modulus, (torque.max() + torque.min()) / 4 / modulus
+            sides = [np.sqrt((k_f * s) ** 2 + 3 * (k_fs * t) ** 2) for s, t in zip(normal, shear, strict=True)]
+            least = min(least, 1 / (sides[0] / endurance + sides[1] / 900e6))
+    assert row(calculation, "place_safety")[GEAR_KEY] == pytest.approx(least, rel=2e-5)
+
+
+def test_the_twist_of_a_hollow_shaft_is_that_of_its_closed_form() -> None:
+    calculation = shaft(
+        CRANKSHAFT,
+        sections=[{"length": 500, "diameter": 60, "bore": 30}],
+        notches=[],
+        loads=[{"name": "in", "position": 50, "torque": 500}, {"name": "out", "position": 450, "torque": -500}],
+    )
+    polar = np.pi * (0.06**4 - 0.03**4) / 32
+    assert number(calculation, "twist") == pytest.approx(500 * 0.4 / (79.3e9 * polar), rel=1e-9)
+    assert number(calculation, "twist") == pytest.approx(2.114368e-3, rel=1e-6)
+
+
+def test_a_helical_gear_loads_the_shaft_as_its_tooth_force_does() -> None:
+    """The moment of the tooth force about the axis is the torque; its axial part turns about the mesh."""
+    gear = {
+        "name": "gear",
+        "position": 130,
+        "torque": 300,
+        "gear": {"pitch_radius": 60, "helix_angle": 20, "mesh_angle": 90},
+    }
+    calculation = shaft(CRANKSHAFT, loads=[gear, CRANK | {"force_y": 0}])
+    tangential = 300 / 0.06
+    radial, axial = tangential * np.tan(np.radians(20)) / np.cos(np.radians(20)), tangential * np.tan(np.radians(20))
+    span, arm = 0.225, 0.105
+    b_y, b_z = tangential * arm / span, (radial * arm + axial * 0.06) / span
+    assert number(calculation, "reaction_b_max") == pytest.approx(np.hypot(b_y, b_z), rel=1e-9)
+    assert number(calculation, "axial_reaction_max") == pytest.approx(axial, rel=1e-9)
+
+
+def test_balance_takes_what_the_extremes_leave_and_nothing_is_left_beyond() -> None:
+    found = [number(crankshaft(), name) for name in ("torque_max", "torque_min")]
+    assert found == [494, -327]
+    assert float(crankshaft().sample("torque", np.array([[0.33]]), np.array([[0.33]]))[0, 0]) == 0
+
+
+def test_reactions_over_the_cycle_are_in_balance_with_the_loads() -> None:
+    force = Turned(lambda a: 3000 * np.cos(a))
+    calculation = shaft(CRANKSHAFT, loads=[{"name": "one", "position": 130, "force_y": force}])
+    angles = calculation.domains["cycle_angle"].samples
+    a, b = (calculation.curve_samples(f"reaction_{name}_y") for name in "ab")
+    assert_allclose(a + b, -3000 * np.cos(angles), atol=1e-9)
+    assert np.max(calculation.curve_samples("reaction_b")) == pytest.approx(
+        number(calculation, "reaction_b_max"), rel=1e-9
+    )
+
+
+def test_of_two_notches_at_one_place_the_greater_factors_hold() -> None:
+    both = [
+        {"position": 130, "type": "custom", "k_f": 2.5, "k_fs": 1.2},
+        {"position": 130, "type": "custom", "k_f": 1.5, "k_fs": 2.2},
+    ]
+    calculation = shaft(CRANKSHAFT, notches=both)
+    for place in ("notch 1 (custom)", "notch 2 (custom)", "load gear"):
+        assert [row(calculation, name)[place] for name in ("k_f", "k_fs")] == [2.5, 2.2]
+
+
+def test_a_press_fit_has_the_factors_of_din_743() -> None:
+    calculation = shaft(CRANKSHAFT, notches=[{"position": 130, "type": "press_fit"}])
+    k_f = 2.7 * 0.9**0.43
+    found = [row(calculation, name)["notch 1 (press_fit)"] for name in ("k_f", "k_fs")]
+    assert found == pytest.approx([k_f, 0.65 * k_f], rel=1e-12)
+
+
+# --- checks and their advice ----------------------------------------------------------------------------------------------
+
+
+def grown(keys: dict[str, Any], factor: float) -> dict[str, Any]:
+    """A shaft of which all diameters, bores and radii are greater."""
+    sizes = ("diameter", "bore", "fillet_radius")
+    sections = [part | {name: part[name] * factor for name in sizes if name in part} for part in keys["sections"]]
+    return keys | {"sections": sections}
+
+
+@pytest.mark.parametrize(
+    ("check", "growth", "keys"),
+    [
+        ("fatigue", "fatigue_growth", CRANKSHAFT | {"required_fatigue_safety": 2.6}),
+        ("fatigue", "fatigue_growth", LAYSHAFT | {"required_fatigue_safety": 30}),
+        ("yield", "yield_growth", CRANKSHAFT | {"required_yield_safety": 15}),
+        ("yield", "yield_growth", LAYSHAFT | {"required_yield_safety": 100}),
+        ("bearing_slope", "slope_growth", CRANKSHAFT | {"allowable_bearing_slope": 0.5}),
+        ("deflection", "deflection_growth", CRANKSHAFT | {"allowable_deflection": 0.05}),
+        ("twist", "twist_growth", CRANKSHAFT | {"allowable_twist": 0.1}),
+    ],
+)
+def test_the_growth_that_a_failed_check_names_is_enough(check: str, growth: str, keys: dict[str, Any]) -> None:
+    failed = shaft(keys)
+    assert checks(failed)[check] in ("fail", "warn")
+    factor = number(failed, growth)
+    assert 1 < factor < 5
+    assert checks(shaft(grown(keys, factor * 1.0005)))[check] == "pass"
+    if number(failed, "axial_reaction_max") == 0:  # with an axial force it is on the safe side
+        assert checks(shaft(grown(keys, factor * 0.99)))[check] != "pass"
+
+
+def test_half_the_critical_speed_is_slow_enough() -> None:
+    fast = shaft(CRANKSHAFT, speed=30000)
+    assert checks(fast)["critical_speed"] == "warn"
+    assert (
+        checks(shaft(CRANKSHAFT, speed=number(fast, "half_critical") * 30 / np.pi * 0.9999))["critical_speed"] == "pass"
+    )
+
+
+def test_without_their_keys_checks_are_not_made() -> None:
+    found = checks(crankshaft())
+    assert {name for name, status in found.items() if status == "not_checked"} == {
+        "critical_speed",
+        "deflection",
+        "twist",
+    }
+
+
+def test_a_fillet_beyond_the_charts_and_a_wide_bore_warn() -> None:
+    sections = [SECTIONS[0] | {"fillet_radius": 0.5}, SECTIONS[1] | {"bore": 40}, *SECTIONS[2:]]
+    found = checks(shaft(CRANKSHAFT, sections=sections))
+    assert found["notch_range"] == found["hollow_notch"] == "warn"
+
+
+# --- what cannot be -----------------------------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize(
+    ("changes", "key", "words"),
+    [
+        ({"bearing_b": 400}, "bearing_b", "beside the shaft"),
+        ({"bearing_a": 260}, "bearing_b", "not beyond bearing_a"),
+        ({"loads": [GEAR | {"position": 500}, CRANK]}, "loads.0.position", "beyond the shaft"),
+        ({"notches": [{"position": 345, "type": "groove_ring"}]}, "notches.0.position", "beyond the shaft"),
+        ({"loads": [GEAR, CRANK | {"torque": 10}]}, "loads", "add up to"),
+        ({"loads": [GEAR | {"torque": "balance"}, CRANK]}, "loads.1.torque", "only one load can balance"),
+        (
+            {"loads": [GEAR | {"gear": {"pitch_radius": 60, "mesh_angle": 0}}, CRANK]},
+            "loads.0.torque",
+            "at each instant",
+        ),
+        ({"loads": []}, "loads", "at least one load"),
+        ({"sections": []}, "sections", "at least one section"),
+        ({"sections": [SECTIONS[0] | {"bore": 45}, *SECTIONS[1:]]}, "sections.0.bore", "smaller bore"),
+        (
+            {"sections": [SECTIONS[0] | {"fillet_radius": 6}, *SECTIONS[1:]]},
+            "sections.0.fillet_radius",
+            "smaller radius",
+        ),
+        ({"sections": [*SECTIONS[:3], SECTIONS[3] | {"fillet_radius": 2}]}, "sections.3.fillet_radius", "no step"),
+        ({"yield_strength": 950}, "yield_strength", "above the tensile strength"),
+        (
+            {"notches": [{"position": 100, "type": "custom", "k_t": 2}]},
+            "notches.0",
+            "k_t, k_ts and radius, or k_f and k_fs",
+        ),
+        ({"notches": [{"position": 100, "type": "keyseat_sled_runner"}]}, "notches.0", "give its k_t and k_ts"),
+        ({"notches": [{"position": 100, "type": "press_fit", "radius": 1}]}, "notches.0.radius", "remove it"),
+        ({"notches": [{"position": 100, "type": "groove_ring", "k_t": 2}]}, "notches.0", "type custom"),
+    ],
+)
+def test_what_cannot_be_is_refused_in_words(changes: dict[str, Any], key: str, words: str) -> None:
+    with pytest.raises(Impossible) as refused:
+        shaft(CRANKSHAFT, **changes)
+    assert refused.value.key == key
+    assert words in refused.value.message
+
+
+def test_curves_of_unlike_cycles_are_refused() -> None:
+    one, other = Turned(np.cos), Turned(np.sin)
+    other.cycle = "disc_angle"
+    with pytest.raises(Impossible, match="crank_angle"):
+        shaft(CRANKSHAFT, loads=[GEAR | {"torque": 0, "force_y": one}, CRANK | {"force_y": other}])
+
+
+@pytest.mark.parametrize(
+    ("keys", "words"),
+    [
+        ({"torque": {"min": 5, "max": 1}}, "exchange"),
+        ({"torque": {"min": 5}}, "min and max"),
+        ({"force_y": {"min": 1, "max": 5}}, "number or a reference"),
+        ({"torque": "balanced"}, "balance"),
+    ],
+)
+def test_a_load_that_is_neither_number_nor_curve_is_refused(keys: dict[str, Any], words: str) -> None:
+    with pytest.raises(ValueError, match=words):
+        inputs(MECHANISM, CRANKSHAFT | {"loads": [GEAR | keys, CRANK]})
+
+
+def test_a_reliability_that_is_not_listed_is_refused_with_those_that_are() -> None:
+    with pytest.raises(ValueError, match=r"50, 90, 95, 99, 99.9, 99.99 %"):
+        inputs(MECHANISM, CRANKSHAFT | {"reliability": 98})
+
+
+# --- steels ---------------------------------------------------------------------------------------------------------------------
+
+
+def of_steel(grade: str, factor: float = 1.0) -> Calculation:
+    """The crankshaft of a steel, and of another size."""
+    keys = {name: value for name, value in CRANKSHAFT.items() if name not in ("tensile_strength", "yield_strength")}
+    return shaft(grown(keys, factor), material=grade)
+
+
+@pytest.mark.parametrize(
+    ("grade", "factor", "tensile", "proof"),
+    [
+        ("42CrMo4+QT", 1, 900, 650),
+        ("42CrMo4+QT", 100 / 60, 900, 650),
+        ("42CrMo4+QT", 2, 800, 550),
+        ("42CrMo4+QT", 3, 750, 500),
+        ("C45E+QT", 1, 630, 370),
+        ("C45E+N", 1, 580, 305),
+        ("C45E+N", 2, 560, 275),
+    ],
+)
+def test_a_steel_has_the_strengths_of_the_greatest_diameter(
+    grade: str, factor: float, tensile: float, proof: float
+) -> None:
+    found = of_steel(grade, factor)
+    assert [number(found, name) / 1e6 for name in ("tensile_strength", "yield_strength")] == [tensile, proof]
+
+
+def test_the_named_steel_judges_as_its_typed_strengths_do() -> None:
+    assert number(of_steel("42CrMo4+QT"), "fatigue_safety") == number(crankshaft(), "fatigue_safety")
+
+
+def test_a_steel_beyond_its_sizes_is_refused() -> None:
+    with pytest.raises(Impossible, match="known up to 100 mm"):
+        of_steel("C45E+QT", 2)

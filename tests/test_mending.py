@@ -1,0 +1,89 @@
+"""The published press is mended step by step, as docs/mending-a-press.md tells: after each step the named checks are left, at last none."""
+
+from __future__ import annotations
+
+from copy import deepcopy
+from pathlib import Path
+from typing import Any
+
+import pytest
+import yaml
+
+from diecut_report.results.document import document
+from diecut_report.results.press_run import compute
+from tests.configs import EXAMPLES, loaded
+
+PUBLISHED, MENDED = (
+    next(path for path in EXAMPLES if path.stem == stem)
+    for stem in ("flat_cylinder_press", "flat_cylinder_press_mended")
+)
+GUIDE = Path(__file__).parents[1] / "docs" / "mending-a-press.md"
+TIMING = {"timing.interlock_sheet_rests", "consistency.timing"}
+CYLINDER = {"cylinder.wall_at_flat", "cylinder.radius", "cylinder.closed_section"}
+RATE = {"consistency.actual_rate"}
+CLUTCH: set[str] = set()
+
+# What is taken over from the mended press in each step (keys of mechanisms), and what fails or warns after it
+STEPS: dict[str, tuple[tuple[str, ...], set[str]]] = {
+    "published": ((), TIMING | CYLINDER | RATE | CLUTCH),
+    "transport": (("timing.lines", "timing.interlocks", "feeder", "cross", "consistency.transport", "consistency.conveyor_mass"),
+                  CYLINDER | RATE | CLUTCH),
+    "cylinder": (("cylinder.radius", "cylinder.bore_radius"), RATE | CLUTCH),
+    "gears": (("train.gears",), CLUTCH),
+    "clutch": (("consistency.single_position",), set()),
+    "station": (("timing.station",), {"timing.carriage_height"}),
+    "carriage": (("drive.carriage_clearance",), set()),
+    "limits": (("drive", "clutch", "damper", "consistency"), set()),
+}  # fmt: skip
+
+
+def taken_over(press: dict[str, Any], mended: dict[str, Any], path: str) -> None:
+    """Put what the mended press has at a path, or has not, into the other one."""
+    *parents, key = path.split(".")
+    for parent in parents:
+        press, mended = press[parent], mended[parent]
+    if key in mended:
+        press[key] = deepcopy(mended[key])
+    else:
+        press.pop(key, None)
+
+
+def verdicts(folder: Path, data: dict[str, Any]) -> dict[str, set[str]]:
+    """The checks of a press by their status."""
+    results = document(compute(loaded(folder, yaml.safe_dump(data, sort_keys=False)), lambda _: None))
+    found: dict[str, set[str]] = {}
+    for name, mechanism in results["mechanisms"].items():
+        for check in mechanism["checks"]:
+            found.setdefault(check["status"], set()).add(f"{name}.{check['id']}")
+    return found
+
+
+def stepped() -> dict[str, dict[str, Any]]:
+    """The press after each step."""
+    data, mended = (yaml.safe_load(path.read_text(encoding="utf-8")) for path in (PUBLISHED, MENDED))
+    found = {}
+    for step, (paths, _) in STEPS.items():
+        for path in paths:
+            taken_over(data["mechanisms"], mended["mechanisms"], path)
+        found[step] = deepcopy(data)
+    return found
+
+
+def test_the_last_step_is_the_mended_press() -> None:
+    mended = yaml.safe_load(MENDED.read_text(encoding="utf-8"))
+    assert stepped()["limits"]["mechanisms"] == mended["mechanisms"]
+
+
+@pytest.mark.parametrize("step", STEPS)
+def test_each_step_leaves_what_the_guide_says(tmp_path: Path, step: str) -> None:
+    found = verdicts(tmp_path, stepped()[step])
+    left = found.get("fail", set()) | found.get("warn", set())
+    assert left == STEPS[step][1]
+    if step == "limits":
+        assert "not_checked" not in found
+
+
+def test_the_guide_names_each_check_that_is_mended() -> None:
+    text = GUIDE.read_text(encoding="utf-8")
+    for name in set().union(*(left for _, left in STEPS.values())):
+        assert f"`{name}`" in text
