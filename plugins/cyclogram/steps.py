@@ -125,7 +125,7 @@ torques.abscissa("main_angle", "Φ", "deg", "Angle of the main shaft", "main_per
 torques.made_curve("main_shaft_torque", "M_Σ", "N*m", "Torque at the main shaft", lambda sum: sum.curve, SUM, "main_angle",
                    "sum of the torques of all lines, each from its own calculation")
 torques.made_curve("greatest_torque", "M_g", "N*m", "Torque of the greatest consumer alone", lambda sum: sum.greatest, SUM, "main_angle",
-                   "the line with the greatest root mean square at the main shaft")
+                   "the consumer that takes most from the main shaft, in the mean")
 torques.reduction("torque_peak", "M_peak", "N*m", "Greatest size of the torque", "abs_max", of="main_shaft_torque")
 torques.reduction("torque_max", "M_max", "N*m", "Greatest driving torque", "max", of="main_shaft_torque")
 torques.reduction("torque_min", "M_min", "N*m", "Greatest braking torque", "min", of="main_shaft_torque")
@@ -141,6 +141,20 @@ torques.value("torque_excess", "ΔM", "N*m", "Torque above its mean", lambda mai
               output=False)
 torques.accumulated("excess_energy", "E_x", "J", "Energy taken above the mean, from the start of the period", of="torque_excess")
 torques.reduction("energy_fluctuation", "ΔE", "J", "Range of the excess energy over the common period", "range", of="excess_energy")
+ALONE = "Gauss–Legendre between the breakpoints; extremes within each smooth piece"
+for name, symbol, unit, words, function in (
+    ("greatest_mean", "M_g,mean", "N*m", "Mean torque of the greatest consumer alone", lambda sum: sum.greatest_figures.mean),
+    ("greatest_max", "M_g,max", "N*m", "Its greatest driving torque", lambda sum: sum.greatest_figures.largest),
+    ("greatest_min", "M_g,min", "N*m", "Its greatest braking torque", lambda sum: sum.greatest_figures.least),
+    ("greatest_fluctuation", "ΔE_g", "J", "Range of its excess energy", lambda sum: sum.greatest_figures.energy_fluctuation),
+):
+    torques.computed(name, symbol, unit, words, function, SUM, ALONE)
+for name, symbol, words, quantity, by in (
+    ("mean_ratio", "k_mean", "Mean of the sum to that of the greatest consumer", "torque_mean", "greatest_mean"),
+    ("rms_ratio", "k_rms", "Root mean square of the sum to that of the greatest consumer", "torque_rms", "greatest_rms"),
+    ("fluctuation_ratio", "k_E", "Range of the excess energy to that of the greatest consumer", "energy_fluctuation", "greatest_fluctuation"),
+):
+    torques.value(name, symbol, "1", words, bind(common.quotient, quantity=quantity, by=by))
 torques.computed("energy_exchange", "E_e", "J", "Energy that the lines lend one another",
                  lambda sum: sum.energies.exchange if sum.energies else 0.0, SUM, "ranges of the lines' kinetic energies less the range of their sum")
 torques.computed("kinetic_energy_mean", "E_m", "J", "Kinetic energy of all lines whose is known, in the mean",

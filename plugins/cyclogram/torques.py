@@ -17,8 +17,10 @@ from diecut_report.mechanics.timing.torque_sum import (
     Consumer,
     EnergySum,
     LineCurve,
+    TorqueFigures,
     TorqueSum,
     energy_exchange,
+    figures,
     friction,
     sum_edges,
     torque_sum,
@@ -90,10 +92,15 @@ class Sum:
 
     @cached_property
     def greatest(self) -> SumCurve:
-        """Return the torque of the consumer with the greatest root mean square."""
+        """Return the torque of the consumer that takes most, in the mean."""
         parts = self.figures.parts
-        index = max(range(len(self.consumers)), key=lambda i: parts[self.consumers[i].name].rms)
+        index = max(range(len(self.consumers)), key=lambda i: parts[self.consumers[i].name].mean)
         return SumCurve((self.consumers[index],), self.timing.period, self.joints)
+
+    @cached_property
+    def greatest_figures(self) -> TorqueFigures:
+        """Return the figures of that consumer's torque."""
+        return max((figures(part) for part in self.figures.parts.values()), key=lambda each: each.mean)
 
     @cached_property
     def energies(self) -> EnergySum | None:

@@ -163,6 +163,19 @@ def test_torques_add_up_to_those_of_the_method(transport: str) -> None:
     assert [number(calc, name) for name in SUM_NAMES] == pytest.approx(SUMS[transport], rel=2e-5)
 
 
+@pytest.mark.parametrize("transport", SUMS)
+def test_the_greatest_consumer_alone_is_the_cylinder_of_the_method(transport: str) -> None:
+    calc = example(transport, "cutting passing")
+    names = ("greatest_mean", "greatest_rms", "greatest_max", "greatest_min", "greatest_fluctuation")
+    assert [number(calc, name) for name in names] == pytest.approx(
+        [68.1960, 117.6007, 254.6962, -158.7909, 289.7135], rel=2e-5
+    )
+    mean, rms, *_, fluctuation = (SUMS[transport][index] for index in (0, 1, 4))
+    assert number(calc, "peak_ratio") == pytest.approx(1.43 if transport == "feeder" else 1.49, abs=0.005)
+    ratios = [number(calc, name) for name in ("mean_ratio", "rms_ratio", "fluctuation_ratio")]
+    assert ratios == pytest.approx([mean / 68.1960, rms / 117.6007, fluctuation / 289.7135], rel=3e-5)
+
+
 def test_torques_add_up_to_those_of_a_fine_grid() -> None:
     calc, drive, cross = (
         example("cross", "cutting passing"),
