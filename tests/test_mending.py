@@ -21,7 +21,7 @@ GUIDE = Path(__file__).parents[1] / "docs" / "mending-a-press.md"
 TIMING = {"timing.interlock_sheet_rests", "consistency.timing"}
 CYLINDER = {"cylinder.wall_at_flat", "cylinder.radius", "cylinder.closed_section"}
 RATE = {"consistency.actual_rate"}
-CLUTCH: set[str] = set()
+CLUTCH = {"consistency.clutch_position"}
 
 # What is taken over from the mended press in each step (keys of mechanisms), and what fails or warns after it
 STEPS: dict[str, tuple[tuple[str, ...], set[str]]] = {
