@@ -38,6 +38,7 @@ SIZES: dict[str, tuple[str, str]] = {
     "m/s**2": ("0.001 mm/s**2", "1e7 m/s**2"),
     "m/s**3": ("1e-6 m/s**3", "1e10 m/s**3"),
     "rad": ("1e-5 deg", "36000 deg"),
+    "rad/m": ("1e-6 deg/m", "1e5 deg/m"),
     "rad/s": ("1e-4 rpm", "1e6 rpm"),
     "rad/s**2": ("1e-6 rad/s**2", "1e9 rad/s**2"),
     "rad/s**3": ("1e-6 rad/s**3", "1e12 rad/s**3"),

@@ -27,6 +27,10 @@ WITHOUT = {
         "pressing_force": "judged as pressure of the lining",
         "release_force": "judged by whether the clutch releases by itself",
     },
+    "cyclogram": dict.fromkeys(
+        ("torque_mean", "torque_peak", "torque_rms", "power_peak"),
+        "a demand on flywheel and motor, judged in the drive train and by the consistency of the press",
+    ),
     "cylinder_drive": {
         "velocity_max": "follows from stroke and rate; the acceleration is judged",
         "cutting_moment": "a load, judged within the torque at the crank",
@@ -41,6 +45,7 @@ WITHOUT = {
         "acceleration_peak": "judged as its ratio to the rigid one",
         "acceleration_rigid": "what the ratio is taken to",
     },
+    "gear_pair": {"tangential_force": "judged as stress of flank and root"},
     "geneva_transport": {
         "sheet_velocity_max": "the sheet bears the acceleration or does not, at whatever speed",
         "roller_force_peak": "judged as pressure of the roller",
@@ -48,6 +53,7 @@ WITHOUT = {
     "knife_drive": {
         "roller_velocity": "follows from the rollers' diameter and rate; the grip's acceleration is judged"
     },
+    "parallel_key": {"key_force": "judged as pressure and shear"},
     "platen_press": {
         "velocity_at_contact": "the cut bears any speed of a platen; its force is a load",
         "torque_max_source": "the greatest torque by the formula of the source, beside this one",
@@ -58,6 +64,11 @@ WITHOUT = {
     "roller_chain": {
         "tension_peak": "judged as safety against breaking and as pressure of the joints",
         "velocity": "follows from teeth and speed; the pressure that a maker allows falls with it",
+    },
+    "shaft": {
+        "bending_moment_max": "judged as stress, with the notches",
+        "reaction_a_max": "a load of the bearing",
+        "reaction_b_max": "a load of the bearing",
     },
 }
 
@@ -83,4 +94,4 @@ def test_each_check_has_a_class_and_self_tests_are_balances_alone(kind: str) -> 
     classes = {check.id: check.check_class for check in OF_KINDS[kind].checks}
     assert set(classes.values()) <= {"function", "strength", "practice", "numerical"}
     own = {name for name, found in classes.items() if found == "numerical"}
-    assert own <= {"energy_balance", "power_balance", "gear_turn"}
+    assert own <= {"energy_balance", "power_balance", "gear_turn", "energy", "critical_bounds"}

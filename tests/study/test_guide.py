@@ -13,7 +13,7 @@ from diecut_report.study.analysis.stored_variants import StoredColumn
 from diecut_report.study.conditions.where import condition
 from diecut_report.study.definition.study_file import Study, load_study
 from diecut_report.study.execution.study_run import result_columns, varied_columns
-from tests.configs import EXAMPLE, STUDIES, saved
+from tests.configs import MECHANISMS, STUDIES, saved
 
 GUIDE = Path(__file__).parents[2] / "docs" / "studies.md"
 
@@ -25,7 +25,7 @@ def guide() -> str:
 
 @pytest.fixture
 def example(tmp_path: Path, guide: str) -> Study:
-    shutil.copy(EXAMPLE, tmp_path)
+    shutil.copy(MECHANISMS, tmp_path)
     text = guide.split("```yaml\n")[1].partition("```")[0]
     return load_study(saved(tmp_path, text, "study.yaml"), Discovery([]))
 

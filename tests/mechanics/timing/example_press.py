@@ -7,6 +7,7 @@ from functools import cache
 
 import numpy as np
 
+from diecut_report.config import yaml_tree
 from diecut_report.config.discovery import Discovery
 from diecut_report.config.loader import load_config
 from diecut_report.engine import Calculation, CurveHandle
@@ -58,8 +59,10 @@ def in_degrees(intervals: Intervals) -> list[tuple[float, float]]:
 
 @cache
 def calculations() -> dict[str, Calculation]:
-    """All mechanisms of the example press."""
-    return compute(load_config(MECHANISMS, Discovery([])), lambda _: None).calculations
+    """All mechanisms of the example press, the wheel of the Geneva drive with the inertia that the printed numbers were calculated with."""
+    made = yaml_tree.load(MECHANISMS)
+    made.data["mechanisms"]["cross"]["driven_inertia"] = "3.57 kg*m**2"
+    return compute(load_config(made, Discovery([])), lambda _: None).calculations
 
 
 def curve(mechanism: str, name: str) -> tuple[Curve, Array]:
