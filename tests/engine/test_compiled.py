@@ -94,7 +94,7 @@ def _terms(calc: Calculation, axis: str, name: str, plain: Any) -> float:
 @pytest.mark.parametrize("path", ON_ARRAYS, ids=lambda path: path.stem)
 def test_compiled_curves_are_the_plain_formulas(path: Any) -> None:
     base = load_config(path, Discovery([]))
-    for seed in range(2):
+    for seed in range(1 if path.stem == "flat_cylinder_elements" else 2):  # its mechanisms are also in another example
         found = machines(base, {}, seed)
         assert found
         for calc in found.values():

@@ -32,7 +32,7 @@ def test_every_single_extreme_is_numbers_or_words(kind: str) -> None:
 def test_a_sample_of_extremes_of_what_holds_a_press_together_is_numbers_or_words() -> None:
     homes = ("timing", "consistency")
     cases = [case for case in example_extremes("flat_cylinder_press_mended") if case.key[1] in homes]
-    chosen = random.Random(1).sample(cases, 8)
+    chosen = random.Random(1).sample(cases, 3)
     assert [f"{case.name}: {found}" for case in chosen if (found := example_fault(case))] == []
 
 
