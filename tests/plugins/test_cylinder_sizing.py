@@ -132,9 +132,8 @@ def test_each_advice_by_itself_and_all_of_it_together_mends_what_it_is_given_for
     before = verdicts(**bending)
     failing = [name for name, check in before.items() if check["status"] == "fail"]
     assert failing == ["wall_at_flat", "radius", "closed_section"]
-    for name in ("radius",):
-        for key, size in SET.findall(before[name]["message"]):
-            assert verdicts(**bending, **{key: size})[name]["status"] == "pass", (key, size)
+    for key, size in SET.findall(before["radius"]["message"]):
+        assert verdicts(**bending, **{key: size})["radius"]["status"] == "pass", (key, size)
     radius, bore = (SET.search(before[name]["message"]) for name in ("radius", "wall_at_flat"))
     assert radius and bore
     after = verdicts(**bending, radius=radius[2], **{bore[1]: bore[2]})
@@ -142,12 +141,10 @@ def test_each_advice_by_itself_and_all_of_it_together_mends_what_it_is_given_for
 
 
 def test_the_advised_segment_lies_at_the_limit() -> None:
-    height = 40.0
     message = verdicts()["radius"]["message"]
     told = float(dict(SET.findall(message))["segment_height"].split()[0])
     assert verdicts(segment_height=f"{told} mm")["radius"]["status"] == "pass"
     assert verdicts(segment_height=f"{told + 0.02} mm")["radius"]["status"] == "fail"
-    assert told < height
 
 
 def test_no_segment_helps_a_radius_that_unrolls_less_than_the_sheet() -> None:

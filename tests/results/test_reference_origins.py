@@ -48,4 +48,6 @@ def test_a_typed_key_follows_from_nothing(tmp_path: Path) -> None:
 
 
 def test_a_key_that_is_only_spoken_of_is_not_traced(tmp_path: Path) -> None:
-    assert "sprocket_teeth follows" not in told(tmp_path, "${cross.crank_speed}")
+    """The roller's width is a reference too; the advice on the acceleration does not ask to change it."""
+    found = told(tmp_path, "${cross.crank_speed}\n    roller_width: ${cross.roller_radius}")
+    assert "crank_speed follows" in found and "roller_width follows" not in found
