@@ -9,6 +9,7 @@ from typing import Any
 import pytest
 import yaml
 
+from diecut_report.errors import UserError
 from diecut_report.results.document import document
 from diecut_report.results.press_run import compute
 from tests.configs import EXAMPLES, loaded
@@ -87,3 +88,12 @@ def test_the_guide_names_each_check_that_is_mended() -> None:
     text = GUIDE.read_text(encoding="utf-8")
     for name in set().union(*(left for _, left in STEPS.values())):
         assert f"`{name}`" in text
+
+
+def test_a_station_without_the_height_of_a_carriage_is_refused(tmp_path: Path) -> None:
+    """Held against nothing, its check could not fail."""
+    data = yaml.safe_load(MENDED.read_text(encoding="utf-8"))
+    del data["mechanisms"]["drive"]["carriage_clearance"]
+    del data["mechanisms"]["timing"]["interlocks"][1]
+    with pytest.raises(UserError, match="drive, which has no carriage_clearance to hold the room against"):
+        verdicts(tmp_path, data)

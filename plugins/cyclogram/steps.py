@@ -6,7 +6,7 @@ from typing import Any
 
 import numpy as np
 
-from diecut_report.api import Chapter, bind
+from diecut_report.api import Chapter, GivenMechanism, Refusal, bind
 from diecut_report.mechanics import common
 from diecut_report.mechanics.timing.clearance import LeastClearance
 from diecut_report.plugins.cyclogram import listings
@@ -106,15 +106,29 @@ station.prepared("clearance", clearance_of, ("timing", *(f"station.{key}" for ke
 CLEARANCE = "search over the common period, refined to 1e-13 of it"
 
 
+def _is_below(clearance: LeastClearance) -> float:
+    return float(np.isfinite(clearance.height))
+
+
 def _least(clearance: LeastClearance) -> float:
-    return clearance.height if np.isfinite(clearance.height) else 1e3
+    return clearance.height if np.isfinite(clearance.height) else 0.0
 
 
-station.computed("clearance_least", "Y_min", "mm", "Least height that the cylinder leaves the carriages", _least, ("clearance",), CLEARANCE, digits=6)
+def _needed(cylinder: GivenMechanism) -> float:
+    height = cylinder.number("carriage_clearance")
+    if height is None:
+        raise Refusal("station.cylinder", f"is {cylinder.name}, which has no carriage_clearance to hold the room against; give it there")
+    return height
+
+
+station.computed("is_below", "k_Y", "1", "Whether a carriage is ever below the cylinder", _is_below, ("clearance",), "least height over the period",
+                 output=False)
+station.computed("clearance_least", "Y_min", "mm", "Least height that the cylinder leaves the carriages", _least, ("clearance",), CLEARANCE, digits=6,
+                 exists=lambda is_below: is_below > 0)
 station.computed("clearance_angle", "Φ_Y", "deg", "Main-shaft angle at which that is", lambda clearance: clearance.angle, ("clearance",), CLEARANCE,
-                 digits=6)
+                 digits=6, exists=lambda is_below: is_below > 0)
 station.computed("carriage_clearance", "c_r", "mm", "Clearance that the carriages need",
-                 lambda cylinder: cylinder.number("carriage_clearance") or 0.0, ("station.cylinder",), "as given to the cylinder's drive")
+                 _needed, ("station.cylinder",), "as given to the cylinder's drive")
 
 torques = Chapter("Sum of the torques at the main shaft",
                   text="A line's torque is i·M/η at the main shaft where the shaft drives, i·M·η where the line drives back.")
