@@ -24,7 +24,13 @@ CYLINDER = {"cylinder.wall_at_flat", "cylinder.radius", "cylinder.closed_section
 RATE = {"consistency.actual_rate"}
 CLUTCH = {"consistency.clutch_position"}
 MOTOR = {"consistency.motor_thermal"}
-ELEMENTS = {"gear_key.reversing", "crank_key.reversing", "sector.k_factors", "main_gears.k_factors", "gripper_chain.slack_side"}
+ELEMENTS = {
+    "gear_key.reversing",
+    "crank_key.reversing",
+    "sector.k_factors",
+    "main_gears.k_factors",
+    "gripper_chain.slack_side",
+}
 
 # What is taken over from the mended press in each step (keys of mechanisms), and what fails or warns after it
 STEPS: dict[str, tuple[tuple[str, ...], set[str]]] = {
