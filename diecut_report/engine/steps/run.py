@@ -90,9 +90,9 @@ def calculate(
 
 def _name_parts(calc: Calculation, step: Step) -> None:
     """The parts of a row under names of their own."""
-    if step.numbered:
-        row = calc[step.id]
-        calc.values |= {each.name: row[:, [each.index]] for each in result_names(step, row.shape[1])}
+    if (step.numbered or step.named_by) and step.id in calc.values:
+        row, names = calc[step.id], calc.inputs.get(step.named_by)
+        calc.values |= {each.name: row[:, [each.index]] for each in result_names(step, row.shape[1], names)}
 
 
 def _value(calc: Calculation, step: Value) -> None:
