@@ -8,85 +8,28 @@ from functools import cached_property
 from typing import Any
 
 import numpy as np
-from numpy.polynomial.legendre import Legendre
 from numpy.typing import NDArray
 
 from diecut_report.api import Curve
-from diecut_report.plugins.rolling_bearing import formulas as f
-from diecut_report.plugins.rolling_bearing.factors import table_factors
+from diecut_report.plugins.rolling_bearing.nodes import (
+    DERIVATIVE,
+    PLACES,
+    STILL,
+    WEIGHTS,
+    Nodes,
+    crossings,
+    edges_of,
+    flat,
+    in_order,
+)
+from diecut_report.plugins.rolling_bearing.ratings import Ratings
 
 Array = NDArray[Any]
 Over = Callable[[Array, Array], Array]  # of shares of the cycle and the middles of their pieces, (variants, places)
 
-ORDER = 8  # of the polynomials that are integrated exactly: twice that less one
 GRID = 24  # least number of pieces of the cycle
-STILL = 1e-9  # share of the greatest speed that is none
 STEP = 1e-5  # share of the cycle, to either side, by which an angle is differentiated at any place
 ZOOMS, ZOOMED = 4, 17  # searches for an extreme, each on so many places between the neighbours of the last
-
-
-def _lobatto() -> tuple[Array, Array, Array]:
-    """Places in [0, 1] with both ends, their weights, and the matrix that differentiates values at them."""
-    last = Legendre.basis(ORDER)
-    x = np.concatenate([[-1.0], last.deriv().roots(), [1.0]])
-    weights = 2 / (ORDER * (ORDER + 1) * last(x) ** 2)
-    gaps = x[:, None] - x + np.eye(len(x))
-    level = last(x)
-    matrix = level[:, None] / level / gaps
-    np.fill_diagonal(matrix, 0.0)
-    matrix[0, 0], matrix[-1, -1] = -ORDER * (ORDER + 1) / 4, ORDER * (ORDER + 1) / 4
-    return (x + 1) / 2, weights / 2, 2 * matrix
-
-
-PLACES, WEIGHTS, DERIVATIVE = _lobatto()
-
-
-@dataclass(frozen=True)
-class Nodes:
-    """Places of the cycle, (variants, pieces, places) each: forces, and by how much each counts (turned rings)."""
-
-    share: Array
-    radial: Array
-    axial: Array
-    turned: Array  # signed speed (or angle by share of a piece)
-    weight: Array
-
-
-@dataclass(frozen=True)
-class Ratings:
-    """Ratings and factors of a bearing, (variants, 1) each; x, y and e of a deep groove ball bearing follow from the table."""
-
-    dynamic: Array
-    static: Array
-    f0: Array
-    x: Array
-    y: Array
-    e: Array
-    x0: Array
-    y0: Array
-    by_table: bool
-
-    def of(self, rows: Array) -> Ratings:
-        """Return those of some variants."""
-        return Ratings(*(each[rows] if isinstance(each, np.ndarray) else each for each in vars(self).values()))
-
-    def factors(self, axial: Array) -> tuple[Array, Array, Array]:
-        """Return X, Y and e under an axial force (variants, places)."""
-        if not self.by_table:
-            return self.x, self.y, self.e
-        e, y = table_factors(axial, self.static, self.f0)
-        return self.x, y, e
-
-    def equivalent(self, radial: Array, axial: Array) -> Array:
-        """Return the equivalent load."""
-        x, y, e = self.factors(axial)
-        found: Array = np.asarray(f.equivalent_load.function(radial, axial, x, y, e), dtype=float)
-        return found
-
-    def static_load(self, radial: Array, axial: Array) -> Array:
-        """Return the static equivalent load."""
-        found: Array = np.asarray(f.static_load.function(radial, axial, self.x0, self.y0), dtype=float)
-        return found
 
 
 @dataclass(frozen=True)
@@ -122,7 +65,9 @@ class Duty:
         """Return the speed, or what the relative angle gains by share of the cycle."""
         if self.angle is None:
             return self.at(self.speed, share, middle, rows)
-        return (self.at(self.angle, share + STEP, middle, rows) - self.at(self.angle, share - STEP, middle, rows)) / (2 * STEP)
+        return (self.at(self.angle, share + STEP, middle, rows) - self.at(self.angle, share - STEP, middle, rows)) / (
+            2 * STEP
+        )
 
     @cached_property
     def joints(self) -> Array:
@@ -137,7 +82,7 @@ class Duty:
             return np.tile([0.0, 1.0], (self.variants, 1))
         even = np.tile(np.linspace(0, 1, GRID + 1), (self.variants, 1))
         inner = [np.broadcast_to(each.breakpoints, (self.variants, each.breakpoints.shape[1])) for each in self.curves]
-        return _sorted(even, *inner)
+        return in_order(even, *inner)
 
     def nodes(self, edges: Array) -> Nodes:
         """Return the places in pieces of these edges."""
@@ -161,23 +106,25 @@ class Duty:
         middle = ((edges[:, :-1] + edges[:, 1:]) / 2).reshape(-1, 1)
         rows = np.repeat(np.arange(self.variants), pieces) if self.variants > 1 else None
         flat = share.reshape(-1, share.shape[2])
-        return np.broadcast_to(given.values(flat, middle, rows), flat.shape).reshape(share.shape)
+        found: Array = np.broadcast_to(given.values(flat, middle, rows), flat.shape).reshape(share.shape)
+        return found
 
     @cached_property
     def first(self) -> Nodes:
         """Return the places where nothing is known of the bearing yet: pieces end where the motion turns round."""
         nodes = self.nodes(self.edges)
-        kinks = _crossings(nodes, nodes.turned)
+        kinks = crossings(nodes, nodes.turned)
         if self.has_axial:
             signed = (self._in_pieces(each, self.edges, nodes.share) for each in (self.radial, self.axial))
-            kinks = np.concatenate([kinks, *(_crossings(nodes, each) for each in signed)], axis=1)
-        return self.nodes(_sorted(self.edges, kinks)) if kinks.shape[1] else nodes
+            kinks = np.concatenate([kinks, *(crossings(nodes, each) for each in signed)], axis=1)
+        return self.nodes(in_order(self.edges, kinks)) if kinks.shape[1] else nodes
 
     @cached_property
     def has_axial(self) -> bool:
         """Return whether an axial force acts, on any variant."""
         given = self.axial
-        return bool(np.any(self._in_pieces(given, self.edges, self._share) != 0)) if is_curve(given) else bool(np.any(given))
+        values = self._in_pieces(given, self.edges, self._share) if is_curve(given) else given
+        return bool(np.any(values != 0))
 
     @cached_property
     def _share(self) -> Array:
@@ -188,19 +135,19 @@ class Duty:
         first = self.first
         if not self.has_axial:
             return first
-        _, _, e = ratings.factors(_flat(first.axial))
-        beyond = _flat(first.axial) - e * _flat(first.radial)
-        kinks = _crossings(first, beyond.reshape(first.share.shape))
-        return self.nodes(_sorted(_edges_of(first), kinks)) if kinks.shape[1] else first
+        _, _, e = ratings.factors(flat(first.axial))
+        beyond = flat(first.axial) - e * flat(first.radial)
+        kinks = crossings(first, beyond.reshape(first.share.shape))
+        return self.nodes(in_order(edges_of(first), kinks)) if kinks.shape[1] else first
 
     # --- numbers of all variants, (variants, 1) ---------------------------------------------------------------------------
 
     def equivalent(self, ratings: Ratings, exponent: float, nodes: Nodes | None = None) -> Array:
         """Return the mean of the equivalent load by its power, weighed by the turned way; 0 where the rings do not turn."""
         nodes = nodes or self.weighed(ratings)
-        load = ratings.equivalent(_flat(nodes.radial), _flat(nodes.axial))
+        load = ratings.equivalent(flat(nodes.radial), flat(nodes.axial))
         top = np.maximum(np.max(load, axis=1, keepdims=True), np.finfo(float).tiny)
-        weight = _flat(nodes.weight)
+        weight = flat(nodes.weight)
         whole = np.sum(weight, axis=1, keepdims=True)
         mean = np.sum((load / top) ** exponent * weight, axis=1, keepdims=True) / np.where(whole > 0, whole, 1.0)
         found: Array = top * mean ** (1 / exponent)
@@ -208,7 +155,9 @@ class Duty:
 
     def greatest(self, load: Callable[[Array, Array], Array]) -> tuple[Array, Array, Array]:
         """Return both forces where a load of them is greatest, and that share of the cycle."""
-        place, middle = self._extreme(lambda share, mid: load(*self.forces(share, mid)), load(_flat(self.first.radial), _flat(self.first.axial)))
+        place, middle = self._extreme(
+            lambda share, mid: load(*self.forces(share, mid)), load(flat(self.first.radial), flat(self.first.axial))
+        )
         radial, axial = self.forces(place, middle)
         return radial, axial, place
 
@@ -241,13 +190,13 @@ class Duty:
         """Return the width of the swing; NaN where the relative angle does not return, or goes a whole turn in all."""
         ends = [self._angle_at(np.full((self.variants, 1), share)) for share in (0.0, 1.0)]
         returns = np.abs(ends[1] - ends[0]) <= STILL * np.maximum(self.travel, 1.0)
-        known = _flat(self._in_pieces(self.angle, _edges_of(self.first), self.first.share))
+        known = flat(self._in_pieces(self.angle, edges_of(self.first), self.first.share))
         most, least = (self._reached(sign, known) for sign in (1.0, -1.0))
         return np.where(returns & (self.travel < 2 * np.pi), most - least, np.nan)
 
     def _angle_at(self, share: Array) -> Array:
-        inner = np.where(share > 0.5, 1 - 1e-9, 1e-9)
-        return self.at(self.angle, share, inner)
+        """The relative angle at the start (share 0) or the end (1) of the cycle."""
+        return self.at(self.angle, share, np.abs(share - STILL))
 
     def _reached(self, sign: float, known: Array) -> Array:
         """Return the greatest angle (sign 1) or the least (sign -1)."""
@@ -273,40 +222,13 @@ class Duty:
         if self.angle is not None:
             width = nodes.share[:, :, -1:] - nodes.share[:, :, :1]
             turned = np.where(width > STILL, turned / np.where(width > STILL, width, 1.0), 0.0)
-        found: Array = np.max(_flat(turned), axis=1, keepdims=True)
+        found: Array = np.max(flat(turned), axis=1, keepdims=True)
         return found
 
 
 def is_curve(given: Any) -> bool:
     """Return whether a curve is given."""
     return hasattr(given, "values")
-
-
-def _flat(values: Array) -> Array:
-    return values.reshape(len(values), -1)
-
-
-def _edges_of(nodes: Nodes) -> Array:
-    return np.concatenate([nodes.share[:, :, 0], nodes.share[:, -1:, -1]], axis=1)
-
-
-def _sorted(*places: Array) -> Array:
-    """Edges in their order, (variants, places); what is missing lies at 0."""
-    found: Array = np.sort(np.clip(np.nan_to_num(np.concatenate(places, axis=1)), 0.0, 1.0), axis=1)
-    return found
-
-
-def _crossings(nodes: Nodes, values: Array) -> Array:
-    """Where values change their sign, or begin or cease to be zero, (variants, most of them), NaN where there are fewer."""
-    scale = np.max(np.abs(_flat(values)), axis=1)[:, None, None]
-    known = np.where(np.abs(values) <= STILL * scale, 0.0, values)
-    before, after = known[:, :, :-1], known[:, :, 1:]
-    crosses = np.sign(before) != np.sign(after)
-    count = int(np.max(np.sum(crosses, axis=(1, 2)), initial=0))
-    gap = np.diff(nodes.share, axis=2)
-    place = nodes.share[:, :, :-1] + gap * before / np.where(crosses, before - after, 1.0)
-    found: Array = np.sort(_flat(np.where(crosses, place, np.nan)), axis=1)[:, :count]
-    return found
 
 
 def of_one_cycle(duties: Sequence[tuple[str, Curve]]) -> str | None:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from diecut_report.api import Chart, Shape, View, chart_panel, level, line
+from diecut_report.api import Chart, Shape, View, chart_panel, level, line, mark
 from diecut_report.plugins.rolling_bearing.bearings import Bearings
 
 POINTS = 361
@@ -26,11 +26,39 @@ def loads_over_cycle(view: View) -> list[Shape]:
     return panels
 
 
+def lives(view: View) -> list[Shape]:
+    """The life of each bearing against the required one, in powers of ten."""
+    names, found = view.words("bearings.name"), np.array(view.row("life_modified"))
+    decades = np.log10(found / view["required_life"])
+    known = [
+        (index + 1.0, height, name)
+        for index, (height, name) in enumerate(zip(decades, names, strict=True))
+        if np.isfinite(height)
+    ]
+    if not known:
+        return []
+    stems = np.array([end for place, height, _ in known for end in ((place, 0.0), (place, height), (place, np.nan))])
+    return [
+        chart_panel(
+            "Life to the required one, as a power of ten", "1", "Bearing", "No.", "1",
+            lines=[line(stems[:, 0], stems[:, 1], "modified rating life")],
+            marks=[mark(place, height, name) for place, height, name in known],
+            levels=[level(0.0, "required life")],
+        )
+    ]  # fmt: skip
+
+
 FIGURES = (
     Chart(
         id="loads",
         title="Equivalent load over the cycle",
         caption="Of each bearing, with its greatest value and the equivalent load of the life.",
         build=loads_over_cycle,
+    ),
+    Chart(
+        id="lives",
+        title="Life against the required life",
+        caption="0 is the required life, 1 ten times that. A bearing that stands has no life.",
+        build=lives,
     ),
 )

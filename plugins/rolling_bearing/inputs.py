@@ -22,11 +22,14 @@ class Bearing(Block):
     name: Annotated[str, Text("Name of the bearing, with which its results begin")]
     type: Annotated[Literal["deep_groove", "ball", "roller"], Text("Deep groove, another ball, or a roller bearing")]
     designation: Annotated[
-        str | None, Text("Designation; without the ratings they are those of this bearing in the table, else it is only told")
+        str | None,
+        Text("Designation; without the ratings they are those of this bearing in the table, else it is only told"),
     ] = None
     series: Annotated[
         Literal["60", "62", "63"],
-        Text("Series out of which the smallest bearing that holds is taken, where neither ratings nor designation are given"),
+        Text(
+            "Series out of which the smallest bearing that holds is taken, where neither ratings nor designation are given"
+        ),
     ] = "62"
     bore_min: Annotated[
         float, Quantity("d_min", "mm", "Least bore of the bearing that is taken out of the series", ge=0, le=100)
@@ -38,7 +41,8 @@ class Bearing(Block):
         float | None, Quantity("C_0g", "kN", "Basic static load rating, of the maker's catalogue", gt=0)
     ] = None
     f0: Annotated[
-        float | None, Quantity("f_0g", "1", "Factor f0 of the maker's catalogue (deep_groove with axial force)", ge=10, le=17)
+        float | None,
+        Quantity("f_0g", "1", "Factor f0 of the maker's catalogue (deep_groove with axial force)", ge=10, le=17),
     ] = None
     x: Annotated[float | None, Quantity("X_g", "1", "Radial factor (ball, roller, with axial force)", gt=0)] = None
     y: Annotated[float | None, Quantity("Y_g", "1", "Axial factor (ball, roller, with axial force)", gt=0)] = None
@@ -59,10 +63,12 @@ class Bearing(Block):
         Any | None, Varying("n_g", "rpm", "Speed of the rings against each other; a number, or a curve over one cycle")
     ] = None
     relative_angle: Annotated[
-        Any | None, Varying("θ_g", "deg", "Angle of the rings against each other, in the place of speed: a curve over one cycle")
+        Any | None,
+        Varying("θ_g", "deg", "Angle of the rings against each other, in the place of speed: a curve over one cycle"),
     ] = None
     cycle_speed: Annotated[
-        float | None, Quantity("n_c", "rpm", "Cycles of the relative angle, as a speed: 1 rpm is a cycle a minute", gt=0)
+        float | None,
+        Quantity("n_c", "rpm", "Cycles of the relative angle, as a speed: 1 rpm is a cycle a minute", gt=0),
     ] = None
     rolling_elements: Annotated[
         int | None, Quantity("Z_g", "1", "Rolling elements in a row, for the least swing", ge=5, integer=True)
@@ -80,9 +86,9 @@ class RollingBearing(Inputs):
 
     bearings: Annotated[list[Bearing], Text("Bearings")]
     reliability: Annotated[float, Quantity("R", "%", "Reliability of the life", listed=RELIABILITIES)] = 90
-    required_life: Annotated[
-        float, Quantity("[L]", "h", "Life that is required", gt=0, plausible=("1 s", "1e7 h"))
-    ] = 20000
+    required_life: Annotated[float, Quantity("[L]", "h", "Life that is required", gt=0, plausible=("1 s", "1e7 h"))] = (
+        20000
+    )
     required_static_safety: Annotated[
         float | None,
         Quantity("[s_0]", "1", "Static safety that is required; without it 1 of balls, 1.5 of rollers", gt=0),

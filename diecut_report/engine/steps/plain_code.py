@@ -4,8 +4,6 @@ from __future__ import annotations
 
 import reprlib
 from collections.abc import Callable
-from dataclasses import replace
-from functools import partial
 from numbers import Real
 from typing import Any
 
@@ -13,9 +11,9 @@ import numpy as np
 
 from diecut_report.contract.code_steps import ComputedCurve, PartNames
 from diecut_report.contract.place import Misdeclared
-from diecut_report.contract.result_names import part_result
 from diecut_report.contract.steps import Clash, Computed, Step, Words
 from diecut_report.engine.calculation import Calculation
+from diecut_report.engine.steps import named_parts
 from diecut_report.expressions import Array
 
 
@@ -29,24 +27,13 @@ def part_names(calc: Calculation, step: PartNames) -> None:
 
 def curve(calc: Calculation, step: ComputedCurve) -> None:
     """Take note of a curve, or of those of named parts, and cut its abscissa where they have corners."""
-    made = _of_parts(calc, step) if step.named_by else {step.id: step}
+    made = named_parts.curves_of(calc, step)
     calc.curves |= made
     calc.steps |= made
     calc.axis = calc.axis | dict.fromkeys(made, step.abscissa)
     if step.joints is not None:
         places = step.joints(calc.inputs[step.of])
         calc.domains[step.abscissa].cut(np.broadcast_to(places, (calc.count, places.shape[1])))
-
-
-def _of_parts(calc: Calculation, step: ComputedCurve) -> dict[str, ComputedCurve]:
-    """Return the curve of each named part, by its id."""
-    names: tuple[str, ...] = calc.inputs[step.named_by]
-    made = (
-        replace(step, id=part_result(name, step), description=f"{step.description}: {name}", named_by="",
-                function=partial(step.function, index))
-        for index, name in enumerate(names)
-    )  # fmt: skip
-    return {each.id: each for each in made}
 
 
 def number(step: Computed, found: Any, count: int) -> Array:
