@@ -11,7 +11,7 @@ from diecut_report.config.basis import Basis
 from diecut_report.config.validation import ConfigPlace, keys_of
 from diecut_report.config.yaml_tree import KeyPath
 from diecut_report.contract.chapters import Chapter
-from diecut_report.contract.code_steps import PartNames
+from diecut_report.contract.code_steps import ComputedCurve, PartNames
 from diecut_report.contract.inputs import (
     Block,
     CurveInput,
@@ -25,6 +25,7 @@ from diecut_report.contract.inputs import (
 )
 from diecut_report.contract.mechanism import Mechanism
 from diecut_report.contract.phases import PREFIX
+from diecut_report.contract.result_names import part_result
 from diecut_report.contract.steps import Step
 from diecut_report.errors import nearest
 
@@ -93,7 +94,21 @@ class Instance:
     @cached_property
     def results(self) -> dict[str, tuple[str | None, bool]]:
         """What the calculation gives with these inputs: the SI unit (None for a text), and whether it is a curve or row."""
-        return self.mechanism.results_of(self.given) if self.mechanism else {}
+        if self.mechanism is None:
+            return {}
+        found = self.mechanism.results_of(self.given)
+        for _, step in self.mechanism.active(self.given):
+            for name in self.names_of_parts(step.named_by):
+                found[part_result(name, step)] = found[step.id][0], isinstance(step, ComputedCurve)
+            if step.named_by and isinstance(step, ComputedCurve):
+                del found[step.id]
+        return found
+
+    def names_of_parts(self, path: str) -> list[str]:
+        """Return the names that the blocks of a list have in the file; none where there is no such list."""
+        home, _, key = path.rpartition(".")
+        blocks = self.data.get(home) if home else None
+        return [str(block.get(key)) for block in blocks if isinstance(block, dict)] if isinstance(blocks, list) else []
 
     @cached_property
     def phases(self) -> dict[str, str]:

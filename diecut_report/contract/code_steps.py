@@ -18,7 +18,8 @@ class ComputedCurve(Step):
 
     ``function`` takes it, the places x of shape (rows, points), the middles of their smooth pieces (of any shape that broadcasts to
     that) and the variants ``rows`` (None: all, or the only one); it gives values of the shape of x. ``joints`` gives from the object
-    the places where the curve jumps or has a corner, of shape (variants, places), NaN where there is none.
+    the places where the curve jumps or has a corner, of shape (variants, places), NaN where there is none. With ``named_by`` there is a
+    curve for each named part: ``function`` takes the part's index before all else.
     """
 
     of: str

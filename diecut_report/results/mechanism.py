@@ -203,7 +203,7 @@ def _rowed(calc: Calculation, step: Step) -> Data:
     row = calc[step.id][0]
     if step.id in calc.axis:
         home = {} if step.numbered else {"list": calc.axis[step.id]}
-        names = result_names(step, len(row))
+        names = result_names(step, len(row), calc.inputs.get(step.named_by))
         there = [(each, value) for each, value in zip(names, row, strict=True) if value == value]  # no NaN
         return {each.name: _number(step, value) | home | _part(step, each, **home) for each, value in there}
     if not isinstance(row[0], str) and math.isnan(row[0]):

@@ -13,6 +13,7 @@ from diecut_report.contract.code_steps import ComputedCurve, PartNames
 from diecut_report.contract.place import Misdeclared
 from diecut_report.contract.steps import Clash, Computed, Step, Words
 from diecut_report.engine.calculation import Calculation
+from diecut_report.engine.steps import named_parts
 from diecut_report.expressions import Array
 
 
@@ -25,8 +26,11 @@ def part_names(calc: Calculation, step: PartNames) -> None:
 
 
 def curve(calc: Calculation, step: ComputedCurve) -> None:
-    """Take note of a curve, and cut its abscissa where it has corners."""
-    calc.curves[step.id] = step
+    """Take note of a curve, or of those of named parts, and cut its abscissa where they have corners."""
+    made = named_parts.curves_of(calc, step)
+    calc.curves |= made
+    calc.steps |= made
+    calc.axis = calc.axis | dict.fromkeys(made, step.abscissa)
     if step.joints is not None:
         places = step.joints(calc.inputs[step.of])
         calc.domains[step.abscissa].cut(np.broadcast_to(places, (calc.count, places.shape[1])))

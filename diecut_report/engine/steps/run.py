@@ -42,6 +42,7 @@ from diecut_report.engine.steps import (
     extreme_checks,
     feasibility,
     interpolation,
+    named_parts,
     part_rows,
     plain_code,
     prefetch,
@@ -82,17 +83,10 @@ def calculate(
                 raise Impossible([*first.reasons, *feasibility.reasons(calc, steps[i + 1 :])]) from None
             finite(calc, step)
             whole(calc, step)
-            _name_parts(calc, step)
+            named_parts.name_row(calc, step)
         for stand_in, residual in extreme_checks.searched(calc) if only is None else ():
             prove(calc, stand_in, residual, roots_integrals.SAMPLE_TOLERANCE)
     return calc
-
-
-def _name_parts(calc: Calculation, step: Step) -> None:
-    """The parts of a row under names of their own."""
-    if step.numbered:
-        row = calc[step.id]
-        calc.values |= {each.name: row[:, [each.index]] for each in result_names(step, row.shape[1])}
 
 
 def _value(calc: Calculation, step: Value) -> None:
