@@ -45,6 +45,7 @@ def document(run: Run) -> Data:
             "sha256": tree.sha256,
             "resolved": resolved(run),
             "source_text": tree.text,
+            **_tables(config),
         },
         "project": _project(config.project.model_dump()),
         "press": _press(run),
@@ -53,6 +54,12 @@ def document(run: Run) -> Data:
         "summary": summary(mechanisms) | {"assumed": assumed(config)},
         "mechanisms": mechanisms,
     } | ({"comparisons": comparisons} | _left_out(run) if comparisons else {})
+
+
+def _tables(config: Config) -> Data:
+    """The user's own tables that the config names, whole: the calculation can be done again with them."""
+    found = [{"file": name, "sha256": tree.sha256, "source_text": tree.text} for name, tree in config.tables.items()]
+    return {"materials": found} if found else {}
 
 
 def _left_out(run: Run) -> Data:

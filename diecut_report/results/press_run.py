@@ -213,7 +213,10 @@ class Run:
         return calculate(mechanism, flatten(block))
 
     def _printed(self, instance: Instance, calculation: Calculation) -> None:
-        self.results[instance.name] = mechanism_results(calculation, self._provenance(instance))
+        found = mechanism_results(calculation, self._provenance(instance))
+        own = instance.own.sources if instance.own else {}
+        found["sources"] += [{"id": file, "citation": said} for file, said in own.items()]
+        self.results[instance.name] = found
 
     def _compare(self, case: Found) -> None:
         self.tell(case.name)
