@@ -82,7 +82,7 @@ class Instance:
     @cached_property
     def given(self) -> frozenset[str]:
         """The ids of the inputs that have a value: given, by default, or from the press."""
-        found: set[str] = set()
+        found: set[str] = set(self.mechanism.facts) if self.mechanism else set()
         for slot in slots(self.model, self.data):
             name = ".".join(part for part in slot.key if isinstance(part, str))
             if isinstance(slot.value, Block):
