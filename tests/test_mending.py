@@ -42,7 +42,7 @@ STEPS: dict[str, tuple[tuple[str, ...], set[str]]] = {
     "gears": (("train.gears",), CLUTCH | MOTOR | ELEMENTS),
     "clutch": (("consistency.single_position",), MOTOR | ELEMENTS),
     "motor": (("train.reserve_factor",), ELEMENTS),
-    "elements": (("gear_key", "crank_key", "sector", "main_gears", "gripper_chain", "drive.sector_ratio"), set()),
+    "elements": (("bearings", "gear_key", "crank_key", "sector", "main_gears", "gripper_chain", "drive.sector_ratio"), set()),
     "station": (("timing.station",), {"timing.carriage_height"}),
     "carriage": (("drive.carriage_clearance",), set()),
     "limits": (("drive", "clutch", "damper", "crankshaft", "consistency"), set()),
