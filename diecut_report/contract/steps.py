@@ -26,6 +26,7 @@ class Step:
     ``whole`` marks a count, which the results hold as an integer.
     ``units`` are other units, each with the input beside which it holds: (("mass", "N"),).
     A row over repeated parts is named ``ID.0``, ``ID.1`` … in the results, or by ``numbered`` (``shaft_{}_speed``) from ``first`` on.
+    With ``named_by``, the text input of the parts' names (``bearings.name``), the row is named ``NAME_ID`` after them.
     """
 
     id: str
@@ -40,6 +41,7 @@ class Step:
     exists: Binding | None = None
     numbered: str = ""
     first: int = 1
+    named_by: str = ""
     whole: bool = False
     units: tuple[tuple[str, str], ...] = ()
     at: str = placed()

@@ -79,7 +79,7 @@ ENGLISH: dict[str, str] = {
     "verified": "diecut-report verify calculates again and tells what differs",
     "config_file": "Configuration file", "sha256": "SHA-256",
     "failed_text": "This mechanism could not be calculated.", "failed_comparison": "This comparison could not be calculated.",
-    "skipped_text": "This mechanism was not calculated, since one that it refers to is in error.",
+    "skipped_text": "This mechanism was not calculated, since what it refers to was not.",
 }  # fmt: skip
 CATALOGUES: dict[str, dict[str, str]] = {"en": ENGLISH}
 

@@ -9,7 +9,7 @@ from diecut_report.contract.binding import Binding, Bound, bound
 from diecut_report.contract.code_steps import ComputedCurve, PartTable
 from diecut_report.contract.listings import Listing
 from diecut_report.contract.part_steps import Interpolated, Lookup, Neighbour, Part, Pick, Running, Total
-from diecut_report.contract.result_names import place_name
+from diecut_report.contract.result_names import part_result, place_name
 from diecut_report.contract.steps import (
     Abscissa,
     Accumulated,
@@ -98,7 +98,9 @@ def items(calc: Calculation, step: Step) -> list[Item]:
         case Computed() | CurvePeriod():
             return [_computed(calc, step)]
         case ComputedCurve():
-            return [_computed(calc, step) | {"at": place_shown(calc, step.abscissa, False)}]
+            names = [part_result(name, step) for name in calc.inputs[step.named_by]] if step.named_by else [step.id]
+            at = {"at": place_shown(calc, step.abscissa, False)}
+            return [_computed(calc, own) | at for name in names if isinstance(own := calc.steps[name], ComputedCurve)]
         case PartTable(parts=parts, columns=columns):
             return [tables.of_parts(calc, step, calc.part_names[parts], list(columns))]
         case Lookup() if step.id in calc.axis:
