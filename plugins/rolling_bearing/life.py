@@ -18,8 +18,8 @@ LIFE = "ISO 281:2007, 5.3"
 PRACTICE = "practice"
 
 motion = Chapter("Motion of the rings",
-                 text="A relative angle counts by the whole way that it goes in a cycle, there and back: a swing of the width W is W/180° turns. Where the "
-                      "rings only swing, neighbouring rolling elements roll over the same places only from a swing of 720°/Z on.")
+                 text="A relative angle counts by the whole way that it goes in a cycle, there and back: a swing of the width W is W/180° turns. "
+                      "Where the rings only swing, neighbouring rolling elements roll over the same places only from a swing of 720°/Z on.")
 row(motion, "is_angle", "w", "1", "Whether the motion is given as an angle (1) or a speed (0)",
     lambda known: known.flag(each.angle is not None for each in known.duties), "by the keys that are given", output=False)
 row(motion, "travel", "V", "deg", "Way of the relative angle in a cycle (0 where a speed is given)",

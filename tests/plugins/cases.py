@@ -20,7 +20,7 @@ from diecut_report.results.comparisons import Found
 from diecut_report.results.press_run import Run, compute
 from tests.configs import EXAMPLES
 from tests.machines import PUBLISHED_CYLINDER, PUBLISHED_DRIVE, UNBALANCED, inputs
-from tests.plugins import chains
+from tests.plugins import bearings, chains
 from tests.plugins.clutches import COOLED
 from tests.plugins.drive_trains import EXAMPLE as TRAIN
 from tests.plugins.drive_trains import PAIRS, UNEVEN
@@ -129,6 +129,12 @@ FULL: dict[str, dict[str, dict[str, Any]]] = {
         "even velocity": chains.without(chains.GRIPPERS, "velocity_curve", "chain") | {"velocity": 1},
         "numbers": chains.without(chains.GRIPPERS, "velocity_curve", "acceleration_curve") | {"velocity": 1, "acceleration": 30},
     },
+    "rolling_bearing": {
+        "numbers": {"bearings": [bearings.BALL | {"axial_force": 900}, bearings.BALL | {"name": "other", "radial_force": -9000}], "n_points": 72},
+        "kinds": {"bearings": [bearings.ANGULAR, bearings.ROLLER, bearings.SOUGHT], "reliability": 95, "n_points": 72},
+        "curves": {"bearings": [bearings.SWINGING, bearings.WAVING, bearings.JUMPING, bearings.SOUGHT | {
+            "axial_force": bearings.WAVING["axial_force"]}], "required_static_safety": 2, "n_points": 72},
+    },
     "shaft": {"crank": CRANKSHAFT | {"speed": 50}, "lay": LAYSHAFT, "standing": STANDING},
 }  # fmt: skip
 WIDELY: dict[str, Ranges] = {
@@ -159,6 +165,7 @@ WIDELY: dict[str, Ranges] = {
                      "strands": (1, 4), "moving_mass": (0, 50), "power": (100, 50000)},
     "press_consistency": {"clutch_load": (0, 900), "clutch_speed": (2, 12), "contact_distance": (0.005, 0.9),
                           "flywheel_inertia": (0.1, 20), "damper_velocity": (0.1, 4)},
+    "rolling_bearing": {"required_life": (3.6e6, 3.6e9), "service_factor": (1, 2)},
     "shaft": {"bearing_a": (0.0, 0.06), "bearing_b": (0.2, 0.32), "yield_strength": (3e8, 1.2e9), "tensile_strength": (4e8, 1e9)},
 }  # fmt: skip
 
