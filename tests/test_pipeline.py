@@ -17,6 +17,7 @@ import pytest
 from diecut_report import pipeline, report
 from diecut_report.config.discovery import Discovery
 from diecut_report.errors import UserError
+from diecut_report.results.results_file import results_text
 from diecut_report.results.summary import governing
 from tests.configs import BROKEN, DISCOVERY, EXAMPLE, EXAMPLES, GOOD, HEAD, LEVER, saved
 
@@ -83,10 +84,10 @@ def test_the_resolved_config_gives_the_same_results(tmp_path: Path, text: str) -
 
 def test_the_results_text_is_strict_json_with_exact_floats() -> None:
     data = {"a": {"b": {"c": {"d": {"e": 0.1 + 0.2}}}}, "list": [1e-300, True, None], "none": {}}
-    text = pipeline.results_text(data)
+    text = results_text(data)
     assert json.loads(text) == data and "0.30000000000000004" in text
     with pytest.raises(ValueError, match="not JSON compliant"):
-        pipeline.results_text({"a": float("nan")})
+        results_text({"a": float("nan")})
 
 
 def test_equal_inputs_give_equal_bytes_in_every_process() -> None:

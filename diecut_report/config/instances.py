@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from dataclasses import dataclass
 from functools import cached_property
 from typing import Any
 
 from diecut_report.config.basis import Basis
+from diecut_report.config.taken_entries import Taken
+from diecut_report.config.targets import Node, Target
 from diecut_report.config.validation import ConfigPlace, keys_of
 from diecut_report.config.yaml_tree import KeyPath
 from diecut_report.contract.chapters import Chapter
@@ -58,10 +60,11 @@ class Instance:
 
     def __init__(
         self, name: str, model: type[Block], data: dict[str, Any], place: ConfigPlace, mechanism: Mechanism | None,
-        bases: Mapping[KeyPath, Basis] | None = None,
+        bases: Mapping[KeyPath, Basis] | None = None, own: Taken | None = None,
     ) -> None:  # fmt: skip
         self.name, self.model, self.data, self.place, self.mechanism = name, model, data, place, mechanism
         self.bases = bases or {}
+        self.own = own  # what comes from the user's own tables
         self.without: frozenset[KeyPath] = frozenset()
         self.derived: frozenset[str] = frozenset()  # inputs taken from partners
 
@@ -79,7 +82,7 @@ class Instance:
     @cached_property
     def given(self) -> frozenset[str]:
         """The ids of the inputs that have a value: given, by default, or from the press."""
-        found: set[str] = set()
+        found: set[str] = set(self.mechanism.facts) if self.mechanism else set()
         for slot in slots(self.model, self.data):
             name = ".".join(part for part in slot.key if isinstance(part, str))
             if isinstance(slot.value, Block):
@@ -160,3 +163,24 @@ class Instance:
 def default_of(slot: Slot) -> FromPress | None:
     """The press's default that stands in for an input without a value."""
     return slot.meta.press if isinstance(slot.meta, Quantity) and slot.value is None else None
+
+
+def substituted(
+    instance: Instance, links: Mapping[Node, Target], value: Callable[[Node, Target], Any]
+) -> dict[str, Any]:
+    """The data of an instance with what stands in for its references; defaults of the press are left to ``value`` too."""
+    data: dict[str, Any] = _copied(instance.data)
+    for node, target in links.items():
+        if node[0] != instance.name:
+            continue
+        home: Any = data
+        for part in node[1:-1]:
+            home = home[part]
+        home[node[-1]] = value(node, target)
+    return data
+
+
+def _copied(data: Any) -> Any:
+    if isinstance(data, dict):
+        return {key: _copied(part) for key, part in data.items()}
+    return [_copied(part) for part in data] if isinstance(data, list) else data

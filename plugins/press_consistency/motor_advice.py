@@ -70,7 +70,7 @@ def _ways(
     if heavier * slip <= MOST_SLIP * synchronous:
         yield f"a slip of at least {told(heavier * slip, 'rpm', up=True)} at the rated torque"
     if np.isfinite(stronger):
-        yield f"a rated power of at least {told(power * stronger, 'kW', up=True)}"
+        yield f"a rated power of at least {told(power * stronger, 'kW', up=True)}, by a greater reserve_factor of the drive train"
 
 
 def _least(holds: Callable[[float], Any]) -> float:

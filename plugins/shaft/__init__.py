@@ -17,8 +17,8 @@ MECHANISM = Mechanism(
     "load, and the critical speed.",
     inputs=Shaft,
     chapters=(
-        geometry.sections, steels.steel, geometry.places, geometry.notches, geometry.endurance, strength.loads, strength.bending, strength.fatigue,
-        strength.yielding, strength.critical, advice.enough,
+        geometry.sections, steels.steel, steels.own_steel, geometry.places, geometry.notches, geometry.endurance, strength.loads, strength.bending,
+        strength.fatigue, strength.yielding, strength.critical, advice.enough,
     ),
     key_results=("reaction_a_max", "reaction_b_max", "bending_moment_max", "fatigue_safety", "fatigue_place", "yield_safety", "deflection_max",
                  "bearing_slope_max", "critical_speed", "shaft_mass"),

@@ -117,8 +117,13 @@ notches.value("bore_ratio", "d_i/d", "1", "Bore to diameter at a fillet (0 elsew
 endurance = Chapter("Endurance limit")
 endurance.require("yield_below", lambda yield_strength, tensile_strength: yield_strength <= tensile_strength, key="yield_strength",
                   message="is {yield_strength}, above the tensile strength of {tensile_strength}; no steel yields above what it bears")
-endurance.value("specimen_endurance", "S_e′", "MPa", "Endurance limit of the polished specimen", formulas.endurance_of_specimen,
-                source="Shigley 6-8")
+SPECIMEN = ("specimen_endurance", "S_e′", "MPa", "Endurance limit of the polished specimen")
+endurance.value(*SPECIMEN, formulas.endurance_of_specimen, source="Shigley 6-8", lacks=("fatigue_strength", "strengths.fatigue_strength"))
+endurance.value(*SPECIMEN, lambda fatigue_strength: fatigue_strength, source="input", needs=("fatigue_strength",))
+endurance.value(*SPECIMEN, lambda own_fatigue_strength: own_fatigue_strength, source="input", needs=("strengths.fatigue_strength",),
+                lacks=("fatigue_strength",))
+endurance.require("endurance_below", lambda specimen_endurance, tensile_strength: specimen_endurance < tensile_strength, key="fatigue_strength",
+                  message="is {specimen_endurance}, not below the tensile strength of {tensile_strength}; no steel bears so much for ever")
 endurance.lookup("surface_a", "a", "1", "Factor of the surface", {"ground": 1.58, "machined": 4.51, "hot_rolled": 57.7, "forged": 272},
                  by="surface", source="Shigley table 6-2", output=False)
 endurance.lookup("surface_b", "b", "1", "Exponent of the surface", {"ground": -0.085, "machined": -0.265, "hot_rolled": -0.718, "forged": -0.995},

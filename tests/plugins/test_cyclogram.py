@@ -58,7 +58,7 @@ def linked(more: Data) -> Run:
     """The same with more mechanisms, by a configuration."""
     data = yaml.safe_load(TEXT)
     kept = {name: data["mechanisms"][name] for name in ("cylinder", "drive", "feeder", "cross")}
-    kept["cross"]["driven_inertia"] = "3.57 kg*m**2"  # as the method has it
+    kept["cross"]["driven_inertia"], kept["feeder"]["conveyor_mass"] = "3.57 kg*m**2", "12 kg"  # as the method has them
     data["mechanisms"] = kept | more
     return compute(
         load_config(parse(yaml.safe_dump(data, allow_unicode=True), "press.yaml"), DISCOVERY), lambda _: None

@@ -9,7 +9,7 @@ from typing import Any
 
 import numpy as np
 
-from diecut_report.contract.code_steps import ComputedCurve, PartNames
+from diecut_report.contract.code_steps import ComputedCurve, PartCurves, PartNames
 from diecut_report.contract.place import Misdeclared
 from diecut_report.contract.steps import Clash, Computed, Step, Words
 from diecut_report.engine.calculation import Calculation
@@ -34,6 +34,16 @@ def curve(calc: Calculation, step: ComputedCurve) -> None:
     if step.joints is not None:
         places = step.joints(calc.inputs[step.of])
         calc.domains[step.abscissa].cut(np.broadcast_to(places, (calc.count, places.shape[1])))
+
+
+def part_curves(calc: Calculation, step: PartCurves) -> None:
+    """Take note of the curves of all parts, and cut their abscissa where they have corners."""
+    made = {each.id: each for each in step.curves(calc.inputs[step.of])}
+    calc.curves |= made
+    calc.steps = {**calc.steps, **made}
+    calc.axis = {**calc.axis, **dict.fromkeys(made, step.abscissa)}
+    if step.joints is not None and made:
+        calc.domains[step.abscissa].cut(step.joints(calc.inputs[step.of]))
 
 
 def number(step: Computed, found: Any, count: int) -> Array:
