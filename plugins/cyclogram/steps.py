@@ -105,30 +105,32 @@ interlocks.words("interlock_verdict", verdicts, TIMING, each_part=True)
 
 station = Chapter("Clearance of the carriages", needs=("station",), absent="not calculated: station is not given",
                   text="The least height over all carriages, standing and moving, from the shape of the cylinder with its flat.")
-station.prepared("clearance", clearance_of, ("timing", *(f"station.{key}" for key in STATION)))
+station.prepared("clearance", clearance_of, ("timing", "main_period", *(f"lines.{key}" for key in LINES), *(f"station.{key}" for key in STATION)),
+                 for_many=True)
+station.prepared("least", lambda given: given["clearance"].least, ("clearance",), for_many=True)
 CLEARANCE = "search over the common period, refined to 1e-13 of it"
 
 
-def _is_below(clearance: LeastClearance) -> float:
-    return float(np.isfinite(clearance.height))
+def _is_below(least: LeastClearance) -> Any:
+    return np.isfinite(least.height)[:, None].astype(float)
 
 
-def _least(clearance: LeastClearance) -> float:
-    return clearance.height if np.isfinite(clearance.height) else 0.0
+def _least(least: LeastClearance) -> Any:
+    return np.where(np.isfinite(least.height), least.height, 0.0)[:, None]
 
 
-def _needed(cylinder: GivenMechanism) -> float:
-    height = cylinder.number("carriage_clearance")
+def _needed(cylinder: GivenMechanism) -> Any:
+    height = cylinder.numbers("carriage_clearance")
     if height is None:
         raise Refusal("station.cylinder", f"is {cylinder.name}, which has no carriage_clearance to hold the room against; give it there")
     return height
 
 
-station.computed("is_below", "k_Y", "1", "Whether a carriage is ever below the cylinder", _is_below, ("clearance",), "least height over the period",
+station.computed("is_below", "k_Y", "1", "Whether a carriage is ever below the cylinder", _is_below, ("least",), "least height over the period",
                  output=False)
-station.computed("clearance_least", "Y_min", "mm", "Least height that the cylinder leaves the carriages", _least, ("clearance",), CLEARANCE, digits=6,
+station.computed("clearance_least", "Y_min", "mm", "Least height that the cylinder leaves the carriages", _least, ("least",), CLEARANCE, digits=6,
                  exists=lambda is_below: is_below > 0)
-station.computed("clearance_angle", "Φ_Y", "deg", "Main-shaft angle at which that is", lambda clearance: clearance.angle, ("clearance",), CLEARANCE,
+station.computed("clearance_angle", "Φ_Y", "deg", "Main-shaft angle at which that is", lambda least: least.angle[:, None], ("least",), CLEARANCE,
                  digits=6, exists=lambda is_below: is_below > 0)
 station.computed("carriage_clearance", "c_r", "mm", "Clearance that the carriages need",
                  _needed, ("station.cylinder",), "as given to the cylinder's drive")

@@ -92,7 +92,7 @@ class Motions:
 
 def torques_of(given: Mapping[str, Any]) -> Torques:
     """Return what takes torque from the main shaft: the lines with a torque, and constant consumers."""
-    lines = _lines(given)
+    lines = lines_of_all(given)
     known = {line.name: _torque(line) for line in lines}
     consumers = [
         Consumer(line.name, torque, line.efficiency) for line in lines if (torque := known[line.name]) is not None
@@ -105,7 +105,7 @@ def torques_of(given: Mapping[str, Any]) -> Torques:
 
 def motions_of(given: Mapping[str, Any]) -> Motions:
     """Return how the lines move, as far as it is known."""
-    lines, period = _lines(given), given["main_period"]
+    lines, period = lines_of_all(given), given["main_period"]
     ways = {line.name: way for line in lines if (way := _way(line)) is not None}
     energies = {line.name: curve for line in lines if (curve := _energy(line)) is not None}
     places = [each[0].joints(period) for each in ways.values()] + [each.joints(period) for each in energies.values()]
@@ -138,7 +138,8 @@ class Line:
         return ShaftCurve(of.values, of.breakpoints, self.turns, self.offset)
 
 
-def _lines(given: Mapping[str, Any]) -> list[Line]:
+def lines_of_all(given: Mapping[str, Any]) -> list[Line]:
+    """Return the lines of all machines."""
     timings: tuple[Timing | None, ...] = given["timing"] if isinstance(given["timing"], tuple) else (given["timing"],)
     offsets = [[0.0] * len(given["lines.mechanism"]) if each is None else each.offsets for each in timings]
     return [
