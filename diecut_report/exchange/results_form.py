@@ -134,22 +134,36 @@ def parsed(content: bytes, file: str) -> dict[str, Any]:
         raise UserError(Problem(f"The file holds more than {MOST_VALUES:,} values. {ASK}", file))
     try:
         found = json.loads(content, parse_constant=_refuse_constant, parse_float=_finite)
-    except (ValueError, RecursionError) as error:  # UnicodeDecodeError is a ValueError
-        told = "it is nested too deeply" if isinstance(error, RecursionError) else str(error)
-        raise UserError(Problem(f"This is not a JSON file that can be read: {told}. {ASK}", file)) from error
+    except (ValueError, RecursionError) as error:
+        raise UserError(Problem(f"This is not a JSON file that can be read: {_told(error)}. {ASK}", file)) from error
     if not isinstance(found, dict):
         raise UserError(Problem(f"This JSON file does not hold results. {ASK}", file))
     return found
 
 
+class _NotANumber(ValueError):
+    """Report a number that results cannot hold."""
+
+
+def _told(error: ValueError | RecursionError) -> str:
+    match error:
+        case RecursionError():
+            return "it is nested too deeply"
+        case UnicodeDecodeError():
+            return "it is not UTF-8 text"
+        case json.JSONDecodeError() | _NotANumber():
+            return str(error)
+    return "a whole number in it has too many digits"
+
+
 def _refuse_constant(name: str) -> NoReturn:
-    raise ValueError(f"it holds {name}, which is not a number")
+    raise _NotANumber(f"it holds {name}, which is not a number")
 
 
 def _finite(text: str) -> float:
     value = float(text)
     if math.isinf(value):
-        raise ValueError(f"it holds {text[:20]}, which is beyond the range of numbers")
+        raise _NotANumber(f"it holds {text[:20]}, which is beyond the range of numbers")
     return value
 
 
