@@ -32,7 +32,7 @@ value(motion, "turns_per_cycle", "N_c", "1", "Turns of the rings in a cycle", la
       source="kinematics", digits=6)
 row(motion, "given_mean", "n_s", "rpm", "Mean size of the speed that is given (0 where an angle is)",
     lambda known: known.row(lambda i: np.zeros((known.variants, 1)) if known.is_swinging(i) else known.duties[i].mean_speed),
-    "Gauss–Lobatto between the breakpoints and reversals", output=False)
+    "Gauss–Legendre between the breakpoints and reversals", output=False)
 value(motion, "mean_speed", "n_m", "rpm", "Mean speed of the rings",
       lambda is_angle, cycles, travel, given_mean: np.where(is_angle > 0, cycles * travel / (2 * np.pi), given_mean), source="kinematics", digits=6)
 row(motion, "speed_max", "n_max", "rpm", "Greatest speed of the rings over the cycle", lambda known: known.row(known.greatest_speed), SEARCH,
