@@ -9,7 +9,9 @@ from typing import Annotated, Any, Literal, NoReturn
 from pydantic import BaseModel, ConfigDict, Field, ValidationError
 
 from diecut_report.config.hidden_letters import CONTROL
+from diecut_report.config.own_tables import MOST as MOST_TABLES
 from diecut_report.errors import TOLD, Problem, UserError
+from diecut_report.limits import MAX_TEXT
 
 MOST_VALUES = 10_000_000  # of a results file
 ASK = "Give a results file as the program wrote it."
@@ -69,12 +71,18 @@ class MechanismForm(_Form):
     exports: list[ExportForm]
 
 
-class ConfigForm(_Form):
-    """The configuration in the results."""
+class FileForm(_Form):
+    """A file whose text stands in the results: a table of the user's own."""
 
-    file: str
+    file: Annotated[str, Field(max_length=MAX_TEXT)]
     sha256: str
     source_text: str
+
+
+class ConfigForm(FileForm):
+    """The configuration in the results."""
+
+    materials: Annotated[list[FileForm], Field(max_length=MOST_TABLES)] = []
 
 
 class PressForm(_Form):

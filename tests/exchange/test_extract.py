@@ -6,11 +6,13 @@ import gzip
 import json
 import os
 from pathlib import Path
+from typing import Any
 
 import pytest
 
+from tests.config.test_own_tables import HEAD, SHAFT, TABLES
 from tests.configs import LEVER, SMALL, saved
-from tests.exchange.reports import page_with, pdf_with, run
+from tests.exchange.reports import changed, page_with, pdf_with, run
 from tests.report.links import links
 
 Capture = pytest.CaptureFixture[str]
@@ -95,3 +97,46 @@ def test_a_configuration_that_is_not_that_of_the_results_is_refused(
     assert "not the one in the attached results" in capfd.readouterr().err
     (tmp_path / "b.html").write_bytes(page_with(results))
     assert run("extract", tmp_path / "b.html", "-o", tmp_path / "out") == 0
+
+
+def with_tables(folder: Path) -> Path:
+    """The page of a shaft whose steel stands in a table of the user's own, in a folder below the configuration."""
+    (folder / "data").mkdir(parents=True)
+    saved(folder / "data", TABLES, "steels.yaml")
+    config = saved(folder, HEAD.replace("steels.yaml", "data/steels.yaml") + SHAFT, "shaft.yaml")
+    assert run("report", config, "-o", folder / "out", "--format", "html", "--quiet") in (0, 1)
+    return folder / "out" / "shaft.html"
+
+
+def test_the_users_own_tables_come_back_and_are_used_again(tmp_path: Path, capfd: Capture) -> None:
+    report = with_tables(tmp_path / "in")
+    assert run("extract", report, "-o", tmp_path / "out") == 0
+    assert (tmp_path / "out" / "data" / "steels.yaml").read_bytes() == TABLES.encode()
+    assert run("calc", tmp_path / "out" / "shaft.yaml", "-o", tmp_path / "again.json", "--quiet") in (0, 1)
+    # what lies beside the report is not what it was calculated with
+    report.with_name("data").mkdir()
+    saved(report.with_name("data"), "source: other\nsteels: {own: {strengths: []}}\n", "steels.yaml")
+    capfd.readouterr()
+    assert run("verify", report, "--numbers") == 0
+    assert "shaft.yaml, data/steels.yaml, SHA-256" in capfd.readouterr().out
+
+
+@pytest.mark.parametrize("name", ["../up.yaml", "/tmp/up.yaml", "C:\\up.yaml", "up.py", f"{300 * 'a'}.yaml"])
+def test_the_name_of_a_table_leads_nowhere_else(small_report: Path, tmp_path: Path, name: str) -> None:
+    def change(data: dict[str, Any]) -> None:
+        data["config"]["materials"] = [{"file": name, "sha256": "", "source_text": "x"}]
+
+    (tmp_path / "in").mkdir()
+    report = changed(small_report / "small.json", tmp_path / "in" / "a.json", change)
+    for command in ("extract", "verify", "render"):
+        assert run(command, report, *(["-o", tmp_path / "in" / "out"] if command != "verify" else [])) == 2
+    assert [path.name for path in tmp_path.rglob("*") if path.is_file()] == ["a.json"]
+
+
+def test_a_link_to_another_folder_is_not_followed(tmp_path: Path, capfd: Capture) -> None:
+    report = with_tables(tmp_path / "in")
+    (tmp_path / "elsewhere").mkdir()
+    (tmp_path / "out").mkdir()
+    (tmp_path / "out" / "data").symlink_to(tmp_path / "elsewhere")
+    assert run("extract", report, "-o", tmp_path / "out") == 2
+    assert "leads out of the folder" in capfd.readouterr().err and not list((tmp_path / "elsewhere").iterdir())
