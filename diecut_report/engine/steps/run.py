@@ -47,6 +47,7 @@ from diecut_report.engine.steps import (
     prefetch,
     smooth_pieces,
 )
+from diecut_report.engine.steps.again import Again
 from diecut_report.engine.steps.soundness import finite, mark, possible, prove, whole
 from diecut_report.expressions import Array
 from diecut_report.quantities.formatting import told
@@ -208,7 +209,9 @@ def _from_curve(calc: Calculation, step: FromCurve) -> None:
 def _prepared(calc: Calculation, step: Prepared) -> None:
     if calc.count > 1 and not step.for_many:
         raise TypeError(f"{step.id} is made of one machine, and was asked for {calc.count}")
-    known = {name: calc[name] for name in step.holds if name in calc.values or name in calc.inputs}
+    known: dict[str, Any] = {n: calc[n] for n in step.holds if n in calc.values or n in calc.inputs}
+    if step.again:
+        known["again"] = Again(calc, calculate)
     calc.inputs[step.id] = _called(step, [known])
 
 
