@@ -67,7 +67,20 @@ class Torques:
     @cached_property
     def greatest(self) -> Any:
         """Return the number of the consumer that takes most in the mean, of each machine."""
-        return np.argmax(np.concatenate([each.mean for each in self.consumers], axis=1), axis=1)
+        return np.argmax(self._figures["mean"], axis=0)
+
+    @cached_property
+    def _figures(self) -> dict[str, Any]:
+        """Figures of each consumer's torque over its own turn, shapes (consumers, machines)."""
+        pieces = [each.pieces for each in self.consumers]
+        found = {name: np.stack([getattr(each, name) for each in pieces]) for name in ("mean", "rms", "largest", "least")}
+        periods = [TURN / float(each.torque.turns) for each in self.consumers]
+        excess = [each.excess.range * period for each, period in zip(pieces, periods, strict=True)]
+        return found | {"fluctuation": np.stack(excess)}
+
+    def figure_of_greatest(self, name: str) -> Any:
+        """Return a figure of the torque of the consumer that takes most, shape (machines, 1)."""
+        return np.take_along_axis(self._figures[name], self.greatest[None], axis=0)[0][:, None]
 
     def of_greatest(self, angle: Any, middle: Any, machine: Any) -> Any:
         """Return the torque of that consumer alone at main-shaft angles."""
