@@ -73,7 +73,9 @@ class Torques:
     def _figures(self) -> dict[str, Any]:
         """Figures of each consumer's torque over its own turn, shapes (consumers, machines)."""
         pieces = [each.pieces for each in self.consumers]
-        found = {name: np.stack([getattr(each, name) for each in pieces]) for name in ("mean", "rms", "largest", "least")}
+        found = {
+            name: np.stack([getattr(each, name) for each in pieces]) for name in ("mean", "rms", "largest", "least")
+        }
         periods = [TURN / float(each.torque.turns) for each in self.consumers]
         excess = [each.excess.range * period for each, period in zip(pieces, periods, strict=True)]
         return found | {"fluctuation": np.stack(excess)}
