@@ -141,6 +141,7 @@ class Calculation:
         self.curves: dict[str, CurveStep] = {}
         self.domains: dict[str, Domain] = {}
         self.part_names: dict[str, tuple[str, ...]] = {}  # of the repeated parts that follow from the inputs
+        self.row_of: dict[str, str] = {}  # for each number that is called by the name of its part, the row
         self.series: dict[str, PieceSeries] = {}
         self.branch: dict[str, Array] = {}  # for each choice, the case taken by each variant
         self.middle: dict[str, Array] = {}  # for each place of an extreme, the middle of its smooth piece
@@ -226,7 +227,7 @@ class Calculation:
 
     def step_or_input(self, name: str) -> Step | Quantity:
         """Return what declares a quantity: its symbol, unit and description."""
-        return named_quantity.declared(name, self.steps, self.axis, self.meta, self.mechanism.at)
+        return named_quantity.declared(self.row_of.get(name, name), self.steps, self.axis, self.meta, self.mechanism.at)
 
 
 class CurveSampler:

@@ -92,7 +92,9 @@ def _tables(results: dict[str, Any], file: str) -> dict[str, bytes]:
     found = table_contents(results)
     faults = [Problem(f"The name of a table {fault}.", file) for name in found if (fault := name_fault(name))]
     long = [name for name in found if max(len(part.encode()) for part in Path(name).parts) > LONGEST_NAME]
-    faults += [Problem(f"The name of a table is longer than {LONGEST_NAME} bytes: {name[:80]}….", file) for name in long]
+    faults += [
+        Problem(f"The name of a table is longer than {LONGEST_NAME} bytes: {name[:80]}….", file) for name in long
+    ]
     if faults:
         raise UserError(faults)
     return found

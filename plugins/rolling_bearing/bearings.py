@@ -84,6 +84,19 @@ class Bearings:
         own = EXPONENTS[self.types[index]] if exponent is None else exponent
         return self.duties[index].equivalent(self.ratings[index], own, self.weighed[index])
 
+    def peak(self, index: int, load: str) -> tuple[Array, Array]:
+        """Return both forces where a load (the name of a function of the ratings) is greatest."""
+        known = "static_load" if not self.duties[index].has_axial else load  # both are then the radial force
+        if (index, known) not in self._peaks:
+            self._peaks[index, known] = self.duties[index].greatest(
+                getattr(self.ratings[index], known), self.weighed[index]
+            )
+        return self._peaks[index, known]
+
+    @cached_property
+    def _peaks(self) -> dict[tuple[int, str], tuple[Array, Array]]:
+        return {}
+
     def turns(self, index: int) -> Array:
         """Return whether the rings turn against each other."""
         return (self.duties[index].travel > 0) * 1.0

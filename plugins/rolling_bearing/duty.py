@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from typing import Any
@@ -25,10 +25,12 @@ from diecut_report.plugins.rolling_bearing.nodes import (
 from diecut_report.plugins.rolling_bearing.ratings import Ratings
 
 Array = NDArray[Any]
+Load = Callable[[Array, Array], Array]  # of both forces
 Over = Callable[[Array, Array], Array]  # of shares of the cycle and the middles of their pieces, (variants, places)
 
 GRID = 24  # least number of pieces of the cycle
 STEP = 1e-5  # share of the cycle, to either side, by which an angle is differentiated at any place
+PEAKS = 4  # highest places about which the greatest value is sought
 ZOOMS, ZOOMED = 4, 17  # searches for an extreme, each on so many places between the neighbours of the last
 
 
@@ -135,10 +137,13 @@ class Duty:
         first = self.first
         if not self.has_axial:
             return first
-        _, _, e = ratings.factors(flat(first.axial))
-        beyond = flat(first.axial) - e * flat(first.radial)
-        kinks = crossings(first, beyond.reshape(first.share.shape))
-        return self.nodes(in_order(edges_of(first), kinks)) if kinks.shape[1] else first
+        cut = self._cut(first, ratings.bends_of_factors(flat(first.axial)))
+        return self._cut(cut, ratings.bends(flat(cut.radial), flat(cut.axial)))
+
+    def _cut(self, nodes: Nodes, bends: Iterable[Array]) -> Nodes:
+        """The places where pieces end also where one of these changes its sign."""
+        kinks = [crossings(nodes, np.reshape(each, nodes.share.shape)) for each in bends]
+        return self.nodes(in_order(edges_of(nodes), *kinks)) if any(each.shape[1] for each in kinks) else nodes
 
     # --- numbers of all variants, (variants, 1) ---------------------------------------------------------------------------
 
@@ -153,19 +158,31 @@ class Duty:
         found: Array = top * mean ** (1 / exponent)
         return found
 
-    def greatest(self, load: Callable[[Array, Array], Array]) -> tuple[Array, Array, Array]:
-        """Return both forces where a load of them is greatest, and that share of the cycle."""
+    def greatest(self, load: Load, nodes: Nodes | None = None) -> tuple[Array, Array]:
+        """Return both forces where a load of them is greatest; it is known best at nodes that end where it has corners."""
+        known = nodes or self.first
         place, middle = self._extreme(
-            lambda share, mid: load(*self.forces(share, mid)), load(flat(self.first.radial), flat(self.first.axial))
+            lambda share, mid: load(*self.forces(share, mid)), load(flat(known.radial), flat(known.axial)), known.share
         )
-        radial, axial = self.forces(place, middle)
-        return radial, axial, place
+        return self.forces(place, middle)
 
-    def _extreme(self, function: Over, known: Array) -> tuple[Array, Array]:
-        """Where a function of the cycle that is known at the first places is greatest: the share, and the middle of its piece."""
-        share = self.first.share
+    def _extreme(self, function: Over, known: Array, share: Array) -> tuple[Array, Array]:
+        """Where a function that is known at shares (variants, pieces, places) is greatest: the share, and the middle of its piece."""
+        beside = np.pad(known, ((0, 0), (1, 1)), mode="edge")
+        is_peak = (known >= beside[:, :-2]) & (known >= beside[:, 2:])
+        order = np.argsort(np.where(is_peak, known, -np.inf), axis=1)[:, ::-1]
+        found = [self._peak(function, order[:, rank], share) for rank in range(PEAKS if self.curves else 1)]
+        heights = np.concatenate([function(place, middle) for place, middle in found], axis=1)
+        best = np.argmax(heights, axis=1)[:, None]
+        place, middle = (
+            np.take_along_axis(np.concatenate(each, axis=1), best, axis=1) for each in zip(*found, strict=True)
+        )
+        return place, middle
+
+    def _peak(self, function: Over, index: Array, share: Array) -> tuple[Array, Array]:
+        """The greatest value between the neighbours of a place, by a scan that narrows."""
         last, rows = share.shape[2] - 1, np.arange(self.variants)
-        piece, place = np.divmod(np.argmax(known, axis=1), share.shape[2])
+        piece, place = np.divmod(index, share.shape[2])
         middle = ((share[rows, piece, 0] + share[rows, piece, -1]) / 2)[:, None]
         best = share[rows, piece, place][:, None]
         if not self.curves:
@@ -200,7 +217,9 @@ class Duty:
 
     def _reached(self, sign: float, known: Array) -> Array:
         """Return the greatest angle (sign 1) or the least (sign -1)."""
-        place, middle = self._extreme(lambda share, mid: sign * self.at(self.angle, share, mid), sign * known)
+        place, middle = self._extreme(
+            lambda share, mid: sign * self.at(self.angle, share, mid), sign * known, self.first.share
+        )
         return self.at(self.angle, place, middle)
 
     @cached_property

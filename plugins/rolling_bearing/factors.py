@@ -24,7 +24,7 @@ FACTORS = own_table(
              "NSK, rolling bearings, catalogue, dynamic equivalent load of deep groove ball bearings"),
     left_out="The columns for clearances C3 and C4.",
 )
-ENDS = FACTORS.columns[0].values[0], FACTORS.columns[0].values[-1]
+RATIOS = FACTORS.columns[0].values
 
 between = Steps()
 between.interpolated("table_e", "e_t", "1", "Limit of F_a/F_r, of the table (deep groove)", FACTORS, of="held_axial", column="e", key="bearings",

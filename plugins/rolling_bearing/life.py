@@ -18,8 +18,8 @@ LIFE = "ISO 281:2007, 5.3"
 PRACTICE = "practice"
 
 motion = Chapter("Motion of the rings",
-                 text="A relative angle counts by the whole way that it goes in a cycle, there and back: a swing of the width W is W/180° turns. Where the "
-                      "rings only swing, neighbouring rolling elements roll over the same places only from a swing of 720°/Z on.")
+                 text="A relative angle counts by the whole way that it goes in a cycle, there and back: a swing of the width W is W/180° turns. "
+                      "Where the rings only swing, neighbouring rolling elements roll over the same places only from a swing of 720°/Z on.")
 row(motion, "is_angle", "w", "1", "Whether the motion is given as an angle (1) or a speed (0)",
     lambda known: known.flag(each.angle is not None for each in known.duties), "by the keys that are given", output=False)
 row(motion, "travel", "V", "deg", "Way of the relative angle in a cycle (0 where a speed is given)",
@@ -32,7 +32,7 @@ value(motion, "turns_per_cycle", "N_c", "1", "Turns of the rings in a cycle", la
       source="kinematics", digits=6)
 row(motion, "given_mean", "n_s", "rpm", "Mean size of the speed that is given (0 where an angle is)",
     lambda known: known.row(lambda i: np.zeros((known.variants, 1)) if known.is_swinging(i) else known.duties[i].mean_speed),
-    "Gauss–Lobatto between the breakpoints and reversals", output=False)
+    "Gauss–Legendre between the breakpoints and reversals", output=False)
 value(motion, "mean_speed", "n_m", "rpm", "Mean speed of the rings",
       lambda is_angle, cycles, travel, given_mean: np.where(is_angle > 0, cycles * travel / (2 * np.pi), given_mean), source="kinematics", digits=6)
 row(motion, "speed_max", "n_max", "rpm", "Greatest speed of the rings over the cycle", lambda known: known.row(known.greatest_speed), SEARCH,

@@ -33,8 +33,8 @@ def value(chapter: Chapter, id: str, symbol: str, unit: str, description: str, f
 
 
 def forces(load: str, part: int) -> Any:
-    """Return one of both forces (or the share of the cycle) at which a load of a bearing is greatest."""
-    return lambda known: known.row(lambda i: known.duties[i].greatest(getattr(known.ratings[i], load))[part])
+    """Return one of both forces where a load of a bearing is greatest."""
+    return lambda known: known.row(lambda i: known.peak(i, load)[part])
 
 
 def load_over(index: int, known: Bearings, angle: Array, middle: Array, rows: Array | None) -> Array:
@@ -74,9 +74,9 @@ row(ratings, "axial_base", "f_0", "1", "Factor of the deep groove ball bearing, 
 ratings.listing("choice", "Bearings out of the table, with their neighbours", CHOICE, choice, ("all_bearings",))
 
 loads = Chapter("Equivalent load",
-                text="The forces and their factors stand for the place of the cycle where the equivalent load is greatest; elsewhere it follows in the "
-                     "same way. The mean load P_m = [∮ P^p g dφ/∮ g dφ]^(1/p) weighs each place by how much the rings turn there: g = |n|, or |dθ/dφ| of "
-                     "a relative angle. The cycle is run through evenly in time.")
+                text="The forces and their factors stand for the place of the cycle where the equivalent load is greatest; elsewhere it follows in "
+                     "the same way. The mean load P_m = [∮ P^p g dφ/∮ g dφ]^(1/p) weighs each place by how much the rings turn there: g = |n|, or "
+                     "|dθ/dφ| of a relative angle. The cycle is run through evenly in time.")
 loads.abscissa("cycle_angle", "φ", "deg", "Angle of the cycle: a whole turn of it is one cycle of the loads", 2 * np.pi)
 loads.computed_curve("load", "P_φ", "N", "Equivalent load over the cycle", load_over, "all_bearings", "cycle_angle",
                      "from the forces at each place", joints=lambda known: known.joints, named_by=NAMES, source="ISO 281, 5.3")
@@ -112,7 +112,7 @@ value(loads, "equivalent_load_max", "P_max", "N", "Greatest equivalent load over
 row(loads, "turned", "G", "1", "Whether the rings turn against each other (1) or stand (0)",
     lambda known: known.row(known.turns), "from the speed or the relative angle", output=False)
 row(loads, "equivalent_load", "P_m", "N", "Equivalent load over the cycle, its mean by the life exponent", lambda known: known.row(known.mean_load),
-    "Gauss–Lobatto between the breakpoints, reversals and changes of X and Y", exists=lambda turned: turned > 0, source="linear damage", digits=6)
+    "Gauss–Legendre between the breakpoints, reversals and changes of X and Y", exists=lambda turned: turned > 0, source="linear damage", digits=6)
 row(loads, "arithmetic_load", "P_a", "N", "Arithmetic mean of the equivalent load by the same weights",
     lambda known: known.row(lambda i: known.mean_load(i, 1.0)), "as P_m, with the exponent 1", exists=lambda turned: turned > 0, output=False)
 value(loads, "load_ratio", "C/P", "1", "Load ratio", lambda dynamic_rating, equivalent_load: dynamic_rating / equivalent_load,

@@ -6,28 +6,28 @@ from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
-from numpy.polynomial.legendre import Legendre
+from numpy.polynomial.legendre import leggauss
 from numpy.typing import NDArray
 
 Array = NDArray[Any]
-ORDER = 8  # of the polynomials that are integrated exactly: twice that less one
+ORDER = 8  # places within a piece: polynomials up to twice that less one are integrated exactly
 STILL = 1e-9  # share of the greatest value that is none
+HALVINGS = 45
 
 
-def _lobatto() -> tuple[Array, Array, Array]:
-    """Places in [0, 1] with both ends, their weights, and the matrix that differentiates values at them."""
-    last = Legendre.basis(ORDER)
-    x = np.concatenate([[-1.0], last.deriv().roots(), [1.0]])
-    weights = 2 / (ORDER * (ORDER + 1) * last(x) ** 2)
-    gaps = x[:, None] - x + np.eye(len(x))
-    level = last(x)
-    matrix = level[:, None] / level / gaps
+def _places() -> tuple[Array, Array, Array, Array]:
+    """Places in [0, 1] with both ends, their weights (Gauss; the ends have none), barycentric ones, and the matrix that differentiates."""
+    x, weights = leggauss(ORDER)
+    places = np.concatenate([[0.0], (x + 1) / 2, [1.0]])
+    gaps = places[:, None] - places + np.eye(len(places))
+    barycentric = 1 / np.prod(gaps, axis=1)
+    matrix = barycentric / barycentric[:, None] / gaps
     np.fill_diagonal(matrix, 0.0)
-    matrix[0, 0], matrix[-1, -1] = -ORDER * (ORDER + 1) / 4, ORDER * (ORDER + 1) / 4
-    return (x + 1) / 2, weights / 2, 2 * matrix
+    np.fill_diagonal(matrix, -np.sum(matrix, axis=1))
+    return places, np.concatenate([[0.0], weights / 2, [0.0]]), barycentric, matrix
 
 
-PLACES, WEIGHTS, DERIVATIVE = _lobatto()
+PLACES, WEIGHTS, BARYCENTRIC, DERIVATIVE = _places()
 
 
 @dataclass(frozen=True)
@@ -61,10 +61,25 @@ def crossings(nodes: Nodes, values: Array) -> Array:
     """Return where values change their sign, or begin or cease to be zero, (variants, most of them), NaN where there are fewer."""
     scale = np.max(np.abs(flat(values)), axis=1)[:, None, None]
     known = np.where(np.abs(values) <= STILL * scale, 0.0, values)
-    before, after = known[:, :, :-1], known[:, :, 1:]
-    crosses = np.sign(before) != np.sign(after)
-    count = int(np.max(np.sum(crosses, axis=(1, 2)), initial=0))
-    gap = np.diff(nodes.share, axis=2)
-    place = nodes.share[:, :, :-1] + gap * before / np.where(crosses, before - after, 1.0)
-    found: Array = np.sort(flat(np.where(crosses, place, np.nan)), axis=1)[:, :count]
+    variant, piece, place = np.nonzero(np.sign(known[:, :, :-1]) != np.sign(known[:, :, 1:]))
+    count = np.bincount(variant, minlength=len(values))
+    found = np.full((len(values), int(np.max(count, initial=0))), np.nan)
+    start, width = nodes.share[variant, piece, 0], nodes.share[variant, piece, -1] - nodes.share[variant, piece, 0]
+    order = np.arange(len(variant)) - np.repeat(np.cumsum(count) - count, count)
+    found[variant, order] = start + width * _zeros(known[variant, piece], place)
+    return found
+
+
+def _zeros(values: Array, place: Array) -> Array:
+    """Where the polynomial through values (rows, places) is zero, in [0, 1] and from a place to the next, by halving."""
+    rows = np.arange(len(values))
+    low, high, before = PLACES[place], PLACES[place + 1], values[rows, place]
+    for _ in range(HALVINGS):
+        middle = (low + high) / 2
+        terms = BARYCENTRIC / (middle[:, None] - PLACES)
+        inside = np.sum(terms * values, axis=1) * np.sum(terms, axis=1)
+        is_before = inside * before > 0
+        low, high = np.where(is_before, middle, low), np.where(is_before, high, middle)
+    rest = np.where(before == 0, PLACES[place], PLACES[place + 1])
+    found: Array = np.where((before == 0) | (values[rows, place + 1] == 0), rest, (low + high) / 2)
     return found

@@ -141,7 +141,7 @@ class Part:
     def _sized(self, duty: Duty) -> Taken:
         """The smallest bearing of the series that holds, for each variant; the largest where none does."""
         names = list(self.candidates())
-        static_forces = duty.greatest(self.of(names[0]).static_load)[:2]
+        static_forces = duty.greatest(self.of(names[0]).static_load)
         held = np.concatenate([self.holds(duty, name, static_forces) for name in names], axis=1)
         enough = np.asarray(held.any(axis=1))
         taken = tuple(names[index] for index in np.where(enough, np.argmax(held, axis=1), len(names) - 1))

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import dataclass, replace
 from typing import Any
 
@@ -9,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from diecut_report.plugins.rolling_bearing import formulas as f
-from diecut_report.plugins.rolling_bearing.factors import table_factors
+from diecut_report.plugins.rolling_bearing.factors import RATIOS, table_factors
 
 Array = NDArray[Any]
 
@@ -49,3 +50,15 @@ class Ratings:
         """Return the static equivalent load."""
         found: Array = np.asarray(f.static_load.function(radial, axial, self.x0, self.y0), dtype=float)
         return found
+
+    def bends(self, radial: Array, axial: Array) -> Iterator[Array]:
+        """Yield what changes its sign where the equivalent load has a corner or jumps between those of its factors."""
+        x, y, e = self.factors(axial)
+        yield axial - e * radial
+        yield x * radial + y * axial - radial
+
+    def bends_of_factors(self, axial: Array) -> Iterator[Array]:
+        """Yield what changes its sign where the factors have corners."""
+        if self.by_table:
+            relative = f.relative_axial.function(self.f0, axial, self.static)
+            yield from (relative - row for row in RATIOS)

@@ -15,7 +15,10 @@ def name_row(calc: Calculation, step: Step) -> None:
     """Put the parts of a row under names of their own."""
     if (step.numbered or step.named_by) and step.id in calc.values:
         row, names = calc[step.id], names_of(calc, step)
-        calc.values |= {each.name: row[:, [each.index]] for each in result_names(step, row.shape[1], names)}
+        made = result_names(step, row.shape[1], names)
+        calc.values |= {each.name: row[:, [each.index]] for each in made}
+        if step.named_by:
+            calc.row_of |= dict.fromkeys((each.name for each in made), step.id)
 
 
 def curves_of(calc: Calculation, step: ComputedCurve) -> dict[str, ComputedCurve]:
