@@ -145,6 +145,12 @@ config_argument = click.argument("config", type=click.Path(path_type=Path))
 @click.option(
     "--language", metavar="LANGUAGE", callback=_language, help="Language of the report, in place of the project's."
 )
+@click.option(
+    "--previous",
+    metavar="FILE",
+    type=click.Path(path_type=Path),
+    help="A former report, results, configuration or variant: mark what changed since, and add a page of it.",
+)
 @verdict.strict_option
 @common
 def report(
@@ -152,17 +158,21 @@ def report(
     folder: Path,
     formats: list[str],
     language: str | None,
+    previous: Path | None,
     strict: bool,
     folders: tuple[Path, ...],
     quiet: bool,
 ) -> int:
     """Calculate and write NAME.html, NAME.pdf and NAME.json."""
     from diecut_report import pipeline
+    from diecut_report.exchange.sides import side
     from diecut_report.study.analysis.assumed import moves
 
     with Progress(quiet) as progress, redirect_stdout(sys.stderr):
         discovery = Discovery(folders)
-        outcome = pipeline.report(source(config, discovery), discovery, progress, folder, formats, language, moves)
+        former = None if previous is None else side(source(previous, discovery), discovery, progress)[0]
+        given = source(config, discovery)
+        outcome = pipeline.report(given, discovery, progress, folder, formats, language, moves, former)
     if not quiet:
         tell(f"written: {path}" for path in outcome.written)
     return _verdict(outcome, quiet, strict)

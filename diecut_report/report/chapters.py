@@ -109,6 +109,7 @@ class _Filler:
         row_of = QuantityRow(
             shown.description, shown.symbol, shown.value, shown.unit,
             typed=typed, origin=self._origin(row["origin"], path, typed), key=key, wordy=shown.wordy,
+            changed=shown.changed,
         )  # fmt: skip
         return rested(row_of, row, self.words)
 
@@ -150,6 +151,7 @@ class _Filler:
             if item.get("equation") or item["type"] in ("found", "reduction", "lookup")
             else item["result"]["text"],
             notes=tuple(self._notes(item, told)),
+            changed=item.get("changed", ""),
         )
 
     def _definitions(self, item: Data) -> Iterator[Equation]:
@@ -250,6 +252,7 @@ class _Filler:
             is_sized=check.get("sized_to_limit", False) and check["status"] == "pass",
             missing=tuple(check.get("missing", ())),
             parts=self.tables.of_check(check) if "parts" in check else None,
+            changed=check.get("changed", ""),
         )
 
     def _side(self, display: Data | None) -> str:

@@ -91,7 +91,7 @@ def document(results: Data, equations: Equations, words: Catalogue) -> ReportDoc
         config=results["config"],
         words=words,
         assumed=assumed_line(results, words),
-        contents=list(_contents(chapters, words)),
+        contents=list(_contents(chapters, words, results.get("changes"))),
     )
 
 
@@ -184,9 +184,22 @@ def _sources(results: Data) -> list[tuple[str, str]]:
     )
 
 
-def _contents(chapters: list[PrintedChapter], words: Catalogue) -> Iterator[tuple[str, str, str, int]]:
+def former(changes: Data, words: Catalogue) -> str:
+    """The title of what changed since the former document, which its revision names, or its file."""
+    old, new = changes["old"], changes["new"]
+    is_revision = old["revision"] and old["revision"] != new["revision"]
+    return words.say(
+        "changes_since_revision" if is_revision else "changes_since", name=old["revision" if is_revision else "file"]
+    )
+
+
+def _contents(
+    chapters: list[PrintedChapter], words: Catalogue, changes: Data | None
+) -> Iterator[tuple[str, str, str, int]]:
     """Anchor, number, title and depth of all that has a heading."""
     yield "summary", "1", words["summary"], 1
+    if changes:
+        yield "changes", "", former(changes, words), 1
     yield "press", "2", words["press_data"], 1
     for part in chapters:
         yield part.anchor, part.letter, part.title, 1

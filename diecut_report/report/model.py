@@ -33,6 +33,7 @@ class QuantityRow:
     key: str = ""
     wordy: bool = False
     note: str = ""
+    changed: str = ""  # what stood here before, where that is another thing
 
 
 @dataclass(frozen=True)
@@ -61,6 +62,7 @@ class CheckRow:
     is_sized: bool = False
     missing: tuple[str, ...] = ()
     parts: PartsTable | None = None
+    changed: str = ""
 
     @property
     def is_made(self) -> bool:
@@ -103,6 +105,7 @@ class Item:
     text: str = ""
     notes: tuple[str, ...] = ()
     table: PrintedTable | None = None
+    changed: str = ""
 
 
 @dataclass(frozen=True)
@@ -122,6 +125,7 @@ class TableCell:
     text: str
     note: str = ""
     wordy: bool = False
+    changed: str = ""
 
 
 @dataclass(frozen=True)
@@ -230,6 +234,7 @@ def quantity_row(row: Data, decimal: str, description: str = "") -> QuantityRow:
         at=place,
         key=row.get("path", ""),
         wordy=is_words(shown["text"]) and not pretty(shown["unit"]),
+        changed=row.get("changed", ""),
     )
 
 
