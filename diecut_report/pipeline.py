@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 from diecut_report.config.discovery import Discovery
 from diecut_report.config.loader import Config, examined, in_order, load_config
+from diecut_report.config.own_tables import Find
 from diecut_report.config.yaml_tree import Tree
 from diecut_report.errors import PluginError, Problem, UserError
 from diecut_report.limits import MAX_PRINTED_MECHANISMS
@@ -66,10 +67,14 @@ def validate(config: Source, discovery: Discovery) -> tuple[PluginError, ...]:
 
 
 def calc(
-    config: Source, discovery: Discovery, tell: Tell, target: Path | None = None, weigh: Weigh | None = None
-) -> tuple[ReportOutcome, str]:
-    """The results document and its text; written to ``target`` if there is one. ``weigh`` is as for a report."""
-    results, broken, _ = _calculated(config, discovery, tell, weigh=weigh)
+    config: Source, discovery: Discovery, tell: Tell, target: Path | None = None, weigh: Weigh | None = None,
+    find: Find | None = None,
+) -> tuple[ReportOutcome, str]:  # fmt: skip
+    """The results document and its text; written to ``target`` if there is one.
+
+    ``weigh`` is as for a report; ``find`` says where tables are that the configuration names, where they are not beside it.
+    """
+    results, broken, _ = _calculated(config, discovery, tell, weigh=weigh, find=find)
     text = results_text(results)
     if target is not None:
         _write({target: encoded(text)}, config, through=True)
@@ -110,10 +115,11 @@ def _refuse_many_sheets(config: Config, formats: Sequence[str]) -> None:
 
 
 def _calculated(
-    source: Source, discovery: Discovery, tell: Tell, formats: Sequence[str] = (), weigh: Weigh | None = None
-) -> tuple[Data, tuple[PluginError, ...], Places]:
+    source: Source, discovery: Discovery, tell: Tell, formats: Sequence[str] = (), weigh: Weigh | None = None,
+    find: Find | None = None,
+) -> tuple[Data, tuple[PluginError, ...], Places]:  # fmt: skip
     tell("reading the configuration")
-    config = load_config(source, discovery)
+    config = load_config(source, discovery, find=find)
     _refuse_many_sheets(config, formats)
     from diecut_report.results.document import document  # with the engine, which checking alone does not need
     from diecut_report.results.press_run import compute

@@ -77,7 +77,7 @@ class OwnTables:
         return tables
 
     def _file(self, name: Any, place: ConfigPlace, key: KeyPath, find: Find) -> None:
-        if fault := _name_fault(name):
+        if fault := name_fault(name):
             self.problems.append(place.problem(key, fault))
             return
         path = find(name)
@@ -164,7 +164,8 @@ class _Reader:
         self.problems.append(self.place.problem(key, words))
 
 
-def _name_fault(name: Any) -> str:
+def name_fault(name: Any) -> str:
+    """Return what is wrong with the name of a file of tables; "" where it leads to a YAML file beside the configuration or below."""
     if not isinstance(name, str):
         return f"is {told(name)}; the name of a YAML file is needed, such as my_steels.yaml, or a list of such names"
     windows = PureWindowsPath(name)

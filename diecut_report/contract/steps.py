@@ -286,11 +286,16 @@ class Phase(Step):
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class Prepared(Step):
-    """Declare an object that plain code makes of a machine once (``for_many``: of many at once) of those of ``holds`` that there are."""
+    """Declare an object that plain code makes of a machine once (``for_many``: of many at once) of those of ``holds`` that there are.
+
+    With ``again`` it also gets, by that name, what calculates the same machines with other inputs: ``known["again"]({"diameter":
+    array}, rows, ["safety"])`` gives the quantities (machines,) of the variants ``rows``, each with its own values of the inputs.
+    """
 
     function: Callable[..., Any]
     holds: tuple[str, ...]
     for_many: bool = False
+    again: bool = False
 
 
 class SilentStep(Step):

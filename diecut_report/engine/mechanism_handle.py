@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
+from functools import cached_property
 
 import numpy as np
 
@@ -42,7 +43,7 @@ class MechanismHandle(TakenWhole):
         """Return how many variants it stands for."""
         return self.calculation.count
 
-    @property
+    @cached_property
     def phases(self) -> dict[str, PhaseHandle]:
         """Return the phases that it has, by their names."""
         calc = self.calculation

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
-from functools import lru_cache
+from functools import cached_property, lru_cache
 from types import MappingProxyType
 
 import numpy as np
@@ -59,7 +59,11 @@ class PhaseHandle(TakenWhole):
 
     def intervals(self, row: int | None = None) -> Intervals:
         """Return its intervals, SI; none where the machine does not have it."""
-        return intervals(self.calculation, self.name, self.row if row is None else row)
+        return self._own if row is None or row == self.row else intervals(self.calculation, self.name, row)
+
+    @cached_property
+    def _own(self) -> Intervals:
+        return intervals(self.calculation, self.name, self.row)
 
 
 def phases_of(calc: Calculation) -> Mapping[str, Phase]:

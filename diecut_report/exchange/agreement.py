@@ -10,8 +10,9 @@ from typing import Any
 CLOSE = 1e-9  # relative: other processors and libraries round differently in the last digits
 NOISE = 1e-12  # of the greatest value of a list, below which nothing but rounding is left
 TINY = 1e-15
-ORDER = ("status", "summary", "governing", "checks", "outputs", "inputs", "values", "phases", "curves")
+ORDER = ("status", "summary", "governing", "inputs", "checks", "outputs", "values", "phases", "curves")
 """The parts of results from the most important on; what is not named here comes last."""
+WORDS = ("text", "message")
 
 Value = Any
 NOWHERE = object()
@@ -26,11 +27,11 @@ class Difference:
     second: Value
 
     @property
-    def order(self) -> int:
-        """Return by what differences are sorted."""
+    def order(self) -> tuple[int, bool]:
+        """Return by what differences are sorted: the part of the results, and last the words, which follow from the numbers."""
         parts = self.path.split(".")
         named = [ORDER.index(part) for part in (parts[0], *parts[2:3]) if part in ORDER]
-        return named[0] if named else len(ORDER)
+        return named[0] if named else len(ORDER), parts[-1] in WORDS
 
 
 @dataclass

@@ -6,14 +6,16 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, Literal
 
+from diecut_report.config.own_tables import name_fault
 from diecut_report.errors import Problem, UserError
 from diecut_report.exchange.html_links import linked_results
 from diecut_report.exchange.results_form import results_of
 from diecut_report.given_files import content
-from diecut_report.results.results_file import config_content
+from diecut_report.results.results_file import config_content, table_contents
 
 MOST = 200_000_000  # bytes of a report
 MOST_RESULTS = 100_000_000  # bytes of the results in it
+LONGEST_NAME = 255  # of a file, in bytes
 BLANK = b" \t\r\n"
 BOM = b"\xef\xbb\xbf"
 Form = Literal["pdf", "html", "json"]
@@ -21,7 +23,10 @@ Form = Literal["pdf", "html", "json"]
 
 @dataclass(frozen=True)
 class CarriedResults:
-    """Hold the results of a file, the bytes of their own file, and those of the configuration; ``content`` is the whole file."""
+    """Hold the results of a file, the bytes of their own file, and those of the configuration; ``content`` is the whole file.
+
+    ``tables`` are the user's own that the configuration names, by these names, which lead nowhere but beside it and below.
+    """
 
     path: Path
     form: Form
@@ -29,6 +34,7 @@ class CarriedResults:
     results: dict[str, Any]
     results_content: bytes
     config_content: bytes
+    tables: dict[str, bytes]
 
 
 def carried_results(path: Path) -> CarriedResults:
@@ -40,7 +46,8 @@ def carried_results(path: Path) -> CarriedResults:
         raise UserError(Problem(words, str(path)))
     found = _results_content(whole, form, str(path))
     results = results_of(found, str(path))
-    return CarriedResults(path, form, whole, results, found, _config(whole, form, results, str(path)))
+    config, tables = _config(whole, form, results, str(path)), _tables(results, str(path))
+    return CarriedResults(path, form, whole, results, found, config, tables)
 
 
 def form_of(whole: bytes) -> Form | None:
@@ -78,4 +85,16 @@ def _config(whole: bytes, form: Form, results: dict[str, Any], file: str) -> byt
     if form == "pdf" and _attached(whole, "config.yaml", file) not in (None, found):
         words = "The configuration that is attached is not the one in the attached results. Somebody has exchanged one of the two."
         raise UserError(Problem(words, file))
+    return found
+
+
+def _tables(results: dict[str, Any], file: str) -> dict[str, bytes]:
+    found = table_contents(results)
+    faults = [Problem(f"The name of a table {fault}.", file) for name in found if (fault := name_fault(name))]
+    long = [name for name in found if max(len(part.encode()) for part in Path(name).parts) > LONGEST_NAME]
+    faults += [
+        Problem(f"The name of a table is longer than {LONGEST_NAME} bytes: {name[:80]}….", file) for name in long
+    ]
+    if faults:
+        raise UserError(faults)
     return found

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+from collections.abc import Iterator, Mapping
 from pathlib import Path
 
 from diecut_report.errors import Problem, UserError
@@ -12,19 +13,31 @@ from diecut_report.given_files import content
 
 
 def extract(report: Path, folder: Path) -> list[Path]:
-    """Write ``STEM.yaml`` and ``STEM.json`` of a report into a folder; the files. One that is there with another content is kept.
+    """Write ``STEM.yaml`` and ``STEM.json`` of a report into a folder, and the tables that the configuration names; the files.
 
-    UserError where the report carries nothing that can be read, or where it would write over something.
+    One that is there already stays as it is. UserError where it has another content, or where the report carries nothing that can
+    be read.
     """
     found = carried_results(report)
-    contents = {".yaml": found.config_content, ".json": found.results_content}
-    files = {folder / f"{report.stem}{ending}": each for ending, each in contents.items()}
-    others = [path for path, each in files.items() if os.path.lexists(path) and not _is_same(path, each)]
-    if others:
-        words = "There is another file of this name. It is not written over: choose another folder with -o."
-        raise UserError([Problem(words, str(path)) for path in others])
+    contents = {f"{report.stem}.yaml": found.config_content, f"{report.stem}.json": found.results_content}
+    if doubled := sorted(contents.keys() & found.tables.keys()):
+        words = f"The configuration names a table {doubled[0]}, and would be called so itself. Rename the report."
+        raise UserError(Problem(words, str(report)))
+    files = {folder / name: each for name, each in (contents | found.tables).items()}
+    if problems := list(_refused(files, folder)):
+        raise UserError(problems)
     write_all({path: each for path, each in files.items() if not os.path.lexists(path)}, keep=report)
     return list(files)
+
+
+def _refused(files: Mapping[Path, bytes], folder: Path) -> Iterator[Problem]:
+    for path, wanted in files.items():
+        if os.path.lexists(path) and not _is_same(path, wanted):
+            words = "There is another file of this name. It is not written over: choose another folder with -o."
+            yield Problem(words, str(path))
+        elif not Path(os.path.realpath(path.parent)).is_relative_to(os.path.realpath(folder)):
+            words = "A link leads out of the folder here, and is not followed: choose another folder with -o."
+            yield Problem(words, str(path))
 
 
 def _is_same(path: Path, wanted: bytes) -> bool:

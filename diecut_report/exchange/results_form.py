@@ -9,7 +9,9 @@ from typing import Annotated, Any, Literal, NoReturn
 from pydantic import BaseModel, ConfigDict, Field, ValidationError
 
 from diecut_report.config.hidden_letters import CONTROL
+from diecut_report.config.own_tables import MOST as MOST_TABLES
 from diecut_report.errors import TOLD, Problem, UserError
+from diecut_report.limits import MAX_TEXT
 
 MOST_VALUES = 10_000_000  # of a results file
 ASK = "Give a results file as the program wrote it."
@@ -69,12 +71,18 @@ class MechanismForm(_Form):
     exports: list[ExportForm]
 
 
-class ConfigForm(_Form):
-    """The configuration in the results."""
+class FileForm(_Form):
+    """A file whose text stands in the results: a table of the user's own."""
 
-    file: str
+    file: Annotated[str, Field(max_length=MAX_TEXT)]
     sha256: str
     source_text: str
+
+
+class ConfigForm(FileForm):
+    """The configuration in the results."""
+
+    materials: Annotated[list[FileForm], Field(max_length=MOST_TABLES)] = []
 
 
 class PressForm(_Form):
@@ -134,22 +142,36 @@ def parsed(content: bytes, file: str) -> dict[str, Any]:
         raise UserError(Problem(f"The file holds more than {MOST_VALUES:,} values. {ASK}", file))
     try:
         found = json.loads(content, parse_constant=_refuse_constant, parse_float=_finite)
-    except (ValueError, RecursionError) as error:  # UnicodeDecodeError is a ValueError
-        told = "it is nested too deeply" if isinstance(error, RecursionError) else str(error)
-        raise UserError(Problem(f"This is not a JSON file that can be read: {told}. {ASK}", file)) from error
+    except (ValueError, RecursionError) as error:
+        raise UserError(Problem(f"This is not a JSON file that can be read: {_told(error)}. {ASK}", file)) from error
     if not isinstance(found, dict):
         raise UserError(Problem(f"This JSON file does not hold results. {ASK}", file))
     return found
 
 
+class _NotANumber(ValueError):
+    """Report a number that results cannot hold."""
+
+
+def _told(error: ValueError | RecursionError) -> str:
+    match error:
+        case RecursionError():
+            return "it is nested too deeply"
+        case UnicodeDecodeError():
+            return "it is not UTF-8 text"
+        case json.JSONDecodeError() | _NotANumber():
+            return str(error)
+    return "a whole number in it has too many digits"
+
+
 def _refuse_constant(name: str) -> NoReturn:
-    raise ValueError(f"it holds {name}, which is not a number")
+    raise _NotANumber(f"it holds {name}, which is not a number")
 
 
 def _finite(text: str) -> float:
     value = float(text)
     if math.isinf(value):
-        raise ValueError(f"it holds {text[:20]}, which is beyond the range of numbers")
+        raise _NotANumber(f"it holds {text[:20]}, which is beyond the range of numbers")
     return value
 
 

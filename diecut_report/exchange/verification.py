@@ -3,13 +3,17 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping
+from contextlib import contextmanager
 from dataclasses import dataclass, field
 from hashlib import sha256
+from pathlib import Path
+from tempfile import TemporaryDirectory
 from typing import Any
 
 from diecut_report import pipeline
 from diecut_report.config import yaml_tree
 from diecut_report.config.discovery import Discovery
+from diecut_report.config.own_tables import Find
 from diecut_report.config.yaml_tree import Tree
 from diecut_report.errors import PluginError
 from diecut_report.exchange.agreement import Agreement, agreement
@@ -23,6 +27,8 @@ Told = tuple[str, bool]  # what was found, in words, and whether it is as it sho
 SHORT = 12  # of a hash, as in a report
 OF_CODE = ("plugin_version", "plugin_sha256", "plugin_file")
 """What tells of the code and is held against the program's own apart from the numbers."""
+OF_DOCUMENT = ("program", "config", "mechanisms", "comparisons", "report", "changes")
+"""What is compared by itself, or is a choice of the document: how much it shows, and against which former one."""
 
 
 @dataclass
@@ -51,9 +57,9 @@ def verify(
     UserError where its configuration cannot be calculated any more.
     """
     results = carried.results
-    outcome, text = pipeline.calc(
-        _tree(carried), discovery, tell, weigh=weigh if "moves" in results["summary"] else None
-    )
+    weighing = weigh if "moves" in results["summary"] else None
+    with _tables(carried) as find:
+        outcome, text = pipeline.calc(_tree(carried), discovery, tell, weigh=weighing, find=find)
     again = parsed(encoded(text), "")
     program = _program(results["program"], again["program"])
     numbers = agreement(_numbers(results), _numbers(again))
@@ -73,6 +79,17 @@ def _tree(carried: CarriedResults) -> Tree:
     said = carried.results["config"]
     tree = yaml_tree.parse(said["source_text"], f"{carried.path} (its configuration)")
     return Tree(tree.root, tree.file, tree.text, sha256(carried.config_content).hexdigest(), said["file"])
+
+
+@contextmanager
+def _tables(carried: CarriedResults) -> Iterator[Find]:
+    """Where the tables are that the configuration names: those that the report carries, and none that lie beside it by chance."""
+    with TemporaryDirectory(prefix="diecut-report-") as folder:
+        places = {name: Path(folder) / f"{number}" / Path(name).name for number, name in enumerate(carried.tables)}
+        for name, path in places.items():
+            path.parent.mkdir()
+            path.write_bytes(carried.tables[name])
+        yield lambda name: places.get(name, Path(folder) / "not carried" / name)
 
 
 def _calculated(results: Data) -> Data:
@@ -115,19 +132,24 @@ def _told(code: tuple[str, str]) -> str:
 
 
 def _config(carried: CarriedResults) -> Told:
+    """Whether the configuration and its tables are those whose hashes the report names."""
     said = carried.results["config"]
-    found = sha256(carried.config_content).hexdigest()
-    if found == said["sha256"]:
-        return f"{said['file']}, SHA-256 {found[:SHORT]}: the one that the report names", True
-    return (
-        f"{said['file']} is not the one that the report names (SHA-256 {said['sha256'][:SHORT]}, found {found[:SHORT]})",
-        False,
-    )
+    contents = {said["file"]: carried.config_content} | carried.tables
+    hashes = {file["file"]: str(file["sha256"]) for file in (*said.get("materials", ()), said)}
+    for name, content in contents.items():
+        found = sha256(content).hexdigest()
+        if found != hashes[name]:
+            words = (
+                f"{name} is not the one that the report names (SHA-256 {hashes[name][:SHORT]}, found {found[:SHORT]})"
+            )
+            return words, False
+    ones = "the one" if len(contents) == 1 else "the ones"
+    return f"{', '.join(contents)}, SHA-256 {said['sha256'][:SHORT]}: {ones} that the report names", True
 
 
 def _numbers(results: Data) -> Data:
     """What must come out again: all but what tells of the code and of the file, and what only the document has."""
-    kept = {key: part for key, part in results.items() if key not in ("program", "config", "mechanisms", "comparisons")}
+    kept = {key: part for key, part in results.items() if key not in OF_DOCUMENT}
     kept["project"] = {key: part for key, part in results["project"].items() if key != "language"}
     for group in ("mechanisms", "comparisons"):
         mechanisms = results.get(group, {})

@@ -8,7 +8,6 @@ from typing import Any, NamedTuple
 
 from markupsafe import Markup
 
-from diecut_report.quantities.formatting import number_text
 from diecut_report.report.model import utilisation
 from diecut_report.report.number_format import joined, number, quantity
 from diecut_report.report.symbols import symbol
@@ -100,9 +99,13 @@ def relative(share: float | None, decimal: str) -> str:
     if share is None or share == 0:
         return ""
     if 100 * share >= MOST_PER_CENT:
-        return f"× {number(number_text(1 + share, 3), decimal)}"
+        return f"× {number(_rounded(1 + share), decimal)}"
     sign = "+" if share > 0 else ""
-    return joined(sign + number(number_text(100 * share, 3), decimal), "%")
+    return joined(sign + number(_rounded(100 * share), decimal), "%")
+
+
+def _rounded(value: float) -> str:
+    return f"{float(f'{value:.3g}'):g}"
 
 
 def _bases(row: Data, words: Mapping[str, str]) -> str:

@@ -75,8 +75,8 @@ ENGLISH: dict[str, str] = {
     # programme
     "calculated_by": "Calculated by", "version": "version", "plugin": "Mechanism", "plugin_version": "Version", "kind": "Kind",
     "source_hash": "source", "extension": "Extension",
-    "carried": "Carried with this report", "carried_results": "Results", "attached": "attached to this PDF: {names}",
-    "verified": "diecut-report verify calculates again and tells what differs",
+    "carried": "Carried with this report", "carried_results": "Results", "attached": "attached to this PDF",
+    "verified": "diecut-report verify calculates it again and tells what differs.",
     "config_file": "Configuration file", "sha256": "SHA-256",
     "failed_text": "This mechanism could not be calculated.", "failed_comparison": "This comparison could not be calculated.",
     "skipped_text": "This mechanism was not calculated, since what it refers to was not.",

@@ -117,7 +117,7 @@ def _check_order(row: Row) -> tuple[float, ...]:
     before, after = (row[side] or {"status": "pass", "utilisation": None} for side in ("old", "new"))
     first = 0 if row["change"] == "worse" or (row["change"] == "added" and after["status"] == "fail") else 1
     known = before["utilisation"] is not None and after["utilisation"] is not None
-    step = abs(after["utilisation"] - before["utilisation"]) if known else math.inf
+    step = abs(after["utilisation"] - before["utilisation"]) if known else 0.0
     return first, ORDER.index(row["change"]), -max(_rank(before["status"]), _rank(after["status"])), -step
 
 
@@ -190,11 +190,13 @@ def _factor(row: Data) -> float:
 def _texts(before: Data | None, after: Data | None) -> list[str]:
     """Both values as neutral texts in their display unit, with so many digits that they can be told apart."""
     texts = [row["display"]["text"] if row else "" for row in (before, after)]
-    if before and after and texts[0] == texts[1] and _is_number(before["value"]) and _is_number(after["value"]):
-        for digits in range(5, MOST_DIGITS):
-            texts = [number_text(row["value"] / _factor(row), digits) for row in (before, after)]
-            if texts[0] != texts[1]:
-                break
+    if not (before and after and _is_number(before["value"]) and _is_number(after["value"])):
+        return texts
+    values = [row["value"] / _factor(row) for row in (before, after)]
+    for digits in range(5, MOST_DIGITS):
+        if float(texts[0]) != float(texts[1]):
+            break
+        texts = [number_text(value, digits) for value in values]
     return texts
 
 

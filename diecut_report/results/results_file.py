@@ -24,9 +24,18 @@ def encoded(text: str) -> bytes:
 
 def config_content(results: Mapping[str, Any]) -> bytes:
     """Return the configuration's file, byte for byte; its byte order mark, which its text does not hold, shows in its hash."""
-    content = encoded(results["config"]["source_text"])
+    return _content(results["config"])
+
+
+def table_contents(results: Mapping[str, Any]) -> dict[str, bytes]:
+    """Return the files of the user's own tables, byte for byte, by the names that the configuration gives them."""
+    return {table["file"]: _content(table) for table in results["config"].get("materials", ())}
+
+
+def _content(file: Mapping[str, Any]) -> bytes:
+    content = encoded(file["source_text"])
     marked = codecs.BOM_UTF8 + content
-    return marked if sha256(marked).hexdigest() == results["config"]["sha256"] else content
+    return marked if sha256(marked).hexdigest() == file["sha256"] else content
 
 
 def _lines(data: Any, depth: int, indent: str = "\n") -> str:

@@ -105,30 +105,32 @@ interlocks.words("interlock_verdict", verdicts, TIMING, each_part=True)
 
 station = Chapter("Clearance of the carriages", needs=("station",), absent="not calculated: station is not given",
                   text="The least height over all carriages, standing and moving, from the shape of the cylinder with its flat.")
-station.prepared("clearance", clearance_of, ("timing", *(f"station.{key}" for key in STATION)))
+station.prepared("clearance", clearance_of, ("timing", "main_period", *(f"lines.{key}" for key in LINES), *(f"station.{key}" for key in STATION)),
+                 for_many=True)
+station.prepared("least", lambda given: given["clearance"].least, ("clearance",), for_many=True)
 CLEARANCE = "search over the common period, refined to 1e-13 of it"
 
 
-def _is_below(clearance: LeastClearance) -> float:
-    return float(np.isfinite(clearance.height))
+def _is_below(least: LeastClearance) -> Any:
+    return np.isfinite(least.height)[:, None].astype(float)
 
 
-def _least(clearance: LeastClearance) -> float:
-    return clearance.height if np.isfinite(clearance.height) else 0.0
+def _least(least: LeastClearance) -> Any:
+    return np.where(np.isfinite(least.height), least.height, 0.0)[:, None]
 
 
-def _needed(cylinder: GivenMechanism) -> float:
-    height = cylinder.number("carriage_clearance")
+def _needed(cylinder: GivenMechanism) -> Any:
+    height = cylinder.numbers("carriage_clearance")
     if height is None:
         raise Refusal("station.cylinder", f"is {cylinder.name}, which has no carriage_clearance to hold the room against; give it there")
     return height
 
 
-station.computed("is_below", "k_Y", "1", "Whether a carriage is ever below the cylinder", _is_below, ("clearance",), "least height over the period",
+station.computed("is_below", "k_Y", "1", "Whether a carriage is ever below the cylinder", _is_below, ("least",), "least height over the period",
                  output=False)
-station.computed("clearance_least", "Y_min", "mm", "Least height that the cylinder leaves the carriages", _least, ("clearance",), CLEARANCE, digits=6,
+station.computed("clearance_least", "Y_min", "mm", "Least height that the cylinder leaves the carriages", _least, ("least",), CLEARANCE, digits=6,
                  exists=lambda is_below: is_below > 0)
-station.computed("clearance_angle", "Φ_Y", "deg", "Main-shaft angle at which that is", lambda clearance: clearance.angle, ("clearance",), CLEARANCE,
+station.computed("clearance_angle", "Φ_Y", "deg", "Main-shaft angle at which that is", lambda least: least.angle[:, None], ("least",), CLEARANCE,
                  digits=6, exists=lambda is_below: is_below > 0)
 station.computed("carriage_clearance", "c_r", "mm", "Clearance that the carriages need",
                  _needed, ("station.cylinder",), "as given to the cylinder's drive")
@@ -179,27 +181,29 @@ torques.computed_curve("greatest_torque", "M_g", "N*m", "Torque of the greatest 
 torques.reduction("torque_peak", "M_peak", "N*m", "Greatest size of the torque", "abs_max", of="main_shaft_torque")
 torques.reduction("torque_max", "M_max", "N*m", "Greatest driving torque", "max", of="main_shaft_torque")
 torques.reduction("torque_min", "M_min", "N*m", "Greatest braking torque", "min", of="main_shaft_torque")
-GREATEST = (("greatest_peak", "M_g,peak", "Greatest size of the torque of the greatest consumer alone", "abs_max"),
-            ("greatest_max", "M_g,max", "Its greatest driving torque", "max"), ("greatest_min", "M_g,min", "Its greatest braking torque", "min"))
-for name, symbol, words, operation in GREATEST:
-    torques.reduction(name, symbol, "N*m", words, operation, of="greatest_torque")
 torques.reduction("torque_mean", "M_mean", "N*m", "Mean torque", "mean", of="main_shaft_torque")
 torques.reduction("torque_rms", "M_rms", "N*m", "Root mean square torque", "rms", of="main_shaft_torque")
-torques.reduction("greatest_mean", "M_g,mean", "N*m", "Mean torque of the greatest consumer alone", "mean", of="greatest_torque")
-torques.reduction("greatest_rms", "M_g,rms", "N*m", "Root mean square torque of the greatest consumer alone", "rms", of="greatest_torque")
+for name, symbol, unit, words, figure in (
+    ("greatest_mean", "M_g,mean", "N*m", "Mean torque of the greatest consumer alone", "mean"),
+    ("greatest_rms", "M_g,rms", "N*m", "Root mean square torque of the greatest consumer alone", "rms"),
+    ("greatest_max", "M_g,max", "N*m", "Its greatest driving torque", "largest"),
+    ("greatest_min", "M_g,min", "N*m", "Its greatest braking torque", "least"),
+    ("greatest_fluctuation", "ΔE_g", "J", "Range of its excess energy", "fluctuation"),
+):
+    torques.computed(name, symbol, unit, words, lambda sum, figure=figure: sum.figure_of_greatest(figure), SUM,
+                     "Gauss–Legendre between the breakpoints; extremes within each smooth piece")
+torques.value("greatest_peak", "M_g,peak", "N*m", "Greatest size of the torque of the greatest consumer alone",
+              lambda greatest_max, greatest_min: np.maximum(greatest_max, -greatest_min))
 torques.value("power_mean", "N_mean", "kW", "Mean power at the main shaft", lambda torque_mean, main_shaft_speed: torque_mean * main_shaft_speed)
 torques.value("power_peak", "N_peak", "kW", "Peak power at the main shaft", lambda torque_peak, main_shaft_speed: torque_peak * main_shaft_speed)
 torques.value("greatest_power_mean", "N_g,mean", "kW", "Mean power of the greatest consumer alone",
               lambda greatest_mean, main_shaft_speed: greatest_mean * main_shaft_speed)
 torques.value("greatest_power_peak", "N_g,peak", "kW", "Peak power of the greatest consumer alone",
               lambda greatest_peak, main_shaft_speed: greatest_peak * main_shaft_speed)
-for name, symbol, of, unit_words in (("excess", "", "torque", "Energy taken above the mean, from the start of the period"),
-                                     ("greatest_excess", "g,", "greatest", "The same of the greatest consumer alone")):
-    curve = "main_shaft_torque" if of == "torque" else "greatest_torque"
-    torques.value(f"{name}_torque", f"ΔM_{symbol}x", "N*m", "Torque above its mean", bind(common.difference, quantity=curve, less=f"{of}_mean"), output=False)
-    torques.accumulated(f"{name}_energy", f"E_{symbol}x", "J", unit_words, of=f"{name}_torque")
+torques.value("torque_excess", "ΔM", "N*m", "Torque above its mean", lambda main_shaft_torque, torque_mean: main_shaft_torque - torque_mean,
+              output=False)
+torques.accumulated("excess_energy", "E_x", "J", "Energy taken above the mean, from the start of the period", of="torque_excess")
 torques.reduction("energy_fluctuation", "ΔE", "J", "Range of the excess energy over the common period", "range", of="excess_energy")
-torques.reduction("greatest_fluctuation", "ΔE_g", "J", "Range of the excess energy of the greatest consumer alone", "range", of="greatest_excess_energy")
 for name, symbol, words, quantity, by in (
     ("mean_ratio", "k_mean", "Mean of the sum to that of the greatest consumer", "torque_mean", "greatest_mean"),
     ("rms_ratio", "k_rms", "Root mean square of the sum to that of the greatest consumer", "torque_rms", "greatest_rms"),

@@ -67,7 +67,22 @@ class Torques:
     @cached_property
     def greatest(self) -> Any:
         """Return the number of the consumer that takes most in the mean, of each machine."""
-        return np.argmax(np.concatenate([each.mean for each in self.consumers], axis=1), axis=1)
+        return np.argmax(self._figures["mean"], axis=0)
+
+    @cached_property
+    def _figures(self) -> dict[str, Any]:
+        """Figures of each consumer's torque over its own turn, shapes (consumers, machines)."""
+        pieces = [each.pieces for each in self.consumers]
+        found = {
+            name: np.stack([getattr(each, name) for each in pieces]) for name in ("mean", "rms", "largest", "least")
+        }
+        periods = [TURN / float(each.torque.turns) for each in self.consumers]
+        excess = [each.excess.range * period for each, period in zip(pieces, periods, strict=True)]
+        return found | {"fluctuation": np.stack(excess)}
+
+    def figure_of_greatest(self, name: str) -> Any:
+        """Return a figure of the torque of the consumer that takes most, shape (machines, 1)."""
+        return np.take_along_axis(self._figures[name], self.greatest[None], axis=0)[0][:, None]
 
     def of_greatest(self, angle: Any, middle: Any, machine: Any) -> Any:
         """Return the torque of that consumer alone at main-shaft angles."""
@@ -92,7 +107,7 @@ class Motions:
 
 def torques_of(given: Mapping[str, Any]) -> Torques:
     """Return what takes torque from the main shaft: the lines with a torque, and constant consumers."""
-    lines = _lines(given)
+    lines = lines_of_all(given)
     known = {line.name: _torque(line) for line in lines}
     consumers = [
         Consumer(line.name, torque, line.efficiency) for line in lines if (torque := known[line.name]) is not None
@@ -105,7 +120,7 @@ def torques_of(given: Mapping[str, Any]) -> Torques:
 
 def motions_of(given: Mapping[str, Any]) -> Motions:
     """Return how the lines move, as far as it is known."""
-    lines, period = _lines(given), given["main_period"]
+    lines, period = lines_of_all(given), given["main_period"]
     ways = {line.name: way for line in lines if (way := _way(line)) is not None}
     energies = {line.name: curve for line in lines if (curve := _energy(line)) is not None}
     places = [each[0].joints(period) for each in ways.values()] + [each.joints(period) for each in energies.values()]
@@ -138,7 +153,8 @@ class Line:
         return ShaftCurve(of.values, of.breakpoints, self.turns, self.offset)
 
 
-def _lines(given: Mapping[str, Any]) -> list[Line]:
+def lines_of_all(given: Mapping[str, Any]) -> list[Line]:
+    """Return the lines of all machines."""
     timings: tuple[Timing | None, ...] = given["timing"] if isinstance(given["timing"], tuple) else (given["timing"],)
     offsets = [[0.0] * len(given["lines.mechanism"]) if each is None else each.offsets for each in timings]
     return [

@@ -13,7 +13,10 @@ class Section(Block):
     """A section of the shaft, from left to right; its fillet is that of the step at its right end."""
 
     length: Annotated[float, Quantity("l", "mm", "Length of the section", gt=0)]
-    diameter: Annotated[float, Quantity("d", "mm", "Diameter of the section", gt=0)]
+    diameter: Annotated[
+        float | None,
+        Quantity("d", "mm", "Diameter of the section; without it the least preferred one that holds is taken", gt=0),
+    ] = None
     bore: Annotated[float, Quantity("d_i", "mm", "Diameter of the section's bore", ge=0)] = 0
     fillet_radius: Annotated[
         float | None,

@@ -51,7 +51,7 @@ def _strength(table: StandardTable, grade: str, size: float) -> float:
 
 
 steel = Chapter("Steel", needs=("material",), text="The least strengths of the grade at the shaft's greatest diameter, of which it is made.")
-steel.total("greatest_diameter", "d_max", "mm", "Greatest diameter of the shaft", "max", of="sections.diameter", source="geometry")
+steel.total("greatest_diameter", "d_max", "mm", "Greatest diameter of the shaft", "max", of="section_diameter", source="geometry")
 for grade, sizes in SIZES.items():
     token = (f"material={grade}",)
     steel.require("size_known", bind(lambda diameter, limit: diameter <= limit * MILLIMETRE, diameter="greatest_diameter", limit=float(sizes[-1])),
@@ -63,7 +63,7 @@ for grade, sizes in SIZES.items():
                      source="EN 10083", needs=token)
 
 own_steel = Chapter("Steel", needs=("strengths",), text="The strengths that are given, at the shaft's greatest diameter, of which it is made.")
-own_steel.total("greatest_diameter", "d_max", "mm", "Greatest diameter of the shaft", "max", of="sections.diameter", source="geometry")
+own_steel.total("greatest_diameter", "d_max", "mm", "Greatest diameter of the shaft", "max", of="section_diameter", source="geometry")
 own_steel.total("greatest_size", "d_R,max", "mm", "Greatest diameter with known strengths", "max", of="strengths.diameter", source="input",
                 output=False)
 own_steel.computed("sizes_ascend", "k_R", "1", "Whether the diameters of the strengths ascend (1) or not (0)", ascends, ("strengths.diameter",),

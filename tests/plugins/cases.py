@@ -30,7 +30,8 @@ from tests.plugins.keys import OWN, TURNING
 from tests.plugins.keys import SIZED as SIZED_KEY
 from tests.plugins.platens import GUIDED
 from tests.plugins.presses import whole_press
-from tests.plugins.shafts import CRANKSHAFT, LAYSHAFT, STANDING
+from tests.plugins.shafts import CRANKSHAFT, LAYSHAFT, OWN_STEEL, STANDING
+from tests.plugins.shafts import SIZED as SIZED_SHAFT
 from tests.plugins.steppers import LOADED, PUBLISHED
 from tests.validation.rows_circular_knife import KEYS as CIRCULAR
 from tests.validation.rows_damper import WORKED as DAMPER
@@ -135,7 +136,7 @@ FULL: dict[str, dict[str, dict[str, Any]]] = {
         "curves": {"bearings": [bearings.SWINGING, bearings.WAVING, bearings.JUMPING, bearings.SOUGHT | {
             "axial_force": bearings.WAVING["axial_force"]}], "required_static_safety": 2, "n_points": 72},
     },
-    "shaft": {"crank": CRANKSHAFT | {"speed": 50}, "lay": LAYSHAFT, "standing": STANDING},
+    "shaft": {"crank": CRANKSHAFT | {"speed": 50}, "lay": LAYSHAFT, "standing": STANDING, "sized": SIZED_SHAFT, "own steel": OWN_STEEL},
 }  # fmt: skip
 WIDELY: dict[str, Ranges] = {
     "cam_gear_transport": {"dwell_angle": (1.5, 4.2), "sector_stop_sweep": (0.1, 0.6), "arm_length": (0.05, 0.1), "cycles_per_hour": (1, 2)},

@@ -51,6 +51,7 @@ from diecut_report.engine.steps import (
     prefetch,
     smooth_pieces,
 )
+from diecut_report.engine.steps.again import Again
 from diecut_report.engine.steps.soundness import finite, mark, possible, prove, whole
 from diecut_report.expressions import Array
 from diecut_report.quantities.formatting import told
@@ -204,7 +205,9 @@ def _from_curve(calc: Calculation, step: FromCurve) -> None:
 
 
 def _prepared(calc: Calculation, step: Prepared) -> None:
-    known = {name: calc[name] for name in step.holds if name in calc.values or name in calc.inputs}
+    known: dict[str, Any] = {n: calc[n] for n in step.holds if n in calc.values or n in calc.inputs}
+    if step.again:
+        known["again"] = Again(calc, calculate)
     alone = calc.count == 1 or step.for_many
     calc.inputs[step.id] = _called(step, [known]) if alone else one_by_one.prepared(calc, step, known)
 

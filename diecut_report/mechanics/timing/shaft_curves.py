@@ -8,14 +8,17 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from fractions import Fraction
+from functools import cached_property
 from math import ceil
 
 import numpy as np
 
 from diecut_report.expressions import Array
+from diecut_report.mechanics.timing.piece_rows import PieceRows
 from diecut_report.mechanics.timing.turn_samples import Curve, TurnSamples
 
 TURN = 2 * np.pi
+PIECES = 8  # of a line's turn, at least
 
 
 @dataclass(frozen=True, eq=False)
@@ -79,17 +82,23 @@ class Consumer:
         efficiency = self.efficiency if machine is None or len(self.efficiency) == 1 else self.efficiency[machine]
         return float(self.torque.turns) * with_losses(self.torque.at(angle, middle, machine), efficiency)
 
-    @property
-    def mean(self) -> Array:
-        """Return its mean at the main shaft (N·m), shape (machines, 1), nearly."""
+    @cached_property
+    def _reversals(self) -> Array:
+        """Shares of its own turn where it changes its sign, so that losses turn over."""
+        lossless = bool((self.efficiency == 1).all())
+        return np.zeros((len(self.efficiency), 0)) if lossless else self.torque.samples.sign_changes
+
+    @cached_property
+    def pieces(self) -> PieceRows:
+        """Return its torque at the main shaft over shares of its own turn, of all machines."""
+        turns, count = float(self.torque.turns), len(self.efficiency)
 
         def carried(share: Array, middle: Array, machine: Array) -> Array:
-            efficiency = self.efficiency if len(self.efficiency) == 1 else self.efficiency[machine]
-            return with_losses(self.torque.function(share, middle, machine), efficiency)
+            return turns * with_losses(self.torque.function(share, middle, machine), self.efficiency[machine])
 
-        return float(self.torque.turns) * TurnSamples(carried, self.torque.breakpoints).mean
+        own = np.broadcast_to(self.torque.breakpoints, (count, self.torque.breakpoints.shape[1]))
+        return PieceRows.of(carried, np.concatenate([own, self._reversals], axis=1), PIECES)
 
     def joints(self, period: Array) -> Array:
-        """Return the main-shaft angles where its torque is not smooth: losses turn over where it changes its sign."""
-        lossless = bool((self.efficiency == 1).all())
-        return self.torque.joints(period, None if lossless else self.torque.samples.sign_changes)
+        """Return the main-shaft angles where its torque is not smooth."""
+        return self.torque.joints(period, self._reversals)

@@ -1,4 +1,4 @@
-"""What is read from curves over a turn of many machines at once: where they change their sign, their mean and their range.
+"""What is read from curves over a turn of many machines at once: where they change their sign, and their range.
 
 A curve is a function of places (rows, points), the middles (rows, 1) of the smooth pieces that they lie in, and the machine
 (rows,) of each row; places are shares of the turn.
@@ -19,7 +19,7 @@ Curve = Callable[[Array, Array, Array], Array]
 PIECES = 16  # of a turn, at least
 COUNT = 12  # Gauss–Legendre places in a piece
 NARROW = 1e-12  # of a turn: a piece that is no wider holds nothing
-NODES, WEIGHTS = np.polynomial.legendre.leggauss(COUNT)
+NODES = np.polynomial.legendre.leggauss(COUNT)[0]
 SHARES = (np.concatenate([[-1.0], NODES, [1.0]]) + 1) / 2
 ACROSS = np.linspace(0, 1, 17)  # places of a closer look
 LOOKS = 4  # each makes a bracket narrower by 1/16, or by 1/8 about an extreme
@@ -53,13 +53,6 @@ class TurnSamples:
         machine, low, high = self._pieces
         found = self.curve(places, ((low + high) / 2)[piece][:, None], machine[piece])
         return np.broadcast_to(found, places.shape)
-
-    @property
-    def mean(self) -> Array:
-        """Return the mean over the turn, shape (machines, 1); of a curve with a corner in a piece about its mean."""
-        machine, low, high = self._pieces
-        parts = self._places[1][:, 1:-1] @ WEIGHTS / 2 * (high - low)
-        return np.bincount(machine, parts, len(self.breakpoints))[:, None]
 
     @property
     def sign_changes(self) -> Array:
