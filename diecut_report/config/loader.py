@@ -57,25 +57,22 @@ class Config:
         return {"program": program_hash(), **dict(sorted((plugins | extensions).items()))}
 
 
-def load_config(given: Path | Tree, discovery: Discovery, *, only_named: bool = False) -> Config:
-    """Read and validate a configuration; UserError with all its problems. A broken plugin is kept in ``broken``.
-
-    What runs by itself is added, unless ``only_named`` mechanisms are wanted.
-    """
-    config, problems = examined(given, discovery, only_named=only_named)
+def load_config(given: Path | Tree, discovery: Discovery) -> Config:
+    """Read and validate a configuration, with what runs by itself; UserError with all its problems. A broken plugin is kept in ``broken``."""
+    config, problems = examined(given, discovery)
     if problems:
         raise UserError(in_order(problems))
     return config
 
 
-def examined(given: Path | Tree, discovery: Discovery, *, only_named: bool = False) -> tuple[Config, list[Problem]]:
+def examined(given: Path | Tree, discovery: Discovery) -> tuple[Config, list[Problem]]:
     """Return a configuration as far as it can be read, with all that is wrong with it; UserError where it cannot be read at all."""
     tree = given if isinstance(given, Tree) else yaml_tree.load(given)
     _refuse_study(tree)
     if excess := too_much(tree):
         raise UserError(excess)
     discovery.extend()
-    reader = _ConfigReader(tree, discovery, only_named)
+    reader = _ConfigReader(tree, discovery)
     linker = linked(reader.instances)
     order, loops = ordered(reader.instances, linker.links)
     problems = [*reader.problems, *linker.problems, *_wrong_values(reader, linker), *loops]
@@ -105,7 +102,6 @@ class _ConfigReader:
 
     tree: Tree
     discovery: Discovery
-    only_named: bool
     instances: dict[str, Instance | None] = field(default_factory=dict)
     kinds: dict[str, str] = field(default_factory=dict)
     broken: dict[str, PluginError] = field(default_factory=dict)
@@ -126,7 +122,7 @@ class _ConfigReader:
         for name, body in mechanisms.items() if isinstance(mechanisms, dict) else []:
             self.instances.setdefault(name, None)
             self._mechanism(name, body, ConfigPlace(self.tree, ("mechanisms", name)))
-        for kind in () if self.only_named else partners.BY_THEMSELVES:
+        for kind in partners.BY_THEMSELVES:
             self._by_itself(kind)
         for name in self.with_partners:
             self._take_from_partners(name)

@@ -113,7 +113,14 @@ class CodeForm:
         **when: Unpack[StepCondition],
     ) -> None:  # fmt: skip
         """Declare curves of named parts that plain code gives: see ``PartCurves``."""
-        own: dict[str, Any] = {"names": names, "function": function, "of": of, "abscissa": abscissa, "method": method, "joints": joints}
+        own: dict[str, Any] = {
+            "names": names,
+            "function": function,
+            "of": of,
+            "abscissa": abscissa,
+            "method": method,
+            "joints": joints,
+        }
         self.add(PartCurves(id=id, symbol=symbol, unit=unit, description=description, **own, **when))
 
     def fact(self: StepHolder, id: str, condition: Written, words: str, **when: Unpack[StepCondition]) -> None:

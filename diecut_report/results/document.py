@@ -37,7 +37,9 @@ def document(run: Run) -> Data:
     mechanisms = with_origins({name: _mechanism_data(run, name) for name in config.instances if name != PRESS})
     comparisons = {case.name: _comparison_data(run, case) for case in run.cases}
     found = [data["status"] for data in mechanisms.values()]
-    status = worst("fail" if each == "skipped" else each for each in found)  # without an error: what it needs does not hold
+    status = worst(
+        "fail" if each == "skipped" else each for each in found
+    )  # without an error: what it needs does not hold
     return {
         "schema_version": 1,
         "program": {"name": "diecut-report", "version": __version__, **_code(config)},

@@ -110,9 +110,7 @@ GIVEN = Provenance("given")
 def absent(calc: Calculation, provenance: Mapping[str, Provenance]) -> list[Data]:
     """Return what is not calculated, and checks for which a limit is given that nothing can be held against, in words."""
     unmade = [s for s in calc.mechanism.chapters if not calc.given.issuperset(s.needs)]
-    left_out = [
-        {"title": s.title, "text": words} for s in unmade if (words := facts.unmet(calc, s.needs) or s.absent)
-    ]
+    left_out = [{"title": s.title, "text": words} for s in unmade if (words := facts.unmet(calc, s.needs) or s.absent)]
     checks = checks_of(calc)
     made = {check.id for check in checks if applies(calc, check) or missing(calc, check)}
     idle = [

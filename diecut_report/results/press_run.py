@@ -87,7 +87,10 @@ class Run:
             values = [self._term(single) for single in target.single]
             value = self._computed(target, values) if target.expression else values[0]
             self.values[node] = self._derived(instance, node, target, value) if target.formula else value
-        except (Unavailable, Withheld) as fault:  # what needs it is skipped; what only holds it against others does without
+        except (
+            Unavailable,
+            Withheld,
+        ) as fault:  # what needs it is skipped; what only holds it against others does without
             if node[1] in instance.derived:
                 self.values[node] = None
             elif isinstance(fault, Withheld):
@@ -159,7 +162,9 @@ class Run:
         own = {node: target for node, target in links.items() if node[0] == name}
         if instance is None or name in self.errors:
             return
-        needed = [each.instance for node, target in own.items() if node[1] not in instance.derived for each in target.single]
+        needed = [
+            each.instance for node, target in own.items() if node[1] not in instance.derived for each in target.single
+        ]
         unusable = [name for name in needed if name in self.errors or name in self.skipped]
         missing = [node for node in own if node not in self.values]
         if instance.mechanism is None:

@@ -134,7 +134,10 @@ def moving(view: View) -> list[Shape]:
     """The ways of the lines, each in a panel of its own, and the room over the carriages where it is known where they stand."""
     motions: Motions = view.prepared("motions")
     main = _angles(view.prepared("timing"))
-    ways = [(f"Way of {name}", line(main, motions.ways.one(k, main[None], main[None], None)[0], name)) for k, name in enumerate(motions.ways.names)]
+    ways = [
+        (f"Way of {name}", line(main, motions.ways.one(k, main[None], main[None], None)[0], name))
+        for k, name in enumerate(motions.ways.names)
+    ]
     panels = [chart_panel(title, "mm", *AXIS, lines=[drawn]) for title, drawn in ways]
     return [*panels, *_slack(view.prepared("timing"))]
 

@@ -15,7 +15,7 @@ from diecut_report.plugins.cyclogram.inputs import Passage
 from diecut_report.plugins.cyclogram.kinds import POSITION, STEP
 
 TURN = 2 * pi
-CLOSE = {"xatol": 1e-14, "xrtol": 4e-16, "fatol": 0.0, "frtol": 0.0}
+CLOSE: Any = {"xatol": 1e-14, "xrtol": 4e-16, "fatol": 0.0, "frtol": 0.0}
 LONGER = 1 + 1e-12  # by which rounding may let a way pass its step
 
 
@@ -33,16 +33,21 @@ class Stretch:
 
     def of_machine(self, row: int) -> Stretch:
         """Return the stretch in one of the machines."""
-        parts = {name: _of_row(getattr(self, name), row) for name in ("every", "first", "start", "end", "begins", "ends")}
+        parts = {
+            name: _of_row(getattr(self, name), row) for name in ("every", "first", "start", "end", "begins", "ends")
+        }
         return replace(self, **parts)
 
     def require(self, mechanism: GivenMechanism, key: str) -> None:
         """Raise Refusal in words where there is no such stretch in the (only) machine."""
         step = mechanism.number(STEP)
         if step is None or not is_known(mechanism):
-            raise Refusal(key, f"tells what the sheet passes, but the way of the sheet is not known in {mechanism.name}")
+            raise Refusal(
+                key, f"tells what the sheet passes, but the way of the sheet is not known in {mechanism.name}"
+            )
         if not self.start < self.end <= step * LONGER:
-            words = f"goes from {told(self.start, 'mm', 6)} to {told(self.end, 'mm', 6)}; it must go forward, and no further than the step of {told(step, 'mm')}"
+            way = f"goes from {told(self.start, 'mm', 6)} to {told(self.end, 'mm', 6)}"
+            words = f"{way}; it must go forward, and no further than the step of {told(step, 'mm')}"
             raise Refusal(key, words)
 
 
@@ -60,13 +65,16 @@ def stretches(given: Mapping[str, Any]) -> tuple[tuple[Stretch, ...], ...]:
     mechanisms = given["lines.mechanism"]
     passing = given.get("lines.passing") or ((),) * len(mechanisms)
     return tuple(
-        tuple(_stretch(mechanism, each) for each in own or ()) for mechanism, own in zip(mechanisms, passing, strict=True)
+        tuple(_stretch(mechanism, each) for each in own or ())
+        for mechanism, own in zip(mechanisms, passing, strict=True)
     )
 
 
 def _stretch(mechanism: Any, passage: Passage) -> Stretch:
     asked = [np.atleast_1d(np.asarray(getattr(passage, side), dtype=float)) for side in ("from", "to")]
-    places = _angles(mechanism, np.stack(np.broadcast_arrays(*asked), axis=1)) if _has_way(mechanism) else (np.nan, np.nan)
+    places = (
+        _angles(mechanism, np.stack(np.broadcast_arrays(*asked), axis=1)) if _has_way(mechanism) else (np.nan, np.nan)
+    )
     return Stretch(passage.name, passage.every, passage.first, *asked, *places)
 
 

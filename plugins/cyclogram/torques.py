@@ -55,7 +55,9 @@ class Torques:
     @cached_property
     def together(self) -> Together:
         """Return the torques of all consumers at the main shaft."""
-        return Together(tuple(each.name for each in self.consumers), tuple(each.at_main_shaft for each in self.consumers))
+        return Together(
+            tuple(each.name for each in self.consumers), tuple(each.at_main_shaft for each in self.consumers)
+        )
 
     @cached_property
     def joints(self) -> Any:
@@ -71,7 +73,9 @@ class Torques:
     def _figures(self) -> dict[str, Any]:
         """Figures of each consumer's torque over its own turn, shapes (consumers, machines)."""
         pieces = [each.pieces for each in self.consumers]
-        found = {name: np.stack([getattr(each, name) for each in pieces]) for name in ("mean", "rms", "largest", "least")}
+        found = {
+            name: np.stack([getattr(each, name) for each in pieces]) for name in ("mean", "rms", "largest", "least")
+        }
         periods = [TURN / float(each.torque.turns) for each in self.consumers]
         excess = [each.excess.range * period for each, period in zip(pieces, periods, strict=True)]
         return found | {"fluctuation": np.stack(excess)}
@@ -82,7 +86,11 @@ class Torques:
 
     def of_greatest(self, angle: Any, middle: Any, machine: Any) -> Any:
         """Return the torque of that consumer alone at main-shaft angles."""
-        chosen = self.greatest if machine is None else self.greatest[machine if len(self.greatest) > 1 else np.zeros_like(machine)]
+        chosen = (
+            self.greatest
+            if machine is None
+            else self.greatest[machine if len(self.greatest) > 1 else np.zeros_like(machine)]
+        )
         every = self.together.each(angle, middle, machine)
         return every[np.broadcast_to(chosen, len(angle)), np.arange(len(angle))]
 
@@ -105,7 +113,9 @@ def torques_of(given: Mapping[str, Any]) -> Torques:
         Consumer(line.name, torque, line.efficiency) for line in lines if (torque := known[line.name]) is not None
     ]
     consumers += [_friction(given, index) for index in range(len(given.get("friction.name", ())))]
-    return Torques(tuple(consumers), tuple(name for name, torque in known.items() if torque is None), given["main_period"])
+    return Torques(
+        tuple(consumers), tuple(name for name, torque in known.items() if torque is None), given["main_period"]
+    )
 
 
 def motions_of(given: Mapping[str, Any]) -> Motions:

@@ -13,7 +13,15 @@ from diecut_report.mechanics.timing.piece_rows import PieceRows
 TURN = 2 * np.pi
 CYLINDER = ("cylinder_inertia", "cylinder_mass", "cylinder_radius", "static_unbalance")
 CLUTCH = ("clutch_torque", "clutch_load", "clutch_speed")
-TAKES = ("cylinder_rotation", "cylinder_speed", "crank_speed", "dead_center_outer", "dead_center_inner", *CYLINDER, *CLUTCH)
+TAKES = (
+    "cylinder_rotation",
+    "cylinder_speed",
+    "crank_speed",
+    "dead_center_outer",
+    "dead_center_inner",
+    *CYLINDER,
+    *CLUTCH,
+)
 PIECES = 16  # of a turn of the crank, at least
 TOGETHER = 64  # machines whose engagements are tried together, as each takes many places
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Sequence
+from typing import Any
 
 import numpy as np
 
@@ -16,7 +17,7 @@ from diecut_report.expressions import Array
 
 def judge(calc: Calculation, step: Fact) -> None:
     """Note which variants do not meet a fact; where none does, the steps that need it take no part."""
-    missed = ~calc.apply(step.condition).astype(bool).all(axis=1)
+    missed: Array = calc.apply(step.condition)[:, 0] == 0
     if not missed.any():
         return
     calc.withheld[step.id] = missed
@@ -38,7 +39,8 @@ def blank(calc: Calculation) -> None:
         names = [] if row is None else [each.name for each in result_names(step, row.shape[1])]
         for name in {step.id, place_name(step.id), *names} & calc.values.keys():
             kept = calc.values[name]
-            calc.values[name] = np.where(missed[:, None], None if kept.dtype == object else np.nan, kept)
+            nothing: Any = None if kept.dtype == object else np.nan
+            calc.values[name] = np.where(missed[:, None], nothing, kept)
 
 
 def without(calc: Calculation, name: str) -> tuple[Array, str]:

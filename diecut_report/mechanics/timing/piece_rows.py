@@ -144,6 +144,9 @@ def _clenshaw(series: Array, x: Array) -> Array:
     """Values of Legendre series (…, terms) at x (…), by the recurrence of the polynomials from the highest on."""
     after, here = np.zeros_like(x), np.zeros_like(x)
     for degree in range(series.shape[-1] - 1, 0, -1):
-        after, here = here, series[..., degree] + (2 * degree + 1) / (degree + 1) * x * here - (degree + 1) / (degree + 2) * after
+        after, here = (
+            here,
+            series[..., degree] + (2 * degree + 1) / (degree + 1) * x * here - (degree + 1) / (degree + 2) * after,
+        )
     found: Array = series[..., 0] + x * here - after / 2
     return found

@@ -129,7 +129,7 @@ class _StudyReader:
             self.problems.append(self.place.problem(("base",), words))
             return None
         try:
-            base = load_config(path, self.discovery, only_named=True)
+            base = load_config(path, self.discovery)
         except UserError as error:
             words = "the base has problems, which are reported with its own name; what is varied in it is judged when they are fixed."
             self.problems += [self.place.problem(("base",), words), *error.problems]

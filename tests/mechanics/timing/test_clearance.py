@@ -15,7 +15,6 @@ from tests.examples import examples
 from tests.mechanics.timing.example_press import PERIOD, displacement, rotation, station
 
 
-
 def least(at: clearance.Station, transport: str, offset: float) -> clearance.LeastClearance:
     """The least height of one press with a transport at an offset."""
 
