@@ -181,7 +181,9 @@ def _changed(instance: Instance | None, values: Mapping[Input, Any]) -> Instance
         _put(data, key, value)
     declared_as = instance.mechanism.inputs if instance.mechanism else Press
     model = in_form(declared_as, [key for key, value in data.items() if value is not None])
-    return Instance(instance.name, model, data, instance.place, instance.mechanism, instance.bases)
+    changed = Instance(instance.name, model, data, instance.place, instance.mechanism, instance.bases)
+    changed.derived = instance.derived - {str(asked.key[0]) for asked in values if asked.instance == instance.name}
+    return changed
 
 
 def _put(data: Any, key: KeyPath, value: Any) -> None:
