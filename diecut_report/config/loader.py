@@ -60,23 +60,18 @@ class Config:
         return {"program": program_hash(), **dict(sorted((plugins | extensions).items()))}
 
 
-def load_config(
-    given: Path | Tree, discovery: Discovery, *, only_named: bool = False, find: Find | None = None
-) -> Config:
-    """Read and validate a configuration; UserError with all its problems. A broken plugin is kept in ``broken``.
+def load_config(given: Path | Tree, discovery: Discovery, *, find: Find | None = None) -> Config:
+    """Read and validate a configuration, with what runs by itself; UserError with all its problems. A broken plugin is kept in ``broken``.
 
-    What runs by itself is added, unless ``only_named`` mechanisms are wanted. ``find`` says where the tables are that the file
-    names, where they are not beside it.
+    ``find`` says where the tables are that the file names, where they are not beside it.
     """
-    config, problems = examined(given, discovery, only_named=only_named, find=find)
+    config, problems = examined(given, discovery, find=find)
     if problems:
         raise UserError(in_order(problems))
     return config
 
 
-def examined(
-    given: Path | Tree, discovery: Discovery, *, only_named: bool = False, find: Find | None = None
-) -> tuple[Config, list[Problem]]:
+def examined(given: Path | Tree, discovery: Discovery, *, find: Find | None = None) -> tuple[Config, list[Problem]]:
     """Return a configuration as far as it can be read, with all that is wrong with it; UserError where it cannot be read at all."""
     tree = given if isinstance(given, Tree) else yaml_tree.load(given)
     _refuse_study(tree)
@@ -84,7 +79,7 @@ def examined(
         raise UserError(excess)
     discovery.extend()
     tables = OwnTables.read(tree, find)
-    reader = _ConfigReader(tree, discovery, only_named, tables)
+    reader = _ConfigReader(tree, discovery, tables)
     linker = linked(reader.instances)
     order, loops = ordered(reader.instances, linker.links)
     problems = [*reader.problems, *tables.problems, *linker.problems, *_wrong_values(reader, linker), *loops]
@@ -114,7 +109,6 @@ class _ConfigReader:
 
     tree: Tree
     discovery: Discovery
-    only_named: bool
     tables: OwnTables
     instances: dict[str, Instance | None] = field(default_factory=dict)
     kinds: dict[str, str] = field(default_factory=dict)
@@ -136,7 +130,7 @@ class _ConfigReader:
         for name, body in mechanisms.items() if isinstance(mechanisms, dict) else []:
             self.instances.setdefault(name, None)
             self._mechanism(name, body, ConfigPlace(self.tree, ("mechanisms", name)))
-        for kind in () if self.only_named else partners.BY_THEMSELVES:
+        for kind in partners.BY_THEMSELVES:
             self._by_itself(kind)
         for name in self.with_partners:
             self._take_from_partners(name)
