@@ -33,6 +33,7 @@ from diecut_report.contract.figures import (
     radius_dimension,
     region,
 )
+from diecut_report.contract.from_tables import FromTable
 from diecut_report.contract.inputs import (
     POINTS,
     Block,
@@ -94,7 +95,7 @@ __all__ = [
     "GRAVITY", "POINTS", "Abscissa", "Accumulated", "Annotated", "BarGroup", "Bars", "Binding", "Block", "Bound", "Breakpoints", "ByText",
     "Case", "Cell", "Chapter", "Chart", "Check", "Choice", "Clash", "Comparison", "Computed", "ComputedCurve", "Constant", "Crossings",
     "Curve",
-    "CurveInput", "CurvePeriod", "Derivative", "Drawing", "Erratum", "Extremes", "Formula", "FromCurve", "FromPress", "GivenMechanism",
+    "CurveInput", "CurvePeriod", "Derivative", "Drawing", "Erratum", "Extremes", "Formula", "FromCurve", "FromPress", "FromTable", "GivenMechanism",
     "GivenPhase", "InOtherUnit", "Inputs", "Interpolated", "Level", "ListedColumn", "Lookup", "MadeCurve", "Mark", "Mechanism", "MechanismInput",
     "Neighbour",
     "OneOf", "Panel", "Part", "PartNames", "PartTable", "Partner", "Phase", "PhaseInput", "Pick", "Plot", "Point", "Polar", "Prepared",

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 from pathlib import Path
@@ -10,16 +9,16 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 from diecut_report.config.discovery import Discovery
 from diecut_report.config.loader import Config, examined, in_order, load_config
+from diecut_report.config.own_tables import Find
 from diecut_report.config.yaml_tree import Tree
 from diecut_report.errors import PluginError, Problem, UserError
 from diecut_report.limits import MAX_PRINTED_MECHANISMS
+from diecut_report.results.results_file import encoded, results_text
 
 if TYPE_CHECKING:
     from diecut_report.results.press_run import Run
 
 FORMATS = ("html", "pdf", "json")
-ENCODER = json.JSONEncoder(ensure_ascii=False, allow_nan=False)
-LINES_TO_DEPTH = 4  # the results file has a line for each quantity and each curve
 
 Data = dict[str, Any]
 Tell = Callable[[str], None]
@@ -67,9 +66,15 @@ def validate(config: Source, discovery: Discovery) -> tuple[PluginError, ...]:
     return (*made.broken.values(), *broken)
 
 
-def calc(config: Source, discovery: Discovery, tell: Tell, target: Path | None = None) -> tuple[ReportOutcome, str]:
-    """The results document and its text; written to ``target`` if there is one."""
-    results, broken, _ = _calculated(config, discovery, tell)
+def calc(
+    config: Source, discovery: Discovery, tell: Tell, target: Path | None = None, weigh: Weigh | None = None,
+    find: Find | None = None,
+) -> tuple[ReportOutcome, str]:  # fmt: skip
+    """The results document and its text; written to ``target`` if there is one.
+
+    ``weigh`` is as for a report; ``find`` says where tables are that the configuration names, where they are not beside it.
+    """
+    results, broken, _ = _calculated(config, discovery, tell, weigh=weigh, find=find)
     text = results_text(results)
     if target is not None:
         _write({target: encoded(text)}, config, through=True)
@@ -87,8 +92,8 @@ def report(
     results, broken, places = _calculated(config, discovery, tell, formats, weigh)
     if language is not None:
         results["project"]["language"] = language
-    contents, undrawn = _rendered(results, formats, tell)
-    files_beside, unwritten = _exported(results, tell)
+    contents, undrawn = rendered(results, formats, tell)
+    files_beside, unwritten = exported(results, tell)
     contents |= files_beside
     stem = Path(config.name).stem
     files = {folder / f"{stem}.{ending}": content for ending, content in contents.items()}
@@ -110,10 +115,11 @@ def _refuse_many_sheets(config: Config, formats: Sequence[str]) -> None:
 
 
 def _calculated(
-    source: Source, discovery: Discovery, tell: Tell, formats: Sequence[str] = (), weigh: Weigh | None = None
-) -> tuple[Data, tuple[PluginError, ...], Places]:
+    source: Source, discovery: Discovery, tell: Tell, formats: Sequence[str] = (), weigh: Weigh | None = None,
+    find: Find | None = None,
+) -> tuple[Data, tuple[PluginError, ...], Places]:  # fmt: skip
     tell("reading the configuration")
-    config = load_config(source, discovery)
+    config = load_config(source, discovery, find=find)
     _refuse_many_sheets(config, formats)
     from diecut_report.results.document import document  # with the engine, which checking alone does not need
     from diecut_report.results.press_run import compute
@@ -152,8 +158,8 @@ def _broken(results: Data, places: Places, lost: Lost) -> PluginError:
     return PluginError(words, mechanism["kind"], lost.mechanism)
 
 
-def _rendered(results: Data, formats: Sequence[str], tell: Tell) -> tuple[dict[str, bytes], list[Lost]]:
-    """The content of each format, all complete before anything is written; and the figures that could not be drawn."""
+def rendered(results: Data, formats: Sequence[str], tell: Tell) -> tuple[dict[str, bytes], list[Lost]]:
+    """Return the content of each format, all complete before anything is written; and the figures that could not be drawn."""
     undrawn: list[Lost] = []
     contents = {"json": encoded(results_text(results))} if "json" in formats else {}
     if {"html", "pdf"} & set(formats):
@@ -170,8 +176,8 @@ def _rendered(results: Data, formats: Sequence[str], tell: Tell) -> tuple[dict[s
     return {ending: contents[ending] for ending in formats}, undrawn
 
 
-def _exported(results: Data, tell: Tell) -> tuple[dict[str, bytes], list[Lost]]:
-    """The profiles of the mechanisms as tables and drawings, by the ending of their file: ``INSTANCE.cam_1.dxf``.
+def exported(results: Data, tell: Tell) -> tuple[dict[str, bytes], list[Lost]]:
+    """Return the profiles of the mechanisms as tables and drawings, by the ending of their file: ``INSTANCE.cam_1.dxf``.
 
     Beside them those that cannot be written.
     """
@@ -203,23 +209,3 @@ def _write(files: dict[Path, bytes], config: Source, *, through: bool = False) -
     from diecut_report.files import write_all
 
     write_all(files, keep=Path(config.file) if isinstance(config, Tree) else config, through=through)
-
-
-def results_text(results: Data) -> str:
-    """The results file: floats in their shortest exact form, never NaN or Infinity, the same bytes for the same results."""
-    return _lines(results, LINES_TO_DEPTH) + "\n"
-
-
-def encoded(text: str) -> bytes:
-    """The text as UTF-8; what a name of a file that is not UTF-8 has brought stands as an escape, which JSON has too."""
-    return text.encode(errors="backslashreplace")
-
-
-def _lines(data: Any, depth: int, indent: str = "\n") -> str:
-    if depth == 0 or not isinstance(data, dict) or not data:
-        return ENCODER.encode(data)
-    parts = (
-        f"{indent} {json.dumps(key, ensure_ascii=False)}: {_lines(part, depth - 1, indent + ' ')}"
-        for key, part in data.items()
-    )
-    return "{" + ",".join(parts) + indent + "}"

@@ -140,7 +140,8 @@ def tests_asked(unit: str) -> list[list[str]]:
     """What pytest is asked for, one run after the other."""
     rows = ["tests/validation/test_rows.py", "-k", PAPERS.get(unit, f"rows_{unit}")]
     has_rows = unit in PAPERS or (ROOT / "tests" / "validation" / f"rows_{unit}.py").is_file()
-    asked = [some for some in (rows if has_rows else [], tests_of(unit)) if some]
+    contract = ["tests/plugins/test_contract.py", "-k", unit] if (ROOT / "plugins" / unit).is_dir() else []
+    asked = [some for some in (rows if has_rows else [], tests_of(unit), contract) if some]
     if not asked:
         raise SystemExit(f"{unit} has no tests")
     return asked

@@ -13,8 +13,9 @@ from hypothesis import HealthCheck, settings
 
 from diecut_report import pipeline
 from diecut_report.config.discovery import Discovery
-from tests.configs import SMALL, saved
+from tests.configs import EXAMPLE, SMALL, saved
 from tests.examples import FEW, MANY
+from tests.processes import Example, in_another_process
 from tests.shared import once
 
 # How many examples hypothesis draws: few, new ones at each run ("local"); few, the same at each run, so that a change is
@@ -48,3 +49,19 @@ def small_report(tmp_path_factory: pytest.TempPathFactory) -> Path:
         pipeline.report(config, Discovery([]), lambda _: None, folder, ("html", "pdf", "json"))
 
     return once(tmp_path_factory, "small_report", make)
+
+
+@pytest.fixture(scope="session")
+def example(tmp_path_factory: pytest.TempPathFactory) -> Example:
+    """Give what the command calc says of the published press, asked once for all workers in a process of its own."""
+
+    def make(folder: Path) -> None:
+        in_another_process("calc", EXAMPLE).store(folder)
+
+    return Example.stored(once(tmp_path_factory, "example", make))
+
+
+@pytest.fixture
+def without_summary(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Studies are left without their summary, which takes seconds."""
+    monkeypatch.setattr("diecut_report.study.command.summarise", lambda _: None)

@@ -23,18 +23,29 @@ TIMING = {"timing.interlock_sheet_rests", "consistency.timing"}
 CYLINDER = {"cylinder.wall_at_flat", "cylinder.radius", "cylinder.closed_section"}
 RATE = {"consistency.actual_rate"}
 CLUTCH = {"consistency.clutch_position"}
+MOTOR = {"consistency.motor_thermal"}
+ELEMENTS = {
+    "gear_key.reversing",
+    "crank_key.reversing",
+    "sector.k_factors",
+    "main_gears.k_factors",
+    "gripper_chain.slack_side",
+}
 
 # What is taken over from the mended press in each step (keys of mechanisms), and what fails or warns after it
 STEPS: dict[str, tuple[tuple[str, ...], set[str]]] = {
-    "published": ((), TIMING | CYLINDER | RATE | CLUTCH),
-    "transport": (("timing.lines", "timing.interlocks", "feeder", "cross", "consistency.transport", "consistency.conveyor_mass"),
-                  CYLINDER | RATE | CLUTCH),
-    "cylinder": (("cylinder.radius", "cylinder.bore_radius"), RATE | CLUTCH),
-    "gears": (("train.gears",), CLUTCH),
-    "clutch": (("consistency.single_position",), set()),
+    "published": ((), TIMING | CYLINDER | RATE | CLUTCH | ELEMENTS),
+    "transport": (("timing.lines", "timing.interlocks", "feeder", "cross", "consistency.transport", "consistency.conveyor_mass",
+                   "gripper_chain.teeth_1", "gripper_chain.acceleration", "gripper_chain.velocity"),
+                  CYLINDER | RATE | CLUTCH | {"consistency.motor_peak"} | ELEMENTS),
+    "cylinder": (("cylinder.radius", "cylinder.bore_radius"), RATE | CLUTCH | ELEMENTS),
+    "gears": (("train.gears",), CLUTCH | MOTOR | ELEMENTS),
+    "clutch": (("consistency.single_position",), MOTOR | ELEMENTS),
+    "motor": (("train.reserve_factor",), ELEMENTS),
+    "elements": (("bearings", "gear_key", "crank_key", "sector", "main_gears", "gripper_chain", "drive.sector_ratio"), set()),
     "station": (("timing.station",), {"timing.carriage_height"}),
     "carriage": (("drive.carriage_clearance",), set()),
-    "limits": (("drive", "clutch", "damper", "consistency"), set()),
+    "limits": (("drive", "clutch", "damper", "crankshaft", "consistency"), set()),
 }  # fmt: skip
 
 

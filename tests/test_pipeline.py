@@ -5,7 +5,6 @@ from __future__ import annotations
 import errno
 import hashlib
 import json
-import os
 import subprocess
 import sys
 from collections.abc import Callable
@@ -17,8 +16,10 @@ import pytest
 from diecut_report import pipeline, report
 from diecut_report.config.discovery import Discovery
 from diecut_report.errors import UserError
+from diecut_report.results.results_file import results_text
 from diecut_report.results.summary import governing
 from tests.configs import BROKEN, DISCOVERY, EXAMPLE, EXAMPLES, GOOD, HEAD, LEVER, saved
+from tests.processes import Example
 
 ALL = Discovery([GOOD, BROKEN])
 FAILS = LEVER.replace("force: 2 kN", "force: 2 kN, allowable_moment: 150")
@@ -83,17 +84,15 @@ def test_the_resolved_config_gives_the_same_results(tmp_path: Path, text: str) -
 
 def test_the_results_text_is_strict_json_with_exact_floats() -> None:
     data = {"a": {"b": {"c": {"d": {"e": 0.1 + 0.2}}}}, "list": [1e-300, True, None], "none": {}}
-    text = pipeline.results_text(data)
+    text = results_text(data)
     assert json.loads(text) == data and "0.30000000000000004" in text
     with pytest.raises(ValueError, match="not JSON compliant"):
-        pipeline.results_text({"a": float("nan")})
+        results_text({"a": float("nan")})
 
 
-def test_equal_inputs_give_equal_bytes_in_every_process() -> None:
+def test_equal_inputs_give_equal_bytes_in_every_process(example: Example) -> None:
     """Of reports too: tests/hostile/test_surroundings.py, tests/report/test_again.py."""
-    command = [sys.executable, "-m", "diecut_report", "calc", str(EXAMPLE)]
-    there = subprocess.run(command, capture_output=True, env=os.environ | {"PYTHONHASHSEED": "4711"})
-    assert (there.returncode, there.stdout.decode()) == (1, pipeline.calc(EXAMPLE, Discovery([]), silent)[1])
+    assert (example.code, example.told) == (1, pipeline.calc(EXAMPLE, Discovery([]), silent)[1])
 
 
 def check_(status: str, utilisation: float | None) -> dict[str, Any]:
@@ -346,8 +345,9 @@ def test_a_report_tells_of_a_broken_comparison(tmp_path: Path) -> None:
     assert "Not all comparisons could be calculated." in html and "1 not calculated" in html
 
 
+@pytest.mark.nightly
 def test_the_examples_are_calculated_without_slow_imports() -> None:
-    """All but the one of tests/test_cli.py, ``test_calc_and_check_import_nothing_that_draws_or_is_slow``."""
+    """All but the one of tests/cli/test_cli.py, ``test_calc_imports_nothing_that_draws_or_is_slow``."""
     code = (
         "import sys; from pathlib import Path; from diecut_report import pipeline; from diecut_report.config.discovery import Discovery\n"
         f"for name in {[str(path) for path in EXAMPLES if path != EXAMPLE]!r}: pipeline.calc(Path(name), Discovery([]), lambda doing: None)\n"

@@ -22,6 +22,7 @@ import click
 from diecut_report import __version__
 from diecut_report.cli import verdict
 from diecut_report.cli.checking import check, validate
+from diecut_report.cli.exchange import diff, extract, render, verify
 from diecut_report.cli.output import (
     BAD_INPUT,
     FAULT,
@@ -242,6 +243,10 @@ program.add_command(validate)
 program.add_command(check)
 program.add_command(batch)
 program.add_command(variants)
+program.add_command(extract)
+program.add_command(verify)
+program.add_command(render)
+program.add_command(diff)
 
 
 # --- verdict ---------------------------------------------------------------------------------------------------------

@@ -22,12 +22,13 @@ def strict_option(command: Command) -> Command:
 
 
 def exit_code(results: Data, *, is_broken: bool, is_strict: bool) -> int:
-    """Return 3 where something broke, 1 where a check fails, or where it is strict and one warns or is not made; else 0."""
+    """Return 3 where something broke, 1 where a check fails or something is skipped, or where it is strict and one warns or is not made."""
     if is_broken:
         return PLUGIN_BROKE
     found = results["summary"]
     counted = ORDER if is_strict else ORDER[:1]
-    return CHECK_FAILED if any(found[status] for status in counted) else PASSED
+    is_whole = not any(data["status"] == "skipped" for data in results["mechanisms"].values())
+    return PASSED if is_whole and not any(found[status] for status in counted) else CHECK_FAILED
 
 
 def told(results: Data) -> list[Line]:

@@ -2,16 +2,18 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from dataclasses import dataclass
 from functools import cached_property
 from typing import Any
 
 from diecut_report.config.basis import Basis
+from diecut_report.config.taken_entries import Taken
+from diecut_report.config.targets import Node, Target
 from diecut_report.config.validation import ConfigPlace, keys_of
 from diecut_report.config.yaml_tree import KeyPath
 from diecut_report.contract.chapters import Chapter
-from diecut_report.contract.code_steps import PartNames
+from diecut_report.contract.code_steps import ComputedCurve, PartNames
 from diecut_report.contract.inputs import (
     Block,
     CurveInput,
@@ -25,6 +27,7 @@ from diecut_report.contract.inputs import (
 )
 from diecut_report.contract.mechanism import Mechanism
 from diecut_report.contract.phases import PREFIX
+from diecut_report.contract.result_names import part_result
 from diecut_report.contract.steps import Step
 from diecut_report.errors import nearest
 
@@ -57,10 +60,11 @@ class Instance:
 
     def __init__(
         self, name: str, model: type[Block], data: dict[str, Any], place: ConfigPlace, mechanism: Mechanism | None,
-        bases: Mapping[KeyPath, Basis] | None = None,
+        bases: Mapping[KeyPath, Basis] | None = None, own: Taken | None = None,
     ) -> None:  # fmt: skip
         self.name, self.model, self.data, self.place, self.mechanism = name, model, data, place, mechanism
         self.bases = bases or {}
+        self.own = own  # what comes from the user's own tables
         self.without: frozenset[KeyPath] = frozenset()
         self.derived: frozenset[str] = frozenset()  # inputs taken from partners
 
@@ -78,7 +82,7 @@ class Instance:
     @cached_property
     def given(self) -> frozenset[str]:
         """The ids of the inputs that have a value: given, by default, or from the press."""
-        found: set[str] = set()
+        found: set[str] = set(self.mechanism.facts) if self.mechanism else set()
         for slot in slots(self.model, self.data):
             name = ".".join(part for part in slot.key if isinstance(part, str))
             if isinstance(slot.value, Block):
@@ -93,7 +97,21 @@ class Instance:
     @cached_property
     def results(self) -> dict[str, tuple[str | None, bool]]:
         """What the calculation gives with these inputs: the SI unit (None for a text), and whether it is a curve or row."""
-        return self.mechanism.results_of(self.given) if self.mechanism else {}
+        if self.mechanism is None:
+            return {}
+        found = self.mechanism.results_of(self.given)
+        for _, step in self.mechanism.active(self.given):
+            for name in self.names_of_parts(step.named_by):
+                found[part_result(name, step)] = found[step.id][0], isinstance(step, ComputedCurve)
+            if step.named_by and isinstance(step, ComputedCurve):
+                del found[step.id]
+        return found
+
+    def names_of_parts(self, path: str) -> list[str]:
+        """Return the names that the blocks of a list have in the file; none where there is no such list."""
+        home, _, key = path.rpartition(".")
+        blocks = self.data.get(home) if home else None
+        return [str(block.get(key)) for block in blocks if isinstance(block, dict)] if isinstance(blocks, list) else []
 
     @cached_property
     def phases(self) -> dict[str, str]:
@@ -145,3 +163,24 @@ class Instance:
 def default_of(slot: Slot) -> FromPress | None:
     """The press's default that stands in for an input without a value."""
     return slot.meta.press if isinstance(slot.meta, Quantity) and slot.value is None else None
+
+
+def substituted(
+    instance: Instance, links: Mapping[Node, Target], value: Callable[[Node, Target], Any]
+) -> dict[str, Any]:
+    """The data of an instance with what stands in for its references; defaults of the press are left to ``value`` too."""
+    data: dict[str, Any] = _copied(instance.data)
+    for node, target in links.items():
+        if node[0] != instance.name:
+            continue
+        home: Any = data
+        for part in node[1:-1]:
+            home = home[part]
+        home[node[-1]] = value(node, target)
+    return data
+
+
+def _copied(data: Any) -> Any:
+    if isinstance(data, dict):
+        return {key: _copied(part) for key, part in data.items()}
+    return [_copied(part) for part in data] if isinstance(data, list) else data

@@ -3,22 +3,24 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any, get_args
 
 from diecut_report.config import partners, yaml_tree
-from diecut_report.config.basis import BasisReader
 from diecut_report.config.caps import too_much
 from diecut_report.config.curve_keys import linked
 from diecut_report.config.dependency_order import ordered
 from diecut_report.config.discovery import Discovery, DuplicateKind, UnknownKind, said
 from diecut_report.config.hidden_letters import seeming_latin
-from diecut_report.config.instances import Instance
+from diecut_report.config.instances import Instance, substituted
 from diecut_report.config.model import PRESS, ConfigDocument, Press, Project
-from diecut_report.config.references import Linker, texts
+from diecut_report.config.own_tables import Find, OwnTables
+from diecut_report.config.plain_data import texts
+from diecut_report.config.references import Linker
 from diecut_report.config.source_hashes import plugin_hash, program_hash
+from diecut_report.config.taken_entries import taken
 from diecut_report.config.targets import Node, Target
 from diecut_report.config.validation import ConfigPlace, declared, keys_of, spread_out, told, validate
 from diecut_report.config.yaml_tree import KeyPath, Tree
@@ -36,7 +38,7 @@ class Config:
 
     ``instances`` holds the press and, in the order of the file, the mechanisms; None stands for one whose plugin cannot
     be loaded (``broken`` tells why). ``order`` is the order in which inputs and calculations can be known. ``extensions`` were
-    run before, each with the hash of its code.
+    run before, each with the hash of its code. ``tables`` are the user's own, by the names that the file gives them.
     """
 
     tree: Tree
@@ -47,6 +49,7 @@ class Config:
     order: tuple[Node, ...]
     broken: Mapping[str, PluginError]
     extensions: Mapping[str, str] = field(default_factory=dict)
+    tables: Mapping[str, Tree] = field(default_factory=dict)
 
     @property
     def source_hashes(self) -> dict[str, str]:
@@ -57,35 +60,41 @@ class Config:
         return {"program": program_hash(), **dict(sorted((plugins | extensions).items()))}
 
 
-def load_config(given: Path | Tree, discovery: Discovery, *, only_named: bool = False) -> Config:
+def load_config(
+    given: Path | Tree, discovery: Discovery, *, only_named: bool = False, find: Find | None = None
+) -> Config:
     """Read and validate a configuration; UserError with all its problems. A broken plugin is kept in ``broken``.
 
-    What runs by itself is added, unless ``only_named`` mechanisms are wanted.
+    What runs by itself is added, unless ``only_named`` mechanisms are wanted. ``find`` says where the tables are that the file
+    names, where they are not beside it.
     """
-    config, problems = examined(given, discovery, only_named=only_named)
+    config, problems = examined(given, discovery, only_named=only_named, find=find)
     if problems:
         raise UserError(in_order(problems))
     return config
 
 
-def examined(given: Path | Tree, discovery: Discovery, *, only_named: bool = False) -> tuple[Config, list[Problem]]:
+def examined(
+    given: Path | Tree, discovery: Discovery, *, only_named: bool = False, find: Find | None = None
+) -> tuple[Config, list[Problem]]:
     """Return a configuration as far as it can be read, with all that is wrong with it; UserError where it cannot be read at all."""
     tree = given if isinstance(given, Tree) else yaml_tree.load(given)
     _refuse_study(tree)
     if excess := too_much(tree):
         raise UserError(excess)
     discovery.extend()
-    reader = _ConfigReader(tree, discovery, only_named)
+    tables = OwnTables.read(tree, find)
+    reader = _ConfigReader(tree, discovery, only_named, tables)
     linker = linked(reader.instances)
     order, loops = ordered(reader.instances, linker.links)
-    problems = [*reader.problems, *linker.problems, *_wrong_values(reader, linker), *loops]
+    problems = [*reader.problems, *tables.problems, *linker.problems, *_wrong_values(reader, linker), *loops]
     if problems:
         problems += [
             reader.place.problem(("mechanisms", name, "kind"), str(error)) for name, error in reader.broken.items()
         ]
     project = reader.project or Project.model_validate({"title": "?"})  # of a file with problems
     config = Config(tree, project, reader.instances, reader.kinds, linker.links, tuple(order), reader.broken,
-                    dict(sorted(discovery.extended.items())))  # fmt: skip
+                    dict(sorted(discovery.extended.items())), tables.trees)  # fmt: skip
     return config, problems
 
 
@@ -106,6 +115,7 @@ class _ConfigReader:
     tree: Tree
     discovery: Discovery
     only_named: bool
+    tables: OwnTables
     instances: dict[str, Instance | None] = field(default_factory=dict)
     kinds: dict[str, str] = field(default_factory=dict)
     broken: dict[str, PluginError] = field(default_factory=dict)
@@ -152,11 +162,11 @@ class _ConfigReader:
         self, name: str, model: type[Block], data: dict[str, Any], place: ConfigPlace, mechanism: Any = None
     ) -> None:
         data, place, problems = spread_out(model, data, place)
-        stated = BasisReader.read(model, data, place)
-        self.problems += problems + stated.problems
-        form = in_form(model, [key for key, value in stated.data.items() if value is not None])
-        typed = as_typed(form, stated.data, stated.place)
-        self.instances[name] = Instance(name, form, typed, stated.place, mechanism, stated.bases)
+        own = taken(model, data, place, self.tables)
+        self.problems += [*problems, *own.problems]
+        form = in_form(model, [key for key, value in own.data.items() if value is not None])
+        typed = as_typed(form, own.data, own.place)
+        self.instances[name] = Instance(name, form, typed, own.place, mechanism, own.bases, own)
 
     def _mechanism(self, name: str, body: Any, place: ConfigPlace) -> None:
         fault = _name_fault(name)
@@ -229,27 +239,6 @@ def as_typed(model: type[Block], data: Any, place: ConfigPlace, key: KeyPath = (
         elif str in (annotation, *get_args(annotation)) and not isinstance(given, dict | list):
             typed[name] = place.typed(own)
     return typed
-
-
-def substituted(
-    instance: Instance, links: Mapping[Node, Target], value: Callable[[Node, Target], Any]
-) -> dict[str, Any]:
-    """The data of an instance with what stands in for its references; defaults of the press are left to ``value`` too."""
-    data: dict[str, Any] = _copied(instance.data)
-    for node, target in links.items():
-        if node[0] != instance.name:
-            continue
-        home: Any = data
-        for part in node[1:-1]:
-            home = home[part]
-        home[node[-1]] = value(node, target)
-    return data
-
-
-def _copied(data: Any) -> Any:
-    if isinstance(data, dict):
-        return {key: _copied(part) for key, part in data.items()}
-    return [_copied(part) for part in data] if isinstance(data, list) else data
 
 
 def _wrong_values(reader: _ConfigReader, linker: Linker) -> list[Problem]:

@@ -78,6 +78,7 @@ class ConfigDocument(Block):
     project: Project
     press: dict[str, Any]
     mechanisms: Annotated[dict[str, Any], Field(min_length=1)]
+    materials: Any = None  # names of files with tables of the user's own, which ``own_tables`` judges
 
     @field_validator("schema_version", mode="before")
     @classmethod

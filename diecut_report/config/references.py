@@ -16,6 +16,7 @@ from diecut_report.conditions.words import ConditionError
 from diecut_report.config.hidden_letters import seeming_latin
 from diecut_report.config.instances import Instance, Slot, default_of, slots
 from diecut_report.config.model import PRESS
+from diecut_report.config.plain_data import texts
 from diecut_report.config.targets import Node, Target, Unresolved
 from diecut_report.config.validation import declared
 from diecut_report.config.yaml_tree import KeyPath
@@ -276,12 +277,3 @@ def _check_index(path: str, data: Any, key: KeyPath) -> None:
             raise Unresolved(f"${{{path}}}: the list has {len(data)} entries, counted from 0.")
         known = part in data if isinstance(data, dict) else isinstance(data, list) and isinstance(part, int)
         data = data[part] if known else None
-
-
-def texts(data: Any, key: KeyPath = ()) -> Iterator[tuple[KeyPath, str]]:
-    """Every text in plain data, with its key path."""
-    if isinstance(data, str):
-        yield key, data
-    elif isinstance(data, dict | list):
-        for name, part in data.items() if isinstance(data, dict) else enumerate(data):
-            yield from texts(part, (*key, name))

@@ -9,6 +9,7 @@ from typing import Any, get_args, get_origin
 from diecut_report.config.basis import BASES
 from diecut_report.config.loader import NAME, RESERVED
 from diecut_report.config.model import Press, Project
+from diecut_report.config.own_tables import MOST
 from diecut_report.config.validation import keys_of
 from diecut_report.contract.inputs import Block, CurveInput, MechanismInput, PhaseInput, Quantity, Text
 from diecut_report.contract.mechanism import Mechanism
@@ -43,6 +44,7 @@ def config_schema(mechanisms: Mapping[str, Mechanism], broken: Mapping[str, str]
             "schema_version": {"const": 1, "description": "Version of this form of the file."},
             "project": block_schema(Project, refers=False),
             "press": block_schema(Press),
+            "materials": _materials(),
             "mechanisms": {
                 "type": "object",
                 "description": "The mechanisms by their names, which references use: ${NAME.output}.",
@@ -59,6 +61,14 @@ def config_schema(mechanisms: Mapping[str, Mechanism], broken: Mapping[str, str]
 def kind_schema(mechanism: Mechanism) -> Schema:
     """Schema of one mechanism's block in a config."""
     return {"$schema": DRAFT} | _of_kind(mechanism)
+
+
+def _materials() -> Schema:
+    described = {
+        "description": "Files with tables of your own, beside this one or in a folder below: steels, gear_materials, chains, keys."
+    }
+    name = {"type": "string", "pattern": r"\.ya?ml$", "maxLength": MAX_TEXT}
+    return described | {"anyOf": [name, {"type": "array", "items": name, "maxItems": MOST}]}
 
 
 def _mechanism(mechanisms: Mapping[str, Mechanism], kinds: list[str]) -> Schema:
@@ -135,6 +145,10 @@ def _key(model: type[Block], name: str, refers: bool) -> Schema:
             }
     described = {"description": f"{meta.description}."} if meta else {}
     allowed = {"enum": list(meta.options)} if isinstance(meta, Text) and meta.options else _text(field.annotation)
+    if any(rule.key == name for rule in model.from_tables):
+        allowed = {
+            "anyOf": [allowed, {"type": "string", "maxLength": MAX_TEXT}]
+        }  # or an entry of a table of the user's
     return described | ({"anyOf": [allowed, _reference()]} if refers else allowed) | shown
 
 

@@ -18,6 +18,7 @@ from diecut_report.errors import PluginError, Problem, nearest
 from diecut_report.quantities.units import pretty
 
 SHOWN = 60  # characters of a given text that a message repeats
+NAMED = 20  # entries of a table that a message names
 
 
 @dataclass(frozen=True)
@@ -28,10 +29,10 @@ class ConfigPlace:
     root: KeyPath = ()
     listed: Mapping[KeyPath, KeyPath] = field(default_factory=dict)
     """Where keys stand whose values come in the list of another key."""
-
-    def path(self, key: KeyPath) -> KeyPath:
-        """The path in the file of a key below this block."""
-        return (*self.root, *self.inner(key))
+    elsewhere: Mapping[KeyPath, tuple[Tree, KeyPath]] = field(default_factory=dict)
+    """Where keys stand whose values come from another file: a table of the user's."""
+    named: Mapping[KeyPath, tuple[str, ...]] = field(default_factory=dict)
+    """Names of entries of such tables that a key may have, beside its own texts."""
 
     def inner(self, key: KeyPath) -> KeyPath:
         """The path below this block; what stands in a value that is listed elsewhere stands there."""
@@ -40,22 +41,32 @@ class ConfigPlace:
                 return (*self.listed[key[:length]], *key[length:])
         return key
 
+    def stands(self, key: KeyPath) -> tuple[Tree, KeyPath]:
+        """The file that a key below this block stands in, and its path there."""
+        own = self.inner(key)
+        for length in range(len(own), 0, -1):
+            if own[:length] in self.elsewhere:
+                tree, path = self.elsewhere[own[:length]]
+                return tree, (*path, *own[length:])
+        return self.tree, (*self.root, *own)
+
     def typed(self, key: KeyPath) -> Any:
         """What was typed there."""
-        return self.tree.typed(self.path(key))
+        tree, path = self.stands(key)
+        return tree.typed(path)
 
     def problem(self, key: KeyPath, message: str, *, at_key: bool = False, within: int | None = None) -> Problem:
         """A problem of the value at ``key`` below this block (or of the key itself, or of a letter ``within`` its text)."""
-        path = self.path(key)
-        line, column = self.tree.key_position(path) if at_key else self.tree.position(path)
-        column += self.tree.offset(path, within) if within else 0
-        return Problem(message, self.tree.file, line, column, ".".join(map(str, path)))
+        tree, path = self.stands(key)
+        line, column = tree.key_position(path) if at_key else tree.position(path)
+        column += tree.offset(path, within) if within else 0
+        return Problem(message, tree.file, line, column, ".".join(map(str, path)))
 
     def absent(self, key: KeyPath, message: str) -> Problem:
         """A problem of a key that is not there; its place is the key of the block where it belongs."""
-        path = (*self.root, *key)
-        line, column = self.tree.key_position(path[:-1])
-        return Problem(message, self.tree.file, line, column, ".".join(map(str, path)))
+        tree, home = self.stands(key[:-1]) if self.elsewhere else (self.tree, (*self.root, *key[:-1]))
+        line, column = tree.key_position(home)
+        return Problem(message, tree.file, line, column, ".".join(map(str, (*home, *key[-1:]))))
 
 
 def spread_out(
@@ -199,6 +210,7 @@ class _Fault:
     def _choice(self) -> str:
         expected = str(self.context["expected"]).replace(" or ", ", ")
         choices = [choice.strip("'") for choice in expected.split(", ")]
+        choices += self.place.named.get(self.key, ())[:NAMED]
         near = nearest(self.given, choices) if isinstance(self.given, str) and self.given not in choices else ""
         return f"is {told(self.given)}{near}; allowed: {', '.join(choices)}"
 

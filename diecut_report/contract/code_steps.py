@@ -1,12 +1,13 @@
-"""Steps of plain code over prepared objects: curves for all variants, and repeated parts that follow from the inputs."""
+"""Steps of plain code over prepared objects: curves for all variants, repeated parts that follow from the inputs, and facts."""
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 from typing import Any, Unpack
 
-from diecut_report.contract.options import Options
+from diecut_report.contract.binding import Binding, as_binding
+from diecut_report.contract.options import Options, StepCondition, Written
 from diecut_report.contract.phases import StepHolder
 from diecut_report.contract.steps import SilentStep, Step
 from diecut_report.expressions import Array
@@ -18,7 +19,8 @@ class ComputedCurve(Step):
 
     ``function`` takes it, the places x of shape (rows, points), the middles of their smooth pieces (of any shape that broadcasts to
     that) and the variants ``rows`` (None: all, or the only one); it gives values of the shape of x. ``joints`` gives from the object
-    the places where the curve jumps or has a corner, of shape (variants, places), NaN where there is none.
+    the places where the curve jumps or has a corner, of shape (variants, places), NaN where there is none. With ``named_by`` there is a
+    curve for each named part: ``function`` takes the part's index before all else.
     """
 
     of: str
@@ -48,6 +50,43 @@ class PartTable(SilentStep):
     columns: tuple[str, ...]
 
 
+@dataclass(frozen=True, kw_only=True, eq=False)
+class PartCurves(SilentStep):
+    """Declare curves over ``abscissa`` of named parts, from the prepared object ``of``: ``ID_1``, ``ID_2`` … in the results.
+
+    ``names`` gives from it the names of the parts, one for each curve; ``function`` takes it, the part's number (from 0), and
+    then what that of ``ComputedCurve`` takes. The description may hold ``{part}``.
+    """
+
+    of: str
+    abscissa: str
+    names: Callable[[Any], Sequence[str]]
+    function: Callable[..., Array]
+    method: str
+    joints: Callable[[Any], Array] | None = None
+
+    def curves(self, of: Any) -> Iterator[ComputedCurve]:
+        """Yield the curve of each part."""
+        for index, name in enumerate(self.names(of)):
+            yield ComputedCurve(
+                id=f"{self.id}_{index + 1}", symbol=f"{self.symbol},{index + 1}", unit=self.unit, at=self.at, method=self.method,
+                description=self.description.format(part=name), source=self.source, of=self.of, abscissa=self.abscissa,
+                function=lambda of, *places, index=index: self.function(of, index, *places),
+            )  # fmt: skip
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class Fact(SilentStep):
+    """Declare what other steps stand on: they name its id among their ``needs``, as they do with an input.
+
+    Where the condition does not hold for a machine, they are left out for it, and what refers to them is not calculated;
+    ``words`` say why.
+    """
+
+    condition: Binding
+    words: str
+
+
 class CodeForm:
     """Give chapters the calls that declare these steps."""
 
@@ -68,3 +107,23 @@ class CodeForm:
     def part_table(self: StepHolder, id: str, description: str, parts: str, columns: tuple[str, ...]) -> None:
         """Declare a table of rows over such parts, printed here: see ``PartTable``."""
         self.add(PartTable(id=id, description=description, parts=parts, columns=columns))
+
+    def part_curves(
+        self: StepHolder, id: str, symbol: str, unit: str, description: str, names: Callable[[Any], Sequence[str]],
+        function: Callable[..., Array], of: str, abscissa: str, method: str, *, joints: Callable[[Any], Array] | None = None,
+        **when: Unpack[StepCondition],
+    ) -> None:  # fmt: skip
+        """Declare curves of named parts that plain code gives: see ``PartCurves``."""
+        own: dict[str, Any] = {
+            "names": names,
+            "function": function,
+            "of": of,
+            "abscissa": abscissa,
+            "method": method,
+            "joints": joints,
+        }
+        self.add(PartCurves(id=id, symbol=symbol, unit=unit, description=description, **own, **when))
+
+    def fact(self: StepHolder, id: str, condition: Written, words: str, **when: Unpack[StepCondition]) -> None:
+        """Declare what steps and chapters may need beside inputs, and what is said where it does not hold: see ``Fact``."""
+        self.add(Fact(id=id, condition=as_binding(condition, id), words=words, **when))

@@ -17,6 +17,7 @@ from pydantic_core import CoreSchema, core_schema
 
 from diecut_report.contract.bounds import BOUNDS, within
 from diecut_report.contract.curve_inputs import CurveInput, optional
+from diecut_report.contract.from_tables import FromTable
 from diecut_report.contract.other_units import InOtherUnit, is_in
 from diecut_report.contract.phase_inputs import MechanismInput, PhaseInput, TakenWhole
 from diecut_report.contract.place import placed
@@ -166,6 +167,8 @@ class Block(BaseModel):
     """Keys whose value may be a list, each with the single keys that the values of the list stand for, in order."""
     curve_keys: ClassVar[Mapping[str, str]] = {}
     """Keys of numbers whose value may be a curve, each with the key that takes the curve; one of both is needed (``one_of``)."""
+    from_tables: ClassVar[tuple[FromTable, ...]] = ()
+    """Keys whose text may name an entry of the user's own tables, with the keys that it gives."""
 
 
 class Inputs(Block):

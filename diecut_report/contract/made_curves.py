@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import Any, Unpack
 
-from diecut_report.contract.options import Options
+from diecut_report.contract.options import Options, StepCondition
 from diecut_report.contract.phases import StepHolder
 from diecut_report.contract.steps import MadeCurve, Prepared
 
@@ -22,7 +22,8 @@ class MadeCurveForm:
         self.add(MadeCurve(id=id, symbol=symbol, unit=unit, description=description, **own))
 
     def prepared(
-        self: StepHolder, id: str, function: Callable[..., Any], holds: tuple[str, ...], *, for_many: bool = False
-    ) -> None:
+        self: StepHolder, id: str, function: Callable[..., Any], holds: tuple[str, ...], *, for_many: bool = False,
+        again: bool = False, **when: Unpack[StepCondition],
+    ) -> None:  # fmt: skip
         """Declare what plain code makes of inputs once, for steps that take it by its id: see ``Prepared``."""
-        self.add(Prepared(id=id, function=function, holds=holds, for_many=for_many))
+        self.add(Prepared(id=id, function=function, holds=holds, for_many=for_many, again=again, **when))

@@ -8,7 +8,7 @@ from functools import cached_property
 
 from diecut_report.contract.chapters import Chapter
 from diecut_report.contract.checks import Check
-from diecut_report.contract.code_steps import ComputedCurve
+from diecut_report.contract.code_steps import ComputedCurve, Fact
 from diecut_report.contract.figures import Figure
 from diecut_report.contract.inputs import CurveInput, Inputs, fields, list_inputs
 from diecut_report.contract.part_steps import Lookup, Neighbour, Running
@@ -172,6 +172,11 @@ class Mechanism:
     @cached_property
     def _active(self) -> dict[frozenset[str], tuple[tuple[Chapter, Step], ...]]:
         return {}
+
+    @cached_property
+    def facts(self) -> frozenset[str]:
+        """Return the facts that steps may need: each counts as given until a machine turns out not to meet it."""
+        return frozenset(step.id for _, step in self.steps if isinstance(step, Fact))
 
     def results_of(self, given: frozenset[str]) -> dict[str, tuple[str | None, bool]]:
         """Return what a reference may name, without calculating: the SI unit (None for a text), and whether it is a curve."""

@@ -23,6 +23,7 @@ class Options(TypedDict, total=False):
     exists: Written | None
     numbered: str
     first: int
+    named_by: str
     whole: bool
     units: tuple[tuple[str, str], ...]
 

@@ -11,6 +11,7 @@ from pydantic_core import CoreSchema, core_schema
 from diecut_report.contract.curve_inputs import optional
 from diecut_report.contract.place import placed
 from diecut_report.contract.placeholders import Curve, Pending
+from diecut_report.expressions import Array
 from diecut_report.quantities.units import pretty, unit
 
 
@@ -27,10 +28,10 @@ class GivenPhase(Protocol):
     def role(self) -> str:
         """Return what it is: working, rest, moving or window."""
 
-    def period(self, row: int = 0) -> float:
+    def period(self, row: int | None = None) -> float:
         """Return the period of its abscissa, SI, of one of the variants."""
 
-    def intervals(self, row: int = 0) -> tuple[tuple[float, float], ...]:
+    def intervals(self, row: int | None = None) -> tuple[tuple[float, float], ...]:
         """Return its intervals, SI, of one of the variants: sorted, disjoint, each beginning within the period; none where it is absent."""
 
 
@@ -91,7 +92,7 @@ class MechanismInput:
 
 
 class GivenMechanism(Protocol):
-    """Hold a calculated mechanism that an input names, of one machine."""
+    """Hold a calculated mechanism that an input names, of one machine; ``numbers`` and ``curve`` are of all, where there are many."""
 
     name: str
 
@@ -117,7 +118,10 @@ class GivenMechanism(Protocol):
     def number(self, name: str) -> float | None:
         """Return a number (an output, a value or an input) by its id, SI; None where there is none."""
 
-    def row(self, name: str) -> tuple[float, ...]:
+    def numbers(self, name: str) -> Array | None:
+        """Return a number of all variants by its id, SI, shape (variants, 1), NaN where it is absent; None where there is none."""
+
+    def parts(self, name: str) -> tuple[float, ...]:
         """Return a row over repeated parts by its id, SI; nothing where there is none."""
 
     def texts(self, name: str) -> tuple[str, ...]:

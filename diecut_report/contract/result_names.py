@@ -2,13 +2,13 @@
 
 A step gives one quantity, its value under the step's id. An extreme also gives its place, ``ID_at``. Crossings are
 ``ID_count`` and then ``ID_1``, ``ID_2`` … A row over repeated parts is ``ID.0``, ``ID.1`` …, or has names of its own by the
-pattern ``numbered`` (``shaft_{}_speed``), counted from ``first`` on.
+pattern ``numbered`` (``shaft_{}_speed``), counted from ``first`` on; or, with ``named_by``, after the parts: ``NAME_ID``.
 """
 
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Literal
 
@@ -98,13 +98,16 @@ def has_own_names(step: Step) -> bool:
     return bool(step.numbered) or isinstance(step, Crossings)
 
 
-def result_names(step: Step, parts: int | None = None) -> tuple[ResultName, ...]:
+def result_names(step: Step, parts: int | None = None, names: Sequence[str] | None = None) -> tuple[ResultName, ...]:
     """Return all names that a step gives, in the order of the results.
 
-    ``parts`` says how many parts a row has, or how many crossings there are; None for a single number or a curve.
+    ``parts`` says how many parts a row has, or how many crossings there are; None for a single number or a curve. ``names`` are those of
+    the parts, after which a row with ``named_by`` is named.
     """
     if isinstance(step, SILENT):
         return ()
+    if step.named_by and names is not None:
+        return tuple(ResultName(part_result(name, step), step.id, "part", i, i + 1) for i, name in enumerate(names))
     if parts is None and not isinstance(step, Crossings):
         return (ResultName(step.id, step.id), *_beside(step))
     made = pattern(step)
@@ -120,6 +123,11 @@ def numbered_symbol(step: Step, number: int) -> str:
     """Return the symbol of one part or crossing: with its number behind it, or, of a row, in the place of its index (``ω_k``)."""
     symbol, indices = (step.symbol, 0) if isinstance(step, Crossings) else INDEX.subn(str(number), step.symbol)
     return symbol if indices else f"{symbol}{',' if '_' in symbol else '_'}{number}"
+
+
+def part_result(name: str, step: Step) -> str:
+    """Return what a row or curve with ``named_by`` is called of the part of a name."""
+    return f"{name}_{step.id}"
 
 
 def place_name(id: str) -> str:

@@ -26,6 +26,7 @@ class Step:
     ``whole`` marks a count, which the results hold as an integer.
     ``units`` are other units, each with the input beside which it holds: (("mass", "N"),).
     A row over repeated parts is named ``ID.0``, ``ID.1`` … in the results, or by ``numbered`` (``shaft_{}_speed``) from ``first`` on.
+    With ``named_by``, the text input of the parts' names (``bearings.name``), the row is named ``NAME_ID`` after them.
     """
 
     id: str
@@ -40,6 +41,7 @@ class Step:
     exists: Binding | None = None
     numbered: str = ""
     first: int = 1
+    named_by: str = ""
     whole: bool = False
     units: tuple[tuple[str, str], ...] = ()
     at: str = placed()
@@ -284,11 +286,16 @@ class Phase(Step):
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class Prepared(Step):
-    """Declare an object that plain code makes of a machine once (``for_many``: of many at once) of those of ``holds`` that there are."""
+    """Declare an object that plain code makes of a machine once (``for_many``: of many at once) of those of ``holds`` that there are.
+
+    With ``again`` it also gets, by that name, what calculates the same machines with other inputs: ``known["again"]({"diameter":
+    array}, rows, ["safety"])`` gives the quantities (machines,) of the variants ``rows``, each with its own values of the inputs.
+    """
 
     function: Callable[..., Any]
     holds: tuple[str, ...]
     for_many: bool = False
+    again: bool = False
 
 
 class SilentStep(Step):

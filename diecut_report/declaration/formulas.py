@@ -98,9 +98,9 @@ def _choices(step: Step, names: DeclaredNames, when: When) -> Iterator[str]:
         yield f"the function is {function!r}, which cannot be called; name one without brackets"
     elif callable(function):
         if isinstance(step, ComputedCurve):
-            yield from _signature(
-                function, OF_CURVE, "it is called with the object, x, the middles of the pieces and the rows"
-            )
+            first = "the part's index, " if step.named_by else ""
+            told = f"it is called with {first}the object, x, the middles of the pieces and the rows"
+            yield from _signature(function, OF_CURVE + bool(step.named_by), told)
         else:
             yield from _signature(function, 1 if isinstance(step, Prepared) else len(getattr(step, "takes", ())))
 

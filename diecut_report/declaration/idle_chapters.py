@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import ast
 from collections.abc import Iterator
+from functools import lru_cache
 from itertools import pairwise
 from pathlib import Path
 from typing import NamedTuple
@@ -82,10 +83,21 @@ def _fills(statement: ast.stmt, name: str) -> bool:
 def _is_named(mechanism: Mechanism, file: Path, defined: Defined) -> bool:
     """Whether anything else is said of it than what is declared in it."""
     own = [s for s in parsed(file).body if defined.line < s.lineno < defined.until]
-    if any(_names(s, defined.name) > _fills(s, defined.name) for s in own):
+    if any(_may_name(s, defined.name) and _names(s, defined.name) > _fills(s, defined.name) for s in own):
         return True
     others = [each for each in files_around(mechanism) if each != file] if defined.until == float("inf") else []
-    return any(_names(parsed(each), defined.name) for each in others)
+    return any(_may_name(s, defined.name) and _names(s, defined.name) for each in others for s in parsed(each).body)
+
+
+def _may_name(statement: ast.stmt, name: str) -> bool:
+    return not _words(statement).isdisjoint((name, "*"))
+
+
+@lru_cache(maxsize=1024)
+def _words(statement: ast.AST) -> frozenset[str]:
+    """All that a name could be in it: what has none of it need not be gone through for each name."""
+    words = {getattr(node, key, None) for node in ast.walk(statement) for key in ("id", "attr", "name", "value")}
+    return frozenset(word for word in words if isinstance(word, str))
 
 
 def _names(node: ast.AST, name: str) -> int:

@@ -72,6 +72,8 @@ def _block(model: type[Block], place: str, prefix: str = "") -> Iterator[Fault]:
             yield Fault(place, f"one_of of {model.__name__}", f"names {key}, which is not an input{nearest(key, model.model_fields)}")  # fmt: skip
     for key in sorted({single for keys in model.spread.values() for single in keys} - set(model.model_fields)):
         yield Fault(place, f"spread of {model.__name__}", f"names {key}, which is not an input{nearest(key, model.model_fields)}")  # fmt: skip
+    for key in sorted({key for rule in model.from_tables for key in (rule.key, *rule.gives)} - set(model.model_fields)):
+        yield Fault(place, f"from_tables of {model.__name__}", f"names {key}, which is not an input{nearest(key, model.model_fields)}")  # fmt: skip
     known = {name: meta_of(model, name) for name in model.model_fields}
     for key, curve in model.curve_keys.items():
         if not isinstance(known.get(key), Quantity) or not isinstance(known.get(curve), CurveInput):

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from diecut_report.contract.binding import Binding, bound
-from diecut_report.contract.code_steps import ComputedCurve, PartNames, PartTable
+from diecut_report.contract.code_steps import ComputedCurve, Fact, PartCurves, PartNames, PartTable
 from diecut_report.contract.mechanism import Mechanism
 from diecut_report.contract.part_steps import (
     Lookup,
@@ -90,7 +90,7 @@ def _asked(step: Step) -> Iterator[Asked]:
         case Root():
             for field in ("low", "high"):
                 yield from _of(getattr(step, field), field, NUMBER)
-        case Require():
+        case Require() | Fact():
             yield from _of(step.condition, "the condition", ROW)
         case Reduction(of=of) | Crossings(of=of) | Accumulated(of=of) | Derivative(of=of):
             yield "of", of, frozenset({"curve"}), "a curve over an abscissa"
@@ -132,7 +132,7 @@ def _over(step: Step) -> Iterator[Asked]:
             yield "abscissa", abscissa, *axis
             yield from (("given", given, CURVE_INPUT, ""),) if given else ()
             yield from ((f, getattr(step, f), NUMBER, "") for f in ("start", "lasts") if getattr(step, f))
-        case ComputedCurve(abscissa=abscissa, of=of):
+        case ComputedCurve(abscissa=abscissa, of=of) | PartCurves(abscissa=abscissa, of=of):
             yield "abscissa", abscissa, *axis
             yield "of", of, frozenset({"prepared"}), "what is prepared"
         case Prepared(holds=holds):

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from functools import cached_property
 from typing import NamedTuple
 
-from diecut_report.contract.code_steps import ComputedCurve, PartNames, PartTable
+from diecut_report.contract.code_steps import ComputedCurve, Fact, PartCurves, PartNames, PartTable
 from diecut_report.contract.inputs import CurveInput, MechanismInput, PhaseInput, Quantity, Text
 from diecut_report.contract.mechanism import Mechanism
 from diecut_report.contract.part_steps import Lookup, Neighbour, Running
@@ -33,7 +33,7 @@ from diecut_report.contract.steps import (
 from diecut_report.contract.varying import Varying
 from diecut_report.declaration.world import Key, When, World, world
 
-NO_QUANTITY = Breakpoints | Require | Clash | Phase | PartTable
+NO_QUANTITY = Breakpoints | Require | Clash | Phase | PartTable | PartCurves | Fact
 
 
 class Giver(NamedTuple):
@@ -61,8 +61,10 @@ class DeclaredNames:
 
     @cached_property
     def world(self) -> World:
-        """What may be given."""
-        return world(self.mechanism.inputs)
+        """What may be given, with the facts that may hold."""
+        found = world(self.mechanism.inputs)
+        found.keys |= {name: Key(name, None, None, is_block=False, may_be_absent=True) for name in self.mechanism.facts}
+        return found
 
     def when(self, number: int) -> When:
         """Return when a step is made."""

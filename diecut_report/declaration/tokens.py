@@ -18,6 +18,8 @@ def faults(mechanism: Mechanism, names: DeclaredNames) -> Iterator[Fault]:
     for _, step in mechanism.steps:
         yield from _wrong(names, step.at, f"step {step.id}", "needs", step.needs)
         yield from _wrong(names, step.at, f"step {step.id}", "lacks", step.lacks)
+        for fact in sorted(mechanism.facts.intersection(step.lacks)):
+            yield Fault(step.at, f"step {step.id}", f"lacks names the fact {fact}; a fact can only be needed")
     for check in mechanism.checks:
         yield from _wrong(names, check.at, f"check {check.id}", "needs", check.needs)
         yield from _wrong(names, check.at, f"check {check.id}", "only_with", check.only_with)

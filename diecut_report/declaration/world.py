@@ -66,11 +66,14 @@ class World:
     def _search(
         self, holds: When, never: Sequence[When], open_ones: Sequence[str], known: dict[str, Given]
     ) -> Iterator[dict[str, Given]]:
-        if _judged(holds, known) is False or any(_judged(other, known) for other in never):
+        if (
+            _judged(holds, known) is False
+            or any(_judged(other, known) for other in never)
+            or not self._is_allowed(known)
+        ):
             return
         if not open_ones:
-            if self._is_allowed(known):
-                yield known
+            yield known
             return
         for value in self._values(open_ones[0], known):
             if value is None and never and self.keys[open_ones[0]].has_default:
@@ -102,7 +105,7 @@ class World:
             yield None
 
     def _is_allowed(self, known: Mapping[str, Given]) -> bool:
-        """Whether the rules let these be given together, as far as they name them."""
+        """Whether the rules let these be given together, as far as all that they name is known; what they refuse stays refused."""
         return all(_keeps(home, rule, known, self.keys) for home, rule in self.rules)
 
 

@@ -132,7 +132,7 @@ class Calculation:
         self.mechanism = mechanism
         self.count = variants
         self.is_partial = False  # whether only some steps are run, so that messages may lack their numbers
-        self.given = frozenset(inputs) | texts_given(inputs)
+        self.given = frozenset(inputs) | texts_given(inputs) | mechanism.facts
         self.meta: dict[str, Meta] = dict(fields(in_form(mechanism.inputs, self.given)))
         self.inputs: dict[str, Any] = {name: _column(value, variants) for name, value in inputs.items()}
         self.steps: dict[str, Step] = {step.id: step for _, step in mechanism.active(self.given)}
@@ -141,6 +141,7 @@ class Calculation:
         self.curves: dict[str, CurveStep] = {}
         self.domains: dict[str, Domain] = {}
         self.part_names: dict[str, tuple[str, ...]] = {}  # of the repeated parts that follow from the inputs
+        self.row_of: dict[str, str] = {}  # for each number that is called by the name of its part, the row
         self.series: dict[str, PieceSeries] = {}
         self.branch: dict[str, Array] = {}  # for each choice, the case taken by each variant
         self.middle: dict[str, Array] = {}  # for each place of an extreme, the middle of its smooth piece
@@ -152,6 +153,7 @@ class Calculation:
         self.extremes: dict[tuple[str, float], tuple[Array, Found]] = {}  # with the pieces they are of
         self.judged: dict[tuple[str, int], Side] = {}  # for each check on a curve and its sides, where it governs
         self.flaws: dict[int, tuple[str, str]] = {}  # for each impossible variant the key and the message
+        self.withheld: dict[str, Array] = {}  # for each fact, which variants do not meet it
 
     def __getitem__(self, name: str) -> Array:
         """A number of all variants, shape (variants, 1) or (variants, parts)."""
@@ -225,7 +227,7 @@ class Calculation:
 
     def step_or_input(self, name: str) -> Step | Quantity:
         """Return what declares a quantity: its symbol, unit and description."""
-        return named_quantity.declared(name, self.steps, self.axis, self.meta, self.mechanism.at)
+        return named_quantity.declared(self.row_of.get(name, name), self.steps, self.axis, self.meta, self.mechanism.at)
 
 
 class CurveSampler:

@@ -3,10 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+from functools import cached_property, lru_cache
+from types import MappingProxyType
 
 import numpy as np
 
+from diecut_report.contract.mechanism import Mechanism
 from diecut_report.contract.phase_inputs import TakenWhole
 from diecut_report.contract.phases import PREFIX
 from diecut_report.contract.steps import Abscissa, Phase
@@ -19,12 +22,13 @@ from diecut_report.quantities.units import unit
 class PhaseHandle(TakenWhole):
     """Hand a phase of one mechanism to the input of another; ``row`` counts the variants, of which a single one stands for all.
 
-    ``text`` is how a config refers to it.
+    ``text`` is how a config refers to it, ``row`` the variant that is meant where none is named.
     """
 
     calculation: Calculation
     name: str
     text: str = ""
+    row: int = 0
 
     def __str__(self) -> str:
         """Return how a config refers to it."""
@@ -45,19 +49,33 @@ class PhaseHandle(TakenWhole):
         """Return the SI unit of its abscissa."""
         return unit(self.calculation.steps[self.declared.abscissa].unit).si
 
-    def period(self, row: int = 0) -> float:
+    def of_machine(self, row: int) -> PhaseHandle:
+        """Return the phase of one of the variants."""
+        return replace(self, row=row)
+
+    def period(self, row: int | None = None) -> float:
         """Return the period of its abscissa, SI."""
-        return period_of(self.calculation, self.declared, row)
+        return period_of(self.calculation, self.declared, self.row if row is None else row)
 
-    def intervals(self, row: int = 0) -> Intervals:
+    def intervals(self, row: int | None = None) -> Intervals:
         """Return its intervals, SI; none where the machine does not have it."""
-        return intervals(self.calculation, self.name, row)
+        return self._own if row is None or row == self.row else intervals(self.calculation, self.name, row)
+
+    @cached_property
+    def _own(self) -> Intervals:
+        return intervals(self.calculation, self.name, self.row)
 
 
-def phases_of(calc: Calculation) -> dict[str, Phase]:
+def phases_of(calc: Calculation) -> Mapping[str, Phase]:
     """Return the phases that take part in a calculation, by their names."""
-    found = (step for step in calc.steps.values() if isinstance(step, Phase))
-    return {step.id.removeprefix(PREFIX): step for step in found}
+    return _declared(calc.mechanism, calc.given)
+
+
+@lru_cache(maxsize=256)
+def _declared(mechanism: Mechanism, given: frozenset[str]) -> Mapping[str, Phase]:
+    """The same of all calculations with these inputs: among many machines they are asked for many times."""
+    found = (step for _, step in mechanism.active(given) if isinstance(step, Phase))
+    return MappingProxyType({step.id.removeprefix(PREFIX): step for step in found})
 
 
 def intervals(calc: Calculation, name: str, row: int = 0) -> Intervals:

@@ -6,6 +6,7 @@ from collections.abc import Mapping
 from functools import cached_property
 from typing import TYPE_CHECKING, Any, NamedTuple
 
+from diecut_report.report.carried import CarriedFile, carried_files
 from diecut_report.report.document import ReportDocument, document, parts
 from diecut_report.report.equations import Equations
 from diecut_report.report.i18n import Catalogue
@@ -42,6 +43,11 @@ class Material:
     def document(self) -> ReportDocument:
         """The report's content."""
         return document(self.results, Equations(self.words, self.typesetter.measure), self.words)
+
+    @cached_property
+    def carried(self) -> tuple[CarriedFile, ...]:
+        """The files that the report carries."""
+        return carried_files(self.results, self.words)
 
     @cached_property
     def figures(self) -> dict[str, Svg]:

@@ -71,6 +71,7 @@ def filled(material: Material, medium: Medium, kind: str) -> str:
     return _environment().get_template("report.html.j2").render(
         doc=document, t=document.words, kind=kind, style=Markup(style), policy=policy(),
         math=medium.math, figure=medium.figure, failed=material.failed,
+        carried=material.carried,
     )  # fmt: skip
 
 

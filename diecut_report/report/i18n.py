@@ -64,12 +64,22 @@ ENGLISH: dict[str, str] = {
     "dxf_profile": "{title} in mm: a polyline through {n} points on the layer PROFILE, the axis on CENTER",
     "csv": "{title} as a table of {n} rows: {columns}",
     "drawing_scale": "scale bar", "positive": "positive", "negative": "negative",
+    # changes
+    "changes": "Changes against {name}", "changes_of": "Changes from {old} to {new}", "before": "Before", "after": "Now",
+    "change": "Change", "changed_checks": "Checks that changed", "changed_inputs": "Inputs that changed",
+    "changed_outputs": "Results that changed", "changed_mechanisms": "Mechanisms that changed", "changed_code": "What calculated",
+    "following_inputs": "Inputs that follow from these", "no_changes": "Nothing changed.", "follows": "follows {path}",
+    "checks_worse": "worse", "checks_better": "better", "checks_added": "new", "checks_removed": "no longer made",
+    "checks_more used": "more used", "checks_less used": "less used",
+    "changed_mark": "changed; before: {old}", "marked": "What changed is marked in the margin.",
     # programme
     "calculated_by": "Calculated by", "version": "version", "plugin": "Mechanism", "plugin_version": "Version", "kind": "Kind",
     "source_hash": "source", "extension": "Extension",
+    "carried": "Carried with this report", "carried_results": "Results", "attached": "attached to this PDF",
+    "verified": "diecut-report verify calculates it again and tells what differs.",
     "config_file": "Configuration file", "sha256": "SHA-256",
     "failed_text": "This mechanism could not be calculated.", "failed_comparison": "This comparison could not be calculated.",
-    "skipped_text": "This mechanism was not calculated, since one that it refers to is in error.",
+    "skipped_text": "This mechanism was not calculated, since what it refers to was not.",
 }  # fmt: skip
 CATALOGUES: dict[str, dict[str, str]] = {"en": ENGLISH}
 

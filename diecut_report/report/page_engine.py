@@ -3,7 +3,7 @@
 from diecut_report.report.surroundings import no_compiler
 
 with no_compiler():
-    from weasyprint import HTML
+    from weasyprint import HTML, Attachment
     from weasyprint.urls import URLFetcher
 
-__all__ = ["HTML", "URLFetcher"]
+__all__ = ["HTML", "Attachment", "URLFetcher"]

@@ -10,10 +10,11 @@ from typing import Any
 
 from markupsafe import Markup, escape
 
+from diecut_report.report.carried import DATE, CarriedFile
 from diecut_report.report.context import Material
 from diecut_report.report.equations import Equation
 from diecut_report.report.html import filled
-from diecut_report.report.page_engine import HTML, URLFetcher
+from diecut_report.report.page_engine import HTML, Attachment, URLFetcher
 from diecut_report.report.pdf_math import Picture
 
 FORMULA = "data:formula,"  # addresses of the formulas' pictures, which WeasyPrint finds in its cache
@@ -50,9 +51,17 @@ def sheets(material: Material) -> bytes:
     cache: dict[str, Any] = dict(paper.pictures)
     with _without_collection():
         content: bytes = HTML(string=source, url_fetcher=fetcher).write_pdf(
-            pdf_variant="pdf/ua-1", cache=cache, presentational_hints=False
-        )
+            pdf_variant="pdf/ua-1", cache=cache, presentational_hints=False,
+            attachments=[_attached(file, fetcher) for file in material.carried],
+        )  # fmt: skip
     return content
+
+
+def _attached(file: CarriedFile, fetcher: URLFetcher) -> Attachment:
+    """A file in the PDF; its type is that of its address, not what the system takes its ending for."""
+    return Attachment(
+        url=file.address, url_fetcher=fetcher, name=file.name, description=file.description, created=DATE, modified=DATE
+    )
 
 
 @contextmanager

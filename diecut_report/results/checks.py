@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Iterator
 from typing import Any, Literal, NamedTuple
 
 import numpy as np
@@ -212,7 +213,11 @@ def _is_row(calc: Calculation, check: Check) -> bool:
 
 def _part_names(calc: Calculation, check: Check) -> tuple[str, ...]:
     """The names of the parts that a check runs over, where they have some."""
-    found = (calc.part_names.get(calc.axis.get(name, "")) for name in check.named)
+    found: Iterator[Any] = (
+        calc.part_names.get(calc.axis.get(name, ""))
+        or calc.inputs.get(calc.steps[name].named_by if name in calc.steps else "")
+        for name in check.named
+    )
     return next((names for names in found if names), ())
 
 

@@ -36,7 +36,10 @@ def document(run: Run) -> Data:
     config, tree = run.config, run.config.tree
     mechanisms = with_origins({name: _mechanism_data(run, name) for name in config.instances if name != PRESS})
     comparisons = {case.name: _comparison_data(run, case) for case in run.cases}
-    status = worst(data["status"] for data in mechanisms.values())
+    found = [data["status"] for data in mechanisms.values()]
+    status = worst(
+        "fail" if each == "skipped" else each for each in found
+    )  # without an error: what it needs does not hold
     return {
         "schema_version": 1,
         "program": {"name": "diecut-report", "version": __version__, **_code(config)},
@@ -45,6 +48,7 @@ def document(run: Run) -> Data:
             "sha256": tree.sha256,
             "resolved": resolved(run),
             "source_text": tree.text,
+            **_tables(config),
         },
         "project": _project(config.project.model_dump()),
         "press": _press(run),
@@ -53,6 +57,12 @@ def document(run: Run) -> Data:
         "summary": summary(mechanisms) | {"assumed": assumed(config)},
         "mechanisms": mechanisms,
     } | ({"comparisons": comparisons} | _left_out(run) if comparisons else {})
+
+
+def _tables(config: Config) -> Data:
+    """The user's own tables that the config names, whole: the calculation can be done again with them."""
+    found = [{"file": name, "sha256": tree.sha256, "source_text": tree.text} for name, tree in config.tables.items()]
+    return {"materials": found} if found else {}
 
 
 def _left_out(run: Run) -> Data:

@@ -19,6 +19,7 @@ from diecut_report.engine import Calculation, listings
 from diecut_report.engine.calculation import Unproven
 from diecut_report.engine.figure_views import figures
 from diecut_report.engine.printing.items import section_items
+from diecut_report.engine.steps import facts
 from diecut_report.quantities.formatting import shortest, shown
 from diecut_report.quantities.units import unit
 from diecut_report.results.checks import applies, check_results, checks_of
@@ -108,19 +109,16 @@ GIVEN = Provenance("given")
 
 def absent(calc: Calculation, provenance: Mapping[str, Provenance]) -> list[Data]:
     """Return what is not calculated, and checks for which a limit is given that nothing can be held against, in words."""
-    left_out = [
-        {"title": s.title, "text": s.absent}
-        for s in calc.mechanism.chapters
-        if s.absent and not calc.given.issuperset(s.needs)
-    ]
+    unmade = [s for s in calc.mechanism.chapters if not calc.given.issuperset(s.needs)]
+    left_out = [{"title": s.title, "text": words} for s in unmade if (words := facts.unmet(calc, s.needs) or s.absent)]
     checks = checks_of(calc)
     made = {check.id for check in checks if applies(calc, check) or missing(calc, check)}
-    unmade = [
+    idle = [
         {"title": c.title, "text": f"not checked, though {c.limit} is given: what it limits is not calculated"}
         for c in checks
         if _is_limit_given(calc, str(c.limit), provenance) and c.id not in made
     ]
-    return left_out + unmade
+    return left_out + idle
 
 
 def _is_limit_given(calc: Calculation, name: str, provenance: Mapping[str, Provenance]) -> bool:
@@ -203,7 +201,7 @@ def _rowed(calc: Calculation, step: Step) -> Data:
     row = calc[step.id][0]
     if step.id in calc.axis:
         home = {} if step.numbered else {"list": calc.axis[step.id]}
-        names = result_names(step, len(row))
+        names = result_names(step, len(row), calc.inputs.get(step.named_by))
         there = [(each, value) for each, value in zip(names, row, strict=True) if value == value]  # no NaN
         return {each.name: _number(step, value) | home | _part(step, each, **home) for each, value in there}
     if not isinstance(row[0], str) and math.isnan(row[0]):

@@ -23,7 +23,7 @@ from diecut_report.limits import MAX_COMPARISONS
 from diecut_report.results.bases import Bases
 from diecut_report.results.comparisons import Found, Uncomparable, compared, found
 from diecut_report.results.mechanism import Origin, Provenance, SelfTestFailed, mechanism_results
-from diecut_report.results.taken_over import Absent, output
+from diecut_report.results.taken_over import Absent, Withheld, output
 
 Data = dict[str, Any]
 Tell = Callable[[str], None]
@@ -60,6 +60,7 @@ class Run:
         self.errors: dict[str, PluginError] = dict(config.broken)
         self.self_tests: dict[str, list[Data]] = {}  # of each mechanism that contradicts itself, what does not hold
         self.skipped: dict[str, str] = {}
+        self.withheld: dict[Node, str] = {}  # values that are not calculated, and why
         self.problems: list[Problem] = []
         self.comparisons: dict[str, Data] = {}
         self.cases: list[Found] = []
@@ -86,8 +87,14 @@ class Run:
             values = [self._term(single) for single in target.single]
             value = self._computed(target, values) if target.expression else values[0]
             self.values[node] = self._derived(instance, node, target, value) if target.formula else value
-        except Unavailable:
-            return  # the mechanism that needs it is skipped
+        except (
+            Unavailable,
+            Withheld,
+        ) as fault:  # what needs it is skipped; what only holds it against others does without
+            if node[1] in instance.derived:
+                self.values[node] = None
+            elif isinstance(fault, Withheld):
+                self.withheld[node] = str(fault)
         except (Absent, Valueless) as fault:
             if node[1] in instance.derived:  # a partner does not have it: what needs it is not checked
                 self.values[node] = None
@@ -153,21 +160,27 @@ class Run:
     def _mechanism(self, name: str) -> None:
         instance, links = self.config.instances[name], self.config.links
         own = {node: target for node, target in links.items() if node[0] == name}
-        needed = [single.instance for target in own.values() for single in target.single]
-        unusable = [name for name in needed if name in self.errors or name in self.skipped]
         if instance is None or name in self.errors:
             return
+        needed = [
+            each.instance for node, target in own.items() if node[1] not in instance.derived for each in target.single
+        ]
+        unusable = [name for name in needed if name in self.errors or name in self.skipped]
         missing = [node for node in own if node not in self.values]
         if instance.mechanism is None:
             self._press(instance, {node: own[node] for node in own if node not in missing}, missing)
             return
         if unusable or missing:
-            self.skipped[name] = (
-                f"It refers to {' and '.join(sorted(set(unusable)) or ['what is not there'])}, which gives no results."
-            )
+            self.skipped[name] = self._why_skipped(unusable, missing)
             return
         if self._validated(name, instance, self._with_values(instance, own)):
             self._calculate(name, instance, self.blocks[name])
+
+    def _why_skipped(self, unusable: list[str], missing: list[Node]) -> str:
+        told = next((self.withheld[node] for node in missing if node in self.withheld), "")
+        if told:
+            return f"It refers to {told}."
+        return f"It refers to {' and '.join(sorted(set(unusable)) or ['what is not there'])}, which gives no results."
 
     def _press(self, instance: Instance, own: dict[Node, Target], missing: list[Node]) -> None:
         """The press, without the fields that a broken mechanism would have given."""
@@ -180,7 +193,9 @@ class Run:
         self._validated(PRESS, instance, {"name": "?"} | data)
 
     def _with_values(self, instance: Instance, own: dict[Node, Target]) -> Data:
-        return substituted(instance, own, lambda node, _: self.values[node])
+        data = substituted(instance, own, lambda node, _: self.values[node])
+        lost = {key for key in instance.derived if data.get(key) is None}  # what a partner does not have is not given
+        return {key: value for key, value in data.items() if key not in lost}
 
     def _validated(self, name: str, instance: Instance, data: Data) -> bool:
         try:
@@ -213,7 +228,10 @@ class Run:
         return calculate(mechanism, flatten(block))
 
     def _printed(self, instance: Instance, calculation: Calculation) -> None:
-        self.results[instance.name] = mechanism_results(calculation, self._provenance(instance))
+        found = mechanism_results(calculation, self._provenance(instance))
+        own = instance.own.sources if instance.own else {}
+        found["sources"] += [{"id": file, "citation": said} for file, said in own.items()]
+        self.results[instance.name] = found
 
     def _compare(self, case: Found) -> None:
         self.tell(case.name)

@@ -12,12 +12,24 @@ from diecut_report.contract.result_names import named
 from diecut_report.engine import Calculation, CurveHandle
 from diecut_report.engine.mechanism_handle import MechanismHandle
 from diecut_report.engine.phases import PhaseHandle
+from diecut_report.engine.steps import facts
 from diecut_report.expressions import Array
 from diecut_report.quantities.plausible import without_rounding
 
 
 class Absent(LookupError):
     """Stand for a value that this machine does not have; the text says so."""
+
+
+class Withheld(LookupError):
+    """Stand for a value that is not calculated, since the machine does not meet what it stands on; the text says what is not met."""
+
+
+def require_facts(calc: Calculation, name: str, target: Target) -> None:
+    """Raise Withheld where a result stands on a fact that the machine (of several: none of them) does not meet."""
+    missed, words = facts.without(calc, name)
+    if missed.all():
+        raise Withheld(f"{target.path}, which is {words or 'not calculated'}")
 
 
 def number(calc: Calculation, name: str) -> Array | None:
@@ -41,6 +53,7 @@ def output(calc: Calculation, name: str, target: Target) -> Any:
     """Return a result as a reference takes it over: a curve, a number with its SI unit, or a text. Absent where there is none."""
     if target.is_mechanism:
         return MechanismHandle(calc, target.instance)
+    require_facts(calc, name, target)
     if target.phase_unit:
         return phase(calc, name, target)
     if calc.axis.get(name) in calc.domains:

@@ -22,7 +22,7 @@ MECHANISM = Mechanism(
     "leaves them room. The offset of one line may be found, the one with the greatest margins. The torques of all lines are added at "
     "the main shaft.",
     inputs=Cyclogram,
-    chapters=(steps.shaft, steps.interlocks, steps.station, steps.torques),
+    chapters=(steps.shaft, steps.interlocks, steps.station, steps.motions, steps.energies, steps.torques),
     key_results=("sheet_time", "line_offset", "best_margin", "productivity_limit", "clearance_least", "torque_mean", "torque_rms",
                  "torque_peak", "power_peak", "energy_fluctuation", "energy_exchange"),
     checks=(
@@ -31,7 +31,7 @@ MECHANISM = Mechanism(
               demand_label="needed with its margins", limit_label="available", source="timing",
               consequence="{interlock_verdict}"),
         Check(id="equal_rates", check_class="function", title="Equal rates of press and lines",
-              demand="rate_error", limit=1e-6, unit="1", demand_label="relative difference",
+              demand="rate_error", limit=steps.LARGEST_RATE_ERROR, unit="1", demand_label="relative difference",
               limit_label="accepted", source="kinematics",
               consequence="{line_name} runs at another rate than the press; let its speed follow press.productivity, as it does by default."),
         Check(id="carriage_height", check_class="function", title="Height that the cylinder leaves the carriages",

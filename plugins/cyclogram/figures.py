@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from math import pi
+from typing import Any
 
 import numpy as np
 
@@ -25,16 +26,15 @@ from diecut_report.api import (
 from diecut_report.mechanics.timing.intervals import Intervals
 from diecut_report.mechanics.timing.offsets import slack
 from diecut_report.mechanics.timing.productivity import tents_of
-from diecut_report.plugins.cyclogram.clearances import way_of
-from diecut_report.plugins.cyclogram.kinds import POSITION, STEP
 from diecut_report.plugins.cyclogram.timing import Timing
-from diecut_report.plugins.cyclogram.torques import Sum
+from diecut_report.plugins.cyclogram.torques import Motions, Torques
 
 WIDTH, HIGH, BAR = 8.0, 0.44, 0.22  # of the whole period, a row, a bar
 INNER, RING, LAYER = 0.8, 0.8, 0.22  # of the rings: the innermost radius, a line, a role of its phases
 LAYERS = {"working": "link", "rest": "outline", "window": "hidden"}
 TURN = 2 * pi
 POINTS = 721
+AXIS = ("Angle of the main shaft", "Φ", "deg")
 
 
 def _pieces(intervals: Intervals, period: float) -> Iterator[tuple[float, float]]:
@@ -104,7 +104,7 @@ def rings(view: View) -> list[Shape]:
         radius = INNER + index * RING
         shapes += [circle((0.0, 0.0), radius, "ghost"), label((0.0, radius - 0.1), each.name, "center")]
         for name in each.phases:
-            role = each.role(name)
+            role = each.roles[name]
             if role in LAYERS:
                 own = radius + LAYER * (1 + list(LAYERS).index(role)) / 1.5
                 pieces = _pieces(each.on_main_shaft(name, timing.common, None), timing.period)
@@ -130,26 +130,46 @@ def _spokes(timing: Timing, outside: float) -> list[Shape]:
     ]
 
 
-def over_main_shaft(view: View) -> list[Shape]:
-    """Ways of the sheets, and the torques with their sum."""
-    timing: Timing = view.prepared("timing")
-    known: Sum = view.prepared("sum")
-    main = np.linspace(0, timing.period, POINTS)[:-1] + timing.period / POINTS / 2
+def moving(view: View) -> list[Shape]:
+    """The ways of the lines, each in a panel of its own, and the room over the carriages where it is known where they stand."""
+    motions: Motions = view.prepared("motions")
+    main = _angles(view.prepared("timing"))
     ways = [
-        line(main, way_of(each, each.mechanism.number(STEP) or 0.0)(main), each.name)
-        for each in timing.lines
-        if each.mechanism.curve(POSITION) is not None and "dwell" in each.phases
+        (f"Way of {name}", line(main, motions.ways.one(k, main[None], main[None], None)[0], name))
+        for k, name in enumerate(motions.ways.names)
     ]
-    torques = [line(main, each.at_main_shaft(main, main), each.name) for each in known.consumers]
-    torques += (
-        [line(main, np.sum([each.at_main_shaft(main, main) for each in known.consumers], axis=0), "sum")]
-        if torques
-        else []
-    )
-    axis = ("Angle of the main shaft", "Φ", "deg")
-    panels = [chart_panel("Way", "mm", *axis, lines=ways)] if ways else []
-    panels += [chart_panel("Torque at the main shaft", "N*m", *axis, lines=torques)] if torques else []
-    return [*panels, *_slack(timing)]
+    panels = [chart_panel(title, "mm", *AXIS, lines=[drawn]) for title, drawn in ways]
+    return [*panels, *_slack(view.prepared("timing"))]
+
+
+def taking(view: View) -> list[Shape]:
+    """The torques of all consumers at the main shaft, with their sum."""
+    known: Torques = view.prepared("sum")
+    main = _angles(view.prepared("timing"))
+    each = known.together.each(main[None], main[None], None)[:, 0]
+    lines = [line(main, own, name) for own, name in zip(each, known.together.names, strict=True)]
+    return [chart_panel("Torque at the main shaft", "N*m", *AXIS, lines=[*lines, line(main, each.sum(axis=0), "sum")])]
+
+
+def swinging(view: View) -> list[Shape]:
+    """The kinetic energies of the lines, with their sum."""
+    energies = view.prepared("motions").energies
+    main = _angles(view.prepared("timing"))
+    each = energies.each(main[None], main[None], None)[:, 0]
+    lines = [line(main, own, name) for own, name in zip(each, energies.names, strict=True)]
+    return [chart_panel("Kinetic energy", "J", *AXIS, lines=[*lines, line(main, each.sum(axis=0), "sum")])]
+
+
+def clearing(view: View) -> list[Shape]:
+    """The room over the carriages."""
+    main = _angles(view.prepared("timing"))
+    room = view.prepared("clearance").over(main[None], main[None], None)[0]
+    needed = line(main, np.full_like(main, view["carriage_clearance"]), "needed")
+    return [chart_panel("Height over the carriages", "mm", *AXIS, lines=[line(main, room, "least"), needed])]
+
+
+def _angles(timing: Timing) -> Any:
+    return np.linspace(0, timing.period, POINTS)[:-1] + timing.period / POINTS / 2
 
 
 def _slack(timing: Timing) -> list[Shape]:
@@ -186,10 +206,32 @@ FIGURES = (
         schematic=True,
     ),
     Chart(
-        id="over_main_shaft",
-        title="Ways, torques and slack",
-        caption="Ways of the sheets from where they stand, and the torques of the lines at the main shaft with their sum. Where an offset "
+        id="ways",
+        title="Ways and slack",
+        caption="Ways of the lines over the common period of the main shaft; a transport goes on with each step. Where an offset "
         "is found: the least slack of all interlocks over it; between the upright lines all interlocks hold.",
-        build=over_main_shaft,
+        needs=("rates_agree",),
+        build=moving,
+    ),
+    Chart(
+        id="clearance",
+        title="Room of the carriages",
+        caption="The least height that the cylinder leaves all carriages; where none is below it, its radius stands.",
+        needs=("rates_agree", "station"),
+        build=clearing,
+    ),
+    Chart(
+        id="torques",
+        title="Torques at the main shaft",
+        caption="The torques of the lines at the main shaft with their sum; negative where a line gives back.",
+        needs=("rates_agree", "takes_torque"),
+        build=taking,
+    ),
+    Chart(
+        id="energies",
+        title="Kinetic energies",
+        caption="The kinetic energies of the lines with their sum: what one line gives back while another takes it needs no flywheel.",
+        needs=("rates_agree", "energy_known"),
+        build=swinging,
     ),
 )

@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 
-from diecut_report.api import Curve, GivenMechanism
+from diecut_report.api import Curve
 
 TORQUES = {
     "cylinder_drive": "crank_torque",
@@ -21,6 +21,14 @@ TORQUES = {
 
 POSITION, STEP = "sheet_position", "sheet_step"
 """The way of the sheet in a transport, and how far a step goes."""
+
+WAYS = {
+    "cylinder_drive": "displacement",
+    "cam_gear_transport": POSITION,
+    "geneva_transport": POSITION,
+    "platen_press": "platen_displacement",
+}
+"""The curve of a line's way."""
 
 
 @dataclass(frozen=True)
@@ -44,18 +52,6 @@ ENERGIES = {
     "geneva_transport": Energy(("wheel_speed",), ("driven_inertia",), lambda speed, inertia: inertia * speed**2 / 2),
     "platen_press": Energy(("platen_velocity_true",), ("platen_mass",), lambda v, mass: mass * v**2 / 2),
 }
-
-
-def energy_curve(mechanism: GivenMechanism) -> tuple[Callable[[Any, Any], Any], list[Curve]] | None:
-    """Return the kinetic energy of a line over shares of its period, and the curves it is made of; None where it is not known."""
-    known = ENERGIES.get(mechanism.kind)
-    if known is None:
-        return None
-    curves = [curve for curve in map(mechanism.curve, known.curves) if curve is not None]
-    numbers = [number for number in map(mechanism.number, known.numbers) if number is not None]
-    if len(curves) < len(known.curves) or len(numbers) < len(known.numbers):
-        return None
-    return lambda share, middle: known.of(*(at(curve, share, middle) for curve in curves), *numbers), curves
 
 
 def at(curve: Curve, share: Any, middle: Any) -> Any:

@@ -9,7 +9,7 @@ from typing import Any
 from diecut_report.api import Cell, ListedColumn
 from diecut_report.plugins.cyclogram.kinds import ENERGIES, POSITION
 from diecut_report.plugins.cyclogram.timing import Timing
-from diecut_report.plugins.cyclogram.torques import energy_of, torque_of
+from diecut_report.plugins.cyclogram.torques import energy_parts, torque_name
 
 Rows = Iterator[tuple[Cell, ...]]
 TURN = 2 * pi
@@ -39,7 +39,7 @@ def phases(given: Mapping[str, Any]) -> Rows:
         for name in line.phases:
             for start, end in line.on_main_shaft(name, timing.common, None):
                 times = (timing.time(start), timing.time(end), timing.time(end - start))
-                yield (f"{line.name}.{name}", line.role(name), start, end, *times)
+                yield (f"{line.name}.{name}", line.roles[name], start, end, *times)
 
 
 def margins(given: Mapping[str, Any]) -> Rows:
@@ -67,9 +67,9 @@ def lacking(given: Mapping[str, Any]) -> Rows:
             yield f"carriages of {line.name} against the window", f"passing of {line.name} is not given"
         if transports and "station.transport" not in given:
             yield f"height over the carriages of {line.name}, carriage_height", "station is not given"
-        if torque_of(line) is None:
+        if line.mechanism.curve(torque_name(line.mechanism, line.torque_curve)) is None:
             yield f"torque of {line.name}", f"{line.name} has none; the sum is too small by it"
-        if line.mechanism.kind in ENERGIES and energy_of(line) is None:
+        if line.mechanism.kind in ENERGIES and energy_parts(line.mechanism) is None:
             numbers = [key for key in ENERGIES[line.mechanism.kind].numbers if line.mechanism.number(key) is None]
             yield (
                 f"kinetic energy of {line.name}",

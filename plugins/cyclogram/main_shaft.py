@@ -5,17 +5,15 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from fractions import Fraction
-from math import floor, pi
+from math import pi
 from typing import Any
 
 import numpy as np
-from scipy.optimize import brentq
 
-from diecut_report.api import GivenMechanism, Refusal, told
-from diecut_report.mechanics.timing.intervals import Interval, Intervals
+from diecut_report.api import GivenMechanism, GivenPhase, Refusal
+from diecut_report.mechanics.timing.intervals import Intervals
 from diecut_report.mechanics.timing.lines import DrivenLine, common_period, exact_turns
-from diecut_report.plugins.cyclogram.inputs import Passage
-from diecut_report.plugins.cyclogram.kinds import POSITION, STEP, at
+from diecut_report.plugins.cyclogram.passing import Stretch
 
 TURN = 2 * pi
 AUTO = "auto"
@@ -39,6 +37,7 @@ class LineOnShaft:
     is_auto: bool
     torque_curve: str
     phases: Mapping[str, OwnPhase]
+    roles: Mapping[str, str]  # working, rest, moving or window; what the sheet passes is moving
 
     @property
     def name(self) -> str:
@@ -57,11 +56,6 @@ class LineOnShaft:
         chosen = own.intervals if number is None else (own.intervals[number],)
         return self.line.on_main_shaft(chosen, common, own.every)
 
-    def role(self, phase: str) -> str:
-        """Return what a phase is: working, rest, moving or window; what the sheet passes is moving."""
-        own = self.mechanism.phases.get(phase)
-        return own.role if own is not None else "moving"
-
     def turned(self, by: float) -> LineOnShaft:
         """Return the line with its zero later by a main-shaft angle."""
         return replace(self, line=replace(self.line, offset=self.line.offset + by))
@@ -74,8 +68,8 @@ def lines_of(given: Mapping[str, Any]) -> tuple[LineOnShaft, ...]:
         _sound(mechanism, index, found)
         offset = of_part(given["lines.offset"], index)
         turns = turns_of(given["lines.turns_per_sheet"][index], f"lines.{index}.turns_per_sheet")
-        passing = (given.get("lines.passing") or ())[index : index + 1] or (None,)
-        ways = _passing(mechanism, passing[0] or (), f"lines.{index}.passing")
+        phases = mechanism.phases
+        ways = _passing(mechanism, given["stretches"][index], f"lines.{index}.passing")
         found.append(
             LineOnShaft(
                 mechanism,
@@ -83,7 +77,8 @@ def lines_of(given: Mapping[str, Any]) -> tuple[LineOnShaft, ...]:
                 float(of_part(given["lines.path_efficiency"], index)),
                 offset == AUTO,
                 given["lines.torque_curve"][index],
-                {**_own_phases(mechanism), **ways},
+                {**_own_phases(phases), **ways},
+                {**{name: phase.role for name, phase in phases.items()}, **dict.fromkeys(ways, "moving")},
             )
         )
     automatic = [str(index) for index, each in enumerate(found) if each.is_auto]
@@ -94,8 +89,6 @@ def lines_of(given: Mapping[str, Any]) -> tuple[LineOnShaft, ...]:
 
 
 def _sound(mechanism: Any, index: int, before: list[LineOnShaft]) -> None:
-    if mechanism.count > 1:
-        raise TypeError(f"{mechanism.name} stands for {mechanism.count} machines; a cyclogram is of one")
     if any(mechanism.name == other.name for other in before):
         raise Refusal(
             f"lines.{index}.mechanism", f"is {mechanism.name}, which is a line already; name each mechanism once"
@@ -119,55 +112,24 @@ def turns_of(text: str, key: str) -> Fraction:
         raise Refusal(key, words) from None
 
 
-def _own_phases(mechanism: GivenMechanism) -> dict[str, OwnPhase]:
+def _own_phases(phases: Mapping[str, GivenPhase]) -> dict[str, OwnPhase]:
     found = {}
-    for name, phase in mechanism.phases.items():
+    for name, phase in phases.items():
         share = TURN / phase.period()
         found[name] = OwnPhase(tuple((start * share, end * share) for start, end in phase.intervals()))
     return found
 
 
-def _passing(mechanism: GivenMechanism, given: tuple[Passage, ...], key: str) -> dict[str, OwnPhase]:
-    found = {}
-    for index, passage in enumerate(given):
-        start, end = (float(np.ravel(getattr(passage, side))[0]) for side in ("from", "to"))
-        if passage.name in mechanism.phases or passage.name in found:
-            words = f"is {passage.name}, the name of another phase of {mechanism.name}; give it one of its own"
+def _passing(mechanism: GivenMechanism, stretches: tuple[Stretch, ...], key: str) -> dict[str, OwnPhase]:
+    found: dict[str, OwnPhase] = {}
+    for index, each in enumerate(stretch.of_machine(0) for stretch in stretches):
+        if each.name in mechanism.phases or each.name in found:
+            words = f"is {each.name}, the name of another phase of {mechanism.name}; give it one of its own"
             raise Refusal(f"{key}.{index}.name", words)
-        first, every = passage.first % passage.every, passage.every
-        a, b = _stretch(mechanism, start, end, f"{key}.{index}")
-        found[passage.name] = OwnPhase(((a + TURN * first, b + TURN * first),), every)
+        each.require(mechanism, f"{key}.{index}")
+        turned = TURN * (each.first % each.every)
+        found[each.name] = OwnPhase(((each.begins + turned, each.ends + turned),), each.every)
     return found
-
-
-def _stretch(mechanism: GivenMechanism, start: float, end: float, key: str) -> Interval:
-    """Own angles (rad) at which the sheet is at two places of its way: the one root each of the displacement, which never falls."""
-    step, position = mechanism.number(STEP), mechanism.curve(POSITION)
-    moving = mechanism.phases.get("moving")
-    if step is None or position is None or moving is None:
-        raise Refusal(key, f"tells what the sheet passes, but the way of the sheet is not known in {mechanism.name}")
-    if not start < end <= step * (1 + 1e-12):
-        words = f"goes from {told(start, 'mm', 6)} to {told(end, 'mm', 6)}; it must go forward, and no further than the step of {told(step, 'mm')}"
-        raise Refusal(key, words)
-    ((low, high),) = moving.intervals()
-    period = moving.period()
-    low, high = (low - period, high - period) if high > period * (1 + 1e-12) else (low, high)
-
-    def way(place: float) -> float:
-        passed = floor(place / period)
-        share = np.array([place / period - passed])
-        return float(at(position, share, share)[0]) + passed * step
-
-    before = way(low)
-    roots = (_root(lambda place, s=wanted: way(place) - before - s, low, high, wanted, step) for wanted in (start, end))
-    a, b = (place * TURN / period for place in roots)
-    return a, b
-
-
-def _root(function: Any, low: float, high: float, wanted: float, step: float) -> float:
-    if wanted <= 0:
-        return low
-    return high if wanted >= step else float(brentq(function, low, high, xtol=1e-14, rtol=9e-16, maxiter=200))
 
 
 def common_turns(lines: tuple[LineOnShaft, ...]) -> Fraction:

@@ -11,8 +11,9 @@ from diecut_report.mechanics import common
 from diecut_report.mechanics.timing.clearance import LeastClearance
 from diecut_report.plugins.cyclogram import listings
 from diecut_report.plugins.cyclogram.clearances import clearance_of
+from diecut_report.plugins.cyclogram.passing import stretches
 from diecut_report.plugins.cyclogram.timing import Timing, timing_of
-from diecut_report.plugins.cyclogram.torques import sum_of
+from diecut_report.plugins.cyclogram.torques import motions_of, torques_of
 from diecut_report.plugins.cyclogram.words import verdicts
 
 # fmt: off
@@ -22,10 +23,12 @@ INTERLOCKS = ("name", "phase", "within", "apart_from", "margin")
 FRICTION = ("name", "torque", "power", "turns_per_sheet", "path_efficiency")
 STATION = ("cylinder", "transport", "carriage_stop", "carriage_width", "forward_direction")
 PHASES = "phases of the lines, laid over the common period of the main shaft"
+LARGEST_RATE_ERROR = 1e-6  # relative
 TIMING, SUM = ("timing",), ("sum",)
 
 shaft = Chapter("Main shaft", text="One turn of the main shaft is a sheet. All lines are where they were after the common period.")
-shaft.prepared("timing", timing_of, ("productivity", *(f"lines.{key}" for key in LINES), *(f"interlocks.{key}" for key in INTERLOCKS)))
+shaft.prepared("stretches", stretches, ("lines.mechanism", "lines.passing"), for_many=True)
+shaft.prepared("timing", timing_of, ("productivity", "stretches", *(f"lines.{key}" for key in LINES), *(f"interlocks.{key}" for key in INTERLOCKS)))
 shaft.value("sheet_time", "T_s", "ms", "Time of a sheet, a turn of the main shaft", lambda productivity: 1 / productivity, source="kinematics")
 shaft.value("main_shaft_speed", "ω_m", "rpm", "Speed of the main shaft", lambda productivity: 2 * np.pi * productivity, source="kinematics")
 shaft.computed("sheets_per_period", "N_s", "1", "Sheets in the common period", lambda timing: float(timing.common), TIMING,
@@ -102,76 +105,111 @@ interlocks.words("interlock_verdict", verdicts, TIMING, each_part=True)
 
 station = Chapter("Clearance of the carriages", needs=("station",), absent="not calculated: station is not given",
                   text="The least height over all carriages, standing and moving, from the shape of the cylinder with its flat.")
-station.prepared("clearance", clearance_of, ("timing", *(f"station.{key}" for key in STATION)))
+station.prepared("clearance", clearance_of, ("timing", "main_period", *(f"lines.{key}" for key in LINES), *(f"station.{key}" for key in STATION)),
+                 for_many=True)
+station.prepared("least", lambda given: given["clearance"].least, ("clearance",), for_many=True)
 CLEARANCE = "search over the common period, refined to 1e-13 of it"
 
 
-def _is_below(clearance: LeastClearance) -> float:
-    return float(np.isfinite(clearance.height))
+def _is_below(least: LeastClearance) -> Any:
+    return np.isfinite(least.height)[:, None].astype(float)
 
 
-def _least(clearance: LeastClearance) -> float:
-    return clearance.height if np.isfinite(clearance.height) else 0.0
+def _least(least: LeastClearance) -> Any:
+    return np.where(np.isfinite(least.height), least.height, 0.0)[:, None]
 
 
-def _needed(cylinder: GivenMechanism) -> float:
-    height = cylinder.number("carriage_clearance")
+def _needed(cylinder: GivenMechanism) -> Any:
+    height = cylinder.numbers("carriage_clearance")
     if height is None:
         raise Refusal("station.cylinder", f"is {cylinder.name}, which has no carriage_clearance to hold the room against; give it there")
     return height
 
 
-station.computed("is_below", "k_Y", "1", "Whether a carriage is ever below the cylinder", _is_below, ("clearance",), "least height over the period",
+station.computed("is_below", "k_Y", "1", "Whether a carriage is ever below the cylinder", _is_below, ("least",), "least height over the period",
                  output=False)
-station.computed("clearance_least", "Y_min", "mm", "Least height that the cylinder leaves the carriages", _least, ("clearance",), CLEARANCE, digits=6,
+station.computed("clearance_least", "Y_min", "mm", "Least height that the cylinder leaves the carriages", _least, ("least",), CLEARANCE, digits=6,
                  exists=lambda is_below: is_below > 0)
-station.computed("clearance_angle", "Φ_Y", "deg", "Main-shaft angle at which that is", lambda clearance: clearance.angle, ("clearance",), CLEARANCE,
+station.computed("clearance_angle", "Φ_Y", "deg", "Main-shaft angle at which that is", lambda least: least.angle[:, None], ("least",), CLEARANCE,
                  digits=6, exists=lambda is_below: is_below > 0)
 station.computed("carriage_clearance", "c_r", "mm", "Clearance that the carriages need",
                  _needed, ("station.cylinder",), "as given to the cylinder's drive")
 
-torques = Chapter("Sum of the torques at the main shaft",
+interlocks.total("worst_rate_error", "Δn_max", "1", "Greatest of them", "max", of="rate_error", output=False)
+interlocks.fact("rates_agree", lambda worst_rate_error: worst_rate_error <= LARGEST_RATE_ERROR,
+                "not calculated: a line runs at another rate than the press, so that nothing can be added up over the main shaft")
+
+motions = Chapter("Motions over the main shaft", needs=("rates_agree",))
+motions.prepared("motions", motions_of, ("timing", "main_period", *(f"lines.{key}" for key in LINES)), for_many=True)
+motions.abscissa("main_angle", "Φ", "deg", "Angle of the main shaft", "main_period", speed="main_shaft_speed", intervals=32)
+OWN = "from the line's own calculation"
+motions.part_curves("way", "s", "mm", "Way of {part}", lambda motions: motions.ways.names, lambda motions, *asked: motions.ways.one(*asked), "motions",
+                    "main_angle", OWN, joints=lambda motions: motions.joints)
+motions.computed("moving_lines", "N_E", "1", "Lines whose kinetic energy is known", lambda motions: float(len(motions.energies.names)), ("motions",),
+                 "as given", output=False)
+motions.fact("energy_known", lambda moving_lines: moving_lines > 0, "not calculated: of no line is it known what moves, and how heavy it is")
+motions.computed_curve("clearance_over", "Y", "mm", "Least height over all carriages; the cylinder's radius where none is below it",
+                       lambda clearance, *asked: clearance.over(*asked), "clearance", "main_angle", "shape of the cylinder with its flat",
+                       needs=("station",))
+
+energies = Chapter("Kinetic energies", needs=("rates_agree", "energy_known"))
+energies.part_curves("kinetic_energy", "E", "J", "Kinetic energy of {part}", lambda motions: motions.energies.names,
+                    lambda motions, *asked: motions.energies.one(*asked), "motions", "main_angle", OWN, joints=lambda motions: motions.joints)
+energies.computed_curve("kinetic_energy_total", "E_Σ", "J", "Kinetic energy of all lines whose is known", lambda motions, *asked: motions.energies.total(*asked),
+                       "motions", "main_angle", "sum of the lines' kinetic energies", joints=lambda motions: motions.joints)
+energies.reduction("kinetic_energy_max", "E_max", "J", "Greatest kinetic energy of all lines together", "max", of="kinetic_energy_total")
+energies.reduction("kinetic_energy_mean", "E_m", "J", "The same in the mean", "mean", of="kinetic_energy_total")
+energies.reduction("kinetic_energy_range", "ΔE_k", "J", "Range of it", "range", of="kinetic_energy_total", output=False)
+energies.computed("kinetic_energy_ranges", "ΣΔE_k", "J", "Ranges of the kinetic energies of the lines, added up", lambda motions: motions.ranges,
+                 ("motions",), "searched over a turn of each line", output=False)
+energies.value("energy_exchange", "E_e", "J", "Energy that the lines lend one another",
+              lambda kinetic_energy_ranges, kinetic_energy_range: np.maximum(kinetic_energy_ranges - kinetic_energy_range, 0))
+
+torques = Chapter("Sum of the torques at the main shaft", needs=("rates_agree", "takes_torque"),
                   text="A line's torque is i·M/η at the main shaft where the shaft drives, i·M·η where the line drives back.")
-torques.prepared("sum", sum_of, ("timing", *(f"friction.{key}" for key in FRICTION)))
-torques.words("torque_missing", lambda sum: ", ".join(sum.without) or "none", SUM)
-torques.abscissa("main_angle", "Φ", "deg", "Angle of the main shaft", "main_period", speed="main_shaft_speed", intervals=32,
-                 shown_at="torque_peak_at")
-torques.made_curve("main_shaft_torque", "M_Σ", "N*m", "Torque at the main shaft", lambda sum: sum.curve, SUM, "main_angle",
-                   "sum of the torques of all lines, each from its own calculation")
-torques.made_curve("greatest_torque", "M_g", "N*m", "Torque of the greatest consumer alone", lambda sum: sum.greatest, SUM, "main_angle",
-                   "the consumer that takes most from the main shaft, in the mean")
+motions.prepared("sum", torques_of, ("timing", "main_period", "main_shaft_speed", *(f"lines.{key}" for key in LINES),
+                                     *(f"friction.{key}" for key in FRICTION)), for_many=True)
+motions.words("torque_missing", lambda sum: ", ".join(sum.without) or "none", SUM)
+motions.computed("consumers", "N_c", "1", "Consumers whose torque is known", lambda sum: float(len(sum.consumers)), SUM, "as given", output=False)
+motions.fact("takes_torque", lambda consumers: consumers > 0, "not calculated: no line has a torque that is known, and no friction is given")
+torques.part_curves("line_torque", "M", "N*m", "Torque of {part} at the main shaft", lambda sum: sum.together.names,
+                    lambda sum, *asked: sum.together.one(*asked), "sum", "main_angle", OWN, joints=lambda sum: sum.joints)
+torques.computed_curve("main_shaft_torque", "M_Σ", "N*m", "Torque at the main shaft", lambda sum, *asked: sum.together.total(*asked), "sum", "main_angle",
+                       "sum of the torques of all lines, each from its own calculation", joints=lambda sum: sum.joints)
+torques.computed_curve("greatest_torque", "M_g", "N*m", "Torque of the greatest consumer alone", lambda sum, *asked: sum.of_greatest(*asked), "sum",
+                       "main_angle", "the consumer that takes most from the main shaft, in the mean")
 torques.reduction("torque_peak", "M_peak", "N*m", "Greatest size of the torque", "abs_max", of="main_shaft_torque")
 torques.reduction("torque_max", "M_max", "N*m", "Greatest driving torque", "max", of="main_shaft_torque")
 torques.reduction("torque_min", "M_min", "N*m", "Greatest braking torque", "min", of="main_shaft_torque")
 torques.reduction("torque_mean", "M_mean", "N*m", "Mean torque", "mean", of="main_shaft_torque")
 torques.reduction("torque_rms", "M_rms", "N*m", "Root mean square torque", "rms", of="main_shaft_torque")
-torques.reduction("greatest_peak", "M_g,peak", "N*m", "Greatest size of the torque of the greatest consumer alone", "abs_max", of="greatest_torque")
-torques.reduction("greatest_rms", "M_g,rms", "N*m", "Root mean square torque of the greatest consumer alone", "rms", of="greatest_torque")
-torques.value("peak_ratio", "k_peak", "1", "Peak of the sum to that of the greatest consumer",
-              lambda torque_peak, greatest_peak: torque_peak / greatest_peak)
+for name, symbol, unit, words, figure in (
+    ("greatest_mean", "M_g,mean", "N*m", "Mean torque of the greatest consumer alone", "mean"),
+    ("greatest_rms", "M_g,rms", "N*m", "Root mean square torque of the greatest consumer alone", "rms"),
+    ("greatest_max", "M_g,max", "N*m", "Its greatest driving torque", "largest"),
+    ("greatest_min", "M_g,min", "N*m", "Its greatest braking torque", "least"),
+    ("greatest_fluctuation", "ΔE_g", "J", "Range of its excess energy", "fluctuation"),
+):
+    torques.computed(name, symbol, unit, words, lambda sum, figure=figure: sum.figure_of_greatest(figure), SUM,
+                     "Gauss–Legendre between the breakpoints; extremes within each smooth piece")
+torques.value("greatest_peak", "M_g,peak", "N*m", "Greatest size of the torque of the greatest consumer alone",
+              lambda greatest_max, greatest_min: np.maximum(greatest_max, -greatest_min))
 torques.value("power_mean", "N_mean", "kW", "Mean power at the main shaft", lambda torque_mean, main_shaft_speed: torque_mean * main_shaft_speed)
 torques.value("power_peak", "N_peak", "kW", "Peak power at the main shaft", lambda torque_peak, main_shaft_speed: torque_peak * main_shaft_speed)
+torques.value("greatest_power_mean", "N_g,mean", "kW", "Mean power of the greatest consumer alone",
+              lambda greatest_mean, main_shaft_speed: greatest_mean * main_shaft_speed)
+torques.value("greatest_power_peak", "N_g,peak", "kW", "Peak power of the greatest consumer alone",
+              lambda greatest_peak, main_shaft_speed: greatest_peak * main_shaft_speed)
 torques.value("torque_excess", "ΔM", "N*m", "Torque above its mean", lambda main_shaft_torque, torque_mean: main_shaft_torque - torque_mean,
               output=False)
 torques.accumulated("excess_energy", "E_x", "J", "Energy taken above the mean, from the start of the period", of="torque_excess")
 torques.reduction("energy_fluctuation", "ΔE", "J", "Range of the excess energy over the common period", "range", of="excess_energy")
-ALONE = "Gauss–Legendre between the breakpoints; extremes within each smooth piece"
-for name, symbol, unit, words, function in (
-    ("greatest_mean", "M_g,mean", "N*m", "Mean torque of the greatest consumer alone", lambda sum: sum.greatest_figures.mean),
-    ("greatest_max", "M_g,max", "N*m", "Its greatest driving torque", lambda sum: sum.greatest_figures.largest),
-    ("greatest_min", "M_g,min", "N*m", "Its greatest braking torque", lambda sum: sum.greatest_figures.least),
-    ("greatest_fluctuation", "ΔE_g", "J", "Range of its excess energy", lambda sum: sum.greatest_figures.energy_fluctuation),
-):
-    torques.computed(name, symbol, unit, words, function, SUM, ALONE)
 for name, symbol, words, quantity, by in (
     ("mean_ratio", "k_mean", "Mean of the sum to that of the greatest consumer", "torque_mean", "greatest_mean"),
     ("rms_ratio", "k_rms", "Root mean square of the sum to that of the greatest consumer", "torque_rms", "greatest_rms"),
+    ("peak_ratio", "k_peak", "Peak of the sum to that of the greatest consumer", "torque_peak", "greatest_peak"),
     ("fluctuation_ratio", "k_E", "Range of the excess energy to that of the greatest consumer", "energy_fluctuation", "greatest_fluctuation"),
 ):
-    torques.value(name, symbol, "1", words, bind(common.quotient, quantity=quantity, by=by))
-torques.computed("energy_exchange", "E_e", "J", "Energy that the lines lend one another",
-                 lambda sum: sum.energies.exchange if sum.energies else 0.0, SUM, "ranges of the lines' kinetic energies less the range of their sum")
-torques.computed("kinetic_energy_mean", "E_m", "J", "Kinetic energy of all lines whose is known, in the mean",
-                 lambda sum: sum.energies.total.mean if sum.energies else 0.0, SUM, "Gauss–Legendre between the breakpoints")
+    torques.value(name, symbol, "1", words, bind(common.quotient, quantity=quantity, by=by), exists=bind(common.is_positive, quantity=by))
 torques.value("torque_curve_turns", "N_t", "1", "Turns of the main shaft that the curve of the torque spans",
               lambda sheets_per_period: sheets_per_period)

@@ -90,6 +90,11 @@ class Timing:
         """Return the lines with their final offsets."""
         return tuple(each.turned(self.best.shift) if self.best and each.is_auto else each for each in self.drawn)
 
+    @property
+    def offsets(self) -> list[float]:
+        """Return the offset of each line, rad."""
+        return [each.line.offset for each in self.lines]
+
     def interlocks(self, lines: tuple[LineOnShaft, ...]) -> list[Interlock]:
         """Return the interlocks over the main shaft's common period, with the side that the automatic offset moves."""
         return [self._interlock(each, lines) for each in self.held]

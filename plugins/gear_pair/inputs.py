@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Any, ClassVar, Literal
 
-from diecut_report.api import POINTS, Annotated, Block, CurveInput, Inputs, OneOf, Quantity, Text
+from diecut_report.api import POINTS, Annotated, Block, CurveInput, FromTable, Inputs, OneOf, Quantity, Text
 
 
 class Sector(Block):
@@ -12,6 +12,9 @@ class Sector(Block):
 
     swing: Annotated[float, Quantity("γ", "deg", "Swing of the sector, from end to end", gt=0, lt=360)]
     teeth_present: Annotated[int | None, Quantity("z_p", "1", "Teeth that the sector has", ge=1, integer=True)] = None
+
+
+OF_MATERIAL = ("sigma_h_lim", "sigma_f_lim", "elastic_modulus")
 
 
 class ExternalGearPair(Inputs):
@@ -23,6 +26,10 @@ class ExternalGearPair(Inputs):
     )
 
     curve_keys: ClassVar[dict[str, str]] = {"torque": "torque_curve"}
+    from_tables: ClassVar[tuple[FromTable, ...]] = tuple(
+        FromTable(f"material_{gear}", "gear_materials", {f"{key}_{gear}": key for key in OF_MATERIAL})
+        for gear in (1, 2)
+    )
 
     module: Annotated[
         float | None,
@@ -84,6 +91,14 @@ class ExternalGearPair(Inputs):
     transverse_load_factor: Annotated[
         float | None,
         Quantity("K_Hα", "1", "Transverse load factor; without it 1 for spur and 1.2 for helical teeth", ge=1),
+    ] = None
+    material_1: Annotated[
+        str | None,
+        Text("Material of the pinion: an entry of gear_materials in a table of your own, in place of its limits"),
+    ] = None
+    material_2: Annotated[
+        str | None,
+        Text("Material of the wheel: an entry of gear_materials in a table of your own, in place of its limits"),
     ] = None
     sigma_h_lim_1: Annotated[
         float, Quantity("σ_Hlim1", "MPa", "Pitting endurance limit of the pinion (ISO 6336-5)", gt=0)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Any, ClassVar, Literal
 
-from diecut_report.api import POINTS, Annotated, CurveInput, Inputs, OneOf, Quantity, Text
+from diecut_report.api import POINTS, Annotated, CurveInput, FromTable, Inputs, OneOf, Quantity, Text
 
 
 class ParallelKey(Inputs):
@@ -15,10 +15,18 @@ class ParallelKey(Inputs):
         OneOf(("width", "height", "depth_shaft", "depth_hub"), optional=True),
     )
     curve_keys: ClassVar[dict[str, str]] = {"torque": "torque_curve"}
+    from_tables: ClassVar[tuple[FromTable, ...]] = (
+        FromTable(
+            "key",
+            "keys",
+            {name: name for name in ("width", "height", "depth_shaft", "depth_hub", "chamfer", "yield_key")},
+        ),
+    )
 
     shaft_diameter: Annotated[
         float, Quantity("d", "mm", "Diameter of the shaft; the table has keys for 10 (not included) to 200 mm", gt=0)
     ]
+    key: Annotated[str | None, Text("Key: an entry of keys in a table of your own, in place of its dimensions")] = None
     key_length: Annotated[
         float | None,
         Quantity("l", "mm", "Length of the key; without it the least standard length that holds is taken", gt=0),

@@ -46,6 +46,11 @@ CHECKS = (
           unit="m/s", severity="warn", demand_label="speed at contact", limit_label="speed that the dampers are calculated with",
           source="kinematics", consequence="the dampers are met faster than calculated; that speed is reached {way_inner} before the inner and "
           "{way_outer} before the outer end: give the damper a velocity of at least {contact_speed:up}, or let it be met later."),
+    Check(id="conveyor_mass", check_class="strength", title="Mass of the conveyor", demand="chain_mass", limit="conveyor_mass", unit="kg",
+          only_with=("chain_mass",), demand_label="mass that the chain accelerates", limit_label="mass that the transport is calculated with",
+          source="dynamics",
+          consequence="torque, contact pressure and motor of the transport are calculated with less than the chain moves: give its conveyor_mass at "
+          "least {chain_mass:up}, or take lighter chains and bars."),
     Check(id="conveyor_inertia", check_class="practice", title="Inertia of the conveyor", demand="inertia_error", limit=LARGEST_INERTIA_ERROR,
           unit="%", severity="warn", demand_label="difference", limit_label="accepted", source="energy",
           consequence="the conveyor of {conveyor_mass} has {conveyor_inertia} at the wheel, which is calculated with {wheel_inertia}; one of "

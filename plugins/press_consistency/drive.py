@@ -39,14 +39,14 @@ engagement.require("clutch_pulls", lambda clutch_load, clutch_torque: clutch_loa
                            "lower the load while engaging")
 engagement.value("net_torque", "M′", "N*m", "Torque that accelerates", lambda clutch_torque, clutch_load: clutch_torque - clutch_load,
                  source="mechanics")
+engagement.prepared("slip", clutch.engagement, (*clutch.TAKES, "engagement_angle"), for_many=True)
 engagement.value("start_angle", "φ_0", "deg", "Crank angle of the engagement: as given", lambda engagement_angle: engagement_angle, source="input",
                  needs=("engagement_angle",))
-engagement.computed("start_angle", "φ_0", "deg", "Crank angle of the engagement: the one with most heat", function=clutch.worst_angle,
-                    takes=clutch.TAKES, method="all crank angles tried", source="this method", lacks=("engagement_angle",))
-engagement.computed("slip_time", "t_s", "ms", "Time of the slip", function=clutch.slip_time, takes=(*clutch.TAKES, "start_angle"),
-                    method="Gauss–Legendre", source="this method")
-engagement.computed("driven_angle", "Δφ", "deg", "Angle that the crank turns meanwhile", function=clutch.driven_angle,
-                    takes=(*clutch.TAKES, "start_angle"), method="root of equal speeds", source="this method")
+engagement.computed("start_angle", "φ_0", "deg", "Crank angle of the engagement: the one with most heat", lambda slip: slip.engagement_angle[:, None],
+                    ("slip",), "all crank angles tried", source="this method", lacks=("engagement_angle",))
+engagement.computed("slip_time", "t_s", "ms", "Time of the slip", lambda slip: slip.time[:, None], ("slip",), "Gauss–Legendre", source="this method")
+engagement.computed("driven_angle", "Δφ", "deg", "Angle that the crank turns meanwhile", lambda slip: slip.driven_angle[:, None], ("slip",),
+                    "root of equal speeds", source="this method")
 engagement.value("lag_angle", "Δφ_l", "deg", "Angle that the driving side turns more",
                  lambda clutch_speed, slip_time, driven_angle: clutch_speed * slip_time - driven_angle, source="kinematics")
 engagement.value("slip_heat", "Q", "J", "Heat of the engagement", lambda clutch_torque, lag_angle: clutch_torque * lag_angle, source="energy")
@@ -93,11 +93,12 @@ motor_chapter.value("flywheel_stiffness", "k_f", "N*m*s/rad", "The same at the f
                     bind(motor_slip.stiffness_at_flywheel, ratio="belt_ratio", efficiency="belt_efficiency"), source="energy")
 motor_chapter.value("time_constant", "τ", "ms", "Time constant of the lag",
                     bind(motor_slip.time_constant, inertia="flywheel_inertia", stiffness_at_flywheel="flywheel_stiffness"), source="this method")
-for name, symbol, words, function in (("lagged_rms", "M_f,rms", "Root mean square of the motor's torque at the flywheel's shaft", motor.rms),
-                                      ("lagged_max", "M_f,max", "Greatest torque of the motor there", motor.largest),
-                                      ("lagged_min", "M_f,min", "Least torque of the motor there; negative where it brakes", motor.least)):
-    motor_chapter.computed(name, symbol, "N*m", words, function=function, takes=("flywheel_torque", "load_turns", "load_period", "time_constant"),
-                           method="exponentials on smooth pieces", source="this method", output=False)
+motor_chapter.prepared("response", motor.response, ("flywheel_torque", "load_turns", "load_period", "time_constant"), for_many=True)
+for name, symbol, words, function in (
+    ("lagged_rms", "M_f,rms", "Root mean square of the motor's torque at the flywheel's shaft", lambda response: response.rms[:, None]),
+    ("lagged_max", "M_f,max", "Greatest torque of the motor there", lambda response: response.largest[:, None]),
+    ("lagged_min", "M_f,min", "Least torque of the motor there; negative where it brakes", lambda response: response.least[:, None])):
+    motor_chapter.computed(name, symbol, "N*m", words, function, ("response",), "exponentials on smooth pieces", source="this method", output=False)
 motor_chapter.value("motor_torque_rms", "M_rms", "N*m", "Root mean square of the motor's torque",
                     lambda lagged_rms, belt_ratio, belt_efficiency: lagged_rms / (belt_ratio * belt_efficiency), source="energy")
 motor_chapter.value("motor_torque_max", "M_max", "N*m", "Greatest torque of the motor",

@@ -38,6 +38,7 @@ class PressConsistency(Inputs):
     conveyor: Annotated[
         str | None, Text("Mechanism that tells the conveyor's mass; without it the only cam_gear_transport")
     ] = None
+    chain: Annotated[str | None, Text("Chain that carries the gripper bars; without it the only roller_chain")] = None
     wheel: Annotated[
         str | None, Text("Mechanism that tells the wheel's inertia; without it the only geneva_transport")
     ] = None
@@ -71,6 +72,12 @@ class PressConsistency(Inputs):
     ] = None
     conveyor_mass: Annotated[
         float | None, Quantity("m_c", "kg", "Mass of the conveyor: chains, gripper bars and sheets", gt=0)
+    ] = None
+    chain_mass: Annotated[
+        float | None,
+        Quantity(
+            "m_h", "kg", "Mass that the gripper chain accelerates: its own, bars, sheets, what turns with it", gt=0
+        ),
     ] = None
     wheel_inertia: Annotated[
         float | None,

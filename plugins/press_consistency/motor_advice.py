@@ -12,19 +12,20 @@ from typing import Any
 import numpy as np
 
 from diecut_report.api import Curve, told
-from diecut_report.mechanics.timing.motor_slip import MotorResponse, motor_response
+from diecut_report.mechanics.timing.motor_slip import motor_response
+from diecut_report.mechanics.timing.piece_rows import PieceRows
 from diecut_report.plugins.press_consistency.motor import load_of
 
 DOUBLINGS = 16
 CLOSE = 1e-7  # relative
 MOST_SLIP = 0.15  # of the synchronous speed: no usual motor has more
 
-Bearable = Callable[[MotorResponse, float], bool]  # whether a response is, at so many times the motor's power
+Bearable = Callable[[PieceRows, float], bool]  # whether a response is, at so many times the motor's power
 
 
 def thermal(torque: Curve, *numbers: float) -> str:
     """Return what keeps the root mean square of a motor's torque at its rated one."""
-    return _advice(torque, numbers, lambda rated, _: lambda found, times: found.torque.rms <= rated * times)
+    return _advice(torque, numbers, lambda rated, _: lambda found, times: found.rms[0] <= rated * times)
 
 
 def peak(torque: Curve, *numbers: float) -> str:
@@ -32,32 +33,38 @@ def peak(torque: Curve, *numbers: float) -> str:
     return _advice(
         torque,
         numbers,
-        lambda rated, ratio: lambda found, times: max(found.largest, -found.least) <= rated * ratio * times,
+        lambda rated, ratio: lambda found, times: max(found.largest[0], -found.least[0]) <= rated * ratio * times,
     )
 
 
 def swing(torque: Curve, *numbers: float) -> str:
     """Return the flywheel that keeps the swing of its speed below the last of the numbers; more slip or power is not the way."""
     *motor, stiffness, speed, fluctuation = numbers
-    load, lag = load_of(torque, int(motor[0])).scaled(motor[1]), motor[2]
+    follow, lag = _follower(torque, motor[0], motor[1]), motor[2]
     allowed = stiffness * speed * fluctuation
-    needed = _least(lambda times: _range(motor_response(load, lag * times)) <= allowed)
+    needed = _least(lambda times: _range(follow(lag * times)) <= allowed)
     if not np.isfinite(needed):
         return "no flywheel keeps it that even"
     return f"the flywheel needs an inertia of at least {told(motor[3] * needed, 'kg*m**2', up=True)}"
 
 
-def _range(found: MotorResponse) -> float:
-    return found.largest - found.least
+def _range(found: PieceRows) -> float:
+    return float(found.largest[0] - found.least[0])
+
+
+def _follower(torque: Curve, turns: float, period: float) -> Callable[[float], PieceRows]:
+    """The motor's torque by the time constant of its lag."""
+    load = load_of(torque, np.array([[turns]]))
+    return lambda lag: motor_response(load, np.array([period]), np.array([lag]))
 
 
 def _advice(torque: Curve, numbers: tuple[float, ...], limit: Callable[[float, float], Bearable]) -> str:
     """Words on what would do, for the load's turns and period, the lag, the flywheel, and the motor with its belt."""
     turns, period, lag, inertia, rated, ratio, efficiency, speed, synchronous, *more = numbers
-    load = load_of(torque, int(turns)).scaled(period)
+    follow = _follower(torque, turns, period)
     bearable = limit(rated * ratio * efficiency, more[0] if more else 1.0)
-    heavier = _least(lambda times: bearable(motor_response(load, lag * times), 1.0))
-    stronger = _least(lambda times: bearable(motor_response(load, lag / times), times))
+    heavier = _least(lambda times: bearable(follow(lag * times), 1.0))
+    stronger = _least(lambda times: bearable(follow(lag / times), times))
     ways = list(_ways(heavier, stronger, inertia, rated * speed, synchronous - speed, synchronous))
     return f"it needs {', or '.join(ways)}" if ways else "no flywheel and no motor of this speed would do"
 
@@ -70,7 +77,7 @@ def _ways(
     if heavier * slip <= MOST_SLIP * synchronous:
         yield f"a slip of at least {told(heavier * slip, 'rpm', up=True)} at the rated torque"
     if np.isfinite(stronger):
-        yield f"a rated power of at least {told(power * stronger, 'kW', up=True)}"
+        yield f"a rated power of at least {told(power * stronger, 'kW', up=True)}, by a greater reserve_factor of the drive train"
 
 
 def _least(holds: Callable[[float], Any]) -> float:

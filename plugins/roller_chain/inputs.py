@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Any, ClassVar, Literal
 
-from diecut_report.api import POINTS, Annotated, CurveInput, Inputs, OneOf, Quantity, Text
+from diecut_report.api import POINTS, Annotated, CurveInput, FromTable, Inputs, OneOf, Quantity, Text
 
 DRIVE, CONVEYOR, CUSTOM = "use=drive", "use=conveyor", "chain=custom"
 OVERRIDES = ("pitch", "pin_diameter", "bearing_area", "breaking_load", "mass_per_length")
@@ -34,9 +34,15 @@ class RollerChain(Inputs):
         "velocity": "velocity_curve",
     }
 
+    from_tables: ClassVar[tuple[FromTable, ...]] = (
+        FromTable("chain", "chains", {key: key for key in OVERRIDES}, stands_for="custom"),
+    )
+
     chain: Annotated[
         Literal["08B", "10B", "12B", "16B", "20B", "24B", "custom"] | None,
-        Text("Chain of ISO 606, series B; where it is left out the smallest that holds is taken"),
+        Text(
+            "Chain of ISO 606, series B; where it is left out the smallest that holds is taken; or an entry of chains in a table of your own"
+        ),
     ] = None
     pitch: Annotated[float | None, Quantity("p", "mm", "Pitch; without it that of the chain", gt=0)] = None
     pin_diameter: Annotated[

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from diecut_report.api import Mechanism, Source
-from diecut_report.plugins.shaft import advice, geometry, steels, strength
+from diecut_report.plugins.shaft import advice, geometry, sizing, steels, strength
 from diecut_report.plugins.shaft.checks import CHECKS
 from diecut_report.plugins.shaft.figures import FIGURES
 from diecut_report.plugins.shaft.inputs import Shaft
@@ -14,11 +14,11 @@ MECHANISM = Mechanism(
     title="Stepped shaft on two bearings",
     summary="A round stepped shaft turns, stands or swings on two bearings under loads that are constant or vary over a cycle. Calculated are "
     "reactions, bending moment, torque, deflection, slopes, twist, the safety against fatigue and yield at each shoulder, notch, bearing and "
-    "load, and the critical speed.",
+    "load, and the critical speed. Where a section's diameter is left out, the least preferred one is taken with which the shaft holds.",
     inputs=Shaft,
     chapters=(
-        geometry.sections, steels.steel, geometry.places, geometry.notches, geometry.endurance, strength.loads, strength.bending, strength.fatigue,
-        strength.yielding, strength.critical, advice.enough,
+        sizing.diameters, geometry.sections, steels.steel, steels.own_steel, geometry.places, geometry.notches, geometry.endurance, strength.loads,
+        strength.bending, strength.fatigue, strength.yielding, strength.critical, advice.enough,
     ),
     key_results=("reaction_a_max", "reaction_b_max", "bending_moment_max", "fatigue_safety", "fatigue_place", "yield_safety", "deflection_max",
                  "bearing_slope_max", "critical_speed", "shaft_mass"),

@@ -117,9 +117,8 @@ def body(
     names: Any, load_x: Any, bearing_a: Array, bearing_b: Array,
 ) -> Body:  # fmt: skip
     """Return the body of what is given; Refusal where a list is empty, or a notch does not say what it is."""
-    if lengths is None or names is None:
-        key = "sections" if lengths is None else "loads"
-        raise Refusal(key, f"is empty; give at least one {'section' if lengths is None else 'load'}")
+    if names is None:
+        raise Refusal("loads", "is empty; give at least one load")
     variants, count, notches = len(bearing_a), lengths.shape[1], len(types or ())
     length, diameter = columns(lengths, count, variants), columns(diameters, count, variants)
     ends = np.concatenate([np.zeros((1, variants)), np.cumsum(length, axis=0)])

@@ -12,7 +12,7 @@ SHARE = 0.06  # of the length, by which marks stand off
 def shaft(view: View) -> list[Shape]:
     """Draw sections, bearings, loads and notches, seen from the side."""
     length = view["length"]
-    sizes = view.row("sections.diameter")
+    sizes = view.row("section_diameter")
     ends = [0.0, *accumulate(view.row("sections.length"))]
     highest = max(sizes) / 2
     shapes = [polyline([(-SHARE * length, 0), ((1 + SHARE) * length, 0)], "centerline")]

@@ -11,14 +11,14 @@ from diecut_report.plugins.shaft.body import PRESS_FIT, body
 
 # fmt: off
 
-BODY = ("sections.length", "sections.diameter", "sections.bore", "sections.fillet_radius", "notches.position", "notches.type",
+BODY = ("sections.length", "section_diameter", "sections.bore", "sections.fillet_radius", "notches.position", "notches.type",
         "notches.radius", "notches.k_t", "notches.k_ts", "notches.k_f", "notches.k_fs", "loads.name", "loads.position", "bearing_a", "bearing_b")
 GIVEN = "as it is given, or of the type of notch"
 
 sections = Chapter("Sections", text="x counts from the shaft's left end; y and z lie across, turning and torque are positive from y to z.")
 sections.prepared("body", lambda given: body(*map(given.get, BODY)), BODY, for_many=True)
 sections.total("length", "L", "mm", "Length of the shaft", "sum", of="sections.length", source="geometry")
-sections.require("bores_inside", bind(lambda bore, diameter: bore < diameter, bore="sections.bore", diameter="sections.diameter"),
+sections.require("bores_inside", bind(lambda bore, diameter: bore < diameter, bore="sections.bore", diameter="section_diameter"),
                  key="sections.{index}.bore", message="is not smaller than the diameter of section {part}; take a smaller bore")
 sections.require("bearings_apart", lambda bearing_a, bearing_b: bearing_a < bearing_b, key="bearing_b",
                  message="is {bearing_b}, not beyond bearing_a at {bearing_a}; bearing A is the left one, so exchange or move them")
@@ -34,7 +34,7 @@ sections.require("notches_on_shaft", bind(lambda position, length: position <= l
                  message="is beyond the shaft, whose sections are {length} long in all; move the notch to at most {length:down}")
 sections.value("section_mass", "m_k", "kg", "Mass of the section",
                bind(lambda density, diameter, bore, length: density * beams.circle_area(diameter, bore) * length,
-                    diameter="sections.diameter", bore="sections.bore", length="sections.length"), source="geometry", output=False)
+                    diameter="section_diameter", bore="sections.bore", length="sections.length"), source="geometry", output=False)
 sections.total("shaft_mass", "m", "kg", "Mass of the shaft, without what is mounted on it", "sum", of="section_mass", source="geometry")
 
 places = Chapter("Places", text="Stresses are judged at the shoulders, notches, bearings and loads; at a step on the smaller diameter. Formulas are "
@@ -117,8 +117,13 @@ notches.value("bore_ratio", "d_i/d", "1", "Bore to diameter at a fillet (0 elsew
 endurance = Chapter("Endurance limit")
 endurance.require("yield_below", lambda yield_strength, tensile_strength: yield_strength <= tensile_strength, key="yield_strength",
                   message="is {yield_strength}, above the tensile strength of {tensile_strength}; no steel yields above what it bears")
-endurance.value("specimen_endurance", "S_e′", "MPa", "Endurance limit of the polished specimen", formulas.endurance_of_specimen,
-                source="Shigley 6-8")
+SPECIMEN = ("specimen_endurance", "S_e′", "MPa", "Endurance limit of the polished specimen")
+endurance.value(*SPECIMEN, formulas.endurance_of_specimen, source="Shigley 6-8", lacks=("fatigue_strength", "strengths.fatigue_strength"))
+endurance.value(*SPECIMEN, lambda fatigue_strength: fatigue_strength, source="input", needs=("fatigue_strength",))
+endurance.value(*SPECIMEN, lambda own_fatigue_strength: own_fatigue_strength, source="input", needs=("strengths.fatigue_strength",),
+                lacks=("fatigue_strength",))
+endurance.require("endurance_below", lambda specimen_endurance, tensile_strength: specimen_endurance < tensile_strength, key="fatigue_strength",
+                  message="is {specimen_endurance}, not below the tensile strength of {tensile_strength}; no steel bears so much for ever")
 endurance.lookup("surface_a", "a", "1", "Factor of the surface", {"ground": 1.58, "machined": 4.51, "hot_rolled": 57.7, "forged": 272},
                  by="surface", source="Shigley table 6-2", output=False)
 endurance.lookup("surface_b", "b", "1", "Exponent of the surface", {"ground": -0.085, "machined": -0.265, "hot_rolled": -0.718, "forged": -0.995},

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Any, ClassVar, Literal
 
-from diecut_report.api import POINTS, Annotated, Block, Inputs, OneOf, Quantity, Text, Varying
+from diecut_report.api import POINTS, Annotated, Block, FromTable, Inputs, OneOf, Quantity, Text, Varying
 
 NotchType = Literal["keyseat_end_mill", "keyseat_sled_runner", "groove_ring", "press_fit", "custom"]
 
@@ -13,7 +13,10 @@ class Section(Block):
     """A section of the shaft, from left to right; its fillet is that of the step at its right end."""
 
     length: Annotated[float, Quantity("l", "mm", "Length of the section", gt=0)]
-    diameter: Annotated[float, Quantity("d", "mm", "Diameter of the section", gt=0)]
+    diameter: Annotated[
+        float | None,
+        Quantity("d", "mm", "Diameter of the section; without it the least preferred one that holds is taken", gt=0),
+    ] = None
     bore: Annotated[float, Quantity("d_i", "mm", "Diameter of the section's bore", ge=0)] = 0
     fillet_radius: Annotated[
         float | None,
@@ -86,10 +89,27 @@ class Load(Block):
     mass: Annotated[float, Quantity("m_i", "kg", "Mass that turns there, for the critical speed", ge=0)] = 0
 
 
+class Strength(Block):
+    """The strengths of a steel up to a diameter, as a maker or a standard states them."""
+
+    diameter: Annotated[float, Quantity("d_R", "mm", "Diameter up to and with which the strengths hold", gt=0)]
+    tensile_strength: Annotated[float, Quantity("R_m", "MPa", "Tensile strength", ge=340, le=1500)]
+    yield_strength: Annotated[float, Quantity("R_e", "MPa", "Yield strength", gt=0)]
+    fatigue_strength: Annotated[
+        float | None,
+        Quantity(
+            "σ_D,k", "MPa", "Fatigue strength of the polished specimen under reversed bending; of all or none", gt=0
+        ),
+    ] = None
+
+
 class Shaft(Inputs):
     """Keys of ``shaft``."""
 
-    one_of: ClassVar[tuple[OneOf, ...]] = (OneOf(("material",), ("tensile_strength", "yield_strength")),)
+    one_of: ClassVar[tuple[OneOf, ...]] = (
+        OneOf(("material",), ("tensile_strength", "yield_strength"), ("strengths",)),
+    )
+    from_tables: ClassVar[tuple[FromTable, ...]] = (FromTable("material", "steels", {"strengths": "strengths"}),)
 
     sections: Annotated[list[Section], Text("Sections of the shaft, from left to right")]
     notches: Annotated[list[Notch], Text("Notches beside the shoulders")] = []  # noqa: RUF012
@@ -99,12 +119,22 @@ class Shaft(Inputs):
     loads: Annotated[list[Load], Text("Loads of the shaft")]
     material: Annotated[
         Literal["42CrMo4+QT", "C45E+QT", "C45E+N"] | None,
-        Text("Steel, in place of its strengths (EN 10083, round bars)"),
+        Text("Steel, in place of its strengths (EN 10083, round bars); or an entry of steels in a table of your own"),
     ] = None
+    strengths: Annotated[list[Strength], Text("Strengths of a steel by diameter, in place of its name")] = []  # noqa: RUF012
     tensile_strength: Annotated[
         float | None, Quantity("S_ut", "MPa", "Tensile strength at the shaft's size", ge=340, le=1500)
     ] = None
     yield_strength: Annotated[float | None, Quantity("S_y", "MPa", "Yield strength at the shaft's size", gt=0)] = None
+    fatigue_strength: Annotated[
+        float | None,
+        Quantity(
+            "σ_D",
+            "MPa",
+            "Fatigue strength of the polished specimen under reversed bending; half the tensile strength without it",
+            gt=0,
+        ),
+    ] = None
     surface: Annotated[Literal["ground", "machined", "hot_rolled", "forged"], Text("Surface of the shaft")] = "machined"
     reliability: Annotated[
         float, Quantity("R", "%", "Reliability of the endurance limit", listed=(50, 90, 95, 99, 99.9, 99.99))

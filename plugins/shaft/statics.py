@@ -33,19 +33,20 @@ class Sides:
     torque_bounds: tuple[Array, Array]
     axial_bounds: tuple[Array, Array]
 
-    @property
+    @cached_property
     def bending(self) -> Array:
         """Return the resultant bending moment."""
-        return np.hypot(self.xy, self.xz)
+        found: Array = np.sqrt(self.xy**2 + self.xz**2)
+        return found
 
-    @property
+    @cached_property
     def torque_size(self) -> Array:
         """Return the greatest size that the torque may have."""
         low, high = self.torque_bounds
         size: Array = np.maximum(np.abs(self.torque + low), np.abs(self.torque + high))
         return size
 
-    @property
+    @cached_property
     def axial_size(self) -> Array:
         """Return the greatest size that the axial force may have."""
         low, high = self.axial_bounds
@@ -95,6 +96,11 @@ class Statics:
             self._both(self._torque_bounds, x), self._both(self._axial_bounds, x),
         )  # fmt: skip
 
+    @cached_property
+    def all_sides(self) -> Sides:
+        """Return the forces in the sections at all places."""
+        return self.sides(self.x)
+
     def _both(self, bounds: Callable[[Array], tuple[Array, Array]], x: Array) -> tuple[Array, Array]:
         before, behind = bounds(x - 2 * SAME_PLACE), bounds(x + 2 * SAME_PLACE)
         return np.stack([before[0], behind[0]]), np.stack([before[1], behind[1]])
@@ -133,9 +139,30 @@ class Statics:
         return self.bent(self.x)
 
     def bent(self, x: Array) -> tuple[Bent, Bent]:
-        """Return the deflection lines of both planes at places that hold all others."""
-        stiffness = self.stiffness_of(x)
-        return tuple(beams.bent(x, stiffness, plane, self.supports) for plane in self.planes)  # type: ignore[return-value]
+        """Return the deflection lines of both planes at places that hold all others: what each load bends, summed up."""
+        units = self._of_units(x)
+        across, turned = (np.moveaxis(each, 1, 0) for each in (units.deflection, units.slope))
+        return tuple(Bent(x, *(np.moveaxis(each @ given, 0, 1) for each in (across, turned))) for given in self._given)  # type: ignore[return-value]
+
+    def deflections(self, x: Array) -> tuple[Array, Array]:
+        """Return the deflections alone of both planes (places, variants, instants), at places that hold all others."""
+        across = np.moveaxis(self._of_units(x).deflection, 1, 0)
+        return tuple(np.moveaxis(across @ given, 0, 1) for given in self._given)  # type: ignore[return-value]
+
+    def _of_units(self, x: Array) -> Bent:
+        """The deflection lines for a unit force, and for a unit couple, at the place of each load (places, variants, loads)."""
+        places = self.cycle.places
+        unit = np.broadcast_to(np.eye(len(places))[:, None], (*places.shape, len(places)))
+        forces, couples = np.concatenate([unit, 0 * unit], axis=2), np.concatenate([0 * unit, unit], axis=2)
+        loading = Loading(places, forces, couples).held(self.supports)
+        return beams.bent(x, self.stiffness_of(x), loading, self.supports)
+
+    @cached_property
+    def _given(self) -> tuple[Array, Array]:
+        """The forces and couples of both planes, (variants, loads, instants)."""
+        loads = self.loads
+        planes = (loads.force_y, loads.couple_xy), (loads.force_z, loads.couple_xz)
+        return tuple(np.moveaxis(np.concatenate(plane), 1, 0) for plane in planes)  # type: ignore[return-value]
 
     def resultants(self, places: Array) -> tuple[Array, Array]:
         """Return resultant deflection and slope at places (places, variants) among all, (places, variants, instants)."""
@@ -146,11 +173,11 @@ class Statics:
     def greatest_deflection(self) -> tuple[Array, Array]:
         """Return the greatest deflection of all (variants,), and at which instant it is, its index."""
         coarse = _between(self.x, WITHIN)
-        size = np.hypot(*(line.deflection for line in self.bent(coarse)))
+        size = sum(each**2 for each in self.deflections(coarse))
         instant = np.argmax(np.max(size, axis=0), axis=1)
         fine = _between(self.x, FINE)
         at = self.at_instant(instant)
-        return np.max(np.hypot(*(line.deflection for line in at.bent(fine))), axis=(0, 2)), instant
+        return np.max(np.hypot(*at.deflections(fine)), axis=(0, 2)), instant
 
     def at_instant(self, instant: Array) -> Statics:
         """The same at one instant of each variant."""
@@ -215,7 +242,7 @@ class Statics:
     @cached_property
     def nominal(self) -> dict[str, Array]:
         """Return where the nominal stress is greatest over shaft and cycle, and the forces there, (variants,) each."""
-        sides = self.sides(self.x)
+        sides = self.all_sides
         index = np.stack([self.body.section_of(self.x, behind=each) for each in (False, True)])
         diameter, bore = (
             np.take_along_axis(each[None], index, axis=1) for each in (self.body.diameter, self.body.bore)
@@ -233,7 +260,7 @@ class Statics:
 
     def numbers(self) -> dict[str, Array]:
         """Return all numbers, (variants,) each."""
-        sides, reactions = self.sides(self.x), np.hypot(self.reactions[:, 0], self.reactions[:, 1])
+        sides, reactions = self.all_sides, np.hypot(self.reactions[:, 0], self.reactions[:, 1])
         low, high = sides.torque_bounds
         deflection, slope = self.resultants(
             np.stack([*self.body.ends[[0, -1]], self.supports.first, self.supports.second])

@@ -3,9 +3,34 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from typing import Any
 
-from diecut_report.api import Case, Chapter, StandardTable, bind, case, standard_table
+import numpy as np
+from numpy.typing import NDArray
+
+from diecut_report.api import Case, Chapter, Refusal, StandardTable, bind, case, standard_table
 from diecut_report.plugins.shaft.formulas import MEGAPASCAL, MILLIMETRE
+
+Array = NDArray[Any]
+ROUNDING = 1e-9  # relative: a diameter at the end of a size belongs to it
+
+
+def by_size(sizes: Array, values: Any, diameter: Array) -> Array:
+    """Return the value of the least size (variants, sizes) that holds the diameter (variants, 1); of a thicker shaft the last."""
+    if isinstance(values, tuple):
+        raise Refusal(
+            "strengths", "gives the fatigue strength of some diameters and not of others; give it for all, or for none"
+        )
+    index = np.minimum(np.sum(diameter > sizes * (1 + ROUNDING), axis=1, keepdims=True), sizes.shape[1] - 1)
+    found: Array = np.take_along_axis(values, index, axis=1)
+    return found
+
+
+def ascends(sizes: Array) -> Array:
+    """Return whether sizes (variants, sizes) ascend, (variants, 1)."""
+    found: Array = np.all(np.diff(sizes, axis=1) > 0, axis=1, keepdims=True).astype(float)
+    return found
+
 
 # fmt: off
 
@@ -26,7 +51,7 @@ def _strength(table: StandardTable, grade: str, size: float) -> float:
 
 
 steel = Chapter("Steel", needs=("material",), text="The least strengths of the grade at the shaft's greatest diameter, of which it is made.")
-steel.total("greatest_diameter", "d_max", "mm", "Greatest diameter of the shaft", "max", of="sections.diameter", source="geometry")
+steel.total("greatest_diameter", "d_max", "mm", "Greatest diameter of the shaft", "max", of="section_diameter", source="geometry")
 for grade, sizes in SIZES.items():
     token = (f"material={grade}",)
     steel.require("size_known", bind(lambda diameter, limit: diameter <= limit * MILLIMETRE, diameter="greatest_diameter", limit=float(sizes[-1])),
@@ -36,3 +61,22 @@ for grade, sizes in SIZES.items():
     for name, symbol, what in (("tensile", "S_ut", "Tensile strength"), ("yield", "S_y", "Yield strength")):
         steel.choice(f"{name}_strength", symbol, "MPa", f"{what} at the shaft's size", *_cases(standard_table(f"steel_{name}_strengths"), grade),
                      source="EN 10083", needs=token)
+
+own_steel = Chapter("Steel", needs=("strengths",), text="The strengths that are given, at the shaft's greatest diameter, of which it is made.")
+own_steel.total("greatest_diameter", "d_max", "mm", "Greatest diameter of the shaft", "max", of="section_diameter", source="geometry")
+own_steel.total("greatest_size", "d_R,max", "mm", "Greatest diameter with known strengths", "max", of="strengths.diameter", source="input",
+                output=False)
+own_steel.computed("sizes_ascend", "k_R", "1", "Whether the diameters of the strengths ascend (1) or not (0)", ascends, ("strengths.diameter",),
+                   "each is compared with the one before it", output=False)
+own_steel.require("sizes_in_order", lambda sizes_ascend: sizes_ascend > 0, key="strengths",
+                  message="are not in the order of their diameters; begin with the least one, each diameter once")
+own_steel.require("own_size_known", lambda greatest_diameter, greatest_size: greatest_diameter <= greatest_size * (1 + 1e-9), key="strengths",
+                  message="are known up to {greatest_size}, but the shaft has {greatest_diameter}; give the strengths of that size too, or take "
+                          "another steel")
+BY_SIZE = "of the least diameter of the list that holds the shaft's greatest one"
+for name, symbol, what in (("tensile", "S_ut", "Tensile strength"), ("yield", "S_y", "Yield strength")):
+    own_steel.computed(f"{name}_strength", symbol, "MPa", f"{what} at the shaft's size", by_size,
+                       ("strengths.diameter", f"strengths.{name}_strength", "greatest_diameter"), BY_SIZE, source="input")
+own_steel.computed("own_fatigue_strength", "σ_D,d", "MPa", "Fatigue strength at the shaft's size", by_size,
+                   ("strengths.diameter", "strengths.fatigue_strength", "greatest_diameter"), BY_SIZE, needs=("strengths.fatigue_strength",),
+                   source="input", output=False)

@@ -14,13 +14,10 @@ from diecut_report.mechanics.beams import Loading, Supports
 from diecut_report.plugins.shaft import formulas
 from diecut_report.plugins.shaft.body import Body
 from diecut_report.plugins.shaft.cycle import Cycle
+from diecut_report.plugins.shaft.material_point import worst_points
 from diecut_report.plugins.shaft.statics import BLOCK, Sides, Statics
 
 Array = NDArray[Any]
-DIRECTIONS = np.arange(120) * np.pi / 60  # of the material point that is looked at first
-NARROWED = 0.1  # of the step between directions, at each turn of the bounded search
-TURNS = 3
-ROUNDING = 1e-12  # share of a stress that is no stress
 
 
 @dataclass(frozen=True)
@@ -109,16 +106,8 @@ class UnderLoad:
         for variants, block in self.blocks():
             own = {name: each[variants].T for name, each in factors.items()}
             sides = block.sides(block.body.x)
-            rows.append(_yielding(sides, own) | self._fatigue(variants, sides, own))
+            rows.append(_yielding(sides, own) | worst_points(sides, self.cycle.angle(variants), own))
         return {name: np.concatenate([each[name] for each in rows]) for name in rows[0]}
-
-    def _fatigue(self, variants: Array, sides: Sides, own: dict[str, Array]) -> dict[str, Array]:
-        angles = self.cycle.angle(variants)
-        count = sides.xy.shape[1]
-        found = [[_worst(sides, own, angles[v], place, v) for place in range(count)] for v in range(len(variants))]
-        names = ("sigma_a", "sigma_m", "torque_upper", "torque_lower")
-        table = np.array(found)
-        return {name: table[:, :, i] for i, name in enumerate(names)}
 
 
 def _yielding(sides: Sides, own: dict[str, Array]) -> dict[str, Array]:
@@ -134,45 +123,3 @@ def _yielding(sides: Sides, own: dict[str, Array]) -> dict[str, Array]:
         )[:, :, 0].T
         for name, each in forces.items()
     }
-
-
-def _worst(sides: Sides, own: dict[str, Array], angle: Array, place: int, variant: int) -> tuple[float, ...]:
-    """The stresses at the material point, on the side of a place, where the safety against fatigue is least."""
-    factors = {name: float(each[place, variant]) for name, each in own.items()}
-    forces = (sides.xy, sides.xz, sides.torque, sides.axial, *sides.torque_bounds, *sides.axial_bounds)
-    is_even = all(np.array_equal(each[0, place, variant], each[1, place, variant]) for each in forces)
-    each_side = [_of_side(sides, side, angle, place, variant, factors) for side in ((0,) if is_even else (0, 1))]
-    return min(each_side, key=lambda found: found[0])[1:]
-
-
-def _of_side(
-    sides: Sides, side: int, angle: Array, place: int, variant: int, own: dict[str, float]
-) -> tuple[float, ...]:
-    """Safety, σ_a, σ_m, greatest and least torque, on one side of a place."""
-    at = (side, place, variant)
-    xy, xz, axial, torque = sides.xy[at], sides.xz[at], sides.axial[at] / own["area"], sides.torque[at]
-    turned = np.stack([xy * np.cos(angle) + xz * np.sin(angle), xz * np.cos(angle) - xy * np.sin(angle)], axis=1)
-    bending = turned / own["modulus"]
-    low, high = (float(each[at][0]) for each in sides.torque_bounds)
-    least, most = float(np.min(torque)) + low, float(np.max(torque)) + high
-    shear = [each / (2 * own["modulus"]) for each in ((most - least) / 2, (most + least) / 2)]
-    bounds = [float(each[at][0]) / own["area"] for each in sides.axial_bounds]
-
-    def judged(psi: Array) -> tuple[Array, Array, Array]:
-        stress = axial[:, None] - bending @ np.stack([np.cos(psi), np.sin(psi)])
-        upper, lower = np.max(stress, axis=0) + bounds[1], np.min(stress, axis=0) + bounds[0]
-        normal = (upper - lower) / 2, (upper + lower) / 2
-        safety = formulas.goodman.function(
-            *normal, *shear, own["k_f"], own["k_fs"], own["endurance"], own["tensile_strength"]
-        )
-        return safety, *normal
-
-    is_symmetric = not np.any(axial) and not any(bounds)  # opposite points then have opposite stresses
-    psi, step = DIRECTIONS[: len(DIRECTIONS) // 2] if is_symmetric else DIRECTIONS, float(DIRECTIONS[1])
-    for _ in range(TURNS):
-        best = float(psi[np.argmin(judged(psi)[0])])
-        psi = best + np.linspace(-step, step, 21)
-        step *= NARROWED
-    safety, sigma_a, sigma_m = judged(np.array([best]))
-    sigma_m = np.where(np.abs(sigma_m) < ROUNDING * (np.abs(sigma_a) + np.abs(sigma_m)), 0.0, sigma_m)
-    return float(safety[0]), float(sigma_a[0]), float(sigma_m[0]), most, least

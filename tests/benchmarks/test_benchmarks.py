@@ -7,11 +7,14 @@ import subprocess
 import sys
 from pathlib import Path
 
+import pytest
+
 from tests.configs import saved
 
 BENCHMARKS = Path(__file__).parents[2] / "benchmarks"
 
 
+@pytest.mark.nightly
 def test_the_practical_route_sets_a_report(small_report: Path, tmp_path: Path) -> None:
     whole = json.loads((small_report / "small.json").read_text("utf-8"))
     clutch = whole["mechanisms"]["clutch"]  # its first section and figure

@@ -8,6 +8,7 @@ import pty
 import signal
 import subprocess
 import sys
+from concurrent.futures import ThreadPoolExecutor
 from functools import partial
 from pathlib import Path
 
@@ -16,7 +17,8 @@ import pytest
 from diecut_report import __version__, plugins
 from diecut_report.cli.main import main
 from diecut_report.cli.progress import Progress
-from tests.configs import BROKEN, EXAMPLE, GOOD, HEAD, LEVER, LISTED, saved
+from tests.configs import BROKEN, GOOD, HEAD, LEVER, LISTED, SMALL, saved
+from tests.processes import Example, in_another_process
 
 pytestmark = pytest.mark.wheel
 
@@ -350,10 +352,14 @@ def test_colours_and_what_it_does_are_shown_only_on_a_terminal_that_wants_them(t
         "json",
         *kinds,
     ]
-    shown = on_terminal(*call)
+    unwanted = ({"NO_COLOR": "1"}, {"TERM": "dumb"})
+    with ThreadPoolExecutor() as together:  # each waits most of its time
+        wanted, piped = together.submit(on_terminal, *call), together.submit(program, *call)
+        plain = [told.result() for told in [together.submit(on_terminal, *call, **variables) for variables in unwanted]]
+    shown = wanted.result()
     assert "reading the configuration" in shown and "\x1b[31mfail\x1b[0m a: Moment." in shown
-    for plain in (on_terminal(*call, NO_COLOR="1"), on_terminal(*call, TERM="dumb"), program(*call).stderr.decode()):
-        assert "fail a: Moment." in plain and "\x1b" not in plain
+    for told in (*plain, piped.result().stderr.decode()):
+        assert "fail a: Moment." in told and "\x1b" not in told
 
 
 def test_an_interrupted_run_ends_at_once_and_writes_nothing(tmp_path: Path) -> None:
@@ -411,20 +417,18 @@ def test_progress_keeps_quiet_where_it_is_told_to_and_where_there_is_no_terminal
 SLOW_TO_IMPORT = ("matplotlib", "jinja2", "weasyprint", "pint", "rich", "ezdxf", "scipy.stats", "diecut_report.report")
 
 
-@pytest.mark.parametrize("command", ["calc", "validate"])
-def test_calc_and_validate_import_nothing_that_draws_or_is_slow(command: str) -> None:
-    unwanted = SLOW_TO_IMPORT
-    code = (
-        f"import sys; from diecut_report.cli.main import main; main(['{command}', {str(EXAMPLE)!r}]); "
-        f"print([m for m in {unwanted!r} if m in sys.modules], file=sys.stderr)"
-    )
-    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
-    assert done.stderr.splitlines()[-1] == "[]"
+def test_calc_imports_nothing_that_draws_or_is_slow(example: Example) -> None:
+    assert example.imported.isdisjoint(SLOW_TO_IMPORT)
 
 
-def test_the_example_is_calculated_with_its_failing_checks(capfd: Capture) -> None:
-    assert main(["calc", str(EXAMPLE)]) == 1
-    found = json.loads(capfd.readouterr().out)
+def test_validate_imports_nothing_that_draws_or_is_slow(tmp_path: Path) -> None:
+    imported = in_another_process("validate", saved(tmp_path, SMALL)).imported
+    assert "diecut_report.config" in imported and imported.isdisjoint(SLOW_TO_IMPORT)
+
+
+def test_the_example_is_calculated_with_its_failing_checks(example: Example) -> None:
+    assert example.code == 1
+    found = json.loads(example.told)
     failing = [c["id"] for data in found["mechanisms"].values() for c in data["checks"] if c["status"] == "fail"]
     assert failing[:3] == ["wall_at_flat", "radius", "closed_section"] and "timing" in failing
     assert found["governing"] == {"mechanism": "cylinder", "check": "wall_at_flat"}

@@ -11,6 +11,7 @@ import pytest
 from diecut_report import declaration
 from diecut_report.cli.main import main
 from tests.configs import HEAD, saved
+from tests.examples import few
 
 Capture = pytest.CaptureFixture[str]
 PLUGIN = """
@@ -133,15 +134,16 @@ def test_a_figure_that_cannot_be_drawn_costs_the_figure(tmp_path: Path, capfd: C
     assert page.count('role="img"') == 1
 
 
-def test_the_report_shows_a_box_in_the_place_of_a_lost_figure(tmp_path: Path, capfd: Capture) -> None:
-    assert run(tmp_path, "report", folder(tmp_path, IN_CALC["what raises"][0]), "--format", "html,pdf") == 3
+@pytest.mark.parametrize("formats", few(["html", "html,pdf"], keep=lambda formats: formats == "html"))
+def test_the_report_shows_a_box_in_the_place_of_a_lost_figure(tmp_path: Path, capfd: Capture, formats: str) -> None:
+    assert run(tmp_path, "report", folder(tmp_path, IN_CALC["what raises"][0]), "--format", formats) == 3
     assert "There are no checks." in capfd.readouterr().err
     page = (tmp_path / "out" / "press.html").read_text("utf-8")
     assert "This figure could not be drawn." in page and "ZeroDivisionError: division by zero" in page
     assert "Is not there." in page and "100" in page
     assert "There are no checks." in page and "All checks pass" not in page and "The mechanisms name no source." in page
     assert "(disc.py:32)" in page and str(tmp_path) not in page
-    assert (tmp_path / "out" / "press.pdf").read_bytes().startswith(b"%PDF")
+    assert formats == "html" or (tmp_path / "out" / "press.pdf").read_bytes().startswith(b"%PDF")
 
 
 @pytest.mark.usefixtures("undeclared")

@@ -87,14 +87,19 @@ def test_a_pdf_of_many_mechanisms_is_refused_before_it_is_calculated(tmp_path: P
     assert heard == ["reading the configuration"]
 
 
-def test_comparisons_beyond_the_cap_are_named_with_the_way_to_them(tmp_path: Path) -> None:
-    feeders = "".join(f"  c{index}: {CAM}\n  g{index}: {GENEVA}\n" for index in range(4))
+def test_comparisons_beyond_the_cap_are_named_with_the_way_to_them(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    assert limits.MAX_COMPARISONS == 12
+    for module in ("press_run", "document"):
+        monkeypatch.setattr(f"diecut_report.results.{module}.MAX_COMPARISONS", 2)  # quicker
+    feeders = "".join(f"  c{index}: {CAM}\n  g{index}: {GENEVA}\n" for index in range(2))
     config = load_config(saved(tmp_path, HEAD + feeders), DISCOVERY)
     results = document(compute(config, lambda _: None))
-    assert len(results["comparisons"]) == 12
-    assert results["comparisons_left_out"]["names"] == [f"transport_comparison-c3-g{index}" for index in range(4)]
+    assert len(results["comparisons"]) == 2
+    assert results["comparisons_left_out"]["names"] == [f"transport_comparison-c1-g{index}" for index in range(2)]
     told = results["comparisons_left_out"]["message"]
-    assert told.startswith("4 comparisons are left out, the first is transport_comparison-c3-g0: at most 12 are made.")
+    assert told.startswith("2 comparisons are left out, the first is transport_comparison-c1-g0: at most 2 are made.")
 
 
 @pytest.mark.parametrize(

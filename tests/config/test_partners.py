@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 from dataclasses import replace
 from pathlib import Path
 from typing import Any
@@ -14,7 +15,8 @@ from diecut_report.config.references import texts
 from diecut_report.contract.mechanism import Partner
 from diecut_report.pipeline import calc
 from diecut_report.plugins.press_consistency import MECHANISM
-from tests.configs import DISCOVERY, EXAMPLE, HEAD, loaded, problems, saved
+from tests.configs import DISCOVERY, HEAD, loaded, problems, saved
+from tests.processes import Example
 
 DRIVE = """\
   drive: {kind: cylinder_drive, cylinder_radius: 105 mm, cylinder_length: 700 mm, cylinder_mass: 80 kg, cylinder_inertia: 0.973 kg*m**2,
@@ -124,9 +126,9 @@ def test_what_a_partner_does_not_have_in_this_machine_is_left_out(
     assert inputs.get("dead_center_inner", {}).get("value") is None
 
 
-def test_the_example_press_is_held_against_itself() -> None:
-    outcome, _ = calc(EXAMPLE, DISCOVERY, lambda _: None)
-    (found,) = (data for data in outcome.results["mechanisms"].values() if data["kind"] == "press_consistency")
+def test_the_example_press_is_held_against_itself(example: Example) -> None:
+    mechanisms = json.loads(example.told)["mechanisms"].values()
+    (found,) = (data for data in mechanisms if data["kind"] == "press_consistency")
     checks = {check["id"]: check["status"] for check in found["checks"]}
     assert checks["actual_rate"] == "warn"
     assert checks["format_rolled"] == "pass"

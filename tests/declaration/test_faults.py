@@ -46,7 +46,6 @@ from diecut_report.api import (
     bind,
     formula,
 )
-from diecut_report.config.discovery import Discovery
 from diecut_report.contract.figures import Figure
 from diecut_report.declaration import faults
 from diecut_report.testing import check_mechanism
@@ -435,11 +434,6 @@ def test_a_place_is_the_line_of_the_author_and_is_kept() -> None:
     assert file == __file__ and "return Value(" in here[int(line) - 1]
     assert replace(MOMENT, symbol="Q").at == MOMENT.at and "at=" not in repr(MOMENT)
     assert Quantity("F", "N", "Force") == Quantity("F", "N", "Force")
-
-
-@pytest.mark.parametrize("kind", [kind for kind, origins in Discovery().origins.items() if origins[0].is_own])
-def test_the_programs_own_mechanisms_declare_nothing_wrong(kind: str) -> None:
-    assert list(map(str, faults(Discovery().mechanism(kind)))) == []
 
 
 def test_a_case_of_a_text_and_its_words_are_read() -> None:

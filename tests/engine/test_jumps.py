@@ -13,14 +13,14 @@ from diecut_report.engine import Calculation
 from diecut_report.engine.numerics.discontinuities import jumping
 from diecut_report.engine.numerics.sample_cache import JUMP
 from tests.configs import ON_ARRAYS
-from tests.engine.test_compiled import axes, machines
+from tests.engine.test_compiled import EXAMPLES_AT_HAND, axes, machines, stem
 
 
 def jumps(calc: Calculation, axis: str) -> frozenset[str]:
     return jumping(tuple(calc.curves.items()), axis)
 
 
-@pytest.mark.parametrize("path", ON_ARRAYS, ids=lambda path: path.stem)
+@pytest.mark.parametrize("path", EXAMPLES_AT_HAND, ids=stem)
 def test_what_does_not_jump_is_the_same_at_the_end_and_just_inside(path: Any) -> None:
     for calc in machines(load_config(path, Discovery([])), {}, 5).values():
         for axis, curves in axes(calc):

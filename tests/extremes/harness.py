@@ -14,9 +14,9 @@ from diecut_report.config.yaml_tree import KeyPath
 from diecut_report.contract.inputs import Block, Quantity, meta_of, nested
 from diecut_report.contract.unit_variants import in_unit
 from diecut_report.errors import UserError
-from diecut_report.pipeline import results_text
 from diecut_report.results.document import document
 from diecut_report.results.press_run import compute
+from diecut_report.results.results_file import results_text
 from tests.plugins.cases import DISCOVERY, FULL, OF_KINDS
 
 ALONE = {

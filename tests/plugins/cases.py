@@ -20,7 +20,7 @@ from diecut_report.results.comparisons import Found
 from diecut_report.results.press_run import Run, compute
 from tests.configs import EXAMPLES
 from tests.machines import PUBLISHED_CYLINDER, PUBLISHED_DRIVE, UNBALANCED, inputs
-from tests.plugins import chains
+from tests.plugins import bearings, chains
 from tests.plugins.clutches import COOLED
 from tests.plugins.drive_trains import EXAMPLE as TRAIN
 from tests.plugins.drive_trains import PAIRS, UNEVEN
@@ -30,7 +30,8 @@ from tests.plugins.keys import OWN, TURNING
 from tests.plugins.keys import SIZED as SIZED_KEY
 from tests.plugins.platens import GUIDED
 from tests.plugins.presses import whole_press
-from tests.plugins.shafts import CRANKSHAFT, LAYSHAFT, STANDING
+from tests.plugins.shafts import CRANKSHAFT, LAYSHAFT, OWN_STEEL, STANDING
+from tests.plugins.shafts import SIZED as SIZED_SHAFT
 from tests.plugins.steppers import LOADED, PUBLISHED
 from tests.validation.rows_circular_knife import KEYS as CIRCULAR
 from tests.validation.rows_damper import WORKED as DAMPER
@@ -129,7 +130,13 @@ FULL: dict[str, dict[str, dict[str, Any]]] = {
         "even velocity": chains.without(chains.GRIPPERS, "velocity_curve", "chain") | {"velocity": 1},
         "numbers": chains.without(chains.GRIPPERS, "velocity_curve", "acceleration_curve") | {"velocity": 1, "acceleration": 30},
     },
-    "shaft": {"crank": CRANKSHAFT | {"speed": 50}, "lay": LAYSHAFT, "standing": STANDING},
+    "rolling_bearing": {
+        "numbers": {"bearings": [bearings.BALL | {"axial_force": 900}, bearings.BALL | {"name": "other", "radial_force": -9000}], "n_points": 72},
+        "kinds": {"bearings": [bearings.ANGULAR, bearings.ROLLER, bearings.SOUGHT], "reliability": 95, "n_points": 72},
+        "curves": {"bearings": [bearings.SWINGING, bearings.WAVING, bearings.JUMPING, bearings.SOUGHT | {
+            "axial_force": bearings.WAVING["axial_force"]}], "required_static_safety": 2, "n_points": 72},
+    },
+    "shaft": {"crank": CRANKSHAFT | {"speed": 50}, "lay": LAYSHAFT, "standing": STANDING, "sized": SIZED_SHAFT, "own steel": OWN_STEEL},
 }  # fmt: skip
 WIDELY: dict[str, Ranges] = {
     "cam_gear_transport": {"dwell_angle": (1.5, 4.2), "sector_stop_sweep": (0.1, 0.6), "arm_length": (0.05, 0.1), "cycles_per_hour": (1, 2)},
@@ -159,6 +166,7 @@ WIDELY: dict[str, Ranges] = {
                      "strands": (1, 4), "moving_mass": (0, 50), "power": (100, 50000)},
     "press_consistency": {"clutch_load": (0, 900), "clutch_speed": (2, 12), "contact_distance": (0.005, 0.9),
                           "flywheel_inertia": (0.1, 20), "damper_velocity": (0.1, 4)},
+    "rolling_bearing": {"required_life": (3.6e6, 3.6e9), "service_factor": (1, 2)},
     "shaft": {"bearing_a": (0.0, 0.06), "bearing_b": (0.2, 0.32), "yield_strength": (3e8, 1.2e9), "tensile_strength": (4e8, 1e9)},
 }  # fmt: skip
 

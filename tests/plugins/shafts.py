@@ -81,6 +81,26 @@ STANDING: dict[str, Any] = CRANKSHAFT | {
         {"name": "brake", "position": 200, "force_z": 800, "torque": "balance"},
     ],
 }
+SIZED: dict[str, Any] = {
+    "sections": [{"length": 60, "diameter": 40}, {"length": 190}],
+    "bearing_a": 20,
+    "bearing_b": 230,
+    "material": "C45E+QT",
+    "fatigue_strength": 300,
+    "loads": [
+        {"name": "pulley", "position": 100, "force_y": 2000, "torque": 50},
+        {"name": "brake", "position": 200, "torque": "balance"},
+    ],
+    "n_points": 72,
+}
+OWN_STEEL: dict[str, Any] = {
+    key: value for key, value in CRANKSHAFT.items() if key not in ("tensile_strength", "yield_strength")
+} | {
+    "strengths": [
+        {"diameter": 40, "tensile_strength": 1100, "yield_strength": 900, "fatigue_strength": 500},
+        {"diameter": 100, "tensile_strength": 1000, "yield_strength": 800, "fatigue_strength": 450},
+    ]
+}
 
 
 @cache

@@ -36,6 +36,7 @@ def advised(message: str) -> list[dict[str, Any]]:
             if SET.search(each)]  # fmt: skip
 
 
+@pytest.mark.nightly
 @given(keys=KEYS)
 @examples(15)
 def test_every_advice_makes_its_check_pass(keys: dict[str, Any]) -> None:

@@ -94,4 +94,4 @@ def test_each_check_has_a_class_and_self_tests_are_balances_alone(kind: str) -> 
     classes = {check.id: check.check_class for check in OF_KINDS[kind].checks}
     assert set(classes.values()) <= {"function", "strength", "practice", "numerical"}
     own = {name for name, found in classes.items() if found == "numerical"}
-    assert own <= {"energy_balance", "power_balance", "gear_turn", "energy", "critical_bounds"}
+    assert own <= {"energy_balance", "power_balance", "gear_turn", "energy", "critical_bounds", "mean_bounds"}

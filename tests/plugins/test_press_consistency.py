@@ -113,6 +113,7 @@ CHANGED = [  # what passes in the whole press, and a change with which it does n
     ("actual_rate", {"output_turns_per_sheet": 0.515}, "fail"),
     ("driven_inertia", {"clutch_inertia": "0.8 kg*m**2"}, "fail"),
     ("damper_velocity", {"contact_distance": "100 mm"}, "warn"),
+    ("conveyor_mass", {"conveyor_mass": "11 kg"}, "fail"),
     ("conveyor_inertia", {"wheel_inertia": "1.5 kg*m**2"}, "warn"),
     ("motor_thermal", {"motor_rated_torque": "3 N*m"}, "fail"),
     ("motor_peak", {"breakdown_ratio": 1.0}, "fail"),

@@ -8,17 +8,12 @@ from typing import Any
 import numpy as np
 import pytest
 
-from diecut_report.plugins.roller_chain import MECHANISM, formulas
+from diecut_report.plugins.roller_chain import formulas
 from diecut_report.plugins.roller_chain.chains import CHAINS
-from diecut_report.testing import check_mechanism
 from tests.machines import number
 from tests.plugins.chains import CUSTOM, DRIVE, GRIPPERS, RATED, UNEVEN, chain, without
 
 GRAVITY = 9.80665
-
-
-def test_the_declarations_hold() -> None:
-    check_mechanism(MECHANISM)
 
 
 @pytest.mark.parametrize(

@@ -16,12 +16,6 @@ def _without_memory(monkeypatch: pytest.MonkeyPatch) -> None:
 
 
 @pytest.fixture
-def without_summary(monkeypatch: pytest.MonkeyPatch) -> None:
-    """Studies are left without their summary, which takes seconds."""
-    monkeypatch.setattr(command, "summarise", lambda _: None)
-
-
-@pytest.fixture
 def with_html_summary(monkeypatch: pytest.MonkeyPatch) -> None:
     """Studies get their summary as HTML alone."""
     monkeypatch.setattr(command, "summarise", lambda folder: summarise(folder, ["html"]))

@@ -5,11 +5,13 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import Any
 
+import numpy as np
+
 from diecut_report.contract.binding import Binding, Bound, bound
 from diecut_report.contract.code_steps import ComputedCurve, PartTable
 from diecut_report.contract.listings import Listing
 from diecut_report.contract.part_steps import Interpolated, Lookup, Neighbour, Part, Pick, Running, Total
-from diecut_report.contract.result_names import place_name
+from diecut_report.contract.result_names import part_result, place_name
 from diecut_report.contract.steps import (
     Abscissa,
     Accumulated,
@@ -75,7 +77,7 @@ def section_items(calc: Calculation) -> list[dict[str, Any]]:
 
 def items(calc: Calculation, step: Step) -> list[Item]:
     """Return what is printed of a step (nothing of breakpoints and requirements)."""
-    if step.exists is not None and step.id in calc.values and calc.values[step.id][0, 0] != calc.values[step.id][0, 0]:
+    if step.exists is not None and step.id in calc.values and np.isnan(calc.values[step.id][0].astype(float)).all():
         return [_head(step) | {"type": "note", "text": f"{step.description}: does not apply to this machine."}]
     match step:
         case Value(formula=part):
@@ -98,7 +100,9 @@ def items(calc: Calculation, step: Step) -> list[Item]:
         case Computed() | CurvePeriod():
             return [_computed(calc, step)]
         case ComputedCurve():
-            return [_computed(calc, step) | {"at": place_shown(calc, step.abscissa, False)}]
+            names = [part_result(name, step) for name in calc.inputs[step.named_by]] if step.named_by else [step.id]
+            at = {"at": place_shown(calc, step.abscissa, False)}
+            return [_computed(calc, own) | at for name in names if isinstance(own := calc.steps[name], ComputedCurve)]
         case PartTable(parts=parts, columns=columns):
             return [tables.of_parts(calc, step, calc.part_names[parts], list(columns))]
         case Lookup() if step.id in calc.axis:
@@ -134,6 +138,8 @@ def _value(calc: Calculation, step: Value, part: Bound) -> list[Item]:
             filter(None, (item.get("note"), f"Shown for: {calc.part_names[axis][shown_part(calc, step.id)]}."))
         )
     elif axis is not None:
+        if names := calc.inputs.get(step.named_by):
+            item["note"] = " ".join(filter(None, (item.get("note"), f"Shown for: {names[shown_part(calc, step.id)]}.")))
         return [
             item,
             tables.table(calc, step, [name for name in part.names.values() if isinstance(name, str)] + [step.id]),
@@ -161,7 +167,10 @@ def _sides(substitution: Substitution, held: bool) -> tuple[Any, Any]:
 def _formula(calc: Calculation, part: Bound, step: Step, axis: str | None, elsewhere: bool) -> Item:
     target = value_at(calc, step.id, axis)
     marked = marks(calc, axis, elsewhere)
-    substitution = _substitution(calc, part, step, lambda name: value_at(calc, name, axis, flag=elsewhere), marked)
+    own = None if axis in calc.domains else shown_part(calc, step.id)
+    substitution = _substitution(
+        calc, part, step, lambda name: value_at(calc, name, axis, flag=elsewhere, part=own), marked
+    )
     takes = [name for name in part.names.values() if isinstance(name, str)]
     try:
         numeric = substitution.numeric(target, step.unit, step.digits) if takes else None

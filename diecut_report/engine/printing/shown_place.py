@@ -28,8 +28,8 @@ def shown_place(calc: Calculation, axis: str) -> tuple[Array, Array]:
     return place, calc.domains[axis].middle_of(place, rows=FIRST)
 
 
-def value_at(calc: Calculation, name: str, axis: str | None, *, flag: bool = False) -> float:
-    """Return a number, or a curve's value where formulas are shown, or the first of a row over repeated parts.
+def value_at(calc: Calculation, name: str, axis: str | None, *, flag: bool = False, part: int | None = None) -> float:
+    """Return a number, or a curve's value where formulas are shown, or that of a row's part (default: the one that is shown).
 
     What goes into a flag of smooth pieces is taken at the middle of the piece.
     """
@@ -38,13 +38,24 @@ def value_at(calc: Calculation, name: str, axis: str | None, *, flag: bool = Fal
         sampler = calc.kept(f"shown {flag}", str(axis), lambda _: (middle if flag else place, middle), FIRST)
         return float(np.ravel(sampler[name])[0])  # a constant is a curve too
     row = calc[name]
-    return float(row[0, shown_part(calc, name) if row.shape[1] > 1 else 0])
+    own = shown_part(calc, name) if part is None else part
+    return float(row[0, own if row.shape[1] > 1 else 0])
 
 
 def shown_part(calc: Calculation, name: str) -> int:
-    """Return which part of a row formulas are shown with, from 0; 0 of a number too."""
+    """Return which part of a row formulas are shown with, from 0: the first that has all values; 0 of a number too."""
     names = calc.steps.get(calc.axis.get(name, ""))
-    return int(calc[names.shown_at][0, 0]) if isinstance(names, PartNames) and names.shown_at else 0
+    if isinstance(names, PartNames) and names.shown_at:
+        return int(calc[names.shown_at][0, 0])
+    step = calc.steps.get(name)
+    taken = [each for each in step.takes() if isinstance(each, str)] if isinstance(step, Value) else []
+    rows = [
+        calc.values[each][0]
+        for each in (name, *taken)
+        if each in calc.values and calc.axis.get(each) == calc.axis.get(name)
+    ]
+    known = [~np.isnan(row.astype(float)) for row in rows if row.dtype != object]
+    return int(np.argmax(np.all(known, axis=0))) if known else 0
 
 
 def is_elsewhere(calc: Calculation, step: Value | Choice, axis: str | None) -> bool:

@@ -26,12 +26,14 @@ SERIES_WORDS = {
 
 
 def table(calc: Calculation, step: Step, names: list[str]) -> Item:
-    """Return a row over repeated parts with what it is made of: a line for each part, numbered."""
+    """Return a row over repeated parts with what it is made of: a line for each part, by its name or numbered."""
     declared = [calc.step_or_input(name) for name in names]
-    columns = [{"title": "No.", "symbol": "", "unit": "1"}]
+    known = calc.inputs.get(step.named_by)
+    columns = [{"title": "Name" if known else "No.", "symbol": "", "unit": "1"}]
     columns += [{"title": d.description, "symbol": d.symbol, "unit": d.unit} for d in declared]
     count = calc[step.id].shape[1]
-    lines = [[str(i + 1), *(_cell(calc, name, i) for name in names)] for i in range(count)]
+    heads = known or [str(i + 1) for i in range(count)]
+    lines = [[heads[i], *(_cell(calc, name, i) for name in names)] for i in range(count)]
     return {"type": "table", "title": step.description, "columns": columns, "rows": lines}
 
 

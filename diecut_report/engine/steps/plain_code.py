@@ -9,10 +9,11 @@ from typing import Any
 
 import numpy as np
 
-from diecut_report.contract.code_steps import ComputedCurve, PartNames
+from diecut_report.contract.code_steps import ComputedCurve, PartCurves, PartNames
 from diecut_report.contract.place import Misdeclared
 from diecut_report.contract.steps import Clash, Computed, Step, Words
 from diecut_report.engine.calculation import Calculation
+from diecut_report.engine.steps import named_parts
 from diecut_report.expressions import Array
 
 
@@ -25,11 +26,24 @@ def part_names(calc: Calculation, step: PartNames) -> None:
 
 
 def curve(calc: Calculation, step: ComputedCurve) -> None:
-    """Take note of a curve, and cut its abscissa where it has corners."""
-    calc.curves[step.id] = step
+    """Take note of a curve, or of those of named parts, and cut its abscissa where they have corners."""
+    made = named_parts.curves_of(calc, step)
+    calc.curves |= made
+    calc.steps |= made
+    calc.axis = calc.axis | dict.fromkeys(made, step.abscissa)
     if step.joints is not None:
         places = step.joints(calc.inputs[step.of])
         calc.domains[step.abscissa].cut(np.broadcast_to(places, (calc.count, places.shape[1])))
+
+
+def part_curves(calc: Calculation, step: PartCurves) -> None:
+    """Take note of the curves of all parts, and cut their abscissa where they have corners."""
+    made = {each.id: each for each in step.curves(calc.inputs[step.of])}
+    calc.curves |= made
+    calc.steps = {**calc.steps, **made}
+    calc.axis = {**calc.axis, **dict.fromkeys(made, step.abscissa)}
+    if step.joints is not None and made:
+        calc.domains[step.abscissa].cut(step.joints(calc.inputs[step.of]))
 
 
 def number(step: Computed, found: Any, count: int) -> Array:

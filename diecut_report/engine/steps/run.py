@@ -8,8 +8,9 @@ from typing import Any
 
 import numpy as np
 
-from diecut_report.contract.code_steps import ComputedCurve, PartNames, PartTable
+from diecut_report.contract.code_steps import ComputedCurve, Fact, PartCurves, PartNames, PartTable
 from diecut_report.contract.listings import Listing
+from diecut_report.contract.machines import Machines
 from diecut_report.contract.mechanism import Mechanism
 from diecut_report.contract.part_steps import Interpolated, Lookup, Neighbour, Part, Pick, Running, Total
 from diecut_report.contract.refusal import Refusal
@@ -40,13 +41,17 @@ from diecut_report.engine.numerics import extrema, roots_integrals
 from diecut_report.engine.numerics.domain import Domain
 from diecut_report.engine.steps import (
     extreme_checks,
+    facts,
     feasibility,
     interpolation,
+    named_parts,
+    one_by_one,
     part_rows,
     plain_code,
     prefetch,
     smooth_pieces,
 )
+from diecut_report.engine.steps.again import Again
 from diecut_report.engine.steps.soundness import finite, mark, possible, prove, whole
 from diecut_report.expressions import Array
 from diecut_report.quantities.formatting import told
@@ -71,9 +76,9 @@ def calculate(
     with np.errstate(all="ignore"):
         steps = [step for _, step in mechanism.active(calc.given) if only is None or step.id in only]
         for i, step in enumerate(steps):
-            prefetch.look(calc, steps[i:])
-            if isinstance(step, Words | Phase | Listing):
+            if step.id not in calc.steps or isinstance(step, Words | Phase | Listing):
                 continue
+            prefetch.look(calc, facts.remaining(calc, steps[i:]) if calc.withheld else steps[i:])
             try:
                 if isinstance(step, prefetch.Asking):
                     smooth_pieces.require(calc, step.id, step.of)
@@ -82,17 +87,11 @@ def calculate(
                 raise Impossible([*first.reasons, *feasibility.reasons(calc, steps[i + 1 :])]) from None
             finite(calc, step)
             whole(calc, step)
-            _name_parts(calc, step)
+            named_parts.name_row(calc, step)
         for stand_in, residual in extreme_checks.searched(calc) if only is None else ():
             prove(calc, stand_in, residual, roots_integrals.SAMPLE_TOLERANCE)
+        facts.blank(calc)
     return calc
-
-
-def _name_parts(calc: Calculation, step: Step) -> None:
-    """The parts of a row under names of their own."""
-    if step.numbered:
-        row = calc[step.id]
-        calc.values |= {each.name: row[:, [each.index]] for each in result_names(step, row.shape[1])}
 
 
 def _value(calc: Calculation, step: Value) -> None:
@@ -206,10 +205,11 @@ def _from_curve(calc: Calculation, step: FromCurve) -> None:
 
 
 def _prepared(calc: Calculation, step: Prepared) -> None:
-    if calc.count > 1 and not step.for_many:
-        raise TypeError(f"{step.id} is made of one machine, and was asked for {calc.count}")
-    known = {name: calc[name] for name in step.holds if name in calc.values or name in calc.inputs}
-    calc.inputs[step.id] = _called(step, [known])
+    known: dict[str, Any] = {n: calc[n] for n in step.holds if n in calc.values or n in calc.inputs}
+    if step.again:
+        known["again"] = Again(calc, calculate)
+    alone = calc.count == 1 or step.for_many
+    calc.inputs[step.id] = _called(step, [known]) if alone else one_by_one.prepared(calc, step, known)
 
 
 def _made_curve(calc: Calculation, step: MadeCurve) -> None:
@@ -250,7 +250,8 @@ def _curve_period(calc: Calculation, step: CurvePeriod) -> None:
 
 def _computed(calc: Calculation, step: Computed) -> None:
     taken = [calc[name] for name in step.takes]
-    found = _called(step, taken)
+    of_each = any(isinstance(each, Machines) for each in taken)
+    found = one_by_one.computed(calc, step, taken) if of_each else _called(step, taken)
     if calc.count > 1 and np.shape(found)[:1] != (calc.count,) and any(isinstance(each, np.ndarray) for each in taken):
         raise TypeError(f"{step.id} was given {calc.count} machines and has one value for all")
     if step.is_text:
@@ -264,7 +265,7 @@ RUN: dict[type[Step], Callable[[Calculation, Any], None]] = {
     Value: _value, Choice: _choice, Root: _root, Abscissa: _abscissa, Breakpoints: _breakpoints, Crossings: _crossings,
     Reduction: _reduction, Accumulated: _accumulated, Derivative: _derivative, FromCurve: _from_curve,
     CurvePeriod: _curve_period, Computed: _computed, MadeCurve: _made_curve,
-    Prepared: _prepared, ComputedCurve: plain_code.curve, PartNames: plain_code.part_names, PartTable: lambda _, __: None,
+    Prepared: _prepared, ComputedCurve: plain_code.curve, PartCurves: plain_code.part_curves, PartNames: plain_code.part_names, PartTable: lambda _, __: None, Fact: facts.judge,
     Require: feasibility.require, Clash: feasibility.clash,
     Total: part_rows.total, Neighbour: part_rows.neighbour, Running: part_rows.running, Part: part_rows.part, Lookup: part_rows.lookup,
     Pick: part_rows.pick, Interpolated: interpolation.interpolated,

@@ -6,39 +6,48 @@ Lengths in metres, x along the feed from the die's middle; angles in radians, of
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, fields, replace
+from typing import Any
 
 import numpy as np
 
 from diecut_report.expressions import Array
 
+Number = Any  # a number, or a column of one for each machine
 EVERY = np.pi / 720  # rad of the main shaft between the places that are looked at first
-ACROSS = 33  # places of a closer look
+ACROSS = np.linspace(-1, 1, 33)  # places of a closer look, in steps about one
 CLOSE = 1e-13  # of the period, to which the least height is searched
+TOGETHER = 32  # machines that are looked at together first, as each takes many places
 
-Motion = Callable[[Array], Array]  # of main-shaft angles (points,)
+Heights = Callable[[Array, Array], Array]  # of main-shaft angles (rows, points) and the machine (rows,) of each row
 
 
 @dataclass(frozen=True)
 class Station:
     """Hold the cylinder (radius, half the central angle of its flat, stroke of its axis) and the carriages on their way.
 
-    ``with_feed`` says whether the forward stroke runs with the feed. ``carriage_stop`` is where the middle of a carriage
-    stands, ``step`` the way from one to the next, ``carriage_width`` its length along the feed.
+    Numbers, or columns (machines, 1) of them. ``with_feed`` says whether the forward stroke runs with the feed.
+    ``carriage_stop`` is where the middle of a carriage stands, ``step`` the way from one to the next, ``carriage_width``
+    its length along the feed.
     """
 
-    radius: float
-    half_angle: float
-    stroke: float
+    radius: Number
+    half_angle: Number
+    stroke: Number
     with_feed: bool
-    carriage_stop: float
-    step: float
-    carriage_width: float
+    carriage_stop: Number
+    step: Number
+    carriage_width: Number
 
     @property
     def direction(self) -> int:
         """Return D, +1 with the feed and −1 against it."""
         return 1 if self.with_feed else -1
+
+    def of(self, machine: Array) -> Station:
+        """Return the stations of some of the machines, as columns."""
+        parts = {each.name: getattr(self, each.name) for each in fields(self)}
+        return replace(self, **{name: part[machine] for name, part in parts.items() if np.ndim(part) and len(part) > 1})
 
 
 def profile_height(station: Station, tilt: Array, distance: Array) -> Array:
@@ -62,70 +71,71 @@ def lowest_distance(station: Station, tilt: Array) -> Array:
 def carriage_clearance(station: Station, rotation: Array, displacement: Array) -> Array:
     """Return the least height over all carriages, infinite where none is below the cylinder.
 
-    ``rotation`` is the cylinder's angle θ in [0, 2π] from the outer end, ``displacement`` the carriages' way s; both (points,).
+    ``rotation`` is the cylinder's angle θ in [0, 2π] from the outer end, ``displacement`` the carriages' way s, of one shape.
     """
-    turned = np.where(rotation <= np.pi, rotation, rotation - 2 * np.pi)
-    tilt = (station.direction * turned)[:, None]
+    tilt = station.direction * np.where(rotation <= np.pi, rotation, rotation - 2 * np.pi)
     axis = station.direction * (station.radius * rotation - station.stroke / 2)
-    middle = _carriages(station, displacement, axis)
-    half = station.carriage_width / 2
-    nearest = np.clip(lowest_distance(station, tilt), middle - half, middle + half)
-    heights = profile_height(station, tilt, nearest)
-    found: Array = np.where(np.abs(nearest) < station.radius, heights, np.inf).min(axis=1)
-    return found
-
-
-def _carriages(station: Station, displacement: Array, axis: Array) -> Array:
-    """Middles of the carriages that may be below the cylinder, from its axis, shape (points, carriages)."""
-    reach = int(np.ceil((station.radius + station.carriage_width / 2) / station.step))
+    lowest, half = lowest_distance(station, tilt), station.carriage_width / 2
     first = station.carriage_stop + displacement - axis
-    found: Array = (first - np.round(first / station.step) * station.step)[:, None] + station.step * np.arange(
-        -reach, reach + 1
-    )
+    near = first - np.round(first / station.step) * station.step
+    found = np.full(np.shape(near), np.inf)
+    for number in _reached(station):
+        middle = near + number * station.step
+        nearest = np.clip(lowest, middle - half, middle + half)
+        height = profile_height(station, tilt, nearest)
+        found = np.where(np.abs(nearest) < station.radius, np.minimum(found, height), found)
     return found
+
+
+def _reached(station: Station) -> range:
+    """Numbers of the carriages that may be below the cylinder, counted from the one that is nearest to its axis."""
+    far = (station.radius + station.carriage_width / 2) / station.step
+    reach = int(np.ceil(np.nanmax(far)))
+    return range(-reach, reach + 1)
 
 
 @dataclass(frozen=True)
 class LeastClearance:
-    """Hold the least height (m; infinite where no carriage is ever below the cylinder) and the main-shaft angle where it is."""
+    """Hold for each machine the least height (m; infinite where no carriage is ever below the cylinder) and the main-shaft angle of it."""
 
-    height: float
-    angle: float
-
-
-def least_clearance(station: Station, rotation: Motion, displacement: Motion, period: float) -> LeastClearance:
-    """Return the least height over a period (rad), to 1e-9 of it; rotation and displacement as functions of the main-shaft angle."""
-
-    def height(angle: Array) -> Array:
-        return carriage_clearance(station, rotation(angle), displacement(angle))
-
-    angles = np.linspace(0.0, period, 1 + round(period / EVERY))
-    heights = height(angles)
-    places = _lowest_places(heights)
-    if len(places) == 0:
-        return LeastClearance(np.inf, 0.0)
-    return _closer(height, angles[places], angles[1] - angles[0], period)
+    height: Array
+    angle: Array
 
 
-def _lowest_places(heights: Array) -> Array:
-    """Places that may be beside the least height: no neighbour is lower, and no other is lower by more than the steps there are."""
-    padded = np.concatenate([heights[-2:-1], heights, heights[1:2]])
-    low = np.isfinite(heights) & (heights <= padded[:-2]) & (heights <= padded[2:])
-    if not low.any():
-        return np.empty(0, dtype=int)
-    steps = np.abs(np.diff(padded[np.isfinite(padded)]))
-    found: Array = np.flatnonzero(low & (heights <= heights[low].min() + 2 * steps.max(initial=0.0)))
-    return found
+def least_clearance(height: Heights, period: Array) -> LeastClearance:
+    """Return the least height over the period (rad) of each machine, shape (machines,), to 1e-9 of it."""
+    shares = np.linspace(0, 1, 1 + round(float(np.max(period)) / EVERY))
+    machines = np.arange(len(period))
+    parts = np.array_split(machines, -(-len(machines) // TOGETHER))
+    found = [_candidates(height, shares, period, each) for each in parts]
+    machine, angle = (np.concatenate([part[index] for part in found]) for index in (0, 1))
+    return _closer(height, machine, angle, shares[1] * period, period)
 
 
-def _closer(height: Motion, angles: Array, step: float, period: float) -> LeastClearance:
+def _candidates(height: Heights, shares: Array, period: Array, machines: Array) -> tuple[Array, Array]:
+    """Angles that may be beside the least height, with their machines: no neighbour is lower, none else by more than the steps there are."""
+    angles = shares * period[machines, None]
+    heights = height(angles, machines)
+    padded = np.concatenate([heights[:, -2:-1], heights, heights[:, 1:2]], axis=1)
+    low = np.isfinite(heights) & (heights <= padded[:, :-2]) & (heights <= padded[:, 2:])
+    bounded = np.where(np.isfinite(padded), padded, np.nan)
+    steps = np.nan_to_num(np.abs(np.diff(bounded, axis=1))).max(axis=1, keepdims=True)
+    least = np.where(low, heights, np.inf).min(axis=1, keepdims=True)
+    row, place = np.nonzero(low & (heights <= least + 2 * steps))
+    return machines[row], angles[row, place]
+
+
+def _closer(height: Heights, machine: Array, angle: Array, step: Array, period: Array) -> LeastClearance:
     """Look closer about all places at once, until the steps are small."""
-    while True:
-        around = angles[:, None] + step * np.linspace(-1, 1, ACROSS)
-        heights = height((around % period).ravel()).reshape(around.shape)
-        best = np.argmin(heights, axis=1)
-        angles, found = np.take_along_axis(around, best[:, None], 1)[:, 0], heights.min(axis=1)
-        step *= 2 / (ACROSS - 1)
-        if step < CLOSE * period:
-            lowest = int(np.argmin(found))
-            return LeastClearance(float(found[lowest]), float(angles[lowest] % period))
+    found = LeastClearance(np.full(len(period), np.inf), np.zeros(len(period)))
+    width, whole = step[machine], period[machine]
+    lowest = np.full(len(machine), np.inf)
+    while len(machine) and (width >= CLOSE * whole).any():
+        around = angle[:, None] + width[:, None] * ACROSS
+        heights = height(around % whole[:, None], machine)
+        best = np.argmin(heights, axis=1)[:, None]
+        angle, lowest = (np.take_along_axis(each, best, axis=1)[:, 0] for each in (around, heights))
+        width = width * 2 / (len(ACROSS) - 1)
+    for place in np.argsort(-lowest, kind="stable"):  # the lowest of a machine comes last
+        found.height[machine[place]], found.angle[machine[place]] = lowest[place], angle[place] % whole[place]
+    return found

@@ -1,4 +1,7 @@
-"""A friction clutch that starts a crank drive from rest: the inertia it feels changes with the crank angle while it slips."""
+"""Friction clutches that start crank drives from rest: the inertia they feel changes with the crank angle while they slip.
+
+All of many machines at once: numbers have the shape (machines,).
+"""
 
 from __future__ import annotations
 
@@ -7,23 +10,24 @@ from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
+from scipy.optimize import elementwise
 
 from diecut_report.expressions import Array, formula
-from diecut_report.mechanics.timing.legendre_pieces import NODES, WEIGHTS
+from diecut_report.mechanics.timing.piece_rows import NODES, WEIGHTS
 
 TURN = 2 * np.pi
 AT = 1e-9  # rad from a dead centre that is none
-LOOKS = 41  # places up to the next dead centre at which the end of a slip is looked for
-CLOSER = 33  # places of a closer look at it
-NESTED = 6  # times that it is looked at closer
-STARTS = 48  # engagement angles that are tried over a turn
-ZOOMS = 5  # times that the worst of them is looked at closer
-ACROSS = 17  # places of a closer look
+LOOKS = 240  # places of a turn at which the end of a slip is looked for
+STARTS = 40  # engagement angles that are tried over a turn
+ZOOMS = 3  # times that the worst of them is looked at closer
+ACROSS = np.linspace(-1, 1, 9)  # places of a closer look
 PIECES = 3  # of a slip, in which its time is integrated
+CLOSE = {"xatol": 1e-14, "xrtol": 4e-16, "fatol": 0.0, "frtol": 0.0}
 _SHARES = ((np.arange(PIECES)[:, None] + (NODES + 1) / 2) / PIECES).ravel()
 _PARTS = np.tile(WEIGHTS / 2 / PIECES, PIECES)
 
-Inertia = Callable[[Array], Array]  # kg·m² at crank angles (rad) of any shape, with the period 2π
+Inertia = Callable[[Array, Array], Array]
+"""kg·m² at crank angles (rad; rows, points) of the machine (rows,) of each row, with the period 2π."""
 
 
 @formula
@@ -46,86 +50,106 @@ def inertia_at_crank(
 
 @dataclass(frozen=True)
 class SlippingClutch:
-    """Hold the torque of a slipping clutch, the load's torque below it (N·m), and the speed of its driving side (rad/s)."""
+    """Hold the torque of slipping clutches, the load's torque below them (N·m), and the speed of their driving sides (rad/s)."""
 
-    torque: float
-    load: float
-    speed: float
+    torque: Array
+    load: Array
+    speed: Array
 
     @property
-    def net(self) -> float:
+    def net(self) -> Array:
         """Return the torque that accelerates."""
         return self.torque - self.load
 
 
 @dataclass(frozen=True)
 class Slip:
-    """Hold an engagement: the crank angle where it begins (rad), and what follows until the slip ends.
+    """Hold engagements: the crank angle where each begins (rad), and what follows until the slip ends.
 
-    Time (s), angle driven (rad), lag of the driven side (rad), heat (J), and the constant inertia of equal heat (kg·m²).
+    Time (s), angle driven (rad), lag of the driven side (rad), heat (J), and the constant inertia of equal heat (kg·m²). All
+    are NaN where the clutch has no more torque than the load, so that the slip never ends.
     """
 
-    engagement_angle: float
-    time: float
-    driven_angle: float
-    lag: float
-    heat: float
-    equal_inertia: float
+    engagement_angle: Array
+    time: Array
+    driven_angle: Array
+    lag: Array
+    heat: Array
+    equal_inertia: Array
 
 
-def slip(inertia: Inertia, dead_centers: Array, clutch: SlippingClutch, engagement_angle: float) -> Slip:
-    """Return the engagement from rest at a crank angle (rad).
+def slip(inertia: Inertia, dead_centers: Array, clutch: SlippingClutch, engagement_angle: Array) -> Slip:
+    """Return the engagements from rest at crank angles (rad).
 
-    ``dead_centers`` are the crank angles where the inertia is zero: there the slip has always ended. ValueError where the clutch
-    has no more torque than the load, so that the slip never ends.
+    ``dead_centers`` (machines, any number) are the crank angles where the inertia is zero: there a slip has always ended.
     """
-    angle = np.array([engagement_angle])
-    driven = _driven_angles(inertia, dead_centers, clutch, angle)
-    time = _times(inertia, clutch, angle, driven)
-    return _told(clutch, engagement_angle, float(driven[0]), float(time[0]))
+    driven, time = _slips(inertia, dead_centers, clutch, engagement_angle[:, None])
+    lag = clutch.speed * time[:, 0] - driven[:, 0]
+    heat = clutch.torque * lag
+    equal = 2 * heat * clutch.net / (clutch.torque * clutch.speed**2)
+    return Slip(engagement_angle, time[:, 0], driven[:, 0], lag, heat, equal)
 
 
 def worst_slip(inertia: Inertia, dead_centers: Array, clutch: SlippingClutch) -> Slip:
-    """Return the engagement from rest with the greatest heat, of all crank angles; ValueError as for ``slip``."""
-    low, high, places = 0.0, TURN, STARTS + 1
-    for _ in range(1 + ZOOMS):
-        angles = np.linspace(low, high, places)
-        driven = _driven_angles(inertia, dead_centers, clutch, angles)
-        heats = clutch.speed * _times(inertia, clutch, angles, driven) - driven
-        best, step = angles[int(np.argmax(heats))], angles[1] - angles[0]
-        low, high, places = best - step, best + step, ACROSS
-    return slip(inertia, dead_centers, clutch, float(best % TURN))
+    """Return the engagements from rest with the greatest heat, of all crank angles."""
+    machines = np.arange(len(clutch.torque))
+    angles = np.tile(np.linspace(0, TURN, STARTS, endpoint=False), (len(machines), 1))
+    width = TURN / STARTS
+    for zoom in range(1 + ZOOMS):
+        driven, time = _slips(inertia, dead_centers, clutch, angles)
+        heats = np.nan_to_num(clutch.speed[:, None] * time - driven)
+        best = angles[machines, np.argmax(heats, axis=1)]
+        if zoom < ZOOMS:
+            angles, width = best[:, None] + width * ACROSS, width * (ACROSS[1] - ACROSS[0])
+    return slip(inertia, dead_centers, clutch, (best + width * _vertex(heats)) % TURN)
 
 
-def _told(clutch: SlippingClutch, start: float, driven: float, time: float) -> Slip:
-    lag = clutch.speed * time - driven
-    heat = clutch.torque * lag
-    return Slip(start, time, driven, lag, heat, 2 * heat * clutch.net / (clutch.torque * clutch.speed**2))
+def _vertex(heats: Array) -> Array:
+    """Where a parabola through the greatest of equally spaced values and its neighbours is highest, in their spacing from it."""
+    best = np.argmax(heats, axis=1)
+    inner = np.clip(best, 1, heats.shape[1] - 2)
+    before, here, after = (heats[np.arange(len(heats)), inner + step] for step in (-1, 0, 1))
+    bend = before - 2 * here + after
+    found = np.where((bend < 0) & (best == inner), (before - after) / (2 * np.where(bend < 0, bend, -1.0)), 0.0)
+    return np.clip(found, -0.5, 0.5)
+
+
+def _slips(inertia: Inertia, dead_centers: Array, clutch: SlippingClutch, starts: Array) -> tuple[Array, Array]:
+    """Angle driven and time of the slips from crank angles (machines, starts), of the same shape."""
+    driven = _driven_angles(inertia, dead_centers, clutch, starts)
+    ends = np.sqrt(driven)[:, :, None]
+    places = starts[:, :, None] + (ends * _SHARES) ** 2
+    felt = inertia(places.reshape(len(starts), -1), np.arange(len(starts))).reshape(places.shape)
+    rate = np.sqrt(2 * felt / np.where(clutch.net > 0, clutch.net, np.nan)[:, None, None])
+    return driven, ends[:, :, 0] * (rate @ _PARTS)
 
 
 def _driven_angles(inertia: Inertia, dead_centers: Array, clutch: SlippingClutch, starts: Array) -> Array:
-    """The angle after each start (starts,) at which the driven side first has the speed of the driving side."""
-    if clutch.net <= 0:
-        raise ValueError(
-            f"a clutch with {clutch.torque:g} N·m does not accelerate against a load of {clutch.load:g} N·m"
-        )
-    ahead = (dead_centers - starts[:, None]) % TURN
-    longest = np.where(ahead > AT, ahead, TURN).min(axis=1, keepdims=True)
-    low, high = np.zeros_like(longest), longest
-    for looks in (LOOKS, *(CLOSER,) * NESTED):
-        driven = low + (high - low) * np.linspace(0, 1, looks)
-        ended = clutch.net * driven >= inertia(starts[:, None] + driven) * clutch.speed**2 / 2
-        ended[:, -1] = True
-        first = np.argmax(ended, axis=1)[:, None]
-        low, high = (np.take_along_axis(driven, each, axis=1) for each in (np.maximum(first - 1, 0), first))
-    found: Array = (low + high)[:, 0] / 2
-    return found
+    """The angle after each start (machines, starts) at which the driven side first has the speed of the driving side."""
+    low, high = _brackets(inertia, dead_centers, clutch, starts % TURN)
+    machine = np.repeat(np.arange(len(starts)), starts.shape[1])
+    begins = (starts % TURN).ravel()
+
+    def missing(driven: Array, row: Array, start: Array) -> Array:
+        row = row.astype(int)
+        felt = inertia((start + driven)[:, None], row)[:, 0]
+        return np.asarray(clutch.net[row] * driven - felt * clutch.speed[row] ** 2 / 2)
+
+    found = elementwise.find_root(missing, (low.ravel(), high.ravel()), args=(machine, begins), tolerances=CLOSE)
+    ended = np.where(np.isfinite(found.x), found.x, high.ravel()).reshape(starts.shape)
+    return np.where(clutch.net[:, None] > 0, ended, np.nan)
 
 
-def _times(inertia: Inertia, clutch: SlippingClutch, starts: Array, driven: Array) -> Array:
-    """The time of each slip, ∫dφ/ω with φ = start + s²; up to a dead centre the root of the inertia is smooth."""
-    ends = np.sqrt(driven)[:, None]
-    places = ends * _SHARES
-    rate = np.sqrt(2 * inertia(starts[:, None] + places**2) / clutch.net)
-    found: Array = ends[:, 0] * (rate @ _PARTS)
-    return found
+def _brackets(inertia: Inertia, dead_centers: Array, clutch: SlippingClutch, starts: Array) -> tuple[Array, Array]:
+    """Angles after each start between which its slip ends: its end is looked for on a grid over two turns, which holds the dead centres."""
+    even = np.broadcast_to(np.linspace(0, TURN, LOOKS, endpoint=False), (len(starts), LOOKS))
+    turn = np.sort(np.concatenate([even, dead_centers % TURN], axis=1), axis=1)
+    felt = inertia(turn, np.arange(len(starts)))
+    felt = np.where((turn[:, :, None] == (dead_centers % TURN)[:, None, :]).any(axis=2), 0.0, felt)
+    angles, needed = np.concatenate([turn, turn + TURN], axis=1), np.tile(felt, 2) * clutch.speed[:, None] ** 2 / 2
+    driven = angles[:, None, :] - starts[:, :, None]
+    ended = (driven > AT) & (clutch.net[:, None, None] * driven >= needed[:, None, :])
+    first = np.argmax(ended, axis=2)
+    high = np.take_along_axis(driven, first[:, :, None], axis=2)[:, :, 0]
+    low = np.take_along_axis(driven, np.maximum(first - 1, 0)[:, :, None], axis=2)[:, :, 0]
+    return np.maximum(low, 0.0), high

@@ -6,14 +6,13 @@ a harmonic Ω of the load is damped by 1/√(1 + Ω²τ²).
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
 from numpy.polynomial import legendre
 
 from diecut_report.expressions import Array, as_number, formula
-from diecut_report.mechanics.timing.legendre_pieces import NODES, TO_SERIES, LegendrePieces, split
+from diecut_report.mechanics.timing.piece_rows import NARROW, NODES, TO_SERIES, PieceRows
 
 LONGEST = 4.0  # width of a piece, in time constants
 SHORTEST = 1e-5  # share of the period: a shorter time constant counts as this one
@@ -53,56 +52,41 @@ def next_synchronous_speed(speed: float, frequency: float = 50.0) -> float:
     return float(most / pairs)
 
 
-@dataclass(frozen=True, eq=False)
-class MotorResponse:
-    """Hold the motor's torque over a period of time (N·m, at the flywheel's shaft), which begins and ends alike."""
+def motor_response(load: PieceRows, period: Array, time_constant: Array) -> PieceRows:
+    """Return the periodic torques of motors under loads over shares of their periods (s), all at the flywheel's shaft.
 
-    torque: LegendrePieces
-
-    @property
-    def largest(self) -> float:
-        """Return the greatest torque."""
-        return self.torque.largest[0]
-
-    @property
-    def least(self) -> float:
-        """Return the least torque, negative where the motor brakes."""
-        return self.torque.least[0]
-
-    def speed_fluctuation(self, stiffness_at_flywheel: float, speed: float) -> float:
-        """Return δ, the range of the flywheel's speed to its mean (rad/s): the range of the torque shows it."""
-        return (self.largest - self.least) / (stiffness_at_flywheel * speed)
-
-
-def motor_response(load: LegendrePieces, time_constant: float) -> MotorResponse:
-    """Return the periodic torque of the motor under a load over time (N·m, both at the flywheel's shaft).
-
-    On each piece M_m(t) = e^(−t/τ)·[M_m(0) + ∫₀ᵗ e^(s/τ)·M_f ds/τ]; the start follows from the end of the period.
+    Periods and time constants (s) have shape (machines,). On each piece M_m(t) = e^(−t/τ)·[M_m(0) + ∫₀ᵗ e^(s/τ)·M_f ds/τ]; the
+    start follows from the end of the period.
     """
-    tau = max(time_constant, SHORTEST * float(load.widths.sum()))
-    fine = load.between(split(load.edges, LONGEST * tau))
-    own = _from_rest(fine, tau)
-    decay = np.exp(-fine.widths / tau)
-    starts = _periodic_starts(own[:, -1], decay)
-    passed = fine.widths[:, None] * (NODES + 1) / 2
-    values = own[:, :-1] + starts[:, None] * np.exp(-passed / tau)
-    return MotorResponse(LegendrePieces.through(fine.edges, values))
+    tau = np.maximum(time_constant / period, SHORTEST)
+    fine = load.split(np.maximum(np.ceil(load.width / (LONGEST * tau[load.machine]) - NARROW), 1).astype(int))
+    lag = tau[fine.machine]
+    own = _from_rest(fine, lag)
+    starts = _periodic_starts(fine, own[:, -1], np.exp(-fine.width / lag))
+    passed = fine.width[:, None] * (NODES + 1) / 2
+    return fine.through(own[:, :-1] + starts[:, None] * np.exp(-passed / lag[:, None]))
 
 
-def _from_rest(load: LegendrePieces, tau: float) -> Array:
+def _from_rest(load: PieceRows, tau: Array) -> Array:
     """The response on each piece from zero at its start, at its places and at its end, shape (pieces, places + 1)."""
-    half = load.widths[:, None] / (2 * tau)
+    half = (load.width / (2 * tau))[:, None]
     rises = load.values * np.exp(half * (NODES + 1)) @ _TO_PLACES.T * half
     found: Array = rises * np.exp(-half * (np.append(NODES, 1.0) + 1))
     return found
 
 
-def _periodic_starts(gains: Array, decay: Array) -> Array:
+def _periodic_starts(load: PieceRows, gains: Array, decay: Array) -> Array:
     """The torque at the start of each piece: what the pieces add and leave, after a period the same."""
-    ends = [0.0]
-    for gain, left in zip(gains, decay, strict=True):
-        ends.append(gain + left * ends[-1])
-    first = ends[-1] / -np.expm1(np.log(decay).sum())
-    left_over = np.concatenate([[1.0], np.cumprod(decay[:-1])])
-    found: Array = np.asarray(ends[:-1]) + first * left_over
+    number = np.bincount(load.machine, minlength=load.count)
+    place = np.arange(len(gains)) - (np.cumsum(number) - number)[load.machine]
+    gain, left = np.zeros((load.count, number.max())), np.ones((load.count, number.max()))
+    gain[load.machine, place], left[load.machine, place] = gains, decay
+    begins = np.zeros((load.count, number.max() + 1))
+    for column in range(number.max()):
+        begins[:, column + 1] = gain[:, column] + left[:, column] * begins[:, column]
+    kept = np.cumprod(left, axis=1)
+    first = begins[:, -1] / (1 - kept[:, -1])
+    begins[:, 1:] += first[:, None] * kept
+    begins[:, 0] = first
+    found: Array = begins[load.machine, place]
     return found

@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator
-from pathlib import Path
+from pathlib import Path, PurePath
 from typing import Any
 
 from diecut_report.config import yaml_tree
 from diecut_report.config.discovery import Discovery, DuplicateKind, UnknownKind
+from diecut_report.config.own_tables import KEY as TABLES
 from diecut_report.config.yaml_tree import KeyPath, Tree
 from diecut_report.config.yaml_values import Scalar, with_values
 from diecut_report.errors import PluginError, Problem, UserError
@@ -36,6 +37,7 @@ def variant_config(
         _value(base, _place(base, tuple(_keys(column.name)), discovery)): _given(value, column) for column, value in row
     }
     values |= dict(_named(base, variant, description.study.file))
+    values |= dict(_tables(base, directory, description.base.file))
     heading = f"Variant {variant} of {description.study.file}: its values are exactly those that were calculated."
     kinds = (str(data.get("kind")) for data in (base.data.get(MECHANISMS) or {}).values())
     warnings = other_code(description.sources, kinds, discovery)
@@ -69,6 +71,19 @@ def _value(base: Tree, path: KeyPath) -> KeyPath:
         known = key in home if isinstance(home, dict) else isinstance(home, list) and int(key) < len(home)
         home = home[key] if known else None
     return (*path, "value") if isinstance(home, dict) else path
+
+
+def _tables(base: Tree, directory: Path, file: str) -> Iterator[tuple[KeyPath, str]]:
+    """Return the copies of the tables that the base names, which the folder keeps beside that of the base."""
+    copies = kept(directory)
+    given = base.data.get(TABLES)
+    for index, name in enumerate(given if isinstance(given, list) else [given]):
+        if isinstance(name, str):
+            copy = copies[str(PurePath(file).parent / name)]
+            yield (
+                ((TABLES, index) if isinstance(given, list) else (TABLES,)),
+                copy.relative_to(copies[file].parent).as_posix(),
+            )
 
 
 def _named(base: Tree, variant: int, study: str) -> Iterator[tuple[KeyPath, str]]:

@@ -4,13 +4,14 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, replace
-from typing import Annotated, Any
+from typing import Annotated, Any, Literal, get_args, get_origin
 
 from diecut_report.config.dependency_order import ordered
 from diecut_report.config.instances import Instance
 from diecut_report.config.loader import Config, substituted
 from diecut_report.config.model import PRESS, Press
 from diecut_report.config.references import Linker
+from diecut_report.config.taken_entries import taken_anew
 from diecut_report.config.targets import Target
 from diecut_report.config.validation import declared, keys_of, validate
 from diecut_report.config.yaml_tree import KeyPath
@@ -84,7 +85,14 @@ def find_input(base: Config, path: str) -> Input:
         raise UnknownPath(f"is given in the base by its single values; vary one of these: {', '.join(single)}.")
     model = _home(instance.model, key)
     field = keys_of(model)[str(key[-1])].field
-    return Input(path, instance.name, key, meta, field.annotation, tuple(field.metadata))
+    return Input(path, instance.name, key, meta, _with_entries(instance, key, field.annotation), tuple(field.metadata))
+
+
+def _with_entries(instance: Instance, key: KeyPath, annotation: Any) -> Any:
+    """An annotation with the entries of the user's own tables that the key may name."""
+    names = instance.own.names(key) if instance.own else ()
+    known = [part for part in (annotation, *get_args(annotation)) if get_origin(part) is Literal]
+    return Literal[(*(text for part in known for text in get_args(part)), *names)] if names else annotation
 
 
 def _instance(base: Config, path: str) -> tuple[Instance, list[str]]:
@@ -177,11 +185,16 @@ def _changed(instance: Instance | None, values: Mapping[Input, Any]) -> Instance
     if instance is None:
         return None
     data = substituted(instance, {}, lambda _, __: None)
-    for key, value in ((asked.key, value) for asked, value in values.items() if asked.instance == instance.name):
+    own = {asked.key: value for asked, value in values.items() if asked.instance == instance.name}
+    for key, value in own.items():
         _put(data, key, value)
     declared_as = instance.mechanism.inputs if instance.mechanism else Press
+    place, bases, taken = instance.place, instance.bases, instance.own
+    if taken and not taken.naming.keys().isdisjoint(own):
+        taken = taken_anew(declared_as, taken, data, own, place)
+        data, place, bases = taken.data, taken.place, {**bases, **taken.bases}
     model = in_form(declared_as, [key for key, value in data.items() if value is not None])
-    return Instance(instance.name, model, data, instance.place, instance.mechanism, instance.bases)
+    return Instance(instance.name, model, data, place, instance.mechanism, bases, taken)
 
 
 def _put(data: Any, key: KeyPath, value: Any) -> None:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field
-from pathlib import Path
+from pathlib import Path, PurePath
 from typing import Any
 
 from diecut_report.conditions.words import ConditionError
@@ -29,7 +29,7 @@ class Study:
 
     ``base`` is the config as it stands in its file; ``bases`` are the base with stand-ins for the varied numbers and, one at
     a time, each varied text, so that all of them have the columns of all variants; ``tables`` holds the
-    SHA-256 of each table that the sample reads, by its name in the study; ``files`` where base and tables were found.
+    SHA-256 of each table that the sample or the base reads, by its name in the study; ``files`` where base and tables were found.
     """
 
     file: Path
@@ -101,14 +101,19 @@ class _StudyReader:
         outputs, curves, objectives, reports = self._results(sampled)
         if sampled.sample is None or self.problems:
             return None
-        files = {name: self._find(name) for name in (self.data["base"], *sampled.tables)}
+        tables = sampled.tables | {self._beside_base(name): tree.sha256 for name, tree in base.tables.items()}
+        files = {name: self._find(name) for name in (self.data["base"], *tables)}
         units = {path: asked.unit for path, asked in sampled.inputs.items()}
         return Study(self.path, self.tree.data, self.tree.text, self.tree.sha256, base, tuple(sampled.bases), sampled.sample, sampled.inputs, units,
-                     constraints, outputs, curves, objectives, reports, sampled.tables, files)  # fmt: skip
+                     constraints, outputs, curves, objectives, reports, tables, files)  # fmt: skip
 
     def _find(self, name: str) -> Path:
         """Where a file is that the study names."""
         return self.places.get(name, self.path.parent / name)
+
+    def _beside_base(self, name: str) -> str:
+        """What a table that the base names is called in the study."""
+        return str(PurePath(self.data["base"]).parent / name)
 
     def _form(self) -> SampleForm | None:
         """The key sample, or None where it, or what it needs, is wrong."""
@@ -129,7 +134,9 @@ class _StudyReader:
             self.problems.append(self.place.problem(("base",), words))
             return None
         try:
-            base = load_config(path, self.discovery, only_named=True)
+            base = load_config(
+                path, self.discovery, only_named=True, find=lambda name: self._find(self._beside_base(name))
+            )
         except UserError as error:
             words = "the base has problems, which are reported with its own name; what is varied in it is judged when they are fixed."
             self.problems += [self.place.problem(("base",), words), *error.problems]

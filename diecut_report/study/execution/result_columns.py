@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from typing import Any
 
@@ -73,7 +73,7 @@ def _outputs(name: str, instance: Instance) -> Iterator[ResultColumn]:
         home = axes.get(step.id)
         if not step.output or isinstance(step, SILENT) or (home is not None and home not in lists):
             continue
-        parts = _names(step, len(_at(instance.data, home)) if home else None)
+        parts = _names(step, len(_at(instance.data, home)) if home else None, instance.names_of_parts(step.named_by))
         for part in parts:
             count = part.role == "count"
             kind: Kind = "int" if count else _kind(step)
@@ -92,9 +92,9 @@ def _at(data: Any, path: str) -> Any:
     return data
 
 
-def _names(step: Step, parts: int | None) -> list[ResultName]:
+def _names(step: Step, parts: int | None, parts_names: Sequence[str] | None) -> list[ResultName]:
     """Return the results of a step by name, as in the results file, where an extreme's place stands beside its value."""
-    names = result_names(step, CROSSING_COLUMNS if isinstance(step, Crossings) else parts)
+    names = result_names(step, CROSSING_COLUMNS if isinstance(step, Crossings) else parts, parts_names)
     return [each for each in names if each.role != "place"]
 
 
@@ -125,9 +125,7 @@ def _reported(instance: Instance) -> Iterator[Check]:
 
 def _names_of_parts(instance: Instance, path: str) -> list[str] | None:
     """The names that a list's blocks have in the config; None where there is no such list."""
-    home, _, key = path.rpartition(".")
-    blocks = instance.data.get(home)
-    return [str(block[key]) for block in blocks] if blocks else None
+    return instance.names_of_parts(path) or None
 
 
 def output_values(name: str, calc: Calculation) -> dict[str, Array]:
@@ -145,7 +143,7 @@ def output_values(name: str, calc: Calculation) -> dict[str, Array]:
         if isinstance(step, Crossings):
             values = np.concatenate([calc.values[count_name(step.id)], _wide(values)], axis=1)
         parts = None if isinstance(step, Crossings) or step.id not in calc.axis else values.shape[1]
-        names = _names(step, parts)
+        names = _names(step, parts, calc.inputs.get(step.named_by))
         found |= {f"{name}.{part.name}": values[:, index] for index, part in enumerate(names)}
     return found
 

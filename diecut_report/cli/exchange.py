@@ -1,0 +1,196 @@
+"""The commands for a report that carries its calculation: take it out, verify it, render it again, compare it with another."""
+
+from __future__ import annotations
+
+import json
+import sys
+from collections.abc import Iterator
+from contextlib import redirect_stdout
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import click
+
+from diecut_report.cli import verdict
+from diecut_report.cli.output import (
+    CHECK_FAILED,
+    PASSED,
+    PLUGIN_BROKE,
+    HelpfulCommand,
+    common,
+    emit,
+    tell,
+)
+from diecut_report.cli.progress import Progress
+from diecut_report.cli.study import source
+from diecut_report.config.discovery import Discovery
+from diecut_report.errors import nearest
+
+if TYPE_CHECKING:
+    from diecut_report.exchange.agreement import Agreement, Difference
+    from diecut_report.exchange.carried_results import CarriedResults
+    from diecut_report.exchange.verification import Told, Verification
+
+FORMATS = ("html", "pdf")
+SHOWN = 20  # differences that are told
+path_of = click.Path(path_type=Path)
+
+
+@click.command(cls=HelpfulCommand)
+@click.argument("report", metavar="REPORT", type=path_of)
+@click.option("-o", "folder", metavar="DIR", default=".", type=path_of, help="Where to write (default: here).")
+@common
+def extract(report: Path, folder: Path, folders: tuple[Path, ...], quiet: bool) -> int:
+    """Take the configuration and the results out of a REPORT (PDF or HTML), as NAME.yaml and NAME.json."""
+    from diecut_report.exchange.extraction import extract as taken
+
+    files = taken(report, folder)
+    if not quiet:
+        tell(f"written: {path}" for path in files)
+    return PASSED
+
+
+@click.command(cls=HelpfulCommand)
+@click.argument("report", metavar="REPORT", type=path_of)
+@click.option("--numbers", is_flag=True, help="Hold the numbers alone against it, not the pages, which takes longer.")
+@common
+def verify(report: Path, numbers: bool, folders: tuple[Path, ...], quiet: bool) -> int:
+    """Calculate a REPORT (PDF, HTML or results) again; tell whether program, plugins and every number agree.
+
+    Exit codes: 0 everything agrees, 1 something does not, 2 the report cannot be read, 3 a plugin broke.
+    """
+    from diecut_report.exchange.carried_results import carried_results
+    from diecut_report.exchange.verification import verify as judged
+    from diecut_report.study.analysis.assumed import moves
+
+    carried = carried_results(report)
+    with Progress(quiet) as progress, redirect_stdout(sys.stderr):
+        found = judged(carried, Discovery(folders), progress, moves, pages=not numbers)
+    tell(str(error) for error in found.broken)
+    emit("".join(f"{line}\n" for line in _lines(carried, found)))
+    return PLUGIN_BROKE if found.broken else PASSED if found.holds else CHECK_FAILED
+
+
+def _lines(carried: CarriedResults, found: Verification) -> Iterator[str]:
+    project = carried.results["project"]
+    named = [str(project.get(key) or "") for key in ("title", "document_number", "revision")]
+    yield f"{carried.path}: {', '.join(filter(None, named))}"
+    yield _line("program", found.program)
+    yield from (_line("plugins", told) for told in found.plugins)
+    yield _line("configuration", found.config)
+    yield _line("numbers", (_numbers(found.agreement), not found.agreement.differences))
+    yield from (f"    {_difference(each)}" for each in found.agreement.differences[:SHOWN])
+    if len(found.agreement.differences) > SHOWN:
+        yield f"    and {len(found.agreement.differences) - SHOWN} more"
+    if found.pages:
+        yield _line("pages", found.pages)
+    yield "Everything agrees." if found.holds else "Not everything agrees."
+
+
+def _line(what: str, told: Told) -> str:
+    words, good = told
+    return f"{'✓' if good else '✗'} {what:13}  {words}"
+
+
+def _numbers(found: Agreement) -> str:
+    agreeing = found.numbers - found.differing
+    exactly = "all of them exactly" if found.exact == found.numbers else f"{found.exact} of them exactly"
+    if not found.differences:
+        return f"{found.numbers} of {found.numbers} agree, {exactly}"
+    others = len(found.differences) - found.differing
+    texts = f", and {others} other values differ" if others else ""
+    return f"{max(agreeing, 0)} of {found.numbers} agree{texts}; in the report, and calculated now:"
+
+
+def _difference(each: Difference) -> str:
+    return f"{each.path}: {_value(each.first)} → {_value(each.second)}"
+
+
+def _value(value: object) -> str:
+    if value is None:
+        return "–"
+    if isinstance(value, dict | list):
+        return "a block of keys" if isinstance(value, dict) else f"a list of {len(value)}"
+    text = str(value).lower() if isinstance(value, bool) else str(value)
+    return text if len(text) <= 80 else f"{text[:80]}…"
+
+
+def _formats(_: click.Context, __: click.Parameter, given: str) -> list[str]:
+    asked = list(dict.fromkeys(part.strip().lower() for part in given.split(",") if part.strip()))
+    unknown = [part for part in asked if part not in FORMATS]
+    if unknown or not asked:
+        words = f"{unknown[0]!r} is not a format{nearest(unknown[0], FORMATS)}" if unknown else "no format is named"
+        raise click.BadParameter(f"{words}; known: {', '.join(FORMATS)}.")
+    return asked
+
+
+@click.command(cls=HelpfulCommand)
+@click.argument("results", metavar="RESULTS.json", type=path_of)
+@click.option("-o", "folder", metavar="DIR", default=".", type=path_of, help="Where to write (default: here).")
+@click.option(
+    "--format", "formats", metavar="LIST", default="html,pdf", callback=_formats, help="html,pdf or one of them."
+)
+@verdict.strict_option
+@common
+def render(
+    results: Path, folder: Path, formats: list[str], strict: bool, folders: tuple[Path, ...], quiet: bool
+) -> int:
+    """Make the report of a results file again, without calculating."""
+    from diecut_report.exchange.rendering import render as rendered
+    from diecut_report.exchange.rendering import told
+
+    with Progress(quiet) as progress, redirect_stdout(sys.stderr):
+        outcome, lost = rendered(results, folder, formats, progress)
+    tell(told(lost))
+    if not quiet:
+        tell(f"written: {path}" for path in outcome.written)
+        tell(verdict.told(outcome.results))
+    is_broken = bool(lost) or outcome.results["status"] == "error"
+    return verdict.exit_code(outcome.results, is_broken=is_broken, is_strict=strict)
+
+
+@click.command(cls=HelpfulCommand)
+@click.argument("old", metavar="OLD", type=path_of)
+@click.argument("new", metavar="NEW", type=path_of)
+@click.option(
+    "--format", "form", default="text", type=click.Choice(["text", "json", "html"]), help="text, json or html."
+)
+@click.option("-o", "target", metavar="FILE", type=path_of, help="Write to a file, not to standard output.")
+@click.option("--all", "all_rows", is_flag=True, help="Show as text all that changed, not the most important alone.")
+@common
+def diff(
+    old: Path, new: Path, form: str, target: Path | None, all_rows: bool, folders: tuple[Path, ...], quiet: bool
+) -> int:
+    """Tell what changed from OLD to NEW: each a configuration, a results file, a report, or a variant of a study (DIR#N).
+
+    Exit codes are those of NEW: 0 no check fails, 1 a check fails, 3 a plugin broke; 2 where one of the two cannot be read.
+    """
+    from diecut_report.exchange.sides import side
+    from diecut_report.results.changes import changes
+
+    with Progress(quiet) as progress, redirect_stdout(sys.stderr):
+        discovery = Discovery(folders)
+        sides = [side(source(given, discovery), discovery, progress) for given in (old, new)]
+        found = changes(sides[0][0], sides[1][0])
+        text = _changes(found, form, all_rows)
+    tell(str(error) for _, broken in sides for error in broken)
+    if target is None:
+        emit(text)
+    else:
+        from diecut_report.files import write_all
+
+        write_all({target: text.encode(errors="backslashreplace")}, keep=new)
+    is_broken = any(broken for _, broken in sides) or sides[1][0]["status"] == "error"
+    return verdict.exit_code(sides[1][0], is_broken=is_broken, is_strict=False)
+
+
+def _changes(found: dict[str, Any], form: str, all_rows: bool) -> str:
+    if form == "json":
+        return json.dumps(found, indent=1, ensure_ascii=False, allow_nan=False) + "\n"
+    if form == "html":
+        from diecut_report.exchange.changes_page import page
+
+        return page(found)
+    from diecut_report.exchange.changes_text import lines
+
+    return "".join(f"{line}\n" for line in lines(found, all_rows=all_rows))

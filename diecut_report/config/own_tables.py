@@ -1,0 +1,176 @@
+"""Tables that a user keeps beside a configuration (``materials: my_steels.yaml``): entries by name, whose keys a block takes.
+
+    source: Saarstahl, data sheet 34CrNiMo6, 2021
+    steels:
+      34CrNiMo6+QT:
+        strengths:
+          - {diameter: 40 mm, tensile_strength: 1100 MPa, yield_strength: 900 MPa}
+
+A file is read and judged as a configuration is: what is wrong with it is told with its own name, line and key.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Mapping
+from dataclasses import dataclass, field
+from pathlib import Path, PurePosixPath, PureWindowsPath
+from typing import Any
+
+from diecut_report.config import yaml_tree
+from diecut_report.config.caps import too_much
+from diecut_report.config.hidden_letters import printable
+from diecut_report.config.plain_data import texts
+from diecut_report.config.validation import ConfigPlace, told
+from diecut_report.config.yaml_tree import KeyPath, Tree
+from diecut_report.errors import Problem, UserError
+
+KEY = "materials"
+SOURCE, VERSION = "source", "schema_version"
+MOST = 20  # files of one configuration
+Find = Callable[[str], Path]
+
+
+@dataclass(frozen=True, eq=False)
+class Entry:
+    """Hold an entry of a table: its keys, where they stand, and the source that is printed with them."""
+
+    name: str
+    keys: Mapping[str, Any]
+    source: str
+    tree: Tree
+    path: KeyPath
+
+    @property
+    def file(self) -> str:
+        """Return the name of its file, without folders."""
+        return printable(PurePosixPath(self.tree.name.replace("\\", "/")).name)
+
+    @property
+    def note(self) -> str:
+        """Return what stands beside a value that was taken from it."""
+        return f"{self.name}, {self.file}: {self.source}"
+
+
+@dataclass
+class OwnTables:
+    """Hold the tables of a configuration by their names, the files that they were read from, and what is wrong with them."""
+
+    entries: dict[str, dict[str, Entry]] = field(default_factory=dict)
+    trees: dict[str, Tree] = field(default_factory=dict)
+    problems: list[Problem] = field(default_factory=list)
+    judged: set[KeyPath] = field(default_factory=set)
+
+    @staticmethod
+    def read(config: Tree, find: Find | None) -> OwnTables:
+        """Return the tables that a configuration names; ``find`` says where a file is, else it is beside the configuration."""
+        tables, place = OwnTables(), ConfigPlace(config)
+        given = config.data.get(KEY) if isinstance(config.data, dict) else None
+        names = given if isinstance(given, list) else [] if given is None else [given]
+        if len(names) > MOST:
+            words = f"names {len(names)} files; at most {MOST} are allowed. Put several tables into one file."
+            tables.problems.append(place.problem((KEY,), words))
+            return tables
+        beside = find or (lambda name: Path(config.file).parent / name)
+        for index, name in enumerate(names):
+            key = (KEY, index) if isinstance(given, list) else (KEY,)
+            tables._file(name, place, key, beside)
+        return tables
+
+    def _file(self, name: Any, place: ConfigPlace, key: KeyPath, find: Find) -> None:
+        if fault := name_fault(name):
+            self.problems.append(place.problem(key, fault))
+            return
+        path = find(name)
+        if not path.exists():
+            words = f"there is no file {path}. Tables are sought from the configuration's folder; check the name."
+            self.problems.append(place.problem(key, words))
+            return
+        try:
+            tree = yaml_tree.load(path)
+        except UserError as error:
+            self.problems += error.problems
+            return
+        excess = too_much(tree)
+        self.problems += excess
+        self.trees[name] = tree
+        for entry in () if excess else _Reader(tree, self.problems).entries():
+            known = self.entries.setdefault(str(entry.path[0]), {})
+            if entry.name in known:
+                words = f"stands in {known[entry.name].file} too; leave one of them out"
+                self.problems.append(ConfigPlace(tree).problem(entry.path, words, at_key=True))
+            known.setdefault(entry.name, entry)
+
+    def names(self, table: str) -> list[str]:
+        """Return the names of a table's entries."""
+        return list(self.entries.get(table, {}))
+
+
+@dataclass
+class _Reader:
+    """Reads the entries of one file."""
+
+    tree: Tree
+    problems: list[Problem]
+
+    def __post_init__(self) -> None:
+        self.place = ConfigPlace(self.tree)
+
+    def entries(self) -> Iterator[Entry]:
+        data = self.tree.data
+        if not isinstance(data, dict):
+            words = f"The file holds {told(data)}; it needs a source and tables, as in steels: {{NAME: {{…}}}}."
+            self.problems.append(Problem(words, self.tree.file))
+            return
+        self._references(data)
+        if data.get(VERSION, 1) != 1:
+            self._wrong((VERSION,), f"is {told(data[VERSION])}; the number 1 is needed")
+        common = self._source(data, ())
+        for table, rows in data.items():
+            if table in (SOURCE, VERSION):
+                continue
+            if not isinstance(rows, dict):
+                self._wrong(
+                    (table,), f"is {told(rows)}; entries by their names are needed, as in {table}: {{NAME: {{…}}}}"
+                )
+                continue
+            for name, keys in rows.items():
+                yield from self._entry((table, name), keys, common)
+
+    def _entry(self, path: KeyPath, keys: Any, common: str | None) -> Iterator[Entry]:
+        if not isinstance(keys, dict):
+            self._wrong(path, f"is {told(keys)}; a block of keys is needed")
+            return
+        source = self._source(keys, path) or common
+        if not source:
+            self._wrong(
+                path, f"has no source; say in {SOURCE}: … where its numbers are from, here or at the top of the file"
+            )
+            return
+        yield Entry(str(path[1]), {key: each for key, each in keys.items() if key != SOURCE}, source, self.tree, path)
+
+    def _source(self, data: Mapping[str, Any], path: KeyPath) -> str | None:
+        given = data.get(SOURCE)
+        if SOURCE in data and (not isinstance(given, str) or not given.strip()):
+            self._wrong((*path, SOURCE), f"is {told(given)}; a text is needed that says where the numbers are from")
+            return None
+        return given
+
+    def _references(self, data: Any) -> None:
+        for key, text in texts(data):
+            if "${" in text:
+                self._wrong(key, f"is {told(text)}; a table holds values, and no references")
+
+    def _wrong(self, key: KeyPath, words: str) -> None:
+        self.problems.append(self.place.problem(key, words))
+
+
+def name_fault(name: Any) -> str:
+    """Return what is wrong with the name of a file of tables; "" where it leads to a YAML file beside the configuration or below."""
+    if not isinstance(name, str):
+        return f"is {told(name)}; the name of a YAML file is needed, such as my_steels.yaml, or a list of such names"
+    windows = PureWindowsPath(name)
+    if windows.is_absolute() or windows.drive or PurePosixPath(name).is_absolute() or ".." in windows.parts:
+        return f"is {told(name)}; tables lie beside the configuration or in a folder below it: give a name without a folder above"
+    if PurePosixPath(name).suffix not in (".yaml", ".yml"):
+        return f"is {told(name)}; a YAML file is needed, such as my_steels.yaml"
+    return ""

@@ -1,0 +1,63 @@
+"""A report made again from its results alone, whoever wrote them: nothing is calculated, and what cannot be set is told in words."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Sequence
+from pathlib import Path
+from typing import Any
+
+from diecut_report import pipeline
+from diecut_report.errors import Problem, UserError
+from diecut_report.exchange.carried_results import carried_results
+from diecut_report.files import write_all
+from diecut_report.limits import MAX_PRINTED_MECHANISMS
+
+Contents = dict[str, bytes]
+Tell = Callable[[str], None]
+
+
+def render(
+    file: Path, folder: Path, formats: Sequence[str], tell: Tell
+) -> tuple[pipeline.ReportOutcome, list[pipeline.Lost]]:
+    """Write the report of a results file, or of a report, as ``STEM.html``, ``STEM.pdf`` and the exports beside it.
+
+    Return what was written, and the figures and exports that could not be drawn. UserError where nothing can be made of the file.
+    """
+    carried = carried_results(file)
+    contents, lost = document(carried.results, formats, tell, str(file))
+    beside, unwritten = pipeline.exported(carried.results, tell)
+    files = {folder / f"{file.stem}.{ending}": content for ending, content in (contents | beside).items()}
+    write_all(files, keep=file)
+    return pipeline.ReportOutcome(carried.results, tuple(files), ()), [*lost, *unwritten]
+
+
+def document(
+    results: dict[str, Any], formats: Sequence[str], tell: Tell, file: str
+) -> tuple[Contents, list[pipeline.Lost]]:
+    """Return a document in its formats, and what of it could not be drawn; UserError where these are not results of the program."""
+    _refuse_many_sheets(results, formats, file)
+    try:
+        return pipeline.rendered(results, formats, tell)
+    except UserError:
+        raise
+    except Exception as cause:  # of any kind: whoever wrote the file may have put anything in any place
+        words = f"The report cannot be made of these results: {_told(cause)}. Give results as the program wrote them."
+        raise UserError(Problem(words, file)) from cause
+
+
+def told(lost: Iterable[pipeline.Lost]) -> list[str]:
+    """Return in words what could not be drawn."""
+    return [f"{each.what} {each.id!r} of mechanism {each.mechanism!r} cannot be drawn: {each.words}" for each in lost]
+
+
+def _told(cause: Exception) -> str:
+    if isinstance(cause, KeyError):
+        return f"{cause} is missing"
+    return f"{type(cause).__name__}: {cause}"
+
+
+def _refuse_many_sheets(results: dict[str, Any], formats: Sequence[str], file: str) -> None:
+    count = len(results["mechanisms"])
+    if "pdf" in formats and count > MAX_PRINTED_MECHANISMS:
+        words = f"There are {count} mechanisms; a PDF has at most {MAX_PRINTED_MECHANISMS}. Leave it out with --format html."
+        raise UserError(Problem(words, file))

@@ -1,0 +1,193 @@
+"""A results file that comes from outside, judged before it is used: its size, its letters, and the form of what is read of it."""
+
+from __future__ import annotations
+
+import json
+import math
+from typing import Annotated, Any, Literal, NoReturn
+
+from pydantic import BaseModel, ConfigDict, Field, ValidationError
+
+from diecut_report.config.hidden_letters import CONTROL
+from diecut_report.config.own_tables import MOST as MOST_TABLES
+from diecut_report.errors import TOLD, Problem, UserError
+from diecut_report.limits import MAX_TEXT
+
+MOST_VALUES = 10_000_000  # of a results file
+ASK = "Give a results file as the program wrote it."
+Name = Annotated[str, Field(pattern=r"^[A-Za-z][A-Za-z0-9_-]*$", max_length=1000)]
+Id = Annotated[str, Field(pattern=r"^[A-Za-z_][A-Za-z0-9_]*$", max_length=200)]
+Status = Literal["pass", "warn", "fail", "error", "skipped"]
+
+
+class _Form(BaseModel):
+    model_config = ConfigDict(strict=True, extra="allow", allow_inf_nan=False, hide_input_in_errors=True)
+
+
+class ShownForm(_Form):
+    """A number as it is printed: neutral text and unit."""
+
+    text: str
+    unit: str
+
+
+class RowForm(_Form):
+    """An input or an output."""
+
+    value: Any
+    unit: str
+    symbol: str
+    description: str
+    display: ShownForm
+
+
+class CheckForm(_Form):
+    """A check."""
+
+    id: str
+    title: str
+    status: Literal["pass", "warn", "fail", "not_checked"]
+    kind: Annotated[str, Field(alias="class")]
+    utilisation: float | None
+    message: str
+
+
+class ExportForm(_Form):
+    """A profile that is written beside a report; its id is part of a file's name."""
+
+    id: Id
+
+
+class MechanismForm(_Form):
+    """The results of a mechanism."""
+
+    kind: str
+    title: str
+    plugin_version: str
+    status: Status
+    inputs: dict[str, RowForm]
+    outputs: dict[str, RowForm]
+    checks: list[CheckForm]
+    exports: list[ExportForm]
+
+
+class FileForm(_Form):
+    """A file whose text stands in the results: a table of the user's own."""
+
+    file: Annotated[str, Field(max_length=MAX_TEXT)]
+    sha256: str
+    source_text: str
+
+
+class ConfigForm(FileForm):
+    """The configuration in the results."""
+
+    materials: Annotated[list[FileForm], Field(max_length=MOST_TABLES)] = []
+
+
+class PressForm(_Form):
+    """The press."""
+
+    name: str
+    fields: list[RowForm]
+
+
+class ProgramForm(_Form):
+    """The program that calculated."""
+
+    name: Literal["diecut-report"]
+    version: str
+
+
+class CountsForm(_Form):
+    """How many checks there are of each status."""
+
+    passing: Annotated[int, Field(alias="pass")]
+    warn: int
+    fail: int
+    not_checked: int
+
+
+class ResultsForm(_Form):
+    """As much of the results file as is relied on."""
+
+    schema_version: Literal[1]
+    program: ProgramForm
+    config: ConfigForm
+    project: dict[str, Any]
+    press: PressForm
+    status: Status
+    governing: dict[str, str] | None
+    summary: CountsForm
+    mechanisms: dict[Name, MechanismForm]
+    comparisons: dict[Name, dict[str, Any]] = {}
+
+
+def results_of(content: bytes, file: str) -> dict[str, Any]:
+    """Return results from the bytes of their file; UserError with what is wrong with them."""
+    found = parsed(content, file)
+    try:
+        ResultsForm.model_validate(found)
+    except ValidationError as error:
+        faults = error.errors(include_url=False)
+        problems = [Problem(f"{fault['msg']}. {ASK}", file, path=_path(fault["loc"])) for fault in faults[:TOLD]]
+        raise UserError(problems) from None
+    _refuse_hidden(found, file)
+    return found
+
+
+def parsed(content: bytes, file: str) -> dict[str, Any]:
+    """Return the block of keys that a JSON file holds; UserError where it holds none, or too much."""
+    if content.count(b",") + content.count(b"[") + content.count(b"{") > MOST_VALUES:
+        raise UserError(Problem(f"The file holds more than {MOST_VALUES:,} values. {ASK}", file))
+    try:
+        found = json.loads(content, parse_constant=_refuse_constant, parse_float=_finite)
+    except (ValueError, RecursionError) as error:
+        raise UserError(Problem(f"This is not a JSON file that can be read: {_told(error)}. {ASK}", file)) from error
+    if not isinstance(found, dict):
+        raise UserError(Problem(f"This JSON file does not hold results. {ASK}", file))
+    return found
+
+
+class _NotANumber(ValueError):
+    """Report a number that results cannot hold."""
+
+
+def _told(error: ValueError | RecursionError) -> str:
+    match error:
+        case RecursionError():
+            return "it is nested too deeply"
+        case UnicodeDecodeError():
+            return "it is not UTF-8 text"
+        case json.JSONDecodeError() | _NotANumber():
+            return str(error)
+    return "a whole number in it has too many digits"
+
+
+def _refuse_constant(name: str) -> NoReturn:
+    raise _NotANumber(f"it holds {name}, which is not a number")
+
+
+def _finite(text: str) -> float:
+    value = float(text)
+    if math.isinf(value):
+        raise _NotANumber(f"it holds {text[:20]}, which is beyond the range of numbers")
+    return value
+
+
+def _path(place: tuple[str | int, ...]) -> str:
+    text = ".".join(map(str, place))
+    return text if text.isprintable() and len(text) < 200 else ascii(text[:200])
+
+
+def _refuse_hidden(data: Any, file: str) -> None:
+    """Refuse letters that turn others around or act on a terminal, as configurations are refused that hold them."""
+    waiting = [data]
+    while waiting:
+        part = waiting.pop()
+        if isinstance(part, dict):
+            waiting += [*part, *part.values()]
+        elif isinstance(part, list):
+            waiting += [each for each in part if not isinstance(each, float)]
+        elif isinstance(part, str) and (found := CONTROL.search(part)):
+            raise UserError(Problem(f"The file holds the control character U+{ord(found[0]):04X}. {ASK}", file))

@@ -1,0 +1,45 @@
+"""What a report carries of its calculation: the results file and the configuration, attached to the PDF, linked in the HTML."""
+
+from __future__ import annotations
+
+import base64
+import gzip
+from collections.abc import Mapping
+from datetime import datetime
+from typing import Any, NamedTuple
+
+from diecut_report.results.results_file import config_content, encoded, results_text
+
+RESULTS, CONFIG = "results.json", "config.yaml"
+"""What the files are called in each report, whatever theirs are called: `extract` and `verify` find them by these names."""
+DATE = datetime(1980, 1, 1)  # of the attachments, which must have one: equal inputs give equal bytes
+PACKED = ".gz"
+
+
+class CarriedFile(NamedTuple):
+    """A file that a report carries."""
+
+    name: str
+    media_type: str
+    description: str
+    content: bytes
+
+    @property
+    def address(self) -> str:
+        """The file as a data address."""
+        return f"data:{self.media_type};base64,{base64.b64encode(self.content).decode()}"
+
+    @property
+    def packed(self) -> CarriedFile:
+        """The file packed by gzip, without a date."""
+        content = gzip.compress(self.content, mtime=0)
+        return CarriedFile(self.name + PACKED, "application/gzip", self.description, content)
+
+
+def carried_files(results: Mapping[str, Any], words: Mapping[str, str]) -> tuple[CarriedFile, CarriedFile]:
+    """Return the configuration and the results, in the order of their names."""
+    text = encoded(results_text(results))
+    return (
+        CarriedFile(CONFIG, "application/yaml", words["configuration"], config_content(results)),
+        CarriedFile(RESULTS, "application/json", words["carried_results"], text),
+    )

@@ -1,0 +1,48 @@
+"""The results file: the one text of results that is written, attached and compared."""
+
+from __future__ import annotations
+
+import codecs
+import json
+from collections.abc import Mapping
+from hashlib import sha256
+from typing import Any
+
+ENCODER = json.JSONEncoder(ensure_ascii=False, allow_nan=False)
+LINES_TO_DEPTH = 4  # the results file has a line for each quantity and each curve
+
+
+def results_text(results: Mapping[str, Any]) -> str:
+    """Return the results file: floats in their shortest exact form, never NaN or Infinity, the same bytes for the same results."""
+    return _lines(results, LINES_TO_DEPTH) + "\n"
+
+
+def encoded(text: str) -> bytes:
+    """Return the text as UTF-8; what a name of a file that is not UTF-8 has brought stands as an escape, which JSON has too."""
+    return text.encode(errors="backslashreplace")
+
+
+def config_content(results: Mapping[str, Any]) -> bytes:
+    """Return the configuration's file, byte for byte; its byte order mark, which its text does not hold, shows in its hash."""
+    return _content(results["config"])
+
+
+def table_contents(results: Mapping[str, Any]) -> dict[str, bytes]:
+    """Return the files of the user's own tables, byte for byte, by the names that the configuration gives them."""
+    return {table["file"]: _content(table) for table in results["config"].get("materials", ())}
+
+
+def _content(file: Mapping[str, Any]) -> bytes:
+    content = encoded(file["source_text"])
+    marked = codecs.BOM_UTF8 + content
+    return marked if sha256(marked).hexdigest() == file["sha256"] else content
+
+
+def _lines(data: Any, depth: int, indent: str = "\n") -> str:
+    if depth == 0 or not isinstance(data, dict) or not data:
+        return ENCODER.encode(data)
+    parts = (
+        f"{indent} {json.dumps(key, ensure_ascii=False)}: {_lines(part, depth - 1, indent + ' ')}"
+        for key, part in data.items()
+    )
+    return "{" + ",".join(parts) + indent + "}"

@@ -1,0 +1,40 @@
+"""Rolling bearings: life by ISO 281 under loads that vary over a cycle, static safety by ISO 76."""
+
+from __future__ import annotations
+
+from diecut_report.api import Mechanism, Source
+from diecut_report.plugins.rolling_bearing import life, loads
+from diecut_report.plugins.rolling_bearing.checks import CHECKS
+from diecut_report.plugins.rolling_bearing.figures import FIGURES
+from diecut_report.plugins.rolling_bearing.inputs import RollingBearing
+
+MECHANISM = Mechanism(
+    kind="rolling_bearing",
+    version="1.0",
+    title="Rolling bearings",
+    summary="Bearings that turn or swing under loads that are constant or vary over a cycle. Calculated are the equivalent load over the "
+    "cycle, the rating life with reliability and lubrication, the static safety, and the life of all together. Where a deep groove ball "
+    "bearing is left out, the smallest of its series that holds is taken.",
+    inputs=RollingBearing,
+    chapters=(loads.ratings, loads.loads, loads.static, life.motion, life.life, life.limits),
+    key_results=("life_min", "governing_bearing", "system_life"),
+    checks=CHECKS,
+    figures=FIGURES,
+    assumptions=(
+        "The load acts in one direction on one ring, or turns with it; shaft and housings are stiff, without misalignment and preload, the "
+        "clearance is normal.",
+        "The cycle is run through evenly in time: the shaft that drives it turns evenly. Damage adds up linearly.",
+        "a_ISO is as given: lubrication and contamination are not calculated. Grease life, heating and the cage at high acceleration are not "
+        "covered; a speed is held against the limiting speed of the maker alone.",
+        "A swing counts by its way alone (Harris' first method, without the factors of Houpert or Rumbarger).",
+        "The life of all bearings takes the Weibull slope 10/9 for rollers, too.",
+        "Ratings of the table are the lowest of three makers; those of the maker whose bearing is mounted are given in their place.",
+    ),
+    sources=(
+        Source("ISO 281", "ISO 281:2007, Rolling bearings: Dynamic load ratings and rating life."),
+        Source("ISO 76", "ISO 76:2006, Rolling bearings: Static load ratings."),
+        Source("SKF catalogue", "SKF, General catalogue: selection of bearing size, minimum load, variable load."),
+        Source("Lundberg and Palmgren", "Lundberg G., Palmgren A. Dynamic Capacity of Rolling Bearings. Acta Polytechnica, Mech. Eng. Series "
+               "1, no. 3, 1947."),
+    ),
+)  # fmt: skip

@@ -1,0 +1,64 @@
+"""Figures of rolling bearings."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from diecut_report.api import Chart, Shape, View, chart_panel, level, line, mark
+from diecut_report.plugins.rolling_bearing.bearings import Bearings
+
+POINTS = 361
+
+
+def loads_over_cycle(view: View) -> list[Shape]:
+    """The equivalent load of each bearing over the cycle, with its mean and greatest value."""
+    known: Bearings = view.prepared("all_bearings")
+    share = (np.arange(POINTS - 1) + 0.5)[None, :] / (POINTS - 1)
+    panels: list[Shape] = []
+    for index, name in enumerate(known.names):
+        load = known.load(index, share, share, None)[0]
+        mean, most = view.row("equivalent_load")[index], view.row("equivalent_load_max")[index]
+        levels = [level(most, "greatest"), *([level(mean, "equivalent")] if np.isfinite(mean) else [])]
+        panels.append(
+            chart_panel(f"Load of {name}", "kN", "Angle of the cycle", "φ", "deg",
+                        lines=[line(2 * np.pi * share[0], load, "equivalent load")], levels=levels, range=(0, None))
+        )  # fmt: skip
+    return panels
+
+
+def lives(view: View) -> list[Shape]:
+    """The life of each bearing against the required one, in powers of ten."""
+    names, found = view.words("bearings.name"), np.array(view.row("life_modified"))
+    decades = np.log10(found / view["required_life"])
+    known = [
+        (index + 1.0, height, name)
+        for index, (height, name) in enumerate(zip(decades, names, strict=True))
+        if np.isfinite(height)
+    ]
+    if not known:
+        return []
+    stems = np.array([end for place, height, _ in known for end in ((place, 0.0), (place, height), (place, np.nan))])
+    return [
+        chart_panel(
+            "Life to the required one, as a power of ten", "1", "Bearing", "No.", "1",
+            lines=[line(stems[:, 0], stems[:, 1], "modified rating life")],
+            marks=[mark(place, height, name) for place, height, name in known],
+            levels=[level(0.0, "required life")],
+        )
+    ]  # fmt: skip
+
+
+FIGURES = (
+    Chart(
+        id="loads",
+        title="Equivalent load over the cycle",
+        caption="Of each bearing, with its greatest value and the equivalent load of the life.",
+        build=loads_over_cycle,
+    ),
+    Chart(
+        id="lives",
+        title="Life against the required life",
+        caption="0 is the required life, 1 ten times that. A bearing that stands has no life.",
+        build=lives,
+    ),
+)

@@ -1,0 +1,99 @@
+"""Inputs of rolling bearings."""
+
+from __future__ import annotations
+
+from typing import Annotated, Any, ClassVar, Literal
+
+from diecut_report.api import POINTS, Block, Inputs, OneOf, Quantity, Text, Varying
+
+RELIABILITIES = (90, 95, 96, 97, 98, 99)
+
+
+class Bearing(Block):
+    """A bearing with its load over one cycle."""
+
+    one_of: ClassVar[tuple[OneOf, ...]] = (
+        OneOf(("speed",), ("relative_angle", "cycle_speed")),
+        OneOf(("dynamic_rating", "static_rating"), optional=True),
+        OneOf(("x", "y", "e"), optional=True),
+        OneOf(("x0", "y0"), optional=True),
+    )
+
+    name: Annotated[str, Text("Name of the bearing, with which its results begin")]
+    type: Annotated[Literal["deep_groove", "ball", "roller"], Text("Deep groove, another ball, or a roller bearing")]
+    designation: Annotated[
+        str | None,
+        Text("Designation; without the ratings they are those of this bearing in the table, else it is only told"),
+    ] = None
+    series: Annotated[
+        Literal["60", "62", "63"],
+        Text(
+            "Series out of which the smallest bearing that holds is taken, where neither ratings nor designation are given"
+        ),
+    ] = "62"
+    bore_min: Annotated[
+        float, Quantity("d_min", "mm", "Least bore of the bearing that is taken out of the series", ge=0, le=100)
+    ] = 0
+    dynamic_rating: Annotated[
+        float | None, Quantity("C_g", "kN", "Basic dynamic load rating, of the maker's catalogue", gt=0)
+    ] = None
+    static_rating: Annotated[
+        float | None, Quantity("C_0g", "kN", "Basic static load rating, of the maker's catalogue", gt=0)
+    ] = None
+    f0: Annotated[
+        float | None,
+        Quantity("f_0g", "1", "Factor f0 of the maker's catalogue (deep_groove with axial force)", ge=10, le=17),
+    ] = None
+    x: Annotated[float | None, Quantity("X_g", "1", "Radial factor (ball, roller, with axial force)", gt=0)] = None
+    y: Annotated[float | None, Quantity("Y_g", "1", "Axial factor (ball, roller, with axial force)", gt=0)] = None
+    e: Annotated[float | None, Quantity("e_g", "1", "Limit of F_a/F_r (ball, roller, with axial force)", gt=0)] = None
+    x0: Annotated[
+        float | None, Quantity("X_0g", "1", "Static radial factor; 0.6 of a deep groove ball bearing", ge=0)
+    ] = None
+    y0: Annotated[
+        float | None, Quantity("Y_0g", "1", "Static axial factor; 0.5 of a deep groove ball bearing", ge=0)
+    ] = None
+    radial_force: Annotated[
+        Any, Varying("F_rg", "N", "Radial force; a number, or a curve over one cycle. Its size counts")
+    ]
+    axial_force: Annotated[
+        Any, Varying("F_ag", "N", "Axial force; a number, or a curve over one cycle. Its size counts")
+    ] = 0
+    speed: Annotated[
+        Any | None, Varying("n_g", "rpm", "Speed of the rings against each other; a number, or a curve over one cycle")
+    ] = None
+    relative_angle: Annotated[
+        Any | None,
+        Varying("θ_g", "deg", "Angle of the rings against each other, in the place of speed: a curve over one cycle"),
+    ] = None
+    cycle_speed: Annotated[
+        float | None,
+        Quantity("n_c", "rpm", "Cycles of the relative angle, as a speed: 1 rpm is a cycle a minute", gt=0),
+    ] = None
+    rolling_elements: Annotated[
+        int | None, Quantity("Z_g", "1", "Rolling elements in a row, for the least swing", ge=5, integer=True)
+    ] = None
+    a_iso: Annotated[
+        float, Quantity("a_ISO", "1", "Factor of lubrication and contamination (ISO 281, clause 9)", ge=0.1, le=50)
+    ] = 1
+    limiting_speed: Annotated[
+        float | None, Quantity("n_lim", "rpm", "Limiting speed, of the maker's catalogue", gt=0)
+    ] = None
+
+
+class RollingBearing(Inputs):
+    """Keys of ``rolling_bearing``."""
+
+    bearings: Annotated[list[Bearing], Text("Bearings")]
+    reliability: Annotated[float, Quantity("R", "%", "Reliability of the life", listed=RELIABILITIES)] = 90
+    required_life: Annotated[float, Quantity("[L]", "h", "Life that is required", gt=0, plausible=("1 s", "1e7 h"))] = (
+        20000
+    )
+    required_static_safety: Annotated[
+        float | None,
+        Quantity("[s_0]", "1", "Static safety that is required; without it 1 of balls, 1.5 of rollers", gt=0),
+    ] = None
+    service_factor: Annotated[
+        float, Quantity("f_s", "1", "Factor on all forces, for shocks that the curves do not hold", ge=1)
+    ] = 1
+    n_points: Annotated[int, POINTS] = 360

@@ -1,0 +1,108 @@
+"""Chapters on speed and swing of the rings, and the life."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+
+from diecut_report.api import Chapter, bind
+from diecut_report.plugins.rolling_bearing import formulas as f
+from diecut_report.plugins.rolling_bearing.bearings import Bearings
+from diecut_report.plugins.rolling_bearing.loads import NAMES, SEARCH, row, value
+from diecut_report.plugins.rolling_bearing.part import STATIC_SAFETIES
+
+# fmt: off
+
+LIFE = "ISO 281:2007, 5.3"
+PRACTICE = "practice"
+
+motion = Chapter("Motion of the rings",
+                 text="A relative angle counts by the whole way that it goes in a cycle, there and back: a swing of the width W is W/180° turns. "
+                      "Where the rings only swing, neighbouring rolling elements roll over the same places only from a swing of 720°/Z on.")
+row(motion, "is_angle", "w", "1", "Whether the motion is given as an angle (1) or a speed (0)",
+    lambda known: known.flag(each.angle is not None for each in known.duties), "by the keys that are given", output=False)
+row(motion, "travel", "V", "deg", "Way of the relative angle in a cycle (0 where a speed is given)",
+    lambda known: known.row(lambda i: known.duties[i].travel if known.is_swinging(i) else np.zeros((known.variants, 1))),
+    "∮ |dθ/dφ| dφ between the reversals", output=False)
+row(motion, "cycles", "n_z", "rpm", "Cycles, as a speed: 1 rpm is a cycle a minute (0 where a speed is given)",
+    lambda known: known.row(lambda i: known.cycle_speed[i] * known.is_swinging(i)), "as given", output=False)
+value(motion, "turns_per_cycle", "N_c", "1", "Turns of the rings in a cycle", lambda travel: travel / (2 * np.pi),
+      exists=lambda is_angle: is_angle > 0,
+      source="kinematics", digits=6)
+row(motion, "given_mean", "n_s", "rpm", "Mean size of the speed that is given (0 where an angle is)",
+    lambda known: known.row(lambda i: np.zeros((known.variants, 1)) if known.is_swinging(i) else known.duties[i].mean_speed),
+    "Gauss–Legendre between the breakpoints and reversals", output=False)
+value(motion, "mean_speed", "n_m", "rpm", "Mean speed of the rings",
+      lambda is_angle, cycles, travel, given_mean: np.where(is_angle > 0, cycles * travel / (2 * np.pi), given_mean), source="kinematics", digits=6)
+row(motion, "speed_max", "n_max", "rpm", "Greatest speed of the rings over the cycle", lambda known: known.row(known.greatest_speed), SEARCH,
+    output=False)
+row(motion, "returns", "r", "1", "Whether the rings only swing (1) or turn (0)", lambda known: known.row(known.oscillates),
+    "the relative angle returns, and goes less than a turn in a cycle", output=False)
+row(motion, "swing", "W", "deg", "Width of the swing", lambda known: known.row(known.swing_width),
+    "greatest less least relative angle", exists=lambda returns: returns > 0, digits=6)
+row(motion, "elements", "Z", "1", "Rolling elements: as given, else 8", lambda known: known.row(known.elements.__getitem__), "as given, else 8",
+    output=False)
+value(motion, "critical_swing", "W_crit", "deg", "Least swing at which neighbouring rolling elements overlap",
+      lambda elements: 4 * np.pi / elements, exists=lambda returns: returns > 0, source="this method")
+
+life = Chapter("Life", text="A bearing that stands has no life by rolling, only a static safety.")
+value(life, "life_revolutions", "L_10", "1", "Basic rating life in revolutions",
+      bind(f.revolutions, rating="dynamic_rating", load="equivalent_load", exponent="exponent"),
+      exists=lambda turned, equivalent_load: (turned > 0) & (equivalent_load > 0), source=LIFE, digits=6)
+value(life, "life", "L_10h", "h", "Basic rating life", bind(f.duration, turns="life_revolutions", speed="mean_speed"),
+      exists=lambda turned, equivalent_load: (turned > 0) & (equivalent_load > 0), source=LIFE, digits=6)
+value(life, "life_modified", "L_nmh", "h", "Modified rating life",
+      bind(f.modified, reliability="reliability_factor", a_iso="bearings.a_iso"),
+      exists=lambda turned, equivalent_load: (turned > 0) & (equivalent_load > 0), source="ISO 281:2007, 6.3", digits=6)
+value(life, "lives", "k_L", "1", "Whether a life is calculated (1) or not (0)", lambda equivalent_load: np.where(equivalent_load > 0, 1, 0),
+      source="this method", output=False)
+life.total("any_life", "n_L", "1", "Bearings with a life", "sum", of="lives", source="this method", output=False)
+
+
+def _least(life: Any) -> Any:
+    known = np.where(np.isnan(life), np.inf, life)
+    found = np.min(known, axis=1, keepdims=True)
+    return np.where(np.isfinite(found), found, 0.0)
+
+
+def _governing(known: Bearings, life: Any) -> list[str]:
+    least = np.argmin(np.where(np.isnan(life), np.inf, life), axis=1)
+    return [known.names[index] if np.isfinite(own).any() else "none" for index, own in zip(least, life, strict=True)]
+
+
+life.computed("life_min", "L_min", "h", "Least modified rating life", _least, ("life_modified",), "the least of all bearings that turn",
+              exists=lambda any_life: any_life > 0, source=LIFE, digits=6)
+life.computed("governing_bearing", "B_L", "1", "Bearing of the least life", _governing, ("all_bearings", "life_modified"),
+              "the least of all bearings that turn", is_text=True)
+value(life, "life_share", "s_L", "1", "Share of the least life in this bearing's, to the Weibull slope",
+      lambda lives, life_min, life_modified: np.where(lives > 0, (life_min / life_modified) ** (10 / 9), 0), source="Lundberg and Palmgren",
+      output=False)
+life.total("life_sum", "Σ s_L", "1", "Sum of these shares", "sum", of="life_share", source="Lundberg and Palmgren", output=False)
+life.value("system_life", "L_sys", "h", "Life of all bearings together, of the same reliability", lambda life_min,
+           life_sum: life_min * life_sum ** (-0.9),
+           exists=lambda any_life: any_life > 0, source="Lundberg and Palmgren", digits=6)
+
+limits = Chapter("Limits of practice")
+limits.lookup("static_usual", "s_0,u", "1", "Usual static safety", STATIC_SAFETIES, by="bearings.type", source=PRACTICE, output=False, named_by=NAMES)
+value(limits, "static_required", "[s_0]_i", "1", "Static safety that is required: as given", bind(lambda given, usual: given + 0 * usual,
+      given="required_static_safety", usual="static_usual"), needs=("required_static_safety",), source="input", output=False)
+value(limits, "static_required", "[s_0]_i", "1", "Static safety that is required: the usual one", lambda static_usual: static_usual,
+      lacks=("required_static_safety",), source=PRACTICE, output=False)
+limits.lookup("least_share", "c_min", "1", "Least load as a share of C", {"deep_groove": 0.01, "ball": 0.01, "roller": 0.02}, by="bearings.type",
+              source="SKF catalogue", output=False, named_by=NAMES)
+value(limits, "least_load", "P_min", "N", "Least load, so that rolling elements roll", lambda least_share,
+      dynamic_rating: least_share * dynamic_rating,
+      source="SKF catalogue", output=False)
+value(limits, "valid_load", "P_lim", "N", "Load up to which the rating life holds", lambda dynamic_rating: dynamic_rating / 2, source="ISO 281",
+      output=False)
+value(limits, "rating_needed", "C_req", "kN", "Dynamic rating with which the life is reached",
+      lambda dynamic_rating, required_life, life_modified, exponent: dynamic_rating * (required_life / life_modified) ** (1 / exponent),
+      exists=lambda lives: lives > 0, source=LIFE, output=False)
+value(limits, "static_needed", "C_0,req", "kN", "Static rating with which the safety is reached",
+      lambda static_required, static_load: static_required * static_load, source="ISO 76", output=False)
+value(limits, "dynamic_valid", "C_val", "kN", "Dynamic rating from which on the rating life holds",
+      lambda equivalent_load_max: 2 * equivalent_load_max,
+      source="ISO 281", output=False)
+value(limits, "most_rating", "C_most", "kN", "Dynamic rating with which the load is not too small", lambda equivalent_load, least_share:
+      equivalent_load / least_share, exists=lambda equivalent_load: equivalent_load > 0, source="SKF catalogue", output=False)

@@ -1,0 +1,173 @@
+"""One bearing as it is given: what loads it, and the bearing that is taken, by its ratings, its designation or its series."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass
+from typing import Any, NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from diecut_report.api import Refusal, si, table_beside
+from diecut_report.plugins.rolling_bearing import formulas as f
+from diecut_report.plugins.rolling_bearing.duty import Duty, is_curve, of_one_cycle
+from diecut_report.plugins.rolling_bearing.factors import RADIAL_FACTOR, STATIC_FACTORS
+from diecut_report.plugins.rolling_bearing.ratings import Ratings
+
+Array = NDArray[Any]
+Known = Mapping[str, Any]
+
+DEEP_GROOVE = "deep_groove"
+EXPONENTS = {DEEP_GROOVE: 3.0, "ball": 3.0, "roller": 10 / 3}
+STATIC_SAFETIES = {DEEP_GROOVE: 1.0, "ball": 1.0, "roller": 1.5}
+CATALOGUE = table_beside(__file__, "ball_bearings.yaml")
+SIZES = {
+    column.name: dict(zip(CATALOGUE.names, (si(value, column.unit) for value in column.values), strict=True))
+    for column in CATALOGUE.columns
+}
+MARGIN = 1e-6  # by which a bearing must hold that is chosen with fewer places of the cycle
+
+
+class Taken(NamedTuple):
+    """Hold a bearing: its ratings, its designation for each variant, whether it holds where it was sized, and whether it is of the table."""
+
+    ratings: Ratings
+    designations: tuple[str, ...]
+    holds: Array
+    is_of_table: bool = True
+
+
+@dataclass(frozen=True)
+class Part:
+    """What is given of one bearing."""
+
+    given: Known
+    index: int
+    variants: int
+
+    def key(self, name: str) -> str:
+        return f"bearings.{self.index}.{name}"
+
+    def raw(self, name: str) -> Any:
+        """What is given: a number of all variants, (variants, 1), a curve, a text or None."""
+        known = self.given.get(f"bearings.{name}")
+        if known is None:
+            return None
+        own = known[:, [self.index]] if isinstance(known, np.ndarray) else known[self.index]
+        if own is None or isinstance(own, str) or is_curve(own):
+            return own
+        return np.broadcast_to(np.asarray(own, dtype=float).reshape(-1, 1), (self.variants, 1))
+
+    def number(self, name: str, default: float) -> Array:
+        found = self.raw(name)
+        return np.full((self.variants, 1), default) if found is None else np.asarray(found)
+
+    def text(self, name: str) -> str | None:
+        found = self.raw(name)
+        return found if isinstance(found, str) else None
+
+    def duty(self) -> Duty:
+        return Duty(self.raw("radial_force"), self.raw("axial_force"), self.raw("speed"), self.raw("relative_angle"),
+                    self.given["service_factor"], self.variants)  # fmt: skip
+
+    def judge(self, duty: Duty) -> None:
+        """Refuse what does not fit together."""
+        if duty.angle is not None and not is_curve(duty.angle):
+            raise Refusal(
+                self.key("relative_angle"),
+                "is a number; refer to the curve of the angle over the cycle, or give speed in its place",
+            )
+        curves = {
+            key: value
+            for key in ("radial_force", "axial_force", "speed", "relative_angle")
+            if is_curve(value := self.raw(key))
+        }
+        other = of_one_cycle([(self.key(key), curve) for key, curve in curves.items()])
+        if other:
+            raise Refusal(
+                other,
+                "runs over another cycle than the other curves of this bearing; give all over one cycle, or one as a number",
+            )
+
+    def knows_factors(self) -> bool:
+        """Return whether it is known by which factors an axial force counts."""
+        if self.text("type") == DEEP_GROOVE:
+            return self.raw("f0") is not None or self.raw("dynamic_rating") is None
+        return self.raw("x") is not None and self.raw("x0") is not None
+
+    # --- ratings ------------------------------------------------------------------------------------------------------------
+
+    def taken(self, duty: Duty) -> Taken:
+        """Return the bearing that is taken."""
+        designation = self.text("designation")
+        known = np.ones((self.variants, 1))
+        if self.raw("dynamic_rating") is not None:
+            own = self._with(self.raw("dynamic_rating"), self.raw("static_rating"), self.raw("f0"))
+            return Taken(own, (designation or "own",) * self.variants, known, is_of_table=False)
+        if self.text("type") != DEEP_GROOVE:
+            raise Refusal(self.key("dynamic_rating"), "is missing; give dynamic_rating and static_rating of the maker's catalogue: only deep groove "
+                          "ball bearings stand in the table")  # fmt: skip
+        if designation is not None:
+            if designation not in CATALOGUE.names:
+                series = f"{CATALOGUE.names[0]} to {CATALOGUE.names[-1]}, series 60, 62 and 63"
+                raise Refusal(self.key("designation"), f"is {designation}, which is not in the table ({series}); give dynamic_rating and "
+                              "static_rating of the maker's catalogue beside it")  # fmt: skip
+            return Taken(self.of(designation), (designation,) * self.variants, known)
+        return self._sized(duty)
+
+    def _with(self, dynamic: Array, static: Array, f0: Array | None) -> Ratings:
+        ones, kind = np.ones((self.variants, 1)), self.text("type")
+        by_table = kind == DEEP_GROOVE
+        usual = STATIC_FACTORS if by_table else (1.0, 0.0)
+        x0, y0 = (
+            default * ones if self.raw(key) is None else self.raw(key)
+            for key, default in zip(("x0", "y0"), usual, strict=True)
+        )
+        x, y, e = (default * ones if by_table or self.raw(key) is None else self.raw(key)
+                   for key, default in (("x", RADIAL_FACTOR if by_table else 1.0), ("y", 0.0), ("e", 0.0)))  # fmt: skip
+        return Ratings(dynamic * ones, static * ones, 0 * ones if f0 is None else f0 * ones, x, y, e, x0, y0, by_table)
+
+    def of(self, designation: str) -> Ratings:
+        """Return the ratings of a bearing of the table."""
+        dynamic, static, f0 = (np.full((self.variants, 1), SIZES[name][designation]) for name in ("C", "C0", "f0"))
+        own = self.raw("f0")
+        return self._with(dynamic, static, f0 if own is None else own)
+
+    def candidates(self) -> Iterator[str]:
+        """Yield the bearings of the series, the smallest first."""
+        yield from (name for name in CATALOGUE.names if name.startswith(str(self.text("series"))))
+
+    def _sized(self, duty: Duty) -> Taken:
+        """The smallest bearing of the series that holds, for each variant; the largest where none does."""
+        names = list(self.candidates())
+        static_forces = duty.greatest(self.of(names[0]).static_load)
+        held = np.concatenate([self.holds(duty, name, static_forces) for name in names], axis=1)
+        enough = np.asarray(held.any(axis=1))
+        taken = tuple(names[index] for index in np.where(enough, np.argmax(held, axis=1), len(names) - 1))
+        dynamic, static, f0 = (np.array([[SIZES[column][name]] for name in taken]) for column in ("C", "C0", "f0"))
+        own = self._with(dynamic, static, f0 if self.raw("f0") is None else self.raw("f0"))
+        return Taken(own, taken, enough[:, None] * 1.0)
+
+    def holds(self, duty: Duty, name: str, static_forces: tuple[Array, Array]) -> Array:
+        """Return whether a bearing of the table reaches life and static safety, (variants, 1)."""
+        own = self.of(name)
+        life, safety = self.life(duty, own), own.static / own.static_load(*static_forces)
+        wanted = self.given.get("required_static_safety")
+        required = STATIC_SAFETIES[DEEP_GROOVE] if wanted is None else wanted
+        is_long = np.isnan(life) | (life >= self.given["required_life"] * (1 + MARGIN))
+        fits = SIZES["d"][name] >= self.raw("bore_min") * (1 - MARGIN)
+        found: Array = is_long & (safety >= required * (1 + MARGIN)) & fits
+        return found
+
+    def life(self, duty: Duty, own: Ratings) -> Array:
+        """Return the modified life; NaN where the rings do not turn, or bear nothing."""
+        exponent = EXPONENTS[str(self.text("type"))]
+        mean = duty.equivalent(own, exponent, duty.first)
+        speed = duty.mean_speed if duty.angle is None else self.number("cycle_speed", 0.0) * duty.travel / (2 * np.pi)
+        turns = f.revolutions.function(own.dynamic, np.where(mean > 0, mean, np.nan), exponent)
+        lasts = f.duration.function(turns, np.where(speed > 0, speed, np.nan))
+        found: Array = np.asarray(
+            f.modified.function(self.given["reliability_factor"], self.raw("a_iso"), lasts), dtype=float
+        )
+        return found

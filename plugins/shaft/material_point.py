@@ -1,0 +1,122 @@
+"""The material point of the least safety against fatigue, sought for many places of many shafts at once."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from diecut_report.plugins.shaft import formulas
+from diecut_report.plugins.shaft.statics import Sides
+
+Array = NDArray[Any]
+DIRECTIONS = np.arange(120) * np.pi / 60  # of the material point that are looked at first
+NEAR = np.linspace(-1, 1, 21)  # of a step between directions, at each turn of the bounded search
+NARROWED = 0.1
+SPARSE = 6  # of the instants every so many find the direction; nearby all of them count
+TOGETHER = 48  # places at once, so that what is computed stays in the processor's cache
+ROUNDING = 1e-12  # share of a stress that is no stress
+
+
+@dataclass(frozen=True)
+class Points:
+    """Hold places (one side of one place of one shaft each) with their moments as seen by the turning shaft, (places, 2, instants)."""
+
+    moments: Array
+    axial: Array | None
+    bounds: Array
+    shear: tuple[Array, Array]
+    factors: dict[str, Array]
+
+    def of(self, chosen: Any) -> Points:
+        """Return some of them."""
+        return Points(
+            self.moments[chosen], None if self.axial is None else self.axial[chosen], self.bounds[:, chosen],
+            (self.shear[0][chosen], self.shear[1][chosen]), {name: each[chosen] for name, each in self.factors.items()},
+        )  # fmt: skip
+
+    def judged(self, psi: Array, every: int) -> tuple[Array, Array, Array]:
+        """Return safety, amplitude and mean of the normal stress at directions (places or 1, directions), over every so many instants."""
+        across = np.stack([np.cos(psi), np.sin(psi)], axis=2) @ self.moments[:, :, ::every]
+        if self.axial is not None:
+            across -= self.axial[:, None, ::every]
+        upper, lower = (
+            -np.min(across, axis=2) + self.bounds[1][:, None],
+            -np.max(across, axis=2) + self.bounds[0][:, None],
+        )
+        normal = (upper - lower) / 2, (upper + lower) / 2
+        return formulas.goodman.function(*normal, *(each[:, None] for each in self.shear), *self._factors()), *normal
+
+    def _factors(self) -> tuple[Array, ...]:
+        return tuple(self.factors[name][:, None] for name in ("k_f", "k_fs", "endurance", "tensile_strength"))
+
+    @property
+    def worst(self) -> tuple[Array, Array, Array]:
+        """Return safety, amplitude and mean where the safety is least, (places,) each."""
+        is_symmetric = self.axial is None and not np.any(self.bounds)  # opposite points then have opposite stresses
+        psi = (DIRECTIONS[: len(DIRECTIONS) // 2] if is_symmetric else DIRECTIONS)[None]
+        step, every = float(DIRECTIONS[1]), SPARSE
+        for _ in range(3):
+            safety = self.judged(psi, every)[0]
+            best = np.take_along_axis(np.broadcast_to(psi, safety.shape), np.argmin(safety, axis=1)[:, None], axis=1)
+            psi, step, every = best + step * NEAR, step * NARROWED, 1
+        safety, amplitude, mean = (each[:, 0] for each in self.judged(best, 1))
+        is_rounding = np.abs(mean) < ROUNDING * (np.abs(amplitude) + np.abs(mean))
+        return safety, amplitude, np.where(is_rounding, 0.0, mean)
+
+
+def worst_points(sides: Sides, angle: Array, own: dict[str, Array]) -> dict[str, Array]:
+    """Return the stresses that judge each place, (variants, places) each, on the side of the lesser safety.
+
+    ``angle`` is the shaft's (variants, instants), ``own`` the factors of the places (places, variants).
+    """
+    shape = sides.xy.shape[1:3]
+    chosen = np.concatenate([np.ones((1, *shape), dtype=bool), _differs(sides)[None]])
+    side, place, variant = np.nonzero(chosen)
+    torque = _torque(sides)
+    found = [_worst(sides, angle, own, torque, *(each[i : i + TOGETHER] for each in (side, place, variant)))
+             for i in range(0, len(side), TOGETHER)]  # fmt: skip
+    safety, *rest = (np.full((2, *shape), np.inf) for _ in range(3))
+    for table, name in zip((safety, *rest), range(3), strict=True):
+        table[side, place, variant] = np.concatenate([each[name] for each in found])
+    lesser = np.argmin(safety, axis=0)[None]
+    tables = {"sigma_a": rest[0], "sigma_m": rest[1], "torque_upper": torque[1], "torque_lower": torque[0]}
+    return {name: np.take_along_axis(table, lesser, axis=0)[0].T for name, table in tables.items()}
+
+
+def _differs(sides: Sides) -> Array:
+    """Return whether the forces behind a place are others than before it, (places, variants)."""
+    forces = (sides.xy, sides.xz, sides.torque, sides.axial, *sides.torque_bounds, *sides.axial_bounds)
+    found: Array = np.any([np.any(each[0] != each[1], axis=-1) for each in forces], axis=0)
+    return found
+
+
+def _torque(sides: Sides) -> tuple[Array, Array]:
+    """Return least and greatest torque over the cycle on both sides of each place, (2, places, variants)."""
+    low, high = (each[..., 0] for each in sides.torque_bounds)
+    return np.min(sides.torque, axis=3) + low, np.max(sides.torque, axis=3) + high
+
+
+def _worst(
+    sides: Sides,
+    angle: Array,
+    own: dict[str, Array],
+    torque: tuple[Array, Array],
+    side: Array,
+    place: Array,
+    variant: Array,
+) -> tuple[Array, Array, Array]:
+    at = side, place, variant
+    factors = {name: each[place, variant] for name, each in own.items()}
+    xy, xz, turn = sides.xy[at], sides.xz[at], angle[variant]
+    cosine, sine = np.cos(turn), np.sin(turn)
+    turned = np.stack([xy * cosine + xz * sine, xz * cosine - xy * sine], axis=1) / factors["modulus"][:, None, None]
+    area = factors["area"][:, None]
+    axial = sides.axial[at] / area if np.any(sides.axial) else None
+    axial = None if axial is None else np.broadcast_to(axial, (len(side), turned.shape[2]))
+    bounds = np.stack([each[at][:, 0] for each in sides.axial_bounds]) / area[:, 0]
+    least, most = torque[0][at], torque[1][at]
+    shear = tuple(each / (4 * factors["modulus"]) for each in (most - least, most + least))
+    return Points(turned, axial, bounds, shear, factors).worst

@@ -1,0 +1,142 @@
+"""What a report carries comes out of it as it went in, under names of the program's own, and over nothing that is there."""
+
+from __future__ import annotations
+
+import gzip
+import json
+import os
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from tests.config.test_own_tables import HEAD, SHAFT, TABLES
+from tests.configs import LEVER, SMALL, saved
+from tests.exchange.reports import changed, page_with, pdf_with, run
+from tests.report.links import links
+
+Capture = pytest.CaptureFixture[str]
+
+
+@pytest.mark.wheel
+@pytest.mark.parametrize("ending", ["pdf", "html"])
+def test_a_report_gives_back_its_configuration_and_its_results_byte_for_byte(
+    small_report: Path, tmp_path: Path, ending: str
+) -> None:
+    assert run("extract", small_report / f"small.{ending}", "-o", tmp_path / "out") == 0
+    assert sorted(path.name for path in (tmp_path / "out").iterdir()) == ["small.json", "small.yaml"]
+    assert (tmp_path / "out" / "small.yaml").read_bytes() == SMALL.encode()
+    assert (tmp_path / "out" / "small.json").read_bytes() == (small_report / "small.json").read_bytes()
+
+
+def test_a_reader_without_the_program_gets_them_by_the_links_of_the_page(small_report: Path) -> None:
+    found = links((small_report / "small.html").read_text("utf-8"))
+    assert gzip.decompress(found["results.json.gz"]) == (small_report / "small.json").read_bytes()
+    assert gzip.decompress(found["config.yaml.gz"]) == SMALL.encode()
+
+
+def test_a_byte_order_mark_of_the_configuration_comes_back(tmp_path: Path) -> None:
+    (tmp_path / "a.yaml").write_bytes(b"\xef\xbb\xbf" + LEVER.encode())
+    assert run("report", tmp_path / "a.yaml", "-o", tmp_path / "out", "--format", "html", "--quiet") == 0
+    assert run("extract", tmp_path / "out" / "a.html", "-o", tmp_path / "back") == 0
+    assert (tmp_path / "back" / "a.yaml").read_bytes() == (tmp_path / "a.yaml").read_bytes()
+
+
+def test_what_is_there_already_is_not_written_over(small_report: Path, tmp_path: Path, capfd: Capture) -> None:
+    own = saved(tmp_path, SMALL.replace("300", "400"), "small.yaml")
+    assert run("extract", small_report / "small.html", "-o", tmp_path) == 2
+    assert own.read_text("utf-8") == SMALL.replace("300", "400") and not (tmp_path / "small.json").exists()
+    assert "There is another file of this name." in capfd.readouterr().err
+    saved(tmp_path, SMALL, "small.yaml")
+    assert run("extract", small_report / "small.html", "-o", tmp_path) == 0  # the same one may stay
+    assert (tmp_path / "small.json").exists()
+
+
+def test_neither_a_link_nor_a_pipe_by_that_name_is_written_into(small_report: Path, tmp_path: Path) -> None:
+    target = saved(tmp_path, "mine", "elsewhere")
+    for make in (lambda path: path.symlink_to(target), os.mkfifo):
+        make(tmp_path / "small.json")
+        assert run("extract", small_report / "small.html", "-o", tmp_path) == 2
+        (tmp_path / "small.json").unlink()
+    assert target.read_text("utf-8") == "mine"
+
+
+def test_names_of_attachments_are_no_names_of_files(small_report: Path, tmp_path: Path) -> None:
+    results = (small_report / "small.json").read_bytes()
+    data = json.loads(results)
+    data["config"]["file"] = "../../above.yaml"
+    (tmp_path / "in").mkdir()
+    report = tmp_path / "in" / "a.pdf"
+    report.write_bytes(pdf_with({"results.json": json.dumps(data).encode(), "../evil.json": b"{}", "/tmp/evil": b"x"}))
+    assert run("extract", report, "-o", tmp_path / "in" / "out") == 0
+    assert sorted(str(path.relative_to(tmp_path)) for path in tmp_path.rglob("*") if path.is_file()) == [
+        "in/a.pdf", "in/out/a.json", "in/out/a.yaml",
+    ]  # fmt: skip
+
+
+def test_a_report_without_results_is_refused_in_words(tmp_path: Path, capfd: Capture) -> None:
+    (tmp_path / "a.html").write_bytes(b"<!DOCTYPE html><p>Results</p>")
+    (tmp_path / "a.pdf").write_bytes(pdf_with({"other.json": b"{}"}))
+    (tmp_path / "a.png").write_bytes(b"\x89PNG")
+    for name, words in (
+        ("a.html", "carries no results"),
+        ("a.pdf", "carries no results"),
+        ("a.png", "neither a report"),
+    ):
+        assert run("extract", tmp_path / name, "-o", tmp_path / "out") == 2
+        assert words in capfd.readouterr().err
+    assert not (tmp_path / "out").exists()
+
+
+def test_a_configuration_that_is_not_that_of_the_results_is_refused(
+    small_report: Path, tmp_path: Path, capfd: Capture
+) -> None:
+    results = (small_report / "small.json").read_bytes()
+    (tmp_path / "a.pdf").write_bytes(pdf_with({"results.json": results, "config.yaml": LEVER.encode()}))
+    assert run("extract", tmp_path / "a.pdf", "-o", tmp_path / "out") == 2
+    assert "not the one in the attached results" in capfd.readouterr().err
+    (tmp_path / "b.html").write_bytes(page_with(results))
+    assert run("extract", tmp_path / "b.html", "-o", tmp_path / "out") == 0
+
+
+def with_tables(folder: Path) -> Path:
+    """The page of a shaft whose steel stands in a table of the user's own, in a folder below the configuration."""
+    (folder / "data").mkdir(parents=True)
+    saved(folder / "data", TABLES, "steels.yaml")
+    config = saved(folder, HEAD.replace("steels.yaml", "data/steels.yaml") + SHAFT, "shaft.yaml")
+    assert run("report", config, "-o", folder / "out", "--format", "html", "--quiet") in (0, 1)
+    return folder / "out" / "shaft.html"
+
+
+def test_the_users_own_tables_come_back_and_are_used_again(tmp_path: Path, capfd: Capture) -> None:
+    report = with_tables(tmp_path / "in")
+    assert run("extract", report, "-o", tmp_path / "out") == 0
+    assert (tmp_path / "out" / "data" / "steels.yaml").read_bytes() == TABLES.encode()
+    assert run("calc", tmp_path / "out" / "shaft.yaml", "-o", tmp_path / "again.json", "--quiet") in (0, 1)
+    # what lies beside the report is not what it was calculated with
+    report.with_name("data").mkdir()
+    saved(report.with_name("data"), "source: other\nsteels: {own: {strengths: []}}\n", "steels.yaml")
+    capfd.readouterr()
+    assert run("verify", report, "--numbers") == 0
+    assert "shaft.yaml, data/steels.yaml, SHA-256" in capfd.readouterr().out
+
+
+@pytest.mark.parametrize("name", ["../up.yaml", "/tmp/up.yaml", "C:\\up.yaml", "up.py", f"{300 * 'a'}.yaml"])
+def test_the_name_of_a_table_leads_nowhere_else(small_report: Path, tmp_path: Path, name: str) -> None:
+    def change(data: dict[str, Any]) -> None:
+        data["config"]["materials"] = [{"file": name, "sha256": "", "source_text": "x"}]
+
+    (tmp_path / "in").mkdir()
+    report = changed(small_report / "small.json", tmp_path / "in" / "a.json", change)
+    for command in ("extract", "verify", "render"):
+        assert run(command, report, *(["-o", tmp_path / "in" / "out"] if command != "verify" else [])) == 2
+    assert [path.name for path in tmp_path.rglob("*") if path.is_file()] == ["a.json"]
+
+
+def test_a_link_to_another_folder_is_not_followed(tmp_path: Path, capfd: Capture) -> None:
+    report = with_tables(tmp_path / "in")
+    (tmp_path / "elsewhere").mkdir()
+    (tmp_path / "out").mkdir()
+    (tmp_path / "out" / "data").symlink_to(tmp_path / "elsewhere")
+    assert run("extract", report, "-o", tmp_path / "out") == 2
+    assert "leads out of the folder" in capfd.readouterr().err and not list((tmp_path / "elsewhere").iterdir())

@@ -1,0 +1,157 @@
+"""A report is calculated again, and each thing that is not as it was is told by its name."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from diecut_report.exchange.agreement import agreement
+from tests.configs import SMALL, saved
+from tests.examples import few
+from tests.exchange.reports import changed, page_with, run
+
+Capture = pytest.CaptureFixture[str]
+Data = dict[str, Any]
+
+
+@pytest.mark.wheel
+@pytest.mark.parametrize("ending", few(["html", "json", "pdf"], keep=lambda ending: ending != "pdf"))
+def test_a_report_as_it_was_written_agrees_in_everything(small_report: Path, capfd: Capture, ending: str) -> None:
+    assert run("verify", small_report / f"small.{ending}") == 0
+    told = capfd.readouterr().out
+    assert "✗" not in told and "Everything agrees." in told and "all of them exactly" in told
+    assert ("byte for byte" in told) == (ending != "json")
+
+
+def test_the_numbers_of_a_pdf_agree(small_report: Path, capfd: Capture) -> None:
+    assert run("verify", small_report / "small.pdf", "--numbers") == 0
+    told = capfd.readouterr().out
+    assert "Everything agrees." in told and "pages" not in told
+
+
+def test_a_report_is_judged_wherever_it_lies_and_whatever_it_is_called(small_report: Path, tmp_path: Path) -> None:
+    (tmp_path / "renamed").write_bytes((small_report / "small.html").read_bytes())
+    assert run("verify", tmp_path / "renamed") == 0
+
+
+def set_config(data: Data) -> None:
+    data["config"]["source_text"] = data["config"]["source_text"].replace("300 N*m", "310 N*m")
+
+
+def set_version(data: Data) -> None:
+    data["program"]["version"] = "0.0.1"
+
+
+def set_program(data: Data) -> None:
+    data["program"]["source_sha256"] = 64 * "0"
+
+
+def set_plugin(data: Data) -> None:
+    data["mechanisms"]["clutch"]["plugin_sha256"] = 64 * "0"
+
+
+def set_verdict(data: Data) -> None:
+    data["status"] = "warn"
+
+
+TAMPERED: list[tuple[Callable[[Data], None], list[str]]] = [
+    (set_config, ["✗ configuration", "✗ numbers", "mechanisms.clutch.inputs.torque.value: 300.0 → 310.0"]),
+    (set_version, ["✗ program", "0.0.1 made the report"]),
+    (set_program, ["✗ program", "000000000000 then"]),
+    (set_plugin, ["✗ plugins", "clutch: version", "source 000000000000 then"]),
+    (set_verdict, ["✗ numbers", "status: warn → pass", "1 other values differ"]),
+]
+
+
+@pytest.mark.parametrize(("change", "words"), TAMPERED, ids=[change.__name__ for change, _ in TAMPERED])
+def test_what_was_changed_is_told(
+    small_report: Path, tmp_path: Path, capfd: Capture, change: Callable[[Data], None], words: list[str]
+) -> None:
+    assert run("verify", changed(small_report / "small.json", tmp_path / "a.json", change)) == 1
+    told = capfd.readouterr().out
+    assert all(part in told for part in words) and told.endswith("Not everything agrees.\n")
+
+
+def test_a_number_that_was_changed_is_told_with_what_comes_out(
+    small_report: Path, tmp_path: Path, capfd: Capture
+) -> None:
+    data = json.loads((small_report / "small.json").read_text("utf-8"))
+    name, row = next(iter(data["mechanisms"]["clutch"]["outputs"].items()))
+    true, row["value"] = row["value"], row["value"] * 1.001
+    (tmp_path / "a.html").write_bytes(page_with(json.dumps(data).encode()))
+    assert run("verify", tmp_path / "a.html") == 1
+    told = capfd.readouterr().out
+    assert f"mechanisms.clutch.outputs.{name}.value: {row['value']} → {true}" in told
+    assert "not compared" in told  # no page is made of numbers that are not the program's own
+
+
+def test_a_page_that_shows_other_numbers_than_it_carries_does_not_agree(
+    small_report: Path, tmp_path: Path, capfd: Capture
+) -> None:
+    page = (small_report / "small.html").read_text("utf-8")
+    assert page.count("300") > 1
+    (tmp_path / "a.html").write_text(page.replace(">300<", ">200<", 1), "utf-8")
+    assert run("verify", tmp_path / "a.html") == 1
+    told = capfd.readouterr().out
+    assert "✓ numbers" in told and "✗ pages" in told
+
+
+def test_a_configuration_that_cannot_be_calculated_any_more_is_bad_input(
+    small_report: Path, tmp_path: Path, capfd: Capture
+) -> None:
+    def change(data: Data) -> None:
+        data["config"]["source_text"] = data["config"]["source_text"].replace("kind: clutch", "kind: clutchh")
+
+    path = changed(small_report / "small.json", tmp_path / "a.json", change)
+    assert run("verify", path) == 2
+    assert f"{path} (its configuration):5:" in capfd.readouterr().err
+
+
+def test_a_language_that_was_chosen_for_the_report_is_no_difference(tmp_path: Path) -> None:
+    config = saved(tmp_path, SMALL, "a.yaml")
+    assert run("report", config, "-o", tmp_path, "--format", "html,json", "--language", "en", "--quiet") == 0
+    assert run("verify", tmp_path / "a.html") == 0
+
+
+# --- two documents held against each other ---------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize(
+    ("first", "second"), [(1.0, 1 + 1e-12), (1e-17, -1e-17), ([1e3, 1e-14], [1e3, 3e-14]), (2, 2.0)]
+)
+def test_rounding_in_the_last_digits_is_no_difference(first: object, second: object) -> None:
+    found = agreement({"a": first}, {"a": second})
+    assert found.differences == []
+
+
+@pytest.mark.parametrize(
+    ("first", "second"),
+    [
+        (1.0, 1.0001),
+        (0.0, 1e-9),
+        ([1.0, 2.0], [1.0]),
+        (True, 1),
+        ("1", 1),
+        (None, 0),
+        ({"b": 1}, {}),
+        ([1e3, 0], [1e3, 1e-3]),
+    ],
+)
+def test_what_differs_is_a_difference(first: object, second: object) -> None:
+    for pair in ((first, second), (second, first)):
+        (found,) = agreement({"a": pair[0]}, {"a": pair[1]}).differences
+        assert found.path.split(".")[0] == "a"
+
+
+def test_the_verdict_is_told_before_the_curves() -> None:
+    old = {"mechanisms": {"a": {"curves": {"x": 1}, "outputs": {"m": 1}}}, "status": "pass"}
+    new = {"mechanisms": {"a": {"curves": {"x": 2}, "outputs": {"m": 2}}}, "status": "fail"}
+    assert [each.path for each in agreement(old, new).differences] == [
+        "status",
+        "mechanisms.a.outputs.m",
+        "mechanisms.a.curves.x",
+    ]

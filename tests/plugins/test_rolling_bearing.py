@@ -1,0 +1,267 @@
+"""Rolling bearings against the method's numbers, limit cases of ISO 281, brute force over the cycle, and other ways to the same life."""
+
+from __future__ import annotations
+
+from itertools import pairwise
+from math import gamma, log10, pi, sqrt
+from typing import Any
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+from scipy.integrate import quad
+
+from diecut_report.plugins.rolling_bearing.part import CATALOGUE
+from tests.examples import examples
+from tests.plugins.bearings import (
+    ANGULAR,
+    BALL,
+    JUMPING,
+    ROLLER,
+    SOUGHT,
+    SWINGING,
+    WAVING,
+    Over,
+    bearings,
+    checks,
+    one,
+    value,
+)
+
+HOUR = 3600.0
+K = (0.172, 0.345, 0.689, 1.03, 1.38, 2.07, 3.45, 5.17, 6.89)
+E = (0.19, 0.22, 0.26, 0.28, 0.30, 0.34, 0.38, 0.42, 0.44)
+Y = (2.30, 1.99, 1.71, 1.55, 1.45, 1.31, 1.15, 1.04, 1.00)
+
+
+# --- the method's numbers ----------------------------------------------------------------------------------------------
+
+
+def test_shigleys_bearing_under_both_forces() -> None:
+    calc = one(BALL, static_rating=62, f0=12.3, radial_force=8000, axial_force=4000)
+    assert value(calc, "axial_factor") == pytest.approx(1.66095, rel=1e-5)
+    assert value(calc, "equivalent_load") == pytest.approx(11123.8, rel=1e-5)
+
+
+def test_the_notebooks_bearing_with_an_outer_ring_that_turns() -> None:
+    calc = one(BALL, static_rating=34, f0=12.3, radial_force=8400, axial_force=3000)
+    assert value(calc, "equivalent_load") == pytest.approx(9306.6, rel=1e-5)
+
+
+@pytest.mark.parametrize(("part", "expected"), [(BALL, (4 / (3 * pi)) ** (1 / 3)), (ROLLER, 0.762979)])
+def test_a_rectified_sine_counts_as_its_power_mean(part: dict[str, Any], expected: float) -> None:
+    p = 3 if part is BALL else 10 / 3
+    by_gamma = (gamma((p + 1) / 2) / (sqrt(pi) * gamma(p / 2 + 1))) ** (1 / p)
+    assert by_gamma == pytest.approx(expected, abs=5e-7)
+    calc = one(part, radial_force=Over(lambda phi: 5000 * np.sin(phi)))
+    assert value(calc, "equivalent_load") / 5000 == pytest.approx(by_gamma, rel=1e-9)
+    assert value(calc, "equivalent_load_max") == pytest.approx(5000, rel=1e-9)
+
+
+def test_two_levels_count_by_the_revolutions_that_they_last() -> None:
+    load, speed = (
+        Over(lambda phi, a=a, b=b: np.where(phi < pi, a, b), (0.5,)) for a, b in ((2000.0, 1000.0), (10.0, -30.0))
+    )
+    calc = one(BALL, radial_force=load, speed=speed)
+    assert value(calc, "equivalent_load") / 1000 == pytest.approx(((8 + 3) / 4) ** (1 / 3), rel=1e-12)
+    assert value(calc, "mean_speed") == pytest.approx(20)
+
+
+def test_a_swing_counts_most_where_it_is_fast() -> None:
+    calc = one(
+        SWINGING | {"type": "ball"},
+        radial_force=Over(lambda phi: 5000 * np.cos(phi)),
+        relative_angle=Over(lambda phi: np.sin(phi)),
+    )
+    assert value(calc, "equivalent_load") / 5000 == pytest.approx(((3 / 8) / (2 / pi)) ** (1 / 3), rel=1e-6)
+
+
+def test_a_swing_of_thirty_degrees_to_either_side_is_a_third_of_a_turn() -> None:
+    calc = one(SWINGING)
+    assert value(calc, "turns_per_cycle") == pytest.approx(1 / 3, rel=1e-8)
+    assert value(calc, "swing") == pytest.approx(pi / 3, rel=1e-8)
+    assert value(calc, "mean_speed") == pytest.approx(50 / 3 * 2 * pi / 60, rel=1e-8)
+
+
+@pytest.mark.parametrize(
+    ("axial", "expected"), [(0.05, (0.19, 2.30)), (20, (0.44, 1.00)), (0.345, (0.22, 1.99)), (2.76, (0.36, 1.23))]
+)
+def test_the_factors_of_the_table_are_held_at_its_ends(axial: float, expected: tuple[float, float]) -> None:
+    calc = one(BALL, f0=10, static_rating=10, axial_force=axial * 1000, radial_force=0.1 * axial * 1000)
+    assert value(calc, "relative_axial") == pytest.approx(axial)
+    assert (value(calc, "axial_limit"), value(calc, "axial_factor")) == pytest.approx(expected)
+
+
+# --- brute force ---------------------------------------------------------------------------------------------------------
+
+
+def equivalent(radial: Any, axial: Any, static: float, f0: float) -> Any:
+    """The equivalent load of a deep groove ball bearing, by the table once more."""
+    ratio = f0 * axial / static
+    e, y = np.interp(ratio, K, E), np.interp(ratio, K, Y)
+    return np.where(axial <= e * radial, radial, np.maximum(0.56 * radial + y * axial, radial))
+
+
+def test_the_mean_load_is_that_of_an_adaptive_quadrature() -> None:
+    calc = one(WAVING)
+
+    def load(phi: float) -> float:
+        return float(equivalent(3000 + 2000 * np.sin(phi), abs(2500 * np.sin(2 * phi)), 21600, 14))
+
+    def speed(phi: float) -> float:
+        return float(20 + 10 * np.cos(phi))
+
+    corners = np.linspace(0, 2 * pi, 65)
+    pairs = list(pairwise(corners))
+    damage = sum(quad(lambda phi: load(phi) ** 3 * speed(phi), low, high, limit=200)[0] for low, high in pairs)
+    turned = sum(quad(speed, low, high)[0] for low, high in pairs)
+    assert value(calc, "equivalent_load") == pytest.approx((damage / turned) ** (1 / 3), rel=2e-7)
+    assert value(calc, "mean_speed") == pytest.approx(turned / (2 * pi), rel=1e-9)
+    dense = np.linspace(0, 2 * pi, 2000001)
+    loads = equivalent(3000 + 2000 * np.sin(dense), abs(2500 * np.sin(2 * dense)), 21600, 14)
+    assert value(calc, "equivalent_load_max") == pytest.approx(loads.max(), rel=1e-8)
+
+
+waves = st.tuples(*[st.floats(-3000, 3000)] * 5)
+
+
+def wave(of: tuple[float, ...]) -> Over:
+    """A curve of two harmonics."""
+    return Over(
+        lambda phi: (
+            of[0] + of[1] * np.sin(phi) + of[2] * np.cos(phi) + of[3] * np.sin(2 * phi) + of[4] * np.cos(2 * phi)
+        )
+    )
+
+
+@given(
+    radial=waves.filter(lambda each: sum(map(abs, each)) > 10),
+    axial=waves,
+    angle=waves.filter(lambda each: sum(map(abs, each[1:])) > 10),
+)
+@examples(40)
+def test_any_load_and_swing_count_as_a_dense_sum_says(
+    radial: tuple[float, ...], axial: tuple[float, ...], angle: tuple[float, ...]
+) -> None:
+    small = tuple(each / 3000 for each in angle)
+    calc = one(SWINGING | {"type": "deep_groove", "f0": 14, "static_rating": 21.6, "dynamic_rating": 35.1},
+               radial_force=wave(radial), axial_force=wave(axial), relative_angle=wave(small))  # fmt: skip
+    phi = np.linspace(0, 2 * pi, 40001)
+    theta = wave(small).function(phi)
+    middle = (phi[1:] + phi[:-1]) / 2
+    forces = [np.abs(wave(each).function(middle)) for each in (radial, axial)]
+    loads = equivalent(forces[0], forces[1], 21600, 14)
+    way = np.abs(np.diff(theta))
+    assert value(calc, "turns_per_cycle") == pytest.approx(way.sum() / (2 * pi), rel=1e-6)
+    assert value(calc, "equivalent_load") == pytest.approx((np.sum(loads**3 * way) / way.sum()) ** (1 / 3), rel=3e-6)
+    assert value(calc, "equivalent_load_max") == pytest.approx(loads.max(), rel=1e-6)
+    static = np.maximum(forces[0], 0.6 * forces[0] + 0.5 * forces[1])
+    assert value(calc, "static_load") == pytest.approx(static.max(), rel=1e-6)
+    if way.sum() < 2 * pi * 0.999:
+        assert value(calc, "swing") == pytest.approx(np.ptp(theta), rel=1e-6)
+
+
+def test_damage_by_miner_gives_the_same_life() -> None:
+    """Half a turn under 4 kN and half a turn under 8 kN use up each its own share of the life under that load."""
+    life = [value(one(ROLLER, radial_force=each), "life") for each in (4000, 8000)]
+    assert value(one(JUMPING), "life") == pytest.approx(1 / np.mean([1 / each for each in life]), rel=1e-12)
+
+
+# --- ISO 281 and 76 --------------------------------------------------------------------------------------------------------
+
+
+def test_a_load_as_great_as_the_rating_lasts_a_million_revolutions() -> None:
+    for part in (BALL, ROLLER):
+        calc = one(part, radial_force=part["dynamic_rating"] * 1000)
+        assert value(calc, "life_revolutions") == pytest.approx(1e6)
+
+
+@pytest.mark.parametrize(("part", "power"), [(BALL, 3), (ANGULAR | {"axial_force": 0}, 3), (ROLLER, 10 / 3)])
+def test_half_the_load_lasts_by_the_life_exponent_longer(part: dict[str, Any], power: float) -> None:
+    one_load, half = (value(one(part, radial_force=each), "life") for each in (4000, 2000))
+    assert half / one_load == pytest.approx(2**power)
+
+
+def test_the_equivalent_load_is_never_below_the_radial_force() -> None:
+    """Just beyond e the formula would give less than the radial force."""
+    calc = one(BALL, radial_force=4000, axial_force=1200, f0=14, static_rating=12)
+    assert 0.56 * 4000 + value(calc, "axial_factor") * 1200 < 4000
+    assert value(calc, "axial_factor") * 1200 / 4000 > value(calc, "axial_limit")
+    assert value(calc, "equivalent_load") == 4000
+
+
+def test_the_service_factor_counts_in_life_and_safety() -> None:
+    plain, shaken = bearings(BALL), bearings(BALL, service_factor=1.5)
+    assert value(plain, "life") / value(shaken, "life") == pytest.approx(1.5**3)
+    assert value(plain, "static_safety") / value(shaken, "static_safety") == pytest.approx(1.5)
+
+
+def test_an_angular_contact_bearing_counts_by_its_own_factors() -> None:
+    calc = one(ANGULAR)
+    assert value(calc, "equivalent_load") == pytest.approx(0.35 * 2000 + 0.57 * 3000)
+    assert value(calc, "static_load") == pytest.approx(max(2000, 0.5 * 2000 + 0.26 * 3000))
+
+
+def test_signs_of_forces_do_not_count() -> None:
+    calc = one(BALL, radial_force=-4000, axial_force=-900, speed=-300)
+    other = one(BALL, radial_force=4000, axial_force=900, speed=300)
+    assert value(calc, "life") == value(other, "life")
+
+
+def test_reliability_and_lubrication_multiply_the_life() -> None:
+    calc = bearings(BALL | {"a_iso": 2.5}, reliability=99)
+    assert value(calc, "life_modified") / value(calc, "life") == pytest.approx(0.25 * 2.5)
+
+
+def test_all_bearings_together_live_as_weibull_says() -> None:
+    calc = bearings(BALL, ROLLER, ANGULAR)
+    lives = [value(calc, "life_modified", part) for part in range(3)]
+    assert value(calc, "system_life") == pytest.approx(sum(each ** (-10 / 9) for each in lives) ** (-9 / 10))
+    least = int(np.argmin(lives))
+    assert value(calc, "life_min") == lives[least]
+    assert calc["governing_bearing"][0, 0] == ("ball", "roller", "angular")[least]
+    survives = [0.9 ** ((value(calc, "system_life") / each) ** (10 / 9)) for each in lives]
+    assert np.prod(survives) == pytest.approx(0.9)
+
+
+def test_a_bearing_that_stands_has_a_static_safety_alone() -> None:
+    calc = bearings(BALL | {"speed": 0}, ROLLER)
+    assert np.isnan(value(calc, "life_modified")) and value(calc, "static_safety") == pytest.approx(5.4)
+    assert value(calc, "life_min") == value(calc, "life_modified", 1) == value(calc, "system_life")
+    assert "ball_life" not in checks(calc)
+    alone = one(BALL, speed=0)
+    assert np.isnan(value(alone, "life_min")) and alone["governing_bearing"][0, 0] == "none"
+
+
+# --- the table ---------------------------------------------------------------------------------------------------------------
+
+
+@given(
+    radial=st.floats(500, 9000),
+    axial=st.floats(0, 4000),
+    speed=st.floats(20, 800),
+    series=st.sampled_from(["60", "62", "63"]),
+)
+@examples(4)
+def test_the_smallest_bearing_that_holds_is_taken(radial: float, axial: float, speed: float, series: str) -> None:
+    """Each of the series, given by its designation, fails if it is smaller and holds if it is the one."""
+    names = [name for name in CATALOGUE.names if name.startswith(series)]
+    keys = {"radial_force": radial, "axial_force": axial, "speed": speed}
+
+    def holds(name: str) -> bool:
+        calc = one(SOUGHT | keys | {"designation": name})
+        return value(calc, "life_modified") >= 20000 * HOUR and value(calc, "static_safety") >= 1
+
+    expected = next((name for name in names if holds(name)), None)
+    if expected is not None:
+        calc = one(SOUGHT | keys | {"series": series})
+        assert calc["designations"][0, 0] == f"sought {expected}"
+
+
+def test_the_life_check_advises_a_rating_that_is_enough() -> None:
+    short = one(BALL, radial_force=9000)
+    needed = value(short, "rating_needed")
+    assert checks(short)["ball_life"]["status"] == "fail"
+    assert checks(one(BALL, radial_force=9000, dynamic_rating=needed * 1.0001 / 1e3))["ball_life"]["status"] == "pass"
+    assert log10(needed) < 6

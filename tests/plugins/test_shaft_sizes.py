@@ -1,0 +1,143 @@
+"""Diameters that are left out: the least preferred ones with which the shaft holds, found again by trying every size."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from diecut_report.config.discovery import Discovery
+from diecut_report.engine import Calculation, Impossible, calculate, listings
+from diecut_report.plugins.shaft import MECHANISM
+from diecut_report.plugins.shaft.sizing import SERIES
+from diecut_report.results.checks import check_results
+from diecut_report.results.document import document
+from diecut_report.results.press_run import compute
+from diecut_report.study.definition.study_file import load_study
+from diecut_report.study.execution.worker import Chunk
+from diecut_report.study.execution.worker import calculate as calculated
+from tests.configs import loaded, saved
+from tests.machines import inputs, number
+from tests.plugins.shafts import CRANKSHAFT, shaft
+from tests.plugins.test_shaft_of_a_press import PRESS
+
+SETTLED = {"fatigue", "yield", "bearing_slope", "critical_speed", "deflection", "twist"}
+PLAIN = [{key: value for key, value in section.items() if key != "fillet_radius"} for section in CRANKSHAFT["sections"]]
+
+
+def without(*sections: int, of: list[dict[str, Any]] | None = None) -> list[dict[str, Any]]:
+    """The sections of the crankshaft, some without their diameters."""
+    given = of or CRANKSHAFT["sections"]
+    return [
+        {k: v for k, v in each.items() if k != "diameter"} if i in sections else dict(each)
+        for i, each in enumerate(given)
+    ]
+
+
+def diameters(calculation: Calculation) -> list[float]:
+    """The diameters of all sections, in mm."""
+    return [round(float(each) * 1e3, 6) for each in calculation["section_diameter"][0]]
+
+
+def holds(**changes: Any) -> bool:
+    """Whether a crankshaft with all diameters given keeps the checks that diameters settle; one that cannot exist does not."""
+    try:
+        found = check_results(shaft(CRANKSHAFT, **changes))
+    except Impossible:
+        return False
+    return all(check["status"] in ("pass", "not_checked") for check in found if check["id"] in SETTLED)
+
+
+def with_sizes(sections: list[dict[str, Any]], sizes: list[float]) -> list[dict[str, Any]]:
+    return [section | {"diameter": size} for section, size in zip(sections, sizes, strict=True)]
+
+
+@pytest.mark.parametrize(
+    "changes", [{}, {"required_fatigue_safety": 1.2}, {"allowable_deflection": 0.08}, {"speed": 20_000}]
+)
+def test_the_diameter_of_a_section_is_the_least_of_the_series_with_which_the_shaft_holds(
+    changes: dict[str, Any],
+) -> None:
+    found = diameters(shaft(CRANKSHAFT, sections=without(2), **changes))
+    assert found[:2] + found[3:] == [45, 55, 50]
+    tried = [float(size) * 1e3 for size in SERIES if size <= found[2] / 1e3 * (1 + 1e-9)]
+    assert [holds(sections=with_sizes(without(2), [45, 55, size, 50]), **changes) for size in tried] == [False] * (
+        len(tried) - 1
+    ) + [True]
+
+
+def test_of_several_sections_none_can_be_thinner_alone() -> None:
+    found = diameters(shaft(CRANKSHAFT, sections=without(0, 1, 2, 3, of=PLAIN)))
+    assert holds(sections=with_sizes(PLAIN, found))
+    series = [round(float(size) * 1e3, 6) for size in SERIES]
+    for section, size in enumerate(found):
+        thinner = [*found[:section], series[series.index(size) - 1], *found[section + 1 :]]
+        assert not holds(sections=with_sizes(PLAIN, thinner))
+
+
+def test_a_steel_is_taken_at_the_size_that_is_found() -> None:
+    steel = {"material": "42CrMo4+QT", "tensile_strength": None, "yield_strength": None}
+    given = {key: value for key, value in (CRANKSHAFT | {"sections": without(2)} | steel).items() if value is not None}
+    found = calculate(MECHANISM, inputs(MECHANISM, given))
+    assert number(found, "tensile_strength") == (1000e6 if max(diameters(found)) <= 40 else 900e6)
+    assert number(found, "fatigue_safety") >= 1.5
+
+
+def test_the_neighbours_in_the_series_are_shown() -> None:
+    found = shaft(CRANKSHAFT, sections=without(2, of=PLAIN), required_fatigue_safety=1)
+    rows = listings.results(found)["listings"]["size_neighbours"]["rows"]
+    size = diameters(found)[2]
+    place = [round(float(each) * 1e3, 6) for each in SERIES].index(size)
+    assert [row[1] for row in rows] == pytest.approx(SERIES[place - 1 : place + 2])
+    assert rows[0][5].startswith("not enough for") and rows[1][5] == "taken"
+    alone = shaft(CRANKSHAFT, sections=with_sizes(PLAIN, [45, 55, float(SERIES[place - 1]) * 1e3, 50]))
+    assert rows[0][2] == pytest.approx(number(alone, "fatigue_safety"), rel=1e-9)
+
+
+def test_diameters_that_are_given_are_not_sought() -> None:
+    found = shaft(CRANKSHAFT)
+    assert diameters(found) == [45, 55, 60, 50]
+    assert listings.results(found)["listings"]["size_neighbours"]["rows"] == []
+
+
+@pytest.mark.parametrize(
+    ("changes", "key", "words"),
+    [
+        (
+            {"sections": without(1, 2)},
+            "sections.2.diameter",
+            "a fillet stands between both, which needs a step; give one of the two",
+        ),
+        (
+            {"sections": without(3), "required_fatigue_safety": 1e5},
+            "sections",
+            "no preferred one up to 250 mm is enough",
+        ),
+        ({"sections": []}, "sections", "is empty; give at least one section"),
+    ],
+)
+def test_what_cannot_be_sized_is_told(changes: dict[str, Any], key: str, words: str) -> None:
+    with pytest.raises(Impossible) as found:
+        shaft(CRANKSHAFT, **changes)
+    assert any(path == key and words in message for path, message in found.value.reasons)
+
+
+def test_variants_under_curves_get_their_own_diameters(tmp_path: Path) -> None:
+    text = PRESS.replace("length: 60 mm, diameter: 60 mm", "length: 60 mm").replace(", fillet_radius: 2 mm", "")
+    text = text.replace("n_points: 720", "n_points: 72") + "    required_fatigue_safety: 1.05\n"
+    base = loaded(tmp_path, text)
+    alone = [
+        document(
+            compute(
+                loaded(tmp_path, text.replace("crank_length: 100 mm", f"crank_length: {length} mm")), lambda _: None
+            )
+        )
+        for length in (80, 300)
+    ]
+    sizes = [each["mechanisms"]["crankshaft"]["outputs"]["section_diameter.2"]["value"] for each in alone]
+    assert sizes[0] != sizes[1]  # a longer crank has smaller forces in its joints
+    saved(tmp_path, base.tree.text)
+    study = "schema_version: 1\nbase: press.yaml\nsample: {method: grid}\nvary: {mechanisms.drive.crank_length: [80 mm, 300 mm]}\n"
+    columns = calculated(load_study(saved(tmp_path, study, "study.yaml"), Discovery([])), Chunk(0, 0, 2)).columns
+    assert list(columns["crankshaft.section_diameter.2"]) == pytest.approx(sizes, rel=1e-12)
