@@ -16,7 +16,7 @@ from diecut_report.config.dependency_order import ordered
 from diecut_report.config.discovery import Discovery, DuplicateKind, UnknownKind, said
 from diecut_report.config.hidden_letters import seeming_latin
 from diecut_report.config.instances import Instance
-from diecut_report.config.model import PRESS, ConfigDocument, Press, Project
+from diecut_report.config.model import PRESS, ConfigDocument, Press, Project, ReportSettings
 from diecut_report.config.references import Linker, texts
 from diecut_report.config.source_hashes import plugin_hash, program_hash
 from diecut_report.config.targets import Node, Target
@@ -47,6 +47,7 @@ class Config:
     order: tuple[Node, ...]
     broken: Mapping[str, PluginError]
     extensions: Mapping[str, str] = field(default_factory=dict)
+    report: ReportSettings = field(default_factory=ReportSettings)
 
     @property
     def source_hashes(self) -> dict[str, str]:
@@ -85,7 +86,7 @@ def examined(given: Path | Tree, discovery: Discovery, *, only_named: bool = Fal
         ]
     project = reader.project or Project.model_validate({"title": "?"})  # of a file with problems
     config = Config(tree, project, reader.instances, reader.kinds, linker.links, tuple(order), reader.broken,
-                    dict(sorted(discovery.extended.items())))  # fmt: skip
+                    dict(sorted(discovery.extended.items())), reader.report or ReportSettings())  # fmt: skip
     return config, problems
 
 
@@ -112,12 +113,14 @@ class _ConfigReader:
     problems: list[Problem] = field(default_factory=list)
     with_partners: list[str] = field(default_factory=list)
     project: Project | None = None
+    report: ReportSettings | None = None
 
     def __post_init__(self) -> None:
         self.place = ConfigPlace(self.tree)
         whole = as_typed(ConfigDocument, self.tree.data, self.place)
         document, self.problems = validate(ConfigDocument, whole, self.place)
         self.project = document.project if document else None
+        self.report = document.report if document else None
         data = whole if isinstance(whole, dict) else {}
         self.instances[PRESS] = None
         if isinstance(data.get(PRESS), dict):
