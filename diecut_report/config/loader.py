@@ -15,7 +15,7 @@ from diecut_report.config.dependency_order import ordered
 from diecut_report.config.discovery import Discovery, DuplicateKind, UnknownKind, said
 from diecut_report.config.hidden_letters import seeming_latin
 from diecut_report.config.instances import Instance, substituted
-from diecut_report.config.model import PRESS, ConfigDocument, Press, Project
+from diecut_report.config.model import PRESS, ConfigDocument, Press, Project, ReportSettings
 from diecut_report.config.own_tables import Find, OwnTables
 from diecut_report.config.plain_data import texts
 from diecut_report.config.references import Linker
@@ -50,6 +50,7 @@ class Config:
     broken: Mapping[str, PluginError]
     extensions: Mapping[str, str] = field(default_factory=dict)
     tables: Mapping[str, Tree] = field(default_factory=dict)
+    report: ReportSettings = field(default_factory=ReportSettings)
 
     @property
     def source_hashes(self) -> dict[str, str]:
@@ -89,7 +90,7 @@ def examined(given: Path | Tree, discovery: Discovery, *, find: Find | None = No
         ]
     project = reader.project or Project.model_validate({"title": "?"})  # of a file with problems
     config = Config(tree, project, reader.instances, reader.kinds, linker.links, tuple(order), reader.broken,
-                    dict(sorted(discovery.extended.items())), tables.trees)  # fmt: skip
+                    dict(sorted(discovery.extended.items())), tables.trees, reader.report or ReportSettings())  # fmt: skip
     return config, problems
 
 
@@ -116,12 +117,14 @@ class _ConfigReader:
     problems: list[Problem] = field(default_factory=list)
     with_partners: list[str] = field(default_factory=list)
     project: Project | None = None
+    report: ReportSettings | None = None
 
     def __post_init__(self) -> None:
         self.place = ConfigPlace(self.tree)
         whole = as_typed(ConfigDocument, self.tree.data, self.place)
         document, self.problems = validate(ConfigDocument, whole, self.place)
         self.project = document.project if document else None
+        self.report = document.report if document else None
         data = whole if isinstance(whole, dict) else {}
         self.instances[PRESS] = None
         if isinstance(data.get(PRESS), dict):
