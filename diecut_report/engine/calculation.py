@@ -64,14 +64,10 @@ class CurveHandle:
         return self.abscissa.id
 
     def values(self, share: Array, middle: Array, rows: Array | None) -> Array:
-        """Return values at shares of the period, shape (rows, points), each in the smooth piece of its middle (a share too).
-
-        ``rows`` are variants (default all).
-        """
+        """Return values at shares of the period, (rows, points), each in the smooth piece of its middle (a share too); rows: default all."""
         period = self.domain.period_of(rows)
-        return self.calculation.sample(
-            self.curve_id, share * period, self.domain.middle_of(middle * period, rows), rows
-        )
+        inner = self.domain.middle_of(middle * period, rows)
+        return self.calculation.sample(self.curve_id, share * period, inner, rows)
 
     def gain(self, rows: Array | None) -> Array:
         """Return what the curve has more at the end of its period than at its start, shape (rows, 1); rows as in ``values``."""

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable
 from typing import Any
 
 import numpy as np
@@ -11,7 +11,7 @@ from diecut_report.contract.binding import Binding, Bound, bound
 from diecut_report.contract.code_steps import ComputedCurve, PartTable
 from diecut_report.contract.listings import Listing
 from diecut_report.contract.part_steps import Interpolated, Lookup, Neighbour, Part, Pick, Running, Total
-from diecut_report.contract.result_names import part_result, place_name
+from diecut_report.contract.result_names import place_name
 from diecut_report.contract.steps import (
     Abscissa,
     Accumulated,
@@ -29,7 +29,7 @@ from diecut_report.contract.steps import (
 )
 from diecut_report.engine import listings
 from diecut_report.engine.calculation import Calculation, Unproven
-from diecut_report.engine.printing import tables
+from diecut_report.engine.printing import named_parts, tables
 from diecut_report.engine.printing.definitions import definitions
 from diecut_report.engine.printing.interpolation import BetweenRows
 from diecut_report.engine.printing.shown_place import (
@@ -94,18 +94,18 @@ def items(calc: Calculation, step: Step) -> list[Item]:
         case Accumulated() | Derivative():
             return [_of_curve(calc, step)]
         case Computed() if step.id in calc.axis:
-            return [] if _has_tables(calc, calc.axis[step.id]) else [tables.table(calc, step, [step.id])]
+            return [] if named_parts.has_tables(calc, calc.axis[step.id]) else [tables.table(calc, step, [step.id])]
         case MadeCurve():
             return [_made(calc, step)]
         case Computed() | CurvePeriod():
             return [_computed(calc, step)]
         case ComputedCurve():
             at = place_shown(calc, step.abscissa, False)
-            return [_of_each(calc, step, at)] if step.named_by else [_computed(calc, step) | {"at": at}]
+            return [named_parts.curves(calc, step, at)] if step.named_by else [_computed(calc, step) | {"at": at}]
         case PartTable(parts=parts, columns=columns):
-            return [tables.of_parts(calc, step, _names(calc, parts, columns[0]), list(columns))]
+            return [tables.of_parts(calc, step, named_parts.names(calc, parts, columns[0]), list(columns))]
         case Lookup() if step.id in calc.axis:
-            return [] if _has_tables(calc, calc.axis[step.id]) else [tables.looked_up(calc, step)]
+            return [] if named_parts.has_tables(calc, calc.axis[step.id]) else [tables.looked_up(calc, step)]
         case Total() | Pick() | Lookup() | Part():
             return [_head(step) | tables.number(calc, step)]
         case Running():
@@ -120,32 +120,6 @@ def items(calc: Calculation, step: Step) -> list[Item]:
     return []
 
 
-def _has_tables(calc: Calculation, parts: str) -> bool:
-    """Whether rows over repeated parts are printed in tables that are declared."""
-    return parts in calc.part_names or any(
-        isinstance(step, PartTable) and step.parts == parts for step in calc.steps.values()
-    )
-
-
-def _names(calc: Calculation, parts: str, row: str) -> Sequence[str]:
-    """The names of the parts that a row runs over; of a list without names their numbers."""
-    known = calc.part_names.get(parts) or calc.inputs.get(calc.steps[row].named_by)
-    return known or [str(number + 1) for number in range(calc[row].shape[1])]
-
-
-def _of_each(calc: Calculation, step: ComputedCurve, at: Item) -> Item:
-    """The curves of named parts where they are shown."""
-    head = (
-        {"title": "Name", "symbol": "", "unit": "1"},
-        {"title": step.description, "symbol": step.symbol, "unit": step.unit},
-    )
-    curves = [part_result(name, step) for name in calc.inputs[step.named_by]]
-    values = [shown(value_at(calc, name, step.abscissa), step.unit, step.digits)["text"] for name in curves]
-    where = f"{step.description} at {at['symbol']} = {with_unit(at['text'], at['unit'])}"
-    lines = [list(line) for line in zip(calc.inputs[step.named_by], values, strict=True)]
-    return {"type": "table", "id": step.id, "title": where, "columns": list(head), "rows": lines}
-
-
 def _head(step: Step) -> Item:
     return {"id": step.id, "symbol": step.symbol, "description": step.description, "source": step.source}
 
@@ -158,19 +132,12 @@ def _value(calc: Calculation, step: Value, part: Bound) -> list[Item]:
     item = _head(step) | {"type": "formula"} | _formula(calc, part, step, axis, elsewhere)
     if axis in calc.domains:
         item |= located(calc, str(axis), elsewhere)
-    elif axis in calc.part_names:
-        item["note"] = " ".join(
-            filter(None, (item.get("note"), f"Shown for: {calc.part_names[axis][shown_part(calc, step.id)]}."))
-        )
     elif axis is not None:
-        if names := calc.inputs.get(step.named_by):
+        if names := calc.part_names.get(axis) or calc.inputs.get(step.named_by):
             item["note"] = " ".join(filter(None, (item.get("note"), f"Shown for: {names[shown_part(calc, step.id)]}.")))
-        if _has_tables(calc, axis):
-            return [item]
-        return [
-            item,
-            tables.table(calc, step, [name for name in part.names.values() if isinstance(name, str)] + [step.id]),
-        ]
+        if not named_parts.has_tables(calc, axis):
+            taken = [name for name in part.names.values() if isinstance(name, str)]
+            return [item, tables.table(calc, step, [*taken, step.id])]
     return [item]
 
 
