@@ -44,7 +44,10 @@ class PartNames(SilentStep):
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class PartTable(SilentStep):
-    """Declare a table that is printed here: the rows ``columns`` over the declared ``parts``, a line for each by its name."""
+    """Declare a table that is printed here: the rows ``columns`` over the declared ``parts``, a line for each by its name.
+
+    ``parts`` may be a list of the inputs, too: its rows are then printed in such tables alone.
+    """
 
     parts: str
     columns: tuple[str, ...]

@@ -25,8 +25,8 @@ class Step:
     ``exists`` is a condition on numbers: where it does not hold the quantity is absent for that machine.
     ``whole`` marks a count, which the results hold as an integer.
     ``units`` are other units, each with the input beside which it holds: (("mass", "N"),).
-    A row over repeated parts is named ``ID.0``, ``ID.1`` … in the results, or by ``numbered`` (``shaft_{}_speed``) from ``first`` on.
-    With ``named_by``, the text input of the parts' names (``bearings.name``), the row is named ``NAME_ID`` after them.
+    A row over repeated parts is named ``ID.0``, ``ID.1`` … in the results, or by ``numbered`` (``shaft_{}_speed``) from ``first`` on,
+    or with ``named_by``, the text input of the parts' names (``bearings.name``), after them: ``NAME_ID``.
     """
 
     id: str

@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 from diecut_report.api import Refusal
 from diecut_report.plugins.rolling_bearing.duty import Duty
 from diecut_report.plugins.rolling_bearing.nodes import Nodes
-from diecut_report.plugins.rolling_bearing.part import EXPONENTS, Part, Taken
+from diecut_report.plugins.rolling_bearing.part import EXPONENTS, ChosenBearing, GivenBearing
 from diecut_report.plugins.rolling_bearing.ratings import Ratings
 
 Array = NDArray[Any]
@@ -39,7 +39,7 @@ class Bearings:
     names: tuple[str, ...]
     types: tuple[str, ...]
     duties: tuple[Duty, ...]
-    taken: tuple[Taken, ...]
+    taken: tuple[ChosenBearing, ...]
     cycle_speed: tuple[Array, ...]
     elements: tuple[Array, ...]
     knows_factors: tuple[bool, ...]
@@ -142,7 +142,7 @@ def bearings(given: Known) -> Bearings:
         raise Refusal("bearings", "is empty; give at least one bearing")
     _of_names(names)
     variants = len(given["service_factor"])
-    parts = [Part(given, index, variants) for index in range(len(names))]
+    parts = [GivenBearing(given, index, variants) for index in range(len(names))]
     duties = tuple(each.duty() for each in parts)
     for part, duty in zip(parts, duties, strict=True):
         part.judge(duty)

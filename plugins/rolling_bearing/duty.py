@@ -130,7 +130,8 @@ class Duty:
 
     @cached_property
     def _share(self) -> Array:
-        return self.edges[:, :-1, None] + np.diff(self.edges, axis=1)[:, :, None] * PLACES
+        found: Array = self.edges[:, :-1, None] + np.diff(self.edges, axis=1)[:, :, None] * PLACES
+        return found
 
     def weighed(self, ratings: Ratings) -> Nodes:
         """Return the places for a bearing: pieces end also where its axial force begins to count."""

@@ -41,9 +41,11 @@ def lives(view: View) -> list[Shape]:
     return [
         chart_panel(
             "Life to the required one, as a power of ten", "1", "Bearing", "No.", "1",
-            lines=[line(stems[:, 0], stems[:, 1], "modified rating life")],
+            lines=[
+                line(stems[:, 0], stems[:, 1], "modified rating life"),
+                line([0.5, len(names) + 0.5], [0, 0], "required life"),
+            ],
             marks=[mark(place, height, name) for place, height, name in known],
-            levels=[level(0.0, "required life")],
         )
     ]  # fmt: skip
 

@@ -19,21 +19,19 @@ class Bearing(Block):
         OneOf(("x0", "y0"), optional=True),
     )
 
-    name: Annotated[str, Text("Name of the bearing, with which its results begin")]
-    type: Annotated[Literal["deep_groove", "ball", "roller"], Text("Deep groove, another ball, or a roller bearing")]
+    name: Annotated[str, Text("Name, with which its results begin")]
+    type: Annotated[
+        Literal["deep_groove", "ball", "roller"], Text("Kind: deep groove, another ball or a roller bearing")
+    ]
     designation: Annotated[
         str | None,
-        Text("Designation; without the ratings they are those of this bearing in the table, else it is only told"),
+        Text("Designation; of the table where no ratings are given, else only told"),
     ] = None
     series: Annotated[
         Literal["60", "62", "63"],
-        Text(
-            "Series out of which the smallest bearing that holds is taken, where neither ratings nor designation are given"
-        ),
+        Text("Series in which the smallest is sought that holds, without ratings and designation"),
     ] = "62"
-    bore_min: Annotated[
-        float, Quantity("d_min", "mm", "Least bore of the bearing that is taken out of the series", ge=0, le=100)
-    ] = 0
+    bore_min: Annotated[float, Quantity("d_min", "mm", "Least bore of the bearing that is sought", ge=0, le=100)] = 0
     dynamic_rating: Annotated[
         float | None, Quantity("C_g", "kN", "Basic dynamic load rating, of the maker's catalogue", gt=0)
     ] = None
@@ -53,18 +51,14 @@ class Bearing(Block):
     y0: Annotated[
         float | None, Quantity("Y_0g", "1", "Static axial factor; 0.5 of a deep groove ball bearing", ge=0)
     ] = None
-    radial_force: Annotated[
-        Any, Varying("F_rg", "N", "Radial force; a number, or a curve over one cycle. Its size counts")
-    ]
-    axial_force: Annotated[
-        Any, Varying("F_ag", "N", "Axial force; a number, or a curve over one cycle. Its size counts")
-    ] = 0
+    radial_force: Annotated[Any, Varying("F_rg", "N", "Radial force, a number or a curve over one cycle")]
+    axial_force: Annotated[Any, Varying("F_ag", "N", "Axial force, a number or a curve over one cycle")] = 0
     speed: Annotated[
-        Any | None, Varying("n_g", "rpm", "Speed of the rings against each other; a number, or a curve over one cycle")
+        Any | None, Varying("n_g", "rpm", "Speed of the rings against each other, a number or a curve over one cycle")
     ] = None
     relative_angle: Annotated[
         Any | None,
-        Varying("θ_g", "deg", "Angle of the rings against each other, in the place of speed: a curve over one cycle"),
+        Varying("θ_g", "deg", "Angle of the rings against each other: a curve over one cycle, in place of speed"),
     ] = None
     cycle_speed: Annotated[
         float | None,

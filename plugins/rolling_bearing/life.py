@@ -34,7 +34,7 @@ row(motion, "given_mean", "n_s", "rpm", "Mean size of the speed that is given (0
     lambda known: known.row(lambda i: np.zeros((known.variants, 1)) if known.is_swinging(i) else known.duties[i].mean_speed),
     "Gauss–Legendre between the breakpoints and reversals", output=False)
 value(motion, "mean_speed", "n_m", "rpm", "Mean speed of the rings",
-      lambda is_angle, cycles, travel, given_mean: np.where(is_angle > 0, cycles * travel / (2 * np.pi), given_mean), source="kinematics", digits=6)
+      lambda cycles, travel, given_mean: cycles * travel / (2 * np.pi) + given_mean, source="kinematics", digits=6)
 row(motion, "speed_max", "n_max", "rpm", "Greatest speed of the rings over the cycle", lambda known: known.row(known.greatest_speed), SEARCH,
     output=False)
 row(motion, "returns", "r", "1", "Whether the rings only swing (1) or turn (0)", lambda known: known.row(known.oscillates),
@@ -45,6 +45,8 @@ row(motion, "elements", "Z", "1", "Rolling elements: as given, else 8", lambda k
     output=False)
 value(motion, "critical_swing", "W_crit", "deg", "Least swing at which neighbouring rolling elements overlap",
       lambda elements: 4 * np.pi / elements, exists=lambda returns: returns > 0, source="this method")
+
+motion.part_table("motion_table", "Motion of all bearings", "bearings", ("turns_per_cycle", "mean_speed", "speed_max", "swing", "critical_swing"))
 
 life = Chapter("Life", text="A bearing that stands has no life by rolling, only a static safety.")
 value(life, "life_revolutions", "L_10", "1", "Basic rating life in revolutions",
@@ -83,6 +85,8 @@ life.value("system_life", "L_sys", "h", "Life of all bearings together, of the s
            life_sum: life_min * life_sum ** (-0.9),
            exists=lambda any_life: any_life > 0, source="Lundberg and Palmgren", digits=6)
 
+life.part_table("life_table", "Life of all bearings", "bearings", ("life_revolutions", "life", "life_modified"))
+
 limits = Chapter("Limits of practice")
 limits.lookup("static_usual", "s_0,u", "1", "Usual static safety", STATIC_SAFETIES, by="bearings.type", source=PRACTICE, output=False, named_by=NAMES)
 value(limits, "static_required", "[s_0]_i", "1", "Static safety that is required: as given", bind(lambda given, usual: given + 0 * usual,
@@ -106,3 +110,5 @@ value(limits, "dynamic_valid", "C_val", "kN", "Dynamic rating from which on the 
       source="ISO 281", output=False)
 value(limits, "most_rating", "C_most", "kN", "Dynamic rating with which the load is not too small", lambda equivalent_load, least_share:
       equivalent_load / least_share, exists=lambda equivalent_load: equivalent_load > 0, source="SKF catalogue", output=False)
+limits.part_table("limits_table", "Limits and needs of all bearings", "bearings",
+                  ("static_required", "least_load", "valid_load", "rating_needed", "static_needed"))

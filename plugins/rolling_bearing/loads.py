@@ -71,6 +71,7 @@ row(ratings, "dynamic_rating", "C", "kN", "Basic dynamic load rating", lambda kn
 row(ratings, "static_rating", "C_0", "kN", "Basic static load rating", lambda known: known.rating("static"), "as given, or of the table")
 row(ratings, "axial_base", "f_0", "1", "Factor of the deep groove ball bearing, 0 where it is not needed", lambda known: known.rating("f0"),
     "as given, or of the table", output=False)
+ratings.part_table("ratings_table", "Ratings", "bearings", ("exponent", "dynamic_rating", "static_rating", "axial_base"))
 ratings.listing("choice", "Bearings out of the table, with their neighbours", CHOICE, choice, ("all_bearings",))
 
 loads = Chapter("Equivalent load",
@@ -121,6 +122,10 @@ value(loads, "axial_overload", "k_max", "1", "Greatest relative axial force (dee
       bind(f.relative_axial, f0="axial_base", axial="axial_greatest"), exists=lambda axial_base, axial_greatest: axial_base * axial_greatest > 0,
       source=TABLE_3, output=False)
 
+loads.part_table("load_table", "Loads of all bearings", "bearings",
+                 ("radial_at_peak", "axial_at_peak", "relative_axial", "axial_limit", "radial_factor", "axial_factor", "equivalent_load_max",
+                  "equivalent_load", "arithmetic_load", "load_ratio"))
+
 static = Chapter("Static load")
 row(static, "static_radial", "F_r0", "N", "Radial force where the static load is greatest", forces("static_load", 0), SEARCH, output=False)
 row(static, "static_axial", "F_a0", "N", "Axial force there", forces("static_load", 1), SEARCH, output=False)
@@ -133,3 +138,5 @@ value(static, "static_load", "P_0", "N", "Greatest static equivalent load over t
 static.require("loaded", lambda static_load: static_load > 0, key="bearings.{index}.radial_force",
                message="is 0 all over the cycle, and so is the axial force; give the force that the bearing bears, or leave the bearing out")
 value(static, "static_safety", "s_0", "1", "Static safety", lambda static_rating, static_load: static_rating / static_load, source=STATIC, digits=6)
+static.part_table("static_table", "Static safety of all bearings", "bearings",
+                  ("static_radial", "static_axial", "static_radial_factor", "static_axial_factor", "static_load", "static_safety"))

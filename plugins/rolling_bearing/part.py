@@ -29,7 +29,7 @@ SIZES = {
 MARGIN = 1e-6  # by which a bearing must hold that is chosen with fewer places of the cycle
 
 
-class Taken(NamedTuple):
+class ChosenBearing(NamedTuple):
     """Hold a bearing: its ratings, its designation for each variant, whether it holds where it was sized, and whether it is of the table."""
 
     ratings: Ratings
@@ -39,7 +39,7 @@ class Taken(NamedTuple):
 
 
 @dataclass(frozen=True)
-class Part:
+class GivenBearing:
     """What is given of one bearing."""
 
     given: Known
@@ -98,13 +98,13 @@ class Part:
 
     # --- ratings ------------------------------------------------------------------------------------------------------------
 
-    def taken(self, duty: Duty) -> Taken:
+    def taken(self, duty: Duty) -> ChosenBearing:
         """Return the bearing that is taken."""
         designation = self.text("designation")
         known = np.ones((self.variants, 1))
         if self.raw("dynamic_rating") is not None:
             own = self._with(self.raw("dynamic_rating"), self.raw("static_rating"), self.raw("f0"))
-            return Taken(own, (designation or "own",) * self.variants, known, is_of_table=False)
+            return ChosenBearing(own, (designation or "own",) * self.variants, known, is_of_table=False)
         if self.text("type") != DEEP_GROOVE:
             raise Refusal(self.key("dynamic_rating"), "is missing; give dynamic_rating and static_rating of the maker's catalogue: only deep groove "
                           "ball bearings stand in the table")  # fmt: skip
@@ -113,7 +113,7 @@ class Part:
                 series = f"{CATALOGUE.names[0]} to {CATALOGUE.names[-1]}, series 60, 62 and 63"
                 raise Refusal(self.key("designation"), f"is {designation}, which is not in the table ({series}); give dynamic_rating and "
                               "static_rating of the maker's catalogue beside it")  # fmt: skip
-            return Taken(self.of(designation), (designation,) * self.variants, known)
+            return ChosenBearing(self.of(designation), (designation,) * self.variants, known)
         return self._sized(duty)
 
     def _with(self, dynamic: Array, static: Array, f0: Array | None) -> Ratings:
@@ -138,7 +138,7 @@ class Part:
         """Yield the bearings of the series, the smallest first."""
         yield from (name for name in CATALOGUE.names if name.startswith(str(self.text("series"))))
 
-    def _sized(self, duty: Duty) -> Taken:
+    def _sized(self, duty: Duty) -> ChosenBearing:
         """The smallest bearing of the series that holds, for each variant; the largest where none does."""
         names = list(self.candidates())
         static_forces = duty.greatest(self.of(names[0]).static_load)
@@ -147,7 +147,7 @@ class Part:
         taken = tuple(names[index] for index in np.where(enough, np.argmax(held, axis=1), len(names) - 1))
         dynamic, static, f0 = (np.array([[SIZES[column][name]] for name in taken]) for column in ("C", "C0", "f0"))
         own = self._with(dynamic, static, f0 if self.raw("f0") is None else self.raw("f0"))
-        return Taken(own, taken, enough[:, None] * 1.0)
+        return ChosenBearing(own, taken, enough[:, None] * 1.0)
 
     def holds(self, duty: Duty, name: str, static_forces: tuple[Array, Array]) -> Array:
         """Return whether a bearing of the table reaches life and static safety, (variants, 1)."""

@@ -31,7 +31,8 @@ class Ratings:
 
     def of(self, rows: Array) -> Ratings:
         """Return those of some variants."""
-        return replace(self, **{name: each[rows] for name, each in vars(self).items() if isinstance(each, np.ndarray)})
+        arrays: dict[str, Any] = {name: each[rows] for name, each in vars(self).items() if isinstance(each, np.ndarray)}
+        return replace(self, **arrays)
 
     def factors(self, axial: Array) -> tuple[Array, Array, Array]:
         """Return X, Y and e under an axial force (variants, places)."""

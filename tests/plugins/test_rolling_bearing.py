@@ -265,3 +265,37 @@ def test_the_life_check_advises_a_rating_that_is_enough() -> None:
     assert checks(short)["ball_life"]["status"] == "fail"
     assert checks(one(BALL, radial_force=9000, dynamic_rating=needed * 1.0001 / 1e3))["ball_life"]["status"] == "pass"
     assert log10(needed) < 6
+
+
+NSK_62 = {  # bore, outside, width in mm; ratings in kN; f0
+    "6200": (10, 30, 9, 5.1, 2.39, 13.2), "6204": (20, 47, 14, 12.8, 6.6, 13.1), "6206": (30, 62, 16, 19.5, 11.3, 13.8),
+    "6208": (40, 80, 18, 29.1, 17.9, 14.0), "6209": (45, 85, 19, 31.5, 20.4, 14.4), "6212": (60, 110, 22, 52.5, 36, 14.3),
+    "6216": (80, 140, 26, 72.5, 53, 14.6), "6220": (100, 180, 34, 122, 93, 14.4),
+}  # fmt: skip
+SKF_62 = {
+    "6200": (5.4, 2.36),
+    "6204": (13.5, 6.55),
+    "6206": (20.3, 11.2),
+    "6208": (32.5, 19),
+    "6209": (35.1, 21.6),
+    "6212": (55.3, 36),
+}
+
+
+def test_the_table_has_the_dimensions_and_not_more_than_the_ratings_of_the_makers() -> None:
+    for name, (*sizes, dynamic, static, f0) in NSK_62.items():
+        row = [CATALOGUE.by_name(column.name)[name] for column in CATALOGUE.columns]
+        assert row[:3] == sizes
+        for own, makers in zip(row[3:], (dynamic, static, f0), strict=True):
+            assert makers * 0.95 <= own <= makers
+    for name, ratings in SKF_62.items():
+        assert all(CATALOGUE.by_name(key)[name] <= rating for key, rating in zip(("C", "C0"), ratings, strict=True))
+
+
+def test_larger_bearings_of_a_series_bear_more() -> None:
+    """So that the first of a series that holds is the smallest; the last two of series 60 are alike but for their bore."""
+    for series in ("60", "62", "63"):
+        names = [name for name in CATALOGUE.names if name.startswith(series)]
+        for key in ("C", "C0"):
+            ratings = [CATALOGUE.by_name(key)[name] for name in names]
+            assert all(b > a * 0.99 for a, b in pairwise(ratings))

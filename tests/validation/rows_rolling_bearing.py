@@ -95,7 +95,6 @@ ROWS = (
     Row("NSK, example 3", "f₀F_a/C₀", "0.782", "1", lambda: value(nsk(1000), "relative_axial")),
     Row("NSK, example 3", "axial factor Y", "1.67", "1", lambda: value(nsk(1000), "axial_factor")),
     Row("NSK, example 3", "equivalent load", "3.07e3", "N", lambda: value(nsk(1000), "equivalent_load")),
-    Row("NSK, example 3", "load ratio C/P", "9.48", "1", lambda: value(nsk(1000), "load_ratio")),
     Row("Mott, 14-6", "mean effective load", "597", "lb", lambda: value(mott(), "equivalent_load") / POUND),
     Row("Shigley, 65 mm bore", "axial factor Y", "1.53", "1", lambda: value(shigley(), "axial_factor")),
     *(Row("EPK, table 9; NKE, table 6.8", f"life factor of {level} %", text, "1", partial(ratio, level)) for level, text in LEVELS.items()),

@@ -11,7 +11,7 @@ from diecut_report.contract.binding import Binding, Bound, bound
 from diecut_report.contract.code_steps import ComputedCurve, PartTable
 from diecut_report.contract.listings import Listing
 from diecut_report.contract.part_steps import Interpolated, Lookup, Neighbour, Part, Pick, Running, Total
-from diecut_report.contract.result_names import part_result, place_name
+from diecut_report.contract.result_names import place_name
 from diecut_report.contract.steps import (
     Abscissa,
     Accumulated,
@@ -29,7 +29,7 @@ from diecut_report.contract.steps import (
 )
 from diecut_report.engine import listings
 from diecut_report.engine.calculation import Calculation, Unproven
-from diecut_report.engine.printing import tables
+from diecut_report.engine.printing import named_parts, tables
 from diecut_report.engine.printing.definitions import definitions
 from diecut_report.engine.printing.interpolation import BetweenRows
 from diecut_report.engine.printing.shown_place import (
@@ -94,19 +94,18 @@ def items(calc: Calculation, step: Step) -> list[Item]:
         case Accumulated() | Derivative():
             return [_of_curve(calc, step)]
         case Computed() if step.id in calc.axis:
-            return [] if calc.axis[step.id] in calc.part_names else [tables.table(calc, step, [step.id])]
+            return [] if named_parts.has_tables(calc, calc.axis[step.id]) else [tables.table(calc, step, [step.id])]
         case MadeCurve():
             return [_made(calc, step)]
         case Computed() | CurvePeriod():
             return [_computed(calc, step)]
         case ComputedCurve():
-            names = [part_result(name, step) for name in calc.inputs[step.named_by]] if step.named_by else [step.id]
-            at = {"at": place_shown(calc, step.abscissa, False)}
-            return [_computed(calc, own) | at for name in names if isinstance(own := calc.steps[name], ComputedCurve)]
+            at = place_shown(calc, step.abscissa, False)
+            return [named_parts.curves(calc, step, at)] if step.named_by else [_computed(calc, step) | {"at": at}]
         case PartTable(parts=parts, columns=columns):
-            return [tables.of_parts(calc, step, calc.part_names[parts], list(columns))]
+            return [tables.of_parts(calc, step, named_parts.names(calc, parts, columns[0]), list(columns))]
         case Lookup() if step.id in calc.axis:
-            return [tables.looked_up(calc, step)]
+            return [] if named_parts.has_tables(calc, calc.axis[step.id]) else [tables.looked_up(calc, step)]
         case Total() | Pick() | Lookup() | Part():
             return [_head(step) | tables.number(calc, step)]
         case Running():
@@ -133,17 +132,12 @@ def _value(calc: Calculation, step: Value, part: Bound) -> list[Item]:
     item = _head(step) | {"type": "formula"} | _formula(calc, part, step, axis, elsewhere)
     if axis in calc.domains:
         item |= located(calc, str(axis), elsewhere)
-    elif axis in calc.part_names:
-        item["note"] = " ".join(
-            filter(None, (item.get("note"), f"Shown for: {calc.part_names[axis][shown_part(calc, step.id)]}."))
-        )
     elif axis is not None:
-        if names := calc.inputs.get(step.named_by):
+        if names := calc.part_names.get(axis) or calc.inputs.get(step.named_by):
             item["note"] = " ".join(filter(None, (item.get("note"), f"Shown for: {names[shown_part(calc, step.id)]}.")))
-        return [
-            item,
-            tables.table(calc, step, [name for name in part.names.values() if isinstance(name, str)] + [step.id]),
-        ]
+        if not named_parts.has_tables(calc, axis):
+            taken = [name for name in part.names.values() if isinstance(name, str)]
+            return [item, tables.table(calc, step, [*taken, step.id])]
     return [item]
 
 

@@ -38,9 +38,9 @@ def table(calc: Calculation, step: Step, names: list[str]) -> Item:
 
 
 def of_parts(calc: Calculation, step: Step, parts: Sequence[str], names: list[str]) -> Item:
-    """Return rows over declared parts: a line for each part by its name."""
+    """Return rows over declared parts, or a list of the inputs: a line for each part by its name."""
     declared = [calc.step_or_input(name) for name in names]
-    columns = [{"title": "Place", "symbol": "", "unit": "1"}]
+    columns = [{"title": "Name" if getattr(declared[0], "named_by", "") else "Place", "symbol": "", "unit": "1"}]
     columns += [{"title": d.description, "symbol": d.symbol, "unit": d.unit} for d in declared]
     lines = [[part, *(_cell(calc, name, i) for name in names)] for i, part in enumerate(parts)]
     return {"type": "table", "id": step.id, "title": step.description, "columns": columns, "rows": lines}

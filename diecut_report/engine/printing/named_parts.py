@@ -1,0 +1,40 @@
+"""How rows and curves of named parts are printed: in the tables that are declared for them."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Any
+
+from diecut_report.contract.code_steps import ComputedCurve, PartTable
+from diecut_report.contract.result_names import part_result
+from diecut_report.engine.calculation import Calculation
+from diecut_report.engine.printing.shown_place import value_at
+from diecut_report.quantities.formatting import shown, with_unit
+
+Item = dict[str, Any]
+
+
+def has_tables(calc: Calculation, parts: str) -> bool:
+    """Return whether rows over repeated parts are printed in tables that are declared."""
+    return parts in calc.part_names or any(
+        isinstance(step, PartTable) and step.parts == parts for step in calc.steps.values()
+    )
+
+
+def names(calc: Calculation, parts: str, row: str) -> Sequence[str]:
+    """Return the names of the parts that a row runs over; of a list without names their numbers."""
+    known = calc.part_names.get(parts) or calc.inputs.get(calc.steps[row].named_by)
+    return known or [str(number + 1) for number in range(calc[row].shape[1])]
+
+
+def curves(calc: Calculation, step: ComputedCurve, at: Item) -> Item:
+    """Return the curves of named parts where they are shown."""
+    head = (
+        {"title": "Name", "symbol": "", "unit": "1"},
+        {"title": step.description, "symbol": step.symbol, "unit": step.unit},
+    )
+    own = [part_result(name, step) for name in calc.inputs[step.named_by]]
+    values = [shown(value_at(calc, name, step.abscissa), step.unit, step.digits)["text"] for name in own]
+    where = f"{step.description} at {at['symbol']} = {with_unit(at['text'], at['unit'])}"
+    lines = [list(line) for line in zip(calc.inputs[step.named_by], values, strict=True)]
+    return {"type": "table", "id": step.id, "title": where, "columns": list(head), "rows": lines}

@@ -1,0 +1,206 @@
+"""Bearings of a press under the curves of its shaft and drive: numbers of the method, references, studies, what is refused."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+
+from diecut_report.engine import Impossible
+from diecut_report.quantities.plausible import Plausible
+from diecut_report.results.document import document
+from diecut_report.results.press_run import compute
+from diecut_report.study.definition.base_inputs import find_input
+from diecut_report.study.execution.result_columns import columns_of
+from diecut_report.study.execution.variant_rows import calculate_rows
+from tests.configs import HEAD, loaded, problems
+from tests.plugins.bearings import ANGULAR, BALL, ROLLER, SOUGHT, SWINGING, Over, bearings, checks, one, value
+from tests.plugins.test_shaft_of_a_press import DRIVE, SHAFT
+
+BEARINGS = """
+  bearings:
+    kind: rolling_bearing
+    bearings:
+      - {name: main_a, type: deep_groove, dynamic_rating: 35.1 kN, static_rating: 21.6 kN, radial_force: "${crankshaft.reaction_a}",
+         speed: "${drive.crank_speed}"}
+      - {name: main_b, type: deep_groove, dynamic_rating: 55.3 kN, static_rating: 36 kN, radial_force: "${crankshaft.reaction_b}",
+         speed: "${drive.crank_speed}"}
+      - {name: crank_pin, type: roller, dynamic_rating: 81.5 kN, static_rating: 75 kN, radial_force: "${drive.coupler_force}",
+         speed: "${drive.crank_speed}"}
+      - {name: rocker_pin, type: roller, dynamic_rating: 81.5 kN, static_rating: 75 kN, radial_force: "${drive.coupler_force}",
+         relative_angle: "${drive.transmission_angle}", cycle_speed: "${drive.crank_speed}"}
+"""
+PRESS = HEAD + DRIVE + SHAFT + BEARINGS
+HOUR = 3600.0
+
+
+@pytest.fixture(scope="module", autouse=True)
+def plausible_sizes() -> Iterator[None]:
+    """Sizes are judged here as for a user."""
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(Plausible, "holds", Plausible.holds)
+        yield
+
+
+@pytest.fixture(scope="module")
+def results(tmp_path_factory: pytest.TempPathFactory) -> Any:
+    """The results of the press."""
+    return document(compute(loaded(tmp_path_factory.mktemp("press"), PRESS), lambda _: None))
+
+
+@pytest.mark.parametrize(
+    ("name", "expected"),
+    [
+        ("main_a_equivalent_load", 2675.4), ("main_a_life", 752700 * HOUR), ("main_a_static_safety", 4.52),
+        ("main_b_equivalent_load", 6879.5), ("main_b_life", 173140 * HOUR), ("main_b_static_safety", 2.461),
+        ("crank_pin_equivalent_load", 4951.5), ("crank_pin_life", 3.781e6 * HOUR), ("crank_pin_static_safety", 7.50),
+        ("rocker_pin_equivalent_load", 4352.8), ("rocker_pin_life", 1.759e7 * HOUR), ("rocker_pin_turns_per_cycle", 0.33032),
+        ("rocker_pin_swing", np.radians(59.46)),
+    ],
+)  # fmt: skip
+def test_the_bearings_of_the_press_have_the_numbers_of_the_method(results: Any, name: str, expected: float) -> None:
+    """The method samples a turn at 720 places; both limits at the jumps of the drive's forces add up to 0.3 %."""
+    assert results["mechanisms"]["bearings"]["outputs"][name]["value"] == pytest.approx(expected, rel=3e-3)
+
+
+def test_only_the_joint_that_swings_is_warned_of(results: Any) -> None:
+    found = {check["id"]: check for check in results["mechanisms"]["bearings"]["checks"]}
+    assert [name for name, check in found.items() if check["status"] not in ("pass", "not_checked")] == [
+        "rocker_pin_oscillation"
+    ]
+    assert "fretting" in found["rocker_pin_oscillation"]["message"]
+    assert {"main_a_life", "main_a_static", "main_a_min_load", "main_a_load_level", "rocker_pin_dwell"} <= set(found)
+    assert "main_a_oscillation" not in found
+
+
+def test_each_bearing_has_its_curves(results: Any) -> None:
+    curves = results["mechanisms"]["bearings"]["curves"]
+    for name in ("main_a", "main_b", "crank_pin", "rocker_pin"):
+        assert {f"{name}_load", f"{name}_speed"} <= set(curves)
+    reaction = results["mechanisms"]["crankshaft"]["curves"]["reaction_b"]
+    np.testing.assert_allclose(curves["main_b_load"]["values"], reaction["values"], rtol=1e-9)
+    swing = np.array(results["mechanisms"]["drive"]["curves"]["transmission_angle"]["values"])
+    turned = np.cumsum(curves["rocker_pin_speed"]["values"]) * 2 * np.pi / 360 / (50 * 2 * np.pi / 60)
+    np.testing.assert_allclose(np.ptp(turned), np.ptp(swing), rtol=1e-3)
+
+
+def test_results_and_curves_of_a_bearing_are_referred_to_by_its_name(tmp_path: Path) -> None:
+    hook = """
+  again:
+    kind: rolling_bearing
+    required_life: ${bearings.main_b_life} / 10
+    bearings:
+      - {name: same, type: deep_groove, dynamic_rating: "${bearings.main_b_dynamic_rating}", static_rating: 36 kN,
+         radial_force: "${bearings.main_b_load}", speed: "${bearings.main_b_mean_speed}"}
+"""
+    found = document(compute(loaded(tmp_path, PRESS + hook), lambda _: None))["mechanisms"]
+    assert found["again"]["outputs"]["same_life"]["value"] == pytest.approx(
+        found["bearings"]["outputs"]["main_b_life"]["value"], rel=1e-9
+    )
+    (told,) = problems(tmp_path, PRESS + hook.replace("main_b_life", "main_c_life"))
+    assert "main_c_life" in told and "main_b_life" in told
+    (told,) = problems(tmp_path, PRESS + hook.replace("bearings.main_b_life", "bearings.life"))
+    assert "a value for each" in told
+
+
+def test_variants_of_a_press_are_each_press_alone(tmp_path: Path) -> None:
+    base = loaded(tmp_path, PRESS)
+    varied = {"mechanisms.drive.cutting_force_per_length": np.array([1e4, 2.5e4, 4e4, 6e4]),
+              "mechanisms.bearings.bearings.1.dynamic_rating": np.array([3e4, 5e4, 6e4, 7e4])}  # fmt: skip
+    rows = calculate_rows(base, {find_input(base, path): values for path, values in varied.items()}, 4)
+    assert not rows.slow
+    assert set(rows.columns) <= {column.name for column in columns_of(base)}
+    text = PRESS.replace("cutting_force_per_length: 25 N/mm", "cutting_force_per_length: 40 N/mm").replace(
+        "55.3 kN", "60 kN"
+    )
+    alone = document(compute(loaded(tmp_path, text), lambda _: None))["mechanisms"]["bearings"]["outputs"]
+    for name in ("main_b_life", "crank_pin_equivalent_load", "rocker_pin_turns_per_cycle", "life_min", "system_life"):
+        assert rows.columns[f"bearings.{name}"][2] == pytest.approx(alone[name]["value"], rel=1e-9)
+
+
+# --- what is refused, and what is told ------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize(
+    ("parts", "key", "words"),
+    [
+        ([], "bearings", "empty"),
+        ([BALL, BALL], "bearings.1.name", "another bearing"),
+        ([BALL | {"name": "left bearing"}], "bearings.0.name", "letters, digits and underscores"),
+        ([BALL | {"name": "system"}], "bearings.0.name", "called as another one"),
+        ([BALL | {"radial_force": 0}], "bearings.0.radial_force", "give the force"),
+        ([BALL, ROLLER | {"axial_force": 100}], "bearings.1.axial_force", "cylindrical rollers bear no axial force"),
+        ([{**BALL, "f0": None} | {"axial_force": 100}], "bearings.0.axial_force", "f0 of a deep groove"),
+        ([SWINGING | {"relative_angle": 30}], "bearings.0.relative_angle", "refer to the curve"),
+        ([SWINGING | {"radial_force": Over(np.sin, cycle="disc_angle")}], "bearings.0.relative_angle", "another cycle"),
+        ([SOUGHT | {"radial_force": 90000}], "bearings.0.series", "heavier series"),
+        ([SOUGHT | {"designation": "7209"}], "bearings.0.designation", "not in the table"),
+        ([SOUGHT | {"type": "roller", "axial_force": 0}], "bearings.0.dynamic_rating", "maker's catalogue"),
+    ],
+)
+def test_bearings_that_cannot_be_are_refused_in_words(parts: list[dict[str, Any]], key: str, words: str) -> None:
+    with pytest.raises(Impossible) as refused:
+        bearings(*parts)
+    assert (refused.value.key, words in refused.value.message) == (key, True)
+
+
+@pytest.mark.parametrize(
+    ("text", "words"),
+    [
+        ("speed: 50 rpm, relative_angle: \"${drive.transmission_angle}\", cycle_speed: 50 rpm", "both given"),
+        ("name: pin", "speed"),
+        ("relative_angle: \"${drive.transmission_angle}\"", "cycle_speed"),
+        ("speed: 50 rpm, x: 0.5", "y"),
+        ("speed: 50 rpm, rolling_elements: 4", "≥ 5"),
+        ("speed: 50 rpm, a_iso: 60", "≤ 50"),
+    ],
+)  # fmt: skip
+def test_keys_that_do_not_fit_together_are_told(text: str, words: str, tmp_path: Path) -> None:
+    part = f"{{type: ball, dynamic_rating: 30 kN, static_rating: 20 kN, radial_force: 1 kN, {text}}}"
+    named = part if "name:" in text else part.replace("{type", "{name: pin, type")
+    told = problems(tmp_path, HEAD + DRIVE + f"  bearings: {{kind: rolling_bearing, bearings: [{named}]}}\n")
+    assert words in " ".join(told)
+
+
+def test_a_small_swing_is_told_that_a_rating_life_does_not_apply() -> None:
+    calc = one(SWINGING, relative_angle=Over(lambda phi: np.radians(9.9) * np.sin(phi)))
+    found = checks(calc)
+    assert found["swinging_dwell"]["status"] == found["swinging_oscillation"]["status"] == "warn"
+    assert "does not apply" in found["swinging_dwell"]["message"]
+    wide = checks(one(SWINGING, relative_angle=Over(lambda phi: np.radians(40) * np.sin(phi))))
+    assert wide["swinging_dwell"]["status"] == wide["swinging_oscillation"]["status"] == "pass"
+
+
+def test_an_angle_that_goes_on_turns_and_does_not_swing() -> None:
+    calc = one(SWINGING, relative_angle=Over(lambda phi: phi + 0.3 * np.sin(phi)))
+    assert value(calc, "turns_per_cycle") == pytest.approx(1, rel=1e-9)
+    assert "swinging_oscillation" not in checks(calc)
+
+
+def test_a_bearing_that_bears_too_little_or_too_much_is_warned_of() -> None:
+    light, heavy = checks(one(ROLLER, radial_force=1500)), checks(one(ROLLER, radial_force=42000))
+    assert light["roller_min_load"]["status"] == "warn" and heavy["roller_min_load"]["status"] == "pass"
+    assert light["roller_load_level"]["status"] == "pass" and heavy["roller_load_level"]["status"] == "warn"
+    assert checks(one(ROLLER, radial_force=52000))["roller_static"]["status"] == "fail"
+    assert checks(one(BALL, axial_force=12000, radial_force=1000))["ball_axial"]["status"] == "warn"
+
+
+def test_speeds_are_held_against_the_makers_limit_where_it_is_known() -> None:
+    fast = checks(bearings(BALL, ANGULAR | {"speed": 9500}, ROLLER))["speed"]
+    assert fast["status"] == "warn" and fast["part_name"] == "angular"
+    assert checks(bearings(BALL))["speed"]["status"] == "not_checked"
+
+
+def test_advice_on_ratings_is_enough() -> None:
+    weak = one(ROLLER, radial_force=52000)
+    needed = value(weak, "static_needed") * 1.0001 / 1e3
+    assert checks(one(ROLLER, radial_force=52000, static_rating=needed))["roller_static"]["status"] == "pass"
+    light = one(ROLLER, radial_force=1500)
+    most = value(light, "most_rating") * 0.9999 / 1e3
+    assert checks(one(ROLLER, radial_force=1500, dynamic_rating=most))["roller_min_load"]["status"] == "pass"
+    level = one(ROLLER, radial_force=42000)
+    valid = value(level, "dynamic_valid") * 1.0001 / 1e3
+    assert checks(one(ROLLER, radial_force=42000, dynamic_rating=valid))["roller_load_level"]["status"] == "pass"
