@@ -41,7 +41,7 @@ def test_what_changed_is_told_and_marked(folder: Path) -> None:
     assert [" ".join(text.split()) for text in of[force]] == ["2 kN"]
     (check,) = (row for row in of if 'id="c-A-moment"' in row)
     assert " ".join(of[check][0].split()) == "pass 80.0 %"
-    unchanged = [row for row in rows if "Width; with it" in row or ">100</td>" in row]
+    unchanged = [row for row in rows if 'class="orig"' in row and ("Width; with it" in row or ">100</td>" in row)]
     assert unchanged and not any(MARKED.search(row) for row in unchanged)
 
 
