@@ -11,7 +11,7 @@ from diecut_report.config.discovery import Discovery
 from diecut_report.config.loader import Config, examined, in_order, load_config
 from diecut_report.config.own_tables import Find
 from diecut_report.config.yaml_tree import Tree
-from diecut_report.errors import PluginError, Problem, UserError
+from diecut_report.errors import PluginError, Problem, UserError, nearest
 from diecut_report.limits import MAX_PRINTED_MECHANISMS
 from diecut_report.results.results_file import encoded, results_text
 
@@ -40,6 +40,21 @@ class Lost(NamedTuple):
     words: str
 
 
+class AskedReport(NamedTuple):
+    """How a report is wanted, in place of what its configuration says: language, detail, the mechanisms that alone are shown."""
+
+    language: str | None = None
+    detail: str | None = None
+    only: tuple[str, ...] = ()
+
+    def told(self, results: Data) -> None:
+        """Say it in the results, of which alone the report is made."""
+        results["project"] |= {"language": self.language} if self.language else {}
+        results["report"] |= {"detail": self.detail} if self.detail else {}
+        results["report"] |= {"only": list(self.only)} if self.only else {}
+
+
+AS_CONFIGURED = AskedReport()
 Places = dict[tuple[str, str], str]  # of a mechanism's name and the id of a figure or export
 
 
@@ -82,16 +97,15 @@ def calc(
 
 
 def report(
-    config: Source, discovery: Discovery, tell: Tell, folder: Path, formats: Sequence[str], language: str | None = None,
+    config: Source, discovery: Discovery, tell: Tell, folder: Path, formats: Sequence[str], asked: AskedReport = AS_CONFIGURED,
     weigh: Weigh | None = None,
 ) -> ReportOutcome:  # fmt: skip
     """The report in the asked formats, as ``NAME.html``, ``NAME.pdf``, ``NAME.json`` in the folder, and the exports beside it.
 
     ``weigh`` tells which of the assumed values move a governing check.
     """
-    results, broken, places = _calculated(config, discovery, tell, formats, weigh)
-    if language is not None:
-        results["project"]["language"] = language
+    results, broken, places = _calculated(config, discovery, tell, formats, weigh, only=asked.only)
+    asked.told(results)
     contents, undrawn = rendered(results, formats, tell)
     files_beside, unwritten = exported(results, tell)
     contents |= files_beside
@@ -114,12 +128,34 @@ def _refuse_many_sheets(config: Config, formats: Sequence[str]) -> None:
         raise UserError(Problem(words, config.tree.file))
 
 
+def _refuse_unknown(config: Config, only: Sequence[str]) -> None:
+    """UserError where the report is to show what is not a mechanism of the configuration."""
+    known = list(config.kinds)
+    problems = [
+        Problem(
+            f"--only {name!r} is not a mechanism{nearest(name, known)}; the mechanisms: {', '.join(known)}.",
+            config.tree.file,
+        )
+        for name in only
+        if name not in known
+    ]
+    if problems:
+        raise UserError(problems)
+
+
 def _calculated(
-    source: Source, discovery: Discovery, tell: Tell, formats: Sequence[str] = (), weigh: Weigh | None = None,
+    source: Source,
+    discovery: Discovery,
+    tell: Tell,
+    formats: Sequence[str] = (),
+    weigh: Weigh | None = None,
+    *,
     find: Find | None = None,
-) -> tuple[Data, tuple[PluginError, ...], Places]:  # fmt: skip
+    only: Sequence[str] = (),
+) -> tuple[Data, tuple[PluginError, ...], Places]:
     tell("reading the configuration")
     config = load_config(source, discovery, find=find)
+    _refuse_unknown(config, only)
     _refuse_many_sheets(config, formats)
     from diecut_report.results.document import document  # with the engine, which checking alone does not need
     from diecut_report.results.press_run import compute

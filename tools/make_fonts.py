@@ -37,14 +37,15 @@ def main(folder: Path) -> None:
     sans = folder / "fontpkg_source_sans_3/files"
     upright, slanted = sans / "SourceSans3[wght].ttf", sans / "SourceSans3-Italic[wght].ttf"
     write(static(upright, 400), TEXT, "Report Sans", "Regular", "report-sans-regular", plain=True)
-    write(static(upright, 600), TEXT, "Report Sans", "Bold", "report-sans-bold")
-    write(static(slanted, 400), TEXT, "Report Sans", "Italic", "report-sans-italic")
+    write(static(upright, 600), TEXT, "Report Sans", "Bold", "report-sans-bold", plain=True)
+    write(static(slanted, 400), TEXT, "Report Sans", "Italic", "report-sans-italic", plain=True)
     write(
         opened(folder / "fontpkg_ibm_plex_mono/files/IBMPlexMono-Regular.ttf"),
         TEXT,
         "Report Mono",
         "Regular",
         "report-mono",
+        plain=True,
     )
     stix = folder / "ziamath/fonts/STIXTwoMath-Regular.ttf"
     write(
@@ -96,7 +97,7 @@ def with_italics(font: TTFont) -> TTFont:
 def write(
     font: TTFont, text: str, family: str, style: str, name: str, *, plain: bool = False, drop: tuple[str, ...] = ()
 ) -> None:
-    """Subset a font to ``text``, rename it, and write it as WOFF2 (and as TTF where figures measure with it)."""
+    """Subset a font to ``text``, rename it, and write it as WOFF2 (and as TTF where figures or sheets are set with it)."""
     options = subset.Options(
         layout_features=["kern", "mark", "mkmk", "liga", "ccmp", "locl", "case", "ssty", "dtls", "flac"]
     )

@@ -109,6 +109,21 @@ def _language(_: click.Context, __: click.Parameter, given: str | None) -> str |
         raise click.BadParameter(f"{error}") from None
 
 
+def _detail(_: click.Context, __: click.Parameter, given: str | None) -> str | None:
+    from diecut_report.config.model import DETAILS
+
+    if given is None or given in DETAILS:
+        return given
+    raise click.BadParameter(f"{given!r} is not a detail{nearest(given, DETAILS)}; known: {', '.join(DETAILS)}.")
+
+
+def _only(_: click.Context, __: click.Parameter, given: str | None) -> tuple[str, ...]:
+    names = tuple(dict.fromkeys(part.strip() for part in (given or "").split(",") if part.strip()))
+    if given is not None and not names:
+        raise click.BadParameter("no mechanism is named; give names of the configuration, with commas: drive,clutch.")
+    return names
+
+
 def _version(context: click.Context, _: click.Parameter, asked: bool) -> None:
     if asked and not context.resilient_parsing:
         emit(f"diecut-report, version {__version__}\n")
@@ -145,6 +160,13 @@ config_argument = click.argument("config", type=click.Path(path_type=Path))
 @click.option(
     "--language", metavar="LANGUAGE", callback=_language, help="Language of the report, in place of the project's."
 )
+@click.option(
+    "--detail",
+    metavar="DETAIL",
+    callback=_detail,
+    help="brief, standard or full, in place of the configuration's (standard).",
+)
+@click.option("--only", metavar="NAMES", callback=_only, help="Report these mechanisms alone: drive,clutch.")
 @verdict.strict_option
 @common
 def report(
@@ -152,6 +174,8 @@ def report(
     folder: Path,
     formats: list[str],
     language: str | None,
+    detail: str | None,
+    only: tuple[str, ...],
     strict: bool,
     folders: tuple[Path, ...],
     quiet: bool,
@@ -162,7 +186,8 @@ def report(
 
     with Progress(quiet) as progress, redirect_stdout(sys.stderr):
         discovery = Discovery(folders)
-        outcome = pipeline.report(source(config, discovery), discovery, progress, folder, formats, language, moves)
+        asked = pipeline.AskedReport(language, detail, only)
+        outcome = pipeline.report(source(config, discovery), discovery, progress, folder, formats, asked, moves)
     if not quiet:
         tell(f"written: {path}" for path in outcome.written)
     return _verdict(outcome, quiet, strict)

@@ -15,7 +15,7 @@ from diecut_report.config.dependency_order import ordered
 from diecut_report.config.discovery import Discovery, DuplicateKind, UnknownKind, said
 from diecut_report.config.hidden_letters import seeming_latin
 from diecut_report.config.instances import Instance, substituted
-from diecut_report.config.model import PRESS, ConfigDocument, Press, Project
+from diecut_report.config.model import PRESS, ConfigDocument, Press, Project, ReportSettings
 from diecut_report.config.own_tables import Find, OwnTables
 from diecut_report.config.plain_data import texts
 from diecut_report.config.references import Linker
@@ -50,6 +50,7 @@ class Config:
     broken: Mapping[str, PluginError]
     extensions: Mapping[str, str] = field(default_factory=dict)
     tables: Mapping[str, Tree] = field(default_factory=dict)
+    report: ReportSettings = field(default_factory=ReportSettings)
 
     @property
     def source_hashes(self) -> dict[str, str]:
@@ -60,23 +61,18 @@ class Config:
         return {"program": program_hash(), **dict(sorted((plugins | extensions).items()))}
 
 
-def load_config(
-    given: Path | Tree, discovery: Discovery, *, only_named: bool = False, find: Find | None = None
-) -> Config:
-    """Read and validate a configuration; UserError with all its problems. A broken plugin is kept in ``broken``.
+def load_config(given: Path | Tree, discovery: Discovery, *, find: Find | None = None) -> Config:
+    """Read and validate a configuration, with what runs by itself; UserError with all its problems. A broken plugin is kept in ``broken``.
 
-    What runs by itself is added, unless ``only_named`` mechanisms are wanted. ``find`` says where the tables are that the file
-    names, where they are not beside it.
+    ``find`` says where the tables are that the file names, where they are not beside it.
     """
-    config, problems = examined(given, discovery, only_named=only_named, find=find)
+    config, problems = examined(given, discovery, find=find)
     if problems:
         raise UserError(in_order(problems))
     return config
 
 
-def examined(
-    given: Path | Tree, discovery: Discovery, *, only_named: bool = False, find: Find | None = None
-) -> tuple[Config, list[Problem]]:
+def examined(given: Path | Tree, discovery: Discovery, *, find: Find | None = None) -> tuple[Config, list[Problem]]:
     """Return a configuration as far as it can be read, with all that is wrong with it; UserError where it cannot be read at all."""
     tree = given if isinstance(given, Tree) else yaml_tree.load(given)
     _refuse_study(tree)
@@ -84,7 +80,7 @@ def examined(
         raise UserError(excess)
     discovery.extend()
     tables = OwnTables.read(tree, find)
-    reader = _ConfigReader(tree, discovery, only_named, tables)
+    reader = _ConfigReader(tree, discovery, tables)
     linker = linked(reader.instances)
     order, loops = ordered(reader.instances, linker.links)
     problems = [*reader.problems, *tables.problems, *linker.problems, *_wrong_values(reader, linker), *loops]
@@ -94,7 +90,7 @@ def examined(
         ]
     project = reader.project or Project.model_validate({"title": "?"})  # of a file with problems
     config = Config(tree, project, reader.instances, reader.kinds, linker.links, tuple(order), reader.broken,
-                    dict(sorted(discovery.extended.items())), tables.trees)  # fmt: skip
+                    dict(sorted(discovery.extended.items())), tables.trees, reader.report or ReportSettings())  # fmt: skip
     return config, problems
 
 
@@ -114,7 +110,6 @@ class _ConfigReader:
 
     tree: Tree
     discovery: Discovery
-    only_named: bool
     tables: OwnTables
     instances: dict[str, Instance | None] = field(default_factory=dict)
     kinds: dict[str, str] = field(default_factory=dict)
@@ -122,12 +117,14 @@ class _ConfigReader:
     problems: list[Problem] = field(default_factory=list)
     with_partners: list[str] = field(default_factory=list)
     project: Project | None = None
+    report: ReportSettings | None = None
 
     def __post_init__(self) -> None:
         self.place = ConfigPlace(self.tree)
         whole = as_typed(ConfigDocument, self.tree.data, self.place)
         document, self.problems = validate(ConfigDocument, whole, self.place)
         self.project = document.project if document else None
+        self.report = document.report if document else None
         data = whole if isinstance(whole, dict) else {}
         self.instances[PRESS] = None
         if isinstance(data.get(PRESS), dict):
@@ -136,7 +133,7 @@ class _ConfigReader:
         for name, body in mechanisms.items() if isinstance(mechanisms, dict) else []:
             self.instances.setdefault(name, None)
             self._mechanism(name, body, ConfigPlace(self.tree, ("mechanisms", name)))
-        for kind in () if self.only_named else partners.BY_THEMSELVES:
+        for kind in partners.BY_THEMSELVES:
             self._by_itself(kind)
         for name in self.with_partners:
             self._take_from_partners(name)

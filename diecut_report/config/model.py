@@ -9,6 +9,7 @@ from pydantic import AfterValidator, Field, field_validator
 from diecut_report.contract.inputs import Annotated, Block, Quantity, Text
 
 PRESS = "press"  # the name of the press in references, beside those of the mechanisms
+DETAILS = ("brief", "standard", "full")  # how much a report holds
 LANGUAGES = ("en",)  # whose catalogues are complete
 
 
@@ -55,6 +56,12 @@ class Project(Block):
         return given
 
 
+class ReportSettings(Block):
+    """How the report is made."""
+
+    detail: Annotated[Literal["brief", "standard", "full"], Text("How much the report holds")] = "standard"
+
+
 class Sheet(Block):
     """The sheet of board."""
 
@@ -76,6 +83,7 @@ class ConfigDocument(Block):
 
     schema_version: Literal[1]
     project: Project
+    report: Annotated[ReportSettings, Field(default_factory=ReportSettings)]
     press: dict[str, Any]
     mechanisms: Annotated[dict[str, Any], Field(min_length=1)]
     materials: Any = None  # names of files with tables of the user's own, which ``own_tables`` judges

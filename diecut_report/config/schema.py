@@ -8,7 +8,7 @@ from typing import Any, get_args, get_origin
 
 from diecut_report.config.basis import BASES
 from diecut_report.config.loader import NAME, RESERVED
-from diecut_report.config.model import Press, Project
+from diecut_report.config.model import Press, Project, ReportSettings
 from diecut_report.config.own_tables import MOST
 from diecut_report.config.validation import keys_of
 from diecut_report.contract.inputs import Block, CurveInput, MechanismInput, PhaseInput, Quantity, Text
@@ -43,6 +43,7 @@ def config_schema(mechanisms: Mapping[str, Mechanism], broken: Mapping[str, str]
         "properties": {
             "schema_version": {"const": 1, "description": "Version of this form of the file."},
             "project": block_schema(Project, refers=False),
+            "report": block_schema(ReportSettings, refers=False),
             "press": block_schema(Press),
             "materials": _materials(),
             "mechanisms": {

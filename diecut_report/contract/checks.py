@@ -34,8 +34,9 @@ class Check:
 
     A check that needs an optional input which is not given is reported as not checked, with the keys that it needs. Where it does not
     apply at all it is left out: an option of a text, a block or an alternative of its inputs was not chosen, or a key of
-    ``only_with`` is not given. ``sized_unless`` names the inputs in place of which the program sizes what is compared to
-    its own limit; () where it always does. Such a check shows no reserve while they are not given.
+    ``only_with`` is not given; a block of ``asks_for`` is missed like a key. ``sized_unless`` names the inputs in place of which
+    the program sizes what is compared to its own limit; () where it always does. Such a check shows no reserve while they are
+    not given.
 
     A row whose parts have names is one check for each of them with ``named_by``, the text input of their names
     (``interlocks.name``): ``part_id`` makes the check's id of ``{id}`` and ``{name}``, and ``{part}`` is then the name.
@@ -57,6 +58,7 @@ class Check:
     tolerance: float = 0.0
     needs: tuple[str, ...] = ()
     only_with: tuple[str, ...] = ()
+    asks_for: tuple[str, ...] = ()
     sized_unless: tuple[str, ...] | None = None
     at_least: str | float | None = None
     at_least_label: str = "at least"

@@ -75,4 +75,5 @@ def _of_all(value: Any, row: int) -> Any:
 
 
 def _row(places: Array, row: int) -> Array:
-    return places[row if len(places) > 1 else 0][None, :]
+    found: Array = places[row if len(places) > 1 else 0]
+    return found[None, :]

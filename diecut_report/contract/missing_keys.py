@@ -27,7 +27,9 @@ def missing_keys(mechanism: Mechanism, check: Check, given: frozenset[str]) -> t
     if not given.issuperset(check.only_with):
         return None
     found = [
-        _completing(mechanism, needs - given, given) for needs, lacks in _ways(mechanism, check) if not lacks & given
+        _completing(mechanism, needs - given, given, check.asks_for)
+        for needs, lacks in _ways(mechanism, check)
+        if not lacks & given
     ]
     shortest = min((keys for keys in found if keys is not None), key=len, default=None)
     if shortest is None:
@@ -52,11 +54,14 @@ def _givers(mechanism: Mechanism, name: str) -> Iterator[Way]:
             yield frozenset(chapter.needs + step.needs), frozenset(step.lacks)
 
 
-def _completing(mechanism: Mechanism, missing: frozenset[str], given: frozenset[str]) -> frozenset[str] | None:
-    """The missing keys, if they can be given beside the given ones; None where that would be another machine."""
+def _completing(
+    mechanism: Mechanism, missing: frozenset[str], given: frozenset[str], blocks: tuple[str, ...]
+) -> frozenset[str] | None:
+    """The missing keys and ``blocks``, if they can be given beside the given ones; None where that would be another machine."""
     paths = _paths(mechanism.inputs)
-    if any("=" in key or key not in paths or paths[key] for key in missing):
+    if any("=" in key or key not in paths or (paths[key] and key not in blocks) for key in missing):
         return None
+    missing = frozenset(key for key in missing if key.rpartition(".")[0] not in missing)  # a block is missed as a whole
     if any(key.rpartition(".")[0] not in given for key in missing if "." in key):  # of a block that is not there
         return None
     known = {key for key in given if "=" not in key}

@@ -13,7 +13,7 @@ from diecut_report.errors import nearest
 
 MOST_TOLERANCE = 0.01  # of a check: more than rounding and measuring leave open is a limit of its own
 NOT_READ = {"StandardSeries": object, "StandardTable": object, "Chapter": object}  # imported for type checkers alone
-PLAIN = ("needs", "lacks", "only_with")  # which are told of where tokens are judged
+PLAIN = ("needs", "lacks", "only_with", "asks_for")  # which are told of where tokens are judged
 
 
 def faults(mechanism: Mechanism, names: DeclaredNames) -> Iterator[Fault]:

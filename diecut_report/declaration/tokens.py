@@ -23,6 +23,7 @@ def faults(mechanism: Mechanism, names: DeclaredNames) -> Iterator[Fault]:
     for check in mechanism.checks:
         yield from _wrong(names, check.at, f"check {check.id}", "needs", check.needs)
         yield from _wrong(names, check.at, f"check {check.id}", "only_with", check.only_with)
+        yield from _wrong(names, check.at, f"check {check.id}", "asks_for", check.asks_for)
         yield from _wrong(names, check.at, f"check {check.id}", "sized_unless", check.sized_unless or ())
     for figure in mechanism.figures:
         yield from _wrong(names, figure.at, f"figure {figure.id}", "needs", figure.needs)

@@ -127,7 +127,7 @@ class Calculation:
     def __init__(self, mechanism: Mechanism, inputs: Mapping[str, Any], variants: int) -> None:
         self.mechanism = mechanism
         self.count = variants
-        self.is_partial = False  # whether only some steps are run, so that messages may lack their numbers
+        self.is_partial = False  # whether only some steps are run: messages may lack their numbers
         self.given = frozenset(inputs) | texts_given(inputs) | mechanism.facts
         self.meta: dict[str, Meta] = dict(fields(in_form(mechanism.inputs, self.given)))
         self.inputs: dict[str, Any] = {name: _column(value, variants) for name, value in inputs.items()}
@@ -153,9 +153,7 @@ class Calculation:
 
     def __getitem__(self, name: str) -> Array:
         """A number of all variants, shape (variants, 1) or (variants, parts)."""
-        if name in self.values:
-            return self.values[name]
-        found: Array = self.inputs[name.removeprefix("inputs.")]
+        found: Array = self.values[name] if name in self.values else self.inputs[name.removeprefix("inputs.")]
         return found
 
     def apply(self, part: Binding) -> Array:

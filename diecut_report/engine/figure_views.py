@@ -17,15 +17,17 @@ from diecut_report.expressions import Array
 
 
 class MachineView:
-    """Give a drawing what it may ask of the calculated machine (the first variant)."""
+    """Give a drawing what it may ask of the calculated machine (the first variant), and keep what was asked for."""
 
     def __init__(self, calc: Calculation) -> None:
         self.calc = calc
+        self.asked: dict[str, None] = {}
 
     def __getitem__(self, name: str) -> float:
         """A number by its id, SI."""
         if name not in self:
             raise Undrawable(f"there is no number {name!r} in this machine")
+        self.asked[name] = None
         return float(self.calc[name][0, 0])
 
     def __contains__(self, name: str) -> bool:
@@ -39,6 +41,7 @@ class MachineView:
 
     def at(self, curve: str, place: float) -> float:
         """Return a curve's value at a place of its abscissa, SI."""
+        self.asked[curve] = None
         x = np.array([[place]])
         rows = np.zeros(1, dtype=int)
         middle = self.calc.domains[self.calc.axis[curve]].middle_of(x, rows)
@@ -46,6 +49,7 @@ class MachineView:
 
     def text(self, name: str) -> str:
         """Return a quantity as it is printed: ``h = 40 mm``."""
+        self.asked[name] = None
         return f"{self.calc.step_or_input(name).symbol} = {printed(self.calc, name)}"
 
     def word(self, name: str) -> str:
@@ -54,6 +58,7 @@ class MachineView:
 
     def row(self, name: str) -> list[float]:
         """Return the values of all repeated parts, SI."""
+        self.asked[name] = None
         return [float(value) for value in self.calc[name][0]]
 
     def words(self, name: str) -> list[str]:
@@ -62,6 +67,7 @@ class MachineView:
 
     def curve(self, name: str) -> list[float]:
         """Return a curve (or an abscissa) at the samples of the results, SI."""
+        self.asked[name] = None
         samples = self.calc.domains[name].samples if name in self.calc.domains else self.calc.curve_samples(name)
         return [float(value) for value in samples[0]]
 
@@ -78,12 +84,14 @@ class MachineView:
 
     def varied(self, inputs: Mapping[str, Any], *names: str) -> dict[str, Array]:
         """Return numbers of the machine calculated again with other inputs; NaN where it is then impossible."""
+        self.asked |= dict.fromkeys(names)
         return varied(self.calc, inputs, names)
 
     def varied_curves(
         self, inputs: Mapping[str, Any], *names: str, points: int = 361
     ) -> tuple[Array, dict[str, Array]]:
         """Return the abscissa and the values of curves of the machine calculated again with other inputs."""
+        self.asked |= dict.fromkeys(names)
         return varied_curves(self.calc, inputs, names, points)
 
 
@@ -98,7 +106,13 @@ def _guarded(calc: Calculation, figure: Figure) -> dict[str, Any]:
 
 
 def _figure(calc: Calculation, figure: Figure, head: dict[str, Any]) -> dict[str, Any]:
+    """Return a figure as data, with the quantities that it shows: of a plot its curves, of others what was asked for."""
     view = MachineView(calc)
+    made = _made(calc, figure, head, view)
+    return made | {"shows": _curves(figure)[1:] or list(view.asked)}
+
+
+def _made(calc: Calculation, figure: Figure, head: dict[str, Any], view: MachineView) -> dict[str, Any]:
     for curve in _curves(figure):
         curve_named(calc, curve, figure.abscissa)  # type: ignore[attr-defined]
     match figure:

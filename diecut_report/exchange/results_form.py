@@ -20,18 +20,18 @@ Id = Annotated[str, Field(pattern=r"^[A-Za-z_][A-Za-z0-9_]*$", max_length=200)]
 Status = Literal["pass", "warn", "fail", "error", "skipped"]
 
 
-class _Form(BaseModel):
+class _PartOfResults(BaseModel):
     model_config = ConfigDict(strict=True, extra="allow", allow_inf_nan=False, hide_input_in_errors=True)
 
 
-class ShownForm(_Form):
+class ShownForm(_PartOfResults):
     """A number as it is printed: neutral text and unit."""
 
     text: str
     unit: str
 
 
-class RowForm(_Form):
+class RowForm(_PartOfResults):
     """An input or an output."""
 
     value: Any
@@ -41,7 +41,7 @@ class RowForm(_Form):
     display: ShownForm
 
 
-class CheckForm(_Form):
+class CheckForm(_PartOfResults):
     """A check."""
 
     id: str
@@ -52,13 +52,13 @@ class CheckForm(_Form):
     message: str
 
 
-class ExportForm(_Form):
+class ExportForm(_PartOfResults):
     """A profile that is written beside a report; its id is part of a file's name."""
 
     id: Id
 
 
-class MechanismForm(_Form):
+class MechanismForm(_PartOfResults):
     """The results of a mechanism."""
 
     kind: str
@@ -71,7 +71,7 @@ class MechanismForm(_Form):
     exports: list[ExportForm]
 
 
-class FileForm(_Form):
+class FileForm(_PartOfResults):
     """A file whose text stands in the results: a table of the user's own."""
 
     file: Annotated[str, Field(max_length=MAX_TEXT)]
@@ -85,21 +85,21 @@ class ConfigForm(FileForm):
     materials: Annotated[list[FileForm], Field(max_length=MOST_TABLES)] = []
 
 
-class PressForm(_Form):
+class PressForm(_PartOfResults):
     """The press."""
 
     name: str
     fields: list[RowForm]
 
 
-class ProgramForm(_Form):
+class ProgramForm(_PartOfResults):
     """The program that calculated."""
 
     name: Literal["diecut-report"]
     version: str
 
 
-class CountsForm(_Form):
+class CountsForm(_PartOfResults):
     """How many checks there are of each status."""
 
     passing: Annotated[int, Field(alias="pass")]
@@ -108,7 +108,7 @@ class CountsForm(_Form):
     not_checked: int
 
 
-class ResultsForm(_Form):
+class ResultsForm(_PartOfResults):
     """As much of the results file as is relied on."""
 
     schema_version: Literal[1]

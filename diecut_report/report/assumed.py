@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from typing import Any
 
 from diecut_report.report.i18n import Catalogue
+from diecut_report.report.number_format import quantity
 from diecut_report.results.assumed import ordered
 
 Data = Mapping[str, Any]
@@ -20,6 +21,35 @@ class AssumedLine:
     head: str
     paths: list[tuple[str, str]]
     more: str
+
+
+@dataclass(frozen=True)
+class AssumedGroup:
+    """Hold the assumed values of the press or of a mechanism: key, value, and the check that it moves, if it moves one."""
+
+    name: str
+    values: list[tuple[str, str, str]]
+
+
+def assumed_groups(results: Data, words: Catalogue) -> list[AssumedGroup]:
+    """Return all assumed values by what they belong to, in the file's order."""
+    groups: dict[str, list[tuple[str, str, str]]] = {}
+    checks = {each.path: each.check for each in ordered(results)}
+    for path in results.get("summary", {}).get("assumed", ()):
+        name, key, row = _input(results, path)
+        shown = quantity(row["display"]["text"], row["display"]["unit"], words["decimal"]) if row else ""
+        groups.setdefault(name, []).append((key, shown, checks[path]))
+    return [AssumedGroup(name, values) for name, values in groups.items()]
+
+
+def _input(results: Data, path: str) -> tuple[str, str, Data | None]:
+    """Whose input a path names, its key, and its line of the results; None where these do not have it."""
+    whose, _, key = path.partition(".")
+    if whose == "mechanisms":
+        name, _, key = key.partition(".")
+        found: Data | None = results["mechanisms"][name]["inputs"].get(key)
+        return name, key, found
+    return whose, key, next((row for row in results["press"]["fields"] if row["path"] == path), None)
 
 
 def assumed_line(results: Data, words: Catalogue) -> AssumedLine | None:

@@ -6,6 +6,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from typing import Any
 
 from diecut_report.report.equations import Equation, Equations
+from diecut_report.report.figure_places import BEFORE, Place, figure_item, placed, sketch
 from diecut_report.report.file_names import suffixes
 from diecut_report.report.i18n import Catalogue
 from diecut_report.report.model import (
@@ -19,9 +20,11 @@ from diecut_report.report.model import (
     quantity_row,
     rested,
     utilisation,
+    worded,
 )
 from diecut_report.report.number_format import quantity
 from diecut_report.report.repeated_parts import counted, gathered
+from diecut_report.report.scope import BRIEF, FULL
 from diecut_report.report.tables import Tables
 
 Data = Mapping[str, Any]
@@ -30,7 +33,7 @@ LONGEST_SOURCE = 80  # letters; a longer one stands below the result
 
 
 def chapter(
-    letter: str, name: str, mechanism: Data, equations: Equations, words: Catalogue, stem: str = ""
+    letter: str, name: str, mechanism: Data, equations: Equations, words: Catalogue, stem: str = "", detail: str = FULL
 ) -> PrintedChapter:
     """The chapter of one mechanism's results; ``stem`` is what the names of the report's files begin with."""
     part = PrintedChapter(
@@ -46,7 +49,8 @@ def chapter(
         error=mechanism.get("error", ""),
     )
     if not part.lost:
-        _Filler(part, mechanism, equations, words, stem).fill()
+        filler = _Filler(part, mechanism, equations, words, stem, detail)
+        filler.fill_brief() if detail == BRIEF else filler.fill()
     return part
 
 
@@ -54,16 +58,26 @@ class _Filler:
     """Fills a chapter in the order of the printed page, so that all numbers count up."""
 
     def __init__(
-        self, part: PrintedChapter, mechanism: Data, equations: Equations, words: Catalogue, stem: str
+        self, part: PrintedChapter, mechanism: Data, equations: Equations, words: Catalogue, stem: str, detail: str
     ) -> None:
-        self.stem = stem
+        self.stem, self.is_full = stem, detail == FULL
+        self.placed = placed(part.letter, mechanism)
         self.part, self.mechanism, self.equations, self.words = part, mechanism, equations, words
         self.decimal = words["decimal"]
         self.tables = Tables(part.letter, words)
         self.formulas = 0
         self.defined: set[str] = set()
 
+    def fill_brief(self) -> None:
+        """The purpose, key results, checks and one sketch."""
+        part = self.part
+        part.summary = self.mechanism["summary"]
+        part.key_results = self._key_results(self._rows(self.mechanism["outputs"]))
+        part.checks = [self._check(check) for check in self.mechanism["checks"]]
+        part.figures = [(each.number, each.figure) for each in sketch(self.placed)]
+
     def fill(self) -> None:
+        """All that a chapter holds; what only the appendix shows comes last."""
         part, mechanism = self.part, self.mechanism
         part.summary, part.assumptions = mechanism["summary"], mechanism["assumptions"]
         self._head("purpose")
@@ -71,29 +85,24 @@ class _Filler:
         single, lists = gathered(mechanism["inputs"])
         part.inputs = [self._input(key, row) for key, row in single.items()]
         part.input_parts = [table for parts in lists for table in self.tables.of_parts(parts, given=True)]
-        part.sections = [self._section(section) for section in mechanism["sections"]]
-        self._head("results")
+        part.figures = [(each.number, each.figure) for each in self.placed]
+        part.sections = [self._section(index, section) for index, section in enumerate(mechanism["sections"])]
+        part.loose = [] if part.sections else [figure_item(each) for each in self.placed]
         self._results(mechanism["outputs"])
         self._phases(mechanism.get("phases", {}), mechanism.get("phases_absent", {}))
-        part.curves = self.tables.of_curves(mechanism["curves"])
-        if part.curves:
-            self._head("curves")
         if mechanism["checks"] or "between" not in mechanism:
             self._head("checks")
         part.warnings = mechanism["warnings"]
         part.checks = [self._check(check) for check in mechanism["checks"]]
-        if mechanism["figures"]:
-            self._head("figures")
-            part.figures = [(f"{part.letter}.{n}", figure) for n, figure in enumerate(mechanism["figures"], 1)]
         part.files = list(self._files())
         if part.files:
             self._head("files")
         part.absent = mechanism["absent"]
         if part.absent:
             self._head("absent")
-        part.errata = [(e["source"], e["text"], self._touched(e)) for e in mechanism["errata"]]
-        if part.errata:
-            self._head("errata")
+        if self.is_full:
+            part.curves = self.tables.of_curves(mechanism["curves"])
+            part.errata = [(e["source"], e["text"], self._touched(e)) for e in mechanism["errata"]]
 
     def _head(self, key: str, title: str = "") -> Heading:
         number = f"{self.part.letter}.{len(self.part.headings) + 1}"
@@ -120,11 +129,17 @@ class _Filler:
             return self.words["reference"]
         return self.words.say("refers" if origin == "reference" else "from_press", path=path)
 
-    def _section(self, section: Data) -> PrintedSection:
+    def _section(self, index: int, section: Data) -> PrintedSection:
         heading = self._head("", section["title"])
         told: set[str] = set()
-        items = [self._item(item, told) for item in section["items"]]
+        items = self._figures(Place(index, BEFORE))
+        for step, item in enumerate(section["items"]):
+            items += [self._item(item, told), *self._figures(Place(index, step))]
         return PrintedSection(heading, section.get("text", ""), items, self._shown(section.get("shown", ())))
+
+    def _figures(self, place: Place) -> list[Item]:
+        """The figures that stand at a place."""
+        return [figure_item(each) for each in self.placed if each.place == place]
 
     def _shown(self, places: Sequence[Data]) -> str:
         """Where the curves of a section are shown, in words."""
@@ -166,10 +181,10 @@ class _Filler:
             yield self._looked_up(item)
         if item.get("series") and not item.get("note", "").startswith(item["series"]):
             yield f"{self.words['series']}: {item['series']}"
-        if method and method not in told:
+        if method and method not in told and self.is_full:
             told.add(method)
             yield f"{self.words['method']}: {method}"
-        if residual and residual["text"] != UNPRINTED_RESIDUAL:
+        if residual and residual["text"] != UNPRINTED_RESIDUAL and self.is_full:
             key = "residual" if item["type"] == "found" else "checked_to"
             yield self.words.say(key, residual=quantity(residual["text"], residual["unit"], self.decimal))
         if item.get("note"):
@@ -180,18 +195,34 @@ class _Filler:
     def _looked_up(self, item: Data) -> str:
         """Where a number was taken from: the table's title, and the text that chose it."""
         if item["table"]:
-            choice = ", ".join(filter(None, (item["key"], item.get("column"))))
+            choice = ", ".join(worded(text) for text in (item["key"], item.get("column")) if text)
             return self.words.say("looked_up", table=item["table"], choice=choice)
-        return f"{item['by']}: {item['key']}"
+        return f"{item['by']}: {worded(item['key'])}"
 
     def _results(self, outputs: Data) -> None:
-        """Outputs line by line, those of repeated parts as tables; the key ones for the summary."""
-        part, nth = self.part, counted(outputs)
-        rows = {name: quantity_row(row, self.decimal, self._nth(row, nth.get(name))) for name, row in outputs.items()}
-        single, lists = gathered(outputs)
+        """Outputs line by line, those of repeated parts as tables: all, or those that no step has printed; the key ones."""
+        part, rows = self.part, self._rows(outputs)
+        printed = {} if self.is_full else self._printed()
+        told = {name: row for name, row in outputs.items() if printed.get(name) != row["display"]["text"]}
+        single, lists = gathered(told)
         part.outputs = [rows[name] for name in single]
         part.output_parts = [table for parts in lists for table in self.tables.of_parts(parts, given=False)]
-        part.key_results = [rows[name] for name, row in outputs.items() if row.get("key")] or list(rows.values())
+        part.key_results = self._key_results(rows)
+        if told or (self.is_full and not outputs):
+            self._head("results")
+
+    def _rows(self, outputs: Data) -> dict[str, QuantityRow]:
+        """All outputs as lines, those of repeated parts counted."""
+        nth = counted(outputs)
+        return {name: quantity_row(row, self.decimal, self._nth(row, nth.get(name))) for name, row in outputs.items()}
+
+    def _key_results(self, rows: dict[str, QuantityRow]) -> list[QuantityRow]:
+        return [rows[name] for name, row in self.mechanism["outputs"].items() if row.get("key")] or list(rows.values())
+
+    def _printed(self) -> dict[str, str]:
+        """The results that the steps print, by their ids."""
+        steps = [item for section in self.mechanism["sections"] for item in section["items"] if "result" in item]
+        return {item["id"]: item["result"]["text"] for item in steps if "id" in item}
 
     def _phases(self, phases: Data, absent: Data) -> None:
         """When the mechanism does what, a table for each abscissa; and what is not known of it."""

@@ -7,9 +7,10 @@ from functools import cached_property
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 from diecut_report.report.carried import CarriedFile, carried_files
-from diecut_report.report.document import ReportDocument, document, parts
+from diecut_report.report.document import ReportDocument, document
 from diecut_report.report.equations import Equations
 from diecut_report.report.i18n import Catalogue
+from diecut_report.report.scope import BRIEF, parts
 from diecut_report.report.typeset import Typesetter
 
 if TYPE_CHECKING:
@@ -53,10 +54,11 @@ class Material:
     def figures(self) -> dict[str, Svg]:
         """All figures by their number, but those that cannot be drawn: these are in ``faults``."""
         found: dict[str, Svg] = {}
-        for chapter, (name, data) in zip(self.document.chapters, parts(self.results), strict=True):
+        calculated = dict(parts(self.results))
+        for chapter in self.document.chapters:
             for number, figure in chapter.figures:
                 if "error" not in figure:
-                    drawing = self._drawn(name, number, figure, data["curves"])
+                    drawing = self._drawn(chapter.name, number, figure, calculated[chapter.name]["curves"])
                     found |= {number: drawing} if drawing else {}
         return found
 
@@ -64,7 +66,7 @@ class Material:
         from diecut_report.report.figures.by_type import render  # with matplotlib, which takes half a second
 
         try:
-            return render(figure, curves, self.words, number)
+            return render(figure, curves, self.words, number, small=self.document.detail == BRIEF)
         except Exception as cause:  # of any kind: what a plugin gives to be drawn is its own
             self.faults.append(DrawingFault(name, number, figure, cause))
             return None

@@ -8,11 +8,12 @@ from dataclasses import dataclass, field
 from pathlib import PurePath
 from typing import Any
 
-from diecut_report.report.assumed import AssumedLine, assumed_line
+from diecut_report.report.assumed import AssumedGroup, AssumedLine, assumed_groups, assumed_line
 from diecut_report.report.chapters import chapter
 from diecut_report.report.equations import Equations
 from diecut_report.report.i18n import Catalogue
 from diecut_report.report.model import CheckRow, PrintedChapter, QuantityRow, quantity_row, rested
+from diecut_report.report.scope import BRIEF, FULL, Scope, parts, scope
 
 Data = Mapping[str, Any]
 TITLE_BLOCK = (
@@ -25,6 +26,14 @@ TITLE_BLOCK = (
     "checked_by",
     "approved_by",
 )
+APPENDIX = (
+    ("self-tests", "5.1", "self_test_list"),
+    ("curves", "5.2", "curves"),
+    ("errata", "5.3", "errata"),
+    ("configuration", "5.4", "configuration"),
+)
+CONTENTS_COLUMNS = 3
+MOST_CONTENTS = 140  # lines, for which the contents of a report stay on one sheet
 REVISION = ("revision", "date", "description", "by")
 
 
@@ -49,7 +58,28 @@ class ReportDocument:
     config: Data
     words: Catalogue
     assumed: AssumedLine | None = None
+    detail: str = FULL
+    assumed_groups: list[AssumedGroup] = field(default_factory=list)
     contents: list[tuple[str, str, str, int]] = field(default_factory=list)
+
+    @property
+    def self_tests(self) -> list[CheckRow]:
+        """The self-tests of the calculation."""
+        return [row for part in self.chapters for row in part.checks if row.is_self_test]
+
+    @property
+    def errata(self) -> list[tuple[str, str, str]]:
+        """What was found wrong in the sources that this press uses, each once."""
+        return list(dict.fromkeys(erratum for part in self.chapters for erratum in part.errata))
+
+    @property
+    def columns(self) -> list[list[tuple[str, str, str, int]]]:
+        """The contents in columns of about equal length; of a long report its chapters alone."""
+        lines = (
+            self.contents if len(self.contents) <= MOST_CONTENTS else [line for line in self.contents if line[3] == 1]
+        )
+        size = -(-len(lines) // CONTENTS_COLUMNS)
+        return [lines[start : start + size] for start in range(0, len(lines), size)]
 
     @property
     def face(self) -> str:
@@ -69,7 +99,9 @@ class ReportDocument:
 
 def document(results: Data, equations: Equations, words: Catalogue) -> ReportDocument:
     """The report of the results."""
-    chapters = _chapters(results, equations, words)
+    whole = scope(results)
+    results = whole.results
+    chapters = _chapters(whole, equations, words)
     every = [row for part in chapters for row in part.checks]
     checks = sorted((row for row in every if row.is_made), key=lambda row: row.order)
     decimal = words["decimal"]
@@ -82,7 +114,7 @@ def document(results: Data, equations: Equations, words: Catalogue) -> ReportDoc
         governing=_governing(results, checks),
         checks=checks,
         unchecked=[row for row in every if row.status == "not_checked"],
-        notes=list(_notes(every, words)),
+        notes=[*_shown(whole, words), *_notes(every, words)],
         failures=_failures(checks),
         press_rows=[rested(quantity_row(row, decimal), row, words) for row in results["press"]["fields"]],
         chapters=chapters,
@@ -91,7 +123,9 @@ def document(results: Data, equations: Equations, words: Catalogue) -> ReportDoc
         config=results["config"],
         words=words,
         assumed=assumed_line(results, words),
-        contents=list(_contents(chapters, words)),
+        detail=whole.detail,
+        assumed_groups=assumed_groups(results, words) if whole.detail == BRIEF else [],
+        contents=list(_contents(chapters, words, whole.detail)),
     )
 
 
@@ -107,16 +141,11 @@ def _verdict(results: Data, checks: list[CheckRow]) -> str:
     return "verdict_error_comparison" if of_comparisons else f"verdict_{status}"
 
 
-def parts(results: Data) -> Iterator[tuple[str, Data]]:
-    """What the chapters are of, with their names: all mechanisms, then all comparisons between them."""
-    yield from results["mechanisms"].items()
-    yield from results.get("comparisons", {}).items()
-
-
-def _chapters(results: Data, equations: Equations, words: Catalogue) -> list[PrintedChapter]:
+def _chapters(whole: Scope, equations: Equations, words: Catalogue) -> list[PrintedChapter]:
+    results = whole.results
     stem = PurePath(results["config"]["file"]).stem
     chapters = [
-        chapter(letter(index), name, data, equations, words, stem) for index, (name, data) in enumerate(parts(results))
+        chapter(whole.letters[name], name, data, equations, words, stem, whole.detail) for name, data in parts(results)
     ]
     mechanisms = {part.name: part for part in chapters[: len(results["mechanisms"])]}
     for part, (_, data) in zip(chapters, parts(results), strict=True):
@@ -128,11 +157,6 @@ def _title_block(project: Data) -> Data:
     """The project's texts; what is not given is empty."""
     revisions = [{key: str(row.get(key) or "") for key in REVISION} for row in project.get("revisions") or ()]
     return {key: str(project.get(key) or "") for key in TITLE_BLOCK} | {"revisions": revisions}
-
-
-def letter(index: int) -> str:
-    """A chapter's letter: A … Z, AA …"""
-    return ("" if index < 26 else letter(index // 26 - 1)) + chr(ord("A") + index % 26)
 
 
 def _counts(checks: list[CheckRow], chapters: list[PrintedChapter], words: Catalogue) -> Iterator[str]:
@@ -164,6 +188,13 @@ def _notes(checks: list[CheckRow], words: Catalogue) -> Iterator[str]:
         yield words.say("self_tests" if held > 1 else "self_tests_one", n=held)
 
 
+def _shown(whole: Scope, words: Catalogue) -> Iterator[str]:
+    """That mechanisms are left out of the report, and the verdict of the whole press."""
+    if whole.is_part:
+        told = {"n": len(whole.results["mechanisms"]), "total": whole.total, "status": words[whole.status]}
+        yield words.say("only_part", **told)
+
+
 def _left_out(results: Data) -> Iterator[str]:
     """Words on the comparisons that are not made."""
     if "comparisons_left_out" in results:
@@ -178,15 +209,21 @@ def _governing(results: Data, checks: list[CheckRow]) -> CheckRow | None:
 
 
 def _sources(results: Data) -> list[tuple[str, str]]:
-    """All sources of the mechanisms, each once, by their id; several papers of one volume share it."""
-    return sorted(
-        {(source["id"], source["citation"]) for _, data in parts(results) for source in data.get("sources", ())}
-    )
+    """All sources of the mechanisms, each once, with its ids; several papers of one volume share an id."""
+    found: dict[str, dict[str, None]] = {}
+    for _, data in parts(results):
+        for source in data.get("sources", ()):
+            found.setdefault(source["citation"], {})[source["id"]] = None
+    return sorted((", ".join(sorted(ids)), citation) for citation, ids in found.items())
 
 
-def _contents(chapters: list[PrintedChapter], words: Catalogue) -> Iterator[tuple[str, str, str, int]]:
+def _contents(chapters: list[PrintedChapter], words: Catalogue, detail: str) -> Iterator[tuple[str, str, str, int]]:
     """Anchor, number, title and depth of all that has a heading."""
     yield "summary", "1", words["summary"], 1
+    if detail == BRIEF:
+        yield "key-results", "2", words["key_results"], 1
+        yield from ((part.anchor, part.letter, part.title, 2) for part in chapters)
+        return
     yield "press", "2", words["press_data"], 1
     for part in chapters:
         yield part.anchor, part.letter, part.title, 1
@@ -194,4 +231,6 @@ def _contents(chapters: list[PrintedChapter], words: Catalogue) -> Iterator[tupl
             yield heading.anchor, heading.number, heading.title, 2
     yield "sources", "3", words["sources"], 1
     yield "program", "4", words["program"], 1
-    yield "configuration", "5", words["configuration"], 1
+    if detail == FULL:
+        yield "appendix", "5", words["appendix"], 1
+        yield from ((anchor, number, words[key], 2) for anchor, number, key in APPENDIX)

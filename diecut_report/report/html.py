@@ -15,6 +15,7 @@ from markupsafe import Markup
 
 from diecut_report.report.context import Material
 from diecut_report.report.equations import Equation
+from diecut_report.report.model import Item
 from diecut_report.report.number_format import tidy
 from diecut_report.report.symbols import prose, symbol
 
@@ -28,14 +29,21 @@ FACES = {  # family, weight, style: file
 POLICY = (
     "default-src 'none'", "style-src 'unsafe-inline'", "font-src data:", "img-src data:", "base-uri 'none'", "form-action 'none'",
 )  # fmt: skip
+FORMS = {"screen": "woff2", "print": "truetype"}  # a page engine would unpack the smaller form at each report
 MATH = {("Report Math", 400, "normal"): "report-math"}
 
 
 class Medium(Protocol):
     """How a medium shows what templates cannot: formulas and figures."""
 
-    def math(self, equation: Equation, *, display: bool = True) -> Markup:
-        """A typeset formula."""
+    def display(self, equation: Equation) -> Markup:
+        """A typeset formula in lines of its own."""
+
+    def beside(self, equation: Equation) -> Markup:
+        """A typeset formula in the line of its description."""
+
+    def fits_beside(self, item: Item) -> bool:
+        """Whether a step's formula stands in the line of its description."""
 
     def figure(self, number: str, title: str) -> Markup:
         """A figure by its number."""
@@ -47,10 +55,16 @@ class Screen:
     def __init__(self, material: Material) -> None:
         self.material = material
 
-    def math(self, equation: Equation, *, display: bool = True) -> Markup:
+    def display(self, equation: Equation) -> Markup:
         """A typeset formula as MathML."""
         # math-core escapes the texts within the formula
-        return Markup(self.material.typesetter.mathml(equation.latex, display=display))
+        return Markup(self.material.typesetter.mathml(equation.latex))
+
+    beside = display
+
+    def fits_beside(self, _item: Item) -> bool:
+        """Never: a screen may be narrow."""
+        return False
 
     def figure(self, number: str, title: str) -> Markup:
         """A figure inline, named by its title."""
@@ -67,10 +81,10 @@ def filled(material: Material, medium: Medium, kind: str) -> str:
     """The report's template with the document in it, for ``screen`` or ``print``."""
     document = material.document
     faces = FACES | (MATH if kind == "screen" else {})
-    style = "\n".join([_font_faces(tuple(faces.items())), _read("report.css"), _read(f"{kind}.css")])
+    style = "\n".join([_font_faces(tuple(faces.items()), FORMS[kind]), _read("report.css"), _read(f"{kind}.css")])
     return _environment().get_template("report.html.j2").render(
         doc=document, t=document.words, kind=kind, style=Markup(style), policy=policy(),
-        math=medium.math, figure=medium.figure, failed=material.failed,
+        math=medium, figure=medium.figure, failed=material.failed,
         carried=material.carried,
     )  # fmt: skip
 
@@ -93,12 +107,12 @@ def _read(name: str) -> str:
 
 
 @cache
-def _font_faces(faces: tuple[tuple[tuple[str, int, str], str], ...]) -> str:
+def _font_faces(faces: tuple[tuple[tuple[str, int, str], str], ...], form: str = "woff2") -> str:
     """The fonts as embedded data."""
-    rules = []
+    rules, ending = [], {"woff2": "woff2", "truetype": "ttf"}[form]
     for (family, weight, style), name in faces:
-        data = base64.b64encode((folder() / "fonts" / f"{name}.woff2").read_bytes()).decode()
-        source = f'url("data:font/woff2;base64,{data}") format("woff2")'
+        data = base64.b64encode((folder() / "fonts" / f"{name}.{ending}").read_bytes()).decode()
+        source = f'url("data:font/{ending};base64,{data}") format("{form}")'
         rules.append(f'@font-face{{font-family:"{family}";font-weight:{weight};font-style:{style};src:{source}}}')
     return "\n".join(rules)
 

@@ -36,6 +36,12 @@ ENGLISH: dict[str, str] = {
     "comparison": "Comparison of", "files": "Files beside this report",
     "errata": "Errata of the sources", "sources": "Sources", "no_sources": "The mechanisms name no source.",
     "program": "Program and configuration",
+    "self_test_list": "Self-tests of the calculation", "no_self_tests": "The calculation has no self-tests.",
+    "no_curves": "There are no curves.", "no_errata": "No errata of the sources touch this press.",
+    "only_part": "This report shows {n} of the {total} mechanisms of the press; the verdict of the whole press is: {status}.",
+    "governing_check": "Governing check", "needs": "needs {keys}", "assumed_values": "Assumed values",
+    "more_in": "The calculation itself stands in the report with more detail.", "detail_brief": "brief", "see_figure": "see figure {n}",
+    "errata_told": "{n} errata of the sources touch this press; the full report lists them.",
     "configuration": "Configuration as given", "appendix": "Appendix", "warnings": "Warnings",
     # tables
     "mechanism": "Mechanism", "check": "Check", "demand": "Demand", "limit": "Limit", "margin": "Margin",

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import re
 from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
 from typing import Any
@@ -15,6 +16,7 @@ from diecut_report.report.number_format import joined, number, parts, quantity
 from diecut_report.report.symbols import symbol
 
 Data = Mapping[str, Any]
+_TOKEN = re.compile(r"[a-z][a-z0-9]*(?:_[a-z0-9]+)+")
 ORDER = {"fail": 0, "warn": 1, "pass": 2, "not_checked": 3}
 
 
@@ -103,6 +105,8 @@ class Item:
     text: str = ""
     notes: tuple[str, ...] = ()
     table: PrintedTable | None = None
+    title: str = ""
+    caption: str = ""
 
 
 @dataclass(frozen=True)
@@ -193,6 +197,7 @@ class PrintedChapter:
     phases: list[PrintedTable] = field(default_factory=list)
     phases_absent: list[str] = field(default_factory=list)
     figures: list[tuple[str, Data]] = field(default_factory=list)
+    loose: list[Item] = field(default_factory=list)
     files: list[File] = field(default_factory=list)
     absent: list[Data] = field(default_factory=list)
     errata: list[tuple[str, str, str]] = field(default_factory=list)
@@ -209,6 +214,11 @@ class PrintedChapter:
         return sum(row.status == status and not row.is_self_test for row in self.checks)
 
     @property
+    def governing(self) -> CheckRow | None:
+        """The check of the machine that fails first or is most utilised; none where none is made."""
+        return min((row for row in self.checks if row.is_made), key=lambda row: row.order, default=None)
+
+    @property
     def face(self) -> str:
         """The verdict as it is shown: one that passes, but not in all, is incomplete."""
         return "incomplete" if self.status == "pass" and self.count("not_checked") else self.status
@@ -220,7 +230,7 @@ def quantity_row(row: Data, decimal: str, description: str = "") -> QuantityRow:
     place = Markup("")
     if at:
         place = symbol(at["symbol"]) + f" = {quantity(at['text'], at['unit'], decimal)}"
-    text = number(shown["text"], decimal)
+    text = number(worded(shown["text"]), decimal)
     return QuantityRow(
         description=description or row["description"],
         symbol=symbol(row["symbol"]),
@@ -244,6 +254,13 @@ def rested(shown: QuantityRow, row: Data, words: Mapping[str, str]) -> QuantityR
     basis = words[row["basis"]] if row.get("basis", "given") != "given" else ""
     origin = "" if basis and row.get("origin") == "given" else shown.origin
     return replace(shown, origin=", ".join(filter(None, (origin, basis))), note=row.get("note", ""))
+
+
+def worded(text: str) -> str:
+    """A text input as words: ``cast_iron`` → cast iron, ``polynomial_345`` → polynomial 3-4-5; other texts as they are."""
+    if not _TOKEN.fullmatch(text):
+        return text
+    return " ".join("-".join(part) if part.isdigit() else part for part in text.split("_"))
 
 
 def is_words(text: str) -> bool:

@@ -14,9 +14,13 @@ from diecut_report.report.carried import DATE, CarriedFile
 from diecut_report.report.context import Material
 from diecut_report.report.equations import Equation
 from diecut_report.report.html import filled
+from diecut_report.report.model import Item
 from diecut_report.report.page_engine import HTML, Attachment, URLFetcher
 from diecut_report.report.pdf_math import Picture
 
+BESIDE_WIDTH = 28.0  # em of a formula that stands beside its description
+BESIDE_LETTERS = 62  # of a description of two lines beside a formula
+SMALLER = 0.85  # of the letters of a source
 FORMULA = "data:formula,"  # addresses of the formulas' pictures, which WeasyPrint finds in its cache
 
 
@@ -27,14 +31,28 @@ class Paper:
         self.material = material
         self.pictures: dict[str, Picture] = {}
 
-    def math(self, equation: Equation, *, display: bool = True) -> Markup:
+    def display(self, equation: Equation) -> Markup:
         """A typeset formula: its picture, and transparent text of it for search."""
-        outline = self.material.typesetter.outline(equation.latex, display=display)
+        return self._picture(equation, "")
+
+    def beside(self, equation: Equation) -> Markup:
+        """The same on the line that it stands in."""
+        depth = self.material.typesetter.outline(equation.latex).depth
+        return self._picture(equation, f' style="vertical-align:{depth}em"')
+
+    def fits_beside(self, item: Item) -> bool:
+        """Whether a formula and its description, in two lines at most, have room side by side."""
+        if item.equation is None or item.condition or item.words:
+            return False
+        letters = len(item.description) + len(item.text) + SMALLER * len(item.source)
+        return letters <= BESIDE_LETTERS and self.material.typesetter.measure(item.equation.latex) <= BESIDE_WIDTH
+
+    def _picture(self, equation: Equation, style: str) -> Markup:
+        outline = self.material.typesetter.outline(equation.latex)
         address = f"{FORMULA}{len(self.pictures)}"
         self.pictures[address] = Picture(outline)
-        depth = "" if display else f' style="vertical-align:{outline.depth}em"'
         text = escape(equation.text)
-        image = Markup('<img src="{}" alt="{}"{}>').format(address, equation.text, Markup(depth))
+        image = Markup('<img src="{}" alt="{}"{}>').format(address, equation.text, Markup(style))
         return Markup("<span class=lin>{}</span>").format(text) + image
 
     def figure(self, number: str, title: str) -> Markup:

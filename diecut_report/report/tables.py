@@ -19,6 +19,7 @@ from diecut_report.report.model import (
     is_words,
     rests,
     utilisation,
+    worded,
 )
 from diecut_report.report.number_format import displayed, number
 from diecut_report.report.repeated_parts import Parts
@@ -141,7 +142,7 @@ class Tables:
 
     def _cell(self, row: Data, told: Callable[[Data], str]) -> TableCell:
         text = row["display"]["text"]
-        return TableCell(number(text, self.decimal), told(row), is_words(text))
+        return TableCell(number(worded(text), self.decimal), told(row), is_words(text))
 
     def _origin(self, row: Data) -> str:
         """What is to be said of an input: where it comes from, and what it rests on."""

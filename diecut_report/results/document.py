@@ -51,6 +51,7 @@ def document(run: Run) -> Data:
             **_tables(config),
         },
         "project": _project(config.project.model_dump()),
+        "report": {"detail": config.report.detail},
         "press": _press(run),
         "status": "error" if run.errors else status,
         "governing": governing(mechanisms),
@@ -153,7 +154,7 @@ def resolved(run: Run) -> Data:
         mechanisms[name] = {"kind": kind} | (_plain(block, (name,), instance, bases) if block and instance else {})
     press = config.instances[PRESS]
     assert press is not None
-    return {"schema_version": 1, "project": config.project.model_dump(exclude_none=True),
+    return {"schema_version": 1, "project": config.project.model_dump(exclude_none=True), "report": config.report.model_dump(),
             PRESS: _plain(run.blocks[PRESS], (PRESS,), press, bases), "mechanisms": mechanisms}  # fmt: skip
 
 

@@ -15,7 +15,7 @@ from diecut_report.plugins.cyclogram.inputs import Passage
 from diecut_report.plugins.cyclogram.kinds import POSITION, STEP
 
 TURN = 2 * pi
-CLOSE = {"xatol": 1e-14, "xrtol": 4e-16, "fatol": 0.0, "frtol": 0.0}
+CLOSE: Any = {"xatol": 1e-14, "xrtol": 4e-16, "fatol": 0.0, "frtol": 0.0}
 LONGER = 1 + 1e-12  # by which rounding may let a way pass its step
 
 
@@ -46,7 +46,8 @@ class Stretch:
                 key, f"tells what the sheet passes, but the way of the sheet is not known in {mechanism.name}"
             )
         if not self.start < self.end <= step * LONGER:
-            words = f"goes from {told(self.start, 'mm', 6)} to {told(self.end, 'mm', 6)}; it must go forward, and no further than the step of {told(step, 'mm')}"
+            way = f"goes from {told(self.start, 'mm', 6)} to {told(self.end, 'mm', 6)}"
+            words = f"{way}; it must go forward, and no further than the step of {told(step, 'mm')}"
             raise Refusal(key, words)
 
 

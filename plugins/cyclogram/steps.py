@@ -141,10 +141,10 @@ interlocks.fact("rates_agree", lambda worst_rate_error: worst_rate_error <= LARG
 
 motions = Chapter("Motions over the main shaft", needs=("rates_agree",))
 motions.prepared("motions", motions_of, ("timing", "main_period", *(f"lines.{key}" for key in LINES)), for_many=True)
-motions.abscissa("main_angle", "Φ", "deg", "Angle of the main shaft", "main_period", speed="main_shaft_speed", intervals=32)
+motions.abscissa("main_angle", "Φ", "deg", "Angle of the main shaft", "main_period", speed="main_shaft_speed", intervals=16)
 OWN = "from the line's own calculation"
-motions.part_curves("way", "s", "mm", "Way of {part}", lambda motions: motions.ways.names, lambda motions, *asked: motions.ways.one(*asked), "motions",
-                    "main_angle", OWN, joints=lambda motions: motions.joints)
+motions.part_curves("way", "s", "mm", "Way of {part}", lambda motions: motions.ways.names,
+                    lambda motions, *asked: motions.ways.one(*asked), "motions", "main_angle", OWN, joints=lambda motions: motions.joints)
 motions.computed("moving_lines", "N_E", "1", "Lines whose kinetic energy is known", lambda motions: float(len(motions.energies.names)), ("motions",),
                  "as given", output=False)
 motions.fact("energy_known", lambda moving_lines: moving_lines > 0, "not calculated: of no line is it known what moves, and how heavy it is")
@@ -155,8 +155,9 @@ motions.computed_curve("clearance_over", "Y", "mm", "Least height over all carri
 energies = Chapter("Kinetic energies", needs=("rates_agree", "energy_known"))
 energies.part_curves("kinetic_energy", "E", "J", "Kinetic energy of {part}", lambda motions: motions.energies.names,
                     lambda motions, *asked: motions.energies.one(*asked), "motions", "main_angle", OWN, joints=lambda motions: motions.joints)
-energies.computed_curve("kinetic_energy_total", "E_Σ", "J", "Kinetic energy of all lines whose is known", lambda motions, *asked: motions.energies.total(*asked),
-                       "motions", "main_angle", "sum of the lines' kinetic energies", joints=lambda motions: motions.joints)
+energies.computed_curve("kinetic_energy_total", "E_Σ", "J", "Kinetic energy of all lines whose is known",
+                       lambda motions, *asked: motions.energies.total(*asked), "motions", "main_angle",
+                        "sum of the lines' kinetic energies", joints=lambda motions: motions.joints)
 energies.reduction("kinetic_energy_max", "E_max", "J", "Greatest kinetic energy of all lines together", "max", of="kinetic_energy_total")
 energies.reduction("kinetic_energy_mean", "E_m", "J", "The same in the mean", "mean", of="kinetic_energy_total")
 energies.reduction("kinetic_energy_range", "ΔE_k", "J", "Range of it", "range", of="kinetic_energy_total", output=False)
@@ -174,7 +175,8 @@ motions.computed("consumers", "N_c", "1", "Consumers whose torque is known", lam
 motions.fact("takes_torque", lambda consumers: consumers > 0, "not calculated: no line has a torque that is known, and no friction is given")
 torques.part_curves("line_torque", "M", "N*m", "Torque of {part} at the main shaft", lambda sum: sum.together.names,
                     lambda sum, *asked: sum.together.one(*asked), "sum", "main_angle", OWN, joints=lambda sum: sum.joints)
-torques.computed_curve("main_shaft_torque", "M_Σ", "N*m", "Torque at the main shaft", lambda sum, *asked: sum.together.total(*asked), "sum", "main_angle",
+torques.computed_curve("main_shaft_torque", "M_Σ", "N*m", "Torque at the main shaft",
+                       lambda sum, *asked: sum.together.total(*asked), "sum", "main_angle",
                        "sum of the torques of all lines, each from its own calculation", joints=lambda sum: sum.joints)
 torques.computed_curve("greatest_torque", "M_g", "N*m", "Torque of the greatest consumer alone", lambda sum, *asked: sum.of_greatest(*asked), "sum",
                        "main_angle", "the consumer that takes most from the main shaft, in the mean")

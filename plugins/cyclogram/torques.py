@@ -124,13 +124,17 @@ def motions_of(given: Mapping[str, Any]) -> Motions:
     ways = {line.name: way for line in lines if (way := _way(line)) is not None}
     energies = {line.name: curve for line in lines if (curve := _energy(line)) is not None}
     places = [each[0].joints(period) for each in ways.values()] + [each.joints(period) for each in energies.values()]
-    ranges = sum((each.samples.range for each in energies.values()), np.zeros_like(period))
+    ranges = sum((_range(each) for each in energies.values()), np.zeros_like(period))
     return Motions(
         Together(tuple(ways), tuple(function for _, function in ways.values())),
         Together(tuple(energies), tuple(each.at for each in energies.values())),
         np.concatenate([np.full_like(period, np.nan), *places], axis=1),
         ranges,
     )
+
+
+def _range(curve: ShaftCurve) -> Any:
+    return curve.samples.range if curve.pieces is None else curve.pieces.range[:, None]
 
 
 @dataclass(frozen=True, eq=False)

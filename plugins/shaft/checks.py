@@ -5,31 +5,30 @@ from __future__ import annotations
 from diecut_report.api import Check
 
 ROUNDING = 1e-9
-GROWN = "with all diameters, bores and fillet radii {} times as great it is met."
 
 CHECKS = (
     Check(id="fatigue", check_class="strength", title="Fatigue", demand="required_fatigue_safety", limit="place_safety", unit="1",
           demand_label="required safety", limit_label="safety", tolerance=ROUNDING, source="Shigley 7-7",
-          consequence="a crack would begin at the {fatigue_place}, at {fatigue_position} from the left end; " + GROWN.format("{fatigue_growth:up}")),
+          consequence="a crack would begin at the {fatigue_place}, at {fatigue_position} from the left end; {fatigue_growth}"),
     Check(id="yield", check_class="strength", title="Yield", demand="required_yield_safety", limit="yield_safety", unit="1",
           demand_label="required safety", limit_label="safety", tolerance=ROUNDING, source="Shigley 7-16",
-          consequence="the shaft would bend for good at {nominal_position} from the left end; " + GROWN.format("{yield_growth:up}")),
+          consequence="the shaft would bend for good at {nominal_position} from the left end; {yield_growth}"),
     Check(id="yield_notch", check_class="practice", title="Yield in a notch", demand=1.0, limit="place_yield_safety", unit="1", severity="warn",
           demand_label="safety at least", limit_label="safety with the notch", tolerance=ROUNDING, source="Shigley 7-16",
           consequence="the ground of a notch yields; a steel of a yield strength of {notch_yield:up} or a thicker shaft avoids it."),
     Check(id="bearing_slope", check_class="practice", title="Slope at the bearings", demand="bearing_slope_max", limit="allowable_bearing_slope",
           unit="mrad", severity="warn", demand_label="greatest slope", limit_label="accepted", tolerance=ROUNDING, source="Shigley table 7-2",
           consequence="rollers and balls are loaded unevenly (deep groove balls bear 1 to 3 mrad, cylindrical rollers 0.8 to 1.2 mrad); "
-                      "with all diameters, bores and fillet radii {slope_growth:up} times as great it is met."),
+                      "{slope_growth}"),
     Check(id="critical_speed", check_class="practice", title="Critical speed", demand="twice_speed", limit="critical_speed", unit="rpm",
           severity="warn", needs=("speed",), demand_label="twice the speed", limit_label="critical speed", tolerance=ROUNDING, source="Shigley 7-6",
           consequence="the shaft runs too near to its critical speed; take a speed of at most {half_critical:down}, or a thicker or shorter shaft."),
     Check(id="deflection", check_class="function", title="Deflection", demand="deflection_max", limit="allowable_deflection", unit="um",
           needs=("allowable_deflection",), demand_label="greatest deflection", limit_label="allowed", tolerance=ROUNDING, source="key",
-          consequence="what runs on the shaft leaves its place; " + GROWN.format("{deflection_growth:up}")),
+          consequence="what runs on the shaft leaves its place; {deflection_growth}"),
     Check(id="twist", check_class="function", title="Twist", demand="twist_by_length", limit="allowable_twist", unit="deg/m",
           needs=("allowable_twist",), demand_label="twist by length", limit_label="allowed", tolerance=ROUNDING, source="key",
-          consequence="the shaft is too soft in torsion; " + GROWN.format("{twist_growth:up}")),
+          consequence="the shaft is too soft in torsion; {twist_growth}"),
     Check(id="notch_range", check_class="practice", title="Range of the fillets", demand="fillet_ratio", limit=4.0, at_least=0.25, unit="1",
           severity="warn", demand_label="step to radius", limit_label="charts end at", at_least_label="charts begin at", tolerance=ROUNDING,
           source="Peterson, charts 3.10 and 3.12",

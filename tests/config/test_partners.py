@@ -10,7 +10,6 @@ from typing import Any
 import pytest
 
 from diecut_report.config.discovery import Discovery
-from diecut_report.config.loader import load_config
 from diecut_report.config.references import texts
 from diecut_report.contract.mechanism import Partner
 from diecut_report.pipeline import calc
@@ -55,12 +54,6 @@ def test_two_partners_run_the_consistency_with_what_they_have(tmp_path: Path) ->
 @pytest.mark.parametrize("text", [HEAD + CLUTCH, HEAD + DRIVE])
 def test_a_single_mechanism_contradicts_no_other(tmp_path: Path, text: str) -> None:
     assert "press_consistency" not in loaded(tmp_path, text).instances
-
-
-def test_what_is_not_wanted_is_not_added(tmp_path: Path) -> None:
-    file = saved(tmp_path, HEAD + DRIVE + CLUTCH)
-    assert "press_consistency" in load_config(file, DISCOVERY).instances
-    assert "press_consistency" not in load_config(file, DISCOVERY, only_named=True).instances
 
 
 def test_a_block_of_the_kind_takes_the_place_of_the_one_that_runs_by_itself(tmp_path: Path) -> None:

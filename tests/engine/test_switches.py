@@ -150,3 +150,40 @@ def test_each_variant_among_many_is_judged_as_alone(count: int, per_piece: bool)
             told[row] = "peak", str(fault)
     assert 0 not in told and 1 in told
     assert run(mechanism, count, **given).flaws == told
+
+
+def by_middle(*places: str) -> Mechanism:
+    """A torque that a condition on the middle of its piece decides, which varies from piece to piece."""
+    chapter = Chapter("Turn")
+    chapter.abscissa("angle", "φ", "deg", "Angle", 2 * np.pi)
+    chapter.breakpoints("edges", "angle", *places)
+    chapter.value("middle", "φ_m", "deg", "Middle", lambda angle: angle, per_piece=True)
+    chapter.value("torque", "T", "N*m", "Torque", lambda middle, start, moment: moment * np.where(middle < start, 1, 3))
+    chapter.reduction("peak", "T_max", "N*m", "Greatest torque", "max", "torque")
+    return Mechanism(kind="wheel", version="1", title="", summary="", inputs=Wheel, chapters=(chapter,))
+
+
+@pytest.mark.parametrize("count", [1, 9])
+def test_what_a_varying_flag_decides_is_searched_and_not_the_flag(count: int) -> None:
+    starts = np.linspace(10, 90, count) * DEGREE
+    calc = run(by_middle("start"), count, start=starts)
+    assert not calc.flaws
+    assert calc["peak"][:, 0].tolist() == [3 * 81] * count
+    if count == 1:
+        with pytest.raises(Unproven, match="takes a flag of its smooth pieces"):
+            run(by_middle("end"))
+    else:
+        assert set(run(by_middle("end"), count, start=starts).flaws) == set(range(count))
+
+
+@pytest.mark.parametrize("share", [0.2, 0.5, 0.9])
+@pytest.mark.parametrize("before", [False, True])
+def test_a_window_between_a_breakpoint_and_the_next_point_of_the_grid_is_found(share: float, before: bool) -> None:
+    """One of its ends is declared, the other is not; the condition is curved, so that it is nothing at both."""
+    first = (1 - np.cos(np.pi / 64)) / 2 * (100 if before else 260) * DEGREE
+    end = 100 * DEGREE + share * first * (-1 if before else 1)
+    bent: Any = lambda angle, moment, start, end: moment * np.where((angle - start) * (angle - end) < 0, 3, 1)  # noqa: E731
+    with pytest.raises(Unproven, match="jumps inside a smooth piece"):
+        run(wheel(bent, "start"), end=end)
+    many = run(wheel(bent, "start"), 9, end=np.full(9, end), start=np.full(9, 100 * DEGREE))
+    assert set(many.flaws) == set(range(9))

@@ -215,4 +215,5 @@ def sample() -> Data:
     found: Data = json.loads(SAMPLE.read_text(encoding="utf-8"))
     found["mechanisms"]["train"] = train()
     found["comparisons"] = {"compared-cylinder-train": comparison()}
+    found["report"] = {"detail": "full"}
     return found

@@ -60,7 +60,7 @@ def test_short_list_and_block_stay_lines(chapters: dict[str, PrintedChapter]) ->
 
 def test_word_with_digits_is_a_word_and_no_number(chapters: dict[str, PrintedChapter]) -> None:
     rows = {row.key: row for row in chapters["train"].inputs}
-    assert rows["law"].wordy and rows["law"].value == "polynomial_345"
+    assert rows["law"].wordy and rows["law"].value == "polynomial 3-4-5"
     assert not rows["speed"].wordy
 
 

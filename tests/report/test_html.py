@@ -27,7 +27,7 @@ class Balance(HTMLParser):
     def handle_starttag(self, tag: str, attrs: list[tuple[str, str | None]]) -> None:
         given = dict(attrs)
         self.ids += [given["id"] or ""] if "id" in given else []
-        self.targets += [(given["href"] or "")[1:]] if tag == "a" else []
+        self.targets += [(given["href"] or "")[1:]] if tag == "a" and "download" not in given else []
         if tag not in VOID:
             self.open.append(tag)
 

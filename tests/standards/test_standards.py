@@ -132,6 +132,35 @@ def test_the_belt_pitches_are_those_of_other_tables() -> None:
     assert dict(pitches) == {**inches, **SYNCHROFLEX, **GLOBALSPEC}
 
 
+LIBRARY = {
+    "08B": (8.51, None, 4.45),
+    "10B": (10.16, 9.65, 5.08),
+    "12B": (12.07, 11.68, 5.72),
+    "16B": (15.88, 17.02, 8.28),
+}
+"""Roller, inner width and pin of a public library of chains, in mm; its width of 08B is that of the roller, a slip."""
+
+
+@pytest.mark.parametrize(
+    ("column", "id"), [(0, "iso_606_roller_diameters"), (1, "iso_606_inner_widths"), (2, "iso_606_pin_diameters")]
+)
+def test_the_dimensions_of_chains_are_those_of_a_third_table(column: int, id: str) -> None:
+    found = standard_table(id).values
+    assert list(found) == ["08B", "10B", "12B", "16B", "20B", "24B"]
+    known = {name: row[column] for name, row in LIBRARY.items() if row[column] is not None}
+    assert {name: found[name] for name in known} == known
+
+
+def test_a_chain_is_made_of_what_goes_together() -> None:
+    tables = [
+        standard_table(f"iso_606_{name}").values
+        for name in ("pitches", "roller_diameters", "inner_widths", "pin_diameters")
+    ]
+    for name in tables[3]:
+        pitch, roller, width, pin = (table[name] for table in tables)
+        assert pin < roller < pitch and 0.55 < roller / pitch < 0.7 and 0.55 < width / pitch < 0.7
+
+
 def test_the_chain_pitches_are_those_of_other_tables_and_sixteenths_of_an_inch() -> None:
     pitches = standard_table("iso_606_pitches").values
     assert dict(pitches) == RECORD
@@ -200,7 +229,10 @@ def test_the_files_are_the_documented_ones() -> None:
     assert {form: standard_ids(form) for form in FORMS} == {
         "values": ("din_6885_lengths", "iec_60072_ratings", "iso_54_modules", "renard_r10", "renard_r20", "renard_r40"),
         "table": (
+            "iso_606_inner_widths",
+            "iso_606_pin_diameters",
             "iso_606_pitches",
+            "iso_606_roller_diameters",
             "motor_synchronous_speeds",
             "steel_tensile_strengths",
             "steel_yield_strengths",

@@ -87,19 +87,20 @@ def _decides(node: Node, varying: set[str]) -> bool:
     """Whether a part of a formula compares, or takes a step, by what varies."""
     if node.op == "cmp" or (node.op == "call" and node.args[0] in STEPWISE):
         return any(name in varying for name in _symbols(node))
-    return any(_decides(part, varying) for part in _parts(node))
+    return any(_decides(part, varying) for part in parts(node))
 
 
 def _symbols(node: Node) -> Iterator[str]:
     if node.op == "sym":
         yield node.args[0]
-    for part in _parts(node):
+    for part in parts(node):
         yield from _symbols(part)
 
 
-def _parts(node: Node) -> Iterator[Node]:
+def parts(node: Node) -> Iterator[Node]:
+    """Give the nodes that a node is made of."""
     for part in node.args:
         if isinstance(part, Node):
             yield part
         elif isinstance(part, tuple):
-            yield from _parts(Node("cases", part))
+            yield from parts(Node("cases", part))

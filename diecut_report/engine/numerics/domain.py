@@ -70,6 +70,14 @@ def _all_near(edges: Array, places: Array, within: Array) -> bool:
     return bool((near | np.isnan(within)).all())
 
 
+def _without_doubles(edges: Array) -> Array:
+    """Edges each once: those that came twice are moved to the end of the period, as far as no other variant has more."""
+    last = edges[:, -1:]
+    inner = np.where(np.diff(edges[:, :-1], axis=1) > 0, edges[:, 1:-1], last)
+    most = int((inner < last).sum(axis=1).max())
+    return np.concatenate([edges[:, :1], np.sort(inner, axis=1)[:, :most], last], axis=1)
+
+
 @dataclass
 class Domain:
     """Hold the range [0, period) of an abscissa, cut at breakpoints; ``edges`` has shape (variants, pieces + 1), ascending.
@@ -117,7 +125,7 @@ class Domain:
         for i in range(1, edges.shape[1] - 1):  # one place that came twice, with other rounding, stays one
             close = edges[:, i] - edges[:, i - 1] < SAME * self.period[:, 0]
             edges[:, i] = np.where(close, edges[:, i - 1], edges[:, i])
-        return edges
+        return _without_doubles(edges)
 
     @property
     def proof_order(self) -> int:

@@ -51,7 +51,7 @@ class Again:
         self.mechanism, self.count, self.calculate = calc.mechanism, calc.count, calculate
         self.inputs = {name: value for name, value in calc.inputs.items() if name in calc.given}
 
-    def __call__(self, changed: Mapping[str, Array], rows: Array, names: Sequence[str]) -> dict[str, Array]:
+    def __call__(self, changed: Mapping[str, Any], rows: Array, names: Sequence[str]) -> dict[str, Array]:
         """Return quantities of the machines ``rows`` (variants of the calculation), each with the inputs ``changed`` (machines, parts).
 
         NaN where a machine is impossible then, and where it does not have the quantity.

@@ -1,4 +1,4 @@
-"""Facts that steps stand on: where a machine does not meet one, the steps that need it are left out; among variants they are blanked."""
+"""Facts that steps stand on: where a machine does not meet one, the steps that need it are left out."""
 
 from __future__ import annotations
 
@@ -7,7 +7,7 @@ from collections.abc import Iterable, Iterator, Sequence
 import numpy as np
 
 from diecut_report.contract.code_steps import Fact
-from diecut_report.contract.result_names import place_name, read, result_names
+from diecut_report.contract.result_names import read
 from diecut_report.contract.steps import Step
 from diecut_report.engine.calculation import Calculation
 from diecut_report.engine.steps.soundness import possible
@@ -15,8 +15,11 @@ from diecut_report.expressions import Array
 
 
 def judge(calc: Calculation, step: Fact) -> None:
-    """Note which variants do not meet a fact; where none does, the steps that need it take no part."""
-    missed = ~calc.apply(step.condition).astype(bool).all(axis=1)
+    """Note which variants do not meet a fact; where none does, the steps that need it take no part.
+
+    Where some do, the numbers of the others mean nothing: these variants are to be calculated by themselves.
+    """
+    missed: Array = calc.apply(step.condition)[:, 0] == 0
     if not missed.any():
         return
     calc.withheld[step.id] = missed
@@ -29,16 +32,6 @@ def judge(calc: Calculation, step: Fact) -> None:
 def remaining(calc: Calculation, steps: Sequence[Step]) -> list[Step]:
     """Return those of the coming steps that take part still."""
     return [step for step in steps if step.id in calc.steps]
-
-
-def blank(calc: Calculation) -> None:
-    """Take away the numbers of variants that do not meet a fact which others meet."""
-    for step, missed, _ in _withheld(calc):
-        row = calc.values.get(step.id)
-        names = [] if row is None else [each.name for each in result_names(step, row.shape[1])]
-        for name in {step.id, place_name(step.id), *names} & calc.values.keys():
-            kept = calc.values[name]
-            calc.values[name] = np.where(missed[:, None], None if kept.dtype == object else np.nan, kept)
 
 
 def without(calc: Calculation, name: str) -> tuple[Array, str]:

@@ -90,7 +90,6 @@ def calculate(
             named_parts.name_row(calc, step)
         for stand_in, residual in extreme_checks.searched(calc) if only is None else ():
             prove(calc, stand_in, residual, roots_integrals.SAMPLE_TOLERANCE)
-        facts.blank(calc)
     return calc
 
 
@@ -265,7 +264,9 @@ RUN: dict[type[Step], Callable[[Calculation, Any], None]] = {
     Value: _value, Choice: _choice, Root: _root, Abscissa: _abscissa, Breakpoints: _breakpoints, Crossings: _crossings,
     Reduction: _reduction, Accumulated: _accumulated, Derivative: _derivative, FromCurve: _from_curve,
     CurvePeriod: _curve_period, Computed: _computed, MadeCurve: _made_curve,
-    Prepared: _prepared, ComputedCurve: plain_code.curve, PartCurves: plain_code.part_curves, PartNames: plain_code.part_names, PartTable: lambda _, __: None, Fact: facts.judge,
+    Prepared: _prepared, ComputedCurve: plain_code.curve, PartCurves: plain_code.part_curves,
+    PartNames: plain_code.part_names, PartTable: lambda _, __: None,
+    Fact: facts.judge,
     Require: feasibility.require, Clash: feasibility.clash,
     Total: part_rows.total, Neighbour: part_rows.neighbour, Running: part_rows.running, Part: part_rows.part, Lookup: part_rows.lookup,
     Pick: part_rows.pick, Interpolated: interpolation.interpolated,

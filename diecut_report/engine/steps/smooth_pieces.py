@@ -7,6 +7,8 @@ from pathlib import Path
 from diecut_report.contract.steps import Value
 from diecut_report.engine.calculation import Calculation, Unproven
 from diecut_report.engine.numerics import switches
+from diecut_report.engine.numerics.decisions import Decision
+from diecut_report.engine.numerics.switching import JumpFault
 from diecut_report.expressions import Node, substitute, written
 from diecut_report.quantities.formatting import told
 
@@ -22,7 +24,7 @@ def require(calc: Calculation, asking: str, curve: str) -> None:
         calc.flaws[variant] = asking, words
 
 
-def _words(calc: Calculation, found: switches.JumpFault) -> str:
+def _words(calc: Calculation, found: JumpFault) -> str:
     curve, axis = calc.steps.get(found.curve), calc.steps[calc.axis[found.curve]]
     assert curve is not None
     place = f"{axis.symbol} = {told(found.place, axis.unit)}"
@@ -31,14 +33,14 @@ def _words(calc: Calculation, found: switches.JumpFault) -> str:
     if found.decision is None:
         return (f"{where} takes a flag of its smooth pieces (per_piece) that is not constant within one, as at {place}: "
                 f"it would be that of the middle of the piece; {fix}, or take per_piece away")  # fmt: skip
-    step, link, _ = found.decision
+    step, link = found.decision.step, found.decision.link
     name = f"the formula {link.formula.__name__}" if isinstance(step, Value) else "the choice"
     decided = written(_in_symbols(calc, found.decision))
     of = "its formula" if step.id == curve.id else f"{name} of {step.id} ({Path(step.at).name})"
     return f"{where} jumps inside a smooth piece, at {place}, where {decided} changes in {of}; {fix}"
 
 
-def _in_symbols(calc: Calculation, decision: switches.Decision) -> Node:
+def _in_symbols(calc: Calculation, decision: Decision) -> Node:
     """What decides, with the symbols of the quantities."""
     names = decision.link.names
     shown = {

@@ -59,7 +59,8 @@ def profile_height(station: Station, tilt: Array, distance: Array) -> Array:
     arc = radius - np.sqrt(np.maximum(radius**2 - distance**2, 0.0))
     cosine = np.cos(tilt)
     chord = radius - (flat + distance * np.sin(tilt)) / np.where(cosine > 0, cosine, 1.0)
-    return np.where(cosine > 0, np.maximum(arc, chord), arc)
+    found: Array = np.where(cosine > 0, np.maximum(arc, chord), arc)
+    return found
 
 
 def lowest_distance(station: Station, tilt: Array) -> Array:

@@ -22,7 +22,7 @@ STARTS = 40  # engagement angles that are tried over a turn
 ZOOMS = 3  # times that the worst of them is looked at closer
 ACROSS = np.linspace(-1, 1, 9)  # places of a closer look
 PIECES = 3  # of a slip, in which its time is integrated
-CLOSE = {"xatol": 1e-14, "xrtol": 4e-16, "fatol": 0.0, "frtol": 0.0}
+CLOSE: Any = {"xatol": 1e-14, "xrtol": 4e-16, "fatol": 0.0, "frtol": 0.0}
 _SHARES = ((np.arange(PIECES)[:, None] + (NODES + 1) / 2) / PIECES).ravel()
 _PARTS = np.tile(WEIGHTS / 2 / PIECES, PIECES)
 

@@ -18,7 +18,9 @@ TO_SERIES = (_VALUES * WEIGHTS[:, None]).T * (np.arange(COUNT)[:, None] + 0.5)  
 LOOK = np.linspace(-1, 1, 41)  # where a piece is looked at before its greatest value is looked at closer
 _LOOK_VALUES = legendre.legvander(LOOK, COUNT)
 NARROW = 1e-12  # a piece that is no wider holds nothing
+BESIDE = 1e-11  # as near as a place is to an edge that it is taken to be on
 CLOSER = np.linspace(-1, 1, 17)
+RESOLVED = 1e-12  # of the greatest coefficient, below which a term is nothing
 LOOKS = 5  # each makes the place of an extreme closer by 1/8
 
 Function = Callable[[Array, Array, Array], Array]
@@ -59,11 +61,23 @@ class PieceRows:
     def _keys(self) -> Array:
         return self.machine + self.low
 
-    def at(self, places: Array, machine: Array) -> Array:
-        """Return values at places (rows, points) in [0, 1) of the machine (rows,) of each row; at an edge those of the piece behind it."""
-        inside = np.minimum(places, 1 - NARROW)
+    def at(self, places: Array, machine: Array, middles: Array | None = None) -> Array:
+        """Return values at places (rows, points) in [0, 1] of the machine (rows,) of each row.
+
+        At an edge it is that of the piece on the side of ``middles`` (rows, points or 1), by default of the piece behind it.
+        """
+        towards = 0.0 if middles is None else np.clip(middles - places, -BESIDE, BESIDE)
+        inside = np.minimum(places + towards, 1 - NARROW)
         piece = np.searchsorted(self._keys, machine[:, None] + inside, side="right") - 1
-        return _clenshaw(self.series[piece], 2 * (inside - self.low[piece]) / self.width[piece] - 1)
+        return _clenshaw(self.series[piece], 2 * (places - self.low[piece]) / self.width[piece] - 1)
+
+    @property
+    def is_resolved(self) -> bool:
+        """Return whether the series follow the curves to rounding: their last terms are nothing beside the greatest value."""
+        size = np.zeros(self.count)
+        np.fmax.at(size, self.machine, np.abs(self.series).max(axis=1))
+        last = np.abs(self.series[:, -3:]).max(axis=1)
+        return not (last > RESOLVED * size[self.machine]).any()
 
     def split(self, parts: Array) -> PieceRows:
         """Return the same with each piece in so many parts."""

@@ -18,7 +18,7 @@ from diecut_report.mechanics.timing.piece_rows import PieceRows
 from diecut_report.mechanics.timing.turn_samples import Curve, TurnSamples
 
 TURN = 2 * np.pi
-PIECES = 8  # of a line's turn, at least
+PIECES = (8, 16, 32)  # of a line's turn, at least: so many are tried
 
 
 @dataclass(frozen=True, eq=False)
@@ -36,7 +36,22 @@ class ShaftCurve:
     def at(self, angle: Array, middle: Array, machine: Array | None) -> Array:
         """Return the curve at main-shaft angles (rows, points), each in the smooth piece of its middle; machines by default all."""
         places, inside, _, machine = self.turned(angle, middle, machine)
-        return self.function(places, inside, machine)
+        return self.of_shares(places, inside, machine)
+
+    def of_shares(self, places: Array, inside: Array, machine: Array) -> Array:
+        """Return the curve at shares of the own turn: from its series, which were sampled once, where they follow it."""
+        if self.pieces is None:
+            return self.function(places, inside, machine)
+        return self.pieces.at(places, machine, inside)
+
+    @cached_property
+    def pieces(self) -> PieceRows | None:
+        """Return the curve as series over the own turn of all machines; None where it is not smooth between its breakpoints."""
+        for pieces in PIECES:
+            found = PieceRows.of(self.function, self.breakpoints, pieces)
+            if found.is_resolved:
+                return found
+        return None
 
     def turned(self, angle: Array, middle: Array, machine: Array | None) -> tuple[Array, Array, Array, Array]:
         """Return shares of the own turn for angles and middles, the whole turns before them, and the machines."""
@@ -50,7 +65,7 @@ class ShaftCurve:
     @property
     def samples(self) -> TurnSamples:
         """Return the curve over its own turn."""
-        return TurnSamples(self.function, self.breakpoints)
+        return TurnSamples(self.of_shares, self.breakpoints)
 
     def joints(self, period: Array, more: Array | None = None) -> Array:
         """Return the main-shaft angles of its breakpoints, and of more shares, inside the common period (machines, 1); NaN for none."""
@@ -94,10 +109,10 @@ class Consumer:
         turns, count = float(self.torque.turns), len(self.efficiency)
 
         def carried(share: Array, middle: Array, machine: Array) -> Array:
-            return turns * with_losses(self.torque.function(share, middle, machine), self.efficiency[machine])
+            return turns * with_losses(self.torque.of_shares(share, middle, machine), self.efficiency[machine])
 
         own = np.broadcast_to(self.torque.breakpoints, (count, self.torque.breakpoints.shape[1]))
-        return PieceRows.of(carried, np.concatenate([own, self._reversals], axis=1), PIECES)
+        return PieceRows.of(carried, np.concatenate([own, self._reversals], axis=1), PIECES[0])
 
     def joints(self, period: Array) -> Array:
         """Return the main-shaft angles where its torque is not smooth."""

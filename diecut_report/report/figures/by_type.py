@@ -16,6 +16,9 @@ from diecut_report.report.i18n import Catalogue
 DRAW: dict[str, Callable[..., Any]] = {"plot": plot, "chart": chart, "polar": polar, "bars": bars, "drawing": drawing}
 
 
-def render(figure: Mapping[str, Any], curves: Mapping[str, Any], words: Catalogue, key: str) -> Svg:
-    """A figure of the results; ``key`` keeps its ids apart from those of the report's other figures."""
-    return drawn(partial(DRAW[figure["type"]], figure, curves, words), figure["title"], key)
+def render(
+    figure: Mapping[str, Any], curves: Mapping[str, Any], words: Catalogue, key: str, *, small: bool = False
+) -> Svg:
+    """A figure of the results; ``key`` keeps its ids apart from those of the report's other figures; ``small`` for a sketch."""
+    sized = {"small": True} if small and figure["type"] == "drawing" else {}
+    return drawn(partial(DRAW[figure["type"]], figure, curves, words, **sized), figure["title"], key)

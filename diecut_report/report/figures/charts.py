@@ -22,7 +22,7 @@ Data = Mapping[str, Any]
 Array = NDArray[Any]
 LEFT, RIGHT, TOP = 46.0, 10.0, 6.0  # points
 FOOT, NAMED_FOOT = 8.0, 34.0  # below a diagram: without and with its numbers and their title
-HEIGHTS = {1: 205.0, 2: 150.0}  # of a diagram, by the number of diagrams; more share a page
+HEIGHTS = {1: 140.0, 2: 104.0, 3: 86.0}  # of a diagram, by the number of diagrams; more share a page
 PAGE = 650.0  # no chart is higher
 
 
@@ -41,7 +41,7 @@ def _sheet(panels: list[PanelData], words: Catalogue) -> Figure:
     feet = [NAMED_FOOT if one.across != two.across else FOOT for one, two in pairwise(panels)]
     feet.append(NAMED_FOOT)
     room = (PAGE - TOP - sum(feet) - HEAD * len(panels)) / len(panels)
-    height = min(HEIGHTS.get(len(panels), 118.0), room)
+    height = min(HEIGHTS.get(len(panels), 68.0), room)
     wide = WIDTH - LEFT - RIGHT
     diagrams = [Diagram(panel, wide, height) for panel in panels]
     for diagram in diagrams[1:]:

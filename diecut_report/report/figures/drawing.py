@@ -36,13 +36,14 @@ ROLES: dict[str, dict[str, Any]] = {
 }
 HEAD, STOUT = 5.5, 0.28  # of arrows, and what its strokes add to the head
 SMALLER = (1.0, 0.87, 0.75, 0.64, 0.5)  # how much smaller a drawing is tried, so that its texts find places
+SKETCH = (0.6, 0.5)
 WORTH = 25.0  # what stands in the way of texts, for which the drawing is rather made a step smaller
 
 
-def drawing(figure: Mapping[str, Any], _curves: Mapping[str, Any], words: Catalogue) -> Figure:
-    """The shapes of a drawing, as large as the page lets them be, with a scale bar unless it is a schematic."""
+def drawing(figure: Mapping[str, Any], _curves: Mapping[str, Any], words: Catalogue, *, small: bool = False) -> Figure:
+    """The shapes of a drawing, as large as the page (a sketch: half of it) lets them be, with a scale bar unless it is a schematic."""
     best, least = None, np.inf
-    for step, share in enumerate(SMALLER):
+    for step, share in enumerate(SKETCH if small else SMALLER):
         sheet = Shapes(figure, words, LARGEST * share)
         sheet.finish()
         cost = sheet.crowded + step * WORTH

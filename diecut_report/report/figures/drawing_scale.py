@@ -15,8 +15,8 @@ from diecut_report.report.figures.style import FONT_SIZE, LINE, MM, marked, text
 Array = NDArray[Any]
 Shape = Mapping[str, Any]
 PAGE = np.array([172 * MM, 222 * MM])  # what a figure may take, in points
-LARGEST = np.array([150 * MM, 104 * MM])  # of the shapes, their texts come beside them
-TALL = 1.55  # a tall drawing may be so many times as high as others
+LARGEST = np.array([130 * MM, 80 * MM])  # of the shapes, their texts come beside them
+TALL = 1.2  # a tall drawing may be so many times as high as others
 SIZES = (FONT_SIZE, 8.0, 7.5, 7.0, 6.5)  # of text in boxes, the least last
 PAD = np.array([8.0, 6.0])  # between a box and its text, both sides together
 ROOMY = 2.5  # a schematic gives its boxes no more than so many times what their text needs

@@ -15,7 +15,7 @@ from diecut_report.expressions import Array
 from diecut_report.results.assumed import MOVES
 from diecut_report.results.summary import governing
 from diecut_report.study.definition.base_inputs import Input, UnknownPath, find_input
-from diecut_report.study.execution.press_batch import CalculatedVariants, NotOnArrays, calculated
+from diecut_report.study.execution.press_batch import CalculatedVariants, Mixed, NotOnArrays, calculated
 from diecut_report.study.execution.result_columns import verdicts
 
 Data = Mapping[str, Any]
@@ -33,7 +33,7 @@ def moves(config: Config, results: Data) -> list[dict[str, Any]]:
         return []
     try:
         made = _calculated(config, dict(_columns(list(varied.values()))), 1 + 2 * len(varied))
-    except NotOnArrays:  # not of one mechanism that could be left out: the order is that of the file
+    except (NotOnArrays, Mixed):  # not of one mechanism that could be left out: the order is that of the file
         return []
     try:
         return list(_moved(made, list(varied), names))

@@ -194,7 +194,9 @@ def _changed(instance: Instance | None, values: Mapping[Input, Any]) -> Instance
         taken = taken_anew(declared_as, taken, data, own, place)
         data, place, bases = taken.data, taken.place, {**bases, **taken.bases}
     model = in_form(declared_as, [key for key, value in data.items() if value is not None])
-    return Instance(instance.name, model, data, place, instance.mechanism, bases, taken)
+    changed = Instance(instance.name, model, data, place, instance.mechanism, bases, taken)
+    changed.derived = instance.derived - {str(key[0]) for key in own}
+    return changed
 
 
 def _put(data: Any, key: KeyPath, value: Any) -> None:

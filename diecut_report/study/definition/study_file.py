@@ -134,9 +134,7 @@ class _StudyReader:
             self.problems.append(self.place.problem(("base",), words))
             return None
         try:
-            base = load_config(
-                path, self.discovery, only_named=True, find=lambda name: self._find(self._beside_base(name))
-            )
+            base = load_config(path, self.discovery, find=lambda name: self._find(self._beside_base(name)))
         except UserError as error:
             words = "the base has problems, which are reported with its own name; what is varied in it is judged when they are fixed."
             self.problems += [self.place.problem(("base",), words), *error.problems]

@@ -13,7 +13,7 @@ from diecut_report.conditions.arithmetic import WITHOUT_VALUE
 from diecut_report.config.discovery import said
 from diecut_report.config.instances import Instance
 from diecut_report.config.loader import Config
-from diecut_report.config.targets import Target
+from diecut_report.config.targets import Node, Target
 from diecut_report.config.validation import declared, validate
 from diecut_report.config.yaml_tree import KeyPath
 from diecut_report.contract.inputs import SI, Quantity, flatten
@@ -24,7 +24,7 @@ from diecut_report.errors import PluginError, Problem
 from diecut_report.expressions import Array
 from diecut_report.quantities.plausible import without_rounding
 from diecut_report.results.press_run import Run
-from diecut_report.results.taken_over import Absent, number, output
+from diecut_report.results.taken_over import Absent, number, output, require_facts
 from diecut_report.study.definition.base_inputs import Input, with_values
 
 Values = Mapping[Input, Array | str]
@@ -39,6 +39,14 @@ class NotOnArrays(Exception):
 
     def __str__(self) -> str:
         return f"plugin {self.kind!r}: {self.words}"
+
+
+class Mixed(Exception):
+    """Report variants that are calculated in another way than the rest, as they lack something that the rest have: a mask of them."""
+
+    def __init__(self, rows: Array) -> None:
+        super().__init__()
+        self.rows = rows
 
 
 @contextmanager
@@ -71,7 +79,7 @@ class CalculatedVariants:
 def calculated(base: Config, values: Values, count: int) -> CalculatedVariants:
     """Calculate all mechanisms of the base for so many variants: numbers as arrays of shape (count,), SI; texts the same for all.
 
-    Raises ``NotOnArrays`` where a plugin cannot take arrays.
+    Raises ``NotOnArrays`` where a plugin cannot take arrays, ``Mixed`` where not all variants are calculated in the same way.
     """
     data = {asked: SI(given, asked.unit, asked.path) if asked.unit else given for asked, given in values.items()}
     config, problems = with_values(base, data)
@@ -105,6 +113,7 @@ class _Rows(Run):
         """A result of all variants; where it is absent that is the variant's reason."""
         if target.is_mechanism or calculation.axis.get(name) in calculation.domains:
             return output(calculation, name, target)
+        require_facts(calculation, name, target)
         if target.phase_unit:
             return self._phase(calculation, name, target)
         column = number(calculation, name)
@@ -122,6 +131,24 @@ class _Rows(Run):
         without = [row for row in range(self.variants.count) if not handle.intervals(row)]
         self._reason(without, f"${{{target.path}}} does not apply to this machine.")
         return handle
+
+    def _with_values(self, instance: Instance, own: dict[Node, Target]) -> dict[str, Any]:
+        """The block's data without what partners do not have: some of the variants alone are told."""
+        data = super()._with_values(instance, own)
+        for key in instance.derived & data.keys():
+            value = data[key].value if isinstance(data[key], SI) else None
+            if isinstance(value, np.ndarray) and value.ndim:
+                self._told_apart(np.isnan(value))
+                if np.isnan(value).all():
+                    del data[key]
+        return data
+
+    def _told_apart(self, rows: Array) -> None:
+        """Mixed where some of the variants that can exist are among the rows, and some are not."""
+        known = np.ones(self.variants.count, dtype=bool)
+        known[list(self.variants.reasons)] = False
+        if (rows & known).any() and (~rows & known).any():
+            raise Mixed(rows)
 
     def _validated(self, name: str, instance: Instance, data: dict[str, Any]) -> bool:
         """Judge the columns by the bounds of their keys; the block then holds arrays that are sound."""
@@ -179,6 +206,8 @@ class _Rows(Run):
         self.calculations[name] = found
         for row, (key, message) in found.flaws.items():
             self._reason([row], _told(instance, key, message))
+        for missed in found.withheld.values():
+            self._told_apart(missed)
 
     def _alone(self, name: str, instance: Instance, fault: Impossible | Unproven) -> None:
         """A single variant that cannot exist."""

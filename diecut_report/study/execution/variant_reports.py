@@ -90,7 +90,7 @@ def _write(place: ReportPlace, report: VariantReport) -> dict[str, str]:
     """Write a report; the plugins that broke in it, and why."""
     discovery = Discovery([Path(plugin) for plugin in place.plugins])
     config = variant_config(place.directory, report.variant, discovery, f"{report.variant}.yaml")
-    outcome = pipeline.report(config, discovery, lambda _: None, place.directory / FOLDER, list(FORMATS), None)
+    outcome = pipeline.report(config, discovery, lambda _: None, place.directory / FOLDER, list(FORMATS))
     return {error.kind: error.message for error in outcome.broken}
 
 

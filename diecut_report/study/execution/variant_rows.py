@@ -14,7 +14,7 @@ from diecut_report.expressions import Array
 from diecut_report.results.unchecked import NOT_CHECKED
 from diecut_report.study.definition.base_inputs import Input
 from diecut_report.study.execution import result_columns
-from diecut_report.study.execution.press_batch import CalculatedVariants, NotOnArrays, calculated
+from diecut_report.study.execution.press_batch import CalculatedVariants, Mixed, NotOnArrays, calculated
 
 TOGETHER = 1024  # variants that are calculated at a time: fewer cost more per variant, more take more memory
 Given = Mapping[Input, Array | list[str]]
@@ -74,6 +74,9 @@ def _group(base: Config, numbers: Mapping[Input, Array], texts: Mapping[Input, A
         variants = calculated(base, {**numbers, **texts}, len(chosen))
         _kept(variants, rows, chosen)
         variants.release()
+    except Mixed as mixed:
+        for alike in (mixed.rows, ~mixed.rows):
+            _group(base, {asked: values[alike] for asked, values in numbers.items()}, texts, rows, chosen[alike])
     except NotOnArrays as cause:
         if len(chosen) == 1:
             rows.errors[chosen] = str(cause)

@@ -17,10 +17,10 @@ from diecut_report.mechanics.timing.clearance import Station
 from diecut_report.mechanics.timing.engagement import inertia_at_crank
 from diecut_report.mechanics.timing.intervals import Intervals, complement
 from diecut_report.mechanics.timing.lines import DrivenLine
-from diecut_report.mechanics.timing.torque_sum import Curve, LineCurve
 from diecut_report.results.press_run import compute
 from tests.configs import MECHANISMS
 from tests.machines import number
+from tests.mechanics.timing.torque_sum import Curve, LineCurve
 
 COMMON = Fraction(2)  # two sheets
 PERIOD = 4 * np.pi

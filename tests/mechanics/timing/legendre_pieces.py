@@ -1,4 +1,4 @@
-"""A curve as a Legendre series on each of its smooth pieces: means, extremes, roots and running integrals follow exactly from it."""
+"""A curve of one machine as Legendre series: means, extremes, roots and integrals follow from their roots, another way than the program's."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What all lines take from the main shaft together: mean, rms, extremes, energy that a flywheel and the lines themselves store.
+"""Another way to what all lines take from the main shaft together: mean, rms, extremes, energy that a flywheel and the lines themselves store.
 
 A torque M at a line's own shaft is i·M·η^(−sgn M) at the main shaft, i turns of the line a turn of the main shaft: losses add
 where the shaft gives power, and take away where the line gives it back.
@@ -14,9 +14,9 @@ from math import ceil
 import numpy as np
 
 from diecut_report.expressions import Array
-from diecut_report.mechanics.timing.bracketed import sign_changes
-from diecut_report.mechanics.timing.legendre_pieces import LegendrePieces, split, unique_edges
 from diecut_report.mechanics.timing.lines import DrivenLine
+from tests.mechanics.timing.bracketed import sign_changes
+from tests.mechanics.timing.legendre_pieces import LegendrePieces, split, unique_edges
 
 TURN = 2 * np.pi
 WIDEST = np.pi / 8  # of a piece, in the angle of the line that turns fastest

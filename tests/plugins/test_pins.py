@@ -1,0 +1,70 @@
+"""The pins of a press's linkage, as shafts under the forces of its joints: those of 5 mm fail, and the report says what would hold."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import pytest
+
+from diecut_report.config.discovery import Discovery
+from diecut_report.config.loader import load_config
+from diecut_report.results.document import document
+from diecut_report.results.press_run import compute
+from tests.configs import EXAMPLES, saved
+
+ELEMENTS = next(path for path in EXAMPLES if path.stem == "flat_cylinder_elements").read_text(encoding="utf-8")
+PINS = ("crank_pin", "rocker_pin")
+GIVEN = "diameter: {value: 32 mm, basis: assumed}"
+
+
+def press(tmp_path_factory: pytest.TempPathFactory, diameter: str) -> dict[str, Any]:
+    """The press with pins of one diameter."""
+    assert ELEMENTS.count(GIVEN) == len(PINS)
+    file = saved(tmp_path_factory.mktemp("pins"), ELEMENTS.replace(GIVEN, diameter))
+    found: dict[str, Any] = document(compute(load_config(file, Discovery([])), lambda _: None))
+    return found
+
+
+@pytest.fixture(scope="module")
+def thin(tmp_path_factory: pytest.TempPathFactory) -> dict[str, Any]:
+    return press(tmp_path_factory, "diameter: 5 mm")
+
+
+def failed(results: dict[str, Any], name: str) -> dict[str, str]:
+    """The messages of the checks that fail."""
+    return {
+        check["id"]: check["message"] for check in results["mechanisms"][name]["checks"] if check["status"] == "fail"
+    }
+
+
+def test_a_press_with_pins_of_five_millimetres_fails_for_its_pins(thin: dict[str, Any]) -> None:
+    elements = {
+        name: data["status"]
+        for name, data in thin["mechanisms"].items()
+        if data["kind"] in ("shaft", "gear_pair", "parallel_key")
+    }
+    assert {name for name, status in elements.items() if status == "fail"} == set(PINS)
+    assert all(set(failed(thin, name)) == {"fatigue", "yield"} for name in PINS)
+    assert thin["status"] == "fail"
+
+
+@pytest.mark.parametrize("name", PINS)
+def test_the_stress_of_a_pin_is_that_of_a_beam_in_the_middle(thin: dict[str, Any], name: str) -> None:
+    force = 9994.35  # N, the greatest of the coupler, as the method's worked example has it
+    expected = force * 60e-3 / 4 * 32 / (3.141592653589793 * 5e-3**3)  # F l/4 over π d³/32
+    assert thin["mechanisms"][name]["outputs"]["von_mises_max"]["value"] == pytest.approx(expected, rel=1e-5)
+
+
+def test_pins_that_have_grown_as_the_report_says_hold(
+    thin: dict[str, Any], tmp_path_factory: pytest.TempPathFactory
+) -> None:
+    words = [message for name in PINS for message in failed(thin, name).values()]
+    growth = max(float(message.split("fillet radii ")[1].split(" times")[0]) for message in words)
+    thick = press(tmp_path_factory, f"diameter: {5 * growth} mm")
+    assert all(not failed(thick, name) for name in PINS)
+
+
+def test_pins_without_a_diameter_get_the_least_that_holds(tmp_path_factory: pytest.TempPathFactory) -> None:
+    sized = press(tmp_path_factory, "bore: 0 mm")
+    sizes = [sized["mechanisms"][name]["outputs"]["section_diameter.0"]["value"] for name in PINS]
+    assert all(not failed(sized, name) for name in PINS) and all(0.015 < size < 0.032 for size in sizes)

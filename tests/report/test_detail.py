@@ -1,0 +1,293 @@
+"""Details of a report: what each holds, in which order, on how many sheets; and reports of some mechanisms alone."""
+
+from __future__ import annotations
+
+import copy
+import json
+import re
+import subprocess
+from html import unescape
+from pathlib import Path
+from typing import Any
+
+import pytest
+from PIL import Image
+from pypdf import PdfReader
+
+from diecut_report import pipeline
+from diecut_report.cli.main import main
+from diecut_report.config.discovery import Discovery
+from diecut_report.report import Rendering, html, render_html
+from diecut_report.report.figure_places import BEFORE, Place, placed, sketch
+from diecut_report.report.model import worded
+from diecut_report.report.number_format import number
+from diecut_report.report.scope import scope
+from tests.configs import EXAMPLE, LEVER, SMALL, problems, saved
+from tests.shared import once
+
+Data = dict[str, Any]
+DETAILS = ("brief", "standard", "full")
+
+
+@pytest.fixture(scope="module")
+def pages() -> dict[str, str]:
+    """The sample without its figures as HTML in each detail."""
+    from tests.report.made_results import sample
+
+    found = {}
+    for detail in DETAILS:
+        results = sample() | {"report": {"detail": detail}}
+        for mechanism in (*results["mechanisms"].values(), *results["comparisons"].values()):
+            mechanism["figures"] = []
+        found[detail] = render_html(results)
+    return found
+
+
+def _words(page: str) -> str:
+    return re.sub(r"\s+", " ", unescape(re.sub(r"<[^>]*>", "", page[page.index("<main>") :])))
+
+
+def _headings(page: str) -> list[str]:
+    return [_words("<main>" + found) for found in re.findall(r"<h[23][^>]*>(.*?)</h[23]>", page)]
+
+
+def _shown(text: str) -> str:
+    return re.sub(r"\s+", " ", number(worded(text)))
+
+
+# what each detail holds
+def test_without_a_word_the_report_is_standard(plain: Data, pages: dict[str, str]) -> None:
+    del plain["report"]
+    assert render_html(plain) == pages["standard"]
+
+
+def test_brief_has_the_verdict_what_fails_and_key_results_but_no_calculation(
+    pages: dict[str, str], plain: Data
+) -> None:
+    words = _words(pages["brief"])
+    failing = [c for m in plain["mechanisms"].values() for c in m.get("checks", ()) if c["status"] == "fail"]
+    assert failing and all(check["title"] in words for check in failing)
+    assert "Governing check" in words and "Key results" in words
+    assert "<math" not in pages["brief"] and "Inputs" not in words and "Configuration as given" not in words
+
+
+@pytest.mark.parametrize("detail", ["standard", "full"])
+def test_every_output_is_in_the_text(pages: dict[str, str], plain: Data, detail: str) -> None:
+    words = _words(pages[detail])
+    for data in (*plain["mechanisms"].values(), *plain["comparisons"].values()):
+        for name, row in data.get("outputs", {}).items():
+            assert _shown(row["display"]["text"]) in words, name
+            assert row["description"] in words, name
+
+
+def test_standard_has_each_check_of_a_chapter_once_and_full_has_all(pages: dict[str, str], plain: Data) -> None:
+    title = plain["mechanisms"]["cylinder"]["checks"][0]["title"]
+    of_a = {detail: page[page.index('id="m-A"') : page.index('id="m-B"')] for detail, page in pages.items()}
+    chapter = {detail: _words("<main>" + page) for detail, page in of_a.items()}
+    assert chapter["standard"].count(title) == 1
+    assert "Configuration as given" in _headings(pages["full"])[-1]
+    assert not {"5 Appendix", "5.4 Configuration as given"} & set(_headings(pages["standard"]))
+    assert {"5 Appendix", "5.2 Curves", "5.3 Errata of the sources"} <= set(_headings(pages["full"]))
+
+
+def test_formulas_have_the_same_numbers_in_standard_and_full(pages: dict[str, str]) -> None:
+    steps = {detail: re.findall(r'id="eq-([A-Z.\d]+)"', pages[detail]) for detail in DETAILS[1:]}
+    assert steps["standard"] == steps["full"] and len(steps["full"]) > 5
+
+
+def test_a_result_that_its_step_prints_stands_in_no_table_of_standard(plain: Data) -> None:
+    plain["report"] = {"detail": "standard"}
+    chapters = {part.name: part for part in Rendering(plain).material.document.chapters}
+    items = [item for s in plain["mechanisms"]["cylinder"]["sections"] for item in s["items"]]
+    steps = {item["id"]: item["result"]["text"] for item in items if "result" in item and "id" in item}
+    outputs = plain["mechanisms"]["cylinder"]["outputs"]
+    left = [row["description"] for name, row in outputs.items() if steps.get(name) != row["display"]["text"]]
+    assert [row.description for row in chapters["cylinder"].outputs] == left
+
+
+def test_contents_come_before_the_summary_on_paper(plain: Data) -> None:
+    from diecut_report.report.pdf import Paper
+
+    material = Rendering(plain).material
+    page = html.filled(material, Paper(material), "print")
+    assert page.index("toc-title") < page.index('id="summary"') < page.index('id="press"') < page.index('id="m-A"')
+
+
+def test_nothing_in_any_detail_leads_to_what_is_not_there(pages: dict[str, str]) -> None:
+    for detail, page in pages.items():
+        targets = set(re.findall(r' id="([^"]+)"', page))
+        assert {link for link in re.findall(r'href="#([^"]+)"', page) if link not in targets} == set(), detail
+
+
+def test_tokens_are_words_in_print() -> None:
+    assert [worded(text) for text in ("cast_iron", "modified_trapezoidal", "polynomial_345", "SPA", "1.2e-05", "a_B c")] == [
+        "cast iron", "modified trapezoidal", "polynomial 3-4-5", "SPA", "1.2e-05", "a_B c",
+    ]  # fmt: skip
+
+
+def test_unknown_details_are_refused_in_words(tmp_path: Path, capfd: pytest.CaptureFixture[str]) -> None:
+    text = LEVER.replace("press:", "report: {detail: breif}\npress:", 1)
+    assert problems(tmp_path, text) == [
+        "3:18: report.detail: is “breif” (did you mean 'brief'?); allowed: brief, standard, full"
+    ]
+    assert main(["report", str(saved(tmp_path, LEVER)), "--detail", "ful"]) == 2
+    assert "'ful' is not a detail (did you mean 'full'?); known: brief, standard, full." in capfd.readouterr().err
+
+
+# mechanisms alone
+def test_a_report_of_one_mechanism_keeps_its_letter_and_has_a_verdict_of_its_own(plain: Data) -> None:
+    plain["report"]["only"] = ["drive"]
+    document = Rendering(plain).material.document
+    assert [(part.name, part.letter) for part in document.chapters] == [("drive", "B")]
+    assert {row.mechanism for row in document.checks} <= {"drive"}
+    assert document.status == plain["mechanisms"]["drive"]["status"]
+    assert any(f"1 of the {len(plain['mechanisms'])} mechanisms" in note for note in document.notes)
+
+
+def test_a_comparison_is_told_where_all_that_it_compares_is(plain: Data) -> None:
+    between = plain["comparisons"]["compared-cylinder-train"]["between"]
+    for names, told in ((between, 1), (between[:1], 0)):
+        whole = scope(plain | {"report": {"detail": "full", "only": names}})
+        assert len(whole.results["comparisons"]) == told
+
+
+def test_what_a_left_out_mechanism_assumes_is_left_out(plain: Data) -> None:
+    paths = ["press.productivity", "mechanisms.drive.force", "mechanisms.train.speed"]
+    plain["summary"] = {"assumed": paths, "moves": [{"path": paths[2], "check": "train.x", "change": 0.1}]}
+    whole = scope(plain | {"report": {"only": ["drive"]}})
+    assert (whole.results["summary"]["assumed"], whole.results["summary"]["moves"]) == (paths[:2], [])
+
+
+def test_only_names_that_the_configuration_has(tmp_path: Path, capfd: pytest.CaptureFixture[str]) -> None:
+    config = saved(tmp_path, SMALL)
+    assert main(["report", str(config), "--only", "b", "-o", str(tmp_path / "out")]) == 2
+    assert "--only 'b' is not a mechanism; the mechanisms: clutch." in capfd.readouterr().err
+    assert main(["report", str(config), "--only", " , "]) == 2
+    assert "no mechanism is named" in capfd.readouterr().err
+    assert not (tmp_path / "out").exists()
+
+
+def test_results_tell_how_the_report_was_asked_for(tmp_path: Path) -> None:
+    config = saved(tmp_path, SMALL)
+    asked = pipeline.AskedReport(detail="brief", only=("clutch",))
+    pipeline.report(config, Discovery([]), lambda _: None, tmp_path, ("json",), asked)
+    assert json.loads((tmp_path / "press.json").read_text("utf-8"))["report"] == {"detail": "brief", "only": ["clutch"]}
+
+
+# figures
+def _mechanism(*figures: Data) -> Data:
+    sections = [
+        {"items": [{"id": "a"}, {"id": "b"}]},
+        {"items": [{"id": "c"}, {"type": "note"}, {"id": "d"}, {"id": "e"}]},
+    ]
+    return {"sections": sections, "figures": list(figures)}
+
+
+def _figure(kind: str, *shows: str, **more: Any) -> Data:
+    return {"type": kind, "shows": list(shows)} | more
+
+
+def test_a_figure_follows_the_last_step_of_the_section_that_gives_most_of_what_it_shows() -> None:
+    plot, early = _figure("plot", "a", "c", "d"), _figure("bars", "b", "input")
+    found = placed("A", _mechanism(plot, early))
+    assert [(each.place, each.number, each.figure) for each in found] == [
+        (Place(0, 1), "A.1", early),
+        (Place(1, 2), "A.2", plot),
+    ]
+
+
+def test_a_drawing_of_inputs_opens_the_calculation_and_a_chart_of_them_closes_it() -> None:
+    found = placed("A", _mechanism(_figure("chart", "x"), _figure("drawing", "x")))
+    assert [each.place for each in found] == [Place(0, BEFORE), Place(1, 3)]
+    assert placed("A", {"sections": [], "figures": [_figure("plot")]})[0].place == Place(0, BEFORE)
+
+
+def test_the_sketch_is_a_drawing_to_scale_where_there_is_one() -> None:
+    figures = placed(
+        "A", _mechanism(_figure("plot", "a"), _figure("drawing", "b", schematic=True), _figure("drawing", "c"))
+    )
+    assert [each.number for each in sketch(figures)] == ["A.3"] and [each.number for each in sketch(figures[:2])] == [
+        "A.2"
+    ]
+    assert sketch(figures[:1]) == []
+
+
+def test_figures_stand_among_the_steps(html: str) -> None:
+    numbers = re.findall(r'<figure id="fig-([A-Z.\d]+)"', html)
+    assert numbers and sorted(numbers, key=lambda n: (n[0], int(n[2:]))) == numbers
+    assert "Figures" not in _headings(html)
+
+
+def test_calculated_figures_tell_what_they_show(small_report: Path) -> None:
+    results = json.loads((small_report / "small.json").read_text("utf-8"))
+    for figure in results["mechanisms"]["clutch"]["figures"]:
+        assert figure["shows"], figure["id"]
+
+
+# sheets
+def test_brief_is_short_on_paper(plain: Data, tmp_path: Path) -> None:
+    (tmp_path / "brief.pdf").write_bytes(Rendering(plain | {"report": {"detail": "brief"}}).pdf())
+    assert len(PdfReader(tmp_path / "brief.pdf").pages) <= 3
+
+
+@pytest.fixture(scope="session")
+def press_sheets(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """The PDFs of the example press in each detail."""
+
+    def make(folder: Path) -> None:
+        pipeline.report(EXAMPLE, Discovery([]), lambda _: None, folder, ("json",))
+        results = json.loads((folder / f"{EXAMPLE.stem}.json").read_text("utf-8"))
+        for detail in DETAILS:
+            asked = copy.copy(results) | {"report": {"detail": detail}}
+            (folder / f"{detail}.pdf").write_bytes(Rendering(asked).pdf())
+
+    return once(tmp_path_factory, "press_sheets", make)
+
+
+@pytest.mark.nightly
+def test_the_press_has_four_sheets_in_brief_and_about_half_of_all_in_standard(press_sheets: Path) -> None:
+    count = {detail: len(PdfReader(press_sheets / f"{detail}.pdf").pages) for detail in DETAILS}
+    assert count["brief"] <= 4
+    assert count["standard"] <= 82  # it was 146 before there were details
+    assert count["standard"] < 0.75 * count["full"]
+
+
+@pytest.mark.nightly
+def test_every_output_of_the_press_is_on_paper(press_sheets: Path) -> None:
+    results = json.loads((press_sheets / f"{EXAMPLE.stem}.json").read_text("utf-8"))
+    for detail in DETAILS[1:]:
+        command = ["pdftotext", "-raw", str(press_sheets / f"{detail}.pdf"), "-"]
+        text = subprocess.run(command, capture_output=True, text=True, check=True).stdout
+        words = re.sub(r"\s+", " ", text)
+        for data in results["mechanisms"].values():
+            missing = [name for name, row in data["outputs"].items() if _shown(row["display"]["text"]) not in words]  # fmt: skip
+            assert missing == [], detail
+
+
+@pytest.mark.nightly
+@pytest.mark.parametrize("detail", DETAILS)
+def test_no_sheet_is_under_a_third_full_but_the_last_of_a_chapter(
+    press_sheets: Path, tmp_path: Path, detail: str
+) -> None:
+    """How far down a sheet its ink reaches, measured on the drawn sheet."""
+    file = press_sheets / f"{detail}.pdf"
+    subprocess.run(["pdftoppm", "-r", "20", "-gray", str(file), str(tmp_path / "p")], check=True)
+    sheets = sorted(tmp_path.glob("*.pgm"))
+    lasts = _before_chapters(file) if detail == "full" else {len(sheets)}
+    assert [n for n, sheet in enumerate(sheets, 1) if n not in lasts and _reach(sheet) < 1 / 3] == []
+
+
+def _before_chapters(file: Path) -> set[int]:
+    """The last sheets of the chapters: those before a sheet on which one begins, and the last one."""
+    reader = PdfReader(file)
+    begun = [reader.get_destination_page_number(entry) for entry in reader.outline if not isinstance(entry, list)]
+    return {*begun, len(reader.pages)} - {0}
+
+
+def _reach(sheet: Path) -> float:
+    """How much of the room for text, from below the title block, is used."""
+    image = Image.open(sheet)
+    top = round(image.height * 22 / 297)
+    body = image.crop((0, top, image.width, image.height)).point(lambda grey: 255 * (grey < 200))
+    box = body.getbbox()
+    return 0.0 if box is None else box[3] / body.height
