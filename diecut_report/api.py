@@ -6,7 +6,7 @@ from diecut_report.contract.binding import Binding, Bound, ByText, bind
 from diecut_report.contract.chapters import Chapter, Steps
 from diecut_report.contract.charts import chart_panel, fill, level, line, mark, vertical
 from diecut_report.contract.checks import Check
-from diecut_report.contract.code_steps import ComputedCurve, PartNames, PartTable
+from diecut_report.contract.code_steps import ComputedCurve, Fact, PartCurves, PartNames, PartTable
 from diecut_report.contract.figures import (
     BarGroup,
     Bars,
@@ -45,7 +45,7 @@ from diecut_report.contract.inputs import (
     Text,
 )
 from diecut_report.contract.listings import Cell, ListedColumn
-from diecut_report.contract.mechanism import Comparison, Erratum, Mechanism, Partner, Profile, Source
+from diecut_report.contract.mechanism import Comparison, CurveTable, Erratum, Mechanism, Partner, Profile, Source
 from diecut_report.contract.options import case
 from diecut_report.contract.part_steps import Interpolated, Lookup, Neighbour, Part, Pick, Running, Total
 from diecut_report.contract.phase_inputs import GivenMechanism, GivenPhase, MechanismInput, PhaseInput
@@ -94,10 +94,10 @@ __all__ = [
     "GRAVITY", "POINTS", "Abscissa", "Accumulated", "Annotated", "BarGroup", "Bars", "Binding", "Block", "Bound", "Breakpoints", "ByText",
     "Case", "Cell", "Chapter", "Chart", "Check", "Choice", "Clash", "Comparison", "Computed", "ComputedCurve", "Constant", "Crossings",
     "Curve",
-    "CurveInput", "CurvePeriod", "Derivative", "Drawing", "Erratum", "Extremes", "Formula", "FromCurve", "FromPress", "GivenMechanism",
+    "CurveInput", "CurvePeriod", "CurveTable", "Derivative", "Drawing", "Erratum", "Extremes", "Fact", "Formula", "FromCurve", "FromPress", "GivenMechanism",
     "GivenPhase", "InOtherUnit", "Inputs", "Interpolated", "Level", "ListedColumn", "Lookup", "MadeCurve", "Mark", "Mechanism", "MechanismInput",
     "Neighbour",
-    "OneOf", "Panel", "Part", "PartNames", "PartTable", "Partner", "Phase", "PhaseInput", "Pick", "Plot", "Point", "Polar", "Prepared",
+    "OneOf", "Panel", "Part", "PartCurves", "PartNames", "PartTable", "Partner", "Phase", "PhaseInput", "Pick", "Plot", "Point", "Polar", "Prepared",
     "Profile", "Quantity", "Reduction", "Refusal", "Require", "Root", "Running",
     "Series", "Shape", "Source", "Span", "Spectrum", "SpectrumLine", "StandardFault", "StandardSeries", "StandardTable", "Step", "Steps",
     "Text", "Total", "Value", "Varying", "View", "Words", "arc", "arccos", "arrow", "as_angle", "as_number", "below", "bind", "box", "case",
