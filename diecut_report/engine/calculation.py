@@ -22,6 +22,7 @@ from diecut_report.engine.numerics.chebyshev import PieceSeries
 from diecut_report.engine.numerics.curve_evaluation import MANY, Curves
 from diecut_report.engine.numerics.domain import Domain
 from diecut_report.engine.numerics.sample_cache import SampleCache
+from diecut_report.engine.sampled_curve import SampledCurve
 from diecut_report.expressions import Array
 
 Found = tuple[Array, Array, Array]  # of an extreme: value, place, middle of its piece
@@ -64,10 +65,24 @@ class CurveHandle:
         return self.abscissa.id
 
     def values(self, share: Array, middle: Array, rows: Array | None) -> Array:
-        """Return values at shares of the period, (rows, points), each in the smooth piece of its middle (a share too); rows: default all."""
+        """Return values at shares of the period, shape (rows, points), each in the smooth piece of its middle (a share too).
+
+        ``rows`` are variants (default all).
+        """
+        if np.shape(middle) != np.shape(share):
+            return self.calculation.sample(self.curve_id, *self._places(share, middle, rows), rows)
+        sampler = self.calculation.asked_again(self.calculation.axis[self.curve_id], share, middle, rows)
+        if sampler is None:
+            x, mid = self._places(share, middle, rows)
+            sampler = self.calculation.sampler(self.curve_id, x, mid, rows)
+            self.calculation.ask(share, middle, rows, sampler)
+        found: Array = np.broadcast_to(sampler[self.curve_id], sampler.x.shape)
+        return found
+
+    def _places(self, share: Array, middle: Array, rows: Array | None) -> tuple[Array, Array]:
+        """Places of the abscissa, and the middles of their pieces."""
         period = self.domain.period_of(rows)
-        inner = self.domain.middle_of(middle * period, rows)
-        return self.calculation.sample(self.curve_id, share * period, inner, rows)
+        return share * period, self.domain.middle_of(middle * period, rows)
 
     def gain(self, rows: Array | None) -> Array:
         """Return what the curve has more at the end of its period than at its start, shape (rows, 1); rows as in ``values``."""
@@ -85,31 +100,6 @@ class CurveHandle:
     def joints(self) -> Array:
         """Return those of them where the curve jumps or has a corner."""
         return self.domain.joints[:, 1:-1] / self.domain.period
-
-
-@dataclass(frozen=True)
-class SampledCurve:
-    """Hold a curve given as equally spaced values over one period; between them it runs straight."""
-
-    numbers: tuple[float, ...]
-
-    def values(self, share: Array, middle: Array, rows: Array | None) -> Array:
-        """Return values at shares of the period, of any shape (all variants have the same curve, which has no jumps)."""
-        places = np.arange(len(self.numbers) + 1) / len(self.numbers)
-        found: Array = np.interp(share % 1, places, [*self.numbers, self.numbers[0]])
-        return found
-
-    @property
-    def breakpoints(self) -> Array:
-        """Return the given places, where the curve has its corners, as shares of the period, shape (1, places)."""
-        return np.arange(len(self.numbers))[None, :] / len(self.numbers)
-
-    joints = breakpoints
-    cycle = "list"  # of values, over whatever takes it
-
-    def gain(self, rows: Array | None) -> Array:
-        """Return nothing: the curve closes."""
-        return np.zeros((1, 1))
 
 
 class Side(NamedTuple):
@@ -148,6 +138,9 @@ class Calculation:
         self._tables: dict[str, SampleCache] = {}
         self.extremes: dict[tuple[str, float], tuple[Array, Found]] = {}  # with the pieces they are of
         self.judged: dict[tuple[str, int], Side] = {}  # for each check on a curve and its sides, where it governs
+        self._asked: tuple[Any, Any, Any, CurveSampler] | None = (
+            None  # where a curve was asked for last, by another mechanism
+        )
         self.flaws: dict[int, tuple[str, str]] = {}  # for each impossible variant the key and the message
         self.withheld: dict[str, Array] = {}  # for each fact, which variants do not meet it
 
@@ -194,6 +187,16 @@ class Calculation:
             self._kept[use, axis] = domain.edges, sampler
         return sampler
 
+    def ask(self, share: Array, middle: Array, rows: Array | None, sampler: CurveSampler) -> None:
+        """Keep where another mechanism asks for a curve: it often asks for several at the same places."""
+        self._asked = share, middle, rows, sampler
+
+    def asked_again(self, axis: str, share: Array, middle: Array, rows: Array | None) -> CurveSampler | None:
+        """Return the curves at places that are the very arrays that were asked for last; None where they are others."""
+        *places, sampler = self._asked or (None, None, None, None)
+        is_same = all(a is b for a, b in zip(places, (share, middle, rows), strict=True))
+        return sampler if sampler is not None and is_same and sampler.axis == axis else None
+
     def curve_samples(self, curve: str) -> Array:
         """Return a curve at the samples of its abscissa, shape (variants, points)."""
         sampler = self.kept(
@@ -210,6 +213,7 @@ class Calculation:
 
     def release(self) -> None:
         """Forget the curves at all places: they hold this calculation, and no reference count would ever free them."""
+        self._asked = None
         self._tables.clear()
         self.searches.clear()
         self._kept.clear()
