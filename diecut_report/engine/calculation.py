@@ -13,14 +13,14 @@ from diecut_report.contract.binding import Binding, bound
 from diecut_report.contract.code_steps import ComputedCurve
 from diecut_report.contract.inputs import Meta, Quantity, fields, texts_given
 from diecut_report.contract.mechanism import Mechanism
-from diecut_report.contract.phase_inputs import TakenWhole
 from diecut_report.contract.steps import Accumulated, Choice, Derivative, FromCurve, Step, Value
 from diecut_report.contract.unit_variants import in_form
 from diecut_report.engine import named_quantity
-from diecut_report.engine.input_rows import alone, row
+from diecut_report.engine.input_rows import column
 from diecut_report.engine.numerics.chebyshev import PieceSeries
 from diecut_report.engine.numerics.curve_evaluation import MANY, Curves
 from diecut_report.engine.numerics.domain import Domain
+from diecut_report.engine.numerics.recent_places import RecentPlaces
 from diecut_report.engine.numerics.sample_cache import SampleCache
 from diecut_report.engine.sampled_curve import SampledCurve
 from diecut_report.expressions import Array
@@ -69,20 +69,14 @@ class CurveHandle:
 
         ``rows`` are variants (default all).
         """
-        if np.shape(middle) != np.shape(share):
-            return self.calculation.sample(self.curve_id, *self._places(share, middle, rows), rows)
-        sampler = self.calculation.asked_again(self.calculation.axis[self.curve_id], share, middle, rows)
-        if sampler is None:
-            x, mid = self._places(share, middle, rows)
-            sampler = self.calculation.sampler(self.curve_id, x, mid, rows)
-            self.calculation.ask(share, middle, rows, sampler)
-        found: Array = np.broadcast_to(sampler[self.curve_id], sampler.x.shape)
-        return found
-
-    def _places(self, share: Array, middle: Array, rows: Array | None) -> tuple[Array, Array]:
-        """Places of the abscissa, and the middles of their pieces."""
-        period = self.domain.period_of(rows)
-        return share * period, self.domain.middle_of(middle * period, rows)
+        calc, axis, period = self.calculation, self.calculation.axis[self.curve_id], self.domain.period_of(rows)
+        x, mid = share * period, self.domain.middle_of(middle * period, rows)
+        if calc.count > 1 and np.shape(middle) != np.shape(share):
+            return calc.sample(self.curve_id, x, mid, rows)
+        which = None if calc.count == 1 else rows
+        return calc.recent.at(axis, (x, mid, which), lambda: CurveSampler(proxy(calc), axis, x, mid, which)).over(
+            self.curve_id
+        )
 
     def gain(self, rows: Array | None) -> Array:
         """Return what the curve has more at the end of its period than at its start, shape (rows, 1); rows as in ``values``."""
@@ -120,7 +114,7 @@ class Calculation:
         self.is_partial = False  # whether only some steps are run: messages may lack their numbers
         self.given = frozenset(inputs) | texts_given(inputs) | mechanism.facts
         self.meta: dict[str, Meta] = dict(fields(in_form(mechanism.inputs, self.given)))
-        self.inputs: dict[str, Any] = {name: _column(value, variants) for name, value in inputs.items()}
+        self.inputs: dict[str, Any] = {name: column(value, variants) for name, value in inputs.items()}
         self.steps: dict[str, Step] = {step.id: step for _, step in mechanism.active(self.given)}
         self.axis = mechanism.axes(self.given)
         self.values: dict[str, Array] = {}
@@ -135,12 +129,10 @@ class Calculation:
         self._kept: dict[tuple[str, str], tuple[Array, CurveSampler]] = {}  # curves already known at often used places
         self.ahead: dict[str, tuple[str, ...]] = {}  # for each abscissa the curves that coming steps ask for
         self.searches: dict[str, Any] = {}  # for each abscissa, of jumps in its pieces (switches)
+        self.recent = RecentPlaces[CurveSampler](8 if variants == 1 else 1)  # of many machines they are large
         self._tables: dict[str, SampleCache] = {}
         self.extremes: dict[tuple[str, float], tuple[Array, Found]] = {}  # with the pieces they are of
         self.judged: dict[tuple[str, int], Side] = {}  # for each check on a curve and its sides, where it governs
-        self._asked: tuple[Any, Any, Any, CurveSampler] | None = (
-            None  # where a curve was asked for last, by another mechanism
-        )
         self.flaws: dict[int, tuple[str, str]] = {}  # for each impossible variant the key and the message
         self.withheld: dict[str, Array] = {}  # for each fact, which variants do not meet it
 
@@ -165,8 +157,7 @@ class Calculation:
         """Return a curve at x (rows, points), each x being in the smooth piece whose middle is given; rows are variants (default all)."""
         if self.count >= MANY and rows is not None and middle.shape == (len(x), 1):
             return Curves(self, self.axis[curve], [curve], middle[:, 0], rows).at(x)[0]
-        found = self.sampler(curve, x, middle, rows)[curve]
-        return np.broadcast_to(found, np.broadcast_shapes(np.shape(found), np.shape(x)))
+        return self.sampler(curve, x, middle, rows).over(curve)
 
     def sampler(self, curve: str, x: Array, middle: Array, rows: Array | None = None) -> CurveSampler:
         """Return all curves over the abscissa of this one, at x as in ``sample``: a mapping from id to values."""
@@ -187,16 +178,6 @@ class Calculation:
             self._kept[use, axis] = domain.edges, sampler
         return sampler
 
-    def ask(self, share: Array, middle: Array, rows: Array | None, sampler: CurveSampler) -> None:
-        """Keep where another mechanism asks for a curve: it often asks for several at the same places."""
-        self._asked = share, middle, rows, sampler
-
-    def asked_again(self, axis: str, share: Array, middle: Array, rows: Array | None) -> CurveSampler | None:
-        """Return the curves at places that are the very arrays that were asked for last; None where they are others."""
-        *places, sampler = self._asked or (None, None, None, None)
-        is_same = all(a is b for a, b in zip(places, (share, middle, rows), strict=True))
-        return sampler if sampler is not None and is_same and sampler.axis == axis else None
-
     def curve_samples(self, curve: str) -> Array:
         """Return a curve at the samples of its abscissa, shape (variants, points)."""
         sampler = self.kept(
@@ -213,10 +194,10 @@ class Calculation:
 
     def release(self) -> None:
         """Forget the curves at all places: they hold this calculation, and no reference count would ever free them."""
-        self._asked = None
         self._tables.clear()
         self.searches.clear()
         self._kept.clear()
+        self.recent.forget()
 
     def on_search_grid(self, curve: str) -> Array:
         """Return a curve on the search grid of its smooth pieces, shape (variants, pieces, points); zero in pieces without a width."""
@@ -240,6 +221,11 @@ class CurveSampler:
         if name not in self.known:
             self.known[name] = self._compute(name)
         return self.known[name]
+
+    def over(self, name: str) -> Array:
+        """Return a curve, or a number, at each of the places."""
+        found = self[name]
+        return np.broadcast_to(found, np.broadcast_shapes(np.shape(found), np.shape(self.x)))
 
     def _compute(self, name: str) -> Array:
         step = self.owner.curves.get(name)
@@ -282,18 +268,6 @@ class CurveSampler:
         taken = [n if isinstance(n, float) else known[n] if n in known else self[n] for n in link.takes]
         found: Array = link.formula.function(*taken)
         return found
-
-
-def _column(value: Any, variants: int) -> Any:
-    """An input as an array (variants, 1) or (variants, parts); texts, flags and curves stay as they are."""
-    match value:
-        case bool() | str() | CurveHandle() | SampledCurve() | TakenWhole():
-            return value
-        case tuple():
-            return row(value, variants)
-        case np.ndarray():
-            return np.ascontiguousarray(value, dtype=float).reshape(variants, -1)
-    return alone(value, variants)
 
 
 __all__ = ["Calculation", "CurveHandle", "CurveSampler", "Impossible", "SampledCurve", "Side", "Unproven"]
