@@ -131,10 +131,8 @@ class _SvgOperators:
         """Draw nothing: it is named, and used elsewhere."""
 
 
-_WAYS = {f"{SVG}{tag}": way for tag, way in (
-    ("g", _SvgOperators.group), ("path", _SvgOperators.path), ("use", _SvgOperators.use), ("text", _SvgOperators.text), ("title", _SvgOperators.nothing),
-    ("defs", _SvgOperators.nothing),
-)}  # fmt: skip
+_NAMED = {"g": "group", "path": "path", "use": "use", "text": "text", "title": "nothing", "defs": "nothing"}
+_WAYS = {f"{SVG}{tag}": getattr(_SvgOperators, way) for tag, way in _NAMED.items()}
 
 
 def _styled(node: ElementTree.Element, style: Style) -> Style:
