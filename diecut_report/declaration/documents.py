@@ -91,7 +91,11 @@ def _exports(mechanism: Mechanism, names: DeclaredNames) -> Iterator[Fault]:
         if isinstance(profile, CurveTable):
             kinds = [names.kinds(name) for name in profile.columns]
             if kinds != [{"abscissa"}]:
-                yield Fault(profile.at, subject, f'has columns={profile.columns!r}; name the abscissa of its curves alone: ("angle",)')
+                yield Fault(
+                    profile.at,
+                    subject,
+                    f'has columns={profile.columns!r}; name the abscissa of its curves alone: ("angle",)',
+                )
             continue
         if len(profile.columns) < 2:
             yield Fault(profile.at, subject, "has fewer than two columns; name x and y at least")
