@@ -13,6 +13,7 @@ from diecut_report.config.own_tables import Find
 from diecut_report.config.yaml_tree import Tree
 from diecut_report.errors import PluginError, Problem, UserError, nearest
 from diecut_report.limits import MAX_PRINTED_MECHANISMS
+from diecut_report.results.changes import changes
 from diecut_report.results.results_file import encoded, results_text
 
 if TYPE_CHECKING:
@@ -98,14 +99,17 @@ def calc(
 
 def report(
     config: Source, discovery: Discovery, tell: Tell, folder: Path, formats: Sequence[str], asked: AskedReport = AS_CONFIGURED,
-    weigh: Weigh | None = None,
+    weigh: Weigh | None = None, former: Data | None = None,
 ) -> ReportOutcome:  # fmt: skip
     """The report in the asked formats, as ``NAME.html``, ``NAME.pdf``, ``NAME.json`` in the folder, and the exports beside it.
 
-    ``weigh`` tells which of the assumed values move a governing check.
+    ``weigh`` tells which of the assumed values move a governing check; ``former`` are the results of a former revision, since which
+    changes are told and marked.
     """
     results, broken, places = _calculated(config, discovery, tell, formats, weigh, only=asked.only)
     asked.told(results)
+    if former is not None:
+        results["changes"] = changes(former, results)
     contents, undrawn = rendered(results, formats, tell)
     files_beside, unwritten = exported(results, tell)
     contents |= files_beside

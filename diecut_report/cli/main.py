@@ -161,6 +161,12 @@ config_argument = click.argument("config", type=click.Path(path_type=Path))
     "--language", metavar="LANGUAGE", callback=_language, help="Language of the report, in place of the project's."
 )
 @click.option(
+    "--previous",
+    metavar="FILE",
+    type=click.Path(path_type=Path),
+    help="A former report, results, configuration or variant: mark what changed since, and add a page of it.",
+)
+@click.option(
     "--detail",
     metavar="DETAIL",
     callback=_detail,
@@ -174,6 +180,7 @@ def report(
     folder: Path,
     formats: list[str],
     language: str | None,
+    previous: Path | None,
     detail: str | None,
     only: tuple[str, ...],
     strict: bool,
@@ -182,12 +189,14 @@ def report(
 ) -> int:
     """Calculate and write NAME.html, NAME.pdf and NAME.json."""
     from diecut_report import pipeline
+    from diecut_report.exchange.sides import side
     from diecut_report.study.analysis.assumed import moves
 
     with Progress(quiet) as progress, redirect_stdout(sys.stderr):
         discovery = Discovery(folders)
-        asked = pipeline.AskedReport(language, detail, only)
-        outcome = pipeline.report(source(config, discovery), discovery, progress, folder, formats, asked, moves)
+        former = None if previous is None else side(source(previous, discovery), discovery, progress)[0]
+        given, asked = source(config, discovery), pipeline.AskedReport(language, detail, only)
+        outcome = pipeline.report(given, discovery, progress, folder, formats, asked, moves, former)
     if not quiet:
         tell(f"written: {path}" for path in outcome.written)
     return _verdict(outcome, quiet, strict)

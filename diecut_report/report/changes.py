@@ -134,3 +134,53 @@ def _code(rows: Sequence[Data]) -> Iterator[tuple[str, str, str]]:
     for row in rows:
         old, new = (f"{version} ({digest[:SHORT]})" for version, digest in (row["old"], row["new"]))
         yield row["name"], old, new
+
+
+def marked(results: Data) -> Data:
+    """Return results whose rows tell what stood there before, where the results tell what changed; else as they are."""
+    if "changes" not in results:
+        return results
+    told = Marks(results["changes"])
+    press = results["press"] | {"fields": [told.row(row["path"], row) for row in results["press"]["fields"]]}
+    mechanisms = {name: told.mechanism(name, data) for name, data in results["mechanisms"].items()}
+    return {**results, "press": press, "mechanisms": mechanisms}
+
+
+class Marks:
+    """What stood before at each place that changed, in words for a mark in the margin."""
+
+    def __init__(self, changes: Data) -> None:
+        self.quantities = {row["path"]: _before(row["old"]) for row in (*changes["inputs"], *changes["outputs"])}
+        self.checks = {(row["mechanism"], row["id"]): _status_before(row["old"]) for row in changes["checks"]}
+
+    def row(self, path: str, row: Data) -> Data:
+        """Return a row of the results, with what stood there before."""
+        return {**row, "changed": self.quantities[path]} if path in self.quantities else row
+
+    def mechanism(self, name: str, data: Data) -> Data:
+        """Return the results of a mechanism, with what stood there before."""
+        groups = {
+            group: {key: self.row(f"{name}.{key}", row) for key, row in data[group].items()}
+            for group in ("inputs", "outputs")
+        }
+        keys = {check["id"]: (name, check["id"]) for check in data["checks"]}
+        checks = [
+            {**check, "changed": self.checks[keys[check["id"]]]} if keys[check["id"]] in self.checks else check
+            for check in data["checks"]
+        ]
+        sections = [
+            {**section, "items": [self.row(f"{name}.{item.get('id', '')}", item) for item in section["items"]]}
+            for section in data["sections"]
+        ]
+        return {**data, **groups, "checks": checks, "sections": sections}
+
+
+def _before(side: Data | None) -> str:
+    return DASH if side is None else quantity(side["display"]["text"], side["display"]["unit"]) or DASH
+
+
+def _status_before(side: Data | None) -> str:
+    if side is None:
+        return DASH
+    used = _used(side, ".")
+    return f"{str(side['status']).replace('_', ' ')} {used}".rstrip()

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import replace
 from typing import Any
 
 from diecut_report.report.equations import Equation, Equations
@@ -115,10 +116,7 @@ class _Filler:
     def _input(self, key: str, row: Data) -> QuantityRow:
         shown, path = quantity_row(row, self.decimal), row.get("path", "")
         typed = str(row.get("text") or (path if row["origin"] == "reference" else ""))
-        row_of = QuantityRow(
-            shown.description, shown.symbol, shown.value, shown.unit,
-            typed=typed, origin=self._origin(row["origin"], path, typed), key=key, wordy=shown.wordy,
-        )  # fmt: skip
+        row_of = replace(shown, typed=typed, origin=self._origin(row["origin"], path, typed), key=key)
         return rested(row_of, row, self.words)
 
     def _origin(self, origin: str, path: str, typed: str) -> str:
@@ -165,6 +163,7 @@ class _Filler:
             if item.get("equation") or item["type"] in ("found", "reduction", "lookup")
             else item["result"]["text"],
             notes=tuple(self._notes(item, told)),
+            changed=item.get("changed", ""),
         )
 
     def _definitions(self, item: Data) -> Iterator[Equation]:
@@ -281,6 +280,7 @@ class _Filler:
             is_sized=check.get("sized_to_limit", False) and check["status"] == "pass",
             missing=tuple(check.get("missing", ())),
             parts=self.tables.of_check(check) if "parts" in check else None,
+            changed=check.get("changed", ""),
         )
 
     def _side(self, display: Data | None) -> str:

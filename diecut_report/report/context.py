@@ -7,6 +7,7 @@ from functools import cached_property
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 from diecut_report.report.carried import CarriedFile, carried_files
+from diecut_report.report.changes import PrintedChanges, marked, printed_changes
 from diecut_report.report.document import ReportDocument, document
 from diecut_report.report.equations import Equations
 from diecut_report.report.i18n import Catalogue
@@ -43,7 +44,12 @@ class Material:
     @cached_property
     def document(self) -> ReportDocument:
         """The report's content."""
-        return document(self.results, Equations(self.words, self.typesetter.measure), self.words)
+        return document(marked(self.results), Equations(self.words, self.typesetter.measure), self.words)
+
+    @cached_property
+    def changes(self) -> PrintedChanges | None:
+        """What changed since the former revision, where the results tell that."""
+        return printed_changes(self.results["changes"], self.words) if "changes" in self.results else None
 
     @cached_property
     def carried(self) -> tuple[CarriedFile, ...]:

@@ -125,7 +125,7 @@ def document(results: Data, equations: Equations, words: Catalogue) -> ReportDoc
         assumed=assumed_line(results, words),
         detail=whole.detail,
         assumed_groups=assumed_groups(results, words) if whole.detail == BRIEF else [],
-        contents=list(_contents(chapters, words, whole.detail)),
+        contents=list(_contents(chapters, words, whole.detail, results.get("changes"))),
     )
 
 
@@ -217,9 +217,22 @@ def _sources(results: Data) -> list[tuple[str, str]]:
     return sorted((", ".join(sorted(ids)), citation) for citation, ids in found.items())
 
 
-def _contents(chapters: list[PrintedChapter], words: Catalogue, detail: str) -> Iterator[tuple[str, str, str, int]]:
+def former(changes: Data, words: Catalogue) -> str:
+    """The title of what changed since the former document, which its revision names, or its file."""
+    old, new = changes["old"], changes["new"]
+    is_revision = old["revision"] and old["revision"] != new["revision"]
+    return words.say(
+        "changes_since_revision" if is_revision else "changes_since", name=old["revision" if is_revision else "file"]
+    )
+
+
+def _contents(
+    chapters: list[PrintedChapter], words: Catalogue, detail: str, changes: Data | None
+) -> Iterator[tuple[str, str, str, int]]:
     """Anchor, number, title and depth of all that has a heading."""
     yield "summary", "1", words["summary"], 1
+    if changes:
+        yield "changes", "", former(changes, words), 1
     if detail == BRIEF:
         yield "key-results", "2", words["key_results"], 1
         yield from ((part.anchor, part.letter, part.title, 2) for part in chapters)

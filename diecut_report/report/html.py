@@ -81,11 +81,12 @@ def filled(material: Material, medium: Medium, kind: str) -> str:
     """The report's template with the document in it, for ``screen`` or ``print``."""
     document = material.document
     faces = FACES | (MATH if kind == "screen" else {})
-    style = "\n".join([_font_faces(tuple(faces.items()), FORMS[kind]), _read("report.css"), _read(f"{kind}.css")])
+    sheets = ["report", kind, *(["changes"] if material.changes else [])]
+    style = "\n".join([_font_faces(tuple(faces.items()), FORMS[kind]), *(_read(f"{name}.css") for name in sheets)])
     return _environment().get_template("report.html.j2").render(
         doc=document, t=document.words, kind=kind, style=Markup(style), policy=policy(),
         math=medium, figure=medium.figure, failed=material.failed,
-        carried=material.carried,
+        carried=material.carried, changes=material.changes,
     )  # fmt: skip
 
 

@@ -70,13 +70,14 @@ ENGLISH: dict[str, str] = {
     "csv": "{title} as a table of {n} rows: {columns}",
     "drawing_scale": "scale bar", "positive": "positive", "negative": "negative",
     # changes
-    "changes": "Changes against {name}", "changes_of": "Changes from {old} to {new}", "before": "Before", "after": "Now",
+    "changes_since": "Changes since {name}", "changes_since_revision": "Changes since revision {name}",
+    "changes_of": "Changes from {old} to {new}", "before": "Before", "after": "Now",
     "change": "Change", "changed_checks": "Checks that changed", "changed_inputs": "Inputs that changed",
     "changed_outputs": "Results that changed", "changed_mechanisms": "Mechanisms that changed", "changed_code": "What calculated",
     "following_inputs": "Inputs that follow from these", "no_changes": "Nothing changed.", "follows": "follows {path}",
     "checks_worse": "worse", "checks_better": "better", "checks_added": "new", "checks_removed": "no longer made",
     "checks_more used": "more used", "checks_less used": "less used",
-    "changed_mark": "changed; before: {old}", "marked": "What changed is marked in the margin.",
+    "changed_mark": "changed, before: {old}", "marked": "What changed is marked in the margin.",
     # programme
     "calculated_by": "Calculated by", "version": "version", "plugin": "Mechanism", "plugin_version": "Version", "kind": "Kind",
     "source_hash": "source", "extension": "Extension",

@@ -35,6 +35,7 @@ class QuantityRow:
     key: str = ""
     wordy: bool = False
     note: str = ""
+    changed: str = ""  # what stood here before, where that is another thing
 
 
 @dataclass(frozen=True)
@@ -63,6 +64,7 @@ class CheckRow:
     is_sized: bool = False
     missing: tuple[str, ...] = ()
     parts: PartsTable | None = None
+    changed: str = ""
 
     @property
     def is_made(self) -> bool:
@@ -107,6 +109,7 @@ class Item:
     table: PrintedTable | None = None
     title: str = ""
     caption: str = ""
+    changed: str = ""
 
 
 @dataclass(frozen=True)
@@ -126,6 +129,7 @@ class TableCell:
     text: str
     note: str = ""
     wordy: bool = False
+    changed: str = ""
 
 
 @dataclass(frozen=True)
@@ -240,6 +244,7 @@ def quantity_row(row: Data, decimal: str, description: str = "") -> QuantityRow:
         at=place,
         key=row.get("path", ""),
         wordy=is_words(shown["text"]) and not pretty(shown["unit"]),
+        changed=row.get("changed", ""),
     )
 
 

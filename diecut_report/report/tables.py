@@ -142,7 +142,7 @@ class Tables:
 
     def _cell(self, row: Data, told: Callable[[Data], str]) -> TableCell:
         text = row["display"]["text"]
-        return TableCell(number(worded(text), self.decimal), told(row), is_words(text))
+        return TableCell(number(worded(text), self.decimal), told(row), is_words(text), row.get("changed", ""))
 
     def _origin(self, row: Data) -> str:
         """What is to be said of an input: where it comes from, and what it rests on."""

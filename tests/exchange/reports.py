@@ -42,8 +42,9 @@ def pdf_with(files: dict[str, bytes], *, filters: tuple[str, ...] = (), password
     for name, content in sorted(files.items()):
         stream = pikepdf.Stream(pdf, b"")
         stream.write(content, filter=pikepdf.Array([pikepdf.Name(each) for each in filters]) if filters else None)
-        kinds = {"Type": pikepdf.Name("/Filespec"), "F": name, "UF": name, "EF": pikepdf.Dictionary(F=stream)}
-        names.extend([name, pdf.make_indirect(pikepdf.Dictionary(**kinds))])
+        label = pikepdf.String(name)
+        spec = pikepdf.Dictionary(Type=pikepdf.Name("/Filespec"), F=label, UF=label, EF=pikepdf.Dictionary(F=stream))
+        names.extend([label, pdf.make_indirect(spec)])
     pdf.Root.Names = pikepdf.Dictionary(EmbeddedFiles=pikepdf.Dictionary(Names=names))
     return saved_pdf(pdf, password)
 

@@ -204,3 +204,15 @@ def test_blocks_that_are_missing_are_made_at_the_place_of_their_parent() -> None
     assert changed.data == {"a": {"b": 1, "c": {"d": "2 mm"}}} and tree.data == {"a": {"b": 1}}
     assert changed.position(("a", "c", "d")) == (2, 3)
     assert changed.text == "# Changed\na:\n  b: 1\n  c:\n    d: 2 mm\n"
+
+
+def test_two_variants_are_held_against_each_other(out: Path, capfd: pytest.CaptureFixture[str]) -> None:
+    first, second = (rows(out)[number] for number in (0, 1))
+    assert main(["diff", f"{out}#0", f"{out}#1", "--format", "json", "--plugins", str(SHARES), "--quiet"]) in (0, 1)
+    found = json.loads(capfd.readouterr().out)
+    changed = {
+        row["path"]: (row["old"]["value"], row["new"]["value"]) for row in found["inputs"] if row["old"] and row["new"]
+    }
+    for path in ("mechanisms.a.share", "mechanisms.b.length"):
+        assert changed[path.removeprefix("mechanisms.")] == pytest.approx((first[path], second[path]))
+    assert found["old"]["file"] == "out-0.yaml" and found["new"]["file"] == "out-1.yaml"
