@@ -69,7 +69,7 @@ def test_press_fields_are_si_with_their_text_in_the_display_unit(tmp_path: Path)
 @pytest.mark.parametrize(
     "text",
     [
-        EXAMPLE.read_text("utf-8"),
+        pytest.param(EXAMPLE.read_text("utf-8"), marks=pytest.mark.nightly),
         FAILS + "  b: {kind: lever, force: '${a.force}', parts: [{length: 3}], load: [1, 2, 3, '${a.moment}']}\n",
     ],
 )

@@ -15,10 +15,12 @@ import pytest
 from diecut_report import pipeline
 from diecut_report.config.discovery import Discovery
 from tests.configs import EXAMPLES
-
-pytestmark = pytest.mark.wheel
+from tests.examples import few
 
 ROOT = Path(__file__).parents[1]
+AT_NIGHT = {  # the published press is calculated in tests/cli, the mended one in tests/test_mending.py; these have parts of it
+    "flat_cylinder_press", "flat_cylinder_press_mended", "flat_cylinder_elements", "flat_cylinder_mechanisms",
+}  # fmt: skip
 LISTED = ROOT / "files.txt"
 PACKAGES = tomllib.loads((ROOT / "pyproject.toml").read_text("utf-8"))["tool"]["setuptools"]["package-dir"]
 
@@ -34,6 +36,7 @@ def sources() -> Iterator[tuple[str, Path]]:
         yield from ((package, path) for path in own if "__pycache__" not in path.parts)
 
 
+@pytest.mark.wheel
 def test_every_file_of_the_sources_is_installed() -> None:
     found = list(sources())
     assert {Path(path).suffix for _, path in found} >= {".py", ".j2", ".css", ".woff2", ".json", ".yaml"}
@@ -46,12 +49,15 @@ def home(package: str) -> Path:
     return Path(import_module(package).__path__[0])
 
 
-@pytest.mark.parametrize("config", EXAMPLES, ids=lambda path: path.stem)
+@pytest.mark.parametrize(
+    "config", few(EXAMPLES, keep=lambda path: path.stem not in AT_NIGHT), ids=lambda path: path.stem
+)
 def test_an_example_is_calculated(config: Path) -> None:
     results = pipeline.calc(config, Discovery([]), lambda _: None)[0].results
     assert results["status"] in ("pass", "warn", "fail")
 
 
+@pytest.mark.wheel
 def test_the_examples_have_every_kind() -> None:
     used = {
         kind for config in EXAMPLES for kind in Discovery([]).origins if f"kind: {kind}\n" in config.read_text("utf-8")

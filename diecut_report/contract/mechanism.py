@@ -96,6 +96,11 @@ class Profile:
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
+class CurveTable(Profile):
+    """Declare that all curves over an abscissa, the only one of ``columns``, are written beside the report as a table."""
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
 class Comparison:
     """Declare what is calculated last, from the results of mechanisms of the named kinds, where a press has one of each.
 

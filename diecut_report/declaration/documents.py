@@ -6,7 +6,7 @@ import re
 from collections.abc import Iterator
 from itertools import combinations
 
-from diecut_report.contract.mechanism import Comparison, Mechanism
+from diecut_report.contract.mechanism import Comparison, CurveTable, Mechanism
 from diecut_report.contract.steps import SILENT
 from diecut_report.declaration.names import DeclaredNames
 from diecut_report.declaration.order import lacking
@@ -88,6 +88,15 @@ def _key_result(names: DeclaredNames, name: str) -> str:
 def _exports(mechanism: Mechanism, names: DeclaredNames) -> Iterator[Fault]:
     for profile in mechanism.exports:
         when, subject = When(frozenset(profile.needs)), f"export {profile.id}"
+        if isinstance(profile, CurveTable):
+            kinds = [names.kinds(name) for name in profile.columns]
+            if kinds != [{"abscissa"}]:
+                yield Fault(
+                    profile.at,
+                    subject,
+                    f'has columns={profile.columns!r}; name the abscissa of its curves alone: ("angle",)',
+                )
+            continue
         if len(profile.columns) < 2:
             yield Fault(profile.at, subject, "has fewer than two columns; name x and y at least")
         for name in profile.columns:

@@ -13,15 +13,16 @@ from diecut_report.contract.binding import Binding, bound
 from diecut_report.contract.code_steps import ComputedCurve
 from diecut_report.contract.inputs import Meta, Quantity, fields, texts_given
 from diecut_report.contract.mechanism import Mechanism
-from diecut_report.contract.phase_inputs import TakenWhole
 from diecut_report.contract.steps import Accumulated, Choice, Derivative, FromCurve, Step, Value
 from diecut_report.contract.unit_variants import in_form
 from diecut_report.engine import named_quantity
-from diecut_report.engine.input_rows import alone, row
+from diecut_report.engine.input_rows import column
 from diecut_report.engine.numerics.chebyshev import PieceSeries
 from diecut_report.engine.numerics.curve_evaluation import MANY, Curves
 from diecut_report.engine.numerics.domain import Domain
+from diecut_report.engine.numerics.recent_places import RecentPlaces
 from diecut_report.engine.numerics.sample_cache import SampleCache
+from diecut_report.engine.sampled_curve import SampledCurve
 from diecut_report.expressions import Array
 
 Found = tuple[Array, Array, Array]  # of an extreme: value, place, middle of its piece
@@ -64,10 +65,18 @@ class CurveHandle:
         return self.abscissa.id
 
     def values(self, share: Array, middle: Array, rows: Array | None) -> Array:
-        """Return values at shares of the period, (rows, points), each in the smooth piece of its middle (a share too); rows: default all."""
-        period = self.domain.period_of(rows)
-        inner = self.domain.middle_of(middle * period, rows)
-        return self.calculation.sample(self.curve_id, share * period, inner, rows)
+        """Return values at shares of the period, shape (rows, points), each in the smooth piece of its middle (a share too).
+
+        ``rows`` are variants (default all).
+        """
+        calc, axis, period = self.calculation, self.calculation.axis[self.curve_id], self.domain.period_of(rows)
+        x, mid = share * period, self.domain.middle_of(middle * period, rows)
+        if calc.count > 1 and np.shape(middle) != np.shape(share):
+            return calc.sample(self.curve_id, x, mid, rows)
+        which = None if calc.count == 1 else rows
+        return calc.recent.at(axis, (x, mid, which), lambda: CurveSampler(proxy(calc), axis, x, mid, which)).over(
+            self.curve_id
+        )
 
     def gain(self, rows: Array | None) -> Array:
         """Return what the curve has more at the end of its period than at its start, shape (rows, 1); rows as in ``values``."""
@@ -85,31 +94,6 @@ class CurveHandle:
     def joints(self) -> Array:
         """Return those of them where the curve jumps or has a corner."""
         return self.domain.joints[:, 1:-1] / self.domain.period
-
-
-@dataclass(frozen=True)
-class SampledCurve:
-    """Hold a curve given as equally spaced values over one period; between them it runs straight."""
-
-    numbers: tuple[float, ...]
-
-    def values(self, share: Array, middle: Array, rows: Array | None) -> Array:
-        """Return values at shares of the period, of any shape (all variants have the same curve, which has no jumps)."""
-        places = np.arange(len(self.numbers) + 1) / len(self.numbers)
-        found: Array = np.interp(share % 1, places, [*self.numbers, self.numbers[0]])
-        return found
-
-    @property
-    def breakpoints(self) -> Array:
-        """Return the given places, where the curve has its corners, as shares of the period, shape (1, places)."""
-        return np.arange(len(self.numbers))[None, :] / len(self.numbers)
-
-    joints = breakpoints
-    cycle = "list"  # of values, over whatever takes it
-
-    def gain(self, rows: Array | None) -> Array:
-        """Return nothing: the curve closes."""
-        return np.zeros((1, 1))
 
 
 class Side(NamedTuple):
@@ -130,7 +114,7 @@ class Calculation:
         self.is_partial = False  # whether only some steps are run: messages may lack their numbers
         self.given = frozenset(inputs) | texts_given(inputs) | mechanism.facts
         self.meta: dict[str, Meta] = dict(fields(in_form(mechanism.inputs, self.given)))
-        self.inputs: dict[str, Any] = {name: _column(value, variants) for name, value in inputs.items()}
+        self.inputs: dict[str, Any] = {name: column(value, variants) for name, value in inputs.items()}
         self.steps: dict[str, Step] = {step.id: step for _, step in mechanism.active(self.given)}
         self.axis = mechanism.axes(self.given)
         self.values: dict[str, Array] = {}
@@ -145,6 +129,7 @@ class Calculation:
         self._kept: dict[tuple[str, str], tuple[Array, CurveSampler]] = {}  # curves already known at often used places
         self.ahead: dict[str, tuple[str, ...]] = {}  # for each abscissa the curves that coming steps ask for
         self.searches: dict[str, Any] = {}  # for each abscissa, of jumps in its pieces (switches)
+        self.recent = RecentPlaces[CurveSampler](8 if variants == 1 else 1)  # of many machines they are large
         self._tables: dict[str, SampleCache] = {}
         self.extremes: dict[tuple[str, float], tuple[Array, Found]] = {}  # with the pieces they are of
         self.judged: dict[tuple[str, int], Side] = {}  # for each check on a curve and its sides, where it governs
@@ -172,8 +157,7 @@ class Calculation:
         """Return a curve at x (rows, points), each x being in the smooth piece whose middle is given; rows are variants (default all)."""
         if self.count >= MANY and rows is not None and middle.shape == (len(x), 1):
             return Curves(self, self.axis[curve], [curve], middle[:, 0], rows).at(x)[0]
-        found = self.sampler(curve, x, middle, rows)[curve]
-        return np.broadcast_to(found, np.broadcast_shapes(np.shape(found), np.shape(x)))
+        return self.sampler(curve, x, middle, rows).over(curve)
 
     def sampler(self, curve: str, x: Array, middle: Array, rows: Array | None = None) -> CurveSampler:
         """Return all curves over the abscissa of this one, at x as in ``sample``: a mapping from id to values."""
@@ -213,6 +197,7 @@ class Calculation:
         self._tables.clear()
         self.searches.clear()
         self._kept.clear()
+        self.recent.forget()
 
     def on_search_grid(self, curve: str) -> Array:
         """Return a curve on the search grid of its smooth pieces, shape (variants, pieces, points); zero in pieces without a width."""
@@ -236,6 +221,11 @@ class CurveSampler:
         if name not in self.known:
             self.known[name] = self._compute(name)
         return self.known[name]
+
+    def over(self, name: str) -> Array:
+        """Return a curve, or a number, at each of the places."""
+        found = self[name]
+        return np.broadcast_to(found, np.broadcast_shapes(np.shape(found), np.shape(self.x)))
 
     def _compute(self, name: str) -> Array:
         step = self.owner.curves.get(name)
@@ -278,18 +268,6 @@ class CurveSampler:
         taken = [n if isinstance(n, float) else known[n] if n in known else self[n] for n in link.takes]
         found: Array = link.formula.function(*taken)
         return found
-
-
-def _column(value: Any, variants: int) -> Any:
-    """An input as an array (variants, 1) or (variants, parts); texts, flags and curves stay as they are."""
-    match value:
-        case bool() | str() | CurveHandle() | SampledCurve() | TakenWhole():
-            return value
-        case tuple():
-            return row(value, variants)
-        case np.ndarray():
-            return np.ascontiguousarray(value, dtype=float).reshape(variants, -1)
-    return alone(value, variants)
 
 
 __all__ = ["Calculation", "CurveHandle", "CurveSampler", "Impossible", "SampledCurve", "Side", "Unproven"]

@@ -19,3 +19,17 @@ def row(value: tuple[Any, ...], variants: int) -> Any:
 def alone(value: Any, variants: int) -> Any:
     """Return a single input as an array (variants, 1), of which only extremes are known as these."""
     return value if isinstance(value, Extremes) else np.full((variants, 1), value, dtype=float)
+
+
+def column(value: Any, variants: int) -> Any:
+    """Return an input as an array (variants, 1) or (variants, parts); texts, flags, curves and whole mechanisms stay as they are."""
+    match value:
+        case bool() | str():
+            return value
+        case tuple():
+            return row(value, variants)
+        case np.ndarray():
+            return np.ascontiguousarray(value, dtype=float).reshape(variants, -1)
+        case int() | float() | np.number():
+            return alone(value, variants)
+    return value

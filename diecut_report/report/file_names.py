@@ -9,5 +9,6 @@ ENDINGS = ("dxf", "csv")
 
 
 def suffixes(instance: str, export: Mapping[str, Any]) -> dict[str, str]:
-    """What follows the report's name in the names of an export's files, by their endings: ``feeder.cam_1.dxf``."""
-    return {ending: f"{instance}.{export['id']}.{ending}" for ending in ENDINGS}
+    """What follows the report's name in the names of an export's files, by their endings: ``feeder.cam_1.dxf``; a table has no drawing."""
+    endings = ENDINGS[1:] if export["type"] == "table" else ENDINGS
+    return {ending: f"{instance}.{export['id']}.{ending}" for ending in endings}

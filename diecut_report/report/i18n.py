@@ -40,8 +40,7 @@ ENGLISH: dict[str, str] = {
     "no_curves": "There are no curves.", "no_errata": "No errata of the sources touch this press.",
     "only_part": "This report shows {n} of the {total} mechanisms of the press; the verdict of the whole press is: {status}.",
     "governing_check": "Governing check", "needs": "needs {keys}", "assumed_values": "Assumed values",
-    "more_in": "The calculation itself stands in the report with more detail.", "detail_brief": "brief", "see_figure": "see figure {n}",
-    "errata_told": "{n} errata of the sources touch this press; the full report lists them.",
+    "more_in": "The calculation itself stands in the report with more detail.",
     "configuration": "Configuration as given", "appendix": "Appendix", "warnings": "Warnings",
     # tables
     "mechanism": "Mechanism", "check": "Check", "demand": "Demand", "limit": "Limit", "margin": "Margin",

@@ -16,6 +16,7 @@ from diecut_report.report.equations import Equation
 from diecut_report.report.html import filled
 from diecut_report.report.model import Item
 from diecut_report.report.page_engine import HTML, Attachment, URLFetcher
+from diecut_report.report.pdf_figures import FigurePicture, NotDrawn
 from diecut_report.report.pdf_math import Picture
 
 BESIDE_WIDTH = 28.0  # em of a formula that stands beside its description
@@ -29,7 +30,7 @@ class Paper:
 
     def __init__(self, material: Material) -> None:
         self.material = material
-        self.pictures: dict[str, Picture] = {}
+        self.pictures: dict[str, Picture | FigurePicture] = {}
 
     def display(self, equation: Equation) -> Markup:
         """A typeset formula: its picture, and transparent text of it for search."""
@@ -56,7 +57,18 @@ class Paper:
         return Markup("<span class=lin>{}</span>").format(text) + image
 
     def figure(self, number: str, title: str) -> Markup:
-        """A figure as an image."""
+        """A figure as outlines with searchable text under it; as an image where it holds what cannot be drawn so."""
+        drawing = self.material.figures[number]
+        try:
+            picture = FigurePicture(*drawing)
+        except NotDrawn:
+            return self._image(number, title)
+        address = f"{FORMULA}{len(self.pictures)}"
+        self.pictures[address] = picture
+        image = Markup('<img src="{}" alt="{}">').format(address, title)
+        return Markup("<span class=lin>{}</span>").format(" · ".join(picture.texts)) + image
+
+    def _image(self, number: str, title: str) -> Markup:
         data = base64.b64encode(self.material.figures[number].text.encode()).decode()
         return Markup('<img src="data:image/svg+xml;base64,{}" alt="{}">').format(data, title)
 

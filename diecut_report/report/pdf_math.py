@@ -20,11 +20,11 @@ _PLACED = re.compile(
 _DRAWN = re.compile(r"<(?:use|rect|path|line|polygon|circle|ellipse|polyline)\b")
 
 
-class _OperatorPen(BasePen):  # type: ignore[misc]  # fontTools has no types
+class OperatorPen(BasePen):  # type: ignore[misc]  # fontTools has no types
     """Writes a path as PDF operators; quadratic curves come as cubic ones."""
 
-    def __init__(self) -> None:
-        super().__init__()
+    def __init__(self, glyphs: Any = None) -> None:
+        super().__init__(glyphs)
         self.operators: list[str] = []
 
     def _moveTo(self, pt: tuple[float, float]) -> None:  # noqa: N802
@@ -79,7 +79,7 @@ def _operator(found: re.Match[str], glyphs: dict[str, str]) -> str:
 
 @cache
 def _outline(_name: str, path: str) -> str:
-    pen = _OperatorPen()
+    pen = OperatorPen()
     parse_path(path, pen)
     return " ".join(pen.operators)
 

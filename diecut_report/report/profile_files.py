@@ -52,11 +52,12 @@ def written(results: Data) -> tuple[dict[str, bytes], list[Fault]]:
 
 
 def _files(name: str, mechanism: Data, export: Data) -> dict[str, bytes]:
-    if export["type"] != "profile":
+    if export["type"] not in ("profile", "table"):
         raise ValueError(f"{name}.{export['id']}: no file is known for the type {export['type']}")
     curves = {column: mechanism["curves"][column] for column in (export["abscissa"], *export["columns"])}
     files = suffixes(name, export)
-    return {files["dxf"]: profile_drawing(curves, export), files["csv"]: table(curves)}
+    drawn = {files["dxf"]: profile_drawing(curves, export)} if export["type"] == "profile" else {}
+    return drawn | {files["csv"]: table(curves)}
 
 
 def table(curves: Mapping[str, Data]) -> bytes:

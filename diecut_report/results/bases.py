@@ -2,16 +2,25 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
+from typing import NamedTuple
 
 from diecut_report.config.basis import ASSUMED, GIVEN, Basis, weakest
-from diecut_report.config.instances import slots
+from diecut_report.config.instances import Instance, slots
 from diecut_report.config.loader import Config
 from diecut_report.config.model import PRESS
 from diecut_report.config.targets import Node, Target
+from diecut_report.config.yaml_tree import KeyPath
 from diecut_report.contract.sections import taken
 from diecut_report.engine import Calculation
 from diecut_report.engine.steps.rerun import needed
+
+
+class _Slots(NamedTuple):
+    """Hold the inputs of a mechanism: the keys of those that are given, and of all with the names that its steps know them by."""
+
+    given: frozenset[KeyPath]
+    named: Sequence[tuple[str, KeyPath]]
 
 
 class Bases:
@@ -20,6 +29,7 @@ class Bases:
     def __init__(self, config: Config, calculations: Mapping[str, Calculation]) -> None:
         self.config, self.calculations = config, calculations
         self._known: dict[Node, str] = {}
+        self._slots_of: dict[str, _Slots] = {}
         self._linked: dict[Node, list[Target]] = {}
         for node, target in config.links.items():
             for length in range(2, len(node) + 1):  # also of the whole list that it stands in
@@ -44,9 +54,15 @@ class Bases:
 
     def _is_given(self, node: Node) -> bool:
         instance = self.config.instances[str(node[0])]
-        return instance is not None and any(
-            slot.is_given for slot in slots(instance.model, instance.data) if slot.key == node[1:]
-        )
+        return instance is not None and node[1:] in self._slots(instance).given
+
+    def _slots(self, instance: Instance) -> _Slots:
+        if instance.name not in self._slots_of:
+            found = list(slots(instance.model, instance.data))
+            given = frozenset(slot.key for slot in found if slot.is_given)
+            names = [(".".join(part for part in slot.key if isinstance(part, str)), slot.key) for slot in found]
+            self._slots_of[instance.name] = _Slots(given, names)
+        return self._slots_of[instance.name]
 
     def _target(self, target: Target) -> str:
         if target.result is None:
@@ -65,9 +81,7 @@ class Bases:
             if step.id in names
             for name in taken(step)
         }
-        for slot in slots(instance.model, instance.data):
-            if ".".join(part for part in slot.key if isinstance(part, str)) in used:
-                yield (instance.name, *slot.key)
+        yield from ((instance.name, *key) for name, key in self._slots(instance).named if name in used)
 
 
 def assumed(config: Config) -> list[str]:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Any
 
-from diecut_report.contract.mechanism import Profile
+from diecut_report.contract.mechanism import CurveTable, Profile
 from diecut_report.engine import Calculation
 from diecut_report.engine.drawable import curve_named, guarded
 
@@ -17,10 +17,14 @@ def exports(calc: Calculation) -> list[Data]:
 
 
 def _export(calc: Calculation, profile: Profile) -> Data:
-    said = {"id": profile.id, "title": profile.title, "type": "profile"}
+    is_table = isinstance(profile, CurveTable)
+    said = {"id": profile.id, "title": profile.title, "type": "table" if is_table else "profile"}
     columns = list(profile.columns)
 
     def made() -> Data:
+        if is_table:
+            own = [name for name, step in calc.curves.items() if step.output and calc.axis[name] == columns[0]]
+            return said | {"abscissa": curve_named(calc, columns[0]), "columns": own}
         abscissa = curve_named(calc, columns[0])
         for name in columns:
             curve_named(calc, name, abscissa)

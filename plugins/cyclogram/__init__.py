@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from diecut_report.api import Check, Mechanism, Source
+from diecut_report.api import Check, CurveTable, Mechanism, Source
 from diecut_report.plugins.cyclogram import steps
 from diecut_report.plugins.cyclogram.figures import FIGURES
 from diecut_report.plugins.cyclogram.inputs import Cyclogram
@@ -20,7 +20,7 @@ MECHANISM = Mechanism(
     summary="The main shaft drives all mechanisms; one turn of it is a sheet. Each mechanism's phases are laid over the common period, "
     "and interlocks say what must lie within what, so that the sheet rests while it is cut and the carriages pass while the cylinder "
     "leaves them room. The offset of one line may be found, the one with the greatest margins. The torques of all lines are added at "
-    "the main shaft.",
+    "the main shaft, where they all follow the press.",
     inputs=Cyclogram,
     chapters=(steps.shaft, steps.interlocks, steps.station, steps.motions, steps.energies, steps.torques),
     key_results=("sheet_time", "line_offset", "best_margin", "productivity_limit", "clearance_least", "torque_mean", "torque_rms",
@@ -40,6 +40,7 @@ MECHANISM = Mechanism(
               consequence="a carriage is hit; let the carriages stop elsewhere, lower them, or turn the transport by its offset."),
     ),
     figures=FIGURES,
+    exports=(CurveTable(id="main_shaft", title="Curves over the main shaft", columns=("main_angle",), needs=("rates_agree",)),),
     assumptions=(
         "The main shaft turns at constant speed: angles hold, times vary by its fluctuation. The lines are rigid and without backlash between them.",
         "Only the interlocks that are given are judged.",

@@ -10,7 +10,7 @@ from typing import Any
 
 import numpy as np
 
-from diecut_report.api import Curve, GivenMechanism
+from diecut_report.api import Curve, GivenMechanism, Refusal
 from diecut_report.mechanics.timing.shaft_curves import Consumer, ShaftCurve
 from diecut_report.plugins.cyclogram.kinds import ENERGIES, TORQUES, WAYS, Energy
 from diecut_report.plugins.cyclogram.main_shaft import turns_of
@@ -108,7 +108,7 @@ class Motions:
 def torques_of(given: Mapping[str, Any]) -> Torques:
     """Return what takes torque from the main shaft: the lines with a torque, and constant consumers."""
     lines = lines_of_all(given)
-    known = {line.name: _torque(line) for line in lines}
+    known = {line.name: _torque(line, f"lines.{index}.torque_curve") for index, line in enumerate(lines)}
     consumers = [
         Consumer(line.name, torque, line.efficiency) for line in lines if (torque := known[line.name]) is not None
     ]
@@ -168,8 +168,11 @@ def lines_of_all(given: Mapping[str, Any]) -> list[Line]:
     ]  # fmt: skip
 
 
-def _torque(line: Line) -> ShaftCurve | None:
+def _torque(line: Line, key: str) -> ShaftCurve | None:
     curve = line.mechanism.curve(torque_name(line.mechanism, line.torque_curve))
+    if curve is None and line.torque_curve:
+        words = f"is “{line.torque_curve}”, but {line.name} has no curve of this name; leave it out, and its kind's own is taken"
+        raise Refusal(key, words)
     return None if curve is None else line.curve(curve)
 
 

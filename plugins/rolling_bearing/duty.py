@@ -31,7 +31,7 @@ Over = Callable[[Array, Array], Array]  # of shares of the cycle and the middles
 GRID = 24  # least number of pieces of the cycle
 STEP = 1e-5  # share of the cycle, to either side, by which an angle is differentiated at any place
 PEAKS = 4  # highest places about which the greatest value is sought
-ZOOMS, ZOOMED = 4, 17  # searches for an extreme, each on so many places between the neighbours of the last
+SCANNED, ZOOMS = 9, 5  # places between its neighbours, and how often they are drawn nearer about the highest
 
 
 @dataclass(frozen=True)
@@ -172,30 +172,35 @@ class Duty:
         beside = np.pad(known, ((0, 0), (1, 1)), mode="edge")
         is_peak = (known >= beside[:, :-2]) & (known >= beside[:, 2:])
         order = np.argsort(np.where(is_peak, known, -np.inf), axis=1)[:, ::-1]
-        found = [self._peak(function, order[:, rank], share) for rank in range(PEAKS if self.curves else 1)]
-        heights = np.concatenate([function(place, middle) for place, middle in found], axis=1)
-        best = np.argmax(heights, axis=1)[:, None]
-        place, middle = (
-            np.take_along_axis(np.concatenate(each, axis=1), best, axis=1) for each in zip(*found, strict=True)
+        if not self.curves:
+            place, _, _, middle = self._about(order[:, 0], share)
+            return place, middle
+        peaks = [self._scan(function, *self._about(order[:, rank], share)) for rank in range(PEAKS)]
+        heights = np.concatenate([function(peak[0], peak[3]) for peak in peaks], axis=1)
+        first = np.argmax(heights, axis=1)[:, None]
+        best = tuple(
+            np.take_along_axis(np.concatenate(each, axis=1), first, axis=1) for each in zip(*peaks, strict=True)
         )
-        return place, middle
+        for _ in range(ZOOMS):
+            best = self._scan(function, *best)
+        return best[0], best[3]
 
-    def _peak(self, function: Over, index: Array, share: Array) -> tuple[Array, Array]:
-        """The greatest value between the neighbours of a place, by a scan that narrows."""
+    def _about(self, index: Array, share: Array) -> tuple[Array, Array, Array, Array]:
+        """A place, its neighbours within its piece, and the middle of that."""
         last, rows = share.shape[2] - 1, np.arange(self.variants)
         piece, place = np.divmod(index, share.shape[2])
-        middle = ((share[rows, piece, 0] + share[rows, piece, -1]) / 2)[:, None]
-        best = share[rows, piece, place][:, None]
-        if not self.curves:
-            return best, middle
-        low = share[rows, piece, np.maximum(place - 1, 0)][:, None]
-        high = share[rows, piece, np.minimum(place + 1, last)][:, None]
-        for _ in range(ZOOMS):
-            step = (high - low) / (ZOOMED - 1)
-            tried = np.concatenate([best, low + step * np.arange(ZOOMED)], axis=1)
-            best = np.take_along_axis(tried, np.argmax(function(tried, middle), axis=1)[:, None], axis=1)
-            low, high = np.maximum(best - step, low), np.minimum(best + step, high)
-        return best, middle
+        found = (share[rows, piece, at] for at in (place, np.maximum(place - 1, 0), np.minimum(place + 1, last)))
+        best, low, high = (each[:, None] for each in found)
+        return best, low, high, ((share[rows, piece, 0] + share[rows, piece, -1]) / 2)[:, None]
+
+    def _scan(
+        self, function: Over, best: Array, low: Array, high: Array, middle: Array
+    ) -> tuple[Array, Array, Array, Array]:
+        """The greatest of places between two, of which one is known, with its neighbours."""
+        step = (high - low) / (SCANNED - 1)
+        tried = np.concatenate([best, low + step * np.arange(SCANNED)], axis=1)
+        found = np.take_along_axis(tried, np.argmax(function(tried, middle), axis=1)[:, None], axis=1)
+        return found, np.maximum(found - step, low), np.minimum(found + step, high), middle
 
     @cached_property
     def travel(self) -> Array:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import Any
 
@@ -12,14 +12,15 @@ from numpy.typing import NDArray
 
 from diecut_report.mechanics import beams
 from diecut_report.mechanics.beams import SAME_PLACE, Bent, Loading, Supports
-from diecut_report.plugins.shaft import formulas
 from diecut_report.plugins.shaft.body import Body
-from diecut_report.plugins.shaft.cycle import Cycle, Instants
+from diecut_report.plugins.shaft.cycle import INSTANTS, Cycle, Instants
 
 Array = NDArray[Any]
 BLOCK = 16  # variants at once
 WITHIN = np.linspace(0, 1, 5)  # of a piece, where the greatest deflection is looked for over the cycle
 FINE = np.linspace(0, 1, 101)  # and at its instant
+SPARSE = 6  # of the instants every so many are looked at first, then those beside the best
+PROVED = 24  # instants at which the deflection line is proved by its energy
 
 
 @dataclass(frozen=True)
@@ -88,18 +89,14 @@ class Statics:
     def sides(self, x: Array) -> Sides:
         """Return the forces in the sections at places (places, variants)."""
         xy, xz = (np.stack(plane.moments(x)) for plane in self.planes)
-        torque = np.stack(beams.before_and_behind(x, self.cycle.places, self.loads.torque))
+        given = _no_more_than_needed(self.loads.axial_force)
         held = np.concatenate([self.cycle.places, self.locating[None]])
-        axial = np.concatenate([self.loads.axial_force, -np.sum(self.loads.axial_force, axis=0, keepdims=True)])
+        axial = np.concatenate([given, -np.sum(given, axis=0, keepdims=True)])
+        torque = beams.before_and_behind(x, self.cycle.places, _no_more_than_needed(self.loads.torque))
         return Sides(
-            xy, xz, torque, -np.stack(beams.before_and_behind(x, held, axial)),
+            xy, xz, np.stack(torque), -np.stack(beams.before_and_behind(x, held, axial)),
             self._both(self._torque_bounds, x), self._both(self._axial_bounds, x),
         )  # fmt: skip
-
-    @cached_property
-    def all_sides(self) -> Sides:
-        """Return the forces in the sections at all places."""
-        return self.sides(self.x)
 
     def _both(self, bounds: Callable[[Array], tuple[Array, Array]], x: Array) -> tuple[Array, Array]:
         before, behind = bounds(x - 2 * SAME_PLACE), bounds(x + 2 * SAME_PLACE)
@@ -166,34 +163,38 @@ class Statics:
 
     def resultants(self, places: Array) -> tuple[Array, Array]:
         """Return resultant deflection and slope at places (places, variants) among all, (places, variants, instants)."""
-        (y, turned_y), (z, turned_z) = (line.at(places) for line in self.lines)
-        return np.hypot(y, z), np.hypot(turned_y, turned_z)
+        units = (np.moveaxis(each, 1, 0) for each in self._of_units(self.x).at(places))
+        across, turned = ([np.moveaxis(each @ given, 0, 1) for given in self._given] for each in units)
+        return np.hypot(*across), np.hypot(*turned)
 
     @cached_property
     def greatest_deflection(self) -> tuple[Array, Array]:
         """Return the greatest deflection of all (variants,), and at which instant it is, its index."""
-        coarse = _between(self.x, WITHIN)
-        size = sum(each**2 for each in self.deflections(coarse))
-        instant = np.argmax(np.max(size, axis=0), axis=1)
+        count = self.loads.torque.shape[2]
+        some = np.union1d(np.arange(0, count, SPARSE), np.arange(min(INSTANTS, count), count))
+        near = some[self.some_instants(some).instant_of_deflection]
+        window = np.clip(near[:, None] + np.arange(1 - SPARSE, SPARSE), 0, count - 1)
+        chosen = self.at_instants(window).instant_of_deflection
+        instant = np.take_along_axis(window, chosen[:, None], axis=1)[:, 0]
         fine = _between(self.x, FINE)
         at = self.at_instant(instant)
         return np.max(np.hypot(*at.deflections(fine)), axis=(0, 2)), instant
 
+    @property
+    def instant_of_deflection(self) -> Array:
+        """Return at which instant the greatest deflection is, its index, as far as places between the joints tell."""
+        size = sum(each**2 for each in self.deflections(_between(self.x, WITHIN)))
+        found: Array = np.argmax(np.max(size, axis=0), axis=1)
+        return found
+
     def at_instant(self, instant: Array) -> Statics:
         """The same at one instant of each variant."""
-        picked = {
-            name: np.take_along_axis(each, instant[None, :, None], axis=2) for name, each in vars(self.loads).items()
-        }
-        return Statics(
-            self.body,
-            self.cycle,
-            Instants(**picked),
-            self.supports,
-            self.locating,
-            self.elastic,
-            self.shear,
-            self.density,
-        )
+        return self.at_instants(instant[:, None])
+
+    def at_instants(self, instants: Array) -> Statics:
+        """The same at some instants of each variant, (variants, instants)."""
+        picked = {name: np.take_along_axis(each, instants[None], axis=2) for name, each in vars(self.loads).items()}
+        return replace(self, loads=Instants(**picked))
 
     @cached_property
     def twist(self) -> Array:
@@ -222,12 +223,19 @@ class Statics:
         found: Array = np.max(np.where(acts, places, -np.inf), axis=0) - np.min(np.where(acts, places, np.inf), axis=0)
         return np.where(np.isfinite(found), found, 0.0)
 
+    def some_instants(self, chosen: Array) -> Statics:
+        """The same at some instants of the cycle."""
+        loads = Instants(**{name: each[:, :, chosen] for name, each in vars(self.loads).items()})
+        return replace(self, loads=loads)
+
     @property
     def energy_difference(self) -> Array:
-        """Return the energy of the bent shaft less the work of its loads, to the energy, the greatest over the cycle."""
+        """Return the energy of the bent shaft less the work of its loads, to the energy, the greatest of some instants."""
+        count = self.loads.torque.shape[2]
+        some = self.some_instants(np.unique(np.linspace(0, count - 1, PROVED).astype(int)))
         stiffness = self.stiffness_of(self.x)
-        energy = sum(beams.bending_energy(self.x, stiffness, plane) for plane in self.planes)
-        work = sum(beams.work(line, plane) for line, plane in zip(self.lines, self.planes, strict=True))
+        energy = sum(beams.bending_energy(self.x, stiffness, plane) for plane in some.planes)
+        work = sum(beams.work(line, plane) for line, plane in zip(some.lines, some.planes, strict=True))
         greatest = np.max(energy, axis=1, keepdims=True)
         found: Array = np.max(np.abs(energy - work), axis=1) / np.where(greatest > 0, greatest, 1)[:, 0]
         return found
@@ -239,83 +247,14 @@ class Statics:
         stiffness = self.stiffness_of(self.x)
         return beams.critical(self.x, stiffness, weights, self.supports, self.cycle.places, self.cycle.mass)
 
-    @cached_property
-    def nominal(self) -> dict[str, Array]:
-        """Return where the nominal stress is greatest over shaft and cycle, and the forces there, (variants,) each."""
-        sides = self.all_sides
-        index = np.stack([self.body.section_of(self.x, behind=each) for each in (False, True)])
-        diameter, bore = (
-            np.take_along_axis(each[None], index, axis=1) for each in (self.body.diameter, self.body.bore)
-        )
-        area, modulus = beams.circle_area(diameter, bore), 2 * beams.second_moment(diameter, bore) / diameter
-        forces = sides.axial_size, sides.bending, sides.torque_size
-        stress = formulas.yield_stress(*forces, area[..., None], modulus[..., None], 1.0, 1.0)
-        found = {"nominal_axial": forces[0], "nominal_moment": forces[1], "nominal_torque": forces[2]}
-        found |= {
-            "nominal_diameter": diameter[..., None],
-            "nominal_bore": bore[..., None],
-            "nominal_position": self.x[None, :, :, None],
-        }
-        return {name: _picked(each, stress) for name, each in found.items()}
 
-    def numbers(self) -> dict[str, Array]:
-        """Return all numbers, (variants,) each."""
-        sides, reactions = self.all_sides, np.hypot(self.reactions[:, 0], self.reactions[:, 1])
-        low, high = sides.torque_bounds
-        deflection, slope = self.resultants(
-            np.stack([*self.body.ends[[0, -1]], self.supports.first, self.supports.second])
-        )
-        locating = np.sum(self.loads.axial_force, axis=0)
-        bounds = self.cycle.bounds("axial_force", np.ones((1, *self.cycle.places.shape)))
-        critical = self.critical()
-        return {
-            "reaction_a": np.max(reactions[0], axis=1),
-            "reaction_b": np.max(reactions[1], axis=1),
-            "axial_reaction": np.max(np.maximum(*(np.abs(locating + each[0]) for each in bounds)), axis=1),
-            "bending_moment": np.max(sides.bending, axis=(0, 1, 3)),
-            "torque_max": np.max(sides.torque + high, axis=(0, 1, 3)),
-            "torque_min": np.min(sides.torque + low, axis=(0, 1, 3)),
-            "torque_left": self._torque_left(),
-            "torque_scale": self._torque_scale(),
-            "deflection": self.greatest_deflection[0],
-            "deflection_end": np.max(deflection[:2], axis=(0, 2)),
-            "slope_a": np.max(slope[2], axis=1),
-            "slope_b": np.max(slope[3], axis=1),
-            "twist": self.twist,
-            "torque_span": self.torque_span,
-            "energy_difference": self.energy_difference,
-            "critical": critical.speed,
-            "rayleigh": critical.rayleigh,
-            "dunkerley": critical.dunkerley,
-            **self.nominal,
-        }
-
-    def _torque_left(self) -> Array:
-        """What the torques add up to where none balances them, the greatest over the cycle."""
-        if self.cycle.balance is not None:
-            return np.zeros(len(self.elastic))
-        low, high = self.cycle.bounds("torque", np.ones((1, *self.cycle.places.shape)))
-        left = np.sum(self.loads.torque, axis=0)
-        found: Array = np.max(np.maximum(np.abs(left + low[0]), np.abs(left + high[0])), axis=1)
-        return found
-
-    def _torque_scale(self) -> Array:
-        sizes = [np.max(np.abs(self.loads.torque), axis=(0, 2))]
-        sizes += [np.maximum(np.abs(low), np.abs(high)) for _, low, high in self.cycle.extremes("torque")]
-        found: Array = np.max(np.stack(sizes), axis=0)
-        return found
+def _no_more_than_needed(values: Array) -> Array:
+    """Values (loads, variants, instants), of a single instant where all are zero: a pin has no torque, most shafts no axial force."""
+    return values if np.any(values) else values[:, :, :1]
 
 
 def _between(x: Array, shares: Array) -> Array:
     """Places between each place and the next, with them, ascending."""
     inner = x[:-1, None] + np.diff(x, axis=0)[:, None] * shares[None, :, None]
     found: Array = inner.reshape(-1, x.shape[1])
-    return found
-
-
-def _picked(values: Array, by: Array) -> Array:
-    """Values where ``by`` (sides, places, variants, instants) is greatest, (variants,)."""
-    full = np.moveaxis(np.broadcast_to(values, by.shape), 2, 0).reshape(by.shape[2], -1)
-    index = np.argmax(np.moveaxis(by, 2, 0).reshape(by.shape[2], -1), axis=1)
-    found: Array = np.take_along_axis(full, index[:, None], axis=1)[:, 0]
     return found

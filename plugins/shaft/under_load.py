@@ -11,9 +11,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from diecut_report.mechanics.beams import Loading, Supports
-from diecut_report.plugins.shaft import formulas
+from diecut_report.plugins.shaft import formulas, totals
 from diecut_report.plugins.shaft.body import Body
-from diecut_report.plugins.shaft.cycle import Cycle
+from diecut_report.plugins.shaft.cycle import Cycle, Instants
 from diecut_report.plugins.shaft.material_point import worst_points
 from diecut_report.plugins.shaft.statics import BLOCK, Sides, Statics
 
@@ -42,22 +42,32 @@ class UnderLoad:
         """Yield the variants in blocks, each with the shaft under its loads."""
         for start in range(0, self.variants, BLOCK):
             rows = np.arange(start, min(start + BLOCK, self.variants))
-            yield rows, self.of(rows, self.cycle.share[rows], self.cycle.middle[rows])
+            if start not in self._loads:
+                self._loads[start] = self.cycle.at(self.cycle.share[rows], self.cycle.middle[rows], rows)
+            yield rows, self._under(rows, self._loads[start])
+
+    @cached_property
+    def _loads(self) -> dict[int, Instants]:
+        """The loads of the blocks, by their first variants: they are asked for twice, and cost more than what is made of them."""
+        return {}
 
     def of(self, rows: Array, share: Array, middle: Array) -> Statics:
         """Return variants under their loads at shares of the cycle (rows, instants)."""
+        return self._under(rows, self.cycle.at(share, middle, rows))
+
+    def _under(self, rows: Array, loads: Instants) -> Statics:
         body = self.body
         arrays = {name: each[:, rows] for name, each in vars(body).items() if isinstance(each, np.ndarray)}
         supports = Supports(self.bearing_a[rows], self.bearing_b[rows])
         return Statics(
-            Body(**vars(body) | arrays), self.cycle.of(rows), self.cycle.at(share, middle, rows), supports,
+            Body(**vars(body) | arrays), self.cycle.of(rows), loads, supports,
             supports.first if self.at_a else supports.second, self.elastic[rows], self.shear[rows], self.density[rows],
         )  # fmt: skip
 
     @cached_property
     def numbers(self) -> dict[str, Array]:
         """Return all numbers, (variants, 1) each."""
-        found = [block.numbers() for _, block in self.blocks()]
+        found = [totals.numbers(block) for _, block in self.blocks()]
         return {name: np.concatenate([each[name] for each in found])[:, None] for name in found[0]}
 
     # --- curves over the cycle ---------------------------------------------------------------------------------------------

@@ -20,8 +20,6 @@ from diecut_report.cli.progress import Progress
 from tests.configs import BROKEN, GOOD, HEAD, LEVER, LISTED, SMALL, saved
 from tests.processes import Example, in_another_process
 
-pytestmark = pytest.mark.wheel
-
 FAILS = LEVER.replace("force: 2 kN", "force: 2 kN, allowable_moment: 150")
 Capture = pytest.CaptureFixture[str]
 
@@ -42,6 +40,7 @@ def program(*arguments: object, **options: object) -> subprocess.CompletedProces
 
 @pytest.mark.parametrize(("text", "code"), [(LEVER, 0), (FAILS, 1), (LEVER.replace("2 kN", "2 kg"), 2)])
 @pytest.mark.parametrize("command", ["calc", "report"])
+@pytest.mark.wheel
 def test_exit_codes(tmp_path: Path, command: str, text: str, code: int) -> None:
     where = (
         ["-o", tmp_path / "out", "--format", "json"] if command == "report" else ["-o", tmp_path / "out" / "press.json"]
@@ -51,6 +50,7 @@ def test_exit_codes(tmp_path: Path, command: str, text: str, code: int) -> None:
     assert (tmp_path / "out").exists() == (code < 2)
 
 
+@pytest.mark.wheel
 def test_calc_prints_the_results_alone_on_standard_output(tmp_path: Path, capfd: Capture) -> None:
     assert run("calc", saved(tmp_path, FAILS)) == 1
     out, err = capfd.readouterr()
@@ -72,6 +72,7 @@ def test_calc_to_a_file_is_what_it_prints(tmp_path: Path, capfd: Capture) -> Non
     assert capfd.readouterr().out == 2 * text
 
 
+@pytest.mark.wheel
 def test_a_plugin_that_prints_does_not_spoil_the_output(tmp_path: Path) -> None:
     done = program("calc", saved(tmp_path, HEAD + "  a: {kind: first_kind}\n"), "--plugins", LISTED)
     assert done.returncode == 0 and json.loads(done.stdout)["status"] == "pass"
@@ -87,6 +88,7 @@ def test_errors_go_to_standard_error_only(tmp_path: Path, capfd: Capture) -> Non
     assert not (tmp_path / "out").exists()
 
 
+@pytest.mark.wheel
 def test_report_tells_what_it_wrote_and_what_fails(tmp_path: Path, capfd: Capture) -> None:
     assert run("report", saved(tmp_path, FAILS), "-o", tmp_path, "--format", "json") == 1
     out, err = capfd.readouterr()
@@ -109,6 +111,7 @@ def test_quiet_tells_errors_only(tmp_path: Path, capfd: Capture) -> None:
     )
 
 
+@pytest.mark.wheel
 def test_validate_reports_all_problems_of_all_files(tmp_path: Path, capfd: Capture) -> None:
     one = saved(tmp_path, LEVER.replace("2 kN", "2 kg, arm: -1"), "one.yaml")
     two, three = saved(tmp_path, LEVER, "two.yaml"), saved(tmp_path, "a: [", "three.yaml")
@@ -123,6 +126,7 @@ def test_validate_reports_all_problems_of_all_files(tmp_path: Path, capfd: Captu
     ]
 
 
+@pytest.mark.wheel
 def test_a_broken_plugin_gives_3_and_the_results_of_the_others(tmp_path: Path, capfd: Capture) -> None:
     config = saved(tmp_path, FAILS + "  x: {kind: breaks_in_calculation}\n")
     assert run("calc", config, "--plugins", BROKEN) == 3
@@ -149,6 +153,7 @@ def test_validate_finds_a_plugin_that_cannot_be_loaded(tmp_path: Path, capfd: Ca
     assert capfd.readouterr().err.startswith("mechanism 'x' of plugin 'breaks_at_import': it cannot be loaded from")
 
 
+@pytest.mark.wheel
 def test_plugins_lists_kinds_sources_and_origins(capfd: Capture) -> None:
     assert run("plugins") == 0
     out, err = capfd.readouterr()
@@ -167,6 +172,7 @@ def test_plugins_tells_broken_and_doubled_ones(tmp_path: Path, capfd: Capture) -
     assert f"comes from {tmp_path / 'lever.py'} and from {GOOD / 'lever.py'}" in capfd.readouterr().err
 
 
+@pytest.mark.wheel
 def test_schema_of_all_and_of_one_kind(capfd: Capture) -> None:
     assert run("schema") == 0
     assert "lever" in json.loads(capfd.readouterr().out)["$defs"]
@@ -198,12 +204,14 @@ def test_schema_of_all_and_of_one_kind(capfd: Capture) -> None:
         ([], "Usage: diecut-report"),
     ],
 )
+@pytest.mark.wheel
 def test_wrong_usage_gives_2_with_words(arguments: list[str], words: str, capfd: Capture) -> None:
     assert main(arguments) == 2
     out, err = capfd.readouterr()
     assert out == "" and words in err
 
 
+@pytest.mark.wheel
 def test_help_and_version_go_to_standard_output(capfd: Capture) -> None:
     assert main(["--version"]) == main(["report", "--help"]) == 0
     out, err = capfd.readouterr()
@@ -235,6 +243,7 @@ BAD: dict[str, tuple[str | bytes, str]] = {
 
 @pytest.mark.parametrize("command", ["report", "calc", "validate"])
 @pytest.mark.parametrize("name", BAD)
+@pytest.mark.wheel
 def test_bad_input_is_told_and_nothing_is_written(tmp_path: Path, capfd: Capture, name: str, command: str) -> None:
     content, words = BAD[name]
     config = tmp_path / "press.yaml"
@@ -426,6 +435,7 @@ def test_validate_imports_nothing_that_draws_or_is_slow(tmp_path: Path) -> None:
     assert "diecut_report.config" in imported and imported.isdisjoint(SLOW_TO_IMPORT)
 
 
+@pytest.mark.wheel
 def test_the_example_is_calculated_with_its_failing_checks(example: Example) -> None:
     assert example.code == 1
     found = json.loads(example.told)

@@ -89,7 +89,9 @@ mechanisms:
 """
 
 
-@pytest.mark.parametrize("text", [SHARED, IDLE.read_text("utf-8")], ids=["shares", "idle default"])
+@pytest.mark.parametrize(
+    "text", [SHARED, pytest.param(IDLE.read_text("utf-8"), marks=pytest.mark.nightly)], ids=["shares", "idle default"]
+)
 def test_the_resolved_config_calculates_to_the_same_results(tmp_path: Path, text: str) -> None:
     first = calculated(saved(tmp_path, text))
     again = calculated(saved(tmp_path, json.dumps(first["config"]["resolved"]), "again.yaml"))

@@ -131,7 +131,7 @@ def test_each_variant_that_jumps_is_marked() -> None:
     assert set(run(open_one, 9, start=starts).flaws) == set(range(9))
 
 
-@pytest.mark.parametrize("count", [2, 7, 100])
+@pytest.mark.parametrize("count", [2, 7, pytest.param(100, marks=pytest.mark.nightly)])
 @pytest.mark.parametrize("per_piece", [False, True])
 def test_each_variant_among_many_is_judged_as_alone(count: int, per_piece: bool) -> None:
     """Its edges fit the first machine, so that this one does not jump; each other one is judged by itself."""

@@ -12,8 +12,14 @@ from tests.extremes.examples import example_extremes, example_fault
 from tests.extremes.harness import ALONE, extremes, fault, values
 from tests.plugins.cases import CONFIGS
 
-SAMPLE = 16  # of a kind
-FEW = {"elastic_follower": 4, "platen_press": 6, "circular_knife": 8}  # of those that take longest
+SAMPLE = 10  # of a kind
+FEW = {
+    "elastic_follower": 3,
+    "gear_pair": 4,
+    "cam_gear_transport": 5,
+    "platen_press": 4,
+    "circular_knife": 5,
+}  # of those that take longest
 
 
 @pytest.mark.parametrize("kind", ALONE)

@@ -5,6 +5,7 @@ from __future__ import annotations
 import os
 import subprocess
 import sys
+from itertools import product
 from pathlib import Path
 
 import pytest
@@ -12,6 +13,7 @@ import pytest
 from diecut_report.cli.main import main
 from diecut_report.files import remove_stale, write, write_all
 from tests.configs import GOOD, LEVER, saved
+from tests.examples import few
 from tests.study.studies import BASE, STUDY
 
 SECRET = b"not to be touched"
@@ -81,8 +83,13 @@ def test_a_link_to_a_folder_is_not_taken_for_a_file(
     assert "a folder has this name" in capfd.readouterr().err and link.is_symlink()
 
 
-@pytest.mark.parametrize("name", ["/dev/stdout", "/dev/fd/1", "/proc/self/fd/1"])
-@pytest.mark.parametrize("to_file", [True, False])
+@pytest.mark.parametrize(
+    ("name", "to_file"),
+    few(
+        product(("/dev/stdout", "/dev/fd/1", "/proc/self/fd/1"), (True, False)),
+        keep=lambda one: one in (("/dev/stdout", True), ("/proc/self/fd/1", False)),
+    ),
+)
 def test_the_names_of_standard_output_are_written_into(tmp_path: Path, name: str, to_file: bool) -> None:
     config, out = saved(tmp_path, LEVER), tmp_path / "out"
     command = [sys.executable, "-m", "diecut_report", "calc", str(config), "-o", name, "--plugins", str(GOOD)]

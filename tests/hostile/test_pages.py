@@ -13,6 +13,8 @@ from pathlib import Path
 import pytest
 
 from diecut_report.cli.main import main
+from diecut_report.study import command as study_command
+from diecut_report.study.summary import summarise
 from tests.configs import GOOD, saved
 from tests.shared import once
 from tests.study.studies import BASE, STUDY
@@ -24,13 +26,15 @@ PROBE = "<script>document.title = 'run'</script><img src=x onerror=\"document.ti
 
 @pytest.fixture(scope="module")
 def summary(tmp_path_factory: pytest.TempPathFactory) -> str:
-    """The page of a small study's summary."""
+    """The page of a small study's summary, without its paper."""
 
     def make(folder: Path) -> None:
         saved(folder, BASE)
         study = saved(folder, STUDY, "study.yaml")
         command = ["batch", study, "-o", folder / "out", "--jobs", "1", "--plugins", GOOD, "--quiet"]
-        assert main([*map(str, command)]) == 0
+        with pytest.MonkeyPatch.context() as patch:
+            patch.setattr(study_command, "summarise", lambda out: summarise(out, ["html"]))
+            assert main([*map(str, command)]) == 0
 
     return (once(tmp_path_factory, "small_summary", make) / "out" / "summary.html").read_text("utf-8")
 

@@ -88,6 +88,7 @@ def test_a_report_is_the_same_in_all_surroundings(folder: Path, notebook: dict[s
         assert (folder / f"noted/small.{ending}").read_bytes() == (small_report / f"small.{ending}").read_bytes()
 
 
+@pytest.mark.nightly
 def test_nor_do_the_processes_and_the_summary_of_a_study_obey_them(folder: Path, notebook: dict[str, str]) -> None:
     saved(folder, "text.usetex: True\n", "matplotlibrc")
     script = shutil.which("diecut-report", path=str(Path(sys.executable).parent))

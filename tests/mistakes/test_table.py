@@ -1,31 +1,48 @@
-"""Each mistake of the table is told where it must be, in words; the plugin without any is right."""
+"""Each mistake of the table is told where it must be, in words; the plugin without any is right.
+
+CI tries each third row, which is some of each of the table's parts.
+"""
 
 from __future__ import annotations
 
 import math
+from functools import cache
 from pathlib import Path
 from typing import Any
 
 import pytest
 
 from diecut_report.config.discovery import Discovery
+from diecut_report.contract.mechanism import Mechanism
 from diecut_report.engine import Calculation, calculate
 from diecut_report.results.checks import check_results
 from diecut_report.testing import check_mechanism
+from tests.examples import few
 from tests.machines import inputs, number
 from tests.mistakes.runner import KIND, MACHINE, PLUGIN, Mistake, faults, tried
 from tests.mistakes.table import TABLE
 
-MECHANISM = Discovery([PLUGIN.parent]).mechanism(KIND)
+
+@cache
+def right() -> Mechanism:
+    """Return the mechanism of the plugin without a mistake."""
+    return Discovery([PLUGIN.parent]).mechanism(KIND)
 
 
 def elevator(**changes: Any) -> Calculation:
     """The machine of the table with changes."""
     keys = {key: value for key, value in (MACHINE | changes).items() if key != "kind"}
-    return calculate(MECHANISM, inputs(MECHANISM, keys))
+    return calculate(right(), inputs(right(), keys))
 
 
-@pytest.mark.parametrize("mistake", TABLE, ids=lambda mistake: mistake.what.replace(" ", "_"))
+THIRD = {mistake.what for mistake in TABLE[::3]}
+
+
+@pytest.mark.parametrize(
+    "mistake",
+    few(TABLE, keep=lambda mistake: mistake.what in THIRD),
+    ids=lambda mistake: mistake.what.replace(" ", "_"),
+)
 def test_a_mistake_is_told(mistake: Mistake, tmp_path: Path) -> None:
     assert not faults(mistake, tried(mistake, tmp_path))
 
@@ -36,7 +53,7 @@ def test_each_row_is_another_mistake() -> None:
 
 
 def test_the_plugin_without_a_mistake_passes() -> None:
-    check_mechanism(MECHANISM)
+    check_mechanism(right())
     assert {check["status"] for check in check_results(elevator())} == {"pass"}
 
 
@@ -73,7 +90,7 @@ def test_the_shafts_distance_carries_the_belt() -> None:
 
 def test_each_declared_check_is_made() -> None:
     made = {check["id"]: check for check in check_results(elevator())}
-    assert made.keys() == {check.id for check in MECHANISM.checks}
+    assert made.keys() == {check.id for check in right().checks}
     assert made["torque"]["demand"] == pytest.approx(number(elevator(), "torque_max"))
 
 

@@ -331,6 +331,10 @@ FAULTS: dict[str, tuple[Data, str]] = {
         {"lines": [{"mechanism": "drive", "turns_per_sheet": "1/97"}]},
         "with a denominator of at most 64",
     ),
+    "a curve that there is not": (
+        {"lines": [{"mechanism": "cross", "torque_curve": "torqe"}]},
+        "lines.0.torque_curve: is “torqe”, but cross has no curve of this name",
+    ),
     "two automatic offsets": (
         {"lines": [{"mechanism": "drive", "offset": "auto"}, {"mechanism": "cross", "offset": "auto"}]},
         "lines.1.offset: is auto, and so is another line's",

@@ -17,7 +17,7 @@ from scipy.spatial import ConvexHull
 from diecut_report.api import standard_series, standard_series_by, standard_table
 from diecut_report.engine import Calculation, Impossible
 from diecut_report.plugins.drive_train.inputs import Section
-from tests.examples import examples
+from tests.examples import examples, few
 from tests.machines import number
 from tests.plugins.drive_trains import EXAMPLE, PAIRS, check, train
 
@@ -30,7 +30,8 @@ def hull_length(first: float, second: float, apart: float) -> float:
 
 
 @pytest.mark.parametrize(
-    ("driver", "apart", "speed"), [(125, 600, 50), (125, 900, 75), (180, 450, 145), (200, 430, 290)]
+    ("driver", "apart", "speed"),
+    few([(125, 600, 50), (125, 900, 75), (180, 450, 145), (200, 430, 290)], keep=lambda one: one[0] in (180, 200)),
 )
 def test_the_belt_is_as_long_as_a_string_around_the_pulleys(driver: float, apart: float, speed: float) -> None:
     calc = train(output_speed=speed, vbelt={"driver_diameter": driver, "center_distance": apart})
@@ -149,7 +150,7 @@ def test_few_teeth_are_a_warning(teeth: int, status: str) -> None:
         assert check(calc, "gear_teeth")["status"] == status
 
 
-@examples(60)
+@examples(30)
 @given(ratio=st.floats(1.2, 4.5), diameter=st.sampled_from([90, 100, 112, 118, 125, 127.5, 140, 160]))
 def test_the_pulleys_that_the_message_names_meet_the_speed(ratio: float, diameter: float) -> None:
     def made(driver: float) -> Calculation:

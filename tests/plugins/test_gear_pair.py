@@ -251,6 +251,7 @@ def test_assumed_factors_are_named_and_given_ones_are_not() -> None:
 # --- sizing ----------------------------------------------------------------------------------------------------------
 
 
+@pytest.mark.nightly
 @given(keys=GEARS)
 @examples(12)
 def test_the_module_is_the_least_of_the_series_with_which_all_holds(keys: dict[str, Any]) -> None:

@@ -9,6 +9,7 @@ import pytest
 
 from diecut_report.engine import Impossible
 from diecut_report.plugins.geneva_transport.advice import arc_that_fits, greatest_overlap, roller_that_fits
+from tests.examples import few
 from tests.machines import number
 from tests.plugins.test_geneva_transport import SHEET, checks, geneva
 
@@ -23,8 +24,8 @@ def told(message: str) -> dict[str, float]:
 @pytest.mark.parametrize(
     "changes",
     [{"roller_radius": "51 mm"}, {"locking_radius": "95 mm"}, {"locking_radius": "20 mm"}, {"slots": 12, "roller_radius": "13 mm"},
-     {"slots": 18, "roller_radius": "30 mm"}, {"slots": 3, "roller_radius": "25 mm", "locking_radius": "150 mm"},
-     {"slots": 8, "roller_radius": "26 mm", "locking_radius": "32 mm"}],
+     *few([{"slots": 18, "roller_radius": "30 mm"}, {"slots": 3, "roller_radius": "25 mm", "locking_radius": "150 mm"},
+           {"slots": 8, "roller_radius": "26 mm", "locking_radius": "32 mm"}], keep=lambda _: False)],
 )  # fmt: skip
 def test_the_named_roller_and_locking_arc_are_sound(changes: dict[str, Any]) -> None:
     found = checks(**changes)
@@ -38,8 +39,8 @@ def test_the_named_roller_and_locking_arc_are_sound(changes: dict[str, Any]) -> 
             assert {again[name]["status"] for name in LAYOUT} == {"pass"}, (key, value)
 
 
-@pytest.mark.parametrize("allowed", [800, 1000, 1200, 1500])
-@pytest.mark.parametrize("inertia", [3, 4, 5.5])
+@pytest.mark.parametrize("allowed", few([800, 1000, 1200, 1500], keep=lambda allowed: allowed in (800, 1500)))
+@pytest.mark.parametrize("inertia", few([3, 4, 5.5], keep=lambda inertia: inertia != 4))
 def test_the_named_width_keeps_the_contact_pressure(allowed: float, inertia: float) -> None:
     machine = {"driven_inertia": inertia, "roller_width": "4 mm", "allowable_contact_pressure": allowed}
     (width,) = told(checks(**machine)["contact_pressure"]["message"]).values()

@@ -20,7 +20,7 @@ from diecut_report.plugins.cam_gear_transport import MECHANISM as CAM
 from diecut_report.plugins.geneva_transport import MECHANISM as GENEVA
 from diecut_report.results.comparisons import compared, found
 from tests.configs import HEAD, saved
-from tests.examples import examples
+from tests.examples import examples, few
 from tests.machines import inputs, number
 
 STEPPER: dict[str, Any] = {"dwell_angle": "160 deg", "center_distance": "300 mm", "cycles_per_hour": 6000}
@@ -96,7 +96,10 @@ def test_the_step_of_the_geneva_drive_serves_where_the_cam_gear_has_none() -> No
     assert "cam_torque_peak" not in together
 
 
-@pytest.mark.parametrize("slots, dwell, stop", [(6, 160, 20), (3, 160, 20), (18, 230, 2), (12, 235, 4), (5, 90, 30)])
+@pytest.mark.parametrize(
+    "slots, dwell, stop",
+    few([(6, 160, 20), (3, 160, 20), (18, 230, 2), (12, 235, 4), (5, 90, 30)], keep=lambda one: one[0] in (3, 18)),
+)
 def test_both_drives_make_one_step_a_cycle_about_the_same_middle(slots: int, dwell: float, stop: float) -> None:
     """Also where the Geneva drive moves for longer than the cam-gear, and so into the next cycle's beginning."""
     stepper = cam(dwell_angle=dwell, sector_stop_sweep=stop, n_points=3600)
@@ -129,7 +132,7 @@ def test_at_the_limit_a_tenth_of_the_cycle_is_left_for_the_return() -> None:
     assert number(dwelling(sector_stop_sweep=f"{limit!r} rad"), "time_return") == pytest.approx(0.1, rel=1e-12)
 
 
-@pytest.mark.parametrize("law", list(LAWS))
+@pytest.mark.parametrize("law", few(LAWS, keep=lambda law: law in ("modified_trapezoidal", "harmonic")))
 def test_no_other_sweep_asks_for_less_acceleration_at_the_geneva_drives_dwell(law: str) -> None:
     together = outputs(cam(motion_law=law, dwell_angle="150 deg"), geneva())
     best, relative = together["stop_sweep_best"], 0.6**2 / (2 * np.pi)  # accelerations to S/T² from the gear's
@@ -158,7 +161,7 @@ def test_the_chart_of_all_sweeps_is_what_machines_with_them_do() -> None:
         assert speed["y"][place] == pytest.approx(number(built, "gear_speed_ratio_peak"), rel=1e-9)
 
 
-@examples(40)
+@examples(25)
 @given(slots=st.integers(3, 18), held=st.floats(20, 120))
 def test_the_best_sweep_is_below_the_limit_for_any_number_of_slots(slots: int, held: float) -> None:
     together = outputs(

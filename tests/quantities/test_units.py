@@ -22,7 +22,7 @@ from diecut_report.quantities.units import (
 )
 
 TABLE: dict[str, Any] = json.loads(units.TABLE_FILE.read_text(encoding="utf-8"))
-PINT: Any = pint.UnitRegistry()
+PINT: Any = pint.LazyRegistry()
 # In pint an angle is a pure number. A radian counts by its power in the root units, which pint keeps.
 DIMENSION_OF_ROOT_UNIT = {
     "kilogram": "mass",

@@ -224,7 +224,7 @@ def test_level_beyond_a_curve_is_seen() -> None:
     assert drawn.heights[0] < 0 < 9 < drawn.heights[1]
 
 
-@pytest.mark.parametrize("count", [1, 2, 4, 9])
+@pytest.mark.parametrize("count", [1, pytest.param(4, marks=pytest.mark.nightly), 9])
 def test_chart_stays_on_its_page(count: int) -> None:
     each = panel("y", "N", TURN, lines=[line([0, 1], [0, 1], "F")])
     svg = render(

@@ -101,8 +101,10 @@ WRITTEN = {
 }  # fmt: skip
 
 
-def test_scripts_in_any_text_are_only_text(results: dict[str, Any]) -> None:
-    poisoned = _poisoned(results)
+@pytest.mark.parametrize("document", ["plain", pytest.param("results", marks=pytest.mark.nightly)])
+def test_scripts_in_any_text_are_only_text(request: pytest.FixtureRequest, document: str) -> None:
+    """Of the figures' texts tests/report/test_figures.py has one too."""
+    poisoned = _poisoned(request.getfixturevalue(document))
     for mechanism in poisoned["mechanisms"].values():
         mechanism["assumptions"] = [BAD]
         for row in [*mechanism.get("outputs", {}).values(), *mechanism.get("inputs", {}).values()]:

@@ -20,7 +20,6 @@ from weasyprint.urls import FatalURLFetchingError
 from diecut_report.report import Rendering
 from diecut_report.report.pdf_math import operators
 from diecut_report.report.typeset import Typesetter
-from tests.examples import few
 from tests.report.conftest import Printed
 
 AGAIN = """
@@ -108,11 +107,12 @@ def test_a_picture_from_outside_stops_the_rendering(results: dict[str, Any], mon
         Rendering(results).pdf()
 
 
-@pytest.mark.parametrize("ending", few(["html", "pdf"], keep=lambda ending: ending == "html"))
+@pytest.mark.nightly
+@pytest.mark.parametrize("ending", ["html", "pdf"])
 def test_equal_results_give_equal_bytes_in_another_process(
     results: dict[str, Any], html: str, request: pytest.FixtureRequest, tmp_path: Path, ending: str
 ) -> None:
-    """Each kind of item and figure as HTML; tests/hostile/test_surroundings.py has the PDF of a small report too."""
+    """Each kind of item and figure; tests/hostile/test_surroundings.py has a small report."""
     file = tmp_path / "results.json"
     file.write_text(json.dumps(results), encoding="utf-8")
     command, environment = [sys.executable, "-c", AGAIN, str(file), ending], os.environ | {"PYTHONHASHSEED": "4711"}

@@ -21,12 +21,17 @@ from diecut_report.study.definition.base_inputs import find_input, with_values
 from diecut_report.study.execution.result_columns import columns_of
 from diecut_report.study.execution.variant_rows import Rows, calculate_rows
 from tests.configs import EXAMPLES
+from tests.examples import few
 
 Values = Mapping[str, Any]
 VARIED: dict[str, dict[str, tuple[float, float] | list[str]]] = {
     "flat_cylinder_mechanisms.yaml": {
         "mechanisms.drive.crank_speed": (4.0, 12.0), "mechanisms.cylinder.bore_radius": (0.03, 0.12),
         "press.sheet.thickness": (3e-4, 1.2e-3), "press.productivity": (0.5, 2.5), "mechanisms.feeder.motion_law": ["cycloidal", "modified_sine"],
+    },
+    "flat_cylinder_press.yaml": {
+        "press.productivity": (1.2, 2.2), "mechanisms.cylinder.bore_radius": (0.03, 0.12), "press.sheet.thickness": (3e-4, 1.2e-3),
+        "mechanisms.feeder.motion_law": ["cycloidal", "modified_sine"],
     },
     "flat_cylinder_belt_press.yaml": {"press.productivity": (0.5, 1.6)},
     "folding_knife.yaml": {"mechanisms.knife.cylinder_rate": (2.0, 9.0), "mechanisms.knife.working_depth": (0.02, 0.06)},
@@ -56,7 +61,9 @@ def given_numbers(base: Config) -> Iterator[tuple[str, float]]:
             if not slot.is_given or is_reference or not isinstance(slot.meta, Quantity) or slot.meta.integer:
                 continue
             home = PRESS if instance.name == PRESS else f"mechanisms.{instance.name}"
-            yield ".".join(map(str, (home, *slot.key))), float(instance.value(slot.key))
+            value = instance.value(slot.key)
+            if isinstance(value, int | float):  # no word, and no time in place of an angle
+                yield ".".join(map(str, (home, *slot.key))), float(value)
 
 
 def together(base: Config, values: Values, count: int) -> Rows:
@@ -92,7 +99,10 @@ def rounding(mechanism: dict[str, Any], unit: str) -> float:
     return 1e-12 * max(alike, default=0.0)
 
 
-@pytest.mark.parametrize(("name", "count"), [("flat_cylinder_mechanisms.yaml", 3), ("elastic_transport.yaml", 2)])
+@pytest.mark.parametrize(
+    ("name", "count"),
+    few([("flat_cylinder_press.yaml", 3), ("elastic_transport.yaml", 2)], keep=lambda one: one[1] == 3),
+)
 def test_each_machine_among_many_is_the_one_alone(name: str, count: int) -> None:
     """Through references from mechanism to mechanism; each kind on its own is held to it in tests/plugins/test_contract.py."""
     check_rows(name, count)
@@ -121,6 +131,22 @@ def check_rows(name: str, count: int) -> None:
             continue
         assert rows.status[row] == found["status"], rows.errors[row]
         _same_numbers(rows, row, found)
+
+
+def test_machines_whose_lines_run_at_unlike_rates_are_told_apart() -> None:
+    """What needs the sum of the torques is not calculated for them, and the others keep it."""
+    base, speeds = config("flat_cylinder_press.yaml"), np.array([40.0, 50.0, 45.0]) * math.pi / 30
+    rows = together(base, {"mechanisms.drive.crank_speed": speeds}, 3)
+    assert list(rows.columns["timing.checks.equal_rates.status"]) == ["fail", "pass", "fail"]
+    for row, speed in enumerate(speeds):
+        found = alone(base, {"mechanisms.drive.crank_speed": float(speed)})
+        assert isinstance(found, dict)
+        assert rows.status[row] == found["status"] == "fail"
+        assert (found["mechanisms"]["train"]["status"] == "skipped") == bool(
+            np.isnan(rows.columns["train.motor_power"][row])
+        )
+        kept = {name: each for name, each in found["mechanisms"].items() if each["status"] != "skipped"}
+        _same_numbers(rows, row, {"mechanisms": kept})
 
 
 def _same_numbers(rows: Rows, row: int, found: dict[str, Any]) -> None:

@@ -135,6 +135,7 @@ def test_a_huge_grid_says_its_size_and_asks(tmp_path: Path, capfd: Capture) -> N
     assert not (tmp_path / "out").exists()
 
 
+@pytest.mark.nightly
 @pytest.mark.usefixtures("without_summary")
 def test_reports_of_some_variants_are_the_same_from_several_processes(
     tmp_path: Path, capfd: Capture, monkeypatch: pytest.MonkeyPatch
@@ -150,6 +151,17 @@ def test_reports_of_some_variants_are_the_same_from_several_processes(
     assert sorted(made[1]) == [f"{variant}.{ending}" for variant in (0, 1) for ending in ("html", "json", "pdf")]
     assert made[0].items() <= made[1].items()
     assert "variant 3 gets no full report: a constraint drops it." in capfd.readouterr().err
+
+
+@pytest.mark.usefixtures("without_summary")
+def test_some_variants_get_reports_and_one_that_is_dropped_is_told(
+    tmp_path: Path, capfd: Capture, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(variant_reports, "FORMATS", ("json",))
+    text = varied("[1 kN, 2 kN, 4 kN]", rest="reports: [0, 2]\nconstraints: [\"mechanisms.a.force < '3.5 kN'\"]\n")
+    assert run("batch", files(tmp_path, text), "-o", tmp_path / "out") == 0
+    assert [path.name for path in (tmp_path / "out" / "reports").iterdir()] == ["0.json"]
+    assert "variant 2 gets no full report: a constraint drops it." in capfd.readouterr().err
 
 
 @pytest.mark.usefixtures("without_summary")

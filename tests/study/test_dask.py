@@ -122,6 +122,7 @@ def test_study_on_a_cluster_that_loses_a_worker_has_the_rows_of_one_in_this_proc
     assert rows[0].equals(rows[1]) and rows[0].num_rows == 39_000
 
 
+@pytest.mark.nightly
 def test_worker_that_joins_later_takes_part(cluster: Cluster, tmp_path: Path) -> None:
     cluster.worker()
     workers = set()
@@ -135,6 +136,7 @@ def test_worker_that_joins_later_takes_part(cluster: Cluster, tmp_path: Path) ->
     assert len(workers) == 2
 
 
+@pytest.mark.nightly
 def test_exception_names_its_chunk_and_the_cluster_can_be_used_again(cluster: Cluster, tmp_path: Path) -> None:
     cluster.worker()
     with (
@@ -146,6 +148,7 @@ def test_exception_names_its_chunk_and_the_cluster_can_be_used_again(cluster: Cl
         assert sorted(results(engine, square, range(30))) == [(n, n * n) for n in range(30)]
 
 
+@pytest.mark.nightly
 def test_chunk_that_ends_its_workers_is_told(cluster: Cluster, tmp_path: Path) -> None:
     for _ in range(4):
         cluster.worker()
@@ -156,6 +159,7 @@ def test_chunk_that_ends_its_workers_is_told(cluster: Cluster, tmp_path: Path) -
         list(results(engine, dies_at_three, [3]))
 
 
+@pytest.mark.nightly
 def test_lost_scheduler_is_told(cluster: Cluster, tmp_path: Path, caplog: pytest.LogCaptureFixture) -> None:
     cluster.worker()
     with (

@@ -550,7 +550,8 @@ def test_the_same_variants_give_the_same_page(small: Path, small_page: str) -> N
     assert page(summary_of(small)) == small_page
 
 
-@pytest.mark.parametrize("count", [1, *(pytest.param(count, marks=pytest.mark.nightly) for count in (2, 3))])
+@pytest.mark.nightly
+@pytest.mark.parametrize("count", [1, 2, 3])
 def test_few_variants_have_a_summary_too(tmp_path: Path, count: int) -> None:
     folder = many(tmp_path / "out", count, seed=3)
     summarise(folder)

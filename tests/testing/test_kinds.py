@@ -7,6 +7,7 @@ from collections.abc import Iterator
 from dataclasses import replace
 from functools import cache
 from importlib import import_module
+from itertools import islice
 from pathlib import Path
 from typing import Any
 
@@ -354,7 +355,7 @@ def built_in() -> tuple[Mechanism, ...]:
     return tuple(form for mechanism in (*kinds, compared) for form in forms(mechanism))
 
 
-REGISTRY: Any = pint.UnitRegistry()
+REGISTRY: Any = pint.LazyRegistry()
 
 
 def with_units(made: Formula) -> Any:
@@ -422,10 +423,12 @@ def exchanged(mechanism: Mechanism) -> Iterator[tuple[str, Mechanism]]:
                 yield step.id, replace(mechanism, chapters=chapters)  # fmt: skip
 
 
-def test_no_value_passes_with_the_radian_exchanged() -> None:
+@pytest.mark.parametrize("each", [4, pytest.param(1, marks=pytest.mark.nightly)])
+def test_no_value_passes_with_the_radian_exchanged(each: int) -> None:
+    """CI tries each fourth."""
     tried = 0
     for mechanism in built_in():
-        for name, wrong in exchanged(mechanism):
+        for name, wrong in islice(exchanged(mechanism), None, None, each):
             tried += 1
             assert any(fault.startswith(f"{name}:") for fault in dimensions(wrong)), f"{mechanism.kind}: {name}"
-    assert tried > 300
+    assert tried > 300 / each

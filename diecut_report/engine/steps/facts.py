@@ -25,8 +25,9 @@ def judge(calc: Calculation, step: Fact) -> None:
     calc.withheld[step.id] = missed
     if missed[possible(calc)].all():
         calc.given -= {step.id}
-        calc.steps = {each.id: each for _, each in calc.mechanism.active(calc.given)}
-        calc.axis = calc.mechanism.axes(calc.given)
+        known = dict(calc.curves)  # those of named parts too, which are not declared one by one
+        calc.steps = known | {each.id: each for _, each in calc.mechanism.active(calc.given)}
+        calc.axis = {name: calc.axis[name] for name in known} | calc.mechanism.axes(calc.given)
 
 
 def remaining(calc: Calculation, steps: Sequence[Step]) -> list[Step]:

@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
+from functools import cache, lru_cache, partial
+from typing import NamedTuple
 
 from diecut_report.contract.mechanism import Mechanism
 from diecut_report.contract.result_names import named
@@ -10,23 +12,42 @@ from diecut_report.contract.sections import taken
 from diecut_report.contract.steps import SILENT, Abscissa, Breakpoints, Prepared, Step
 
 
-def needed(mechanism: Mechanism, given: frozenset[str], names: Sequence[str]) -> set[str]:
+def needed(mechanism: Mechanism, given: frozenset[str], names: Iterable[str]) -> set[str]:
     """Return the ids of the steps that quantities need, and of what must hold for them."""
+    known = _asking(mechanism, given)
+    found: set[str] = set()
+    pending = [_giver(name, known.own) for name in names]
+    while pending:
+        giver = pending.pop()
+        if giver and giver not in found:
+            found.add(giver)
+            pending += known.asks[giver]
+    return found | {id for id, asked in known.silent if asked <= found}
+
+
+class _Asking(NamedTuple):
+    """Hold the steps of a mechanism by id, which steps each asks for, and those that give nothing, with what they ask for."""
+
+    own: Mapping[str, Step]
+    asks: Mapping[str, frozenset[str]]
+    silent: Sequence[tuple[str, frozenset[str]]]
+
+
+@lru_cache(maxsize=256)
+def _asking(mechanism: Mechanism, given: frozenset[str]) -> _Asking:
     steps = [step for _, step in mechanism.active(given)]
     own = {step.id: step for step in steps}
-    found: set[str] = set()
-    pending = list(names)
-    while pending:
-        name = pending.pop()
-        step = _giver(name, own)
-        if step is None or step.id in found:
-            continue
-        found.add(step.id)
-        pending += _asked(step) - {getattr(step, "shown_at", "")}  # where formulas are shown matters in print only
-        pending += _of_abscissa(steps, step)
-    return found | {
-        s.id for s in steps if isinstance(s, SILENT) and not isinstance(s, Breakpoints) and _known(s, own, found)
-    }
+    giver = cache(partial(_giver, own=own))
+
+    def givers(names: Iterable[str]) -> frozenset[str]:
+        return frozenset(filter(None, map(giver, names)))
+
+    asks = {}
+    for id, step in own.items():
+        asked = _asked(step) - {getattr(step, "shown_at", "")}  # where formulas are shown matters in print only
+        asks[id] = givers([*asked, *_of_abscissa(steps, step)])
+    silent = [(s.id, givers(_asked(s))) for s in steps if isinstance(s, SILENT) and not isinstance(s, Breakpoints)]
+    return _Asking(own, asks, silent)
 
 
 def _asked(step: Step) -> frozenset[str]:
@@ -41,12 +62,7 @@ def _of_abscissa(steps: Sequence[Step], step: Step) -> list[str]:
     return [s.id for s in steps if getattr(s, "abscissa", "") == step.id]
 
 
-def _giver(name: str, own: Mapping[str, Step]) -> Step | None:
-    """Return the step of this id, or that gives this name."""
+def _giver(name: str, own: Mapping[str, Step]) -> str:
+    """Return the id of the step of this id, or that gives this name; nothing where none does."""
     found = None if name in own else named(name, own)
-    return own[found.id] if found else own.get(name)
-
-
-def _known(step: Step, own: Mapping[str, Step], found: set[str]) -> bool:
-    givers = [_giver(name, own) for name in _asked(step)]
-    return all(giver is None or giver.id in found for giver in givers)
+    return found.id if found else name if name in own else ""

@@ -1,0 +1,90 @@
+"""What the loads do to the shaft over a whole cycle: the greatest forces, stresses and deflections, and the critical speed."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from diecut_report.mechanics import beams
+from diecut_report.plugins.shaft import formulas
+from diecut_report.plugins.shaft.statics import Sides, Statics
+
+Array = NDArray[Any]
+
+
+def numbers(statics: Statics) -> dict[str, Array]:
+    """Return all numbers, (variants,) each."""
+    sides, reactions = statics.sides(statics.x), np.hypot(statics.reactions[:, 0], statics.reactions[:, 1])
+    low, high = sides.torque_bounds
+    deflection, slope = statics.resultants(
+        np.stack([*statics.body.ends[[0, -1]], statics.supports.first, statics.supports.second])
+    )
+    locating = np.sum(statics.loads.axial_force, axis=0)
+    bounds = statics.cycle.bounds("axial_force", np.ones((1, *statics.cycle.places.shape)))
+    critical = statics.critical()
+    return {
+        "reaction_a": np.max(reactions[0], axis=1),
+        "reaction_b": np.max(reactions[1], axis=1),
+        "axial_reaction": np.max(np.maximum(*(np.abs(locating + each[0]) for each in bounds)), axis=1),
+        "bending_moment": np.max(sides.bending, axis=(0, 1, 3)),
+        "torque_max": np.max(sides.torque + high, axis=(0, 1, 3)),
+        "torque_min": np.min(sides.torque + low, axis=(0, 1, 3)),
+        "torque_left": _torque_left(statics),
+        "torque_scale": _torque_scale(statics),
+        "deflection": statics.greatest_deflection[0],
+        "deflection_end": np.max(deflection[:2], axis=(0, 2)),
+        "slope_a": np.max(slope[2], axis=1),
+        "slope_b": np.max(slope[3], axis=1),
+        "twist": statics.twist,
+        "torque_span": statics.torque_span,
+        "energy_difference": statics.energy_difference,
+        "critical": critical.speed,
+        "rayleigh": critical.rayleigh,
+        "dunkerley": critical.dunkerley,
+        **_nominal(statics, sides),
+    }
+
+
+def _torque_left(statics: Statics) -> Array:
+    """What the torques add up to where none balances them, the greatest over the cycle."""
+    if statics.cycle.balance is not None:
+        return np.zeros(len(statics.elastic))
+    low, high = statics.cycle.bounds("torque", np.ones((1, *statics.cycle.places.shape)))
+    left = np.sum(statics.loads.torque, axis=0)
+    found: Array = np.max(np.maximum(np.abs(left + low[0]), np.abs(left + high[0])), axis=1)
+    return found
+
+
+def _torque_scale(statics: Statics) -> Array:
+    sizes = [np.max(np.abs(statics.loads.torque), axis=(0, 2))]
+    sizes += [np.maximum(np.abs(low), np.abs(high)) for _, low, high in statics.cycle.extremes("torque")]
+    found: Array = np.max(np.stack(sizes), axis=0)
+    return found
+
+
+def _nominal(statics: Statics, sides: Sides) -> dict[str, Array]:
+    """Return where the nominal stress is greatest over shaft and cycle, and the forces there, (variants,) each."""
+    index = np.stack([statics.body.section_of(statics.x, behind=each) for each in (False, True)])
+    diameter, bore = (
+        np.take_along_axis(each[None], index, axis=1) for each in (statics.body.diameter, statics.body.bore)
+    )
+    area, modulus = beams.circle_area(diameter, bore), 2 * beams.second_moment(diameter, bore) / diameter
+    forces = sides.axial_size, sides.bending, sides.torque_size
+    stress = formulas.yield_stress(*forces, area[..., None], modulus[..., None], 1.0, 1.0)
+    found = {"nominal_axial": forces[0], "nominal_moment": forces[1], "nominal_torque": forces[2]}
+    found |= {
+        "nominal_diameter": diameter[..., None],
+        "nominal_bore": bore[..., None],
+        "nominal_position": statics.x[None, :, :, None],
+    }
+    return {name: _picked(each, stress) for name, each in found.items()}
+
+
+def _picked(values: Array, by: Array) -> Array:
+    """Values where ``by`` (sides, places, variants, instants) is greatest, (variants,)."""
+    full = np.moveaxis(np.broadcast_to(values, by.shape), 2, 0).reshape(by.shape[2], -1)
+    index = np.argmax(np.moveaxis(by, 2, 0).reshape(by.shape[2], -1), axis=1)
+    found: Array = np.take_along_axis(full, index[:, None], axis=1)[:, 0]
+    return found
