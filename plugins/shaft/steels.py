@@ -18,7 +18,9 @@ ROUNDING = 1e-9  # relative: a diameter at the end of a size belongs to it
 def by_size(sizes: Array, values: Any, diameter: Array) -> Array:
     """Return the value of the least size (variants, sizes) that holds the diameter (variants, 1); of a thicker shaft the last."""
     if isinstance(values, tuple):
-        raise Refusal("strengths", "gives the fatigue strength of some diameters and not of others; give it for all, or for none")
+        raise Refusal(
+            "strengths", "gives the fatigue strength of some diameters and not of others; give it for all, or for none"
+        )
     index = np.minimum(np.sum(diameter > sizes * (1 + ROUNDING), axis=1, keepdims=True), sizes.shape[1] - 1)
     found: Array = np.take_along_axis(values, index, axis=1)
     return found

@@ -39,7 +39,9 @@ def bhandari(name: str) -> float:
 
 def looped(name: str, scale: float = 1.0, **keys: object) -> float:
     """A number of a textbook's loop, of which the pitch counts alone."""
-    return number(chain({}, **{"chain": "12B", "speed": 900, "power": 10, "application_factor": 1} | keys), name) * scale
+    return (
+        number(chain({}, **{"chain": "12B", "speed": 900, "power": 10, "application_factor": 1} | keys), name) * scale
+    )
 
 
 def driven(name: str) -> float:
