@@ -286,16 +286,12 @@ class Phase(Step):
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class Prepared(Step):
-    """Declare an object that plain code makes of a machine once (``for_many``: of many at once) of those of ``holds`` that there are.
-
-    With ``again`` it also gets, by that name, what calculates the same machines with other inputs: ``known["again"]({"diameter":
-    array}, rows, ["safety"])`` gives the quantities (machines,) of the variants ``rows``, each with its own values of the inputs.
-    """
+    """Declare an object that plain code makes of a machine once (``for_many``: of many at once) of those of ``holds`` that there are."""
 
     function: Callable[..., Any]
     holds: tuple[str, ...]
     for_many: bool = False
-    again: bool = False
+    again: bool = False  # it also gets ``known["again"]``, which calculates the same machines with other inputs
 
 
 class SilentStep(Step):

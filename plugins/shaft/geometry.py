@@ -18,6 +18,9 @@ GIVEN = "as it is given, or of the type of notch"
 sections = Chapter("Sections", text="x counts from the shaft's left end; y and z lie across, turning and torque are positive from y to z.")
 sections.prepared("body", lambda given: body(*map(given.get, BODY)), BODY, for_many=True)
 sections.total("length", "L", "mm", "Length of the shaft", "sum", of="sections.length", source="geometry")
+sections.require("sections_add_up", lambda length, total_length: abs(length - total_length) <= 1e-6 * total_length, key="sections",
+                 needs=("total_length",),
+                 message="add up to {length}, but total_length is {total_length}; correct the length of a section, or total_length")
 sections.require("bores_inside", bind(lambda bore, diameter: bore < diameter, bore="sections.bore", diameter="section_diameter"),
                  key="sections.{index}.bore", message="is not smaller than the diameter of section {part}; take a smaller bore")
 sections.require("bearings_apart", lambda bearing_a, bearing_b: bearing_a < bearing_b, key="bearing_b",

@@ -112,6 +112,9 @@ class Shaft(Inputs):
     from_tables: ClassVar[tuple[FromTable, ...]] = (FromTable("material", "steels", {"strengths": "strengths"}),)
 
     sections: Annotated[list[Section], Text("Sections of the shaft, from left to right")]
+    total_length: Annotated[
+        float | None, Quantity("L_0", "mm", "Length of the whole shaft, as drawn; the sections must add up to it", gt=0)
+    ] = None
     notches: Annotated[list[Notch], Text("Notches beside the shoulders")] = []  # noqa: RUF012
     bearing_a: Annotated[float, Quantity("x_A", "mm", "Place of bearing A, from the shaft's left end", ge=0)]
     bearing_b: Annotated[float, Quantity("x_B", "mm", "Place of bearing B, from the shaft's left end", ge=0)]

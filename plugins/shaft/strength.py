@@ -50,6 +50,10 @@ _number(loads, "torque_scale", "T_i,max", "N*m", "Greatest torque of a load", "t
 loads.require("torques_balance", lambda torque_left, torque_scale: torque_left <= 1e-6 * torque_scale, key="loads",
               message="have torques that add up to {torque_left}, so that the shaft would not turn evenly; correct them, or give one load "
                       "torque: balance")
+_number(loads, "load_scale", "F_i,max", "N", "Greatest force on the shaft; a couple counts by the distance of the bearings", "load_scale", OVER_CYCLE,
+        output=False)
+loads.require("is_loaded", lambda load_scale, torque_scale: (load_scale > 0) | (torque_scale > 0), key="loads",
+              message="have neither force, couple nor torque, so that nothing is to be calculated; give one of them")
 _number(loads, "reaction_a_max", "R_A", "N", "Greatest reaction of bearing A", "reaction_a", OVER_CYCLE, source="statics")
 _number(loads, "reaction_b_max", "R_B", "N", "Greatest reaction of bearing B", "reaction_b", OVER_CYCLE, source="statics")
 _number(loads, "axial_reaction_max", "R_x", "N", "Greatest axial force on the locating bearing", "axial_reaction", OVER_CYCLE, source="statics")

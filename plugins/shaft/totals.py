@@ -33,6 +33,7 @@ def numbers(statics: Statics) -> dict[str, Array]:
         "torque_min": np.min(sides.torque + low, axis=(0, 1, 3)),
         "torque_left": _torque_left(statics),
         "torque_scale": _torque_scale(statics),
+        "load_scale": _load_scale(statics),
         "deflection": statics.greatest_deflection[0],
         "deflection_end": np.max(deflection[:2], axis=(0, 2)),
         "slope_a": np.max(slope[2], axis=1),
@@ -60,6 +61,17 @@ def _torque_left(statics: Statics) -> Array:
 def _torque_scale(statics: Statics) -> Array:
     sizes = [np.max(np.abs(statics.loads.torque), axis=(0, 2))]
     sizes += [np.maximum(np.abs(low), np.abs(high)) for _, low, high in statics.cycle.extremes("torque")]
+    found: Array = np.max(np.stack(sizes), axis=0)
+    return found
+
+
+def _load_scale(statics: Statics) -> Array:
+    """The greatest force, across or along; a couple counts as the forces at the bearings that hold it."""
+    loads = statics.loads
+    forces = (loads.force_y, loads.force_z, loads.axial_force)
+    couples = (each / statics.supports.span for each in (loads.couple_xy, loads.couple_xz))
+    sizes = [np.max(np.abs(each), axis=(0, 2)) for each in (*forces, *couples)]
+    sizes += [np.maximum(np.abs(low), np.abs(high)) for _, low, high in statics.cycle.extremes("axial_force")]
     found: Array = np.max(np.stack(sizes), axis=0)
     return found
 

@@ -303,6 +303,8 @@ def test_a_fillet_beyond_the_charts_and_a_wide_bore_warn() -> None:
     [
         ({"bearing_b": 400}, "bearing_b", "beside the shaft"),
         ({"bearing_a": 260}, "bearing_b", "not beyond bearing_a"),
+        ({"total_length": 350}, "sections", "add up to 340 mm, but total_length is 350 mm"),
+        ({"loads": [{"name": "nothing", "position": 100}]}, "loads", "have neither force, couple nor torque"),
         ({"loads": [GEAR | {"position": 500}, CRANK]}, "loads.0.position", "beyond the shaft"),
         ({"notches": [{"position": 345, "type": "groove_ring"}]}, "notches.0.position", "beyond the shaft"),
         ({"loads": [GEAR, CRANK | {"torque": 10}]}, "loads", "add up to"),
