@@ -31,6 +31,8 @@ def _moved(instance: Instance, linker: Linker) -> bool:
         instance.data[curve] = instance.data.pop(key)
         instance.place = replace(instance.place, listed={**instance.place.listed, (curve,): (key,)})
         instance.bases = {(curve,) if at == (key,) else at: basis for at, basis in instance.bases.items()}
+    if found:
+        instance.forget()
     return bool(found)
 
 

@@ -72,10 +72,17 @@ class Instance:
         """Take inputs from partners: names, and references that keep no value where a machine does not have what they name."""
         self.data |= found
         self.derived = frozenset(found)
+        self.forget()
 
     def leave_out(self, keys: Iterable[KeyPath]) -> None:
         """Inputs that keep no value, as the press does not give their optional default."""
-        self.without = frozenset(keys)
+        without = frozenset(keys)
+        if without != self.without:
+            self.without = without
+            self.forget()
+
+    def forget(self) -> None:
+        """Forget what follows from the inputs, as they have changed."""
         for known in ("given", "results"):
             self.__dict__.pop(known, None)
 
