@@ -11,6 +11,7 @@ from __future__ import annotations
 
 import argparse
 import ast
+import compileall
 import os
 import random
 import re
@@ -23,6 +24,7 @@ from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
 from functools import cache, partial
 from pathlib import Path
+from py_compile import PycInvalidationMode
 
 ROOT = Path(__file__).parents[1]
 PLUGINS, MECHANICS = ROOT / "plugins", ROOT / "diecut_report" / "mechanics"
@@ -184,6 +186,8 @@ class Copy:
             shutil.copytree(ROOT / name, self.program / name, ignore=ignored)
         shutil.copytree(ROOT / "tests", folder / "tests", ignore=ignored)
         shutil.copy(ROOT / "pyproject.toml", folder)
+        hashed = PycInvalidationMode.CHECKED_HASH  # a file may change twice within a second
+        compileall.compile_dir(str(self.folder), quiet=2, invalidation_mode=hashed)
 
     def place(self, file: Path) -> Path:
         """Where a file of the checkout is in the copy."""
