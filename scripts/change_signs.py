@@ -31,12 +31,13 @@ PLUGINS, MECHANICS = ROOT / "plugins", ROOT / "diecut_report" / "mechanics"
 OTHER = {ast.Add: (b"+", b"-"), ast.Sub: (b"-", b"+"), ast.Mult: (b"*", b"/"), ast.Div: (b"/", b"*")}
 SHARED = {"tests.machines", "tests.configs", "tests.plugins.cases"}  # helpers of everything: they tell nothing
 BY_NAME = {"cylinder_drive", "cylinder_sizing"}  # reached through tests.machines: their tests are found by their names
-THROUGH = {  # modules of mechanics without a test file of their own, or with one that tests a part: what they are tested through
+THROUGH = {  # what has no test file of its own, or one that tests a part: what it is tested through
     "mechanics.circular_segment": ("cylinder_sizing", "cylinder_drive", "circular_knife"),
     "mechanics.common": ("cylinder_sizing", "damper", "drive_train", "cylinder_drive", "circular_knife"),
     "mechanics.modified_laws": ("mechanics.motion_laws",),
     "mechanics.polynomial_laws": ("mechanics.motion_laws",),
     "mechanics.triangle": ("drive_train", "mechanics.four_bar"),
+    "press_consistency": ("cyclogram",),
 }
 PAPERS = {"cylinder_drive": "source_000", "cylinder_sizing": "source_000"}
 
