@@ -11,6 +11,7 @@ from __future__ import annotations
 
 import argparse
 import ast
+import compileall
 import os
 import random
 import re
@@ -23,19 +24,23 @@ from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
 from functools import cache, partial
 from pathlib import Path
+from py_compile import PycInvalidationMode
 
 ROOT = Path(__file__).parents[1]
 PLUGINS, MECHANICS = ROOT / "plugins", ROOT / "diecut_report" / "mechanics"
 OTHER = {ast.Add: (b"+", b"-"), ast.Sub: (b"-", b"+"), ast.Mult: (b"*", b"/"), ast.Div: (b"/", b"*")}
 SHARED = {"tests.machines", "tests.configs", "tests.plugins.cases"}  # helpers of everything: they tell nothing
 BY_NAME = {"cylinder_drive", "cylinder_sizing"}  # reached through tests.machines: their tests are found by their names
-THROUGH = {  # modules of mechanics without a test file of their own, or with one that tests a part: what they are tested through
+THROUGH = {  # what has no test file of its own, or one that tests a part: what it is tested through
     "mechanics.circular_segment": ("cylinder_sizing", "cylinder_drive", "circular_knife"),
     "mechanics.common": ("cylinder_sizing", "damper", "drive_train", "cylinder_drive", "circular_knife"),
+    "mechanics.gripping": ("geneva_transport",),
     "mechanics.modified_laws": ("mechanics.motion_laws",),
     "mechanics.polynomial_laws": ("mechanics.motion_laws",),
     "mechanics.triangle": ("drive_train", "mechanics.four_bar"),
+    "press_consistency": ("cyclogram",),
 }
+OF_ALL = {"test_contract", "test_rows", "test_page"}  # of every plugin
 PAPERS = {"cylinder_drive": "source_000", "cylinder_sizing": "source_000"}
 
 
@@ -61,6 +66,7 @@ class Mutant:
         return f"{self.file.relative_to(ROOT)}:{self.line}: {self.old.decode()} → {self.new.decode()} in: {line}"
 
 
+@cache
 def units() -> dict[str, list[Path]]:
     """The files of each plugin and of each module of mechanics, by its name."""
     found = {}
@@ -126,13 +132,16 @@ def blank(match: re.Match[bytes]) -> bytes:
 def tests_of(unit: str) -> list[str]:
     """The test files that use a plugin or module."""
     through = [file for other in THROUGH.get(unit, ()) for file in tests_of(other)]
-    package = f"diecut_report.{unit}" if unit.startswith("mechanics.") else f"diecut_report.plugins.{unit}"
-    folder = ROOT / "tests" / package.split(".")[1]
-    files = [
+    place = (
+        units()[unit][0].relative_to(ROOT).with_suffix("") if unit.startswith("mechanics.") else Path("plugins") / unit
+    )
+    package = ".".join(["diecut_report", *(part for part in place.parts if part != "diecut_report")])
+    found = [
         path
-        for path in sorted(folder.glob("test_*.py"))
-        if path.name != "test_contract.py" and is_about(path, unit, package)
+        for name in ("validation", package.split(".")[1])
+        for path in sorted((ROOT / "tests" / name).rglob("test_*.py"))
     ]
+    files = [path for path in found if path.stem not in OF_ALL and is_about(path, unit, package)]
     return [*(str(path.relative_to(ROOT)) for path in files), *through]
 
 
@@ -150,7 +159,7 @@ def tests_asked(unit: str) -> list[list[str]]:
 def is_about(test: Path, unit: str, package: str) -> bool:
     """Whether a test file is about a plugin or module: by its name, or because it or a helper of it imports that."""
     if unit in BY_NAME:
-        return unit in test.stem
+        return unit in test.stem or test.stem == PAPERS[unit].replace("source", "test")
     module = ".".join(test.relative_to(ROOT).with_suffix("").parts)
     return any(f"{name}.".startswith(f"{package}.") for name in reached(module))
 
@@ -185,6 +194,8 @@ class Copy:
             shutil.copytree(ROOT / name, self.program / name, ignore=ignored)
         shutil.copytree(ROOT / "tests", folder / "tests", ignore=ignored)
         shutil.copy(ROOT / "pyproject.toml", folder)
+        hashed = PycInvalidationMode.CHECKED_HASH  # a file may change twice within a second
+        compileall.compile_dir(str(self.folder), quiet=2, invalidation_mode=hashed)
 
     def place(self, file: Path) -> Path:
         """Where a file of the checkout is in the copy."""

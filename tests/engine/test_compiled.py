@@ -113,7 +113,7 @@ def test_compiled_curves_are_the_plain_formulas(path: Any) -> None:
                 assert_alike(calc, axis, curves, seed)
 
 
-@pytest.mark.parametrize("law", few(LAWS, keep=lambda law: law in ("modified_trapezoidal", "harmonic")))
+@pytest.mark.parametrize("law", few(LAWS, keep=lambda law: law == "modified_trapezoidal"))
 def test_compiled_motion_laws_are_the_plain_formulas(law: str) -> None:
     base = load_config(next(path for path in ON_ARRAYS if path.stem == "flat_cylinder_mechanisms"), Discovery([]))
     calc = machines(base, {"mechanisms.feeder.motion_law": law}, 3)["feeder"]

@@ -10,6 +10,7 @@ import pytest
 from diecut_report.engine.numerics.domain import shares
 from diecut_report.engine.numerics.polynomial_peaks import Spots, around, vertices
 from diecut_report.expressions import Array
+from tests.examples import few
 
 INTERVALS = 32
 Curve = Callable[[Array], Array]
@@ -24,7 +25,7 @@ def told(curve: Curve, left: float, width: float, k: int | None = None) -> tuple
     return float(place[0]), float(height[0]), bool(holds[0])
 
 
-@pytest.mark.parametrize("seed", range(200))
+@pytest.mark.parametrize("seed", few(range(200), keep=lambda seed: seed % 5 == 0))
 def test_a_peak_between_points_is_found_to_rounding(seed: int) -> None:
     random = np.random.default_rng(seed)
     top, left, width, size = (

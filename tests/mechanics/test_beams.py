@@ -135,3 +135,8 @@ def test_pieces_without_length_change_no_critical_speed() -> None:
         column(0.3), column(2),
     )  # fmt: skip
     assert twice.speed == pytest.approx(once.speed, rel=1e-12)
+
+
+def test_a_hollow_circle_is_the_disc_without_its_hole() -> None:
+    disc, hole = np.pi * 0.03**2, np.pi * 0.01**2
+    assert float(beams.circle_area(0.06, 0.02)) == pytest.approx(disc - hole, rel=1e-12)

@@ -378,3 +378,7 @@ def test_the_open_belt_in_both_forms_is_the_path_of_two_pulleys(distance: float,
 
 def test_the_open_belt_is_the_drawn_path() -> None:
     assert belt_path.open_belt_length(0.5, 0.1, 0.2) == pytest.approx(drawn_length(TWO), rel=1e-9)
+
+
+def test_what_lies_outside_the_loop_counts_negative() -> None:
+    assert [float(belt_path.signed(side, 0.2)) for side in (1, -1)] == [0.2, -0.2]

@@ -28,7 +28,7 @@ from tests.examples import few
 from tests.plugins.cases import COMPARISONS, FULL, MECHANISMS, Case, case, names
 from tests.plugins.symbols import doubled
 
-COUNT, ALONE, MANY = 48, 4, 300  # machines at once, those of them calculated alone too, and all of a nightly run
+COUNT, ALONE, MANY = 48, 3, 300  # machines at once, those of them calculated alone too, and all of a nightly run
 ALIKE = {  # quantities that a step takes over under another id
     "cylinder_sizing": [("wall_at_flat", "wall_verdict")],
     "damper": [("drive.force", "driving_force")],

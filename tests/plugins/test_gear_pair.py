@@ -319,3 +319,10 @@ def test_a_wheel_at_a_distance_and_a_curve_on_the_wheel_are_calculated() -> None
     assert number(calc, "tip_clearance_1") == pytest.approx(0.25 * 0.004, rel=1e-9)
     both = calculate(MECHANISM, inputs(MECHANISM, SECTOR | {"torque_on": "wheel"}))
     assert number(both, "torque_peak") == pytest.approx(248.37 * 35 / 212, rel=1e-12)
+
+
+def test_lengths_of_a_tooth_grow_with_the_module() -> None:
+    lengths = ("root_chord_1", "root_chord_2", "root_radius_1", "root_radius_2", "tip_thickness_1", "tip_clearance_1")
+    half, whole = pair(module=2), pair(module=4)
+    for name in lengths:
+        assert number(whole, name) == pytest.approx(2 * number(half, name), rel=1e-9), name

@@ -184,7 +184,7 @@ def test_an_output_that_a_machine_does_not_have_is_empty() -> None:
 
 
 def test_curves_come_on_demand_as_each_machine_alone_has_them() -> None:
-    name, count = "flat_cylinder_mechanisms.yaml", 3
+    name, count = "flat_cylinder_mechanisms.yaml", 2
     base, values = config(name), drawn(name, count)
     rows = calculate_rows(
         base,

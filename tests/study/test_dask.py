@@ -101,6 +101,7 @@ vary:
 """
 
 
+@pytest.mark.nightly
 def test_study_on_a_cluster_that_loses_a_worker_has_the_rows_of_one_in_this_process(
     cluster: Cluster, tmp_path: Path
 ) -> None:
@@ -136,7 +137,6 @@ def test_worker_that_joins_later_takes_part(cluster: Cluster, tmp_path: Path) ->
     assert len(workers) == 2
 
 
-@pytest.mark.nightly
 def test_exception_names_its_chunk_and_the_cluster_can_be_used_again(cluster: Cluster, tmp_path: Path) -> None:
     cluster.worker()
     with (

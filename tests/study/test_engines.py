@@ -70,7 +70,7 @@ def test_another_study_is_loaded_anew(tmp_path: Path) -> None:
     assert len(list(tmp_path.glob("loaded.*"))) == 2
 
 
-@pytest.mark.parametrize("limit", [1, 5])
+@pytest.mark.parametrize("limit", [pytest.param(1, marks=pytest.mark.nightly), 5])
 def test_chunks_are_taken_only_as_they_are_needed(tmp_path: Path, limit: int) -> None:
     taken = 0
 

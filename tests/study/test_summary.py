@@ -546,6 +546,7 @@ def test_a_few_values_far_out_do_not_press_the_others_together() -> None:
     np.testing.assert_array_equal(near(values[:-1]), values[:-1])
 
 
+@pytest.mark.nightly
 def test_the_same_variants_give_the_same_page(small: Path, small_page: str) -> None:
     assert page(summary_of(small)) == small_page
 
