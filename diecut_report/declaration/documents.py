@@ -6,7 +6,7 @@ import re
 from collections.abc import Iterator
 from itertools import combinations
 
-from diecut_report.contract.mechanism import CurveTable, Comparison, Mechanism
+from diecut_report.contract.mechanism import Comparison, CurveTable, Mechanism
 from diecut_report.contract.steps import SILENT
 from diecut_report.declaration.names import DeclaredNames
 from diecut_report.declaration.order import lacking

@@ -34,11 +34,15 @@ def curves(transport: str = "cross") -> dict[str, Any]:
 def test_each_lines_torque_is_its_own_with_the_losses_of_its_way() -> None:
     found, offset = curves(), float(example("cross", "cutting passing")["line_offset"][0, 1])
     main = found["main_angle"]
-    for index, (line, turns, at, name) in enumerate((("drive", 0.5, 0.0, "crank_torque"), ("cross", 1.0, offset, "torque")), 1):
+    for index, (line, turns, at, name) in enumerate(
+        (("drive", 0.5, 0.0, "crank_torque"), ("cross", 1.0, offset, "torque")), 1
+    ):
         torque = own(line, name, main, turns, at)
         expected = turns * np.where(torque > 0, torque / ETA[line], torque * ETA[line])
         assert found[f"line_torque_{index}"] == pytest.approx(expected, abs=1e-7)
-        assert found["described"][f"line_torque_{index}"]["description"] == f"Torque of {line} at the main shaft"
+        assert (
+            found["described"][f"line_torque_{index}"]["description"] == f"Torque of the line at the main shaft: {line}"
+        )
     assert found["main_shaft_torque"] == pytest.approx(found["line_torque_1"] + found["line_torque_2"], abs=1e-9)
     assert found["greatest_torque"] == pytest.approx(found["line_torque_1"], abs=1e-9)
 
@@ -52,10 +56,14 @@ def test_the_ways_and_kinetic_energies_are_those_of_the_lines() -> None:
     assert found["way_2"] == pytest.approx(own("cross", "sheet_position", main, 1.0, offset) + turned * step, abs=1e-9)
     speed, rotation = (own("drive", name, main, 0.5, 0.0) for name in ("cylinder_speed", "cylinder_rotation"))
     swing = 2 * number(drive, "cylinder_radius") * number(drive, "static_unbalance") * np.cos(rotation)
-    assert found["kinetic_energy_1"] == pytest.approx((number(drive, "reduced_inertia") + swing) * speed**2 / 2, abs=1e-7)
+    assert found["kinetic_energy_1"] == pytest.approx(
+        (number(drive, "reduced_inertia") + swing) * speed**2 / 2, abs=1e-7
+    )
     wheel = own("cross", "wheel_speed", main, 1.0, offset)
     assert found["kinetic_energy_2"] == pytest.approx(3.57 * wheel**2 / 2, abs=1e-7)
-    assert found["kinetic_energy_total"] == pytest.approx(found["kinetic_energy_1"] + found["kinetic_energy_2"], abs=1e-9)
+    assert found["kinetic_energy_total"] == pytest.approx(
+        found["kinetic_energy_1"] + found["kinetic_energy_2"], abs=1e-9
+    )
 
 
 def test_the_peak_power_of_the_greatest_consumer_is_that_of_the_method() -> None:
@@ -106,7 +114,10 @@ def test_what_refers_to_a_sum_that_is_not_given_is_skipped_with_the_reason() -> 
     results = document(run)
     train = results["mechanisms"]["train"]
     assert train["status"] == "skipped"
-    assert "timing.main_shaft_torque, which is not calculated: a line runs at another rate than the press" in train["error"]
+    assert (
+        "timing.main_shaft_torque, which is not calculated: a line runs at another rate than the press"
+        in train["error"]
+    )
     assert results["status"] == "fail"
     consistency = results["mechanisms"]["press_consistency"]
     assert consistency["status"] != "skipped", "what it holds against others it does without"

@@ -138,7 +138,9 @@ def test_machines_whose_lines_run_at_unlike_rates_are_told_apart() -> None:
         found = alone(base, {"mechanisms.drive.crank_speed": float(speed)})
         assert isinstance(found, dict)
         assert rows.status[row] == found["status"] == "fail"
-        assert (found["mechanisms"]["train"]["status"] == "skipped") == bool(np.isnan(rows.columns["train.motor_power"][row]))
+        assert (found["mechanisms"]["train"]["status"] == "skipped") == bool(
+            np.isnan(rows.columns["train.motor_power"][row])
+        )
         kept = {name: each for name, each in found["mechanisms"].items() if each["status"] != "skipped"}
         _same_numbers(rows, row, {"mechanisms": kept})
 
