@@ -15,7 +15,7 @@ YAML = sorted(path for folder in configs.__path__ for path in Path(folder).glob(
 STUDIES = [path for path in YAML if path.stem.endswith("_study")]
 EXAMPLES = [path for path in YAML if path not in STUDIES]
 EXAMPLE = next(path for path in EXAMPLES if path.name == "flat_cylinder_press.yaml")
-MECHANISMS = EXAMPLE.with_name("flat_cylinder_mechanisms.yaml")  # the same without what takes one machine at a time
+MECHANISMS = EXAMPLE.with_name("flat_cylinder_mechanisms.yaml")  # the same without its timing
 ON_ARRAYS = [path for path in EXAMPLES if "kind: cyclogram" not in path.read_text(encoding="utf-8")]
 DISCOVERY = Discovery([GOOD])
 

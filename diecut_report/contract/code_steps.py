@@ -58,7 +58,7 @@ class PartCurves(SilentStep):
     """Declare curves over ``abscissa`` of named parts, from the prepared object ``of``: ``ID_1``, ``ID_2`` … in the results.
 
     ``names`` gives from it the names of the parts, one for each curve; ``function`` takes it, the part's number (from 0), and
-    then what that of ``ComputedCurve`` takes. The description may hold ``{part}``.
+    then what that of ``ComputedCurve`` takes. Each is told by the description and the part's name.
     """
 
     of: str
@@ -73,7 +73,7 @@ class PartCurves(SilentStep):
         for index, name in enumerate(self.names(of)):
             yield ComputedCurve(
                 id=f"{self.id}_{index + 1}", symbol=f"{self.symbol},{index + 1}", unit=self.unit, at=self.at, method=self.method,
-                description=self.description.format(part=name), source=self.source, of=self.of, abscissa=self.abscissa,
+                description=f"{self.description}: {name}", source=self.source, of=self.of, abscissa=self.abscissa,
                 function=lambda of, *places, index=index: self.function(of, index, *places),
             )  # fmt: skip
 

@@ -7,7 +7,7 @@ from inspect import signature
 from typing import Any
 
 from diecut_report.contract.binding import Binding, Bound, ByText, bound
-from diecut_report.contract.code_steps import ComputedCurve
+from diecut_report.contract.code_steps import ComputedCurve, PartCurves
 from diecut_report.contract.mechanism import Mechanism
 from diecut_report.contract.part_steps import Lookup, Pick
 from diecut_report.contract.steps import Case, Choice, Prepared, Root, Step
@@ -101,6 +101,9 @@ def _choices(step: Step, names: DeclaredNames, when: When) -> Iterator[str]:
             first = "the part's index, " if step.named_by else ""
             told = f"it is called with {first}the object, x, the middles of the pieces and the rows"
             yield from _signature(function, OF_CURVE + bool(step.named_by), told)
+        elif isinstance(step, PartCurves):
+            words = "it is called with the object, the part's number, x, the middles of the pieces and the rows"
+            yield from _signature(function, OF_CURVE + 1, words)
         else:
             yield from _signature(function, 1 if isinstance(step, Prepared) else len(getattr(step, "takes", ())))
 

@@ -12,7 +12,7 @@ from diecut_report.api import Refusal
 from diecut_report.mechanics.timing.clearance import LeastClearance, Station, carriage_clearance, least_clearance
 from diecut_report.mechanics.timing.shaft_curves import ShaftCurve
 from diecut_report.plugins.cyclogram.kinds import POSITION, STEP
-from diecut_report.plugins.cyclogram.torques import Line, lines_of_all
+from diecut_report.plugins.cyclogram.torques import LineOfMachines, lines_of_all
 
 CYLINDER = ("cylinder_radius", "flat_half_angle", "stroke")
 ROTATION = "cylinder_rotation"
@@ -65,7 +65,7 @@ def clearance_of(given: Mapping[str, Any]) -> Clearance:
     return Clearance(station, rotation, position, _standing(transport, position), given["main_period"])
 
 
-def _standing(transport: Line, position: ShaftCurve) -> Any:
+def _standing(transport: LineOfMachines, position: ShaftCurve) -> Any:
     """The way of each machine at which the carriages stand in the dwell."""
     mechanism, count = transport.mechanism, len(transport.offset)
     own = [mechanism.of_machine(row) for row in range(count)]
@@ -75,21 +75,21 @@ def _standing(transport: Line, position: ShaftCurve) -> Any:
     return position.function(places, places, np.arange(count))
 
 
-def _line(lines: list[Line], name: str, key: str) -> Line:
+def _line(lines: list[LineOfMachines], name: str, key: str) -> LineOfMachines:
     found = next((each for each in lines if each.name == name), None)
     if found is None:
         raise Refusal(key, f"is {name}, which is not a line; the lines are {', '.join(each.name for each in lines)}")
     return found
 
 
-def _numbers(line: Line, name: str, key: str) -> Any:
+def _numbers(line: LineOfMachines, name: str, key: str) -> Any:
     found = line.mechanism.numbers(name)
     if found is None:
         raise Refusal(key, f"is {line.name}, which has no {name}; give what it needs there, or leave the station out")
     return found
 
 
-def _curve(line: Line, name: str, key: str) -> ShaftCurve:
+def _curve(line: LineOfMachines, name: str, key: str) -> ShaftCurve:
     curve = line.mechanism.curve(name)
     if curve is None:
         raise Refusal(key, f"is {line.name}, which has no curve {name}")

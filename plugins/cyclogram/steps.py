@@ -136,14 +136,14 @@ station.computed("carriage_clearance", "c_r", "mm", "Clearance that the carriage
                  _needed, ("station.cylinder",), "as given to the cylinder's drive")
 
 interlocks.total("worst_rate_error", "Δn_max", "1", "Greatest of them", "max", of="rate_error", output=False)
-interlocks.fact("rates_agree", lambda worst_rate_error: worst_rate_error <= LARGEST_RATE_ERROR,
+interlocks.fact("rates_agree", bind(common.is_at_most, smaller="worst_rate_error", greater=LARGEST_RATE_ERROR),
                 "not calculated: a line runs at another rate than the press, so that nothing can be added up over the main shaft")
 
 motions = Chapter("Motions over the main shaft", needs=("rates_agree",))
 motions.prepared("motions", motions_of, ("timing", "main_period", *(f"lines.{key}" for key in LINES)), for_many=True)
 motions.abscissa("main_angle", "Φ", "deg", "Angle of the main shaft", "main_period", speed="main_shaft_speed", intervals=16)
 OWN = "from the line's own calculation"
-motions.part_curves("way", "s", "mm", "Way of {part}", lambda motions: motions.ways.names,
+motions.part_curves("way", "s", "mm", "Way of the line", lambda motions: motions.ways.names,
                     lambda motions, *asked: motions.ways.one(*asked), "motions", "main_angle", OWN, joints=lambda motions: motions.joints)
 motions.computed("moving_lines", "N_E", "1", "Lines whose kinetic energy is known", lambda motions: float(len(motions.energies.names)), ("motions",),
                  "as given", output=False)
@@ -153,7 +153,7 @@ motions.computed_curve("clearance_over", "Y", "mm", "Least height over all carri
                        needs=("station",))
 
 energies = Chapter("Kinetic energies", needs=("rates_agree", "energy_known"))
-energies.part_curves("kinetic_energy", "E", "J", "Kinetic energy of {part}", lambda motions: motions.energies.names,
+energies.part_curves("kinetic_energy", "E", "J", "Kinetic energy of the line", lambda motions: motions.energies.names,
                     lambda motions, *asked: motions.energies.one(*asked), "motions", "main_angle", OWN, joints=lambda motions: motions.joints)
 energies.computed_curve("kinetic_energy_total", "E_Σ", "J", "Kinetic energy of all lines whose is known",
                        lambda motions, *asked: motions.energies.total(*asked), "motions", "main_angle",
@@ -173,7 +173,7 @@ motions.prepared("sum", torques_of, ("timing", "main_period", "main_shaft_speed"
 motions.words("torque_missing", lambda sum: ", ".join(sum.without) or "none", SUM)
 motions.computed("consumers", "N_c", "1", "Consumers whose torque is known", lambda sum: float(len(sum.consumers)), SUM, "as given", output=False)
 motions.fact("takes_torque", lambda consumers: consumers > 0, "not calculated: no line has a torque that is known, and no friction is given")
-torques.part_curves("line_torque", "M", "N*m", "Torque of {part} at the main shaft", lambda sum: sum.together.names,
+torques.part_curves("line_torque", "M", "N*m", "Torque of the line at the main shaft", lambda sum: sum.together.names,
                     lambda sum, *asked: sum.together.one(*asked), "sum", "main_angle", OWN, joints=lambda sum: sum.joints)
 torques.computed_curve("main_shaft_torque", "M_Σ", "N*m", "Torque at the main shaft",
                        lambda sum, *asked: sum.together.total(*asked), "sum", "main_angle",

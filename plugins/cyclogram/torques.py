@@ -138,7 +138,7 @@ def _range(curve: ShaftCurve) -> Any:
 
 
 @dataclass(frozen=True, eq=False)
-class Line:
+class LineOfMachines:
     """Hold a line of all machines: how it is driven, and its offset (machines, 1)."""
 
     mechanism: Any
@@ -157,18 +157,18 @@ class Line:
         return ShaftCurve(of.values, of.breakpoints, self.turns, self.offset)
 
 
-def lines_of_all(given: Mapping[str, Any]) -> list[Line]:
+def lines_of_all(given: Mapping[str, Any]) -> list[LineOfMachines]:
     """Return the lines of all machines."""
     timings: tuple[Timing | None, ...] = given["timing"] if isinstance(given["timing"], tuple) else (given["timing"],)
     offsets = [[0.0] * len(given["lines.mechanism"]) if each is None else each.offsets for each in timings]
     return [
-        Line(mechanism, turns_of(given["lines.turns_per_sheet"][index], ""), np.array(offsets)[:, [index]],
+        LineOfMachines(mechanism, turns_of(given["lines.turns_per_sheet"][index], ""), np.array(offsets)[:, [index]],
              given["lines.path_efficiency"][:, [index]], given["lines.torque_curve"][index])
         for index, mechanism in enumerate(given["lines.mechanism"])
     ]  # fmt: skip
 
 
-def _torque(line: Line, key: str) -> ShaftCurve | None:
+def _torque(line: LineOfMachines, key: str) -> ShaftCurve | None:
     curve = line.mechanism.curve(torque_name(line.mechanism, line.torque_curve))
     if curve is None and line.torque_curve:
         words = f"is “{line.torque_curve}”, but {line.name} has no curve of this name; leave it out, and its kind's own is taken"
@@ -191,7 +191,7 @@ def energy_parts(mechanism: Any) -> tuple[Energy, list[Curve], list[Any]] | None
     return (known, curves, numbers) if (len(curves), len(numbers)) == (len(known.curves), len(known.numbers)) else None
 
 
-def _energy(line: Line) -> ShaftCurve | None:
+def _energy(line: LineOfMachines) -> ShaftCurve | None:
     found = energy_parts(line.mechanism)
     if found is None:
         return None
@@ -204,7 +204,7 @@ def _energy(line: Line) -> ShaftCurve | None:
     return ShaftCurve(energy, curves[0].breakpoints, line.turns, line.offset)
 
 
-def _way(line: Line) -> tuple[ShaftCurve, Any] | None:
+def _way(line: LineOfMachines) -> tuple[ShaftCurve, Any] | None:
     """The curve of a line's way, and the way from where it is at the line's zero, going on where its curve gains in a turn."""
     curve = line.mechanism.curve(WAYS.get(line.mechanism.kind, ""))
     if curve is None:

@@ -40,7 +40,9 @@ def test_each_lines_torque_is_its_own_with_the_losses_of_its_way() -> None:
         torque = own(line, name, main, turns, at)
         expected = turns * np.where(torque > 0, torque / ETA[line], torque * ETA[line])
         assert found[f"line_torque_{index}"] == pytest.approx(expected, abs=1e-7)
-        assert found["described"][f"line_torque_{index}"]["description"] == f"Torque of {line} at the main shaft"
+        assert (
+            found["described"][f"line_torque_{index}"]["description"] == f"Torque of the line at the main shaft: {line}"
+        )
     assert found["main_shaft_torque"] == pytest.approx(found["line_torque_1"] + found["line_torque_2"], abs=1e-9)
     assert found["greatest_torque"] == pytest.approx(found["line_torque_1"], abs=1e-9)
 
