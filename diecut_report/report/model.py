@@ -17,7 +17,7 @@ from diecut_report.report.symbols import symbol
 
 Data = Mapping[str, Any]
 _TOKEN = re.compile(r"[a-z][a-z0-9]*(?:_[a-z0-9]+)+")
-LONG = 15  # rows of a table
+LONG = 10  # rows of a table
 ORDER = {"fail": 0, "warn": 1, "pass": 2, "not_checked": 3}
 
 
