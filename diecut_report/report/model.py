@@ -17,6 +17,7 @@ from diecut_report.report.symbols import symbol
 
 Data = Mapping[str, Any]
 _TOKEN = re.compile(r"[a-z][a-z0-9]*(?:_[a-z0-9]+)+")
+LONG = 10  # rows of a table
 ORDER = {"fail": 0, "warn": 1, "pass": 2, "not_checked": 3}
 
 
@@ -120,6 +121,11 @@ class PrintedTable:
     columns: list[tuple[str, Markup, str]]  # title, symbol, unit
     rows: list[list[str]]
     number: str = ""
+
+    @property
+    def is_long(self) -> bool:
+        """Whether it may go over to another sheet."""
+        return len(self.rows) > LONG
 
 
 @dataclass(frozen=True)
