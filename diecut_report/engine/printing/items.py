@@ -49,7 +49,7 @@ from diecut_report.engine.printing.substitution import (
     Substitution,
     printed,
 )
-from diecut_report.expressions import Node
+from diecut_report.expressions import Array, Node
 from diecut_report.quantities.formatting import number_text, shown, with_unit
 from diecut_report.quantities.units import unit
 
@@ -75,9 +75,14 @@ def section_items(calc: Calculation) -> list[dict[str, Any]]:
     return [chapter for chapter in chapters.values() if chapter["items"]]
 
 
+def _is_nothing(row: Array) -> bool:
+    """Whether no part of a row has a number; a text is something."""
+    return row.dtype.kind in "fc" and bool(np.isnan(row).all())
+
+
 def items(calc: Calculation, step: Step) -> list[Item]:
     """Return what is printed of a step (nothing of breakpoints and requirements)."""
-    if step.exists is not None and step.id in calc.values and np.isnan(calc.values[step.id][0].astype(float)).all():
+    if step.exists is not None and step.id in calc.values and _is_nothing(calc.values[step.id][0]):
         return [_head(step) | {"type": "note", "text": f"{step.description}: does not apply to this machine."}]
     match step:
         case Value(formula=part):
