@@ -23,8 +23,7 @@ class Step:
     and none of ``lacks``. ``output`` puts the quantity among the outputs of the results file, else among its values.
     A text input takes part in them by its value: ``needs=("engagement=away",)``.
     ``exists`` is a condition on numbers: where it does not hold the quantity is absent for that machine.
-    ``whole`` marks a count, which the results hold as an integer.
-    ``units`` are other units, each with the input beside which it holds: (("mass", "N"),).
+    ``whole`` marks a count, an integer in the results. ``units`` are other units, each with the input beside which it holds: (("mass", "N"),).
     A row over repeated parts is named ``ID.0``, ``ID.1`` … in the results, or by ``numbered`` (``shaft_{}_speed``) from ``first`` on,
     or with ``named_by``, the text input of the parts' names (``bearings.name``), after them: ``NAME_ID``.
     """
