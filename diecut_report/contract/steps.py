@@ -1,7 +1,7 @@
 """The steps of a calculation, as a plugin declares them: each is data, the engine runs and prints it.
 
-A step gives one quantity, known by its id. It takes quantities by id: inputs, and what earlier steps gave. Where an
-input and a step share an id, the id means the step's value and ``inputs.ID`` the input.
+A step gives one quantity, known by its id. It takes quantities by id: inputs, and what earlier steps gave. Where both share
+an id, the id means the step's value and ``inputs.ID`` the input.
 """
 
 from __future__ import annotations

@@ -25,7 +25,16 @@ def is_of_machine(check: Check) -> bool:
 
 def missing(calc: Calculation, check: Check) -> tuple[str, ...]:
     """Return the keys without which a check is not made; none where it is made, does not apply, or tests the calculation itself."""
-    return missing_keys(calc.mechanism, check, calc.given) or () if is_of_machine(check) else ()
+    if not is_of_machine(check) or any(_does_not_exist(calc, side) for side in (check.demand, check.limit)):
+        return ()
+    return missing_keys(calc.mechanism, check, calc.given) or ()
+
+
+def _does_not_exist(calc: Calculation, side: str | float) -> bool:
+    """Whether a side is a quantity that this machine (none of many) does not have, as a shaft without a torque has no twist."""
+    if not isinstance(side, str) or side not in calc.values or calc.steps[side].exists is None:
+        return False
+    return bool(np.isnan(calc.values[side].astype(float)).all())
 
 
 def result(calc: Calculation, check: Check, keys: tuple[str, ...]) -> Data:

@@ -45,6 +45,7 @@ def check(demand: Any, limit: Any, **changes: Any) -> Check:
 def bar(*checks: Check) -> Mechanism:
     chapter = Chapter("All")
     chapter.value("doubled", "D", "N", "Doubled", lambda force: 2 * force)
+    chapter.value("slack", "Δ", "N", "Slack", lambda force: 10 - force, exists=lambda force: force < 10)
     chapter.value("spread", "S", "N", "Spread", lambda force, width: force + width, needs=("width",))
     chapter.value("bent", "B", "N", "Bent", lambda force: 3 * force, needs=("material=steel",))
     chapter.value("weighed", "G", "N", "Weighed", lambda weight, tare: weight - tare, needs=("weight", "tare"))
@@ -88,6 +89,11 @@ def test_what_is_needed_for_the_demand_is_named_too_in_the_order_of_the_keys() -
 )  # fmt: skip
 def test_what_does_not_apply_is_left_out(one: Check, given: dict[str, Any]) -> None:
     assert made(one, **given) == []
+
+
+def test_what_this_machine_does_not_have_is_not_asked_for() -> None:
+    assert [one["missing"] for one in made(check("slack", "rated"), force=9)] == [["rated"]]
+    assert made(check("slack", "rated"), force=11) == []
 
 
 def test_what_applies_and_lacks_a_key_is_told() -> None:
