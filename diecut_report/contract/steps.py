@@ -1,7 +1,7 @@
 """The steps of a calculation, as a plugin declares them: each is data, the engine runs and prints it.
 
-A step gives one quantity, known by its id. It takes quantities by id: inputs, and what earlier steps gave. Where both share
-an id, the id means the step's value and ``inputs.ID`` the input.
+A step gives one quantity, known by its id. It takes quantities by id: inputs, and what earlier steps gave. Where both
+share an id, it means the step's value, and ``inputs.ID`` the input.
 """
 
 from __future__ import annotations
@@ -200,8 +200,7 @@ class CurvePeriod(Step):
 class Words(Step):
     """Declare a text made by plain code, for messages (``{id}``): ``function`` takes the numbers (SI) and texts ``takes`` of one machine.
 
-    It is made only where a message or a drawing asks for it. With ``each_part`` it is a text for each part of a row: the
-    function gives a tuple of them.
+    It is made only where a message or a drawing asks for it. With ``each_part`` the function gives a tuple: a text for each part of a row.
     """
 
     function: Callable[..., str | tuple[str, ...]]
@@ -269,10 +268,10 @@ class Clash(Step):
 class Phase(Step):
     """Declare when, over the period of an abscissa, the mechanism does something; its id is ``phases.NAME``.
 
-    ``role`` is what it does: ``working`` (a tool on the product), ``rest``, ``moving``, ``window`` (room for another part).
-    Each of ``spans`` goes from one place to another: ids of numbers, or plain numbers; a place that does not exist for a
-    machine leaves its span out. ``period`` is the id of what repeats, where that is not the abscissa's own period. Instead
-    of them ``union`` names phases that are taken together, or ``rest_of`` those that leave it the rest of the period.
+    ``role`` is what it does: ``working`` (a tool on the product), ``rest``, ``moving``, ``window`` (room for another part). Each of
+    ``spans`` goes from one place to another: ids of numbers, or plain numbers; a place that does not exist for a machine leaves its
+    span out. ``period`` is the id of what repeats, where that is not the abscissa's own. ``union`` names phases that are taken
+    together instead, ``rest_of`` those that leave it the rest of the period.
     """
 
     role: str

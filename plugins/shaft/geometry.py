@@ -114,8 +114,9 @@ for suffix, sign, form, told in (("", "f", "press_fit_factor", "bending"), ("s",
                   source="Shigley 6-32", output=False)
     notches.computed(f"k_{sign}", f"K_{sign}", "1", f"Fatigue notch factor in {told}", lambda body, row: body.greatest_here(row),
                      ("body", f"own_k_{sign}"), "the greatest of the notches at one place, not their product", over="places", output=False)
-notches.value("bore_ratio", "d_i/d", "1", "Bore to diameter at a fillet (0 elsewhere)",
-              lambda is_fillet, place_bore, place_diameter: np.where(is_fillet > 0, place_bore / place_diameter, 0), source="Peterson", output=False)
+notches.value("bore_ratio", "d_i/d", "1", "Bore to diameter at a fillet of a hollow shaft",
+              lambda place_bore, place_diameter: place_bore / place_diameter,
+              exists=lambda is_fillet, place_bore: (is_fillet > 0) & (place_bore > 0), source="Peterson", output=False)
 
 endurance = Chapter("Endurance limit")
 endurance.require("yield_below", lambda yield_strength, tensile_strength: yield_strength <= tensile_strength, key="yield_strength",
