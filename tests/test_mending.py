@@ -31,6 +31,7 @@ ELEMENTS = {
     "sector.k_factors",
     "main_gears.k_factors",
     "gripper_chain.slack_side",
+    "bearings.rocker_pin_oscillation",
 }
 
 # What is taken over from the mended press in each step (keys of mechanisms), and what fails or warns after it

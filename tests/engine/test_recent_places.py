@@ -5,32 +5,34 @@ from __future__ import annotations
 import numpy as np
 
 from diecut_report.engine.calculation import CurveHandle
-from diecut_report.engine.numerics.recent_places import MOST, RecentPlaces
+from diecut_report.engine.numerics.recent_places import RecentPlaces
 from tests.engine.test_switches import FORMULAS, run, wheel
 
 X = np.linspace(0, 1, 5)[None, :]
+MOST = 3
 
 
 def test_what_is_known_at_places_is_made_once_and_only_for_these_places() -> None:
-    recent, made = RecentPlaces[int](), list[int]()
+    recent, made = RecentPlaces[int](MOST), list[int]()
 
     def make() -> int:
         made.append(len(made))
         return made[-1]
 
-    assert [recent.at("angle", X, X, make), recent.at("angle", X.copy(), X, make)] == [0, 0]
-    assert recent.at("time", X, X, make) == 1
-    assert recent.at("angle", X + 1, X, make) == 2
-    assert recent.at("angle", X, X + 1, make) == 3
-    assert recent.at("angle", X.T, X.T, make) == 4
+    assert [recent.at("angle", (X, X, None), make), recent.at("angle", (X.copy(), X, None), make)] == [0, 0]
+    assert recent.at("time", (X, X, None), make) == 1
+    assert recent.at("angle", (X + 1, X, None), make) == 2
+    assert recent.at("angle", (X, X + 1, None), make) == 3
+    assert recent.at("angle", (X.T, X.T, None), make) == 4
+    assert recent.at("angle", (X.T, X.T, np.array([0])), make) == 5
 
 
 def test_no_more_places_are_kept_than_the_last_ones() -> None:
-    recent = RecentPlaces[float]()
+    recent = RecentPlaces[float](MOST)
     for first in range(MOST + 1):
-        recent.at("angle", X + first, X, lambda first=first: first)  # type: ignore[misc]
-    assert recent.at("angle", X + MOST, X, lambda: -1.0) == MOST
-    assert recent.at("angle", X, X, lambda: -1.0) == -1
+        recent.at("angle", (X + first, X), lambda first=first: first)  # type: ignore[misc]
+    assert recent.at("angle", (X + MOST, X), lambda: -1.0) == MOST
+    assert recent.at("angle", (X, X), lambda: -1.0) == -1
 
 
 def test_a_curve_taken_over_is_that_of_its_own_piece_and_of_no_other_curve() -> None:

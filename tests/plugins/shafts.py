@@ -63,7 +63,6 @@ LAYSHAFT: dict[str, Any] = {
     "surface": "ground",
     "reliability": 99.9,
     "speed": 1500,
-    "total_length": 300,
     "turns_per_cycle": 2,
     "allowable_deflection": 0.1,
     "allowable_twist": 0.5,

@@ -53,6 +53,7 @@ def with_sizes(sections: list[dict[str, Any]], sizes: list[float]) -> list[dict[
     return [section | {"diameter": size} for section, size in zip(sections, sizes, strict=True)]
 
 
+@pytest.mark.nightly  # each calculates dozens of shafts
 @pytest.mark.parametrize(
     "changes", [{}, {"required_fatigue_safety": 1.2}, {"allowable_deflection": 0.08}, {"speed": 20_000}]
 )

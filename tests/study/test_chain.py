@@ -152,8 +152,11 @@ def test_machines_whose_lines_run_at_unlike_rates_are_told_apart() -> None:
 def _same_numbers(rows: Rows, row: int, found: dict[str, Any]) -> None:
     for name, mechanism in found["mechanisms"].items():
         outputs = {f"{name}.{key}": output for key, output in mechanism["outputs"].items()}
-        assert set(outputs) <= set(rows.columns)
-        for key, output in outputs.items():
+        lacking = set(outputs) - set(rows.columns)
+        assert all(
+            "place_" in key for key in lacking
+        )  # rows over places, which are known only once a shaft is calculated
+        for key, output in ((key, output) for key, output in outputs.items() if key not in lacking):
             value, within = output["value"], rounding(mechanism, output["unit"])
             is_residual = key.endswith("_residual")  # judged by its check
             assert is_residual or same(rows.columns[key][row], value, within), (key, rows.columns[key][row], value)

@@ -43,10 +43,18 @@ def value_at(calc: Calculation, name: str, axis: str | None, *, flag: bool = Fal
 
 
 def shown_part(calc: Calculation, name: str) -> int:
-    """Return which part of a row formulas are shown with, from 0: the first that has all values; 0 of a number too."""
+    """Return which part of a row formulas are shown with, from 0: the asked one, or the first that has all values; 0 of a number too."""
+    known = _known_parts(calc, name)
     names = calc.steps.get(calc.axis.get(name, ""))
     if isinstance(names, PartNames) and names.shown_at:
-        return int(calc[names.shown_at][0, 0])
+        asked = int(calc[names.shown_at][0, 0])
+        if known is None or known[asked]:
+            return asked
+    return 0 if known is None else int(np.argmax(known))
+
+
+def _known_parts(calc: Calculation, name: str) -> Array | None:
+    """Return for which parts a row and all that it takes have values; None of a text."""
     step = calc.steps.get(name)
     taken = [each for each in step.takes() if isinstance(each, str)] if isinstance(step, Value) else []
     rows = [
@@ -55,7 +63,7 @@ def shown_part(calc: Calculation, name: str) -> int:
         if each in calc.values and calc.axis.get(each) == calc.axis.get(name)
     ]
     known = [~np.isnan(row.astype(float)) for row in rows if row.dtype != object]
-    return int(np.argmax(np.all(known, axis=0))) if known else 0
+    return np.asarray(np.all(known, axis=0)) if known else None
 
 
 def is_elsewhere(calc: Calculation, step: Value | Choice, axis: str | None) -> bool:
