@@ -54,7 +54,7 @@ OF_ONE_PRESS = {"cyclogram"}  # takes other mechanisms whole, one machine at a t
 each_mechanism = pytest.mark.parametrize("mechanism", MECHANISMS.values(), ids=MECHANISMS)
 CASES = [(kind, name) for kind in MECHANISMS if kind not in OF_ONE_PRESS for name in names(kind)]
 AT_NIGHT = {  # beside others that have more
-    ("cylinder_drive", "published"), ("cylinder_sizing", "sized"), ("elastic_follower", "slide"),
+    ("cylinder_drive", "published"), ("cylinder_sizing", "sized"), ("elastic_follower", "slide"), ("shaft", "sized"), ("shaft", "own steel"),
     *(("cam_gear_transport", law) for law in LAWS if law != "modified_trapezoidal"),
 }  # fmt: skip
 
