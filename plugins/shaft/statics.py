@@ -148,11 +148,32 @@ class Statics:
 
     def _of_units(self, x: Array) -> Bent:
         """The deflection lines for a unit force, and for a unit couple, at the place of each load (places, variants, loads)."""
-        places = self.cycle.places
+        chosen, like = self._unlike
+        places, supports = self.cycle.places[:, chosen], self._supports_of(chosen)
         unit = np.broadcast_to(np.eye(len(places))[:, None], (*places.shape, len(places)))
         forces, couples = np.concatenate([unit, 0 * unit], axis=2), np.concatenate([0 * unit, unit], axis=2)
-        loading = Loading(places, forces, couples).held(self.supports)
-        return beams.bent(x, self.stiffness_of(x), loading, self.supports)
+        loading = Loading(places, forces, couples).held(supports)
+        found = beams.bent(x[:, chosen], self.stiffness_of(x)[:, chosen], loading, supports)
+        return Bent(x, found.deflection[:, like], found.slope[:, like])
+
+    def _supports_of(self, chosen: Array) -> Supports:
+        return Supports(self.supports.first[chosen], self.supports.second[chosen])
+
+    @cached_property
+    def _weights(self) -> Array:
+        """The mass between one place and the next, (places - 1, variants)."""
+        diameter, bore = self.section_between(self.x)
+        weights: Array = self.density * beams.circle_area(diameter, bore) * np.diff(self.x, axis=0)
+        return weights
+
+    @cached_property
+    def _unlike(self) -> tuple[Array, Array]:
+        """The first variants of each geometry, and for each variant which of them it is like: most studies vary the loads alone."""
+        masses = self._weights, self.cycle.mass
+        own = np.stack([self.supports.first, self.supports.second])
+        geometry = np.concatenate([self.x, self.stiffness_of(self.x), *masses, self.cycle.places, own])
+        _, first, like = np.unique(geometry, axis=1, return_index=True, return_inverse=True)
+        return first, like.ravel()
 
     @cached_property
     def _given(self) -> tuple[Array, Array]:
@@ -242,10 +263,11 @@ class Statics:
 
     def critical(self) -> beams.Critical:
         """Return the critical speed with its bounds."""
-        diameter, bore = self.section_between(self.x)
-        weights = self.density * beams.circle_area(diameter, bore) * np.diff(self.x, axis=0)
-        stiffness = self.stiffness_of(self.x)
-        return beams.critical(self.x, stiffness, weights, self.supports, self.cycle.places, self.cycle.mass)
+        chosen, like = self._unlike
+        given = self.x, self.stiffness_of(self.x), self._weights, self.cycle.places, self.cycle.mass
+        x, stiffness, weights, places, masses = (each[:, chosen] for each in given)
+        found = beams.critical(x, stiffness, weights, self._supports_of(chosen), places, masses)
+        return beams.Critical(found.speed[like], found.rayleigh[like], found.dunkerley[like])
 
 
 def _no_more_than_needed(values: Array) -> Array:
