@@ -182,11 +182,23 @@ class Statics:
         planes = (loads.force_y, loads.couple_xy), (loads.force_z, loads.couple_xz)
         return tuple(np.moveaxis(np.concatenate(plane), 1, 0) for plane in planes)  # type: ignore[return-value]
 
-    def resultants(self, places: Array) -> tuple[Array, Array]:
-        """Return resultant deflection and slope at places (places, variants) among all, (places, variants, instants)."""
-        units = (np.moveaxis(each, 1, 0) for each in self._of_units(self.x).at(places))
-        across, turned = ([np.moveaxis(each @ given, 0, 1) for given in self._given] for each in units)
-        return np.hypot(*across), np.hypot(*turned)
+    def deflections_at(self, places: Array) -> Array:
+        """Return the resultant deflection at places (places, variants) among all, (places, variants, instants)."""
+        return self._resultant(self._units.at(places)[0])
+
+    def slopes(self, places: Array) -> Array:
+        """Return the resultant slope at places (places, variants) among all, (places, variants, instants)."""
+        return self._resultant(self._units.at(places)[1])
+
+    @cached_property
+    def _units(self) -> Bent:
+        return self._of_units(self.x)
+
+    def _resultant(self, of_units: Array) -> Array:
+        """The resultant over both planes of what unit loads do (places, variants, loads)."""
+        by_variant = np.moveaxis(of_units, 1, 0)
+        found: Array = np.moveaxis(np.sqrt(sum((by_variant @ given) ** 2 for given in self._given)), 0, 1)
+        return found
 
     @cached_property
     def greatest_deflection(self) -> tuple[Array, Array]:

@@ -125,11 +125,8 @@ def _yielding(sides: Sides, own: dict[str, Array]) -> dict[str, Array]:
     forces = {"yield_axial": sides.axial_size, "yield_moment": sides.bending, "yield_torque": sides.torque_size}
     factors = (own[name][None, :, :, None] for name in ("area", "modulus", "k_f", "k_fs"))
     stress = formulas.yield_stress(*forces.values(), *factors)
-    flat = np.moveaxis(stress, 0, 2).reshape(*stress.shape[1:3], -1)
-    index = np.argmax(flat, axis=2)[:, :, None]
-    return {
-        name: np.take_along_axis(
-            np.moveaxis(np.broadcast_to(each, stress.shape), 0, 2).reshape(flat.shape), index, axis=2
-        )[:, :, 0].T
-        for name, each in forces.items()
-    }
+    flat = np.moveaxis(stress, 0, 2)
+    side, instant = np.unravel_index(np.argmax(flat.reshape(*flat.shape[:2], -1), axis=2), flat.shape[2:])
+    place, variant = np.indices(flat.shape[:2])
+    at = side, place, variant, instant
+    return {name: np.broadcast_to(each, stress.shape)[at].T for name, each in forces.items()}
