@@ -21,7 +21,7 @@ def numbers(statics: Statics) -> dict[str, Array]:
     slope = statics.slopes(np.stack([statics.supports.first, statics.supports.second]))
     locating = np.sum(statics.loads.axial_force, axis=0)
     bounds = statics.cycle.bounds("axial_force", np.ones((1, *statics.cycle.places.shape)))
-    critical = statics.critical()
+    critical = statics.elastic.critical()
     return {
         "reaction_a": np.max(reactions[0], axis=1),
         "reaction_b": np.max(reactions[1], axis=1),
@@ -49,7 +49,7 @@ def numbers(statics: Statics) -> dict[str, Array]:
 def _torque_left(statics: Statics) -> Array:
     """What the torques add up to where none balances them, the greatest over the cycle."""
     if statics.cycle.balance is not None:
-        return np.zeros(len(statics.elastic))
+        return np.zeros(len(statics.shear))
     low, high = statics.cycle.bounds("torque", np.ones((1, *statics.cycle.places.shape)))
     left = np.sum(statics.loads.torque, axis=0)
     found: Array = np.max(np.maximum(np.abs(left + low[0]), np.abs(left + high[0])), axis=1)

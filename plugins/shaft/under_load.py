@@ -14,6 +14,7 @@ from diecut_report.mechanics.beams import Loading, Supports
 from diecut_report.plugins.shaft import formulas, totals
 from diecut_report.plugins.shaft.body import Body
 from diecut_report.plugins.shaft.cycle import Cycle, Instants
+from diecut_report.plugins.shaft.elastic import ElasticShaft
 from diecut_report.plugins.shaft.material_point import worst_points
 from diecut_report.plugins.shaft.statics import BLOCK, Sides, Statics
 
@@ -59,10 +60,11 @@ class UnderLoad:
         body = self.body
         arrays = {name: each[:, rows] for name, each in vars(body).items() if isinstance(each, np.ndarray)}
         supports = Supports(self.bearing_a[rows], self.bearing_b[rows])
-        return Statics(
-            Body(**vars(body) | arrays), self.cycle.of(rows), loads, supports,
-            supports.first if self.at_a else supports.second, self.elastic[rows], self.shear[rows], self.density[rows],
-        )  # fmt: skip
+        cycle = self.cycle.of(rows)
+        elastic = ElasticShaft(
+            Body(**vars(body) | arrays), supports, cycle.places, cycle.mass, self.elastic[rows], self.density[rows]
+        )
+        return Statics(elastic, cycle, loads, supports.first if self.at_a else supports.second, self.shear[rows])
 
     @cached_property
     def numbers(self) -> dict[str, Array]:
