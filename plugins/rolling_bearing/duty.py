@@ -237,6 +237,9 @@ class Duty:
     @cached_property
     def greatest_axial(self) -> Array:
         """Return the greatest size of the axial force."""
+        if not is_curve(self.axial):
+            known: Array = np.abs(self.axial) * self.factor
+            return known
         return self.greatest(lambda _, axial: axial)[1]
 
     @cached_property

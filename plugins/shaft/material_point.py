@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
@@ -30,18 +30,30 @@ class Points:
     shear: tuple[Array, Array]
     factors: dict[str, Array]
 
-    def of(self, chosen: Any) -> Points:
-        """Return some of them."""
-        return Points(
-            self.moments[chosen], None if self.axial is None else self.axial[chosen], self.bounds[:, chosen],
-            (self.shear[0][chosen], self.shear[1][chosen]), {name: each[chosen] for name, each in self.factors.items()},
-        )  # fmt: skip
+    def at(self, instants: Array) -> Points:
+        """Return the places with some of the instants alone, (places or 1, instants)."""
+        axial = None if self.axial is None else np.take_along_axis(self.axial, instants, axis=1)
+        return replace(self, moments=np.take_along_axis(self.moments, instants[:, None], axis=2), axial=axial)
 
-    def judged(self, psi: Array, every: int) -> tuple[Array, Array, Array]:
-        """Return safety, amplitude and mean of the normal stress at directions (places or 1, directions), over every so many instants."""
-        across = np.stack([np.cos(psi), np.sin(psi)], axis=2) @ self.moments[:, :, ::every]
+    def near(self, psi: Array, turn: float) -> Points:
+        """Return the places with those instants alone whose stress can be extreme within a turn of directions psi (places, 1)."""
+        along, beside = ((_towards(each) @ self.moments)[:, 0] for each in (psi, psi + np.pi / 2))
+        stress = along if self.axial is None else along - self.axial
+        can = np.zeros(stress.shape, dtype=bool)
+        for extreme in (np.argmin(stress, axis=1)[:, None], np.argmax(stress, axis=1)[:, None]):
+            gap, ahead, aside = (
+                np.abs(each - np.take_along_axis(each, extreme, axis=1)) for each in (stress, along, beside)
+            )
+            can |= gap < np.sin(turn) * aside + (1 - np.cos(turn)) * ahead
+            np.put_along_axis(can, extreme, True, axis=1)
+        most = int(np.max(np.sum(can, axis=1)))
+        return self.at(np.argsort(~can, axis=1, kind="stable")[:, :most])
+
+    def judged(self, psi: Array) -> tuple[Array, Array, Array]:
+        """Return safety, amplitude and mean of the normal stress at directions (places or 1, directions)."""
+        across = _towards(psi) @ self.moments
         if self.axial is not None:
-            across -= self.axial[:, None, ::every]
+            across -= self.axial[:, None]
         upper, lower = (
             -np.min(across, axis=2) + self.bounds[1][:, None],
             -np.max(across, axis=2) + self.bounds[0][:, None],
@@ -57,14 +69,23 @@ class Points:
         """Return safety, amplitude and mean where the safety is least, (places,) each."""
         is_symmetric = self.axial is None and not np.any(self.bounds)  # opposite points then have opposite stresses
         psi = (DIRECTIONS[: len(DIRECTIONS) // 2] if is_symmetric else DIRECTIONS)[None]
-        step, every = float(DIRECTIONS[1]), SPARSE
-        for _ in range(3):
-            safety = self.judged(psi, every)[0]
-            best = np.take_along_axis(np.broadcast_to(psi, safety.shape), np.argmin(safety, axis=1)[:, None], axis=1)
-            psi, step, every = best + step * NEAR, step * NARROWED, 1
-        safety, amplitude, mean = (each[:, 0] for each in self.judged(best, 1))
+        step = float(DIRECTIONS[1])
+        best = self.at(np.arange(0, self.moments.shape[2], SPARSE)[None])._least(psi)
+        near = self.near(best, step * (1 + NARROWED))
+        for _ in range(2):
+            best, step = near._least(best + step * NEAR), step * NARROWED
+        safety, amplitude, mean = (each[:, 0] for each in near.judged(best))
         is_rounding = np.abs(mean) < ROUNDING * (np.abs(amplitude) + np.abs(mean))
         return safety, amplitude, np.where(is_rounding, 0.0, mean)
+
+    def _least(self, psi: Array) -> Array:
+        """Which of the directions (places or 1, directions) has the least safety, (places, 1)."""
+        safety = self.judged(psi)[0]
+        return np.take_along_axis(np.broadcast_to(psi, safety.shape), np.argmin(safety, axis=1)[:, None], axis=1)
+
+
+def _towards(psi: Array) -> Array:
+    return np.stack([np.cos(psi), np.sin(psi)], axis=2)
 
 
 def worst_points(sides: Sides, angle: Array, own: dict[str, Array]) -> dict[str, Array]:
@@ -75,8 +96,8 @@ def worst_points(sides: Sides, angle: Array, own: dict[str, Array]) -> dict[str,
     shape = sides.xy.shape[1:3]
     chosen = np.concatenate([np.ones((1, *shape), dtype=bool), _differs(sides)[None]])
     side, place, variant = np.nonzero(chosen)
-    torque = _torque(sides)
-    found = [_worst(sides, angle, own, torque, *(each[i : i + TOGETHER] for each in (side, place, variant)))
+    torque, turned_by = _torque(sides), (np.cos(angle), np.sin(angle))
+    found = [_worst(sides, turned_by, own, torque, *(each[i : i + TOGETHER] for each in (side, place, variant)))
              for i in range(0, len(side), TOGETHER)]  # fmt: skip
     safety, *rest = (np.full((2, *shape), np.inf) for _ in range(3))
     for table, name in zip((safety, *rest), range(3), strict=True):
@@ -101,7 +122,7 @@ def _torque(sides: Sides) -> tuple[Array, Array]:
 
 def _worst(
     sides: Sides,
-    angle: Array,
+    turned_by: tuple[Array, Array],
     own: dict[str, Array],
     torque: tuple[Array, Array],
     side: Array,
@@ -110,8 +131,7 @@ def _worst(
 ) -> tuple[Array, Array, Array]:
     at = side, place, variant
     factors = {name: each[place, variant] for name, each in own.items()}
-    xy, xz, turn = sides.xy[at], sides.xz[at], angle[variant]
-    cosine, sine = np.cos(turn), np.sin(turn)
+    xy, xz, cosine, sine = sides.xy[at], sides.xz[at], *(each[variant] for each in turned_by)
     turned = np.stack([xy * cosine + xz * sine, xz * cosine - xy * sine], axis=1) / factors["modulus"][:, None, None]
     area = factors["area"][:, None]
     axial = sides.axial[at] / area if np.any(sides.axial) else None

@@ -1,4 +1,4 @@
-"""What the loads do to the shaft: forces in its sections, reactions, deflection, twist, critical speed, over the cycle."""
+"""What the loads do to the shaft: forces in its sections, reactions, deflection, twist, over the cycle."""
 
 from __future__ import annotations
 
@@ -14,11 +14,11 @@ from diecut_report.mechanics import beams
 from diecut_report.mechanics.beams import SAME_PLACE, Bent, Loading, Supports
 from diecut_report.plugins.shaft.body import Body
 from diecut_report.plugins.shaft.cycle import INSTANTS, Cycle, Instants
+from diecut_report.plugins.shaft.elastic import ElasticShaft, between
 
 Array = NDArray[Any]
 BLOCK = 16  # variants at once
-WITHIN = np.linspace(0, 1, 5)  # of a piece, where the greatest deflection is looked for over the cycle
-FINE = np.linspace(0, 1, 101)  # and at its instant
+FINE = np.linspace(0, 1, 101)  # of a piece, where the greatest deflection is looked for at its instant
 SPARSE = 6  # of the instants every so many are looked at first, then those beside the best
 PROVED = 24  # instants at which the deflection line is proved by its energy
 
@@ -59,14 +59,26 @@ class Sides:
 class Statics:
     """Hold some variants of the shaft under their loads; numbers are (variants,)."""
 
-    body: Body
+    elastic: ElasticShaft
     cycle: Cycle
     loads: Instants
-    supports: Supports
     locating: Array
-    elastic: Array
     shear: Array
-    density: Array
+
+    @property
+    def body(self) -> Body:
+        """Return the shaft's body."""
+        return self.elastic.body
+
+    @property
+    def supports(self) -> Supports:
+        """Return the places of the bearings."""
+        return self.elastic.supports
+
+    @property
+    def x(self) -> Array:
+        """Return all places where something begins or acts, ascending, (points, variants)."""
+        return self.elastic.x
 
     @cached_property
     def planes(self) -> tuple[Loading, Loading]:
@@ -79,12 +91,6 @@ class Statics:
     def reactions(self) -> Array:
         """Return the reactions: (bearing, plane, variants, instants)."""
         return np.stack([plane.forces[-2:] for plane in self.planes], axis=1)
-
-    @cached_property
-    def x(self) -> Array:
-        """Return all places where something begins or acts, ascending, (points, variants)."""
-        found: Array = np.sort(np.concatenate([self.body.ends[[0, -1]], self.body.x]), axis=0)
-        return found
 
     def sides(self, x: Array) -> Sides:
         """Return the forces in the sections at places (places, variants)."""
@@ -119,40 +125,20 @@ class Statics:
 
     # --- deflection ----------------------------------------------------------------------------------------------------
 
-    def stiffness_of(self, x: Array) -> Array:
-        """Return E I between one place and the next, (places - 1, variants)."""
-        diameter, bore = self.section_between(x)
-        stiffness: Array = self.elastic * beams.second_moment(diameter, bore)
-        return stiffness
-
-    def section_between(self, x: Array) -> tuple[Array, Array]:
-        """Return diameter and bore between one place and the next."""
-        index = self.body.section_of((x[:-1] + x[1:]) / 2, behind=True)
-        return tuple(np.take_along_axis(each, index, axis=0) for each in (self.body.diameter, self.body.bore))  # type: ignore[return-value]
-
     @cached_property
     def lines(self) -> tuple[Bent, Bent]:
         """Return the deflection lines of both planes at all places."""
-        return self.bent(self.x)
+        return self._bent(self.elastic.at_joints)
 
     def bent(self, x: Array) -> tuple[Bent, Bent]:
         """Return the deflection lines of both planes at places that hold all others: what each load bends, summed up."""
-        units = self._of_units(x)
+        return self._bent(self.elastic.by_unit_loads(x))
+
+    def _bent(self, units: Bent) -> tuple[Bent, Bent]:
         across, turned = (np.moveaxis(each, 1, 0) for each in (units.deflection, units.slope))
-        return tuple(Bent(x, *(np.moveaxis(each @ given, 0, 1) for each in (across, turned))) for given in self._given)  # type: ignore[return-value]
-
-    def deflections(self, x: Array) -> tuple[Array, Array]:
-        """Return the deflections alone of both planes (places, variants, instants), at places that hold all others."""
-        across = np.moveaxis(self._of_units(x).deflection, 1, 0)
-        return tuple(np.moveaxis(across @ given, 0, 1) for given in self._given)  # type: ignore[return-value]
-
-    def _of_units(self, x: Array) -> Bent:
-        """The deflection lines for a unit force, and for a unit couple, at the place of each load (places, variants, loads)."""
-        places = self.cycle.places
-        unit = np.broadcast_to(np.eye(len(places))[:, None], (*places.shape, len(places)))
-        forces, couples = np.concatenate([unit, 0 * unit], axis=2), np.concatenate([0 * unit, unit], axis=2)
-        loading = Loading(places, forces, couples).held(self.supports)
-        return beams.bent(x, self.stiffness_of(x), loading, self.supports)
+        return tuple(
+            Bent(units.x, *(np.moveaxis(each @ given, 0, 1) for each in (across, turned))) for given in self._given
+        )  # type: ignore[return-value]
 
     @cached_property
     def _given(self) -> tuple[Array, Array]:
@@ -161,11 +147,24 @@ class Statics:
         planes = (loads.force_y, loads.couple_xy), (loads.force_z, loads.couple_xz)
         return tuple(np.moveaxis(np.concatenate(plane), 1, 0) for plane in planes)  # type: ignore[return-value]
 
-    def resultants(self, places: Array) -> tuple[Array, Array]:
-        """Return resultant deflection and slope at places (places, variants) among all, (places, variants, instants)."""
-        units = (np.moveaxis(each, 1, 0) for each in self._of_units(self.x).at(places))
-        across, turned = ([np.moveaxis(each @ given, 0, 1) for given in self._given] for each in units)
-        return np.hypot(*across), np.hypot(*turned)
+    def deflections_at(self, places: Array) -> Array:
+        """Return the resultant deflection at places (places, variants) among all, (places, variants, instants)."""
+        return self._resultant(self.elastic.at_joints.at(places)[0])
+
+    def slopes(self, places: Array) -> Array:
+        """Return the resultant slope at places (places, variants) among all, (places, variants, instants)."""
+        return self._resultant(self.elastic.at_joints.at(places)[1])
+
+    def _resultant(self, of_units: Array) -> Array:
+        """The resultant over both planes of what unit loads do (places, variants, loads)."""
+        found: Array = np.sqrt(self._size(of_units))
+        return found
+
+    def _size(self, of_units: Array) -> Array:
+        """The square of the resultant."""
+        by_variant = np.moveaxis(of_units, 1, 0)
+        in_y, in_z = (by_variant @ given for given in self._given)
+        return np.moveaxis(in_y**2 + in_z**2, 0, 1)
 
     @cached_property
     def greatest_deflection(self) -> tuple[Array, Array]:
@@ -176,15 +175,13 @@ class Statics:
         window = np.clip(near[:, None] + np.arange(1 - SPARSE, SPARSE), 0, count - 1)
         chosen = self.at_instants(window).instant_of_deflection
         instant = np.take_along_axis(window, chosen[:, None], axis=1)[:, 0]
-        fine = _between(self.x, FINE)
-        at = self.at_instant(instant)
-        return np.max(np.hypot(*at.deflections(fine)), axis=(0, 2)), instant
+        fine = self.elastic.by_unit_loads(between(self.x, FINE)).deflection
+        return np.max(self.at_instant(instant)._resultant(fine), axis=(0, 2)), instant
 
     @property
     def instant_of_deflection(self) -> Array:
         """Return at which instant the greatest deflection is, its index, as far as places between the joints tell."""
-        size = sum(each**2 for each in self.deflections(_between(self.x, WITHIN)))
-        found: Array = np.argmax(np.max(size, axis=0), axis=1)
+        found: Array = np.argmax(np.max(self._size(self.elastic.within.deflection), axis=0), axis=1)
         return found
 
     def at_instant(self, instant: Array) -> Statics:
@@ -199,7 +196,7 @@ class Statics:
     @cached_property
     def twist(self) -> Array:
         """Return the greatest twist between the outermost torques, (variants,)."""
-        diameter, bore = self.section_between(self.x)
+        diameter, bore = self.elastic.section_between(self.x)
         compliance = np.diff(self.x, axis=0) / (2 * self.shear * beams.second_moment(diameter, bore))
         middle = (self.x[:-1] + self.x[1:]) / 2
         torque, _ = beams.before_and_behind(middle, self.cycle.places, self.loads.torque)
@@ -233,28 +230,14 @@ class Statics:
         """Return the energy of the bent shaft less the work of its loads, to the energy, the greatest of some instants."""
         count = self.loads.torque.shape[2]
         some = self.some_instants(np.unique(np.linspace(0, count - 1, PROVED).astype(int)))
-        stiffness = self.stiffness_of(self.x)
+        stiffness = self.elastic.stiffness_of(self.x)
         energy = sum(beams.bending_energy(self.x, stiffness, plane) for plane in some.planes)
         work = sum(beams.work(line, plane) for line, plane in zip(some.lines, some.planes, strict=True))
         greatest = np.max(energy, axis=1, keepdims=True)
         found: Array = np.max(np.abs(energy - work), axis=1) / np.where(greatest > 0, greatest, 1)[:, 0]
         return found
 
-    def critical(self) -> beams.Critical:
-        """Return the critical speed with its bounds."""
-        diameter, bore = self.section_between(self.x)
-        weights = self.density * beams.circle_area(diameter, bore) * np.diff(self.x, axis=0)
-        stiffness = self.stiffness_of(self.x)
-        return beams.critical(self.x, stiffness, weights, self.supports, self.cycle.places, self.cycle.mass)
-
 
 def _no_more_than_needed(values: Array) -> Array:
     """Values (loads, variants, instants), of a single instant where all are zero: a pin has no torque, most shafts no axial force."""
     return values if np.any(values) else values[:, :, :1]
-
-
-def _between(x: Array, shares: Array) -> Array:
-    """Places between each place and the next, with them, ascending."""
-    inner = x[:-1, None] + np.diff(x, axis=0)[:, None] * shares[None, :, None]
-    found: Array = inner.reshape(-1, x.shape[1])
-    return found

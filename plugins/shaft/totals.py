@@ -18,12 +18,10 @@ def numbers(statics: Statics) -> dict[str, Array]:
     """Return all numbers, (variants,) each."""
     sides, reactions = statics.sides(statics.x), np.hypot(statics.reactions[:, 0], statics.reactions[:, 1])
     low, high = sides.torque_bounds
-    deflection, slope = statics.resultants(
-        np.stack([*statics.body.ends[[0, -1]], statics.supports.first, statics.supports.second])
-    )
+    slope = statics.slopes(np.stack([statics.supports.first, statics.supports.second]))
     locating = np.sum(statics.loads.axial_force, axis=0)
     bounds = statics.cycle.bounds("axial_force", np.ones((1, *statics.cycle.places.shape)))
-    critical = statics.critical()
+    critical = statics.elastic.critical()
     return {
         "reaction_a": np.max(reactions[0], axis=1),
         "reaction_b": np.max(reactions[1], axis=1),
@@ -35,9 +33,9 @@ def numbers(statics: Statics) -> dict[str, Array]:
         "torque_scale": _torque_scale(statics),
         "load_scale": _load_scale(statics),
         "deflection": statics.greatest_deflection[0],
-        "deflection_end": np.max(deflection[:2], axis=(0, 2)),
-        "slope_a": np.max(slope[2], axis=1),
-        "slope_b": np.max(slope[3], axis=1),
+        "deflection_end": np.max(statics.deflections_at(statics.body.ends[[0, -1]]), axis=(0, 2)),
+        "slope_a": np.max(slope[0], axis=1),
+        "slope_b": np.max(slope[1], axis=1),
         "twist": statics.twist,
         "torque_span": statics.torque_span,
         "energy_difference": statics.energy_difference,
@@ -51,7 +49,7 @@ def numbers(statics: Statics) -> dict[str, Array]:
 def _torque_left(statics: Statics) -> Array:
     """What the torques add up to where none balances them, the greatest over the cycle."""
     if statics.cycle.balance is not None:
-        return np.zeros(len(statics.elastic))
+        return np.zeros(len(statics.shear))
     low, high = statics.cycle.bounds("torque", np.ones((1, *statics.cycle.places.shape)))
     left = np.sum(statics.loads.torque, axis=0)
     found: Array = np.max(np.maximum(np.abs(left + low[0]), np.abs(left + high[0])), axis=1)
@@ -91,12 +89,13 @@ def _nominal(statics: Statics, sides: Sides) -> dict[str, Array]:
         "nominal_bore": bore[..., None],
         "nominal_position": statics.x[None, :, :, None],
     }
-    return {name: _picked(each, stress) for name, each in found.items()}
+    at = _greatest(stress)
+    return {name: np.broadcast_to(each, stress.shape)[at] for name, each in found.items()}
 
 
-def _picked(values: Array, by: Array) -> Array:
-    """Values where ``by`` (sides, places, variants, instants) is greatest, (variants,)."""
-    full = np.moveaxis(np.broadcast_to(values, by.shape), 2, 0).reshape(by.shape[2], -1)
-    index = np.argmax(np.moveaxis(by, 2, 0).reshape(by.shape[2], -1), axis=1)
-    found: Array = np.take_along_axis(full, index[:, None], axis=1)[:, 0]
-    return found
+def _greatest(values: Array) -> tuple[Array, ...]:
+    """Return where values (sides, places, variants, instants) are greatest, the indices of each variant."""
+    flat = np.moveaxis(values, 2, 0)
+    index = np.argmax(flat.reshape(len(flat), -1), axis=1)
+    side, place, instant = np.unravel_index(index, flat.shape[1:])
+    return side, place, np.arange(len(flat)), instant

@@ -14,6 +14,7 @@ from diecut_report.mechanics.beams import Loading, Supports
 from diecut_report.plugins.shaft import formulas, totals
 from diecut_report.plugins.shaft.body import Body
 from diecut_report.plugins.shaft.cycle import Cycle, Instants
+from diecut_report.plugins.shaft.elastic import ElasticShaft
 from diecut_report.plugins.shaft.material_point import worst_points
 from diecut_report.plugins.shaft.statics import BLOCK, Sides, Statics
 
@@ -59,10 +60,11 @@ class UnderLoad:
         body = self.body
         arrays = {name: each[:, rows] for name, each in vars(body).items() if isinstance(each, np.ndarray)}
         supports = Supports(self.bearing_a[rows], self.bearing_b[rows])
-        return Statics(
-            Body(**vars(body) | arrays), self.cycle.of(rows), loads, supports,
-            supports.first if self.at_a else supports.second, self.elastic[rows], self.shear[rows], self.density[rows],
-        )  # fmt: skip
+        cycle = self.cycle.of(rows)
+        elastic = ElasticShaft(
+            Body(**vars(body) | arrays), supports, cycle.places, cycle.mass, self.elastic[rows], self.density[rows]
+        )
+        return Statics(elastic, cycle, loads, supports.first if self.at_a else supports.second, self.shear[rows])
 
     @cached_property
     def numbers(self) -> dict[str, Array]:
@@ -125,11 +127,8 @@ def _yielding(sides: Sides, own: dict[str, Array]) -> dict[str, Array]:
     forces = {"yield_axial": sides.axial_size, "yield_moment": sides.bending, "yield_torque": sides.torque_size}
     factors = (own[name][None, :, :, None] for name in ("area", "modulus", "k_f", "k_fs"))
     stress = formulas.yield_stress(*forces.values(), *factors)
-    flat = np.moveaxis(stress, 0, 2).reshape(*stress.shape[1:3], -1)
-    index = np.argmax(flat, axis=2)[:, :, None]
-    return {
-        name: np.take_along_axis(
-            np.moveaxis(np.broadcast_to(each, stress.shape), 0, 2).reshape(flat.shape), index, axis=2
-        )[:, :, 0].T
-        for name, each in forces.items()
-    }
+    flat = np.moveaxis(stress, 0, 2)
+    side, instant = np.unravel_index(np.argmax(flat.reshape(*flat.shape[:2], -1), axis=2), flat.shape[2:])
+    place, variant = np.indices(flat.shape[:2])
+    at = side, place, variant, instant
+    return {name: np.broadcast_to(each, stress.shape)[at].T for name, each in forces.items()}

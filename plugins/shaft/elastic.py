@@ -1,0 +1,101 @@
+"""The shaft as an elastic body on its bearings, whatever its loads: what unit loads bend it by, and its critical speed."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from diecut_report.mechanics import beams
+from diecut_report.mechanics.beams import Bent, Loading, Supports
+from diecut_report.plugins.shaft.body import Body
+
+Array = NDArray[Any]
+WITHIN = np.linspace(0, 1, 5)  # of a piece, where the greatest deflection is looked for over the cycle
+
+
+@dataclass(frozen=True)
+class ElasticShaft:
+    """Hold some variants of the shaft with the places and masses of their loads (loads, variants); numbers are (variants,)."""
+
+    body: Body
+    supports: Supports
+    places: Array
+    masses: Array
+    modulus: Array
+    density: Array
+
+    @cached_property
+    def x(self) -> Array:
+        """Return all places where something begins or acts, ascending, (points, variants)."""
+        found: Array = np.sort(np.concatenate([self.body.ends[[0, -1]], self.body.x]), axis=0)
+        return found
+
+    def stiffness_of(self, x: Array) -> Array:
+        """Return E I between one place and the next, (places - 1, variants)."""
+        diameter, bore = self.section_between(x)
+        stiffness: Array = self.modulus * beams.second_moment(diameter, bore)
+        return stiffness
+
+    def section_between(self, x: Array) -> tuple[Array, Array]:
+        """Return diameter and bore between one place and the next."""
+        index = self.body.section_of((x[:-1] + x[1:]) / 2, behind=True)
+        return tuple(np.take_along_axis(each, index, axis=0) for each in (self.body.diameter, self.body.bore))  # type: ignore[return-value]
+
+    @cached_property
+    def at_joints(self) -> Bent:
+        """Return what unit loads bend at the places where something begins or acts."""
+        return self.by_unit_loads(self.x)
+
+    @cached_property
+    def within(self) -> Bent:
+        """Return what unit loads bend at these places and some between them."""
+        return self.by_unit_loads(between(self.x, WITHIN))
+
+    def by_unit_loads(self, x: Array) -> Bent:
+        """Return the deflection lines at places that hold all others, for a unit force, and for a unit couple, at the place of
+        each load (places, variants, loads)."""
+        chosen, like = self._unlike
+        places, supports = self.places[:, chosen], self._supports_of(chosen)
+        unit = np.broadcast_to(np.eye(len(places))[:, None], (*places.shape, len(places)))
+        forces, couples = np.concatenate([unit, 0 * unit], axis=2), np.concatenate([0 * unit, unit], axis=2)
+        loading = Loading(places, forces, couples).held(supports)
+        found = beams.bent(x[:, chosen], self.stiffness_of(x)[:, chosen], loading, supports)
+        return Bent(x, found.deflection[:, like], found.slope[:, like])
+
+    def critical(self) -> beams.Critical:
+        """Return the critical speed with its bounds."""
+        chosen, like = self._unlike
+        given = self.x, self.stiffness_of(self.x), self._weights, self.places, self.masses
+        x, stiffness, weights, places, masses = (each[:, chosen] for each in given)
+        found = beams.critical(x, stiffness, weights, self._supports_of(chosen), places, masses)
+        return beams.Critical(found.speed[like], found.rayleigh[like], found.dunkerley[like])
+
+    def _supports_of(self, chosen: Array) -> Supports:
+        return Supports(self.supports.first[chosen], self.supports.second[chosen])
+
+    @cached_property
+    def _weights(self) -> Array:
+        """The mass between one place and the next, (places - 1, variants)."""
+        diameter, bore = self.section_between(self.x)
+        weights: Array = self.density * beams.circle_area(diameter, bore) * np.diff(self.x, axis=0)
+        return weights
+
+    @cached_property
+    def _unlike(self) -> tuple[Array, Array]:
+        """The first variants of each geometry, and for each variant which of them it is like: most studies vary the loads alone."""
+        masses = self._weights, self.masses
+        own = np.stack([self.supports.first, self.supports.second])
+        geometry = np.concatenate([self.x, self.stiffness_of(self.x), *masses, self.places, own])
+        _, first, like = np.unique(geometry, axis=1, return_index=True, return_inverse=True)
+        return first, like.ravel()
+
+
+def between(x: Array, shares: Array) -> Array:
+    """Return places between each place and the next, with them, ascending."""
+    inner = x[:-1, None] + np.diff(x, axis=0)[:, None] * shares[None, :, None]
+    found: Array = inner.reshape(-1, x.shape[1])
+    return found
