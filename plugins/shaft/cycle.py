@@ -14,6 +14,7 @@ from diecut_report.plugins.shaft.body import columns
 
 Array = NDArray[Any]
 INSTANTS = 720  # of a cycle, beside both limits at each joint of a curve
+SPARSE = 6  # of the even instants every so many are looked at first, then those beside the best
 COMPONENTS = ("force_y", "force_z", "axial_force", "torque", "couple_xy", "couple_xz")
 
 
@@ -237,6 +238,11 @@ def _telling(names: Any, given: dict[str, tuple[Any, ...]], pitch_radius: Any) -
             raise Refusal(
                 f"loads.{index}.torque", f"is known by its extremes alone, but the load {names[index]} {words}"
             )
+
+
+def looked_at_first(count: int) -> Array:
+    """Return which of the instants are looked at first: some of the even ones, and all limits, so that doubled joints change nothing."""
+    return np.union1d(np.arange(0, count, SPARSE), np.arange(min(INSTANTS, count), count))
 
 
 def _instants(joints: list[Array], variants: int, count: int) -> tuple[Array, Array, Array]:

@@ -9,13 +9,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from diecut_report.plugins.shaft import formulas
+from diecut_report.plugins.shaft.cycle import looked_at_first
 from diecut_report.plugins.shaft.statics import Sides
 
 Array = NDArray[Any]
 DIRECTIONS = np.arange(120) * np.pi / 60  # of the material point that are looked at first
 NEAR = np.linspace(-1, 1, 21)  # of a step between directions, at each turn of the bounded search
 NARROWED = 0.1
-SPARSE = 6  # of the instants every so many find the direction; nearby all of them count
 TOGETHER = 48  # places at once, so that what is computed stays in the processor's cache
 ROUNDING = 1e-12  # share of a stress that is no stress
 
@@ -70,7 +70,7 @@ class Points:
         is_symmetric = self.axial is None and not np.any(self.bounds)  # opposite points then have opposite stresses
         psi = (DIRECTIONS[: len(DIRECTIONS) // 2] if is_symmetric else DIRECTIONS)[None]
         step = float(DIRECTIONS[1])
-        best = self.at(np.arange(0, self.moments.shape[2], SPARSE)[None])._least(psi)
+        best = self.at(looked_at_first(self.moments.shape[2])[None])._least(psi)
         near = self.near(best, step * (1 + NARROWED))
         for _ in range(2):
             best, step = near._least(best + step * NEAR), step * NARROWED

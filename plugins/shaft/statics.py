@@ -13,13 +13,12 @@ from numpy.typing import NDArray
 from diecut_report.mechanics import beams
 from diecut_report.mechanics.beams import SAME_PLACE, Bent, Loading, Supports
 from diecut_report.plugins.shaft.body import Body
-from diecut_report.plugins.shaft.cycle import INSTANTS, Cycle, Instants
+from diecut_report.plugins.shaft.cycle import SPARSE, Cycle, Instants, looked_at_first
 from diecut_report.plugins.shaft.elastic import ElasticShaft, between
 
 Array = NDArray[Any]
 BLOCK = 16  # variants at once
 FINE = np.linspace(0, 1, 101)  # of a piece, where the greatest deflection is looked for at its instant
-SPARSE = 6  # of the instants every so many are looked at first, then those beside the best
 PROVED = 24  # instants at which the deflection line is proved by its energy
 
 
@@ -170,7 +169,7 @@ class Statics:
     def greatest_deflection(self) -> tuple[Array, Array]:
         """Return the greatest deflection of all (variants,), and at which instant it is, its index."""
         count = self.loads.torque.shape[2]
-        some = np.union1d(np.arange(0, count, SPARSE), np.arange(min(INSTANTS, count), count))
+        some = looked_at_first(count)
         near = some[self.some_instants(some).instant_of_deflection]
         window = np.clip(near[:, None] + np.arange(1 - SPARSE, SPARSE), 0, count - 1)
         chosen = self.at_instants(window).instant_of_deflection
