@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING
 
 import click
 
+from diecut_report.cli.formats import formats_of
 from diecut_report.cli.output import (
     BAD_INPUT,
     CHECK_FAILED,
@@ -26,7 +27,7 @@ from diecut_report.cli.output import (
 from diecut_report.cli.progress import Progress
 from diecut_report.config import yaml_tree
 from diecut_report.config.discovery import Discovery
-from diecut_report.errors import PluginError, Problem, UserError, nearest
+from diecut_report.errors import PluginError, Problem, UserError
 
 if TYPE_CHECKING:
     from diecut_report.study.machines.calculation import CheckedMachine
@@ -73,15 +74,6 @@ def _broken(file: Path, discovery: Discovery) -> tuple[PluginError, ...]:
     return ()
 
 
-def _formats(_: click.Context, __: click.Parameter, given: str) -> list[str]:
-    asked = list(dict.fromkeys(part.strip().lower() for part in given.split(",") if part.strip()))
-    unknown = [part for part in asked if part not in FORMATS]
-    if unknown or not asked:
-        words = f"{unknown[0]!r} is not a format{nearest(unknown[0], FORMATS)}" if unknown else "no format is named"
-        raise click.BadParameter(f"{words}; known: {', '.join(FORMATS)}.")
-    return asked
-
-
 @click.command(cls=HelpfulCommand)
 @click.argument("given", metavar="CONFIG|FOLDER…", nargs=-1, required=True, type=path_of)
 @click.option("-o", "folder", metavar="DIR", type=path_of, help="Also write a summary of all machines there.")
@@ -91,7 +83,7 @@ def _formats(_: click.Context, __: click.Parameter, given: str) -> list[str]:
     "formats",
     metavar="LIST",
     default="html,pdf,xlsx,csv,json",
-    callback=_formats,
+    callback=formats_of(lambda: FORMATS),
     help="Of the summary: html,pdf,xlsx,csv,json or some of them.",
 )
 @click.option("--jobs", metavar="N", type=click.IntRange(1), help="Processes (default: one for each core).")

@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from diecut_report.cli import verdict
+from diecut_report.cli.formats import formats_of
 from diecut_report.cli.output import (
     CHECK_FAILED,
     PASSED,
@@ -24,7 +25,6 @@ from diecut_report.cli.output import (
 from diecut_report.cli.progress import Progress
 from diecut_report.cli.study import source
 from diecut_report.config.discovery import Discovery
-from diecut_report.errors import nearest
 
 if TYPE_CHECKING:
     from diecut_report.exchange.agreement import Agreement, Difference
@@ -115,20 +115,16 @@ def _value(value: object) -> str:
     return text if len(text) <= 80 else f"{text[:80]}…"
 
 
-def _formats(_: click.Context, __: click.Parameter, given: str) -> list[str]:
-    asked = list(dict.fromkeys(part.strip().lower() for part in given.split(",") if part.strip()))
-    unknown = [part for part in asked if part not in FORMATS]
-    if unknown or not asked:
-        words = f"{unknown[0]!r} is not a format{nearest(unknown[0], FORMATS)}" if unknown else "no format is named"
-        raise click.BadParameter(f"{words}; known: {', '.join(FORMATS)}.")
-    return asked
-
-
 @click.command(cls=HelpfulCommand)
 @click.argument("results", metavar="RESULTS.json", type=path_of)
 @click.option("-o", "folder", metavar="DIR", default=".", type=path_of, help="Where to write (default: here).")
 @click.option(
-    "--format", "formats", metavar="LIST", default="html,pdf", callback=_formats, help="html,pdf or one of them."
+    "--format",
+    "formats",
+    metavar="LIST",
+    default="html,pdf",
+    callback=formats_of(lambda: FORMATS),
+    help="html,pdf or one of them.",
 )
 @verdict.strict_option
 @common

@@ -23,6 +23,7 @@ from diecut_report import __version__
 from diecut_report.cli import verdict
 from diecut_report.cli.checking import check, validate
 from diecut_report.cli.exchange import diff, extract, render, verify
+from diecut_report.cli.formats import formats_of
 from diecut_report.cli.output import (
     BAD_INPUT,
     FAULT,
@@ -89,15 +90,10 @@ def main(arguments: Sequence[str] | None = None) -> int:
 # --- options ---------------------------------------------------------------------------------------------------------
 
 
-def _formats(_: click.Context, __: click.Parameter, given: str) -> list[str]:
+def _report_formats() -> tuple[str, ...]:
     from diecut_report.pipeline import FORMATS
 
-    asked = list(dict.fromkeys(part.strip().lower() for part in given.split(",") if part.strip()))
-    unknown = [part for part in asked if part not in FORMATS]
-    if unknown or not asked:
-        words = f"{unknown[0]!r} is not a format{nearest(unknown[0], FORMATS)}" if unknown else "no format is named"
-        raise click.BadParameter(f"{words}; known: {', '.join(FORMATS)}.")
-    return asked
+    return FORMATS
 
 
 def _language(_: click.Context, __: click.Parameter, given: str | None) -> str | None:
@@ -154,7 +150,7 @@ config_argument = click.argument("config", type=click.Path(path_type=Path))
     "formats",
     metavar="LIST",
     default="html,pdf,json",
-    callback=_formats,
+    callback=formats_of(_report_formats),
     help="html,pdf,json or some of them.",
 )
 @click.option(

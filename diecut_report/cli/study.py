@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
+from diecut_report.cli.formats import formats_of
 from diecut_report.cli.output import (
     CHECK_FAILED,
     INTERRUPTED,
@@ -23,7 +24,6 @@ from diecut_report.cli.output import (
     emit,
     tell,
 )
-from diecut_report.errors import nearest
 
 if TYPE_CHECKING:
     from diecut_report.config.discovery import Discovery
@@ -32,16 +32,6 @@ if TYPE_CHECKING:
 
 EXPORTS = ("csv", "xlsx")
 RESULTS = "study.json"  # what makes a folder one of a study's results
-
-
-def _exports(_: click.Context, __: click.Parameter, given: str) -> list[str]:
-    asked = list(dict.fromkeys(part.strip().lower() for part in given.split(",") if part.strip()))
-    unknown = [part for part in asked if part not in EXPORTS]
-    if unknown:
-        raise click.BadParameter(
-            f"{unknown[0]!r} is not a format{nearest(unknown[0], EXPORTS)}; known: {', '.join(EXPORTS)}."
-        )
-    return asked
 
 
 path_of = click.Path(path_type=Path)
@@ -58,7 +48,12 @@ path_of = click.Path(path_type=Path)
     "--dask", metavar="ADDRESS", help="Calculate on the cluster of this Dask scheduler, such as tcp://host:8786."
 )
 @click.option(
-    "--format", "formats", metavar="LIST", default="", callback=_exports, help="Also write all variants as csv,xlsx."
+    "--format",
+    "formats",
+    metavar="LIST",
+    default="",
+    callback=formats_of(lambda: EXPORTS, may_be_none=True),
+    help="Also write all variants as csv,xlsx.",
 )
 @click.option("--yes", is_flag=True, help="Calculate also a very large sample without being asked.")
 @common
