@@ -15,6 +15,7 @@ import pytest
 
 from diecut_report.cli.main import main
 from tests.exchange.reports import MB, page_of, page_with, pdf_with, saved_pdf, zeros
+from tests.hostile.bounded import PEAK
 from tests.hostile.bounded import run as bounded
 from tests.shared import once
 
@@ -22,16 +23,14 @@ Capture = pytest.CaptureFixture[str]
 COMMANDS = ("extract", "verify", "render")
 DAMAGED = "The PDF is damaged"
 UNPACKED = 400 * MB
-READ = """
+READ = f"""
 import sys
-from pathlib import Path
+{PEAK}
 from diecut_report.cli.main import main
 
 for name in sys.argv[1:]:
     assert main(["extract", name, "-o", name + ".out"]) == 2, name
-lines = Path("/proc/self/status").read_text().splitlines()  # not ru_maxrss, which counts what was there before the program began
-peak = int(next(line for line in lines if line.startswith("VmHWM")).split()[1]) * 1024
-assert peak < 380e6, peak
+assert memory() < 380e6, memory()
 """
 
 
