@@ -187,3 +187,12 @@ def test_a_window_between_a_breakpoint_and_the_next_point_of_the_grid_is_found(s
         run(wheel(bent, "start"), end=end)
     many = run(wheel(bent, "start"), 9, end=np.full(9, end), start=np.full(9, 100 * DEGREE))
     assert set(many.flaws) == set(range(9))
+
+
+@pytest.mark.parametrize("start", [0.02, 0.05])
+def test_a_window_between_the_end_of_a_piece_and_the_next_point_of_the_grid_is_refused(start: float) -> None:
+    def near(angle: Any, moment: Any, start: Any) -> Any:
+        return moment * np.where(abs(angle - start) < start / 20, 3, 1)
+
+    with pytest.raises(Unproven, match="jumps inside a smooth piece, at φ = 0.0"):
+        run(wheel(near), start=start * DEGREE)
