@@ -194,5 +194,5 @@ def test_a_window_between_the_end_of_a_piece_and_the_next_point_of_the_grid_is_r
     def near(angle: Any, moment: Any, start: Any) -> Any:
         return moment * np.where(abs(angle - start) < start / 20, 3, 1)
 
-    with pytest.raises(Unproven, match="jumps inside a smooth piece, at φ = 0.0"):
+    with pytest.raises(Unproven, match=r"jumps inside a smooth piece, at φ = 0\.0"):
         run(wheel(near), start=start * DEGREE)
