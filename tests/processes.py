@@ -4,13 +4,15 @@ from __future__ import annotations
 
 import json
 import os
+import signal
 import subprocess
 import sys
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
 from dataclasses import asdict, dataclass
 from pathlib import Path
-from typing import Self
+from typing import Any, Self
 
 COMMAND = """
 import sys
@@ -59,3 +61,19 @@ def until(condition: Callable[[], object], seconds: float = 30) -> None:
     while not condition():
         assert time.monotonic() < end, "this took too long"
         time.sleep(0.02)
+
+
+@contextmanager
+def at_most(seconds: int) -> Iterator[None]:
+    """What takes longer fails, instead of holding all other tests for ever."""
+
+    def stop(*_: Any) -> None:
+        raise TimeoutError(f"this took more than {seconds} seconds")
+
+    before = signal.signal(signal.SIGALRM, stop)
+    signal.alarm(seconds)
+    try:
+        yield
+    finally:
+        signal.alarm(0)
+        signal.signal(signal.SIGALRM, before)

@@ -3,9 +3,12 @@
 from __future__ import annotations
 
 import os
+import signal
+import struct
 import time
 from dataclasses import replace
 from hashlib import sha256
+from multiprocessing.connection import Connection
 from pathlib import Path
 from typing import Any
 
@@ -87,4 +90,19 @@ def dies_at_three(folder: str, chunk: int) -> int:
 def sleeps(folder: str, chunk: int) -> int:
     (Path(folder) / f"begun.{os.getpid()}.{chunk}").touch()
     time.sleep(600)
+    return chunk
+
+
+def dies_in_its_result(folder: str, chunk: int) -> int:
+    """The first call ends its process in the middle of its result, while another process has the pipe open too."""
+    mark = Path(folder) / f"begun.{os.getpid()}.{chunk}"
+    if chunk == 0 and not list(Path(folder).glob("begun.*.0")):
+
+        def half_sent(self: Connection, _: bytes) -> None:
+            os.write(self.fileno(), struct.pack("!i", 1000) + b"half")
+            os.kill(os.getpid(), signal.SIGKILL)
+
+        Connection._send_bytes = half_sent  # type: ignore[attr-defined]
+    mark.touch()
+    time.sleep(0.2)
     return chunk

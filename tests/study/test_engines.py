@@ -17,8 +17,8 @@ import pytest
 from diecut_report.errors import UserError
 from diecut_report.study.execution import in_flight
 from diecut_report.study.execution.engines import ChunkFailed, Engine, InProcess, Pool, dask_cluster, results
-from tests.processes import until
-from tests.study.made_store import dies_at_three, fails_at_three, slow_square, square, warm
+from tests.processes import at_most, until
+from tests.study.made_store import dies_at_three, dies_in_its_result, fails_at_three, slow_square, square, warm
 
 ROOT = Path(__file__).parents[2]
 RUN = """
@@ -116,6 +116,14 @@ def test_killed_process_loses_nothing(tmp_path: Path) -> None:
         assert killed == 2 and len(pool.processes) == 2
     assert sorted(found) == [(n, n * n) for n in range(20)]
     assert len(begun(tmp_path)) > 2  # new processes took over
+
+
+def test_process_killed_in_the_middle_of_a_result_loses_nothing(tmp_path: Path) -> None:
+    """The rest of the result would be awaited for ever, as the other process could still write it."""
+    with at_most(30), Pool(2, warm(tmp_path)) as pool:
+        found = sorted(results(pool, dies_in_its_result, range(12)))
+    assert found == [(n, n) for n in range(12)]
+    assert len(begun(tmp_path)) > 2
 
 
 def test_chunk_that_ends_its_process_is_told_after_three_times_and_no_other_is_blamed(tmp_path: Path) -> None:

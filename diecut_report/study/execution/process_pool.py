@@ -9,7 +9,7 @@ from collections.abc import Iterable, Iterator
 from concurrent.futures import Future, ProcessPoolExecutor
 from concurrent.futures.process import BrokenProcessPool
 from contextlib import contextmanager
-from multiprocessing import parent_process
+from multiprocessing import connection, parent_process
 from multiprocessing.context import SpawnContext, SpawnProcess
 from typing import Any, Self
 
@@ -67,16 +67,22 @@ class Pool:
         self.restart()
 
     def look(self) -> None:
-        """Do nothing: a lost process is reported by its chunks."""
+        """End all processes where one has died, so that the chunks of all report it."""
+        if connection.wait([process.sentinel for process in self._context.started], 0):
+            self._kill()
 
     def _end(self) -> None:
+        self._kill()
+        if self._executor is not None:
+            self._executor.shutdown()
+        self._context.started.clear()
+
+    def _kill(self) -> None:
+        """A process may have died in the middle of a result: its rest would be awaited as long as anybody could write it."""
         for process in self._context.started:
             process.kill()
         if self._executor is not None:
-            # A process may have died in the middle of a result: its rest would be awaited as long as anybody could write it.
             self._executor._result_queue._writer.close()  # type: ignore[attr-defined]
-            self._executor.shutdown()
-        self._context.started.clear()
 
 
 @contextmanager
