@@ -175,4 +175,3 @@ class PieceRows:
             place, width = np.take_along_axis(around, best, axis=1)[:, 0], width / 8
             np.maximum.at(tops, self.machine[piece], np.take_along_axis(found, best, axis=1)[:, 0])
         return tops
-
