@@ -23,6 +23,7 @@ from diecut_report.engine.numerics.domain import Domain
 from diecut_report.engine.numerics.recent_places import RecentPlaces
 from diecut_report.engine.numerics.sample_cache import SampleCache
 from diecut_report.engine.sampled_curve import SampledCurve
+from diecut_report.engine.shown_units import ChosenUnits
 from diecut_report.expressions import Array
 
 Found = tuple[Array, Array, Array]  # of an extreme: value, place, middle of its piece
@@ -134,6 +135,7 @@ class Calculation:
         self.extremes: dict[tuple[str, float], tuple[Array, Found]] = {}  # with the pieces they are of
         self.judged: dict[tuple[str, int], Side] = {}  # for each check on a curve and its sides, where it governs
         self.flaws: dict[int, tuple[str, str]] = {}  # for each impossible variant the key and the message
+        self.chosen_units = ChosenUnits()  # what a report chose to show quantities in
         self.withheld: dict[str, Array] = {}  # for each fact, which variants do not meet it
 
     def __getitem__(self, name: str) -> Array:

@@ -30,6 +30,7 @@ from diecut_report.contract.steps import (
 from diecut_report.engine import listings
 from diecut_report.engine.calculation import Calculation, Unproven
 from diecut_report.engine.printing import named_parts, tables
+from diecut_report.engine.printing.bridges import bridged, conversions
 from diecut_report.engine.printing.definitions import definitions
 from diecut_report.engine.printing.interpolation import BetweenRows
 from diecut_report.engine.printing.shown_place import (
@@ -49,8 +50,9 @@ from diecut_report.engine.printing.substitution import (
     Substitution,
     printed,
 )
+from diecut_report.engine.shown_units import step_shown
 from diecut_report.expressions import Array, Node
-from diecut_report.quantities.formatting import number_text, shown, with_unit
+from diecut_report.quantities.formatting import number_text, with_unit
 from diecut_report.quantities.units import unit
 
 Item = dict[str, Any]
@@ -165,6 +167,7 @@ def _sides(substitution: Substitution, held: bool) -> tuple[Any, Any]:
 
 def _formula(calc: Calculation, part: Bound, step: Step, axis: str | None, elsewhere: bool) -> Item:
     target = value_at(calc, step.id, axis)
+    result = step_shown(calc, step, target)
     marked = marks(calc, axis, elsewhere)
     own = None if axis in calc.domains else shown_part(calc, step.id)
     substitution = _substitution(
@@ -172,12 +175,12 @@ def _formula(calc: Calculation, part: Bound, step: Step, axis: str | None, elsew
     )
     takes = [name for name in part.names.values() if isinstance(name, str)]
     try:
-        numeric = substitution.numeric(target, step.unit, step.digits) if takes else None
+        numeric = substitution.numeric(target, result["unit"], step.digits) if takes else None
     except Contradiction as found:
         raise Unproven(_contradicted(step, part, found)) from None
     symbolic = substitution.symbolic()
     item: Item = {"equation": symbolic.to_json(), "substituted": numeric and numeric.to_json()}
-    if defined := definitions(symbolic):
+    if defined := definitions(symbolic) + conversions(substitution, numeric):
         item["where"] = defined
     if takes and numeric is None:
         item["note"] = (
@@ -185,7 +188,7 @@ def _formula(calc: Calculation, part: Bound, step: Step, axis: str | None, elsew
         )
     if isinstance(substitution, BetweenRows):
         item["note"] = " ".join(filter(None, (item.get("note"), substitution.told())))
-    return item | {"result": shown(target, step.unit, step.digits)}
+    return item | bridged(substitution, numeric, target, result) | {"result": result}
 
 
 def _substitution(
@@ -252,13 +255,13 @@ def _root(calc: Calculation, step: Root) -> Item:
         "type": "found",
         "relation": Node("cmp", ("==", *sides)).to_json(),
         "method": method,
-        "result": shown(value_at(calc, step.id, None), step.unit, step.digits),
+        "result": step_shown(calc, step, value_at(calc, step.id, None)),
         "residual": {"text": residual, "unit": "1"},
     }
 
 
 def _reduced(calc: Calculation, step: Step, of: str) -> Item:
-    result = shown(value_at(calc, step.id, None), step.unit, step.digits)
+    result = step_shown(calc, step, value_at(calc, step.id, None))
     return {"type": "reduction", "of": calc.step_or_input(of).symbol, "result": result}
 
 
@@ -278,12 +281,12 @@ def _computed(calc: Calculation, step: Computed | ComputedCurve | CurvePeriod) -
     if isinstance(step, Computed) and step.is_text:
         result: Item = {"text": calc[step.id][0, 0], "unit": "1"}
     else:
-        result = shown(value_at(calc, step.id, calc.axis.get(step.id)), step.unit, step.digits)
+        result = step_shown(calc, step, value_at(calc, step.id, calc.axis.get(step.id)))
     return _head(step) | {"type": "found", "relation": None, "method": method, "result": result}
 
 
 def _made(calc: Calculation, step: MadeCurve) -> Item:
-    result = shown(value_at(calc, step.id, calc.axis[step.id]), step.unit, step.digits)
+    result = step_shown(calc, step, value_at(calc, step.id, calc.axis[step.id]))
     found = _head(step) | {"type": "found", "relation": None, "method": step.method, "result": result}
     return found | {"at": place_shown(calc, calc.axis[step.id], False)}
 
@@ -291,7 +294,7 @@ def _made(calc: Calculation, step: MadeCurve) -> Item:
 def _of_curve(calc: Calculation, step: Accumulated | Derivative) -> Item:
     operation = "accumulated" if isinstance(step, Accumulated) else "derivative"
     axis = calc.axis[step.id]
-    result = shown(value_at(calc, step.id, axis), step.unit, step.digits)
+    result = step_shown(calc, step, value_at(calc, step.id, axis))
     return _head(step) | {
         "type": "reduction", "operation": operation, "of": calc.step_or_input(step.of).symbol, "result": result,
         "at": place_shown(calc, axis, False), "method": METHODS[operation],
