@@ -16,6 +16,7 @@ from diecut_report.contract.mechanism import Mechanism
 from diecut_report.contract.steps import Accumulated, Choice, Derivative, FromCurve, Step, Value
 from diecut_report.contract.unit_variants import in_form
 from diecut_report.engine import named_quantity
+from diecut_report.engine.chosen_units import ChosenUnits
 from diecut_report.engine.input_rows import column
 from diecut_report.engine.numerics.chebyshev import PieceSeries
 from diecut_report.engine.numerics.curve_evaluation import MANY, Curves
@@ -23,7 +24,6 @@ from diecut_report.engine.numerics.domain import Domain
 from diecut_report.engine.numerics.recent_places import RecentPlaces
 from diecut_report.engine.numerics.sample_cache import SampleCache
 from diecut_report.engine.sampled_curve import SampledCurve
-from diecut_report.engine.shown_units import ChosenUnits
 from diecut_report.expressions import Array
 
 Found = tuple[Array, Array, Array]  # of an extreme: value, place, middle of its piece

@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
-from dataclasses import dataclass, field
+from collections.abc import Iterable
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -13,22 +12,9 @@ from diecut_report.contract.steps import Step
 from diecut_report.expressions import Array
 from diecut_report.quantities.display import easy_unit
 from diecut_report.quantities.formatting import shown
-from diecut_report.quantities.units import unit
 
 if TYPE_CHECKING:
     from diecut_report.engine.calculation import Calculation
-
-
-@dataclass(frozen=True)
-class ChosenUnits:
-    """Hold the units that a report chose: for all quantities of an SI unit (``m``), and for single quantities by their ids."""
-
-    by_si: Mapping[str, str] = field(default_factory=dict)
-    by_id: Mapping[str, str] = field(default_factory=dict)
-
-    def of(self, name: str, declared: str) -> str | None:
-        """Return the unit chosen for a quantity that is declared in a unit; None where none is."""
-        return self.by_id.get(name) or self.by_si.get(unit(declared).si)
 
 
 def declared_unit(calc: Calculation, name: str, declared: str) -> str:

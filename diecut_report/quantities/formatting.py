@@ -71,6 +71,13 @@ def shown(value: float, unit_text: str, digits: int = DIGITS) -> dict[str, str]:
     }
 
 
+def given_shown(value: float, unit_text: str) -> dict[str, str]:
+    """Return an input as text in a display unit: as it was typed, or rounded as a result is where it follows from one."""
+    short = f"{unit(unit_text).from_si(value):.15g}"
+    is_typed = len(short.replace(".", "").lstrip("0-")) <= TYPED
+    return {"text": short, "unit": unit_text} if is_typed else shown(value, unit_text)
+
+
 def shown_digits(value: float, unit_text: str, digits: int = DIGITS) -> int:
     """Return with how many significant digits an SI value is shown, of which an author asks for so many."""
     return meant_digits(value, unit_text, digits) if digits == DIGITS else digits

@@ -9,7 +9,7 @@ from diecut_report.contract.steps import Step
 from diecut_report.engine.printing.substitution import Substitution, formula_unit
 from diecut_report.expressions import Node
 from diecut_report.expressions.tree import walk
-from diecut_report.quantities.formatting import DIGITS, shortest, shown
+from diecut_report.quantities.formatting import DIGITS, given_shown, number_text, shown
 from diecut_report.quantities.units import unit
 
 Item = dict[str, Any]
@@ -28,9 +28,10 @@ def bridged(substitution: Substitution, numeric: Node | None, target: float, res
     return {"bridge": shown(target, inside, max(DIGITS, len(result["text"].strip("-0").replace(".", ""))))}
 
 
-def conversions(substitution: Substitution, numeric: Node | None) -> list[Item]:
+def conversions(substitution: Substitution, numeric: Node | None) -> Item:
     """Return for each quantity that stands in a formula in another unit than its own how the one follows from the other."""
-    return list(_conversions(substitution)) if numeric is not None and not substitution.is_copy else []
+    found = list(_conversions(substitution)) if numeric is not None and not substitution.is_copy else []
+    return {"conversions": found} if found else {}
 
 
 def _conversions(substitution: Substitution) -> Iterator[Item]:
@@ -40,10 +41,6 @@ def _conversions(substitution: Substitution) -> Iterator[Item]:
         if unit(display).si == "rad" or formula_unit(display) == display or inside.args[1] == display:
             continue
         declared, value = calc.step_or_input(name), substitution.value_of(name)
-        text = (
-            shown(value, display, declared.digits)["text"]
-            if isinstance(declared, Step)
-            else shortest(unit(display).from_si(value))
-        )
-        both = Node("cmp", ("==", Node("qty", (text, display)), inside))
-        yield {"defined": Node("sym", (declared.symbol,)).to_json(), "as": both.to_json()}
+        told = shown(value, display, declared.digits) if isinstance(declared, Step) else given_shown(value, display)
+        again = {"text": number_text(value / unit(inside.args[1]).factor, DIGITS), "unit": inside.args[1]}
+        yield {"symbol": declared.symbol, "shown": told, "converted": again}

@@ -31,6 +31,7 @@ from diecut_report.engine import listings
 from diecut_report.engine.calculation import Calculation, Unproven
 from diecut_report.engine.printing import named_parts, tables
 from diecut_report.engine.printing.bridges import bridged, conversions
+from diecut_report.engine.printing.contradictions import contradicted
 from diecut_report.engine.printing.definitions import definitions
 from diecut_report.engine.printing.interpolation import BetweenRows
 from diecut_report.engine.printing.shown_place import (
@@ -44,7 +45,6 @@ from diecut_report.engine.printing.shown_place import (
     value_at,
 )
 from diecut_report.engine.printing.substitution import (
-    MOST_DIGITS,
     Contradiction,
     Elsewhere,
     Substitution,
@@ -52,8 +52,7 @@ from diecut_report.engine.printing.substitution import (
 )
 from diecut_report.engine.shown_units import step_shown
 from diecut_report.expressions import Array, Node
-from diecut_report.quantities.formatting import number_text, with_unit
-from diecut_report.quantities.units import unit
+from diecut_report.quantities.formatting import number_text
 
 Item = dict[str, Any]
 
@@ -140,8 +139,7 @@ def _value(calc: Calculation, step: Value, part: Bound) -> list[Item]:
     if axis in calc.domains:
         item |= located(calc, str(axis), elsewhere)
     elif axis is not None:
-        if names := calc.part_names.get(axis) or calc.inputs.get(step.named_by):
-            item["note"] = " ".join(filter(None, (item.get("note"), f"Shown for: {names[shown_part(calc, step.id)]}.")))
+        item["note"] = " ".join(filter(None, (item.get("note"), named_parts.told(calc, step, axis))))
         if not named_parts.has_tables(calc, axis):
             taken = [name for name in part.names.values() if isinstance(name, str)]
             return [item, tables.table(calc, step, [*taken, step.id])]
@@ -177,10 +175,10 @@ def _formula(calc: Calculation, part: Bound, step: Step, axis: str | None, elsew
     try:
         numeric = substitution.numeric(target, result["unit"], step.digits) if takes else None
     except Contradiction as found:
-        raise Unproven(_contradicted(step, part, found)) from None
+        raise Unproven(contradicted(step, part, found)) from None
     symbolic = substitution.symbolic()
     item: Item = {"equation": symbolic.to_json(), "substituted": numeric and numeric.to_json()}
-    if defined := definitions(symbolic) + conversions(substitution, numeric):
+    if defined := definitions(symbolic):
         item["where"] = defined
     if takes and numeric is None:
         item["note"] = (
@@ -188,7 +186,9 @@ def _formula(calc: Calculation, part: Bound, step: Step, axis: str | None, elsew
         )
     if isinstance(substitution, BetweenRows):
         item["note"] = " ".join(filter(None, (item.get("note"), substitution.told())))
-    return item | bridged(substitution, numeric, target, result) | {"result": result}
+    return (
+        item | bridged(substitution, numeric, target, result) | conversions(substitution, numeric) | {"result": result}
+    )
 
 
 def _substitution(
@@ -197,21 +197,6 @@ def _substitution(
     if isinstance(step, Interpolated):
         return BetweenRows(calc, step, value_of, marked)
     return Substitution(calc, part, value_of, marked)
-
-
-def _contradicted(step: Step, part: Bound, found: Contradiction) -> str:
-    """Say what is wrong with a formula whose expression does not give its result, with so many digits as show it."""
-    factor, said = unit(step.unit).factor, ("", "")
-    for digits in range(step.digits, MOST_DIGITS + 1):
-        said = (number_text(found.result / factor, digits), number_text(found.printed / factor, digits))
-        if said[0] != said[1]:
-            break
-    result, again = (with_unit(text, step.unit) for text in said)
-    formula = part.formula
-    return (
-        f"{step.description} ({step.id}) is {result}, but its formula {formula.__name__} as it is printed gives {again}, "
-        f"which is more than rounding; it must compute by its parameters and constants alone ({formula.place})"
-    )
 
 
 OPPOSITE = {"<": ">=", "<=": ">", ">": "<=", ">=": "<", "==": "!=", "!=": "=="}

@@ -7,8 +7,9 @@ from typing import Any
 
 from diecut_report.contract.code_steps import ComputedCurve, PartTable
 from diecut_report.contract.result_names import part_result
+from diecut_report.contract.steps import Step
 from diecut_report.engine.calculation import Calculation
-from diecut_report.engine.printing.shown_place import value_at
+from diecut_report.engine.printing.shown_place import shown_part, value_at
 from diecut_report.engine.shown_units import unit_for
 from diecut_report.quantities.formatting import shown, with_unit
 
@@ -41,3 +42,11 @@ def curves(calc: Calculation, step: ComputedCurve, at: Item) -> Item:
     where = f"{step.description} at {at['symbol']} = {with_unit(at['text'], at['unit'])}"
     lines = [list(line) for line in zip(calc.inputs[step.named_by], texts, strict=True)]
     return {"type": "table", "id": step.id, "title": where, "columns": list(head), "rows": lines}
+
+
+def told(calc: Calculation, step: Step, axis: str) -> str:
+    """Return which of repeated parts the numbers in a row's formula are of; nothing where there is but one."""
+    names, part = calc.part_names.get(axis) or calc.inputs.get(step.named_by), shown_part(calc, step.id)
+    if names:
+        return f"Shown for: {names[part]}."
+    return f"Shown for part {part + 1}." if calc[step.id].shape[1] > 1 else ""

@@ -25,6 +25,7 @@ from diecut_report.quantities.display import easy_unit, is_nothing
 from diecut_report.quantities.formatting import (
     DIGITS,
     NAMED,
+    given_shown,
     number_text,
     rounded,
     shortest,
@@ -57,7 +58,7 @@ def printed(calc: Calculation, name: str, variant: int = 0, part: int = 0, up: b
     digits = getattr(declared, "digits", DIGITS)
     if name not in calc.values:
         display = declared_unit(calc, name, declared.unit)
-        return with_unit(shortest(unit(display).from_si(float(value))), display)
+        return with_unit(*given_shown(float(value), display).values())
     display = unit_for(calc, name, declared.unit, [float(value)])
     return told(float(value), display, digits, up=up)
 

@@ -13,8 +13,7 @@ from diecut_report.engine.calculation import Calculation
 from diecut_report.engine.printing.substitution import printed
 from diecut_report.engine.shown_units import declared_unit, step_shown, unit_for
 from diecut_report.engine.steps.part_rows import given_of, series_of
-from diecut_report.quantities.formatting import shortest, shown, with_unit
-from diecut_report.quantities.units import unit
+from diecut_report.quantities.formatting import given_shown, shown, with_unit
 from diecut_report.standards import StandardSeries, StandardTable, sources_told
 
 Item = dict[str, Any]
@@ -70,8 +69,8 @@ def _cell(calc: Calculation, name: str, display: str, part: int) -> str:
         return value
     if np.isnan(float(value)):
         return "–"
-    is_typed = name not in calc.values
-    return shortest(unit(display).from_si(float(value))) if is_typed else shown(float(value), display)["text"]
+    told = shown if name in calc.values else given_shown
+    return told(float(value), display)["text"]
 
 
 def number(calc: Calculation, step: Total | Pick | Lookup | Part) -> Item:
