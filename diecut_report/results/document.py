@@ -20,7 +20,7 @@ from diecut_report.contract.mechanism import Mechanism
 from diecut_report.contract.varying import Extremes
 from diecut_report.engine import CurveHandle
 from diecut_report.limits import MAX_COMPARISONS
-from diecut_report.quantities.formatting import as_given, shortest
+from diecut_report.quantities.formatting import as_given, given_shown
 from diecut_report.results.bases import Bases, assumed
 from diecut_report.results.comparisons import Found
 from diecut_report.results.mechanism import worst
@@ -137,7 +137,7 @@ def _press(run: Run) -> Data:
     for name, value in flatten(press).items():
         meta = declared(Press, tuple(name.split(".")))
         if isinstance(meta, Quantity):
-            shown = {"text": shortest(meta.parsed_unit.from_si(value)), "unit": meta.unit}
+            shown = given_shown(value, meta.unit)
             said_of = {"path": f"{PRESS}.{name}", "description": meta.description, "symbol": meta.symbol}
             node = (PRESS, *name.split("."))
             rests = {"basis": bases.of(node)} | ({"note": note} if (note := bases.said(node).note) else {})
