@@ -31,7 +31,7 @@ LAYERS = [
     {"mechanics"},
     {"contract"},
     {"api"},
-    {"files", "given_files", "code_files"},
+    {"files", "given_files", "code_files", "pictures"},
     {"declaration"},
     {"config"},
     {"engine"},
@@ -46,6 +46,7 @@ LAYERS = [
 ]
 REPORT = LAYERS.index({"report"})
 ONLY_IN = {  # library: the modules of the program that may import it
+    "PIL": r"diecut_report\.pictures",
     "dask": r"(?!)",  # its client is all that is needed
     "distributed": r"diecut_report\.study\.execution\.dask_cluster",
     "duckdb": r"diecut_report\.study\.(analysis|summary)\.\w+",
@@ -55,6 +56,7 @@ ONLY_IN = {  # library: the modules of the program that may import it
     "threadpoolctl": r"diecut_report\.study\.execution\.process_settings",
     "pikepdf": r"diecut_report\.exchange\.pdf_attachments",
     "weasyprint": r"diecut_report\.report\.page_engine",
+    "pydyf": r"diecut_report\.report\.page_engine",
     "ezdxf": r"diecut_report\.report\.profile_files",
     "jinja2": r"diecut_report\.report\.(html|document)",
     "scipy.stats": r"diecut_report\.study\..*",  # slow to import, and needed by studies alone

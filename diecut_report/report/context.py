@@ -56,6 +56,12 @@ class Material:
         """The files that the report carries."""
         return carried_files(self.results, self.words)
 
+    @property
+    def logo(self) -> str:
+        """The organisation's logo as a data address; nothing where there is none."""
+        logo = self.results["config"].get("logo")
+        return f"data:{logo['media_type']};base64,{logo['base64']}" if logo else ""
+
     @cached_property
     def figures(self) -> dict[str, Svg]:
         """All figures by their number, but those that cannot be drawn: these are in ``faults``."""

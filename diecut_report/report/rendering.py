@@ -25,7 +25,7 @@ class Rendering:
         return page(self.material)
 
     def pdf(self) -> bytes:
-        """The report as PDF (A4, PDF/UA-1); needs the system's pango (OSError without it)."""
+        """The report as PDF (A4, PDF/A-3 and PDF/UA-1); needs the system's pango (OSError without it)."""
         from diecut_report.report.pdf import sheets
 
         return sheets(self.material)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import base64
 from collections.abc import Iterator
 from typing import Any
 
@@ -10,6 +11,7 @@ from diecut_report.config.basis import GIVEN
 from diecut_report.config.hidden_letters import printable
 from diecut_report.config.instances import Instance
 from diecut_report.config.loader import Config
+from diecut_report.config.logo import Logo
 from diecut_report.config.model import PRESS, Press
 from diecut_report.config.source_hashes import plugin_code, program_hash
 from diecut_report.config.targets import Node
@@ -51,7 +53,7 @@ def document(run: Run) -> Data:
             **_tables(config),
         },
         "project": _project(config.project.model_dump()),
-        "report": {"detail": config.report.detail},
+        "report": config.report.model_dump(exclude_none=True),
         "press": _press(run),
         "status": "error" if run.errors else status,
         "governing": governing(mechanisms),
@@ -61,9 +63,14 @@ def document(run: Run) -> Data:
 
 
 def _tables(config: Config) -> Data:
-    """The user's own tables that the config names, whole: the calculation can be done again with them."""
+    """The user's own tables and the logo that the config names, whole: the report can be made again with them."""
     found = [{"file": name, "sha256": tree.sha256, "source_text": tree.text} for name, tree in config.tables.items()]
-    return {"materials": found} if found else {}
+    return ({"materials": found} if found else {}) | ({"logo": _logo(config.logo)} if config.logo else {})
+
+
+def _logo(logo: Logo) -> Data:
+    content = base64.b64encode(logo.content).decode()
+    return {"file": logo.name, "sha256": logo.sha256, "media_type": logo.media_type, "base64": content}
 
 
 def _left_out(run: Run) -> Data:
@@ -154,7 +161,7 @@ def resolved(run: Run) -> Data:
         mechanisms[name] = {"kind": kind} | (_plain(block, (name,), instance, bases) if block and instance else {})
     press = config.instances[PRESS]
     assert press is not None
-    return {"schema_version": 1, "project": config.project.model_dump(exclude_none=True), "report": config.report.model_dump(),
+    return {"schema_version": 1, "project": config.project.model_dump(exclude_none=True), "report": config.report.model_dump(exclude_none=True),
             PRESS: _plain(run.blocks[PRESS], (PRESS,), press, bases), "mechanisms": mechanisms}  # fmt: skip
 
 
