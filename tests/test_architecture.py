@@ -50,7 +50,7 @@ ONLY_IN = {  # library: the modules of the program that may import it
     "distributed": r"diecut_report\.study\.execution\.dask_cluster",
     "duckdb": r"diecut_report\.study\.(analysis|summary)\.\w+",
     "matplotlib": r"diecut_report\.(report\.figures|study\.summary)(\.\w+)?",
-    "openpyxl": r"diecut_report\.study\.(tables\.workbooks|storage\.spreadsheets)",
+    "openpyxl": r"diecut_report\.(study\.(tables\.workbooks|storage\.spreadsheets)|report\.office\.workbook)",
     "pyarrow": r"diecut_report\.study\.(storage|tables)\.\w+",
     "threadpoolctl": r"diecut_report\.study\.execution\.process_settings",
     "pikepdf": r"diecut_report\.exchange\.pdf_attachments",

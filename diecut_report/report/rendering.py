@@ -30,6 +30,12 @@ class Rendering:
 
         return sheets(self.material)
 
+    def xlsx(self) -> bytes:
+        """The report's numbers as a workbook."""
+        from diecut_report.report.office.workbook import workbook
+
+        return workbook(self.material)
+
 
 def render_html(results: Mapping[str, Any]) -> str:
     """A results document as HTML."""
