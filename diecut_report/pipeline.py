@@ -19,7 +19,7 @@ from diecut_report.results.results_file import encoded, results_text
 if TYPE_CHECKING:
     from diecut_report.results.press_run import Run
 
-FORMATS = ("html", "pdf", "xlsx", "json")
+FORMATS = ("html", "pdf", "docx", "xlsx", "json")
 DRAWN = FORMATS[:-1]  # of a report that can be made again from its results
 
 Data = dict[str, Any]
@@ -213,6 +213,9 @@ def rendered(results: Data, formats: Sequence[str], tell: Tell) -> tuple[dict[st
         if "pdf" in formats:
             tell("setting the pages")
             contents["pdf"] = _pdf(rendering)
+        if "docx" in formats:
+            tell("writing the document")
+            contents["docx"] = rendering.docx()
         if "xlsx" in formats:
             contents["xlsx"] = rendering.xlsx()
         undrawn += [Lost("figure", each.mechanism, each.figure["id"], each.words) for each in rendering.faults]

@@ -51,6 +51,7 @@ ONLY_IN = {  # library: the modules of the program that may import it
     "duckdb": r"diecut_report\.study\.(analysis|summary)\.\w+",
     "matplotlib": r"diecut_report\.(report\.figures|study\.summary)(\.\w+)?",
     "openpyxl": r"diecut_report\.(study\.(tables\.workbooks|storage\.spreadsheets)|report\.office\.workbook)",
+    "docx": r"diecut_report\.report\.office\.word_(file|styles)",
     "pyarrow": r"diecut_report\.study\.(storage|tables)\.\w+",
     "threadpoolctl": r"diecut_report\.study\.execution\.process_settings",
     "pikepdf": r"diecut_report\.exchange\.pdf_attachments",

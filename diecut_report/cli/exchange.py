@@ -129,7 +129,7 @@ def _value(value: object) -> str:
     metavar="LIST",
     default="html,pdf",
     callback=formats_of(_drawn),
-    help="html,pdf (default), also xlsx.",
+    help="html,pdf (default), also docx,xlsx.",
 )
 @verdict.strict_option
 @common

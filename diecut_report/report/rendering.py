@@ -30,6 +30,12 @@ class Rendering:
 
         return sheets(self.material)
 
+    def docx(self) -> bytes:
+        """The report as a document for word processors."""
+        from diecut_report.report.office.word_file import word_file
+
+        return word_file(self.material)
+
     def xlsx(self) -> bytes:
         """The report's numbers as a workbook."""
         from diecut_report.report.office.workbook import workbook
