@@ -10,8 +10,8 @@ from diecut_report.report.i18n import Catalogue
 from diecut_report.report.model import CheckRow, Item, PartsTable, PrintedTable, QuantityRow
 from diecut_report.report.office.omml import OfficeMath, office_math
 from diecut_report.report.office.wordml import (
-    Column,
     Inline,
+    TableColumn,
     bold,
     bookmark,
     key,
@@ -78,14 +78,14 @@ class WordBody:
         for line in lines:
             self.say(line, "ListBullet")
 
-    def table(self, columns: Sequence[Column], rows: Sequence[Sequence[Inline]], *, headed: bool = True) -> None:
+    def table(self, columns: Sequence[TableColumn], rows: Sequence[Sequence[Inline]], *, headed: bool = True) -> None:
         """A table, and air below it."""
         if rows:
             self.parts += [table(columns, rows, headed=headed), paragraph("", "TableText")]
 
-    def head(self, word: str, share: float, *, right: bool = False) -> Column:
+    def head(self, word: str, share: float, *, right: bool = False) -> TableColumn:
         """A column with a word of the catalogue as its head."""
-        return Column(run(self.words[word] if word else ""), share, right)
+        return TableColumn(run(self.words[word] if word else ""), share, right)
 
     def status(self, status: str) -> Inline:
         """A verdict by its sign and its word."""
@@ -129,7 +129,7 @@ class WordBody:
         for index, (title, symbol, unit) in enumerate(found.columns):
             head = rich(prose(title)) + (run(" ") + rich(symbol) if symbol else "") + run(f", {unit}" if unit else "")
             is_number = bool(found.rows) and all(row[index][:1] in "−–0123456789" for row in found.rows)
-            columns.append(Column(head, 1 if is_number else 2, is_number))
+            columns.append(TableColumn(head, 1 if is_number else 2, is_number))
         self.table(columns, [[run(text) for text in row] for row in found.rows])
 
     def parts_table(self, found: PartsTable) -> None:
@@ -143,7 +143,7 @@ class WordBody:
         for each in found.columns:
             head = rich(prose(each.title)) + (run(" ") + rich(each.symbol) if each.symbol else "")
             head += run(f", {each.unit}" if each.unit else "") + (new_line() + key(each.key) if each.key else "")
-            columns.append(Column(head + (new_line() + small(prose(each.source)) if each.source else ""), 2))
+            columns.append(TableColumn(head + (new_line() + small(prose(each.source)) if each.source else ""), 2))
         rows = [
             [run(number), *(run(cell.text) + (new_line() + small(cell.note) if cell.note else "") for cell in cells)]
             for number, cells in found.lines

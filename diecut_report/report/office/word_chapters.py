@@ -8,7 +8,7 @@ from diecut_report.report.document import ReportDocument
 from diecut_report.report.model import Heading, PrintedChapter, QuantityRow
 from diecut_report.report.office.word_body import WordBody
 from diecut_report.report.office.word_front import check_table
-from diecut_report.report.office.wordml import Column, Inline, bold, key, new_line, rich, run, small
+from diecut_report.report.office.wordml import Inline, TableColumn, bold, key, new_line, rich, run, small
 from diecut_report.report.scope import FULL
 from diecut_report.report.symbols import prose
 
@@ -80,7 +80,7 @@ def _given(body: WordBody, part: PrintedChapter) -> None:
 
 
 def _inputs(body: WordBody, rows: Sequence[QuantityRow]) -> None:
-    typed = Column(run(f"{body.words['typed']}, {body.words['origin'].lower()}"), 4)
+    typed = TableColumn(run(f"{body.words['typed']}, {body.words['origin'].lower()}"), 4)
     columns = [
         body.head("quantity", 6),
         body.head("symbol", 1.5),
@@ -179,7 +179,7 @@ def closing(body: WordBody, document: ReportDocument) -> None:
         [run(words["config_file"]), run(document.config["file"])],
         [run(words["sha256"]), key(document.config["sha256"])],
     ]
-    body.table([Column("", 2), Column("", 6)], rows, headed=False)
+    body.table([TableColumn("", 2), TableColumn("", 6)], rows, headed=False)
     columns = [
         body.head("mechanism", 4),
         body.head("kind", 2.5),

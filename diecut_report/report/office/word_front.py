@@ -10,8 +10,8 @@ from diecut_report.report.model import CheckRow
 from diecut_report.report.office.word_body import MARKS, WordBody
 from diecut_report.report.office.wordml import (
     FIELD_END,
-    Column,
     Inline,
+    TableColumn,
     bold,
     field,
     key,
@@ -39,7 +39,7 @@ def title_block(body: WordBody, document: ReportDocument) -> None:
         for name, key in (("document", "document_number"), ("revision", "revision"), ("date", "date"))
     ]
     body.table(
-        [Column("", 1)] * 3, [[small(name) + new_line() + bold(text or "–") for name, text in facts]], headed=False
+        [TableColumn("", 1)] * 3, [[small(name) + new_line() + bold(text or "–") for name, text in facts]], headed=False
     )
     roles = [(words[role], project[f"{role}_by"]) for role in ("prepared", "checked", "approved")]
     columns = [body.head(word, share) for word, share in (("release", 2), ("name", 3), ("date", 2), ("signature", 3))]
@@ -126,7 +126,7 @@ def _assumed(body: WordBody, document: ReportDocument) -> None:
                 for name, value, moves in group.values
             ]
             rows.append([key(group.name), run(" · ".join(told))])
-        body.table([Column("", 1), Column("", 4)], rows, headed=False)
+        body.table([TableColumn("", 1), TableColumn("", 4)], rows, headed=False)
     elif line and document.detail != BRIEF:
         body.say(
             run(
@@ -143,7 +143,7 @@ def _named(body: WordBody, row: CheckRow) -> Inline:
 def _governing(body: WordBody, document: ReportDocument) -> None:
     """What governs each mechanism, and how many of its checks fail, warn, pass and are not made."""
     columns = [body.head("mechanism", 4), body.head("governing_check", 5), body.head("utilisation", 2.2, right=True)]
-    columns += [Column(run(MARKS[status]), 0.7, True) for status in STATUSES] + [body.head("verdict", 2)]
+    columns += [TableColumn(run(MARKS[status]), 0.7, True) for status in STATUSES] + [body.head("verdict", 2)]
     rows = []
     for chapter in document.chapters:
         row = chapter.governing
@@ -162,7 +162,12 @@ def _all_checks(body: WordBody, document: ReportDocument) -> None:
 
 def check_table(body: WordBody, rows: Sequence[CheckRow]) -> None:
     """Checks, a line for each: what is demanded, what is allowed, how far that is used."""
-    columns = [body.head("check", 5), body.head("demand", 2.2, right=True), Column("", 0.6), body.head("limit", 2.2)]
+    columns = [
+        body.head("check", 5),
+        body.head("demand", 2.2, right=True),
+        TableColumn("", 0.6),
+        body.head("limit", 2.2),
+    ]
     columns += [body.head("margin", 2, right=True), body.head("utilisation", 2.2, right=True), body.head("verdict", 2)]
 
     def side(text: str, label: str) -> Inline:
@@ -193,7 +198,7 @@ def changes(body: WordBody, document: ReportDocument, found: PrintedChanges) -> 
     _pairs(body, "changed_code", "program", found.code)
 
 
-def _sides(body: WordBody, what: str) -> list[Column]:
+def _sides(body: WordBody, what: str) -> list[TableColumn]:
     return [body.head(what, 5), body.head("before", 3), body.head("after", 3)]
 
 

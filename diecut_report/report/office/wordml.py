@@ -107,7 +107,7 @@ def paragraph(inner: Inline, style: str = "", *, keep: bool = False, align: str 
     return f"<w:p><w:pPr>{properties}</w:pPr>{inner}</w:p>" if properties else f"<w:p>{inner}</w:p>"
 
 
-class Column(NamedTuple):
+class TableColumn(NamedTuple):
     """A column of a table: its head, its share of the width, and whether its texts stand right."""
 
     head: Inline
@@ -116,7 +116,7 @@ class Column(NamedTuple):
 
 
 def table(
-    columns: Sequence[Column], rows: Iterable[Sequence[Inline]], *, style: str = "ReportTable", headed: bool = True
+    columns: Sequence[TableColumn], rows: Iterable[Sequence[Inline]], *, style: str = "ReportTable", headed: bool = True
 ) -> str:
     """A table across the page; its heads are repeated on each sheet, its rows are not broken."""
     whole = sum(column.share for column in columns)
