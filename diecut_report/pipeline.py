@@ -19,7 +19,8 @@ from diecut_report.results.results_file import encoded, results_text
 if TYPE_CHECKING:
     from diecut_report.results.press_run import Run
 
-FORMATS = ("html", "pdf", "json")
+FORMATS = ("html", "pdf", "docx", "xlsx", "json")
+DRAWN = FORMATS[:-1]  # of a report that can be made again from its results
 
 Data = dict[str, Any]
 Tell = Callable[[str], None]
@@ -101,7 +102,7 @@ def report(
     config: Source, discovery: Discovery, tell: Tell, folder: Path, formats: Sequence[str], asked: AskedReport = AS_CONFIGURED,
     weigh: Weigh | None = None, former: Data | None = None,
 ) -> ReportOutcome:  # fmt: skip
-    """The report in the asked formats, as ``NAME.html``, ``NAME.pdf``, ``NAME.json`` in the folder, and the exports beside it.
+    """The report in the asked formats, as ``NAME.html``, ``NAME.pdf`` … in the folder, and the exports beside it.
 
     ``weigh`` tells which of the assumed values move a governing check; ``former`` are the results of a former revision, since which
     changes are told and marked.
@@ -202,7 +203,7 @@ def rendered(results: Data, formats: Sequence[str], tell: Tell) -> tuple[dict[st
     """Return the content of each format, all complete before anything is written; and the figures that could not be drawn."""
     undrawn: list[Lost] = []
     contents = {"json": encoded(results_text(results))} if "json" in formats else {}
-    if {"html", "pdf"} & set(formats):
+    if set(DRAWN) & set(formats):
         tell("drawing the report")
         from diecut_report.report import Rendering
 
@@ -212,6 +213,11 @@ def rendered(results: Data, formats: Sequence[str], tell: Tell) -> tuple[dict[st
         if "pdf" in formats:
             tell("setting the pages")
             contents["pdf"] = _pdf(rendering)
+        if "docx" in formats:
+            tell("writing the document")
+            contents["docx"] = rendering.docx()
+        if "xlsx" in formats:
+            contents["xlsx"] = rendering.xlsx()
         undrawn += [Lost("figure", each.mechanism, each.figure["id"], each.words) for each in rendering.faults]
     return {ending: contents[ending] for ending in formats}, undrawn
 

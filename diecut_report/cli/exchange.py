@@ -31,9 +31,14 @@ if TYPE_CHECKING:
     from diecut_report.exchange.carried_results import CarriedResults
     from diecut_report.exchange.verification import Told, Verification
 
-FORMATS = ("html", "pdf")
 SHOWN = 20  # differences that are told
 path_of = click.Path(path_type=Path)
+
+
+def _drawn() -> tuple[str, ...]:
+    from diecut_report.pipeline import DRAWN
+
+    return DRAWN
 
 
 @click.command(cls=HelpfulCommand)
@@ -123,8 +128,8 @@ def _value(value: object) -> str:
     "formats",
     metavar="LIST",
     default="html,pdf",
-    callback=formats_of(lambda: FORMATS),
-    help="html,pdf or one of them.",
+    callback=formats_of(_drawn),
+    help="html,pdf (default), also docx,xlsx.",
 )
 @verdict.strict_option
 @common

@@ -151,7 +151,7 @@ config_argument = click.argument("config", type=click.Path(path_type=Path))
     metavar="LIST",
     default="html,pdf,json",
     callback=formats_of(_report_formats),
-    help="html,pdf,json or some of them.",
+    help="html,pdf,json (default), also docx,xlsx.",
 )
 @click.option(
     "--language", metavar="LANGUAGE", callback=_language, help="Language of the report, in place of the project's."
@@ -183,7 +183,7 @@ def report(
     folders: tuple[Path, ...],
     quiet: bool,
 ) -> int:
-    """Calculate and write NAME.html, NAME.pdf and NAME.json."""
+    """Calculate and write NAME.html, NAME.pdf and NAME.json; on demand NAME.docx and NAME.xlsx."""
     from diecut_report import pipeline
     from diecut_report.exchange.sides import side
     from diecut_report.study.analysis.assumed import moves

@@ -92,6 +92,9 @@ ENGLISH: dict[str, str] = {
     "config_file": "Configuration file", "sha256": "SHA-256",
     "failed_text": "This mechanism could not be calculated.", "failed_comparison": "This comparison could not be calculated.",
     "skipped_text": "This mechanism was not calculated, since what it refers to was not.",
+    # office files
+    "si_value": "Value, SI", "si_unit": "Unit, SI", "basis": "Basis", "note": "Note", "class": "Class", "message": "Message", "operator": "",
+    "key_result": "Key result", "yes": "yes", "time_ms": "Time, ms",
 }  # fmt: skip
 CATALOGUES: dict[str, dict[str, str]] = {"en": ENGLISH}
 

@@ -30,6 +30,18 @@ class Rendering:
 
         return sheets(self.material)
 
+    def docx(self) -> bytes:
+        """The report as a document for word processors."""
+        from diecut_report.report.office.word_file import word_file
+
+        return word_file(self.material)
+
+    def xlsx(self) -> bytes:
+        """The report's numbers as a workbook."""
+        from diecut_report.report.office.workbook import workbook
+
+        return workbook(self.material)
+
 
 def render_html(results: Mapping[str, Any]) -> str:
     """A results document as HTML."""
