@@ -84,6 +84,10 @@ ENGLISH: dict[str, str] = {
     "checks_worse": "worse", "checks_better": "better", "checks_added": "new", "checks_removed": "no longer made",
     "checks_more used": "more used", "checks_less used": "less used",
     "changed_mark": "changed, before: {old}", "marked": "What changed is marked in the margin.",
+    # the tools of a reader on a screen; what stands in braces is filled in by the page's script
+    "search": "Search", "dark": "Dark", "hits": "{n} found", "all_checks": "All checks", "check_class": "Class", "all_classes": "all",
+    "text_within": "Text", "shown_checks": "{n} of {total} checks", "copy_text": "Copy {text}", "copied": "Copied: {text}",
+    "copy_refused": "The browser does not let the page copy {text}", "as_printed": "As printed",
     # programme
     "calculated_by": "Calculated by", "version": "version", "plugin": "Mechanism", "plugin_version": "Version", "kind": "Kind",
     "source_hash": "source", "extension": "Extension",
