@@ -12,6 +12,7 @@ from diecut_report.declaration.code_texts import code_texts
 from diecut_report.declaration.texts import DeclaredText, texts
 from diecut_report.languages import po_files
 from diecut_report.languages.po_files import Catalog
+from tools.program_texts import ProgramText, program_texts
 
 ROOT = Path(__file__).parents[1]
 LANGUAGES = ("uk",)
@@ -20,14 +21,22 @@ PLACEHOLDER = re.compile(r"\\\{[\w.]+(?::\w+)?\\\}")
 
 def main() -> None:
     """Write all catalogues anew."""
-    discovery = Discovery()
-    for kind in discovery.origins:
-        for language in LANGUAGES:
-            file = po_files.file_beside(ROOT / "plugins" / kind / "__init__.py", language)
-            catalogue = updated(file, language, plugin_texts(discovery.mechanism(kind)), kind)
+    for language in LANGUAGES:
+        for file, catalogue in catalogues(language):
             file.parent.mkdir(exist_ok=True)
             file.write_bytes(po_files.written(catalogue))
             print(file.relative_to(ROOT), len(catalogue))
+
+
+def catalogues(language: str) -> Iterator[tuple[Path, Catalog]]:
+    """Yield each catalogue as it is to be, with its file: the program's, and those of its plugins."""
+    discovery = Discovery()
+    file = po_files.file_beside(ROOT / "diecut_report" / "__init__.py", language)
+    yield file, updated(file, language, list(program_texts()), "diecut-report")
+    for kind in discovery.origins:
+        file = po_files.file_beside(ROOT / "plugins" / kind / "__init__.py", language)
+        found = [ProgramText(text, note=of) for text, of in plugin_texts(discovery.mechanism(kind))]
+        yield file, updated(file, language, found, kind)
 
 
 def plugin_texts(mechanism: Mechanism) -> list[DeclaredText]:
@@ -46,16 +55,17 @@ def made_by_code(folder: Path, declared: list[DeclaredText]) -> Iterator[Declare
             yield found
 
 
-def updated(file: Path, language: str, found: list[DeclaredText], project: str) -> Catalog:
+def updated(file: Path, language: str, found: list[ProgramText], project: str) -> Catalog:
     """Return the catalogue with these messages, the translations of the file kept."""
     template = po_files.empty(language, project)
-    for text, of in found:
-        template.add(text, auto_comments=[of])
+    for each in found:
+        id = (each.text, each.plural) if each.plural else each.text
+        template.add(id, context=each.context, auto_comments=[each.note] if each.note else [])
     if not file.exists():
         return template
     old = po_files.read(file, language)
     for message in template:
-        if message.id and (known := old.get(message.id)):
+        if message.id and (known := old.get(message.id, message.context)):
             message.string, message.flags = known.string, known.flags
     return template
 

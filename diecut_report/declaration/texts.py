@@ -2,13 +2,17 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterator, Mapping
 from dataclasses import fields, is_dataclass
-from typing import Any, NamedTuple
+from typing import Any, NamedTuple, get_args
 
 from diecut_report.contract.inputs import Block, meta_of, nested
 from diecut_report.contract.mechanism import Comparison, Mechanism
 from diecut_report.contract.spectra import Spectrum
+from diecut_report.contract.steps import Case
+from diecut_report.languages.phrases import PLACE
+from diecut_report.languages.tokens import worded
 from diecut_report.standards import StandardSeries, StandardTable
 
 SAID = frozenset({"title", "summary", "text", "absent", "description", "method", "otherwise", "words", "message", "demand_label",
@@ -17,6 +21,8 @@ SAID = frozenset({"title", "summary", "text", "absent", "description", "method",
 ENTERED = frozenset({"chapters", "steps", "checks", "figures", "panels", "series", "levels", "marks", "spans", "groups", "cases", "heads",
                      "errata", "exports", "comparisons", "spectra", "table", "mechanism"})  # fmt: skip
 """Fields that hold further declared things."""
+
+WORD = re.compile(r"[^\W\d_]{2,}")
 
 
 class DeclaredText(NamedTuple):
@@ -29,27 +35,41 @@ class DeclaredText(NamedTuple):
 def texts(mechanism: Mechanism) -> Iterator[DeclaredText]:
     """Yield each text once: those of the mechanism, of its inputs, and of the comparisons that it declares."""
     seen = set()
-    for found in (*_of_inputs(mechanism.inputs), *_of_declared(mechanism, mechanism.kind)):
-        if found.text not in seen and is_text(found.text):
+    for found in (*inputs_texts(mechanism.inputs), *_of_declared(mechanism, mechanism.kind)):
+        if found.text and found.text not in seen and is_text(found.text):
             seen.add(found.text)
             yield found
 
 
 def is_text(text: str) -> bool:
     """Return whether there are words in it: not a symbol, a sign or a number alone."""
-    return (
-        any(part.isalpha() and len(part) > 1 for part in text.replace("-", " ").replace(".", " ").split())
-        or " " in text
-    )
+    return WORD.search(PLACE.sub(" ", text)) is not None
 
 
-def _of_inputs(model: type[Block], prefix: str = "") -> Iterator[DeclaredText]:
+def inputs_texts(model: type[Block], prefix: str = "") -> Iterator[DeclaredText]:
+    """Yield what inputs are, and in words what texts they may be."""
     for name, field in model.model_fields.items():
         meta, inner = meta_of(model, name), nested(field.annotation)
         if meta is not None:
             yield DeclaredText(meta.description, f"input {prefix}{name}")
+            yield from (_option(text, f"{prefix}{name}") for text in _options(meta, field.annotation))
         if inner:
-            yield from _of_inputs(inner[0], f"{prefix}{name}.")
+            yield from inputs_texts(inner[0], f"{prefix}{name}.")
+
+
+def _options(meta: Any, annotation: Any) -> Iterator[str]:
+    """The keys that may be given in place of a number, or as a text."""
+    known = (*getattr(meta, "options", ()), *getattr(meta, "words", ()), *_literals(annotation))
+    yield from (text for text in known if text.isidentifier() and text.islower())
+
+
+def _literals(annotation: Any) -> Iterator[str]:
+    for part in get_args(annotation):
+        yield from [part] if isinstance(part, str) else _literals(part)
+
+
+def _option(key: str, home: str) -> DeclaredText:
+    return DeclaredText(worded(key), f"{key}, a text of {home}")
 
 
 def _of_declared(declared: Any, told: str) -> Iterator[DeclaredText]:
@@ -57,6 +77,7 @@ def _of_declared(declared: Any, told: str) -> Iterator[DeclaredText]:
         yield from texts(declared.mechanism)
     elif isinstance(declared, StandardTable | StandardSeries):
         yield DeclaredText(declared.title, "table")
+        yield DeclaredText(declared.only_source, "why a table has one source only")
     elif isinstance(declared, Mapping):
         for part in declared.values():
             yield from _of_declared(part, told)
@@ -78,10 +99,8 @@ def _of_fields(declared: Any, told: str) -> Iterator[DeclaredText]:
             yield from (DeclaredText(text, told) for text in ([value] if isinstance(value, str) else value))
         elif name == "bars":
             yield from (DeclaredText(label, told) for label, _ in value)
-        elif (
-            name == "value" and isinstance(value, str) and not value.isidentifier()
-        ):  # a choice's text that is not a key
-            yield DeclaredText(value, told)
+        elif isinstance(declared, Case) and isinstance(value, str):  # what a choice gives
+            yield DeclaredText(worded(value), told)
         elif name in ENTERED:
             yield from _of_declared(value, told)
     if isinstance(declared, Spectrum):

@@ -9,6 +9,7 @@ from diecut_report.contract.code_steps import ComputedCurve, PartTable
 from diecut_report.contract.result_names import part_result
 from diecut_report.engine.calculation import Calculation
 from diecut_report.engine.printing.shown_place import value_at
+from diecut_report.languages.phrases import Phrase, phrase
 from diecut_report.quantities.formatting import shown, with_unit
 
 Item = dict[str, Any]
@@ -35,6 +36,7 @@ def curves(calc: Calculation, step: ComputedCurve, at: Item) -> Item:
     )
     own = [part_result(name, step) for name in calc.inputs[step.named_by]]
     values = [shown(value_at(calc, name, step.abscissa), step.unit, step.digits)["text"] for name in own]
-    where = f"{step.description} at {at['symbol']} = {with_unit(at['text'], at['unit'])}"
+    place = {"symbol": at["symbol"], "value": with_unit(at["text"], at["unit"])}
+    where = Phrase("{title} at {symbol} = {value}", {"title": phrase(step.description), **place})
     lines = [list(line) for line in zip(calc.inputs[step.named_by], values, strict=True)]
     return {"type": "table", "id": step.id, "title": where, "columns": list(head), "rows": lines}
