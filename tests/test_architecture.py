@@ -24,7 +24,7 @@ FOLDERS = {  # folder of the repository: package or name under which its modules
 
 # A module of diecut_report may import modules of its own line and of the lines above it ("" is the package itself).
 LAYERS = [
-    {"", "errors", "limits", "quantities"},
+    {"", "errors", "limits", "quantities", "languages"},
     {"standards"},
     {"expressions"},
     {"conditions"},
@@ -46,6 +46,7 @@ LAYERS = [
 ]
 REPORT = LAYERS.index({"report"})
 ONLY_IN = {  # library: the modules of the program that may import it
+    "babel": r"diecut_report\.languages\.\w+",
     "dask": r"(?!)",  # its client is all that is needed
     "distributed": r"diecut_report\.study\.execution\.dask_cluster",
     "duckdb": r"diecut_report\.study\.(analysis|summary)\.\w+",
