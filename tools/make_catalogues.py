@@ -11,6 +11,7 @@ from diecut_report.contract.mechanism import Mechanism
 from diecut_report.declaration.code_texts import code_texts
 from diecut_report.declaration.texts import DeclaredText, texts
 from diecut_report.languages import po_files
+from diecut_report.languages.catalogues import file_beside
 from diecut_report.languages.po_files import Catalog
 from tools.program_texts import ProgramText, program_texts
 
@@ -31,10 +32,10 @@ def main() -> None:
 def catalogues(language: str) -> Iterator[tuple[Path, Catalog]]:
     """Yield each catalogue as it is to be, with its file: the program's, and those of its plugins."""
     discovery = Discovery()
-    file = po_files.file_beside(ROOT / "diecut_report" / "__init__.py", language)
+    file = file_beside(ROOT / "diecut_report" / "__init__.py", language)
     yield file, updated(file, language, list(program_texts()), "diecut-report")
     for kind in discovery.origins:
-        file = po_files.file_beside(ROOT / "plugins" / kind / "__init__.py", language)
+        file = file_beside(ROOT / "plugins" / kind / "__init__.py", language)
         found = [ProgramText(text, note=of) for text, of in plugin_texts(discovery.mechanism(kind))]
         yield file, updated(file, language, found, kind)
 

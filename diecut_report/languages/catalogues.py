@@ -8,19 +8,30 @@ from gettext import c2py
 from importlib import import_module
 from pathlib import Path
 
-from diecut_report.languages import po_files
-
 SOURCE_LANGUAGE = "en"
 OWN = Path(__file__).parents[1] / "__init__.py"
 PLUGINS = "diecut_report.plugins"
 Find = Callable[[str], Path | None]  # the file of a kind's plugin
 
 
+def file_beside(code: Path, language: str) -> Path:
+    """Return where the catalogue of a plugin lies: ``locale/uk.po`` in its folder, ``NAME.uk.po`` beside a plugin of one file."""
+    if code.name == "__init__.py":
+        return code.parent / "locale" / f"{language}.po"
+    return code.with_suffix(f".{language}.po")
+
+
+class UnknownLanguage(ValueError):
+    """Report a language of which the program has no words; the text tells those that it has."""
+
+
 class TextCatalogue:
     """The texts of one file in another language, by their English form; what is not translated, or only guessed, is not in it."""
 
     def __init__(self, file: Path, language: str) -> None:
-        found = po_files.read(file, language)
+        from diecut_report.languages.po_files import read  # with Babel, which English reports do not need
+
+        found = read(file, language)
         self._plural = c2py(found.plural_expr)
         self._texts: dict[tuple[str | None, str], tuple[str, ...]] = {}
         self.missing: list[str] = []
@@ -50,14 +61,24 @@ def catalogue(file: Path, language: str) -> TextCatalogue:
 
 
 def program_catalogue(language: str) -> TextCatalogue:
-    """Return the program's own catalogue."""
-    return catalogue(po_files.file_beside(OWN, language), language)
+    """Return the program's own catalogue; UnknownLanguage where it has none."""
+    known(language)
+    return catalogue(file_beside(OWN, language), language)
 
 
 @cache
 def languages() -> tuple[str, ...]:
     """Return the languages of reports: English, and those that the program has a catalogue of."""
     return SOURCE_LANGUAGE, *sorted(file.stem for file in (OWN.parent / "locale").glob("*.po"))
+
+
+def known(language: str) -> str:
+    """Return the language, if the program has its words; UnknownLanguage if not."""
+    if language not in languages():
+        raise UnknownLanguage(
+            f"is {language!r}, of which the program has no catalogue; allowed: {', '.join(languages())}"
+        )
+    return language
 
 
 def built_in(kind: str) -> Path | None:
@@ -70,7 +91,7 @@ class Catalogues:
     """All catalogues that a report needs; ``find`` gives the file of a plugin that is not the program's own."""
 
     def __init__(self, language: str, find: Find = built_in) -> None:
-        self.language, self._find = language, find
+        self.language, self._find = known(language), find
         self._kinds: dict[str, TextCatalogue | None] = {}
 
     @cached_property
@@ -86,7 +107,7 @@ class Catalogues:
 
     def _read(self, kind: str) -> TextCatalogue | None:
         code = built_in(kind) or self._find(kind)
-        file = po_files.file_beside(code, self.language) if code else None
+        file = file_beside(code, self.language) if code else None
         return catalogue(file, self.language) if file and file.is_file() else None
 
     def ahead(self, kind: str = "") -> Iterator[TextCatalogue]:

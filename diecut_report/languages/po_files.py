@@ -13,13 +13,6 @@ NEVER = datetime(2026, 1, 1, tzinfo=UTC)  # equal texts give equal files
 WIDTH = 140
 
 
-def file_beside(code: Path, language: str) -> Path:
-    """Return where the catalogue of a plugin lies: ``locale/uk.po`` in its folder, ``NAME.uk.po`` beside a plugin of one file."""
-    if code.name == "__init__.py":
-        return code.parent / "locale" / f"{language}.po"
-    return code.with_suffix(f".{language}.po")
-
-
 def empty(language: str, project: str) -> Catalog:
     """Return a catalogue without messages."""
     return Catalog(locale=language, project=project, version="1", charset="utf-8", fuzzy=False, creation_date=NEVER, revision_date=NEVER,
