@@ -5,11 +5,11 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping
 from typing import Any
 
+from diecut_report.languages.tokens import worded
 from diecut_report.quantities.units import pretty
 from diecut_report.quantities.units import unit as unit_of
 from diecut_report.report.context import Material
 from diecut_report.report.i18n import Catalogue
-from diecut_report.report.model import worded
 from diecut_report.report.number_format import significant
 from diecut_report.report.office.sheet import (
     Cell,
