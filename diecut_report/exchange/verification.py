@@ -135,7 +135,7 @@ def _config(carried: CarriedResults) -> Told:
     """Whether the configuration and its tables are those whose hashes the report names."""
     said = carried.results["config"]
     contents = {said["file"]: carried.config_content} | carried.tables
-    hashes = {file["file"]: str(file["sha256"]) for file in (*said.get("materials", ()), said)}
+    hashes = {file["file"]: str(file["sha256"]) for file in (*said.get("materials", ()), *_logo(said), said)}
     for name, content in contents.items():
         found = sha256(content).hexdigest()
         if found != hashes[name]:
@@ -145,6 +145,10 @@ def _config(carried: CarriedResults) -> Told:
             return words, False
     ones = "the one" if len(contents) == 1 else "the ones"
     return f"{', '.join(contents)}, SHA-256 {said['sha256'][:SHORT]}: {ones} that the report names", True
+
+
+def _logo(said: Data) -> list[Data]:
+    return [said["logo"]] if "logo" in said else []
 
 
 def _numbers(results: Data) -> Data:

@@ -8,7 +8,7 @@ from functools import cache
 from hashlib import sha256
 from importlib import import_module
 from pathlib import Path
-from typing import Any, Protocol
+from typing import TYPE_CHECKING, Any, Protocol
 
 from jinja2 import Environment, FileSystemLoader, StrictUndefined
 from markupsafe import Markup
@@ -19,6 +19,9 @@ from diecut_report.report.model import Item
 from diecut_report.report.number_format import tidy
 from diecut_report.report.reader_data import reader_data
 from diecut_report.report.symbols import prose, symbol
+
+if TYPE_CHECKING:
+    from diecut_report.report.sheet_frames import SheetBlocks
 
 FACES = {  # family, weight, style: file
     ("Report Sans", 400, "normal"): "report-sans-regular",
@@ -38,7 +41,10 @@ MATH = {("Report Math", 400, "normal"): "report-math"}
 
 
 class Medium(Protocol):
-    """How a medium shows what templates cannot: formulas and figures."""
+    """How a medium shows what templates cannot: formulas, figures, and the frame of sheets; ``style`` is for this report alone."""
+
+    style: str
+    frame: SheetBlocks | None
 
     def display(self, equation: Equation) -> Markup:
         """A typeset formula in lines of its own."""
@@ -55,6 +61,9 @@ class Medium(Protocol):
 
 class Screen:
     """Formulas as MathML, figures as inline SVG."""
+
+    style = ""
+    frame: SheetBlocks | None = None
 
     def __init__(self, material: Material) -> None:
         self.material = material
@@ -97,10 +106,11 @@ def filled(material: Material, medium: Medium, kind: str, *scripts: str) -> str:
     document = material.document
     faces = FACES | (MATH if kind == "screen" else {})
     sheets = ["report.css", f"{kind}.css", *(["changes.css"] if material.changes else []), *(READER if scripts else ())]
-    style = "\n".join([_font_faces(tuple(faces.items()), FORMS[kind]), *map(_read, sheets)])
+    sheets += [f"frame_{document.block.frame}.css"] if kind == "print" else []
+    style = "\n".join([_font_faces(tuple(faces.items()), FORMS[kind]), *map(_read, sheets), medium.style])
     return _environment().get_template("report.html.j2").render(
         doc=document, t=document.words, kind=kind, style=Markup(style), policy=policy(*scripts),
-        math=medium, figure=medium.figure, failed=material.failed,
+        math=medium, figure=medium.figure, failed=material.failed, frame=medium.frame, logo=material.logo,
         carried=material.carried, changes=material.changes,
     )  # fmt: skip
 

@@ -9,6 +9,7 @@ from typing import Any
 import pytest
 from jinja2 import UndefinedError
 
+from diecut_report.languages.catalogues import UnknownLanguage
 from diecut_report.report import Rendering, html, render_html
 
 BAD = "<script>alert(1)</script>"
@@ -144,6 +145,6 @@ def test_templates_have_no_words_of_their_own() -> None:
 
 
 def test_language_without_a_catalogue_is_refused(results: dict[str, Any]) -> None:
-    results["project"]["language"] = "uk"
-    with pytest.raises(KeyError):
+    results["project"]["language"] = "xx"
+    with pytest.raises(UnknownLanguage):
         Rendering(results)
