@@ -44,7 +44,18 @@ def report(request: pytest.FixtureRequest, tmp_path_factory: pytest.TempPathFact
 
 
 def _reported(config: Path, folder: Path) -> None:
-    command = [sys.executable, "-m", "diecut_report", "report", config, "-o", folder, "--format", "html,json", "--quiet"]
+    command = [
+        sys.executable,
+        "-m",
+        "diecut_report",
+        "report",
+        config,
+        "-o",
+        folder,
+        "--format",
+        "html,json",
+        "--quiet",
+    ]
     done = subprocess.run(command, capture_output=True, text=True, check=False)
     assert done.returncode in (0, 1), done.stderr
 
@@ -89,17 +100,23 @@ def test_the_page_breaks_nothing_asks_for_nothing_and_axe_finds_nothing_serious(
     opened.page.evaluate(Path(os.environ["AXE"]).read_text("utf-8"))
     found = opened.page.evaluate("axe.run(document, {resultTypes: ['violations']})")
     serious = [rule for rule in found["violations"] if rule["impact"] in SERIOUS]
-    assert [(rule["id"], len(rule["nodes"]), [node["html"][:200] for node in rule["nodes"][:3]]) for rule in serious] == []
+    assert [
+        (rule["id"], len(rule["nodes"]), [node["html"][:200] for node in rule["nodes"][:3]]) for rule in serious
+    ] == []
 
 
-def test_at_390_px_no_table_scrolls_sideways_and_formulas_scroll_in_boxes_of_their_own(browser: Browser, report: Path) -> None:
+def test_at_390_px_no_table_scrolls_sideways_and_formulas_scroll_in_boxes_of_their_own(
+    browser: Browser, report: Path
+) -> None:
     page = Opened(browser, report, viewport=NARROW).page
     page.evaluate("document.getElementById('all-checks').open = true")
     assert page.evaluate(TOO_WIDE) == []
     assert page.evaluate(OUT_OF_BOX) == []
     first = page.locator("table.checks tbody tr").first
     if first.count():
-        places = first.locator("td").evaluate_all("cells => cells.map(c => [c.getBoundingClientRect().top, !!c.querySelector('.badge')])")
+        places = first.locator("td").evaluate_all(
+            "cells => cells.map(c => [c.getBoundingClientRect().top, !!c.querySelector('.badge')])"
+        )
         assert min(place for place in places if place[0])[1], "the verdict stands first"
 
 
@@ -130,7 +147,7 @@ def test_the_list_of_checks_is_filtered(browser: Browser, report: Path) -> None:
 
 def test_search_finds_headings_quantities_and_symbols_and_goes_there(browser: Browser, report: Path) -> None:
     page = Opened(browser, report).page
-    name, mechanism = next((name, part) for name, part in _results(report)["mechanisms"].items() if part.get("outputs"))
+    mechanism = next(part for part in _results(report)["mechanisms"].values() if part.get("outputs"))
     row = next(iter(mechanism["outputs"].values()))
     page.keyboard.press("/")
     page.keyboard.type(row["description"][:25])
@@ -145,8 +162,12 @@ def test_search_finds_headings_quantities_and_symbols_and_goes_there(browser: Br
 
 def test_a_number_is_copied_with_its_unit_by_mouse_and_by_keyboard(browser: Browser, report: Path) -> None:
     page = Opened(browser, report).page
-    cell = page.locator("table.quantities td.num:has(+ td.unit:not(:empty)), table.keys td.num:has(+ td.unit:not(:empty))").first
-    expected = cell.evaluate("e => e.firstChild.textContent + ' ' + e.nextElementSibling.textContent").replace("\u2212", "-")
+    cell = page.locator(
+        "table.quantities td.num:has(+ td.unit:not(:empty)), table.keys td.num:has(+ td.unit:not(:empty))"
+    ).first
+    expected = cell.evaluate("e => e.firstChild.textContent + ' ' + e.nextElementSibling.textContent").replace(
+        "\u2212", "-"
+    )
     button = cell.locator(".copy")
     assert button.get_attribute("aria-label").startswith("Copy ")
     for press in (lambda: button.click(force=True), lambda: (button.focus(), page.keyboard.press("Enter"))):
@@ -172,7 +193,9 @@ def test_the_contents_say_where_the_reader_is(browser: Browser, report: Path) ->
     for head in page.locator("main h2[id]").all()[1:3]:
         name = head.get_attribute("id")
         page.evaluate("name => document.getElementById(name).scrollIntoView()", name)
-        page.wait_for_function("name => document.querySelector('nav [aria-current]').getAttribute('href') === '#' + name", arg=name)
+        page.wait_for_function(
+            "name => document.querySelector('nav [aria-current]').getAttribute('href') === '#' + name", arg=name
+        )
 
 
 def _curves(report: Path) -> Iterator[tuple[str, dict[str, Any], dict[str, Any]]]:
@@ -188,18 +211,27 @@ def test_all_curves_of_a_mechanism_are_read_at_the_place_of_the_slider(browser: 
     opened.scrolled()
     page, read = opened.page, 0
     for title, figure, curves in list(_curves(report))[:6]:
-        box = page.locator("figure.read", has=page.locator("figcaption strong", has_text=re.compile(f"^{re.escape(title)}")))
+        box = page.locator(
+            "figure.read", has=page.locator("figcaption strong", has_text=re.compile(f"^{re.escape(title)}"))
+        )
         if not box.count():
             continue
         over = curves[figure["abscissa"]]["values"]
         place = len(over) // 3
         slider = box.first.locator("input[type=range]").first
-        slider.evaluate("(e, x) => { e.step = 'any'; e.value = x; e.dispatchEvent(new Event('input')); }", over[place] * 57.29577951308232)
+        slider.evaluate(
+            "(e, x) => { e.step = 'any'; e.value = x; e.dispatchEvent(new Event('input')); }",
+            over[place] * 57.29577951308232,
+        )
         shown = box.first.locator(".r-value").all_inner_texts()
         names = [series["curve"] for panel in figure["panels"] for series in panel["series"]]
         for text, name in zip(shown, names, strict=True):
             number = float(re.sub(r"[^\d.−]", "", text.split("×")[0].split("\u00a0")[0]).replace("−", "-"))
-            if curves[name]["display_unit"] == curves[name]["unit"] and "×" not in text and name not in curves[name].get("left", ()):
+            if (
+                curves[name]["display_unit"] == curves[name]["unit"]
+                and "×" not in text
+                and name not in curves[name].get("left", ())
+            ):
                 greatest = max(map(abs, curves[name]["values"]))
                 assert number == pytest.approx(curves[name]["values"][place], abs=2e-3 * greatest)
                 read += 1
@@ -228,9 +260,10 @@ def test_diagrams_of_a_mechanism_follow_the_mouse_over_one_of_them(browser: Brow
 
 def test_a_figure_is_shown_as_printed_on_demand_and_on_paper(browser: Browser, report: Path) -> None:
     page = Opened(browser, report).page
-    if not page.evaluate("Object.keys(JSON.parse(document.getElementById('reader-data').textContent).figures).length"):
+    numbers = page.evaluate("Object.keys(JSON.parse(document.getElementById('reader-data').textContent).figures)")
+    if not numbers:
         return
-    page.evaluate("document.getElementById('fig-' + Object.keys(JSON.parse(document.getElementById('reader-data').textContent).figures)[0]).scrollIntoView()")
+    page.evaluate("name => document.getElementById(name).scrollIntoView()", f"fig-{numbers[0]}")
     figure = page.locator("figure.read").first
     figure.wait_for()
     assert not figure.locator(".fig svg").is_visible()
