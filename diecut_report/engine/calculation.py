@@ -121,8 +121,7 @@ class Calculation:
         self.steps: dict[str, Step] = {step.id: step for _, step in mechanism.active(self.given)}
         self.axis = mechanism.axes(self.given)
         self.values: dict[str, Array] = {}
-        self.curves: dict[str, CurveStep] = {}
-        self.domains: dict[str, Domain] = {}
+        self.curves, self.domains = dict[str, CurveStep](), dict[str, Domain]()
         self.part_names: dict[str, tuple[str, ...]] = {}  # of the repeated parts that follow from the inputs
         self.row_of: dict[str, str] = {}  # for each number that is called by the name of its part, the row
         self.series: dict[str, PieceSeries] = {}
