@@ -8,7 +8,7 @@ from pathlib import Path
 
 from diecut_report.config.discovery import Discovery
 from diecut_report.contract.mechanism import Mechanism
-from diecut_report.declaration.code_texts import code_texts
+from diecut_report.declaration.code_texts import code_texts, fixed_texts
 from diecut_report.declaration.texts import DeclaredText, texts
 from diecut_report.languages import po_files
 from diecut_report.languages.catalogues import file_beside
@@ -47,12 +47,16 @@ def plugin_texts(mechanism: Mechanism) -> list[DeclaredText]:
 
 
 def made_by_code(folder: Path, declared: list[DeclaredText]) -> Iterator[DeclaredText]:
-    """Yield the texts in functions that are not merely templates of what is declared."""
-    whole = "\n".join(text for text, _ in declared)
+    """Yield the texts in functions that are not declared."""
     known = {text for text, _ in declared}
-    for found in code_texts(folder):
-        pattern = PLACEHOLDER.sub(".*", re.escape(found.text))
-        if found.text not in known and not re.search(f"(?m)^{pattern}$", whole):
+    yield from (found for found in code_texts(folder) if found.text not in known)
+
+
+def untranslatable(folder: Path, declared: list[DeclaredText]) -> Iterator[DeclaredText]:
+    """Yield what a plugin's functions make of words and numbers without a phrase: neither declared, nor to be translated."""
+    whole = "\n".join(text for text, _ in declared)
+    for found in fixed_texts(folder):
+        if not re.search(f"(?i){PLACEHOLDER.sub('.*', re.escape(found.text))}", whole):
             yield found
 
 

@@ -1,4 +1,4 @@
-"""Texts that a plugin's code makes: string constants and templates of f-strings inside functions, found in the syntax tree."""
+"""Texts that a plugin's code makes: string constants inside functions, those of phrases among them, found in the syntax tree."""
 
 from __future__ import annotations
 
@@ -19,13 +19,24 @@ SILENT_KEYWORDS = {"source", "needs", "lacks", "id", "symbol", "unit", "role", "
 def code_texts(folder: Path) -> Iterator[DeclaredText]:
     """Yield each text of the Python files of a plugin (a folder, or one file) once."""
     seen = set()
-    for file in sorted(folder.rglob("*.py")) if folder.is_dir() else [folder]:
-        finder = _Finder()
-        finder.visit(ast.parse(file.read_text("utf-8"), str(file)))
+    for file, finder in _searched(folder):
         for text in finder.found:
             if text not in seen:
                 seen.add(text)
                 yield DeclaredText(text, file.name)
+
+
+def fixed_texts(folder: Path) -> Iterator[DeclaredText]:
+    """Yield the templates of f-strings in functions: what is not declared, but made for one machine, cannot be translated so."""
+    for file, finder in _searched(folder):
+        yield from (DeclaredText(text, file.name) for text in finder.made)
+
+
+def _searched(folder: Path) -> Iterator[tuple[Path, _Finder]]:
+    for file in sorted(folder.rglob("*.py")) if folder.is_dir() else [folder]:
+        finder = _Finder()
+        finder.visit(ast.parse(file.read_text("utf-8"), str(file)))
+        yield file, finder
 
 
 class _Finder(ast.NodeVisitor):
@@ -34,6 +45,7 @@ class _Finder(ast.NodeVisitor):
     def __init__(self) -> None:
         self.depth = 0
         self.found: list[str] = []
+        self.made: list[str] = []
 
     def visit_FunctionDef(self, node: ast.FunctionDef) -> None:
         self.depth += 1
@@ -55,18 +67,18 @@ class _Finder(ast.NodeVisitor):
         self.visit(node.value)
 
     def visit_JoinedStr(self, node: ast.JoinedStr) -> None:
-        self._note(template(node))
+        self._note(template(node), self.made)
         for part in node.values:
             if isinstance(part, ast.FormattedValue):
                 self.visit(part.value)
 
     def visit_Constant(self, node: ast.Constant) -> None:
         if isinstance(node.value, str):
-            self._note(node.value)
+            self._note(node.value, self.found)
 
-    def _note(self, text: str) -> None:
+    def _note(self, text: str, kept: list[str]) -> None:
         if self.depth and WORDS.search(text) and not JOINING.fullmatch(text) and not _is_name(text):
-            self.found.append(text)
+            kept.append(text)
 
 
 def _is_name(text: str) -> bool:
