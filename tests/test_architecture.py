@@ -24,7 +24,7 @@ FOLDERS = {  # folder of the repository: package or name under which its modules
 
 # A module of diecut_report may import modules of its own line and of the lines above it ("" is the package itself).
 LAYERS = [
-    {"", "errors", "limits", "quantities"},
+    {"", "errors", "limits", "quantities", "languages"},
     {"standards"},
     {"expressions"},
     {"conditions"},
@@ -47,11 +47,13 @@ LAYERS = [
 REPORT = LAYERS.index({"report"})
 ONLY_IN = {  # library: the modules of the program that may import it
     "PIL": r"diecut_report\.pictures",
+    "babel": r"diecut_report\.languages\.\w+",
     "dask": r"(?!)",  # its client is all that is needed
     "distributed": r"diecut_report\.study\.execution\.dask_cluster",
     "duckdb": r"diecut_report\.study\.(analysis|summary)\.\w+",
     "matplotlib": r"diecut_report\.(report\.figures|study\.summary)(\.\w+)?",
-    "openpyxl": r"diecut_report\.study\.(tables\.workbooks|storage\.spreadsheets)",
+    "openpyxl": r"diecut_report\.(study\.(tables\.workbooks|storage\.spreadsheets)|report\.office\.workbook)",
+    "docx": r"diecut_report\.report\.office\.word_(file|styles)",
     "pyarrow": r"diecut_report\.study\.(storage|tables)\.\w+",
     "threadpoolctl": r"diecut_report\.study\.execution\.process_settings",
     "pikepdf": r"diecut_report\.exchange\.(pdf_attachments|later_changes)",
@@ -141,7 +143,7 @@ def test_imports_make_no_loop() -> None:
 
 
 def test_a_report_is_made_of_results_alone() -> None:
-    allowed = {"report", "results", "quantities", "errors", ""}
+    allowed = {"report", "results", "languages", "quantities", "errors", ""}
     parts = {(name, [*m.split("."), ""][1]) for name in PROGRAM if layer(name) == REPORT for m in own_imports(name)}
     assert {(name, part) for name, part in parts if part not in allowed} == set()
 

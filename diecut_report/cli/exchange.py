@@ -13,6 +13,7 @@ import click
 
 from diecut_report.cli import verdict
 from diecut_report.cli.formats import formats_of
+from diecut_report.cli.language import language_option
 from diecut_report.cli.output import (
     CHECK_FAILED,
     PASSED,
@@ -31,9 +32,14 @@ if TYPE_CHECKING:
     from diecut_report.exchange.carried_results import CarriedResults
     from diecut_report.exchange.verification import Told, Verification
 
-FORMATS = ("html", "pdf")
 SHOWN = 20  # differences that are told
 path_of = click.Path(path_type=Path)
+
+
+def _drawn() -> tuple[str, ...]:
+    from diecut_report.pipeline import DRAWN
+
+    return DRAWN
 
 
 @click.command(cls=HelpfulCommand)
@@ -127,21 +133,28 @@ def _value(value: object) -> str:
     "formats",
     metavar="LIST",
     default="html,pdf",
-    callback=formats_of(lambda: FORMATS),
-    help="html,pdf or one of them.",
+    callback=formats_of(_drawn),
+    help="html,pdf (default), also docx,xlsx.",
 )
+@language_option
 @verdict.strict_option
 @common
 def render(
-    results: Path, folder: Path, formats: list[str], strict: bool, folders: tuple[Path, ...], quiet: bool
+    results: Path,
+    folder: Path,
+    formats: list[str],
+    language: str | None,
+    strict: bool,
+    folders: tuple[Path, ...],
+    quiet: bool,
 ) -> int:
     """Make the report of a results file again, without calculating."""
     from diecut_report.exchange.rendering import render as rendered
     from diecut_report.exchange.rendering import told
 
     with Progress(quiet) as progress, redirect_stdout(sys.stderr):
-        outcome, lost = rendered(results, folder, formats, progress)
-    tell(told(lost))
+        outcome, lost = rendered(results, folder, formats, progress, Discovery(folders), language)
+    tell((*told(lost), *outcome.warnings))
     if not quiet:
         tell(f"written: {path}" for path in outcome.written)
         tell(verdict.told(outcome.results))

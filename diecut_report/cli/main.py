@@ -24,6 +24,7 @@ from diecut_report.cli import verdict
 from diecut_report.cli.checking import check, validate
 from diecut_report.cli.exchange import diff, extract, render, verify
 from diecut_report.cli.formats import formats_of
+from diecut_report.cli.language import language_option
 from diecut_report.cli.output import (
     BAD_INPUT,
     FAULT,
@@ -97,15 +98,6 @@ def _report_formats() -> tuple[str, ...]:
     return FORMATS
 
 
-def _language(_: click.Context, __: click.Parameter, given: str | None) -> str | None:
-    from diecut_report.config.model import complete_language
-
-    try:
-        return None if given is None else complete_language(given)
-    except ValueError as error:
-        raise click.BadParameter(f"{error}") from None
-
-
 def _detail(_: click.Context, __: click.Parameter, given: str | None) -> str | None:
     from diecut_report.config.model import DETAILS
 
@@ -152,11 +144,9 @@ config_argument = click.argument("config", type=click.Path(path_type=Path))
     metavar="LIST",
     default="html,pdf,json",
     callback=formats_of(_report_formats),
-    help="html,pdf,json or some of them.",
+    help="html,pdf,json (default), also docx,xlsx.",
 )
-@click.option(
-    "--language", metavar="LANGUAGE", callback=_language, help="Language of the report, in place of the project's."
-)
+@language_option
 @click.option(
     "--previous",
     metavar="FILE",
@@ -184,7 +174,7 @@ def report(
     folders: tuple[Path, ...],
     quiet: bool,
 ) -> int:
-    """Calculate and write NAME.html, NAME.pdf and NAME.json."""
+    """Calculate and write NAME.html, NAME.pdf and NAME.json; on demand NAME.docx and NAME.xlsx."""
     from diecut_report import pipeline
     from diecut_report.exchange.sides import side
     from diecut_report.study.analysis.assumed import moves
@@ -286,6 +276,7 @@ program.add_command(sign)
 
 def _verdict(outcome: ReportOutcome, quiet: bool, strict: bool) -> int:
     tell(str(error) for error in outcome.broken)
+    tell(outcome.warnings)
     if not quiet:
         tell(verdict.told(outcome.results))
     return verdict.exit_code(outcome.results, is_broken=bool(outcome.broken), is_strict=strict)
