@@ -31,6 +31,18 @@ def only_signed(before: bytes, after: bytes) -> bool:
         return False
 
 
+def fault(content: bytes) -> str:
+    """Return why the objects of a PDF cannot be read within bounds; "" where they can, so that a library without bounds may read them."""
+    bounded(MOST_RESULTS)
+    try:
+        with _opened(content) as pdf:
+            for _ in pdf.objects:  # each is unpacked from the stream that holds it
+                pass
+    except FAULTS as error:
+        return f"{error}" or type(error).__name__
+    return ""
+
+
 _NONE = pikepdf.Dictionary()
 
 

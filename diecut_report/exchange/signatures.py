@@ -34,15 +34,20 @@ def signatures(whole: bytes, trusted: Path | None = None) -> list[Signature]:
     from pyhanko.pdf_utils.reader import PdfFileReader
     from pyhanko.sign.validation.errors import ValidationInfoReadingError
 
+    from diecut_report.exchange.later_changes import fault
     from diecut_report.exchange.signing_keys import MOST, certificates_in
 
+    if found_fault := fault(whole):
+        return [Signature(f"cannot be read: {found_fault}", False)]
     roots = certificates_in(content(trusted, MOST, "certificates (PEM)"), trusted) if trusted else None
     try:
         with _silent():
             found = [_judged(each, whole, roots) for each in PdfFileReader(io.BytesIO(whole)).embedded_signatures]
     except (PdfError, ValidationInfoReadingError, *_FAULTS) as error:
         return [Signature(f"cannot be read: {error}", False)]
-    if found and all(each.holds for each in found) and not any(each.is_last for each in found):
+    if not found:
+        return [Signature("the file holds a part of one, but no field has a signature", False)]
+    if all(each.holds for each in found) and not any(each.is_last for each in found):
         found.append(Signature("something was added to the file after the last signature", False))
     return found
 

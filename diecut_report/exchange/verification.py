@@ -111,12 +111,23 @@ def _program(first: Data, again: Data) -> Told:
     named = f"{first['name']} {first['version']}"
     old, new = (str(each.get("source_sha256", "")) for each in (first, again))
     if (first["version"], old, first.get("extensions")) == (again["version"], new, again.get("extensions")):
-        return f"{named}, source {old[:SHORT]}: the same", True
+        return f"{named}, source {old[:SHORT]}: the same{_others(first, again)}", True
     if first["version"] != again["version"]:
         return f"{named} made the report, this is {again['version']}", False
     if old != new:
         return f"{named}, but its source is another one ({old[:SHORT]} then, {new[:SHORT]} now)", False
     return f"{named}, but its extensions are others", False
+
+
+def _others(first: Data, again: Data) -> str:
+    """Which libraries have another version now, where the report tells theirs: it may explain what differs."""
+    old, new = first.get("libraries", {}), again["libraries"]
+    told = [
+        f"{name} {version} then, {new.get(name, 'none')} now"
+        for name, version in old.items()
+        if new.get(name) != version
+    ]
+    return f"; {', '.join(told)}" if told else ""
 
 
 def _plugins(first: Data, again: Data) -> Iterator[Told]:
