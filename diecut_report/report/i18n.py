@@ -92,7 +92,7 @@ ENGLISH: dict[str, str] = {
     "copy_refused": "The browser does not let the page copy {text}", "as_printed": "As printed",
     # programme
     "calculated_by": "Calculated by", "version": "version", "plugin": "Mechanism", "plugin_version": "Version", "kind": "Kind",
-    "source_hash": "source", "extension": "Extension",
+    "source_hash": "source", "libraries": "With", "extension": "Extension",
     "carried": "Carried with this report", "carried_results": "Results", "attached": "attached to this PDF",
     "verified": "diecut-report verify calculates it again and tells what differs.",
     "config_file": "Configuration file", "sha256": "SHA-256",
