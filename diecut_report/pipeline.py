@@ -17,6 +17,7 @@ from diecut_report.results.changes import changes
 from diecut_report.results.results_file import encoded, results_text
 
 if TYPE_CHECKING:
+    from diecut_report.report.house_style import HouseStyle
     from diecut_report.results.press_run import Run
 
 FORMATS = ("html", "pdf", "docx", "xlsx", "json")
@@ -43,17 +44,22 @@ class Lost(NamedTuple):
 
 
 class AskedReport(NamedTuple):
-    """How a report is wanted, in place of what its configuration says: language, detail, the mechanisms that alone are shown."""
+    """How a report is wanted, in place of what its configuration says: language, detail, the mechanisms that alone are shown.
+
+    ``house`` are a firm's own templates for HTML and PDF.
+    """
 
     language: str | None = None
     detail: str | None = None
     only: tuple[str, ...] = ()
+    house: HouseStyle | None = None
 
     def told(self, results: Data) -> None:
         """Say it in the results, of which alone the report is made."""
         results["project"] |= {"language": self.language} if self.language else {}
         results["report"] |= {"detail": self.detail} if self.detail else {}
         results["report"] |= {"only": list(self.only)} if self.only else {}
+        results["report"] |= {"template_sha256": self.house.sha256} if self.house else {}
 
 
 AS_CONFIGURED = AskedReport()
@@ -111,7 +117,7 @@ def report(
     asked.told(results)
     if former is not None:
         results["changes"] = changes(former, results)
-    contents, undrawn = rendered(results, formats, tell)
+    contents, undrawn = rendered(results, formats, tell, asked.house)
     files_beside, unwritten = exported(results, tell)
     contents |= files_beside
     stem = Path(config.name).stem
@@ -199,7 +205,9 @@ def _broken(results: Data, places: Places, lost: Lost) -> PluginError:
     return PluginError(words, mechanism["kind"], lost.mechanism)
 
 
-def rendered(results: Data, formats: Sequence[str], tell: Tell) -> tuple[dict[str, bytes], list[Lost]]:
+def rendered(
+    results: Data, formats: Sequence[str], tell: Tell, house: HouseStyle | None = None
+) -> tuple[dict[str, bytes], list[Lost]]:
     """Return the content of each format, all complete before anything is written; and the figures that could not be drawn."""
     undrawn: list[Lost] = []
     contents = {"json": encoded(results_text(results))} if "json" in formats else {}
@@ -207,7 +215,7 @@ def rendered(results: Data, formats: Sequence[str], tell: Tell) -> tuple[dict[st
         tell("drawing the report")
         from diecut_report.report import Rendering
 
-        rendering = Rendering(results)
+        rendering = Rendering(results, house)
         if "html" in formats:
             contents["html"] = encoded(rendering.html())
         if "pdf" in formats:

@@ -18,8 +18,9 @@ from diecut_report.config.yaml_tree import Tree
 from diecut_report.errors import PluginError
 from diecut_report.exchange.agreement import Agreement, agreement
 from diecut_report.exchange.carried_results import CarriedResults
-from diecut_report.exchange.rendering import document
+from diecut_report.exchange.rendering import document, template_of
 from diecut_report.exchange.results_form import parsed
+from diecut_report.report.house_style import HouseStyle
 from diecut_report.results.results_file import encoded
 
 Data = Mapping[str, Any]
@@ -50,7 +51,8 @@ class Verification:
 
 
 def verify(
-    carried: CarriedResults, discovery: Discovery, tell: Callable[[str], None], weigh: pipeline.Weigh, *, pages: bool = True
+    carried: CarriedResults, discovery: Discovery, tell: Callable[[str], None], weigh: pipeline.Weigh, *, pages: bool = True,
+    house: HouseStyle | None = None,
 ) -> Verification:  # fmt: skip
     """Calculate the configuration of a report again and hold the report against that; without ``pages`` its numbers alone.
 
@@ -69,7 +71,7 @@ def verify(
         list(_plugins(_calculated(results), _calculated(again))),
         _config(carried),
         numbers,
-        _pages(carried, tell, is_same=program[1] and not numbers.differences) if is_set else None,
+        _pages(carried, tell, house, is_same=program[1] and not numbers.differences) if is_set else None,
         outcome.broken,
     )
 
@@ -163,11 +165,15 @@ def _resolved(data: Data) -> Data:
     return {**data, "project": project}
 
 
-def _pages(carried: CarriedResults, tell: Callable[[str], None], *, is_same: bool) -> Told:
+def _pages(carried: CarriedResults, tell: Callable[[str], None], house: HouseStyle | None, *, is_same: bool) -> Told:
     """Whether the document is what this program makes of the results in it; not where these are not its own."""
     if not is_same:
         return "not compared, since the program or the numbers are others", True
-    contents, _ = document(carried.results, [carried.form], tell, str(carried.path))
+    asked = template_of(carried.results)
+    if asked != (house.sha256 if house else ""):
+        own = f"templates of their own (SHA-256 {asked[:SHORT]})" if asked else "the program's templates alone"
+        return f"not compared, since they are set with {own}; --template DIR names the templates", True
+    contents, _ = document(carried.results, [carried.form], tell, str(carried.path), house)
     made = contents[carried.form]
     if carried.content == made:
         return "byte for byte what the program makes of these results", True

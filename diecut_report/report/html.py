@@ -10,11 +10,12 @@ from importlib import import_module
 from pathlib import Path
 from typing import Any, Protocol
 
-from jinja2 import Environment, FileSystemLoader, StrictUndefined
+from jinja2 import Environment, FileSystemLoader
 from markupsafe import Markup
 
 from diecut_report.report.context import Material
 from diecut_report.report.equations import Equation
+from diecut_report.report.house_style import OPTIONS, in_words, refuse_fetching
 from diecut_report.report.model import Item
 from diecut_report.report.number_format import tidy
 from diecut_report.report.symbols import prose, symbol
@@ -30,6 +31,7 @@ POLICY = (
     "default-src 'none'", "style-src 'unsafe-inline'", "font-src data:", "img-src data:", "base-uri 'none'", "form-action 'none'",
 )  # fmt: skip
 FORMS = {"screen": "woff2", "print": "truetype"}  # a page engine would unpack the smaller form at each report
+FILTERS: dict[str, Callable[..., Any]] = {"prose": prose, "symbol": symbol, "tidy": tidy}
 MATH = {("Report Math", 400, "normal"): "report-math"}
 
 
@@ -83,11 +85,18 @@ def filled(material: Material, medium: Medium, kind: str) -> str:
     faces = FACES | (MATH if kind == "screen" else {})
     sheets = ["report", kind, *(["changes"] if material.changes else [])]
     style = "\n".join([_font_faces(tuple(faces.items()), FORMS[kind]), *(_read(f"{name}.css") for name in sheets)])
-    return _environment().get_template("report.html.j2").render(
+    house = material.house
+    environment = _environment() if house is None else house.environment(folder(), FILTERS)
+    style += f"\n{house.css}" if house else ""
+    with in_words(house):
+        made = environment.get_template("report.html.j2").render(
         doc=document, t=document.words, kind=kind, style=Markup(style), policy=policy(),
         math=medium, figure=medium.figure, failed=material.failed,
         carried=material.carried, changes=material.changes,
     )  # fmt: skip
+    if house:
+        refuse_fetching(made, house, "; ".join(POLICY) if kind == "screen" else "")
+    return made
 
 
 def policy(*scripts: str) -> str:
@@ -120,13 +129,6 @@ def _font_faces(faces: tuple[tuple[tuple[str, int, str], str], ...], form: str =
 
 @cache
 def _environment() -> Environment:
-    environment = Environment(
-        loader=FileSystemLoader(folder()),
-        autoescape=True,
-        undefined=StrictUndefined,
-        trim_blocks=True,
-        lstrip_blocks=True,
-    )
-    filters: dict[str, Callable[..., Any]] = {"prose": prose, "symbol": symbol, "tidy": tidy}
-    environment.filters.update(filters)
+    environment = Environment(loader=FileSystemLoader(folder()), **OPTIONS)
+    environment.filters.update(FILTERS)
     return environment
