@@ -7,11 +7,13 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, NamedTuple
 
+from diecut_report.config.catalogues import catalogues_for, lacking
 from diecut_report.config.discovery import Discovery
 from diecut_report.config.loader import Config, examined, in_order, load_config
 from diecut_report.config.own_tables import Find
 from diecut_report.config.yaml_tree import Tree
 from diecut_report.errors import PluginError, Problem, UserError, nearest
+from diecut_report.languages.catalogues import SOURCE_LANGUAGE, Catalogues
 from diecut_report.limits import MAX_PRINTED_MECHANISMS
 from diecut_report.results.changes import changes
 from diecut_report.results.results_file import encoded, results_text
@@ -73,6 +75,7 @@ class ReportOutcome:
     results: Data
     written: tuple[Path, ...]
     broken: tuple[PluginError, ...]
+    warnings: tuple[str, ...] = ()
 
 
 def validate(config: Source, discovery: Discovery) -> tuple[PluginError, ...]:
@@ -117,15 +120,31 @@ def report(
     asked.told(results)
     if former is not None:
         results["changes"] = changes(former, results)
-    contents, undrawn = rendered(results, formats, tell, asked.house)
+    catalogues = catalogues_of(results, discovery, formats)
+    contents, undrawn = rendered(results, formats, tell, catalogues, asked.house)
     files_beside, unwritten = exported(results, tell)
     contents |= files_beside
     stem = Path(config.name).stem
     files = {folder / f"{stem}.{ending}": content for ending, content in contents.items()}
     _write(files, config)
-    return ReportOutcome(
-        results, tuple(files), (*broken, *(_broken(results, places, lost) for lost in (*undrawn, *unwritten)))
-    )
+    faults = (*broken, *(_broken(results, places, lost) for lost in (*undrawn, *unwritten)))
+    return ReportOutcome(results, tuple(files), faults, tuple(untranslated(results, catalogues)))
+
+
+def catalogues_of(results: Data, discovery: Discovery, formats: Sequence[str], file: str = "") -> Catalogues:
+    """Return the catalogues for a report of these results; UserError where the words of one of their mechanisms are not complete."""
+    printed = set(DRAWN) & set(formats)
+    language = results["project"].get("language") or SOURCE_LANGUAGE
+    return catalogues_for(language if printed else SOURCE_LANGUAGE, _kinds(results), discovery, file)
+
+
+def untranslated(results: Data, catalogues: Catalogues) -> list[str]:
+    """Return in words which foreign plugins of a report have words that stay English."""
+    return lacking(catalogues, _kinds(results))
+
+
+def _kinds(results: Data) -> list[str]:
+    return [mechanism["kind"] for mechanism in results["mechanisms"].values()]
 
 
 def _refuse_many_sheets(config: Config, formats: Sequence[str]) -> None:
@@ -206,7 +225,11 @@ def _broken(results: Data, places: Places, lost: Lost) -> PluginError:
 
 
 def rendered(
-    results: Data, formats: Sequence[str], tell: Tell, house: HouseStyle | None = None
+    results: Data,
+    formats: Sequence[str],
+    tell: Tell,
+    catalogues: Catalogues | None = None,
+    house: HouseStyle | None = None,
 ) -> tuple[dict[str, bytes], list[Lost]]:
     """Return the content of each format, all complete before anything is written; and the figures that could not be drawn."""
     undrawn: list[Lost] = []
@@ -215,7 +238,7 @@ def rendered(
         tell("drawing the report")
         from diecut_report.report import Rendering
 
-        rendering = Rendering(results, house)
+        rendering = Rendering(results, catalogues, house)
         if "html" in formats:
             contents["html"] = encoded(rendering.html())
         if "pdf" in formats:

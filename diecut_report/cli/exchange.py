@@ -13,6 +13,7 @@ import click
 
 from diecut_report.cli import verdict
 from diecut_report.cli.formats import formats_of
+from diecut_report.cli.language import language_option
 from diecut_report.cli.output import (
     CHECK_FAILED,
     PASSED,
@@ -134,6 +135,7 @@ def _value(value: object) -> str:
     callback=formats_of(_drawn),
     help="html,pdf (default), also docx,xlsx.",
 )
+@language_option
 @template_option
 @verdict.strict_option
 @common
@@ -141,6 +143,7 @@ def render(
     results: Path,
     folder: Path,
     formats: list[str],
+    language: str | None,
     house: HouseStyle | None,
     strict: bool,
     folders: tuple[Path, ...],
@@ -151,8 +154,8 @@ def render(
     from diecut_report.exchange.rendering import told
 
     with Progress(quiet) as progress, redirect_stdout(sys.stderr):
-        outcome, lost = rendered(results, folder, formats, progress, house)
-    tell(told(lost))
+        outcome, lost = rendered(results, folder, formats, progress, Discovery(folders), language, house)
+    tell((*told(lost), *outcome.warnings))
     if not quiet:
         tell(f"written: {path}" for path in outcome.written)
         tell(verdict.told(outcome.results))

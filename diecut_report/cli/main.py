@@ -24,6 +24,7 @@ from diecut_report.cli import verdict
 from diecut_report.cli.checking import check, validate
 from diecut_report.cli.exchange import diff, extract, render, verify
 from diecut_report.cli.formats import formats_of
+from diecut_report.cli.language import language_option
 from diecut_report.cli.output import (
     BAD_INPUT,
     FAULT,
@@ -98,15 +99,6 @@ def _report_formats() -> tuple[str, ...]:
     return FORMATS
 
 
-def _language(_: click.Context, __: click.Parameter, given: str | None) -> str | None:
-    from diecut_report.config.model import complete_language
-
-    try:
-        return None if given is None else complete_language(given)
-    except ValueError as error:
-        raise click.BadParameter(f"{error}") from None
-
-
 def _detail(_: click.Context, __: click.Parameter, given: str | None) -> str | None:
     from diecut_report.config.model import DETAILS
 
@@ -155,9 +147,7 @@ config_argument = click.argument("config", type=click.Path(path_type=Path))
     callback=formats_of(_report_formats),
     help="html,pdf,json (default), also docx,xlsx.",
 )
-@click.option(
-    "--language", metavar="LANGUAGE", callback=_language, help="Language of the report, in place of the project's."
-)
+@language_option
 @click.option(
     "--previous",
     metavar="FILE",
@@ -288,6 +278,7 @@ program.add_command(diff)
 
 def _verdict(outcome: ReportOutcome, quiet: bool, strict: bool) -> int:
     tell(str(error) for error in outcome.broken)
+    tell(outcome.warnings)
     if not quiet:
         tell(verdict.told(outcome.results))
     return verdict.exit_code(outcome.results, is_broken=bool(outcome.broken), is_strict=strict)

@@ -137,7 +137,7 @@ def _config(carried: CarriedResults) -> Told:
     """Whether the configuration and its tables are those whose hashes the report names."""
     said = carried.results["config"]
     contents = {said["file"]: carried.config_content} | carried.tables
-    hashes = {file["file"]: str(file["sha256"]) for file in (*said.get("materials", ()), said)}
+    hashes = {file["file"]: str(file["sha256"]) for file in (*said.get("materials", ()), *_logo(said), said)}
     for name, content in contents.items():
         found = sha256(content).hexdigest()
         if found != hashes[name]:
@@ -147,6 +147,10 @@ def _config(carried: CarriedResults) -> Told:
             return words, False
     ones = "the one" if len(contents) == 1 else "the ones"
     return f"{', '.join(contents)}, SHA-256 {said['sha256'][:SHORT]}: {ones} that the report names", True
+
+
+def _logo(said: Data) -> list[Data]:
+    return [said["logo"]] if "logo" in said else []
 
 
 def _numbers(results: Data) -> Data:
@@ -173,7 +177,7 @@ def _pages(carried: CarriedResults, tell: Callable[[str], None], house: HouseSty
     if asked != (house.sha256 if house else ""):
         own = f"templates of their own (SHA-256 {asked[:SHORT]})" if asked else "the program's templates alone"
         return f"not compared, since they are set with {own}; --template DIR names the templates", True
-    contents, _ = document(carried.results, [carried.form], tell, str(carried.path), house)
+    contents, _ = document(carried.results, [carried.form], tell, str(carried.path), house=house)
     made = contents[carried.form]
     if carried.content == made:
         return "byte for byte what the program makes of these results", True

@@ -24,6 +24,7 @@ class CarriedFile(NamedTuple):
     media_type: str
     description: str
     content: bytes
+    relationship: str = "Data"  # to the document, as PDF/A-3 has it: "Source", "Data"
 
     @property
     def address(self) -> str:
@@ -41,6 +42,6 @@ def carried_files(results: Mapping[str, Any], words: Mapping[str, str]) -> tuple
     """Return the configuration and the results, in the order of their names."""
     text = encoded(results_text(results))
     return (
-        CarriedFile(CONFIG, "application/yaml", words["configuration"], config_content(results)),
+        CarriedFile(CONFIG, "application/yaml", words["configuration"], config_content(results), "Source"),
         CarriedFile(RESULTS, "application/json", words["carried_results"], text),
     )

@@ -106,7 +106,9 @@ class Equations:
             return [*self._reduced(item), result]
         trees = [tree for tree in (item.get("equation"), item.get("substituted")) if tree]
         links = [self._link(tree) for tree in trees]
+        links += [self._result(item["bridge"])] if "bridge" in item else []
         links = [link for link in links if link.text not in (result.text, item["symbol"])]
+        links = [link for before, link in zip([Link(), *links], links, strict=False) if link.text != before.text]
         return [*links, result] if trees or item["type"] in ("found", "lookup") else []
 
     def _link(self, tree: Tree) -> Link:

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import Any
 
+from diecut_report.languages.catalogues import Catalogues
 from diecut_report.report.context import DrawingFault, Material
 from diecut_report.report.house_style import HouseStyle
 from diecut_report.report.html import page
@@ -13,8 +14,10 @@ from diecut_report.report.html import page
 class Rendering:
     """The report of a results document (schema_version 1), in a firm's own style; what its formats share is made once."""
 
-    def __init__(self, results: Mapping[str, Any], house: HouseStyle | None = None) -> None:
-        self.material = Material(results, house)
+    def __init__(
+        self, results: Mapping[str, Any], catalogues: Catalogues | None = None, house: HouseStyle | None = None
+    ) -> None:
+        self.material = Material(results, catalogues, house)
 
     @property
     def faults(self) -> list[DrawingFault]:
@@ -26,7 +29,7 @@ class Rendering:
         return page(self.material)
 
     def pdf(self) -> bytes:
-        """The report as PDF (A4, PDF/UA-1); needs the system's pango (OSError without it)."""
+        """The report as PDF (A4, PDF/A-3 and PDF/UA-1); needs the system's pango (OSError without it)."""
         from diecut_report.report.pdf import sheets
 
         return sheets(self.material)

@@ -83,9 +83,7 @@ class UnderLoad:
         """Return the reactions (bearing, plane, rows, places) at cycle angles (rows, places)."""
         own = np.zeros(len(angle), dtype=int) if rows is None and self.variants == 1 else rows
         chosen = np.arange(self.variants) if own is None else own
-        share = angle / (2 * np.pi)
-        inner = np.broadcast_to(middle / (2 * np.pi), share.shape)
-        loads = self.cycle.at(share, inner, chosen)
+        loads = self.cycle.at(angle / (2 * np.pi), middle / (2 * np.pi), chosen)
         supports = Supports(self.bearing_a[chosen], self.bearing_b[chosen])
         places = self.cycle.places[:, chosen]
         planes = (loads.force_y, loads.couple_xy), (loads.force_z, loads.couple_xz)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 from pathlib import Path
+from types import SimpleNamespace
 from typing import Any
 
 import pytest
@@ -11,15 +12,17 @@ from jinja2 import Environment, FileSystemLoader
 
 from diecut_report.cli.main import main
 from diecut_report.errors import UserError
+from diecut_report.exchange.verification import _pages
 from diecut_report.house_folder import house_style
 from diecut_report.report.context import Material
-from diecut_report.report.house_style import blocks
-from diecut_report.report.html import filled, folder, page
+from diecut_report.report.house_style import HouseStyle, blocks, refuse_fetching
+from diecut_report.report.html import POLICY, Screen, filled, folder, page
 from diecut_report.report.pdf import Paper
 from tests.configs import SMALL, saved
 
 Data = dict[str, Any]
 DOCS = Path(__file__).parents[2] / "docs"
+HEAD = f'<meta http-equiv="Content-Security-Policy" content="{POLICY[0]}; script-src x">'
 EXTENDS = '{% extends "program/report.html.j2" %}\n'
 
 
@@ -35,16 +38,23 @@ def written(tmp_path: Path, **files: str) -> Path:
     return tmp_path
 
 
+@pytest.fixture
+def brief(plain: Data) -> Data:
+    """A brief report of one mechanism, which is soon made."""
+    cylinder = plain["mechanisms"]["cylinder"]
+    return plain | {"mechanisms": {"cylinder": cylinder}, "comparisons": {}, "report": {"detail": "brief"}}
+
+
 def test_the_example_overrides_its_blocks_on_screen_and_in_print(plain: Data) -> None:
     house = house_style(DOCS / "house-style")
-    material = Material(plain, house)
+    material = Material(plain, house=house)
     for text in (page(material), filled(material, Paper(material), "print")):
         assert text.index("Department of presses") < text.index("<h1>Sample press</h1>")
         assert "holds for the configuration press.yaml alone" in text
         assert text.count("Reviewed by the group") == sum(not part.lost for part in material.document.chapters)
         assert 'src="data:image/png;base64,' in text and ".house-terms" in text.partition("</style>")[0]
         assert 'id="summary"' in text and "could be calculated." in text
-    assert page(Material(plain, house_style(DOCS / "house-style"))) == page(material)
+    assert page(Material(plain, house=house_style(DOCS / "house-style"))) == page(material)
 
 
 def test_the_blocks_are_those_of_the_guide() -> None:
@@ -56,9 +66,9 @@ def test_the_blocks_are_those_of_the_guide() -> None:
         assert told == blocks(name, environment)
 
 
-def test_a_folder_without_templates_changes_nothing_but_the_style(plain: Data, tmp_path: Path) -> None:
+def test_a_folder_without_templates_changes_nothing_but_the_style(brief: Data, tmp_path: Path) -> None:
     house = house_style(written(tmp_path, house__css="h1 { color: red; }"))
-    assert page(Material(plain, house)).replace("\nh1 { color: red; }", "") == page(Material(plain))
+    assert page(Material(brief, house=house)).replace("\nh1 { color: red; }", "") == page(Material(brief))
 
 
 FAULTS = {
@@ -115,13 +125,13 @@ def test_what_is_no_folder_or_no_text_is_told(tmp_path: Path) -> None:
     ],
 )
 def test_what_goes_wrong_in_a_template_is_told_with_its_line(
-    plain: Data, tmp_path: Path, text: str, words: str
+    brief: Data, tmp_path: Path, text: str, words: str
 ) -> None:
     house = house_style(written(tmp_path, report__html__j2=closing(text)))
     with pytest.raises(UserError) as error:
-        page(Material(plain, house))
+        page(Material(brief, house=house))
     assert str(error.value).startswith(f"{tmp_path / 'report.html.j2'}:3: ") and words in str(error.value)
-    assert plain["project"]["title"] == "Sample press"
+    assert brief["project"]["title"] == "Sample press"
 
 
 @pytest.mark.parametrize(
@@ -136,36 +146,58 @@ def test_what_goes_wrong_in_a_template_is_told_with_its_line(
         ('<meta http-equiv="Content-Security-Policy" content="">', "has lost its Content-Security-Policy"),
     ],
 )
-def test_a_page_that_fetches_is_refused(plain: Data, tmp_path: Path, text: str, words: str) -> None:
-    house = house_style(written(tmp_path, report__html__j2=closing(text)))
+def test_a_page_that_fetches_is_refused(text: str, words: str) -> None:
     with pytest.raises(UserError) as error:
-        page(Material(plain, house))
+        refuse_fetching(f"{HEAD}{text}", HouseStyle("house"), POLICY[0])
     assert words in str(error.value)
 
 
-def test_a_link_is_not_fetched(plain: Data, tmp_path: Path) -> None:
-    text = '<a href="https://example.com">x</a>'
-    assert text in page(Material(plain, house_style(written(tmp_path, report__html__j2=closing(text)))))
+def test_pages_are_judged_whatever_their_medium(brief: Data, tmp_path: Path) -> None:
+    text = '<img src="http://example.com/x.png" alt="">'
+    material = Material(brief, house=house_style(written(tmp_path, report__html__j2=closing(text))))
+    for kind, medium in (("screen", Screen(material)), ("print", Paper(material))):
+        with pytest.raises(UserError, match=r"<img> http://example\.com/x\.png would be fetched"):
+            filled(material, medium, kind)
 
 
-def test_a_fault_of_the_program_itself_stays_one(plain: Data, tmp_path: Path) -> None:
+def test_what_lies_in_the_page_and_links_are_not_fetched() -> None:
+    text = '<a href="https://example.com">x</a><img src="data:image/png;base64,AA=="><use xlink:href="#a"/><p style="fill: url(#b)">'
+    refuse_fetching(f"{HEAD}{text}", HouseStyle("house"), POLICY[0])
+
+
+def test_a_fault_of_the_program_itself_stays_one(brief: Data, tmp_path: Path) -> None:
     house = house_style(written(tmp_path, report__html__j2=closing("x")))
-    del plain["mechanisms"]["cylinder"]["outputs"]
+    del brief["mechanisms"]["cylinder"]["outputs"]
     with pytest.raises(KeyError):
-        page(Material(plain, house))
+        page(Material(brief, house=house))
 
 
-def test_the_command_refuses_before_it_calculates_and_verify_names_the_templates(
-    tmp_path: Path, capfd: pytest.CaptureFixture[str]
-) -> None:
+def test_the_command_refuses_before_it_calculates(tmp_path: Path, capfd: pytest.CaptureFixture[str]) -> None:
     (tmp_path / "house").mkdir()
     house = written(tmp_path / "house", report__html__j2=EXTENDS + "{% block x %}{% endblock %}")
     arguments = ["report", str(saved(tmp_path, SMALL)), "-o", str(tmp_path / "out"), "--format", "html", "--quiet"]
     assert main([*arguments, "--template", str(house)]) == 2
     assert "report.html.j2:2: 'x' is not a block" in capfd.readouterr().err and not (tmp_path / "out").exists()
-    written(house, report__html__j2=closing("<p>Ours</p>"))
-    assert main([*arguments, "--template", str(house)]) == 0
-    assert "<p>Ours</p>" in (tmp_path / "out" / "press.html").read_text("utf-8")
-    verify = ["verify", str(tmp_path / "out" / "press.html"), "--quiet"]
-    assert main(verify) == 0 and "set with templates of their own" in capfd.readouterr().out
-    assert main([*verify, "--template", str(house)]) == 0 and "byte for byte" in capfd.readouterr().out
+
+
+@pytest.mark.nightly
+def test_pages_set_with_the_same_templates_are_verified(tmp_path: Path, capfd: pytest.CaptureFixture[str]) -> None:
+    (tmp_path / "house").mkdir()
+    house = written(tmp_path / "house", report__html__j2=closing("<p>Ours</p>"))
+    arguments = [str(saved(tmp_path, SMALL)), "-o", str(tmp_path / "out"), "--format", "html", "--quiet"]
+    assert main(["report", *arguments, "--template", str(house)]) == 0
+    page = tmp_path / "out" / "press.html"
+    assert "<p>Ours</p>" in page.read_text("utf-8")
+    assert main(["verify", str(page), "--quiet", "--template", str(house)]) == 0
+    assert "byte for byte" in capfd.readouterr().out
+
+
+def test_pages_set_with_other_templates_are_not_compared() -> None:
+    carried: Any = SimpleNamespace(results={"report": {"template_sha256": "ab" * 32}})
+    own = ("not compared, since they are set with templates of their own (SHA-256 abababababab); "
+           "--template DIR names the templates")  # fmt: skip
+    assert _pages(carried, print, HouseStyle("other"), is_same=True) == (own, True)
+    for strange in ({}, {"report": []}):
+        carried.results = strange
+        words, _ = _pages(carried, print, HouseStyle("other"), is_same=True)
+        assert "the program's templates alone" in words
