@@ -29,7 +29,7 @@ from diecut_report.contract.steps import (
 )
 from diecut_report.engine import listings
 from diecut_report.engine.calculation import Calculation, Unproven
-from diecut_report.engine.printing import named_parts, tables
+from diecut_report.engine.printing import methods, named_parts, tables
 from diecut_report.engine.printing.definitions import definitions
 from diecut_report.engine.printing.interpolation import BetweenRows
 from diecut_report.engine.printing.methods import METHODS, period
@@ -136,7 +136,7 @@ def _value(calc: Calculation, step: Value, part: Bound) -> list[Item]:
         item |= located(calc, str(axis), elsewhere)
     elif axis is not None:
         if names := calc.part_names.get(axis) or calc.inputs.get(step.named_by):
-            told = Phrase("Shown for: {name}.", name=names[shown_part(calc, step.id)])
+            told = Phrase("Shown for: {name}.", name=phrase(names[shown_part(calc, step.id)]))
             item["note"] = joined(filter(None, (item.get("note"), told)), " ")
         if not named_parts.has_tables(calc, axis):
             taken = [name for name in part.names.values() if isinstance(name, str)]
@@ -178,9 +178,7 @@ def _formula(calc: Calculation, part: Bound, step: Step, axis: str | None, elsew
     if defined := definitions(symbolic):
         item["where"] = defined
     if takes and numeric is None:
-        item["note"] = (
-            "the terms are equal up to the rounding of the computer, or so nearly that printed numbers do not show it"
-        )
+        item["note"] = methods.EQUAL_TERMS
     if isinstance(substitution, BetweenRows):
         item["note"] = joined(filter(None, (item.get("note"), substitution.told())), " ")
     return item | {"result": shown(target, step.unit, step.digits)}
