@@ -11,13 +11,17 @@ from diecut_report.config.model import Press
 from diecut_report.declaration.texts import inputs_texts, is_text
 from diecut_report.engine.printing import methods, tables
 from diecut_report.languages.translation import CITATION, EQUATIONS
+from diecut_report.mechanics.motion_laws import LAWS
 from diecut_report.report.i18n import COUNTED, ENGLISH, one
 from diecut_report.results import document, mechanism, reference_origins, unchecked
 
 ROOT = Path(__file__).parents[1]
-CONSTANTS = (*methods.METHODS.values(), *tables.SERIES_WORDS.values(), tables.AS_GIVEN, tables.AMONG, mechanism.IDLE,
+CONSTANTS = (*methods.METHODS.values(), methods.EQUAL_TERMS, "True", "False", *tables.SERIES_WORDS.values(), tables.AS_GIVEN, tables.AMONG,
+             mechanism.IDLE,
              reference_origins.FOLLOWS, *unchecked.MISSING.values(), document.LEFT_OUT, "a curve", "yes", "no", "Name", "No.", "Place",
-             "does not apply to this machine", "It refers to what is not there, which gives no results.", "not calculated")  # fmt: skip
+             "does not apply to this machine", "It refers to what is not there, which gives no results.", "not calculated",
+             "Taken at {place}, in the middle of its smooth piece; it is the same in all of it.",
+             "There is no {kinds}, or there are several: name one by {key}.")  # fmt: skip
 """Texts that the program holds outside of the calls that make phrases."""
 JOINING = ("joined", "named")
 SOURCES = (*EQUATIONS.values(),
@@ -44,7 +48,11 @@ class ProgramText(NamedTuple):
 def program_texts() -> Iterator[ProgramText]:
     """Yield each text of the program once."""
     seen = set()
-    for found in (*_words(), *map(ProgramText, (*CONSTANTS, *_phrases(), *_press())), *_sources()):
+    for found in (
+        *_words(),
+        *map(ProgramText, (*CONSTANTS, *_phrases(), *_press(), *(law.title for law in LAWS.values()))),
+        *_sources(),
+    ):
         if (found.context, found.text) not in seen:
             seen.add((found.context, found.text))
             yield found
