@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import ast
 from collections.abc import Iterator
+from functools import cache
 from pathlib import Path
 from typing import NamedTuple
 
@@ -90,6 +91,11 @@ def _called(file: Path, names: tuple[str, ...], place: int) -> Iterator[str]:
             and len(node.args) > place
         ):
             yield from _constants(node.args[place])
+
+
+@cache
+def _calls(file: Path) -> list[ast.Call]:
+    return [node for node in ast.walk(ast.parse(file.read_text("utf-8"))) if isinstance(node, ast.Call)]
 
 
 def _constants(argument: ast.expr) -> Iterator[str]:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
-from typing import Any, Protocol, runtime_checkable
+from typing import Any
 
 import numpy as np
 
@@ -16,14 +16,6 @@ class Machines(tuple[Any, ...]):
     """Hold what plain code made of each of many machines; None of one that cannot be."""
 
     __slots__ = ()
-
-
-@runtime_checkable
-class OfMachines(Protocol):
-    """Hold something of many machines."""
-
-    def of_machine(self, row: int) -> Any:
-        """Return what it is of one of them."""
 
 
 @dataclass(frozen=True)
@@ -60,12 +52,12 @@ def of_machine(value: Any, row: int, count: int) -> Any:
             return value[row]
         case InOtherUnit():
             return replace(value, value=_of_all(value.value, row))
-        case OfMachines():
-            return value.of_machine(row)
         case np.ndarray() if value.shape[:1] == (count,):
             return value[row : row + 1]
         case tuple():
             return tuple(of_machine(each, row, count) for each in value)
+    if hasattr(value, "of_machine"):
+        return value.of_machine(row)
     return CurveOfMachine(value, row) if hasattr(value, "breakpoints") else value
 
 

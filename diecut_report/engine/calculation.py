@@ -16,12 +16,14 @@ from diecut_report.contract.mechanism import Mechanism
 from diecut_report.contract.steps import Accumulated, Choice, Derivative, FromCurve, Step, Value
 from diecut_report.contract.unit_variants import in_form
 from diecut_report.engine import named_quantity
+from diecut_report.engine.chosen_units import ChosenUnits
 from diecut_report.engine.input_rows import column
 from diecut_report.engine.numerics.chebyshev import PieceSeries
-from diecut_report.engine.numerics.curve_evaluation import MANY, Curves
-from diecut_report.engine.numerics.domain import Domain
+from diecut_report.engine.numerics.curve_evaluation import MANY, Curves, several
+from diecut_report.engine.numerics.domain import Domain, Inside
 from diecut_report.engine.numerics.recent_places import RecentPlaces
 from diecut_report.engine.numerics.sample_cache import SampleCache
+from diecut_report.engine.numerics.shared_places import SharedPlaces
 from diecut_report.engine.sampled_curve import SampledCurve
 from diecut_report.expressions import Array
 
@@ -69,14 +71,15 @@ class CurveHandle:
 
         ``rows`` are variants (default all).
         """
-        calc, axis, period = self.calculation, self.calculation.axis[self.curve_id], self.domain.period_of(rows)
-        x, mid = share * period, self.domain.middle_of(middle * period, rows)
-        if calc.count > 1 and np.shape(middle) != np.shape(share):
-            return calc.sample(self.curve_id, x, mid, rows)
-        which = None if calc.count == 1 else rows
-        return calc.recent.at(axis, (x, mid, which), lambda: CurveSampler(proxy(calc), axis, x, mid, which)).over(
-            self.curve_id
-        )
+        calc, domain, axis = self.calculation, self.domain, self.calculation.axis[self.curve_id]
+        if calc.count > 1:
+            places = share, middle, rows
+            return calc.shared.at(
+                self.curve_id, axis, places, lambda names: several(calc, axis, names, *domain.placed(*places), rows)
+            )
+        x, mid, inside = domain.placed(share, middle, rows)
+        known = calc.recent.at(axis, (x, mid, None), lambda: CurveSampler(proxy(calc), axis, x, mid, None, inside))
+        return known.over(self.curve_id)
 
     def gain(self, rows: Array | None) -> Array:
         """Return what the curve has more at the end of its period than at its start, shape (rows, 1); rows as in ``values``."""
@@ -118,8 +121,7 @@ class Calculation:
         self.steps: dict[str, Step] = {step.id: step for _, step in mechanism.active(self.given)}
         self.axis = mechanism.axes(self.given)
         self.values: dict[str, Array] = {}
-        self.curves: dict[str, CurveStep] = {}
-        self.domains: dict[str, Domain] = {}
+        self.curves, self.domains = dict[str, CurveStep](), dict[str, Domain]()
         self.part_names: dict[str, tuple[str, ...]] = {}  # of the repeated parts that follow from the inputs
         self.row_of: dict[str, str] = {}  # for each number that is called by the name of its part, the row
         self.series: dict[str, PieceSeries] = {}
@@ -129,11 +131,12 @@ class Calculation:
         self._kept: dict[tuple[str, str], tuple[Array, CurveSampler]] = {}  # curves already known at often used places
         self.ahead: dict[str, tuple[str, ...]] = {}  # for each abscissa the curves that coming steps ask for
         self.searches: dict[str, Any] = {}  # for each abscissa, of jumps in its pieces (switches)
-        self.recent = RecentPlaces[CurveSampler](8 if variants == 1 else 1)  # of many machines they are large
+        self.recent, self.shared = RecentPlaces[CurveSampler](8), SharedPlaces()  # of a single machine; of many
         self._tables: dict[str, SampleCache] = {}
         self.extremes: dict[tuple[str, float], tuple[Array, Found]] = {}  # with the pieces they are of
         self.judged: dict[tuple[str, int], Side] = {}  # for each check on a curve and its sides, where it governs
         self.flaws: dict[int, tuple[str, str]] = {}  # for each impossible variant the key and the message
+        self.chosen_units = ChosenUnits()  # what a report chose to show quantities in
         self.withheld: dict[str, Array] = {}  # for each fact, which variants do not meet it
 
     def __getitem__(self, name: str) -> Array:
@@ -163,9 +166,11 @@ class Calculation:
         """Return all curves over the abscissa of this one, at x as in ``sample``: a mapping from id to values."""
         return CurveSampler(self, self.axis[curve], x, middle, rows)
 
-    def sampler_of(self, axis: str, x: Array, middle: Array, rows: Array | None) -> CurveSampler:
+    def sampler_of(
+        self, axis: str, x: Array, middle: Array, rows: Array | None, inside: Inside | None = None
+    ) -> CurveSampler:
         """Return all curves over an abscissa at x (rows, points), in pieces of these middles (rows, points) or (rows, 1)."""
-        return CurveSampler(self, axis, x, middle, rows)
+        return CurveSampler(self, axis, x, middle, rows, inside)
 
     def kept(
         self, use: str, axis: str, places: Callable[[Domain], tuple[Array, Array]], rows: Array | None = None
@@ -198,6 +203,7 @@ class Calculation:
         self.searches.clear()
         self._kept.clear()
         self.recent.forget()
+        self.shared.forget()
 
     def on_search_grid(self, curve: str) -> Array:
         """Return a curve on the search grid of its smooth pieces, shape (variants, pieces, points); zero in pieces without a width."""
@@ -210,10 +216,21 @@ class Calculation:
 
 
 class CurveSampler:
-    """Give curves at given places of their abscissa; each is computed once."""
+    """Give curves at given places of their abscissa; each is computed once.
 
-    def __init__(self, owner: Calculation, axis: str, x: Array, middle: Array, rows: Array | None) -> None:
-        self.owner, self.axis, self.x, self.mid = owner, axis, x, middle
+    ``inside`` are the middles of all pieces (rows, pieces) and which of them each place lies in, where there are more places than pieces.
+    """
+
+    def __init__(
+        self,
+        owner: Calculation,
+        axis: str,
+        x: Array,
+        middle: Array,
+        rows: Array | None,
+        inside: Inside | None = None,
+    ) -> None:
+        self.owner, self.axis, self.x, self.mid, self.inside = owner, axis, x, middle, inside
         self.rows = rows if owner.count > 1 else None  # a single machine's numbers broadcast to all rows
         self.known: dict[str, Array] = {axis: x}
 
@@ -241,8 +258,17 @@ class CurveSampler:
             case Accumulated() | Derivative():
                 return self.owner.series[name].values(self.x, self.mid, self.rows)
             case Value(per_piece=True) | Choice(per_piece=True) if self.mid is not self.x:
-                return CurveSampler(self.owner, self.axis, self.mid, self.mid, self.rows)[name]
+                return self._of_pieces(name)
         return self.formula_of(step)
+
+    def _of_pieces(self, name: str) -> Array:
+        """A flag of the pieces, at their middles."""
+        if self.inside is None:
+            return CurveSampler(self.owner, self.axis, self.mid, self.mid, self.rows)[name]
+        middles, piece = self.inside
+        return np.take_along_axis(
+            CurveSampler(self.owner, self.axis, middles, middles, self.rows).over(name), piece, axis=1
+        )
 
     def formula_of(self, step: Value | Choice) -> Array:
         """Return what a step's formula gives at x itself, of a flag of the pieces too."""

@@ -14,7 +14,13 @@ ENGLISH: dict[str, str] = {
     "calculation": "Calculation", "document": "Document", "revision": "Revision", "date": "Date", "sheet": "Sheet", "of": "of",
     "organisation": "Organisation", "prepared": "Prepared", "checked": "Checked", "approved": "Approved", "name": "Name",
     "signature": "Signature", "revisions": "Revisions", "description": "Description", "by": "By", "press": "Press",
-    "release": "Release",
+    "release": "Release", "status": "Status", "status_draft": "draft", "status_for check": "for check", "status_released": "released",
+    "not_released": "not released", "across": "NOT RELEASED", "norm_checked": "Norm control", "department": "Department",
+    "owner": "Legal owner", "title": "Title", "document_type": "Document type", "identification": "Identification number",
+    "issued": "Date of issue", "language": "Language", "logo": "Logo",
+    "dstu_change": "Ch.", "dstu_page": "Sheet", "dstu_document": "Doc. No.", "dstu_sign": "Sign.", "dstu_date": "Date",
+    "dstu_prepared": "Developed", "dstu_checked": "Checked", "dstu_norm_checked": "Norm control", "dstu_approved": "Approved",
+    "dstu_letter": "Stage", "dstu_sheet": "Sheet", "dstu_sheets": "Sheets",
     # verdicts
     "pass": "pass", "warn": "warning", "fail": "fail", "error": "error", "skipped": "skipped", "not_checked": "not checked",
     "incomplete": "incomplete",
@@ -34,7 +40,7 @@ ENGLISH: dict[str, str] = {
     "contents": "Contents", "summary": "Summary", "checks": "Checks", "key_results": "Key results", "press_data": "Press data",
     "no_press_data": "The configuration gives no data of the press but its name.",
     "purpose": "Purpose and assumptions", "assumptions": "Assumptions and limits", "inputs": "Inputs", "results": "Results",
-    "curves": "Curves", "absent": "Not calculated",
+    "curves": "Curves", "symbols": "Symbols", "in_source": "in the source {symbol}", "absent": "Not calculated",
     "comparison": "Comparison of", "files": "Files beside this report",
     "errata": "Errata of the sources", "sources": "Sources", "no_sources": "The mechanisms name no source.",
     "program": "Program and configuration",
@@ -80,14 +86,21 @@ ENGLISH: dict[str, str] = {
     "checks_worse": "worse", "checks_better": "better", "checks_added": "new", "checks_removed": "no longer made",
     "checks_more used": "more used", "checks_less used": "less used",
     "changed_mark": "changed, before: {old}", "marked": "What changed is marked in the margin.",
+    # the tools of a reader on a screen; what stands in braces is filled in by the page's script
+    "search": "Search", "dark": "Dark", "hits": "{n} found", "all_checks": "All checks", "check_class": "Class", "all_classes": "all",
+    "text_within": "Text", "shown_checks": "{n} of {total} checks", "copy_text": "Copy {text}", "copied": "Copied: {text}",
+    "copy_refused": "The browser does not let the page copy {text}", "as_printed": "As printed",
     # programme
     "calculated_by": "Calculated by", "version": "version", "plugin": "Mechanism", "plugin_version": "Version", "kind": "Kind",
-    "source_hash": "source", "extension": "Extension",
+    "source_hash": "source", "libraries": "With", "extension": "Extension",
     "carried": "Carried with this report", "carried_results": "Results", "attached": "attached to this PDF",
     "verified": "diecut-report verify calculates it again and tells what differs.",
     "config_file": "Configuration file", "sha256": "SHA-256",
     "failed_text": "This mechanism could not be calculated.", "failed_comparison": "This comparison could not be calculated.",
     "skipped_text": "This mechanism was not calculated, since what it refers to was not.",
+    # office files
+    "si_value": "Value, SI", "si_unit": "Unit, SI", "basis": "Basis", "note": "Note", "class": "Class", "message": "Message",
+    "key_result": "Key result", "yes": "yes", "time_ms": "Time, ms",
 }  # fmt: skip
 COUNTED = {  # what is said of a number ``n`` of things, with its form for one where English has another
     "count_fail": "1 of {total} checks fails", "count_warn": "", "count_pass": "1 passes", "count_not_checked": "", "count_error": "",

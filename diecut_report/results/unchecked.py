@@ -11,6 +11,7 @@ from diecut_report.contract.checks import Check
 from diecut_report.contract.missing_keys import missing_keys
 from diecut_report.contract.placeholders import listed
 from diecut_report.engine import Calculation
+from diecut_report.engine.shown_units import unit_for
 from diecut_report.languages.phrases import Phrase, joined, named, phrase
 from diecut_report.quantities.formatting import shown, with_unit
 from diecut_report.quantities.units import unit
@@ -47,7 +48,7 @@ def _does_not_exist(calc: Calculation, side: str | float) -> bool:
 def result(calc: Calculation, check: Check, keys: tuple[str, ...]) -> Data:
     """Return a check that is not made, in the form of those that are."""
     demand = _known(calc, check.demand)
-    text = None if demand is None else shown(demand, check.unit)
+    text = None if demand is None else shown(demand, check_unit(calc, check, [demand]))
     return {
         "id": check.id,
         "title": check.title,
@@ -69,11 +70,21 @@ def result(calc: Calculation, check: Check, keys: tuple[str, ...]) -> Data:
     }
 
 
+def check_unit(calc: Calculation, check: Check, sides: list[float]) -> str:
+    """Return the one unit in which the sides of a check are shown."""
+    named = [side for side in (check.demand, check.limit) if isinstance(side, str) and side in calc.chosen_units.by_id]
+    return unit_for(calc, named[0] if named else "", check.unit, sides)
+
+
 def _message(calc: Calculation, check: Check, keys: tuple[str, ...]) -> str:
     """What is known of either side, and what is not given."""
     sides = ((check.demand_label, _known(calc, check.demand)), (check.limit_label, _known(calc, check.limit)))
     known = [
-        Phrase("{label} {value}", label=phrase(label), value=with_unit(*shown(value, check.unit).values()))
+        Phrase(
+            "{label} {value}",
+            label=phrase(label),
+            value=with_unit(*shown(value, check_unit(calc, check, [value])).values()),
+        )
         for label, value in sides
         if value is not None
     ]

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 from typing import Any
 
@@ -185,12 +185,21 @@ def cycle(
         columns(pitch_radius, count, variants, np.inf),
         *(columns(each, count, variants, 0.0) for each in (pressure, helix, mesh)),
     )
-    joints = [np.broadcast_to(curve.joints, (variants, curve.joints.shape[1])) for curve in curves.values()]
+    joints = _unlike(np.broadcast_to(curve.joints, (variants, curve.joints.shape[1])) for curve in curves.values())
     share, middle, edges = _instants(joints, variants, INSTANTS if curves else 1)
     return Cycle(
         tuple(names), columns(places, count, variants), columns(offset, count, variants, 0.0), columns(mass, count, variants, 0.0),
         given, gears, rotation if is_curve(rotation) or isinstance(rotation, str) else "none", turns[:, 0], share, middle, edges,
     )  # fmt: skip
+
+
+def _unlike(joints: Iterable[Array]) -> list[Array]:
+    """The joints of curves without those that are the same: curves of one mechanism have them in common."""
+    found: list[Array] = []
+    for each in joints:
+        if not any(np.array_equal(each, other, equal_nan=True) for other in found):
+            found.append(each)
+    return found
 
 
 def _parts(given: Any) -> tuple[Any, ...]:

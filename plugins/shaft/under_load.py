@@ -52,10 +52,6 @@ class UnderLoad:
         """The loads of the blocks, by their first variants: they are asked for twice, and cost more than what is made of them."""
         return {}
 
-    def of(self, rows: Array, share: Array, middle: Array) -> Statics:
-        """Return variants under their loads at shares of the cycle (rows, instants)."""
-        return self._under(rows, self.cycle.at(share, middle, rows))
-
     def _under(self, rows: Array, loads: Instants) -> Statics:
         body = self.body
         arrays = {name: each[:, rows] for name, each in vars(body).items() if isinstance(each, np.ndarray)}
@@ -83,9 +79,7 @@ class UnderLoad:
         """Return the reactions (bearing, plane, rows, places) at cycle angles (rows, places)."""
         own = np.zeros(len(angle), dtype=int) if rows is None and self.variants == 1 else rows
         chosen = np.arange(self.variants) if own is None else own
-        share = angle / (2 * np.pi)
-        inner = np.broadcast_to(middle / (2 * np.pi), share.shape)
-        loads = self.cycle.at(share, inner, chosen)
+        loads = self.cycle.at(angle / (2 * np.pi), middle / (2 * np.pi), chosen)
         supports = Supports(self.bearing_a[chosen], self.bearing_b[chosen])
         places = self.cycle.places[:, chosen]
         planes = (loads.force_y, loads.couple_xy), (loads.force_z, loads.couple_xz)
@@ -107,8 +101,19 @@ class UnderLoad:
         )
         inner = np.broadcast_to(middle, x.shape)
         for own, variant, mid in zip(x, chosen, inner, strict=True):
+            yield self._alone(int(variant)), own[:, None], (mid > own).astype(int)
+
+    def _alone(self, variant: int) -> Statics:
+        """One of the variants; of the last one what was found is kept, since several curves are asked of it."""
+        if variant not in self._last:
             row = np.array([variant])
-            yield self.of(row, self.cycle.share[row], self.cycle.middle[row]), own[:, None], (mid > own).astype(int)
+            self._last.clear()
+            self._last[variant] = self._under(row, self.cycle.at(self.cycle.share[row], self.cycle.middle[row], row))
+        return self._last[variant]
+
+    @cached_property
+    def _last(self) -> dict[int, Statics]:
+        return {}
 
     # --- the state of each place --------------------------------------------------------------------------------------------
 

@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
 
 from diecut_report.engine.numerics.domain import piece_of
 from diecut_report.expressions import Array
+from diecut_report.mechanics import chebyshev_sums
 
 
 @dataclass(frozen=True)
@@ -26,12 +26,5 @@ class PieceSeries:
         variant = np.broadcast_to(known[:, None] if len(self.edges) > 1 else 0, piece.shape)
         start, end = self.edges[variant, piece], self.edges[variant, piece + 1]
         place = (2 * x - start - end) / np.where(end > start, end - start, 1)
-        return _clenshaw(place, lambda k: self.series[k, variant, piece], len(self.series))
-
-
-def _clenshaw(x: Array, coefficient: Callable[[int], Array], order: int) -> Array:
-    later = last = np.zeros_like(x)
-    for k in range(order - 1, 0, -1):
-        last, later = coefficient(k) + 2 * x * last - later, last
-    total: Array = coefficient(0) + x * last - later
-    return total
+        terms = self.series.reshape(len(self.series), -1)
+        return chebyshev_sums.at_places(terms, variant * self.series.shape[2] + piece, place)

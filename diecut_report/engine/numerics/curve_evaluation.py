@@ -9,6 +9,7 @@ import numpy as np
 
 from diecut_report.contract.steps import Step
 from diecut_report.engine.numerics.codegen import NUMBERS, PIECES, POINTS, Program, program
+from diecut_report.engine.numerics.domain import Inside
 from diecut_report.expressions import Array
 
 BLOCK = 16384  # places at once
@@ -40,7 +41,9 @@ class VariantRows(Protocol):
     def __getitem__(self, name: str) -> Array:
         """A number of all machines."""
 
-    def sampler_of(self, axis: str, x: Array, middle: Array, rows: Array) -> CurveValues:
+    def sampler_of(
+        self, axis: str, x: Array, middle: Array, rows: Array | None, inside: Inside | None = None
+    ) -> CurveValues:
         """Return all curves over an abscissa by the plain formulas, at x in the pieces of these middles."""
 
 
@@ -93,6 +96,23 @@ class Curves:
         known = flags(names) if flags else flags_of(self.calc, self.axis, names, self.middle, self.variant)
         found: Sequence[Any] = program.pieces(*known, *self.numbers.of(self.variant))
         return found
+
+
+def several(
+    calc: VariantRows,
+    axis: str,
+    wanted: Sequence[str],
+    x: Array,
+    middle: Array,
+    inside: Inside | None,
+    rows: Array | None,
+) -> list[Array]:
+    """Return curves of variants (default all) at x (rows, points), with what they have in common computed once."""
+    own = np.arange(calc.count) if rows is None else rows
+    if calc.count >= MANY and middle.shape == (len(own), 1) and len(own) == len(x):
+        return Curves(calc, axis, wanted, middle[:, 0], own).at(x)
+    found = calc.sampler_of(axis, x, middle, rows, inside)
+    return [np.array(np.broadcast_arrays(found[name], x)[0], dtype=float) for name in wanted]
 
 
 def flags_of(calc: VariantRows, axis: str, names: tuple[str, ...], middle: Array, variant: Array) -> list[Array]:

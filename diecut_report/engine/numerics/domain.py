@@ -47,6 +47,9 @@ SMALLEST = float(np.finfo(float).tiny / np.finfo(float).eps)  # a number below i
 FEW_EDGES = 40  # up to which edges are compared with all places at once
 
 
+Inside = tuple[Array, Array]  # the middles of all pieces (rows, pieces), and which of them each place lies in
+
+
 def piece_of(edges: Array, x: Array) -> Array:
     """Return the piece that each x (rows, points) lies in, of pieces with these edges (rows, pieces + 1), or (1, pieces + 1) for all rows."""
     inner = edges[:, 1:-1]
@@ -150,9 +153,28 @@ class Domain:
 
         At the end of the period it is the last piece that has a width.
         """
+        return np.take_along_axis(self.middles_of(rows), self.middle_piece_of(x, rows), axis=1)
+
+    def middle_piece_of(self, x: Array, rows: Array | None = None) -> Array:
+        """Return which piece that is, (rows, points)."""
         edges = _of(self.edges, rows)
         last = np.sum(edges < edges[:, -1:], axis=1, keepdims=True) - 1
-        return np.take_along_axis(_of(self.middles, rows), np.minimum(piece_of(edges, x), last), axis=1)
+        found: Array = np.minimum(piece_of(edges, x), last)
+        return found
+
+    def placed(self, share: Array, middle: Array, rows: Array | None) -> tuple[Array, Array, Inside | None]:
+        """Return places and the middles of their pieces for shares of the period (rows, points), each in the piece of its middle.
+
+        Where each place has a middle of its own, and pieces are fewer than places, it is also told which piece it is.
+        """
+        period, middles = self.period_of(rows), self.middles_of(rows)
+        piece = self.middle_piece_of(middle * period, rows)
+        is_each = np.shape(middle) == np.shape(share) and middles.shape[1] < share.shape[1]
+        return share * period, np.take_along_axis(middles, piece, axis=1), (middles, piece) if is_each else None
+
+    def middles_of(self, rows: Array | None) -> Array:
+        """Return the middle of each piece of variants (default all), shape (rows, pieces)."""
+        return _of(self.middles, rows)
 
     @property
     def middles(self) -> Array:

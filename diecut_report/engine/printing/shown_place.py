@@ -11,6 +11,7 @@ from diecut_report.contract.code_steps import PartNames
 from diecut_report.contract.steps import Abscissa, Choice, Value
 from diecut_report.engine.calculation import Calculation
 from diecut_report.engine.printing.substitution import Elsewhere
+from diecut_report.engine.shown_units import declared_unit
 from diecut_report.expressions import Array, Node
 from diecut_report.languages.phrases import Phrase
 from diecut_report.quantities.formatting import shown, with_unit
@@ -114,7 +115,7 @@ def place_shown(calc: Calculation, axis: str, elsewhere: bool) -> Item:
 
 def place_of(calc: Calculation, axis: str, place: float) -> Item:
     step = calc.steps[axis]
-    return {"symbol": step.symbol} | shown(place, step.unit, 6)
+    return {"symbol": step.symbol} | shown(place, declared_unit(calc, axis, step.unit), 6)
 
 
 def case_taken(calc: Calculation, step: Choice, axis: str | None, *, flag: bool) -> int:

@@ -10,6 +10,7 @@ import numpy as np
 from numpy.polynomial import legendre
 
 from diecut_report.expressions import Array
+from diecut_report.mechanics import chebyshev_sums
 
 COUNT = 20  # Gauss–Legendre places in a piece
 NODES, WEIGHTS = legendre.leggauss(COUNT)
@@ -20,8 +21,9 @@ _LOOK_VALUES = legendre.legvander(LOOK, COUNT)
 NARROW = 1e-12  # a piece that is no wider holds nothing
 BESIDE = 1e-11  # as near as a place is to an edge that it is taken to be on
 CLOSER = np.linspace(-1, 1, 17)
+TO_CHEBYSHEV = chebyshev_sums.of_legendre(COUNT + 1)
 RESOLVED = 1e-12  # of the greatest coefficient, below which a term is nothing
-LOOKS = 5  # each makes the place of an extreme closer by 1/8
+LOOKS = 3  # each makes the place of an extreme closer by 1/8; a parabola through the last ones does the rest
 
 Function = Callable[[Array, Array, Array], Array]
 """Of places (rows, points), the middles (rows, 1) of the smooth pieces that they lie in, and the machine (rows,) of each row."""
@@ -68,8 +70,29 @@ class PieceRows:
         """
         towards = 0.0 if middles is None else np.clip(middles - places, -BESIDE, BESIDE)
         inside = np.minimum(places + towards, 1 - NARROW)
-        piece = np.searchsorted(self._keys, machine[:, None] + inside, side="right") - 1
-        return _clenshaw(self.series[piece], 2 * (places - self.low[piece]) / self.width[piece] - 1)
+        if not places.size:
+            return np.zeros(places.shape)
+        found = np.empty(places.shape)
+        ends = self._piece_of(np.stack([inside.min(axis=1), inside.max(axis=1)], axis=1), machine)
+        alike = (ends[:, 0] == ends[:, 1]) & np.isfinite(inside).all(axis=1)
+        for rows in (np.flatnonzero(alike), np.flatnonzero(~alike)):
+            piece = ends[rows, :1] if alike[rows].all() else self._piece_of(inside[rows], machine[rows])
+            found[rows] = self._in_pieces(piece, 2 * (places[rows] - self.low[piece]) / self.width[piece] - 1)
+        return found
+
+    def _piece_of(self, inside: Array, machine: Array) -> Array:
+        """The piece that each place (rows, points) lies in."""
+        return np.searchsorted(self._keys, machine[:, None] + inside, side="right") - 1
+
+    @cached_property
+    def _terms(self) -> Array:
+        """The Chebyshev coefficients of the pieces, (degrees, pieces): their recurrence is the shorter one."""
+        count = self.series.shape[1]
+        return np.ascontiguousarray(TO_CHEBYSHEV[:count, :count] @ self.series.T)
+
+    def _in_pieces(self, piece: Array, x: Array) -> Array:
+        """Values at places x of pieces, from -1 to 1: (rows, points), the pieces (rows, points) or (rows, 1)."""
+        return chebyshev_sums.at_places(self._terms, piece, x)
 
     @property
     def is_resolved(self) -> bool:
@@ -87,7 +110,7 @@ class PieceRows:
         number = np.arange(len(piece)) - np.repeat(np.cumsum(parts) - parts, parts)
         width = self.width[piece] / parts[piece]
         shares = (2 * number[:, None] + 1 + NODES) / parts[piece][:, None] - 1
-        series = _clenshaw(self.series[piece][:, None, :], shares) @ TO_SERIES.T
+        series = self._in_pieces(piece[:, None], shares) @ TO_SERIES.T
         return PieceRows(self.count, self.machine[piece], self.low[piece] + number * width, width, series)
 
     def through(self, values: Array) -> PieceRows:
@@ -146,21 +169,24 @@ class PieceRows:
         piece = np.flatnonzero(looks.max(axis=1) >= near[self.machine])
         place, width = LOOK[np.argmax(looks[piece], axis=1)], 2 / (len(LOOK) - 1)
         for _ in range(LOOKS):
-            around = np.clip(place[:, None] + width * CLOSER, -1, 1)
-            found = sign * _clenshaw(self.series[piece][:, None, :], around)
+            around = np.clip(place, width - 1, 1 - width)[:, None] + width * CLOSER
+            found = sign * self._in_pieces(piece[:, None], around)
             best = np.argmax(found, axis=1)[:, None]
             place, width = np.take_along_axis(around, best, axis=1)[:, 0], width / 8
             np.maximum.at(tops, self.machine[piece], np.take_along_axis(found, best, axis=1)[:, 0])
+        vertex = place + width * vertices(found)
+        np.maximum.at(tops, self.machine[piece], sign * self._in_pieces(piece[:, None], vertex[:, None])[:, 0])
         return tops
 
 
-def _clenshaw(series: Array, x: Array) -> Array:
-    """Values of Legendre series (…, terms) at x (…), by the recurrence of the polynomials from the highest on."""
-    after, here = np.zeros_like(x), np.zeros_like(x)
-    for degree in range(series.shape[-1] - 1, 0, -1):
-        after, here = (
-            here,
-            series[..., degree] + (2 * degree + 1) / (degree + 1) * x * here - (degree + 1) / (degree + 2) * after,
-        )
-    found: Array = series[..., 0] + x * here - after / 2
-    return found
+def vertices(heights: Array) -> Array:
+    """Return where a parabola through the greatest of equally spaced values (rows, places) and its neighbours is highest.
+
+    It is counted in their spacing from the greatest, at most half of it; 0 where the greatest is the first or the last.
+    """
+    best = np.argmax(heights, axis=1)
+    inner = np.clip(best, 1, heights.shape[1] - 2)
+    before, here, after = (heights[np.arange(len(heights)), inner + step] for step in (-1, 0, 1))
+    bend = before - 2 * here + after
+    found = np.where((bend < 0) & (best == inner), (before - after) / (2 * np.where(bend < 0, bend, -1.0)), 0.0)
+    return np.clip(found, -0.5, 0.5)
