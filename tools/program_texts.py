@@ -83,13 +83,8 @@ def _phrases() -> Iterator[str]:
 
 def _called(file: Path, names: tuple[str, ...], place: int) -> Iterator[str]:
     """The constant texts that a file hands to functions."""
-    for node in ast.walk(ast.parse(file.read_text("utf-8"))):
-        if (
-            isinstance(node, ast.Call)
-            and isinstance(node.func, ast.Name)
-            and node.func.id in names
-            and len(node.args) > place
-        ):
+    for node in _calls(file):
+        if isinstance(node.func, ast.Name) and node.func.id in names and len(node.args) > place:
             yield from _constants(node.args[place])
 
 
