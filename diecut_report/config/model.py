@@ -7,19 +7,10 @@ from typing import Any, Literal
 from pydantic import AfterValidator, Field, field_validator
 
 from diecut_report.contract.inputs import Annotated, Block, Quantity, Text
+from diecut_report.languages.catalogues import known
 
 PRESS = "press"  # the name of the press in references, beside those of the mechanisms
 DETAILS = ("brief", "standard", "full")  # how much a report holds
-LANGUAGES = ("en",)  # whose catalogues are complete
-
-
-def complete_language(language: str) -> str:
-    """The language, if reports can be written in it; ValueError in words if not."""
-    if language not in LANGUAGES:
-        raise ValueError(
-            f"is {language}; reports in this language wait for its catalogue, which is not complete. Give en."
-        )
-    return language
 
 
 class Revision(Block):
@@ -46,7 +37,7 @@ class Project(Block):
     department: Annotated[str | None, Text("Responsible department")] = None
     document_type: Annotated[str | None, Text("Type of the document; without it “Calculation”")] = None
     revisions: Annotated[list[Revision], Text("Revisions so far"), Field(default_factory=list)]
-    language: Annotated[Literal["en", "uk"], Text("Language of the report"), AfterValidator(complete_language)] = "en"
+    language: Annotated[Literal["en", "uk"], Text("Language of the report"), AfterValidator(known)] = "en"
 
     @field_validator("*")
     @classmethod

@@ -6,6 +6,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import replace
 from typing import Any
 
+from diecut_report.languages.tokens import worded
 from diecut_report.report.equations import Equations
 from diecut_report.report.figure_places import BEFORE, Place, figure_item, placed, sketch
 from diecut_report.report.file_names import suffixes
@@ -21,7 +22,6 @@ from diecut_report.report.model import (
     quantity_row,
     rested,
     utilisation,
-    worded,
 )
 from diecut_report.report.number_format import quantity
 from diecut_report.report.repeated_parts import counted, gathered

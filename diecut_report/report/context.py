@@ -6,12 +6,15 @@ from collections.abc import Callable, Mapping
 from functools import cached_property
 from typing import TYPE_CHECKING, Any, NamedTuple, TypeVar
 
+from diecut_report.languages.catalogues import SOURCE_LANGUAGE, Catalogues
 from diecut_report.report.carried import CarriedFile, carried_files
 from diecut_report.report.changes import PrintedChanges, marked, printed_changes
 from diecut_report.report.document import ReportDocument, document
 from diecut_report.report.equations import Equations
+from diecut_report.report.house_style import HouseStyle
 from diecut_report.report.i18n import Catalogue
 from diecut_report.report.scope import BRIEF, parts
+from diecut_report.report.translated import translated
 from diecut_report.report.typeset import Typesetter
 
 if TYPE_CHECKING:
@@ -38,21 +41,29 @@ class DrawingFault(NamedTuple):
 class Material:
     """The parts of the report of a results document."""
 
-    def __init__(self, results: Mapping[str, Any]) -> None:
-        self.results = results
-        self.words = Catalogue(results["project"].get("language") or "en")
+    def __init__(
+        self, results: Mapping[str, Any], catalogues: Catalogues | None = None, house: HouseStyle | None = None
+    ) -> None:
+        self.results, self.house = results, house
+        self.words = Catalogue(results["project"].get("language") or SOURCE_LANGUAGE)
+        self.catalogues = catalogues or Catalogues(self.words.language)
         self.typesetter = Typesetter()
         self.faults: list[DrawingFault] = []
 
     @cached_property
     def document(self) -> ReportDocument:
         """The report's content."""
-        return document(marked(self.results), Equations(self.words, self.typesetter.measure), self.words)
+        return document(marked(self.said), Equations(self.words, self.typesetter.measure), self.words)
+
+    @cached_property
+    def said(self) -> Mapping[str, Any]:
+        """The results with their texts in the report's language."""
+        return translated(self.results, self.catalogues)
 
     @cached_property
     def changes(self) -> PrintedChanges | None:
         """What changed since the former revision, where the results tell that."""
-        return printed_changes(self.results["changes"], self.words) if "changes" in self.results else None
+        return printed_changes(self.said["changes"], self.words) if "changes" in self.said else None
 
     @cached_property
     def carried(self) -> tuple[CarriedFile, ...]:
@@ -81,7 +92,7 @@ class Material:
 
     def _drawn(self, draw: Callable[..., Drawing]) -> dict[str, Drawing]:
         found: dict[str, Drawing] = {}
-        calculated = dict(parts(self.results))
+        calculated = dict(parts(self.said))
         for chapter in self.document.chapters:
             for number, figure in chapter.figures:
                 if "error" in figure:

@@ -77,6 +77,11 @@ class ReportDocument:
         return "incomplete" if self.status == "pass" and self.unchecked else self.status
 
     @property
+    def faces(self) -> Data:
+        """The verdicts of the chapters as they are shown, by the anchors of the chapters."""
+        return {part.anchor: part.face for part in self.chapters}
+
+    @property
     def sized(self) -> list[CheckRow]:
         """The checks of what the program sized to their limits."""
         return [row for row in self.checks if row.is_sized]
@@ -156,11 +161,11 @@ def _counts(checks: list[CheckRow], chapters: list[PrintedChapter], words: Catal
     if lost:
         yield words.say("count_error", n=lost)
     if found["fail"]:
-        yield words.say("count_fail" if found["fail"] > 1 else "count_fail_one", n=found["fail"], total=total)
+        yield words.say("count_fail", n=found["fail"], total=total)
     if found["warn"]:
         yield words.say("count_warn", n=found["warn"])
     if found["pass"]:
-        yield words.say("count_pass" if found["pass"] > 1 else "count_pass_one", n=found["pass"])
+        yield words.say("count_pass", n=found["pass"])
     if found["not_checked"]:
         yield words.say("count_not_checked", n=found["not_checked"])
 
@@ -174,7 +179,7 @@ def _notes(checks: list[CheckRow], words: Catalogue) -> Iterator[str]:
     """What stands below the verdict: the self-tests that hold."""
     held = sum(row.is_self_test and row.status == "pass" for row in checks)
     if held:
-        yield words.say("self_tests" if held > 1 else "self_tests_one", n=held)
+        yield words.say("self_tests", n=held)
 
 
 def _shown(whole: Scope, words: Catalogue) -> Iterator[str]:

@@ -14,6 +14,7 @@ from diecut_report.engine.printing.substitution import filled
 from diecut_report.engine.shown_units import declared_unit
 from diecut_report.engine.steps.extreme_checks import is_made
 from diecut_report.expressions import Array
+from diecut_report.languages.phrases import Phrase, phrase
 from diecut_report.quantities.formatting import shown, with_unit
 from diecut_report.quantities.units import unit
 from diecut_report.results import unchecked
@@ -134,12 +135,12 @@ def _check(calc: Calculation, check: Check) -> Data:
     display = check_unit(calc, check, [found.demand[0, pair, part], found.limit[0, pair, part]])
     told = _told(check, display, found, pair, part)
     where, places = _where(calc, check, pair, part, found.demand.shape[2])
-    bounds = f"{told['demand_label']} {_said(told, 'demand')}, {told['limit_label']} {_said(told, 'limit')}"
-    if pair:  # the lower bound governs
-        bounds = f"{told['limit_label']} {_said(told, 'limit')}, {told['demand_label']} {_said(told, 'demand')}"
-    sentence = bounds + _beside(calc, check, display, found, pair, part) + where
-    passes = told["status"] == "pass"
-    message = f"{sentence}." if passes else f"{sentence}: {filled(calc, check.consequence, places=places)}"
+    sides = ("limit", "demand") if pair else ("demand", "limit")  # the lower bound may govern
+    sentence = _bounds(told, *sides) + _beside(calc, check, display, found, pair, part) + where
+    message = Phrase("{bounds:capital}.", {"bounds:capital": sentence})
+    if told["status"] != "pass":
+        consequence = filled(calc, check.consequence, places=places)
+        message = Phrase("{bounds:capital}: {consequence}", {"bounds:capital": sentence, "consequence": consequence})
     return {
         "id": check.id,
         "title": check.title,
@@ -151,7 +152,7 @@ def _check(calc: Calculation, check: Check) -> Data:
         "unit": unit(check.unit).si,
         "utilisation": told["utilisation"],
         "source": check.source,
-        "message": message[0].upper() + message[1:],
+        "message": message,
         **{key: text for key, text in told.items() if key.endswith(("_label", "_display"))},
         **_further(calc, check, display, found, pair, part),
         **({"sized_to_limit": True} if is_sized(calc.given, check) or _is_at_limit(told) else {}),
@@ -184,8 +185,12 @@ def _told(check: Check, display: str, found: JudgedCheck, pair: int, part: int) 
     }
 
 
-def _said(told: Data, side: str) -> str:
-    return with_unit(*told[f"{side}_display"].values())
+def _bounds(told: Data, *sides: str) -> Phrase:
+    """What is compared, the one beside the other."""
+    labels = [phrase(told[f"{side}_label"]) for side in sides]
+    values = [with_unit(*told[f"{side}_display"].values()) for side in sides]
+    named = dict(zip(("first", "next"), values, strict=True)) | dict(zip(("label", "next_label"), labels, strict=True))
+    return Phrase("{label} {first}, {next_label} {next}", named)
 
 
 def _beside(calc: Calculation, check: Check, display: str, found: JudgedCheck, pair: int, part: int) -> str:
@@ -193,20 +198,23 @@ def _beside(calc: Calculation, check: Check, display: str, found: JudgedCheck, p
     if check.at_least is None or (check.id, pair) in calc.judged:
         return ""
     side, label = (found.limit, check.limit_label) if pair else (found.demand, check.at_least_label)
-    return f" ({label} {with_unit(*shown(float(side[0, 1 - pair, part]), display).values())})"
+    value = with_unit(*shown(float(side[0, 1 - pair, part]), display).values())
+    return Phrase(" ({label} {value})", label=phrase(label), value=value)
 
 
 def _where(calc: Calculation, check: Check, pair: int, part: int, count: int) -> tuple[str, dict[str, int | str]]:
     """Where a check governs, in words: a place of the abscissa, a part of a row; and what a message may name of that."""
     if (check.id, pair) in calc.judged:
         at = _at(calc, check, pair)
-        return f" at {at['symbol']} = {with_unit(at['text'], at['unit'])}", {}
+        return Phrase(" at {symbol} = {value}", symbol=at["symbol"], value=with_unit(at["text"], at["unit"])), {}
     if check.index is not None:
         return "", {"part": check.part_name, "index": check.index}
     if _is_row(calc, check):
         places: dict[str, int | str] = {"part": part + 1, "next": (part + 1) % count + 1, "index": part}
         names = _part_names(calc, check)
-        return f" at {names[part]}" if names else f" at part {part + 1} of {count}", places
+        if names:
+            return Phrase(" at {name}", name=names[part]), places
+        return Phrase(" at part {part} of {count}", part=part + 1, count=count), places
     return "", {}
 
 

@@ -3,8 +3,12 @@
 from __future__ import annotations
 
 import base64
+import platform
 from collections.abc import Iterator
 from typing import Any
+
+import numpy as np
+import scipy
 
 from diecut_report import __version__
 from diecut_report.config.basis import GIVEN
@@ -21,6 +25,7 @@ from diecut_report.contract.inputs import Block, CurveInput, InOtherUnit, Quanti
 from diecut_report.contract.mechanism import Mechanism
 from diecut_report.contract.varying import Extremes
 from diecut_report.engine import CurveHandle
+from diecut_report.languages.phrases import Phrase, wordings
 from diecut_report.limits import MAX_COMPARISONS
 from diecut_report.quantities.formatting import as_given, given_shown
 from diecut_report.results.bases import Bases, assumed
@@ -31,6 +36,10 @@ from diecut_report.results.reference_origins import with_origins
 from diecut_report.results.summary import counts, governing, summary
 
 Data = dict[str, Any]
+LEFT_OUT = (
+    "{count} comparisons are left out, the first is {first}: at most {most} are made. "
+    "To get one, let its mechanisms be the first of their kinds in the configuration, or put them into one of their own."
+)
 
 
 def document(run: Run) -> Data:
@@ -42,7 +51,7 @@ def document(run: Run) -> Data:
     status = worst(
         "fail" if each == "skipped" else each for each in found
     )  # without an error: what it needs does not hold
-    return {
+    made: Data = {
         "schema_version": 1,
         "program": {"name": "diecut-report", "version": __version__, **_code(config)},
         "config": {
@@ -60,6 +69,7 @@ def document(run: Run) -> Data:
         "summary": summary(mechanisms) | {"assumed": assumed(config)},
         "mechanisms": mechanisms,
     } | ({"comparisons": comparisons} | _left_out(run) if comparisons else {})
+    return made | {"wordings": wordings([made["mechanisms"], comparisons, made.get("comparisons_left_out")])}
 
 
 def _tables(config: Config) -> Data:
@@ -77,16 +87,15 @@ def _left_out(run: Run) -> Data:
     """The comparisons beyond the most that a config gets, with words on how to get them."""
     if not run.left_out:
         return {}
-    words = (
-        f"{len(run.left_out)} comparisons are left out, the first is {run.left_out[0]}: at most {MAX_COMPARISONS} are made. "
-        "To get one, let its mechanisms be the first of their kinds in the configuration, or put them into one of their own."
-    )
+    words = Phrase(LEFT_OUT, count=len(run.left_out), first=run.left_out[0], most=MAX_COMPARISONS)
     return {"comparisons_left_out": {"message": words, "names": run.left_out}}
 
 
 def _code(config: Config) -> Data:
-    """Return the hash of the program's code, and of each extension that was run."""
-    return {"source_sha256": program_hash()} | ({"extensions": dict(config.extensions)} if config.extensions else {})
+    """Return the hash of the program's code, and of each extension that was run; and by what the numbers were calculated."""
+    libraries = {"Python": platform.python_version(), "NumPy": np.__version__, "SciPy": scipy.__version__}
+    extensions = {"extensions": dict(config.extensions)} if config.extensions else {}
+    return {"source_sha256": program_hash(), "libraries": libraries} | extensions
 
 
 EMPTY: Data = {

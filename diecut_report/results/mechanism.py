@@ -19,6 +19,7 @@ from diecut_report.engine.figure_views import figures
 from diecut_report.engine.printing.items import section_items
 from diecut_report.engine.shown_units import declared_unit, unit_for
 from diecut_report.engine.steps import facts
+from diecut_report.languages.phrases import Phrase, phrase
 from diecut_report.quantities.formatting import given_shown, shown
 from diecut_report.quantities.units import unit
 from diecut_report.results.checks import applies, check_results, checks_of
@@ -105,6 +106,7 @@ def _is_there(calc: Calculation, name: str) -> bool:
 
 
 GIVEN = Provenance("given")
+IDLE = "not checked, though {key} is given: what it limits is not calculated"
 
 
 def absent(calc: Calculation, provenance: Mapping[str, Provenance]) -> list[Data]:
@@ -114,7 +116,7 @@ def absent(calc: Calculation, provenance: Mapping[str, Provenance]) -> list[Data
     checks = checks_of(calc)
     made = {check.id for check in checks if applies(calc, check) or missing(calc, check)}
     idle = [
-        {"title": c.title, "text": f"not checked, though {c.limit} is given: what it limits is not calculated"}
+        {"title": c.title, "text": Phrase(IDLE, key=c.limit)}
         for c in checks
         if _is_limit_given(calc, str(c.limit), provenance) and c.id not in made
     ]
@@ -225,7 +227,7 @@ def _row_unit(calc: Calculation, step: Step, values: Any) -> str:
 
 def _listed(calc: Calculation, step: Crossings) -> Data:
     places = [x for x in calc[step.id][0] if not math.isnan(x)]
-    count = {"value": len(places), "unit": "1", "symbol": "", "description": f"{step.description}: how many",
+    count = {"value": len(places), "unit": "1", "symbol": "", "description": Phrase("{title}: how many", title=phrase(step.description)),
              "source": step.source, "display": {"text": str(len(places)), "unit": "1"}}  # fmt: skip
     _, *names = result_names(step, len(places))
     display = _row_unit(calc, step, places)

@@ -21,6 +21,7 @@ from diecut_report.contract.mechanism import Mechanism
 from diecut_report.engine import Calculation, Impossible, calculate
 from diecut_report.engine.chosen_units import ChosenUnits
 from diecut_report.errors import PluginError, Problem, UserError
+from diecut_report.languages.phrases import Phrase, named
 from diecut_report.limits import MAX_COMPARISONS
 from diecut_report.results.bases import Bases
 from diecut_report.results.comparisons import Found, Uncomparable, compared, found
@@ -181,8 +182,10 @@ class Run:
     def _why_skipped(self, unusable: list[str], missing: list[Node]) -> str:
         told = next((self.withheld[node] for node in missing if node in self.withheld), "")
         if told:
-            return f"It refers to {told}."
-        return f"It refers to {' and '.join(sorted(set(unusable)) or ['what is not there'])}, which gives no results."
+            return Phrase("It refers to {result}.", result=told)
+        if not unusable:
+            return "It refers to what is not there, which gives no results."
+        return Phrase("It refers to {names}, which gives no results.", names=named(sorted(set(unusable)), " and "))
 
     def _press(self, instance: Instance, own: dict[Node, Target], missing: list[Node]) -> None:
         """The press, without the fields that a broken mechanism would have given."""

@@ -11,6 +11,7 @@ import numpy as np
 from diecut_report.api import (
     Chart,
     Drawing,
+    Phrase,
     Shape,
     View,
     arc,
@@ -135,7 +136,7 @@ def moving(view: View) -> list[Shape]:
     motions: Motions = view.prepared("motions")
     main = _angles(view.prepared("timing"))
     ways = [
-        (f"Way of {name}", line(main, motions.ways.one(k, main[None], main[None], None)[0], name))
+        (Phrase("Way of {name}", name=name), line(main, motions.ways.one(k, main[None], main[None], None)[0], name))
         for k, name in enumerate(motions.ways.names)
     ]
     panels = [chart_panel(title, "mm", *AXIS, lines=[drawn]) for title, drawn in ways]

@@ -7,7 +7,7 @@ from typing import Any
 
 import numpy as np
 
-from diecut_report.api import Chart, Drawing, Shape, View, chart_panel, fill, level, line, mark, vertical
+from diecut_report.api import Chart, Drawing, Phrase, Shape, View, chart_panel, fill, level, line, mark, vertical
 from diecut_report.plugins.knife_drive.drawing import CRANK_ROCKER_DRAWN, CRANK_SLIDER_DRAWN, PLANETARY_DRAWN
 from diecut_report.plugins.knife_drive.table import table
 from diecut_report.plugins.knife_drive.working import ALL, CRANK_ROCKER, CRANK_SLIDER, PLANETARY, DriveKind
@@ -83,7 +83,7 @@ def _common(
     for drive, values in curves.items():
         angle = view[f"{drive.key}_working_angle"]
         inside = np.linspace(-angle, 0, 121)
-        fills.append(fill(inside, np.interp(inside, psi, values), f"working stroke, {drive.name}"))
+        fills.append(fill(inside, np.interp(inside, psi, values), Phrase("working stroke, {name}", name=drive.name)))
     lines = [line(psi, values, drive.name) for drive, values in curves.items()]
     places = [vertical(-view["grip_angle"], "grip")]
     if _off_table(view) <= np.pi:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from textwrap import wrap
 
-from diecut_report.api import Shape, View, box, told
+from diecut_report.api import Phrase, Shape, View, box, told
 from diecut_report.plugins.knife_drive.working import ALL
 
 LINES = (
@@ -45,17 +45,27 @@ def table(view: View) -> list[Shape]:
 
 def _verdicts(view: View) -> list[str]:
     """Which drive is best, and why the planetary drive differs from the best other one."""
-    found = [f"Verdict: {view.word('verdict')}."]
+    found: list[str] = [Phrase("Verdict: {verdict}.", verdict=view.word("verdict"))]
     if "acceleration_ratio_planetary" in view:
         stroke, factor = view["stroke_ratio_planetary"], view["factor_ratio_planetary"]
-        found.append(f"Planetary drive to the best other one at the end: {stroke * factor:.2f} = {stroke:.2f} (stroke) × {factor:.2f} (factor); "
-                     f"{view.word('reason')}.")  # fmt: skip
+        found.append(
+            Phrase(
+                "Planetary drive to the best other one at the end: {stroke} = {stroke_2} (stroke) × {factor} "
+                "(factor); {reason}.",
+                stroke=f"{stroke * factor:.2f}",
+                stroke_2=f"{stroke:.2f}",
+                factor=f"{factor:.2f}",
+                reason=view.word("reason"),
+            )
+        )
     return found
 
 
 def _cell(view: View, name: str, unit: str) -> str:
     """A number, and its ratio to the best drive's where there is one; the time on the table beside what there is of it."""
     if name.endswith("table_time"):
-        return f"{told(view[name], unit)} of {told(view['signature_interval'], unit)}"
+        return Phrase(
+            "{time} of {interval}", time=told(view[name], unit), interval=told(view["signature_interval"], unit)
+        )
     ratio = view.get(f"{name}_ratio", 0.0)
     return f"{told(view[name], unit)} (× {ratio:.2f})" if ratio else told(view[name], unit)

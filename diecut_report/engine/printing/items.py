@@ -34,6 +34,7 @@ from diecut_report.engine.printing.bridges import bridged, conversions
 from diecut_report.engine.printing.contradictions import contradicted
 from diecut_report.engine.printing.definitions import definitions
 from diecut_report.engine.printing.interpolation import BetweenRows
+from diecut_report.engine.printing.methods import METHODS, period
 from diecut_report.engine.printing.shown_place import (
     case_taken,
     is_elsewhere,
@@ -52,16 +53,10 @@ from diecut_report.engine.printing.substitution import (
 )
 from diecut_report.engine.shown_units import step_shown
 from diecut_report.expressions import Array, Node
+from diecut_report.languages.phrases import Phrase, joined, phrase
 from diecut_report.quantities.formatting import number_text
 
 Item = dict[str, Any]
-
-METHODS = {
-    "max": "bounded search on the curve within each smooth piece, one-sided limits at the breakpoints included",
-    "mean": "Gauss–Legendre between the breakpoints, repeated with the doubled order",
-    "derivative": "Chebyshev series between the breakpoints, differentiated; the series is compared with the curve at other places",
-    "accumulated": "Chebyshev series between the breakpoints, integrated; its end compared with Gauss–Legendre",
-}
 
 
 def section_items(calc: Calculation) -> list[dict[str, Any]]:
@@ -84,7 +79,8 @@ def _is_nothing(row: Array) -> bool:
 def items(calc: Calculation, step: Step) -> list[Item]:
     """Return what is printed of a step (nothing of breakpoints and requirements)."""
     if step.exists is not None and step.id in calc.values and _is_nothing(calc.values[step.id][0]):
-        return [_head(step) | {"type": "note", "text": f"{step.description}: does not apply to this machine."}]
+        text = Phrase("{title}: does not apply to this machine.", title=phrase(step.description))
+        return [_head(step) | {"type": "note", "text": text}]
     match step:
         case Value(formula=part):
             return _value(calc, step, bound(part))
@@ -121,7 +117,8 @@ def items(calc: Calculation, step: Step) -> list[Item]:
         case Neighbour() | Words():  # a neighbour stands beside its part in the table of what takes it
             return []
         case Abscissa(points=points):
-            text = f"{step.description}; curves are sampled at {printed(calc, points)} places of it."
+            told = {"title": phrase(step.description), "count": printed(calc, points)}
+            text = Phrase("{title}; curves are sampled at {count} places of it.", told)
             return [_head(step) | {"type": "note", "text": text}]
     return []
 
@@ -139,7 +136,7 @@ def _value(calc: Calculation, step: Value, part: Bound) -> list[Item]:
     if axis in calc.domains:
         item |= located(calc, str(axis), elsewhere)
     elif axis is not None:
-        item["note"] = " ".join(filter(None, (item.get("note"), named_parts.told(calc, step, axis))))
+        item["note"] = joined(filter(None, (item.get("note"), named_parts.told(calc, step, axis))), " ")
         if not named_parts.has_tables(calc, axis):
             taken = [name for name in part.names.values() if isinstance(name, str)]
             return [item, tables.table(calc, step, [*taken, step.id])]
@@ -185,7 +182,7 @@ def _formula(calc: Calculation, part: Bound, step: Step, axis: str | None, elsew
             "the terms are equal up to the rounding of the computer, or so nearly that printed numbers do not show it"
         )
     if isinstance(substitution, BetweenRows):
-        item["note"] = " ".join(filter(None, (item.get("note"), substitution.told())))
+        item["note"] = joined(filter(None, (item.get("note"), substitution.told())), " ")
     return (
         item | bridged(substitution, numeric, target, result) | conversions(substitution, numeric) | {"result": result}
     )
@@ -262,7 +259,7 @@ def _reduction(calc: Calculation, step: Reduction) -> Item:
 
 
 def _computed(calc: Calculation, step: Computed | ComputedCurve | CurvePeriod) -> Item:
-    method = f"the period of {calc.meta[step.given].symbol}" if isinstance(step, CurvePeriod) else step.method
+    method = period(calc, step) if isinstance(step, CurvePeriod) else step.method
     if isinstance(step, Computed) and step.is_text:
         result: Item = {"text": calc[step.id][0, 0], "unit": "1"}
     else:

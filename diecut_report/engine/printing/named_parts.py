@@ -11,6 +11,7 @@ from diecut_report.contract.steps import Step
 from diecut_report.engine.calculation import Calculation
 from diecut_report.engine.printing.shown_place import shown_part, value_at
 from diecut_report.engine.shown_units import unit_for
+from diecut_report.languages.phrases import Phrase, phrase
 from diecut_report.quantities.formatting import shown, with_unit
 
 Item = dict[str, Any]
@@ -39,7 +40,8 @@ def curves(calc: Calculation, step: ComputedCurve, at: Item) -> Item:
         {"title": step.description, "symbol": step.symbol, "unit": display},
     )
     texts = [shown(value, display, step.digits)["text"] for value in values]
-    where = f"{step.description} at {at['symbol']} = {with_unit(at['text'], at['unit'])}"
+    place = {"symbol": at["symbol"], "value": with_unit(at["text"], at["unit"])}
+    where = Phrase("{title} at {symbol} = {value}", {"title": phrase(step.description), **place})
     lines = [list(line) for line in zip(calc.inputs[step.named_by], texts, strict=True)]
     return {"type": "table", "id": step.id, "title": where, "columns": list(head), "rows": lines}
 
@@ -48,5 +50,5 @@ def told(calc: Calculation, step: Step, axis: str) -> str:
     """Return which of repeated parts the numbers in a row's formula are of; nothing where there is but one."""
     names, part = calc.part_names.get(axis) or calc.inputs.get(step.named_by), shown_part(calc, step.id)
     if names:
-        return f"Shown for: {names[part]}."
-    return f"Shown for part {part + 1}." if calc[step.id].shape[1] > 1 else ""
+        return Phrase("Shown for: {name}.", name=names[part])
+    return Phrase("Shown for part {part}.", part=part + 1) if calc[step.id].shape[1] > 1 else ""

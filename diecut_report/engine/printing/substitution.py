@@ -21,6 +21,7 @@ from diecut_report.engine.shown_units import declared_unit, number_unit, unit_fo
 from diecut_report.engine.steps import plain_code
 from diecut_report.expressions import Node, evaluate, transform
 from diecut_report.expressions.tree import walk
+from diecut_report.languages.phrases import Phrase, phrase
 from diecut_report.quantities.display import easy_unit, is_nothing
 from diecut_report.quantities.formatting import (
     DIGITS,
@@ -47,13 +48,15 @@ def printed(calc: Calculation, name: str, variant: int = 0, part: int = 0, up: b
     """Return a quantity as one would say it: ``40 mm``; of a row the value of one part; rounded up or down where ``up`` says so."""
     step = calc.steps.get(name)
     if isinstance(step, Words):
-        return plain_code.text(step, step.function(*(_plain(calc[taken], variant) for taken in step.takes)), part)
+        return phrase(
+            plain_code.text(step, step.function(*(_plain(calc[taken], variant) for taken in step.takes)), part)
+        )
     row: Any = calc[name]
     if isinstance(row, str | tuple):
         return row if isinstance(row, str) else str(row[part])
     value = row[variant, min(part, row.shape[1] - 1)]
     if isinstance(value, str):
-        return value
+        return phrase(value)
     declared = calc.step_or_input(name)
     digits = getattr(declared, "digits", DIGITS)
     if name not in calc.values:
@@ -82,7 +85,7 @@ def filled(
         up = {"up": True, "down": False}.get(found[2])
         return str(places[name]) if name in places else printed(calc, name, variant, int(places.get("index", 0)), up)
 
-    return NAMED.sub(said, text)
+    return Phrase(text, {found[0][1:-1]: said(found) for found in NAMED.finditer(text)})
 
 
 def formula_unit(display: str) -> str:

@@ -13,15 +13,17 @@ from diecut_report.engine.calculation import Calculation
 from diecut_report.engine.printing.substitution import printed
 from diecut_report.engine.shown_units import declared_unit, step_shown, unit_for
 from diecut_report.engine.steps.part_rows import given_of, series_of
+from diecut_report.languages.phrases import Phrase, phrase
 from diecut_report.quantities.formatting import given_shown, shown, with_unit
 from diecut_report.standards import StandardSeries, StandardTable, sources_told
 
 Item = dict[str, Any]
 AS_GIVEN = "as given"
+AMONG = "over the parts with {symbol} > 0"
 SERIES_WORDS = {
-    "above": "the next standard value at or above",
-    "below": "the next standard value at or below",
-    "nearest": "the nearest standard value to",
+    "above": "the next standard value at or above {value}; neighbours not taken: {beside}",
+    "below": "the next standard value at or below {value}; neighbours not taken: {beside}",
+    "nearest": "the nearest standard value to {value}; neighbours not taken: {beside}",
 }
 
 
@@ -82,7 +84,7 @@ def number(calc: Calculation, step: Total | Pick | Lookup | Part) -> Item:
         case Pick():
             values = _pick(calc, step)
         case Total(operation=operation, among=among):
-            counted = f"over the parts with {calc.step_or_input(among).symbol} > 0" if among else ""
+            counted = Phrase(AMONG, symbol=calc.step_or_input(among).symbol) if among else ""
             values = {"operation": operation, "method": counted}
         case Part(index=index):
             values = {"operation": "last" if index < 0 else "first", "method": ""}
@@ -137,7 +139,7 @@ def _pick(calc: Calculation, step: Pick) -> Item:
     values, display, standard = series_of(calc, step)
     index = int(calc.branch[step.id][0, 0])
     beside = [with_unit(f"{values[i]:g}", display) for i in (index - 1, index + 1) if 0 <= i < len(values)]
-    words = f"{SERIES_WORDS[step.rule]} {printed(calc, step.of)}; neighbours not taken: {', '.join(beside)}"
+    words = Phrase(SERIES_WORDS[step.rule], value=printed(calc, step.of), beside=", ".join(beside))
     return {"operation": "pick", "method": words} | ({"series": standard.title} if standard else {}) | _tables(standard)
 
 
@@ -153,7 +155,7 @@ def crossings(calc: Calculation, step: Crossings) -> Item:
     head = {"id": step.id, "symbol": step.symbol, "description": step.description, "source": step.source}
     places = [float(x) for x in calc[step.id][0] if x == x]
     if not places:
-        return head | {"type": "note", "text": f"{step.description}: there is none."}
+        return head | {"type": "note", "text": Phrase("{title}: there is none.", title=phrase(step.description))}
     display = unit_for(calc, step.id, step.unit, places)
     lines = [[str(i), shown(x, display, 6)["text"]] for i, x in enumerate(places, 1)]
     columns = [
