@@ -41,6 +41,7 @@ from diecut_report.cli.output import (
     usage,
 )
 from diecut_report.cli.progress import Progress
+from diecut_report.cli.signing import sign
 from diecut_report.cli.study import batch, source, variants
 from diecut_report.cli.template import template_option
 from diecut_report.config.discovery import Discovery, DuplicateKind, UnknownKind
@@ -271,6 +272,7 @@ program.add_command(extract)
 program.add_command(verify)
 program.add_command(render)
 program.add_command(diff)
+program.add_command(sign)
 
 
 # --- verdict ---------------------------------------------------------------------------------------------------------
