@@ -80,7 +80,7 @@ def verify(
         list(_plugins(_calculated(results), _calculated(again))),
         _config(carried),
         numbers,
-        _pages(carried, tell, signed, house, is_same=program[1] and not numbers.differences) if is_set else None,
+        _pages(carried, tell, house, signed, is_same=program[1] and not numbers.differences) if is_set else None,
         outcome.broken,
         tuple(signed),
     )
@@ -193,8 +193,8 @@ def _resolved(data: Data) -> Data:
 def _pages(
     carried: CarriedResults,
     tell: Callable[[str], None],
-    signed: list[Signature],
     house: HouseStyle | None,
+    signed: list[Signature],
     *,
     is_same: bool,
 ) -> Told:
