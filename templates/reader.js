@@ -89,10 +89,11 @@
       waiting = false;
       var now = heads[0];
       heads.some(function (head) {
-        if (head.getBoundingClientRect().top > 120) { return true; }
+        if (head.getBoundingClientRect().top > 80) { return true; }
         now = head;
         return false;
       });
+      if (window.innerHeight + window.scrollY >= root.scrollHeight - 2 && window.scrollY) { now = heads[heads.length - 1]; }
       if (!now || now === current) { return; }
       if (current) { entries[current.id].querySelector("a").removeAttribute("aria-current"); }
       current = now;
@@ -286,6 +287,15 @@
     });
   }
 
+  /* ---- what scrolls in a box of its own can be reached by the keyboard ---- */
+  function reach() {
+    var boxes = all("main .math, main .why, main .remark, main .scroll");
+    var wide = boxes.map(function (box) { return box.scrollWidth > box.clientWidth + 1; }); // measured at once, then changed at once
+    boxes.forEach(function (box, index) {
+      if (wide[index]) { box.tabIndex = 0; } else { box.removeAttribute("tabindex"); }
+    });
+  }
+
   /* ---- curves read at the cursor ---- */
   var groups = [];
   for (var n = 0; n < data.groups; n += 1) { groups.push({ place: null, members: [], drawings: [] }); }
@@ -399,9 +409,10 @@
     var place = make("div", { "class": "r-chart", role: "img", "aria-label": panel.title });
     box.append(head, place);
     var span = panel.across.range, hair = (span[1] - span[0]) * 1e-9;
-    var member = { chart: null, at: null };
+    var member = { chart: null, at: null, isReady: false };
     function draw() {
       if (member.chart) { member.chart.destroy(); }
+      member.isReady = false;
       var axis = { stroke: colour("ink"), font: "11px 'Report Sans', sans-serif", grid: { stroke: colour("grid"), width: 1 }, ticks: { stroke: colour("grid"), width: 1, size: 4 }, gap: 3 };
       var figures = function (u, values) { return values.map(function (v) { return String(Number(v.toPrecision(8))).replace("-", "\u2212").replace(".", data.decimal); }); };
       member.chart = new window.uPlot({
@@ -417,20 +428,20 @@
           return { stroke: colour(area ? "soft" : look[0]), width: area ? 0.6 : look[2], dash: area ? [] : look[1], fill: area ? colour("pale") : undefined, fillTo: 0, points: { show: false } };
         })),
         hooks: {
+          ready: [function () { member.isReady = true; if (group.place !== null) { member.at(group.place); } }],
           drawClear: [function (u) { behind(u, panel); }], draw: [function (u) { before(u, panel); }],
           setCursor: [function (u) {
             if (u.cursor.event && u.cursor.left >= 0) { move(group, Math.max(span[0], Math.min(u.posToVal(u.cursor.left, "x"), span[1]))); }
           }]
         }
       }, joined(lines, hair), place);
-      if (group.place !== null) { member.at(group.place); }
       member.chart.over.addEventListener("mouseleave", function () { // the chart hides its cursor then
         if (group.place !== null) { window.setTimeout(function () { member.at(group.place); }); }
       });
     }
     member.at = function (x) {
       told.forEach(function (value, index) { value.textContent = withUnit(printed(height(lines[index], x)), panel.unit); });
-      if (member.chart && !(member.chart.cursor.event && member.chart.over.matches(":hover"))) {
+      if (member.isReady && !(member.chart.cursor.event && member.chart.over.matches(":hover"))) {
         member.chart.setCursor({ left: member.chart.valToPos(x, "x"), top: 0 }, false);
       }
     };
@@ -497,4 +508,6 @@
   search();
   filter();
   readings();
+  reach();
+  window.addEventListener("resize", reach);
 }());

@@ -40,7 +40,7 @@ ENGLISH: dict[str, str] = {
     "contents": "Contents", "summary": "Summary", "checks": "Checks", "key_results": "Key results", "press_data": "Press data",
     "no_press_data": "The configuration gives no data of the press but its name.",
     "purpose": "Purpose and assumptions", "assumptions": "Assumptions and limits", "inputs": "Inputs", "results": "Results",
-    "curves": "Curves", "absent": "Not calculated",
+    "curves": "Curves", "symbols": "Symbols", "in_source": "in the source {symbol}", "absent": "Not calculated",
     "comparison": "Comparison of", "files": "Files beside this report",
     "errata": "Errata of the sources", "sources": "Sources", "no_sources": "The mechanisms name no source.",
     "program": "Program and configuration",

@@ -63,7 +63,7 @@ def _rounded(values: Any, digits: int) -> list[float | None]:
 
 def _figures(material: Material, pool: _Pool) -> Iterable[tuple[str, Data | None]]:
     """The figures by their numbers with what can be read in them; None where nothing can."""
-    calculated = dict(parts(material.results))
+    calculated = dict(parts(material.said))
     for chapter in material.document.chapters:
         for number, figure in chapter.figures:
             if figure["type"] in ("plot", "chart") and number in material.figures:

@@ -149,11 +149,11 @@ def _project(fields: Data) -> Data:
 def _press(run: Run) -> Data:
     press, bases = run.blocks[PRESS], Bases(run.config, run.calculations)
     assert isinstance(press, Press)
-    found = []
+    found, chosen = [], run.chosen_units(PRESS)
     for name, value in flatten(press).items():
         meta = declared(Press, tuple(name.split(".")))
         if isinstance(meta, Quantity):
-            shown = given_shown(value, meta.unit)
+            shown = given_shown(value, chosen.of(name, meta.unit) or meta.unit)
             said_of = {"path": f"{PRESS}.{name}", "description": meta.description, "symbol": meta.symbol}
             node = (PRESS, *name.split("."))
             rests = {"basis": bases.of(node)} | ({"note": note} if (note := bases.said(node).note) else {})
