@@ -38,6 +38,7 @@ LAYERS = [
     {"testing"},
     {"results"},
     {"report"},
+    {"house_folder"},
     {"pipeline"},
     {"exchange"},
     {"study"},
@@ -64,7 +65,7 @@ ONLY_IN = {  # library: the modules of the program that may import it
     "weasyprint": r"diecut_report\.report\.page_engine",
     "pydyf": r"diecut_report\.report\.page_engine",
     "ezdxf": r"diecut_report\.report\.profile_files",
-    "jinja2": r"diecut_report\.report\.(html|document)",
+    "jinja2": r"diecut_report\.report\.(html|document|house_style)",
     "scipy.stats": r"diecut_report\.study\..*",  # slow to import, and needed by studies alone
     "matplotlib.pyplot": r"(?!)",  # keeps global state
 }

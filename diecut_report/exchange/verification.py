@@ -18,9 +18,10 @@ from diecut_report.config.yaml_tree import Tree
 from diecut_report.errors import PluginError
 from diecut_report.exchange.agreement import Agreement, agreement
 from diecut_report.exchange.carried_results import CarriedResults
-from diecut_report.exchange.rendering import document
+from diecut_report.exchange.rendering import document, template_of
 from diecut_report.exchange.results_form import parsed
 from diecut_report.exchange.signatures import Signature, signatures
+from diecut_report.report.house_style import HouseStyle
 from diecut_report.results.results_file import encoded
 
 Data = Mapping[str, Any]
@@ -58,7 +59,7 @@ class Verification:
 
 def verify(
     carried: CarriedResults, discovery: Discovery, tell: Callable[[str], None], weigh: pipeline.Weigh, *, pages: bool = True,
-    trusted: Path | None = None,
+    trusted: Path | None = None, house: HouseStyle | None = None,
 ) -> Verification:  # fmt: skip
     """Calculate the configuration of a report again and hold the report against that; without ``pages`` its numbers alone.
 
@@ -79,7 +80,7 @@ def verify(
         list(_plugins(_calculated(results), _calculated(again))),
         _config(carried),
         numbers,
-        _pages(carried, tell, signed, is_same=program[1] and not numbers.differences) if is_set else None,
+        _pages(carried, tell, signed, house, is_same=program[1] and not numbers.differences) if is_set else None,
         outcome.broken,
         tuple(signed),
     )
@@ -189,11 +190,22 @@ def _resolved(data: Data) -> Data:
     return {**data, "project": project}
 
 
-def _pages(carried: CarriedResults, tell: Callable[[str], None], signed: list[Signature], *, is_same: bool) -> Told:
+def _pages(
+    carried: CarriedResults,
+    tell: Callable[[str], None],
+    signed: list[Signature],
+    house: HouseStyle | None,
+    *,
+    is_same: bool,
+) -> Told:
     """Whether the document is what this program makes of the results in it; not where these are not its own."""
     if not is_same:
         return "not compared, since the program or the numbers are others", True
-    contents, _ = document(carried.results, [carried.form], tell, str(carried.path))
+    asked = template_of(carried.results)
+    if asked != (house.sha256 if house else ""):
+        own = f"templates of their own (SHA-256 {asked[:SHORT]})" if asked else "the program's templates alone"
+        return f"not compared, since they are set with {own}; --template DIR names the templates", True
+    contents, _ = document(carried.results, [carried.form], tell, str(carried.path), house=house)
     made = contents[carried.form]
     if carried.content == made:
         return "byte for byte what the program makes of these results", True

@@ -52,10 +52,6 @@ class UnderLoad:
         """The loads of the blocks, by their first variants: they are asked for twice, and cost more than what is made of them."""
         return {}
 
-    def of(self, rows: Array, share: Array, middle: Array) -> Statics:
-        """Return variants under their loads at shares of the cycle (rows, instants)."""
-        return self._under(rows, self.cycle.at(share, middle, rows))
-
     def _under(self, rows: Array, loads: Instants) -> Statics:
         body = self.body
         arrays = {name: each[:, rows] for name, each in vars(body).items() if isinstance(each, np.ndarray)}
@@ -105,8 +101,19 @@ class UnderLoad:
         )
         inner = np.broadcast_to(middle, x.shape)
         for own, variant, mid in zip(x, chosen, inner, strict=True):
+            yield self._alone(int(variant)), own[:, None], (mid > own).astype(int)
+
+    def _alone(self, variant: int) -> Statics:
+        """One of the variants; of the last one what was found is kept, since several curves are asked of it."""
+        if variant not in self._last:
             row = np.array([variant])
-            yield self.of(row, self.cycle.share[row], self.cycle.middle[row]), own[:, None], (mid > own).astype(int)
+            self._last.clear()
+            self._last[variant] = self._under(row, self.cycle.at(self.cycle.share[row], self.cycle.middle[row], row))
+        return self._last[variant]
+
+    @cached_property
+    def _last(self) -> dict[int, Statics]:
+        return {}
 
     # --- the state of each place --------------------------------------------------------------------------------------------
 
