@@ -70,12 +70,12 @@ class _Finder(ast.NodeVisitor):
     def _note_label(self, node: ast.Call) -> None:
         """Note the words beside what is drawn, which may be a single one."""
         name = node.func.id if isinstance(node.func, ast.Name) else ""
-        if self.depth and name in LABELS:
+        if (self.depth or name == "phrase") and name in LABELS:
             said = [
                 *node.args[LABELS[name] :][:1],
                 *(each.value for each in node.keywords if each.arg in ("label", "text", "lines")),
             ]
-            self.found += [text for each in said for text in _spoken(each) if WORDS.fullmatch(text)]
+            self.found += [text for each in said for text in _spoken(each) if WORDS.fullmatch(text) or name == "phrase"]
 
     def visit_Subscript(self, node: ast.Subscript) -> None:
         self.visit(node.value)
