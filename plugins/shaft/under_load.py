@@ -52,7 +52,7 @@ class UnderLoad:
     @property
     def _block(self) -> int:
         """How many variants are calculated at once: enough that calls cost little, few enough that forces stay near the processor."""
-        of_each = 2 * len(self.body.x) * self.cycle.share.shape[1]
+        of_each = 2 * len(self.body.x) * int(self.cycle.share.shape[1])
         return SAMPLED * min(max(1, VALUES // (of_each * SAMPLED)), MOST)
 
     def _sampled(self, first: int) -> Instants:
