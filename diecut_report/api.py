@@ -78,6 +78,7 @@ from diecut_report.contract.steps import (
 )
 from diecut_report.contract.varying import Extremes, Varying
 from diecut_report.expressions import GRAVITY, Constant, Formula, arccos, as_angle, as_number, formula
+from diecut_report.languages.phrases import Phrase, joined, named, phrase
 from diecut_report.quantities.formatting import below, outward, si, told
 from diecut_report.standards import (
     StandardFault,
@@ -151,6 +152,7 @@ __all__ = [
     "Partner",
     "Phase",
     "PhaseInput",
+    "Phrase",
     "Pick",
     "Plot",
     "Point",
@@ -194,13 +196,16 @@ __all__ = [
     "dimension",
     "fill",
     "formula",
+    "joined",
     "label",
     "level",
     "line",
     "mark",
+    "named",
     "outward",
     "own_series",
     "own_table",
+    "phrase",
     "point",
     "polyline",
     "prefixed",

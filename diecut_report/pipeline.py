@@ -7,19 +7,23 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, NamedTuple
 
+from diecut_report.config.catalogues import catalogues_for, lacking
 from diecut_report.config.discovery import Discovery
 from diecut_report.config.loader import Config, examined, in_order, load_config
 from diecut_report.config.own_tables import Find
 from diecut_report.config.yaml_tree import Tree
 from diecut_report.errors import PluginError, Problem, UserError, nearest
+from diecut_report.languages.catalogues import SOURCE_LANGUAGE, Catalogues
 from diecut_report.limits import MAX_PRINTED_MECHANISMS
 from diecut_report.results.changes import changes
 from diecut_report.results.results_file import encoded, results_text
 
 if TYPE_CHECKING:
+    from diecut_report.report.house_style import HouseStyle
     from diecut_report.results.press_run import Run
 
-FORMATS = ("html", "pdf", "json")
+FORMATS = ("html", "pdf", "docx", "xlsx", "json")
+DRAWN = FORMATS[:-1]  # of a report that can be made again from its results
 
 Data = dict[str, Any]
 Tell = Callable[[str], None]
@@ -42,17 +46,22 @@ class Lost(NamedTuple):
 
 
 class AskedReport(NamedTuple):
-    """How a report is wanted, in place of what its configuration says: language, detail, the mechanisms that alone are shown."""
+    """How a report is wanted, in place of what its configuration says: language, detail, the mechanisms that alone are shown.
+
+    ``house`` are a firm's own templates for HTML and PDF.
+    """
 
     language: str | None = None
     detail: str | None = None
     only: tuple[str, ...] = ()
+    house: HouseStyle | None = None
 
     def told(self, results: Data) -> None:
         """Say it in the results, of which alone the report is made."""
         results["project"] |= {"language": self.language} if self.language else {}
         results["report"] |= {"detail": self.detail} if self.detail else {}
         results["report"] |= {"only": list(self.only)} if self.only else {}
+        results["report"] |= {"template_sha256": self.house.sha256} if self.house else {}
 
 
 AS_CONFIGURED = AskedReport()
@@ -66,6 +75,7 @@ class ReportOutcome:
     results: Data
     written: tuple[Path, ...]
     broken: tuple[PluginError, ...]
+    warnings: tuple[str, ...] = ()
 
 
 def validate(config: Source, discovery: Discovery) -> tuple[PluginError, ...]:
@@ -101,7 +111,7 @@ def report(
     config: Source, discovery: Discovery, tell: Tell, folder: Path, formats: Sequence[str], asked: AskedReport = AS_CONFIGURED,
     weigh: Weigh | None = None, former: Data | None = None,
 ) -> ReportOutcome:  # fmt: skip
-    """The report in the asked formats, as ``NAME.html``, ``NAME.pdf``, ``NAME.json`` in the folder, and the exports beside it.
+    """The report in the asked formats, as ``NAME.html``, ``NAME.pdf`` … in the folder, and the exports beside it.
 
     ``weigh`` tells which of the assumed values move a governing check; ``former`` are the results of a former revision, since which
     changes are told and marked.
@@ -110,15 +120,31 @@ def report(
     asked.told(results)
     if former is not None:
         results["changes"] = changes(former, results)
-    contents, undrawn = rendered(results, formats, tell)
+    catalogues = catalogues_of(results, discovery, formats)
+    contents, undrawn = rendered(results, formats, tell, catalogues, asked.house)
     files_beside, unwritten = exported(results, tell)
     contents |= files_beside
     stem = Path(config.name).stem
     files = {folder / f"{stem}.{ending}": content for ending, content in contents.items()}
     _write(files, config)
-    return ReportOutcome(
-        results, tuple(files), (*broken, *(_broken(results, places, lost) for lost in (*undrawn, *unwritten)))
-    )
+    faults = (*broken, *(_broken(results, places, lost) for lost in (*undrawn, *unwritten)))
+    return ReportOutcome(results, tuple(files), faults, tuple(untranslated(results, catalogues)))
+
+
+def catalogues_of(results: Data, discovery: Discovery, formats: Sequence[str], file: str = "") -> Catalogues:
+    """Return the catalogues for a report of these results; UserError where the words of one of their mechanisms are not complete."""
+    printed = set(DRAWN) & set(formats)
+    language = results["project"].get("language") or SOURCE_LANGUAGE
+    return catalogues_for(language if printed else SOURCE_LANGUAGE, _kinds(results), discovery, file)
+
+
+def untranslated(results: Data, catalogues: Catalogues) -> list[str]:
+    """Return in words which foreign plugins of a report have words that stay English."""
+    return lacking(catalogues, _kinds(results))
+
+
+def _kinds(results: Data) -> list[str]:
+    return [mechanism["kind"] for mechanism in results["mechanisms"].values()]
 
 
 def _refuse_many_sheets(config: Config, formats: Sequence[str]) -> None:
@@ -198,20 +224,31 @@ def _broken(results: Data, places: Places, lost: Lost) -> PluginError:
     return PluginError(words, mechanism["kind"], lost.mechanism)
 
 
-def rendered(results: Data, formats: Sequence[str], tell: Tell) -> tuple[dict[str, bytes], list[Lost]]:
+def rendered(
+    results: Data,
+    formats: Sequence[str],
+    tell: Tell,
+    catalogues: Catalogues | None = None,
+    house: HouseStyle | None = None,
+) -> tuple[dict[str, bytes], list[Lost]]:
     """Return the content of each format, all complete before anything is written; and the figures that could not be drawn."""
     undrawn: list[Lost] = []
     contents = {"json": encoded(results_text(results))} if "json" in formats else {}
-    if {"html", "pdf"} & set(formats):
+    if set(DRAWN) & set(formats):
         tell("drawing the report")
         from diecut_report.report import Rendering
 
-        rendering = Rendering(results)
+        rendering = Rendering(results, catalogues, house)
         if "html" in formats:
             contents["html"] = encoded(rendering.html())
         if "pdf" in formats:
             tell("setting the pages")
             contents["pdf"] = _pdf(rendering)
+        if "docx" in formats:
+            tell("writing the document")
+            contents["docx"] = rendering.docx()
+        if "xlsx" in formats:
+            contents["xlsx"] = rendering.xlsx()
         undrawn += [Lost("figure", each.mechanism, each.figure["id"], each.words) for each in rendering.faults]
     return {ending: contents[ending] for ending in formats}, undrawn
 

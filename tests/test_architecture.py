@@ -24,20 +24,21 @@ FOLDERS = {  # folder of the repository: package or name under which its modules
 
 # A module of diecut_report may import modules of its own line and of the lines above it ("" is the package itself).
 LAYERS = [
-    {"", "errors", "limits", "quantities"},
+    {"", "errors", "limits", "quantities", "languages"},
     {"standards"},
     {"expressions"},
     {"conditions"},
     {"mechanics"},
     {"contract"},
     {"api"},
-    {"files", "given_files", "code_files"},
+    {"files", "given_files", "code_files", "pictures"},
     {"declaration"},
     {"config"},
     {"engine"},
     {"testing"},
     {"results"},
     {"report"},
+    {"house_folder"},
     {"pipeline"},
     {"exchange"},
     {"study"},
@@ -46,17 +47,25 @@ LAYERS = [
 ]
 REPORT = LAYERS.index({"report"})
 ONLY_IN = {  # library: the modules of the program that may import it
+    "PIL": r"diecut_report\.pictures",
+    "babel": r"diecut_report\.languages\.\w+",
     "dask": r"(?!)",  # its client is all that is needed
     "distributed": r"diecut_report\.study\.execution\.dask_cluster",
     "duckdb": r"diecut_report\.study\.(analysis|summary)\.\w+",
     "matplotlib": r"diecut_report\.(report\.figures|study\.summary)(\.\w+)?",
-    "openpyxl": r"diecut_report\.study\.(tables\.workbooks|storage\.spreadsheets)",
+    "openpyxl": r"diecut_report\.(study\.(tables\.workbooks|storage\.spreadsheets)|report\.office\.workbook)",
+    "docx": r"diecut_report\.report\.office\.word_(file|styles)",
     "pyarrow": r"diecut_report\.study\.(storage|tables)\.\w+",
     "threadpoolctl": r"diecut_report\.study\.execution\.process_settings",
-    "pikepdf": r"diecut_report\.exchange\.pdf_attachments",
+    "pikepdf": r"diecut_report\.exchange\.(pdf_attachments|later_changes)",
+    "pyhanko": r"diecut_report\.exchange\.(signing|signature_status|signatures)",
+    "pyhanko_certvalidator": r"diecut_report\.exchange\.(signing|signature_status|signatures)",
+    "cryptography": r"diecut_report\.exchange\.(signing|signature_status|signatures|signing_keys)",
+    "asn1crypto": r"diecut_report\.exchange\.signing",
     "weasyprint": r"diecut_report\.report\.page_engine",
+    "pydyf": r"diecut_report\.report\.page_engine",
     "ezdxf": r"diecut_report\.report\.profile_files",
-    "jinja2": r"diecut_report\.report\.(html|document)",
+    "jinja2": r"diecut_report\.report\.(html|document|house_style)",
     "scipy.stats": r"diecut_report\.study\..*",  # slow to import, and needed by studies alone
     "matplotlib.pyplot": r"(?!)",  # keeps global state
 }
@@ -135,7 +144,7 @@ def test_imports_make_no_loop() -> None:
 
 
 def test_a_report_is_made_of_results_alone() -> None:
-    allowed = {"report", "results", "quantities", "errors", ""}
+    allowed = {"report", "results", "languages", "quantities", "errors", ""}
     parts = {(name, [*m.split("."), ""][1]) for name in PROGRAM if layer(name) == REPORT for m in own_imports(name)}
     assert {(name, part) for name, part in parts if part not in allowed} == set()
 

@@ -24,6 +24,7 @@ from diecut_report.cli import verdict
 from diecut_report.cli.checking import check, validate
 from diecut_report.cli.exchange import diff, extract, render, verify
 from diecut_report.cli.formats import formats_of
+from diecut_report.cli.language import language_option
 from diecut_report.cli.output import (
     BAD_INPUT,
     FAULT,
@@ -40,12 +41,15 @@ from diecut_report.cli.output import (
     usage,
 )
 from diecut_report.cli.progress import Progress
+from diecut_report.cli.signing import sign
 from diecut_report.cli.study import batch, source, variants
+from diecut_report.cli.template import template_option
 from diecut_report.config.discovery import Discovery, DuplicateKind, UnknownKind
 from diecut_report.errors import PluginError, Problem, Unwritable, UserError, nearest
 
 if TYPE_CHECKING:
     from diecut_report.pipeline import ReportOutcome
+    from diecut_report.report.house_style import HouseStyle
 
 
 def run() -> NoReturn:
@@ -96,15 +100,6 @@ def _report_formats() -> tuple[str, ...]:
     return FORMATS
 
 
-def _language(_: click.Context, __: click.Parameter, given: str | None) -> str | None:
-    from diecut_report.config.model import complete_language
-
-    try:
-        return None if given is None else complete_language(given)
-    except ValueError as error:
-        raise click.BadParameter(f"{error}") from None
-
-
 def _detail(_: click.Context, __: click.Parameter, given: str | None) -> str | None:
     from diecut_report.config.model import DETAILS
 
@@ -151,11 +146,9 @@ config_argument = click.argument("config", type=click.Path(path_type=Path))
     metavar="LIST",
     default="html,pdf,json",
     callback=formats_of(_report_formats),
-    help="html,pdf,json or some of them.",
+    help="html,pdf,json (default), also docx,xlsx.",
 )
-@click.option(
-    "--language", metavar="LANGUAGE", callback=_language, help="Language of the report, in place of the project's."
-)
+@language_option
 @click.option(
     "--previous",
     metavar="FILE",
@@ -169,6 +162,7 @@ config_argument = click.argument("config", type=click.Path(path_type=Path))
     help="brief, standard or full, in place of the configuration's (standard).",
 )
 @click.option("--only", metavar="NAMES", callback=_only, help="Report these mechanisms alone: drive,clutch.")
+@template_option
 @verdict.strict_option
 @common
 def report(
@@ -179,11 +173,12 @@ def report(
     previous: Path | None,
     detail: str | None,
     only: tuple[str, ...],
+    house: HouseStyle | None,
     strict: bool,
     folders: tuple[Path, ...],
     quiet: bool,
 ) -> int:
-    """Calculate and write NAME.html, NAME.pdf and NAME.json."""
+    """Calculate and write NAME.html, NAME.pdf and NAME.json; on demand NAME.docx and NAME.xlsx."""
     from diecut_report import pipeline
     from diecut_report.exchange.sides import side
     from diecut_report.study.analysis.assumed import moves
@@ -191,7 +186,7 @@ def report(
     with Progress(quiet) as progress, redirect_stdout(sys.stderr):
         discovery = Discovery(folders)
         former = None if previous is None else side(source(previous, discovery), discovery, progress)[0]
-        given, asked = source(config, discovery), pipeline.AskedReport(language, detail, only)
+        given, asked = source(config, discovery), pipeline.AskedReport(language, detail, only, house)
         outcome = pipeline.report(given, discovery, progress, folder, formats, asked, moves, former)
     if not quiet:
         tell(f"written: {path}" for path in outcome.written)
@@ -277,6 +272,7 @@ program.add_command(extract)
 program.add_command(verify)
 program.add_command(render)
 program.add_command(diff)
+program.add_command(sign)
 
 
 # --- verdict ---------------------------------------------------------------------------------------------------------
@@ -284,6 +280,7 @@ program.add_command(diff)
 
 def _verdict(outcome: ReportOutcome, quiet: bool, strict: bool) -> int:
     tell(str(error) for error in outcome.broken)
+    tell(outcome.warnings)
     if not quiet:
         tell(verdict.told(outcome.results))
     return verdict.exit_code(outcome.results, is_broken=bool(outcome.broken), is_strict=strict)

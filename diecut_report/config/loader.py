@@ -8,13 +8,14 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any, get_args
 
-from diecut_report.config import partners, yaml_tree
+from diecut_report.config import partners, report_units, yaml_tree
 from diecut_report.config.caps import too_much
 from diecut_report.config.curve_keys import linked
 from diecut_report.config.dependency_order import ordered
 from diecut_report.config.discovery import Discovery, DuplicateKind, UnknownKind, said
 from diecut_report.config.hidden_letters import seeming_latin
 from diecut_report.config.instances import Instance, substituted
+from diecut_report.config.logo import Logo, logo_of
 from diecut_report.config.model import PRESS, ConfigDocument, Press, Project, ReportSettings
 from diecut_report.config.own_tables import Find, OwnTables
 from diecut_report.config.plain_data import texts
@@ -51,6 +52,14 @@ class Config:
     extensions: Mapping[str, str] = field(default_factory=dict)
     tables: Mapping[str, Tree] = field(default_factory=dict)
     report: ReportSettings = field(default_factory=ReportSettings)
+    logo: Logo | None = None
+
+    @property
+    def files(self) -> dict[str, str]:
+        """The SHA-256 of the files that the configuration names, by their names in it."""
+        return {name: tree.sha256 for name, tree in self.tables.items()} | (
+            {self.logo.name: self.logo.sha256} if self.logo else {}
+        )
 
     @property
     def source_hashes(self) -> dict[str, str]:
@@ -83,14 +92,18 @@ def examined(given: Path | Tree, discovery: Discovery, *, find: Find | None = No
     reader = _ConfigReader(tree, discovery, tables)
     linker = linked(reader.instances)
     order, loops = ordered(reader.instances, linker.links)
-    problems = [*reader.problems, *tables.problems, *linker.problems, *_wrong_values(reader, linker), *loops]
+    logo, faults = logo_of(tree, find)
+    problems = [*reader.problems, *tables.problems, *faults, *linker.problems, *_wrong_values(reader, linker), *loops]
+    problems += report_units.faults(
+        reader.report and reader.report.units, reader.instances, ConfigPlace(tree, ("report",))
+    )
     if problems:
         problems += [
             reader.place.problem(("mechanisms", name, "kind"), str(error)) for name, error in reader.broken.items()
         ]
     project = reader.project or Project.model_validate({"title": "?"})  # of a file with problems
     config = Config(tree, project, reader.instances, reader.kinds, linker.links, tuple(order), reader.broken,
-                    dict(sorted(discovery.extended.items())), tables.trees, reader.report or ReportSettings())  # fmt: skip
+                    dict(sorted(discovery.extended.items())), tables.trees, reader.report or ReportSettings(), logo)  # fmt: skip
     return config, problems
 
 

@@ -7,19 +7,10 @@ from typing import Any, Literal
 from pydantic import AfterValidator, Field, field_validator
 
 from diecut_report.contract.inputs import Annotated, Block, Quantity, Text
+from diecut_report.languages.catalogues import known
 
 PRESS = "press"  # the name of the press in references, beside those of the mechanisms
 DETAILS = ("brief", "standard", "full")  # how much a report holds
-LANGUAGES = ("en",)  # whose catalogues are complete
-
-
-def complete_language(language: str) -> str:
-    """The language, if reports can be written in it; ValueError in words if not."""
-    if language not in LANGUAGES:
-        raise ValueError(
-            f"is {language}; reports in this language wait for its catalogue, which is not complete. Give en."
-        )
-    return language
 
 
 class Revision(Block):
@@ -41,9 +32,12 @@ class Project(Block):
     organisation: Annotated[str | None, Text("Organisation")] = None
     prepared_by: Annotated[str | None, Text("Who prepared the document")] = None
     checked_by: Annotated[str | None, Text("Who checked it")] = None
+    norm_checked_by: Annotated[str | None, Text("Who checked it against the standards (norm control)")] = None
     approved_by: Annotated[str | None, Text("Who approved it")] = None
+    department: Annotated[str | None, Text("Responsible department")] = None
+    document_type: Annotated[str | None, Text("Type of the document; without it “Calculation”")] = None
     revisions: Annotated[list[Revision], Text("Revisions so far"), Field(default_factory=list)]
-    language: Annotated[Literal["en", "uk"], Text("Language of the report"), AfterValidator(complete_language)] = "en"
+    language: Annotated[Literal["en", "uk"], Text("Language of the report"), AfterValidator(known)] = "en"
 
     @field_validator("*")
     @classmethod
@@ -60,6 +54,10 @@ class ReportSettings(Block):
     """How the report is made."""
 
     detail: Annotated[Literal["brief", "standard", "full"], Text("How much the report holds")] = "standard"
+    status: Annotated[Literal["draft", "for check", "released"], Text("How far the document has come")] = "draft"
+    frame: Annotated[Literal["plain", "iso7200", "dstu2104"], Text("Frame and title block of the sheets")] = "plain"
+    logo: Annotated[str | None, Text("File with the organisation's logo beside the configuration: PNG, SVG")] = None
+    units: Annotated[Any, Text("Units in which quantities are shown, by dimension or by MECHANISM.QUANTITY")] = None
 
 
 class Sheet(Block):

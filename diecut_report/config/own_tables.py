@@ -168,9 +168,16 @@ def name_fault(name: Any) -> str:
     """Return what is wrong with the name of a file of tables; "" where it leads to a YAML file beside the configuration or below."""
     if not isinstance(name, str):
         return f"is {told(name)}; the name of a YAML file is needed, such as my_steels.yaml, or a list of such names"
-    windows = PureWindowsPath(name)
-    if windows.is_absolute() or windows.drive or PurePosixPath(name).is_absolute() or ".." in windows.parts:
-        return f"is {told(name)}; tables lie beside the configuration or in a folder below it: give a name without a folder above"
+    if fault := place_fault(name, "tables lie"):
+        return fault
     if PurePosixPath(name).suffix not in (".yaml", ".yml"):
         return f"is {told(name)}; a YAML file is needed, such as my_steels.yaml"
+    return ""
+
+
+def place_fault(name: str, lie: str) -> str:
+    """Return that a name leads elsewhere than beside the configuration or below; ``lie`` names what: "tables lie"."""
+    windows = PureWindowsPath(name)
+    if windows.is_absolute() or windows.drive or PurePosixPath(name).is_absolute() or ".." in windows.parts:
+        return f"is {told(name)}; {lie} beside the configuration or in a folder below it: give a name without a folder above"
     return ""

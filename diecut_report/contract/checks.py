@@ -10,6 +10,7 @@ import numpy as np
 
 from diecut_report.contract.place import placed
 from diecut_report.expressions import Array
+from diecut_report.languages.phrases import Phrase, phrase
 
 CheckClass = Literal["function", "strength", "practice", "numerical"]
 UNDECLARED: CheckClass = None  # type: ignore[assignment]  # no allowed class: the declaration check tells which there are
@@ -82,7 +83,13 @@ class Check:
     def of_part(self, index: int, name: str) -> Check:
         """Return the check of one part alone."""
         own = self.part_id.format(id=self.id, name=name)
-        return replace(self, id=own, title=f"{self.title}: {name}", part_name=name, index=index)
+        return replace(
+            self,
+            id=own,
+            title=Phrase("{title}: {name}", title=phrase(self.title), name=name),
+            part_name=name,
+            index=index,
+        )
 
     @property
     def named(self) -> tuple[str, ...]:

@@ -11,6 +11,7 @@ from diecut_report.contract.options import Options, StepCondition, Written
 from diecut_report.contract.phases import StepHolder
 from diecut_report.contract.steps import SilentStep, Step
 from diecut_report.expressions import Array
+from diecut_report.languages.phrases import Phrase, phrase
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -73,7 +74,8 @@ class PartCurves(SilentStep):
         for index, name in enumerate(self.names(of)):
             yield ComputedCurve(
                 id=f"{self.id}_{index + 1}", symbol=f"{self.symbol},{index + 1}", unit=self.unit, at=self.at, method=self.method,
-                description=f"{self.description}: {name}", source=self.source, of=self.of, abscissa=self.abscissa,
+                description=Phrase("{title}: {name}", title=phrase(self.description), name=name), source=self.source, of=self.of,
+                abscissa=self.abscissa,
                 function=lambda of, *places, index=index: self.function(of, index, *places),
             )  # fmt: skip
 

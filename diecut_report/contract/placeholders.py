@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from typing import Any, Protocol
 
 from diecut_report.expressions import Array, Formula
+from diecut_report.languages.phrases import Phrase
 
 
 @dataclass(frozen=True)
@@ -107,4 +108,4 @@ class OneOf:
 
 def listed(keys: Sequence[str]) -> str:
     """Return keys in words: ``mass, inertia and velocity``."""
-    return " and ".join([", ".join(keys[:-1]), keys[-1]] if len(keys) > 1 else keys)
+    return Phrase("{first} and {next}", first=", ".join(keys[:-1]), next=keys[-1]) if len(keys) > 1 else "".join(keys)

@@ -6,12 +6,13 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, Literal
 
+from diecut_report.config.logo import logo_fault
 from diecut_report.config.own_tables import name_fault
 from diecut_report.errors import Problem, UserError
 from diecut_report.exchange.html_links import linked_results
 from diecut_report.exchange.results_form import results_of
 from diecut_report.given_files import content
-from diecut_report.results.results_file import config_content, table_contents
+from diecut_report.results.results_file import config_content, logo_content, table_contents
 
 MOST = 200_000_000  # bytes of a report
 MOST_RESULTS = 100_000_000  # bytes of the results in it
@@ -25,7 +26,7 @@ Form = Literal["pdf", "html", "json"]
 class CarriedResults:
     """Hold the results of a file, the bytes of their own file, and those of the configuration; ``content`` is the whole file.
 
-    ``tables`` are the user's own that the configuration names, by these names, which lead nowhere but beside it and below.
+    ``tables`` are the user's own that the configuration names, and its logo, by these names, which lead nowhere but beside it and below.
     """
 
     path: Path
@@ -89,12 +90,12 @@ def _config(whole: bytes, form: Form, results: dict[str, Any], file: str) -> byt
 
 
 def _tables(results: dict[str, Any], file: str) -> dict[str, bytes]:
-    found = table_contents(results)
+    found, logo = table_contents(results), logo_content(results)
     faults = [Problem(f"The name of a table {fault}.", file) for name in found if (fault := name_fault(name))]
+    faults += [Problem(f"The name of the logo {fault}.", file) for name in logo if (fault := logo_fault(name))]
+    found |= logo
     long = [name for name in found if max(len(part.encode()) for part in Path(name).parts) > LONGEST_NAME]
-    faults += [
-        Problem(f"The name of a table is longer than {LONGEST_NAME} bytes: {name[:80]}….", file) for name in long
-    ]
+    faults += [Problem(f"The name of a file is longer than {LONGEST_NAME} bytes: {name[:80]}….", file) for name in long]
     if faults:
         raise UserError(faults)
     return found

@@ -13,7 +13,7 @@ from diecut_report.given_files import content
 
 
 def extract(report: Path, folder: Path) -> list[Path]:
-    """Write ``STEM.yaml`` and ``STEM.json`` of a report into a folder, and the tables that the configuration names; the files.
+    """Write ``STEM.yaml`` and ``STEM.json`` of a report into a folder, and the tables and the logo that the configuration names; the files.
 
     One that is there already stays as it is. UserError where it has another content, or where the report carries nothing that can
     be read.
@@ -21,7 +21,7 @@ def extract(report: Path, folder: Path) -> list[Path]:
     found = carried_results(report)
     contents = {f"{report.stem}.yaml": found.config_content, f"{report.stem}.json": found.results_content}
     if doubled := sorted(contents.keys() & found.tables.keys()):
-        words = f"The configuration names a table {doubled[0]}, and would be called so itself. Rename the report."
+        words = f"The configuration names a file {doubled[0]}, and would be called so itself. Rename the report."
         raise UserError(Problem(words, str(report)))
     files = {folder / name: each for name, each in (contents | found.tables).items()}
     if problems := list(_refused(files, folder)):

@@ -4,14 +4,17 @@ from __future__ import annotations
 
 import json
 import math
+from base64 import b64decode
 from typing import Annotated, Any, Literal, NoReturn
 
-from pydantic import BaseModel, ConfigDict, Field, ValidationError
+from pydantic import BaseModel, ConfigDict, Field, ValidationError, model_validator
 
 from diecut_report.config.hidden_letters import CONTROL
 from diecut_report.config.own_tables import MOST as MOST_TABLES
 from diecut_report.errors import TOLD, Problem, UserError
 from diecut_report.limits import MAX_TEXT
+from diecut_report.pictures import MOST as MOST_OF_PICTURE
+from diecut_report.pictures import media_type
 
 MOST_VALUES = 10_000_000  # of a results file
 ASK = "Give a results file as the program wrote it."
@@ -79,10 +82,28 @@ class FileForm(_PartOfResults):
     source_text: str
 
 
+class LogoForm(_PartOfResults):
+    """A picture in the results, judged as one that a configuration names."""
+
+    file: Annotated[str, Field(max_length=MAX_TEXT)]
+    sha256: str
+    media_type: str
+    base64: Annotated[str, Field(max_length=4 * MOST_OF_PICTURE // 3 + 4)]
+
+    @model_validator(mode="after")
+    def draws(self) -> LogoForm:
+        """The picture is one, and of its type."""
+        content = b64decode(self.base64, validate=True)  # binascii's error is a ValueError
+        if media_type(content) != self.media_type:
+            raise ValueError(f"the logo is not {self.media_type}")
+        return self
+
+
 class ConfigForm(FileForm):
     """The configuration in the results."""
 
     materials: Annotated[list[FileForm], Field(max_length=MOST_TABLES)] = []
+    logo: LogoForm | None = None
 
 
 class PressForm(_PartOfResults):
@@ -97,6 +118,7 @@ class ProgramForm(_PartOfResults):
 
     name: Literal["diecut-report"]
     version: str
+    libraries: dict[str, str] = {}
 
 
 class CountsForm(_PartOfResults):

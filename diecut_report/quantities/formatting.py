@@ -6,21 +6,33 @@ import math
 import re
 from decimal import Decimal
 
+from diecut_report.quantities.display import is_nothing, meant_digits
 from diecut_report.quantities.units import pretty, unit
 
 DIGITS = 4
+EXACT = 1e-12  # relative: the rounding of the computer
+TYPED = 12  # digits: a number with no more of them is one that somebody typed
 NAMED = re.compile(r"\{([\w.]+)(?::(up|down))?\}")  # what a message names: ``{id}``, rounded by ``{id:up}``
 
 
 def number_text(value: float, digits: int = DIGITS) -> str:
-    """Return a number with so many significant digits; whole numbers below a million stand as they are."""
-    if abs(value - round(value)) <= 1e-12 * abs(value) and abs(value) < 1e6:
+    """Return a number with so many significant digits; whole numbers below a million stand as they are.
+
+    Zeros at its end stand only where they say something: 0.8550 is rounded, 0.5 is not.
+    """
+    if abs(value - round(value)) <= EXACT * abs(value) and abs(value) < 1e6:
         return f"{round(value)}"
     exponent = math.floor(math.log10(abs(float(f"{value:.{digits - 1}e}"))))
     if -4 <= exponent < 6:
-        return f"{value:.{max(digits - 1 - exponent, 0)}f}"
+        return _without_zeros(f"{value:.{max(digits - 1 - exponent, 0)}f}", value)
     mantissa, power = f"{value:.{digits - 1}e}".split("e")
-    return f"{mantissa}e{int(power)}"
+    return f"{_without_zeros(mantissa, value / 10.0 ** int(power))}e{int(power)}"
+
+
+def _without_zeros(text: str, value: float) -> str:
+    """A decimal text without the zeros at its end, where it is the value itself and not a rounding of it."""
+    is_exact = "." in text and abs(float(text) - value) <= EXACT * abs(value)
+    return text.rstrip("0").rstrip(".") if is_exact else text
 
 
 def outward(value: float, up: bool, digits: int = DIGITS) -> float:
@@ -43,12 +55,32 @@ def below(value: float, digits: int = DIGITS) -> float:
 def shortest(value: float, digits: int = 6) -> str:
     """Return what was typed, without the noise of a unit conversion: as few digits as say it, else ``digits``."""
     short = f"{value:.15g}"
-    return number_text(value, digits) if len(short.replace(".", "").lstrip("0-")) > digits else short
+    return number_text(value, digits) if len(short.replace(".", "").lstrip("0-")) > max(digits, TYPED) else short
 
 
 def shown(value: float, unit_text: str, digits: int = DIGITS) -> dict[str, str]:
-    """Return an SI value as text in a display unit."""
-    return {"text": number_text(value / unit(unit_text).factor, digits), "unit": unit_text}
+    """Return an SI value as text in a display unit: of its digits those that mean something, rounding of the computer as zero.
+
+    Where its author asks for other than the usual number of digits, they all stand.
+    """
+    if is_nothing(value, unit_text):
+        return {"text": "0", "unit": unit_text}
+    return {
+        "text": number_text(unit(unit_text).from_si(value), shown_digits(value, unit_text, digits)),
+        "unit": unit_text,
+    }
+
+
+def given_shown(value: float, unit_text: str) -> dict[str, str]:
+    """Return an input as text in a display unit: as it was typed, or rounded as a result is where it follows from one."""
+    short = f"{unit(unit_text).from_si(value):.15g}"
+    is_typed = len(short.replace(".", "").lstrip("0-")) <= TYPED
+    return {"text": short, "unit": unit_text} if is_typed else shown(value, unit_text)
+
+
+def shown_digits(value: float, unit_text: str, digits: int = DIGITS) -> int:
+    """Return with how many significant digits an SI value is shown, of which an author asks for so many."""
+    return meant_digits(value, unit_text, digits) if digits == DIGITS else digits
 
 
 def with_unit(text: str, display: str) -> str:

@@ -284,7 +284,7 @@ def to_display(value_si: float, unit_text: str) -> float:
 
 
 _RAISED = str.maketrans("0123456789-", "⁰¹²³⁴⁵⁶⁷⁸⁹⁻")
-_PRINTED_NAMES = {"deg": "°", "um": "µm", "us": "µs", "revolution": "rev"}
+_PRINTED_NAMES = {"deg": "°", "um": "µm", "us": "µs", "revolution": "rev", "rpm": "r/min"}
 
 
 @lru_cache(maxsize=512)

@@ -59,7 +59,7 @@ def assumed_line(results: Data, words: Catalogue) -> AssumedLine | None:
         return None
     moving = [each for each in found if each.check] or found
     paths = [(each.path, words.say("moves", check=each.check) if each.check else "") for each in moving[:TOLD]]
-    head = words.say("rests_on" if len(found) > 1 else "rests_on_one", n=len(found))
+    head = words.say("rests_on", n=len(found))
     head += words["moving_first"] if found[0].check and len(found) > 1 else ""
     more = words.say("more_assumed", n=len(found) - len(paths)) if len(found) > len(paths) else ""
     return AssumedLine(head, paths, more)

@@ -6,6 +6,7 @@ import base64
 import gzip
 from collections.abc import Mapping
 from datetime import datetime
+from hashlib import sha256
 from typing import Any, NamedTuple
 
 from diecut_report.results.results_file import config_content, encoded, results_text
@@ -24,11 +25,17 @@ class CarriedFile(NamedTuple):
     media_type: str
     description: str
     content: bytes
+    relationship: str = "Data"  # to the document, as PDF/A-3 has it: "Source", "Data"
 
     @property
     def address(self) -> str:
         """The file as a data address."""
         return f"data:{self.media_type};base64,{base64.b64encode(self.content).decode()}"
+
+    @property
+    def digest(self) -> str:
+        """The SHA-256 of the file."""
+        return sha256(self.content).hexdigest()
 
     @property
     def packed(self) -> CarriedFile:
@@ -41,6 +48,6 @@ def carried_files(results: Mapping[str, Any], words: Mapping[str, str]) -> tuple
     """Return the configuration and the results, in the order of their names."""
     text = encoded(results_text(results))
     return (
-        CarriedFile(CONFIG, "application/yaml", words["configuration"], config_content(results)),
+        CarriedFile(CONFIG, "application/yaml", words["configuration"], config_content(results), "Source"),
         CarriedFile(RESULTS, "application/json", words["carried_results"], text),
     )

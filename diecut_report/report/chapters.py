@@ -6,7 +6,8 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import replace
 from typing import Any
 
-from diecut_report.report.equations import Equation, Equations
+from diecut_report.languages.tokens import worded
+from diecut_report.report.equations import Equations
 from diecut_report.report.figure_places import BEFORE, Place, figure_item, placed, sketch
 from diecut_report.report.file_names import suffixes
 from diecut_report.report.i18n import Catalogue
@@ -21,11 +22,12 @@ from diecut_report.report.model import (
     quantity_row,
     rested,
     utilisation,
-    worded,
 )
 from diecut_report.report.number_format import quantity
 from diecut_report.report.repeated_parts import counted, gathered
+from diecut_report.report.said_once import SaidOnce
 from diecut_report.report.scope import BRIEF, FULL
+from diecut_report.report.symbol_list import symbol_rows
 from diecut_report.report.tables import Tables
 
 Data = Mapping[str, Any]
@@ -67,7 +69,7 @@ class _Filler:
         self.decimal = words["decimal"]
         self.tables = Tables(part.letter, words)
         self.formulas = 0
-        self.defined: set[str] = set()
+        self.said = SaidOnce(equations, words)
 
     def fill_brief(self) -> None:
         """The purpose, key results, checks and one sketch."""
@@ -101,6 +103,9 @@ class _Filler:
         part.absent = mechanism["absent"]
         if part.absent:
             self._head("absent")
+        part.symbols = symbol_rows(mechanism)
+        if part.symbols:
+            self._head("symbols")
         if self.is_full:
             part.curves = self.tables.of_curves(mechanism["curves"])
             part.errata = [(e["source"], e["text"], self._touched(e)) for e in mechanism["errata"]]
@@ -157,7 +162,7 @@ class _Filler:
             source=item["source"] if len(item["source"]) <= LONGEST_SOURCE else "",
             equation=self.equations.of(item),
             condition=self.equations.condition(item),
-            definitions=tuple(self._definitions(item)),
+            definitions=tuple(self.said.definitions(item)),
             words=item.get("words", ""),
             text=""
             if item.get("equation") or item["type"] in ("found", "reduction", "lookup")
@@ -165,13 +170,6 @@ class _Filler:
             notes=tuple(self._notes(item, told)),
             changed=item.get("changed", ""),
         )
-
-    def _definitions(self, item: Data) -> Iterator[Equation]:
-        """What names in the formula stand for, where that was not said already."""
-        for equation in self.equations.definitions(item):
-            if equation.text not in self.defined:
-                self.defined.add(equation.text)
-                yield equation
 
     def _notes(self, item: Data, told: set[str]) -> Iterator[str]:
         """The method, where it was not said already in this section, what proves the value, and a note."""
@@ -186,6 +184,7 @@ class _Filler:
         if residual and residual["text"] != UNPRINTED_RESIDUAL and self.is_full:
             key = "residual" if item["type"] == "found" else "checked_to"
             yield self.words.say(key, residual=quantity(residual["text"], residual["unit"], self.decimal))
+        yield from self.said.conversions(item)
         if item.get("note"):
             yield item["note"]
         if len(item["source"]) > LONGEST_SOURCE:

@@ -2,20 +2,26 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from functools import cached_property
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple, TypeVar
 
+from diecut_report.languages.catalogues import SOURCE_LANGUAGE, Catalogues
 from diecut_report.report.carried import CarriedFile, carried_files
 from diecut_report.report.changes import PrintedChanges, marked, printed_changes
 from diecut_report.report.document import ReportDocument, document
 from diecut_report.report.equations import Equations
+from diecut_report.report.house_style import HouseStyle
 from diecut_report.report.i18n import Catalogue
 from diecut_report.report.scope import BRIEF, parts
+from diecut_report.report.translated import translated
 from diecut_report.report.typeset import Typesetter
 
 if TYPE_CHECKING:
+    from diecut_report.report.figures.raster import Raster
     from diecut_report.report.figures.style import Svg
+
+Drawing = TypeVar("Drawing")
 
 
 class DrawingFault(NamedTuple):
@@ -35,52 +41,76 @@ class DrawingFault(NamedTuple):
 class Material:
     """The parts of the report of a results document."""
 
-    def __init__(self, results: Mapping[str, Any]) -> None:
-        self.results = results
-        self.words = Catalogue(results["project"].get("language") or "en")
+    def __init__(
+        self, results: Mapping[str, Any], catalogues: Catalogues | None = None, house: HouseStyle | None = None
+    ) -> None:
+        self.results, self.house = results, house
+        self.words = Catalogue(results["project"].get("language") or SOURCE_LANGUAGE)
+        self.catalogues = catalogues or Catalogues(self.words.language)
         self.typesetter = Typesetter()
         self.faults: list[DrawingFault] = []
 
     @cached_property
     def document(self) -> ReportDocument:
         """The report's content."""
-        return document(marked(self.results), Equations(self.words, self.typesetter.measure), self.words)
+        return document(marked(self.said), Equations(self.words, self.typesetter.measure), self.words)
+
+    @cached_property
+    def said(self) -> Mapping[str, Any]:
+        """The results with their texts in the report's language."""
+        return translated(self.results, self.catalogues)
 
     @cached_property
     def changes(self) -> PrintedChanges | None:
         """What changed since the former revision, where the results tell that."""
-        return printed_changes(self.results["changes"], self.words) if "changes" in self.results else None
+        return printed_changes(self.said["changes"], self.words) if "changes" in self.said else None
 
     @cached_property
     def carried(self) -> tuple[CarriedFile, ...]:
         """The files that the report carries."""
         return carried_files(self.results, self.words)
 
+    @property
+    def logo(self) -> str:
+        """The organisation's logo as a data address; nothing where there is none."""
+        logo = self.results["config"].get("logo")
+        return f"data:{logo['media_type']};base64,{logo['base64']}" if logo else ""
+
     @cached_property
     def figures(self) -> dict[str, Svg]:
         """All figures by their number, but those that cannot be drawn: these are in ``faults``."""
-        found: dict[str, Svg] = {}
-        calculated = dict(parts(self.results))
-        for chapter in self.document.chapters:
-            for number, figure in chapter.figures:
-                if "error" not in figure:
-                    drawing = self._drawn(chapter.name, number, figure, calculated[chapter.name]["curves"])
-                    found |= {number: drawing} if drawing else {}
-        return found
-
-    def _drawn(self, name: str, number: str, figure: Mapping[str, Any], curves: Mapping[str, Any]) -> Svg | None:
         from diecut_report.report.figures.by_type import render  # with matplotlib, which takes half a second
 
-        try:
-            return render(figure, curves, self.words, number, small=self.document.detail == BRIEF)
-        except Exception as cause:  # of any kind: what a plugin gives to be drawn is its own
-            self.faults.append(DrawingFault(name, number, figure, cause))
-            return None
+        return self._drawn(render)
+
+    @cached_property
+    def rasters(self) -> dict[str, Raster]:
+        """The same as pictures of points."""
+        from diecut_report.report.figures.raster import raster
+
+        return self._drawn(raster)
+
+    def _drawn(self, draw: Callable[..., Drawing]) -> dict[str, Drawing]:
+        found: dict[str, Drawing] = {}
+        calculated = dict(parts(self.said))
+        for chapter in self.document.chapters:
+            for number, figure in chapter.figures:
+                if "error" in figure:
+                    continue
+                curves = calculated[chapter.name]["curves"]
+                try:
+                    found[number] = draw(figure, curves, self.words, number, small=self.document.detail == BRIEF)
+                except Exception as cause:  # of any kind: what a plugin gives to be drawn is its own
+                    if all(fault.number != number for fault in self.faults):
+                        self.faults.append(DrawingFault(chapter.name, number, figure, cause))
+        return found
 
     def failed(self, number: str) -> str:
         """Why a figure could not be drawn; nothing where it could."""
-        if number in self.figures:
-            return ""
+        return "" if number in self.figures else self.why_not_drawn(number)
+
+    def why_not_drawn(self, number: str) -> str:
+        """Why a figure that could not be drawn could not."""
         figure = dict(pair for chapter in self.document.chapters for pair in chapter.figures)[number]
         told: str = figure.get("error", "")
         return told or next(fault.words for fault in self.faults if fault.number == number)

@@ -14,18 +14,9 @@ from diecut_report.report.equations import Equations
 from diecut_report.report.i18n import Catalogue
 from diecut_report.report.model import CheckRow, PrintedChapter, QuantityRow, quantity_row, rested
 from diecut_report.report.scope import BRIEF, FULL, Scope, parts, scope
+from diecut_report.report.title_block import TitleBlock, title_block
 
 Data = Mapping[str, Any]
-TITLE_BLOCK = (
-    "title",
-    "document_number",
-    "revision",
-    "date",
-    "organisation",
-    "prepared_by",
-    "checked_by",
-    "approved_by",
-)
 APPENDIX = (
     ("self-tests", "5.1", "self_test_list"),
     ("curves", "5.2", "curves"),
@@ -34,14 +25,13 @@ APPENDIX = (
 )
 CONTENTS_COLUMNS = 3
 MOST_CONTENTS = 140  # lines, for which the contents of a report stay on one sheet
-REVISION = ("revision", "date", "description", "by")
 
 
 @dataclass(frozen=True)
 class ReportDocument:
     """A whole report."""
 
-    project: Data
+    block: TitleBlock
     press: Data
     status: str
     verdict: str
@@ -87,9 +77,19 @@ class ReportDocument:
         return "incomplete" if self.status == "pass" and self.unchecked else self.status
 
     @property
+    def faces(self) -> Data:
+        """The verdicts of the chapters as they are shown, by the anchors of the chapters."""
+        return {part.anchor: part.face for part in self.chapters}
+
+    @property
     def sized(self) -> list[CheckRow]:
         """The checks of what the program sized to their limits."""
         return [row for row in self.checks if row.is_sized]
+
+    @property
+    def project(self) -> Data:
+        """The texts of the title block."""
+        return self.block.project
 
     @property
     def title(self) -> str:
@@ -99,14 +99,14 @@ class ReportDocument:
 
 def document(results: Data, equations: Equations, words: Catalogue) -> ReportDocument:
     """The report of the results."""
-    whole = scope(results)
+    whole, block = scope(results), title_block(results, words)
     results = whole.results
     chapters = _chapters(whole, equations, words)
     every = [row for part in chapters for row in part.checks]
     checks = sorted((row for row in every if row.is_made), key=lambda row: row.order)
     decimal = words["decimal"]
     return ReportDocument(
-        project=_title_block(results["project"]),
+        block=block,
         press=results["press"],
         status=results["status"],
         verdict=words[_verdict(results, every)],
@@ -153,12 +153,6 @@ def _chapters(whole: Scope, equations: Equations, words: Catalogue) -> list[Prin
     return chapters
 
 
-def _title_block(project: Data) -> Data:
-    """The project's texts; what is not given is empty."""
-    revisions = [{key: str(row.get(key) or "") for key in REVISION} for row in project.get("revisions") or ()]
-    return {key: str(project.get(key) or "") for key in TITLE_BLOCK} | {"revisions": revisions}
-
-
 def _counts(checks: list[CheckRow], chapters: list[PrintedChapter], words: Catalogue) -> Iterator[str]:
     """How many checks fail, warn, pass and are not made, and how many mechanisms were not calculated."""
     found = Counter(row.status for row in checks if not row.is_self_test)
@@ -167,11 +161,11 @@ def _counts(checks: list[CheckRow], chapters: list[PrintedChapter], words: Catal
     if lost:
         yield words.say("count_error", n=lost)
     if found["fail"]:
-        yield words.say("count_fail" if found["fail"] > 1 else "count_fail_one", n=found["fail"], total=total)
+        yield words.say("count_fail", n=found["fail"], total=total)
     if found["warn"]:
         yield words.say("count_warn", n=found["warn"])
     if found["pass"]:
-        yield words.say("count_pass" if found["pass"] > 1 else "count_pass_one", n=found["pass"])
+        yield words.say("count_pass", n=found["pass"])
     if found["not_checked"]:
         yield words.say("count_not_checked", n=found["not_checked"])
 
@@ -185,7 +179,7 @@ def _notes(checks: list[CheckRow], words: Catalogue) -> Iterator[str]:
     """What stands below the verdict: the self-tests that hold."""
     held = sum(row.is_self_test and row.status == "pass" for row in checks)
     if held:
-        yield words.say("self_tests" if held > 1 else "self_tests_one", n=held)
+        yield words.say("self_tests", n=held)
 
 
 def _shown(whole: Scope, words: Catalogue) -> Iterator[str]:

@@ -20,26 +20,32 @@ SIGNS = {"sum": "∑", "product": "∏", "integral": "∫"}
 
 
 class Equation(NamedTuple):
-    """A typeset equation: its LaTeX, and the same as linear text, a line for each row."""
+    """A typeset equation: its LaTeX, the same as linear text, a line for each row, and the rows for programs that break lines themselves."""
 
     latex: str
     text: str
+    rows: tuple[EquationRow, ...] = ()
 
 
 class Link(NamedTuple):
-    """One side of an equality in both forms, and the tree by which it may be broken."""
+    """One side of an equality in both forms, the tree by which it may be broken, and the tree by which any other form is printed."""
 
     latex: str = ""
     text: str = ""
     tree: Tree | None = None
+    form: Tree | None = None
 
 
 class EquationRow(NamedTuple):
-    """A row of an equation: what stands left of the first sign of equality, the links behind it, and the place."""
+    """A row of an equation: what stands left of the first sign of equality, the links behind it, and the place.
+
+    ``joint`` is the sign between links; of a broken-off rest the one before it, if its first term has none.
+    """
 
     head: Link
     links: list[Link]
     place: Link = Link()
+    joint: str = "="
 
     def latex(self, mark: str = "") -> str:
         """The row as LaTeX; ``mark`` stands where rows are aligned."""
@@ -72,7 +78,7 @@ class Equations:
             return None
         whole = EquationRow(head, links, place)
         if self.measure(whole.latex()) <= ONE_LINE:
-            return Equation(whole.latex(), whole.text())
+            return Equation(whole.latex(), whole.text(), (whole,))
         return self._stacked(self._rows(whole))
 
     def condition(self, item: Item) -> Equation | None:
@@ -80,13 +86,16 @@ class Equations:
         links = [self._link(tree) for tree in (item.get("condition"), item.get("condition_substituted")) if tree]
         if not links:
             return None
-        return Equation(r":\quad ".join(link.latex for link in links), ": ".join(link.text for link in links))
+        row = EquationRow(Link(), links, joint=":")
+        return Equation(r":\quad ".join(link.latex for link in links), ": ".join(link.text for link in links), (row,))
 
     def definitions(self, item: Item) -> list[Equation]:
         """What the names stand for by which the item's formula calls others: where k_t(x) = …"""
         rows = [EquationRow(self._link(each["defined"]), [self._link(each["as"])]) for each in item.get("where", ())]
         return [
-            Equation(row.latex(), row.text()) if self.measure(row.latex()) <= self.width else self._stacked([row])
+            Equation(row.latex(), row.text(), (row,))
+            if self.measure(row.latex()) <= self.width
+            else self._stacked([row])
             for row in rows
         ]
 
@@ -97,41 +106,49 @@ class Equations:
             return [*self._reduced(item), result]
         trees = [tree for tree in (item.get("equation"), item.get("substituted")) if tree]
         links = [self._link(tree) for tree in trees]
+        links += [self._result(item["bridge"])] if "bridge" in item else []
         links = [link for link in links if link.text not in (result.text, item["symbol"])]
+        links = [link for before, link in zip([Link(), *links], links, strict=False) if link.text != before.text]
         return [*links, result] if trees or item["type"] in ("found", "lookup") else []
 
     def _link(self, tree: Tree) -> Link:
-        return Link(self.latex(tree), self.linear(tree), tree)
+        return Link(self.latex(tree), self.linear(tree), tree, tree)
 
     def _result(self, result: Item) -> Link:
-        return Link(
-            self.latex.quantity(result["text"], result["unit"]), self.linear.quantity(result["text"], result["unit"])
-        )
+        text, unit = result["text"], result["unit"]
+        return Link(self.latex.quantity(text, unit), self.linear.quantity(text, unit), form=["qty", text, unit])
 
     def _symbol(self, name: str) -> Link:
-        return Link(self.latex.symbol(name), self.linear.symbol(name)) if name else Link()
+        return Link(self.latex.symbol(name), self.linear.symbol(name), form=["sym", name]) if name else Link()
 
     def _reduced(self, item: Item) -> list[Link]:
         """What is taken of a curve or of repeated parts: max V, mean M …"""
         name, operation = item["of"], item["operation"]
         if not name or operation == "pick":
             return []
-        curve, plain = self.latex.symbol(name), self.linear.symbol(name)
+        curve, plain, of = self.latex.symbol(name), self.linear.symbol(name), ["sym", name]
         if operation == "abs_max":
-            return [Link(rf"\max \left| {curve} \right|", f"max |{plain}|")]
+            form = ["call", "max", ["call", "abs", of]]
+            return [Link(rf"\max \left| {curve} \right|", f"max |{plain}|", form=form)]
         if operation == "derivative":
             by = item["at"]["symbol"]
             below = rf"\mathrm{{d}}{self.latex.symbol(by)}"
-            return [Link(rf"\frac{{\mathrm{{d}}{curve}}}{{{below}}}", f"d{plain}/d{by}")]
+            return [
+                Link(
+                    rf"\frac{{\mathrm{{d}}{curve}}}{{{below}}}", f"d{plain}/d{by}", form=["derivative", of, ["sym", by]]
+                )
+            ]
         if operation == "accumulated":
             end = item["at"]["symbol"]
             upper = self.latex.symbol(end)
-            return [Link(rf"\int_{{0}}^{{{upper}}} {curve}\,\mathrm{{d}}{upper}", f"∫ {plain} d{end} from 0 to {end}")]
+            latex = rf"\int_{{0}}^{{{upper}}} {curve}\,\mathrm{{d}}{upper}"
+            return [Link(latex, f"∫ {plain} d{end} from 0 to {end}", form=["accumulated", of, ["sym", end]])]
         word = SIGNS.get(operation, operation)
         if operation in OPERATORS:
-            return [Link(f"{OPERATORS[operation]} {curve}", f"{word} {plain}")]
+            form = ["nary", SIGNS[operation], of] if operation in SIGNS else ["call", operation, of]
+            return [Link(f"{OPERATORS[operation]} {curve}", f"{word} {plain}", form=form)]
         word = self.words[operation]
-        return [Link(rf"\operatorname{{{word}}} {curve}", f"{word} {plain}")]
+        return [Link(rf"\operatorname{{{word}}} {curve}", f"{word} {plain}", form=["call", word, of])]
 
     def _place(self, item: Item) -> Link:
         """Where a curve's numbers are shown, or where an extreme lies."""
@@ -140,7 +157,8 @@ class Equations:
             return Link()
         place, word = self._result(at), self.words["at"]
         latex = rf"\quad\text{{{escaped(word)} }}{self.latex.symbol(at['symbol'])} = {place.latex}"
-        return Link(latex, f" {word} {at['symbol']} = {place.text}")
+        form = ["place", word, ["sym", at["symbol"]], place.form]
+        return Link(latex, f" {word} {at['symbol']} = {place.text}", form=form)
 
     def _rows(self, whole: EquationRow) -> list[EquationRow]:
         """The formula in the first row, the numbers in it and the result in the second, or each in its own."""
@@ -156,19 +174,22 @@ class Equations:
     def _stacked(self, rows: list[EquationRow]) -> Equation:
         """Rows one below the other, aligned at their first sign of equality, each broken where it is too wide."""
         lines = [line for row in rows for line in self._fitted(row)]
-        stacked = r" \\ ".join(lines)
-        return Equation(rf"\begin{{aligned}} {stacked} \end{{aligned}}", "\n".join(row.text() for row in rows))
+        stacked = r" \\ ".join(latex for latex, _ in lines)
+        text = "\n".join(row.text() for row in rows)
+        return Equation(rf"\begin{{aligned}} {stacked} \end{{aligned}}", text, tuple(line for _, line in lines))
 
-    def _fitted(self, row: EquationRow) -> list[str]:
+    def _fitted(self, row: EquationRow) -> list[tuple[str, EquationRow]]:
         """A row's lines; one that cannot be broken stays whole and is made smaller on the page."""
         tree = row.links[0].tree
         if self.measure(row.latex()) <= self.width or tree is None or len(row.links) > 1:
-            return [row.latex("&")]
-        chunks = self._chunks(tree, self.width - self.measure(f"{row.head.latex} = "))
-        first = row._replace(links=[Link(chunks[0])])
-        return [first.latex("&")] + [rf"&\quad {chunk}" for chunk in chunks[1:]]
+            return [(row.latex("&"), row)]
+        first, *others = self._chunks(tree, self.width - self.measure(f"{row.head.latex} = "))
+        begin, sign = row._replace(links=[first]), "" if len(terms(tree)) > 1 else "·"
+        return [(begin.latex("&"), begin)] + [
+            (rf"&\quad {chunk.latex}", EquationRow(Link(), [chunk], joint=sign)) for chunk in others
+        ]
 
-    def _chunks(self, tree: Tree, width: float) -> list[str]:
+    def _chunks(self, tree: Tree, width: float) -> list[Link]:
         """The terms of a sum, or the factors of a product, gathered into lines no wider than ``width``."""
         if len(terms(tree)) > 1:
             groups = [[term] for term in terms(tree)]
@@ -178,16 +199,18 @@ class Equations:
             joined = self._product
         lines = [groups[0]]
         for group in groups[1:]:
-            if self.measure(joined([*lines[-1], *group], first=len(lines) == 1)) <= width:
+            if self.measure(joined([*lines[-1], *group], first=len(lines) == 1).latex) <= width:
                 lines[-1] = [*lines[-1], *group]
             else:
                 lines.append(group)
         return [joined(line, first=index == 0) for index, line in enumerate(lines)]
 
-    def _sum(self, parts: list[tuple[str, Tree]], *, first: bool) -> str:
+    def _sum(self, parts: list[tuple[str, Tree]], *, first: bool) -> Link:
         start = parts[0][1] if first else [parts[0][0], BLANK, parts[0][1]]
-        return self.latex(reduce(lambda left, term: [term[0], left, term[1]], parts[1:], start))
+        tree = reduce(lambda left, term: [term[0], left, term[1]], parts[1:], start)
+        return Link(self.latex(tree), form=tree)
 
-    def _product(self, parts: list[tuple[str, Tree]], *, first: bool) -> str:
-        whole = self.latex(reduce(lambda left, factor: ["*", left, factor], (factor for _, factor in parts)))
-        return whole if first else rf"{{}} \cdot {whole}"
+    def _product(self, parts: list[tuple[str, Tree]], *, first: bool) -> Link:
+        tree = reduce(lambda left, factor: ["*", left, factor], (factor for _, factor in parts))
+        whole = self.latex(tree)
+        return Link(whole if first else rf"{{}} \cdot {whole}", form=tree)

@@ -1,4 +1,4 @@
-"""The report as HTML: one file with its fonts, formulas as MathML, figures inline; no scripts, no network."""
+"""The report as HTML: one file with its fonts, formulas as MathML, figures inline; scripts of its own for the reader, no network."""
 
 from __future__ import annotations
 
@@ -8,16 +8,21 @@ from functools import cache
 from hashlib import sha256
 from importlib import import_module
 from pathlib import Path
-from typing import Any, Protocol
+from typing import TYPE_CHECKING, Any, Protocol
 
-from jinja2 import Environment, FileSystemLoader, StrictUndefined
+from jinja2 import Environment, FileSystemLoader
 from markupsafe import Markup
 
 from diecut_report.report.context import Material
 from diecut_report.report.equations import Equation
+from diecut_report.report.house_style import OPTIONS, in_words, refuse_fetching
 from diecut_report.report.model import Item
 from diecut_report.report.number_format import tidy
+from diecut_report.report.reader_data import reader_data
 from diecut_report.report.symbols import prose, symbol
+
+if TYPE_CHECKING:
+    from diecut_report.report.sheet_frames import SheetBlocks
 
 FACES = {  # family, weight, style: file
     ("Report Sans", 400, "normal"): "report-sans-regular",
@@ -29,12 +34,19 @@ FACES = {  # family, weight, style: file
 POLICY = (
     "default-src 'none'", "style-src 'unsafe-inline'", "font-src data:", "img-src data:", "base-uri 'none'", "form-action 'none'",
 )  # fmt: skip
+READER = ("uplot/uPlot.min.css", "reader.css")
+SCRIPTS = ("uplot/uPlot.iife.min.js", "reader.js")
 FORMS = {"screen": "woff2", "print": "truetype"}  # a page engine would unpack the smaller form at each report
+FILTERS: dict[str, Callable[..., Any]] = {"prose": prose, "symbol": symbol, "tidy": tidy}
+END = "</body>\n</html>"
 MATH = {("Report Math", 400, "normal"): "report-math"}
 
 
 class Medium(Protocol):
-    """How a medium shows what templates cannot: formulas and figures."""
+    """How a medium shows what templates cannot: formulas, figures, and the frame of sheets; ``style`` is for this report alone."""
+
+    style: str
+    frame: SheetBlocks | None
 
     def display(self, equation: Equation) -> Markup:
         """A typeset formula in lines of its own."""
@@ -51,6 +63,9 @@ class Medium(Protocol):
 
 class Screen:
     """Formulas as MathML, figures as inline SVG."""
+
+    style = ""
+    frame: SheetBlocks | None = None
 
     def __init__(self, material: Material) -> None:
         self.material = material
@@ -73,21 +88,40 @@ class Screen:
 
 
 def page(material: Material) -> str:
-    """The whole HTML page."""
-    return filled(material, Screen(material), "screen")
+    """The whole HTML page: the report, which needs no script, and behind it what its scripts use."""
+    scripts = [_read(name) for name in SCRIPTS]
+    report = filled(material, Screen(material), "screen", *scripts)
+    return report.replace(END, _scripted(reader_data(material), scripts) + END)
 
 
-def filled(material: Material, medium: Medium, kind: str) -> str:
-    """The report's template with the document in it, for ``screen`` or ``print``."""
+def _scripted(data: str, scripts: list[str]) -> str:
+    """Return the scripts and their data as elements."""
+    elements = [
+        f'<script type="application/json" id="reader-data">{data}</script>',
+        *(f"<script>{text}</script>" for text in scripts),
+    ]
+    return "\n".join([*elements, ""])
+
+
+def filled(material: Material, medium: Medium, kind: str, *scripts: str) -> str:
+    """The report's template with the document in it, for ``screen`` or ``print``; a browser may run these scripts."""
     document = material.document
     faces = FACES | (MATH if kind == "screen" else {})
-    sheets = ["report", kind, *(["changes"] if material.changes else [])]
-    style = "\n".join([_font_faces(tuple(faces.items()), FORMS[kind]), *(_read(f"{name}.css") for name in sheets)])
-    return _environment().get_template("report.html.j2").render(
-        doc=document, t=document.words, kind=kind, style=Markup(style), policy=policy(),
-        math=medium, figure=medium.figure, failed=material.failed,
+    sheets = ["report.css", f"{kind}.css", *(["changes.css"] if material.changes else []), *(READER if scripts else ())]
+    sheets += [f"frame_{document.block.frame}.css"] if kind == "print" else []
+    style = "\n".join([_font_faces(tuple(faces.items()), FORMS[kind]), *map(_read, sheets), medium.style])
+    house = material.house
+    environment = _environment() if house is None else house.environment(folder(), FILTERS)
+    style += f"\n{house.css}" if house else ""
+    with in_words(house):
+        made = environment.get_template("report.html.j2").render(
+        doc=document, t=document.words, kind=kind, style=Markup(style), policy=policy(*scripts),
+        math=medium, figure=medium.figure, failed=material.failed, frame=medium.frame, logo=material.logo,
         carried=material.carried, changes=material.changes,
     )  # fmt: skip
+    if house:
+        refuse_fetching(made, house, "; ".join(POLICY) if kind == "screen" else "")
+    return made
 
 
 def policy(*scripts: str) -> str:
@@ -120,13 +154,6 @@ def _font_faces(faces: tuple[tuple[tuple[str, int, str], str], ...], form: str =
 
 @cache
 def _environment() -> Environment:
-    environment = Environment(
-        loader=FileSystemLoader(folder()),
-        autoescape=True,
-        undefined=StrictUndefined,
-        trim_blocks=True,
-        lstrip_blocks=True,
-    )
-    filters: dict[str, Callable[..., Any]] = {"prose": prose, "symbol": symbol, "tidy": tidy}
-    environment.filters.update(filters)
+    environment = Environment(loader=FileSystemLoader(folder()), **OPTIONS)
+    environment.filters.update(FILTERS)
     return environment

@@ -1,8 +1,10 @@
-"""All words of a report, in one place: a catalogue for each language."""
+"""All words of a report, in one place: in English here, in other languages in the program's catalogue, by key and English words."""
 
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
+
+from diecut_report.languages.catalogues import program_catalogue
 
 ENGLISH: dict[str, str] = {
     # numbers and formulas
@@ -12,7 +14,13 @@ ENGLISH: dict[str, str] = {
     "calculation": "Calculation", "document": "Document", "revision": "Revision", "date": "Date", "sheet": "Sheet", "of": "of",
     "organisation": "Organisation", "prepared": "Prepared", "checked": "Checked", "approved": "Approved", "name": "Name",
     "signature": "Signature", "revisions": "Revisions", "description": "Description", "by": "By", "press": "Press",
-    "release": "Release",
+    "release": "Release", "status": "Status", "status_draft": "draft", "status_for check": "for check", "status_released": "released",
+    "not_released": "not released", "across": "NOT RELEASED", "norm_checked": "Norm control", "department": "Department",
+    "owner": "Legal owner", "title": "Title", "document_type": "Document type", "identification": "Identification number",
+    "issued": "Date of issue", "language": "Language", "logo": "Logo",
+    "dstu_change": "Ch.", "dstu_page": "Sheet", "dstu_document": "Doc. No.", "dstu_sign": "Sign.", "dstu_date": "Date",
+    "dstu_prepared": "Developed", "dstu_checked": "Checked", "dstu_norm_checked": "Norm control", "dstu_approved": "Approved",
+    "dstu_letter": "Stage", "dstu_sheet": "Sheet", "dstu_sheets": "Sheets",
     # verdicts
     "pass": "pass", "warn": "warning", "fail": "fail", "error": "error", "skipped": "skipped", "not_checked": "not checked",
     "incomplete": "incomplete",
@@ -20,19 +28,19 @@ ENGLISH: dict[str, str] = {
     "verdict_unchecked": "No check fails, but not everything is checked.",
     "verdict_warn_unchecked": "No check fails, but some warn, and not everything is checked.", "verdict_nothing": "Nothing is checked.",
     "verdict_error": "Not all mechanisms could be calculated.", "verdict_error_comparison": "Not all comparisons could be calculated.",
-    "count_fail": "{n} of {total} checks fail", "count_fail_one": "1 of {total} checks fails",
-    "count_warn": "{n} with a warning", "count_pass": "{n} pass", "count_pass_one": "1 passes",
+    "count_fail": "{n} of {total} checks fail",
+    "count_warn": "{n} with a warning", "count_pass": "{n} pass",
     "count_not_checked": "{n} not checked",
     "count_error": "{n} not calculated", "governing": "Governing", "no_checks": "There are no checks.",
     "reserve": "margin {margin}", "beyond": "{margin} beyond the limit", "self_test": "self-test", "missing": "Not given",
-    "self_tests": "{n} self-tests of the calculation hold.", "self_tests_one": "1 self-test of the calculation holds.",
+    "self_tests": "{n} self-tests of the calculation hold.",
     "sized": "Sized to its limit by the program, so without a reserve of its own", "sized_short": "sized to its limit",
     "class_function": "function", "class_strength": "strength", "class_practice": "practice", "class_numerical": "self-test",
     # chapters
     "contents": "Contents", "summary": "Summary", "checks": "Checks", "key_results": "Key results", "press_data": "Press data",
     "no_press_data": "The configuration gives no data of the press but its name.",
     "purpose": "Purpose and assumptions", "assumptions": "Assumptions and limits", "inputs": "Inputs", "results": "Results",
-    "curves": "Curves", "absent": "Not calculated",
+    "curves": "Curves", "symbols": "Symbols", "in_source": "in the source {symbol}", "absent": "Not calculated",
     "comparison": "Comparison of", "files": "Files beside this report",
     "errata": "Errata of the sources", "sources": "Sources", "no_sources": "The mechanisms name no source.",
     "program": "Program and configuration",
@@ -50,7 +58,7 @@ ENGLISH: dict[str, str] = {
     "refers": "from {path}", "from_press": "default, from {path}",
     "assumed": "assumed", "measured": "measured", "catalogue": "from a catalogue", "standard": "by a standard", "drawing": "from a drawing",
     "rests_on": "Rests on {n} assumed values", "moving_first": ", those first that move a governing check",
-    "rests_on_one": "Rests on 1 assumed value", "moves": "moves {check}", "more_assumed": " and {n} more",
+    "moves": "moves {check}", "more_assumed": " and {n} more",
     "touches": "Touches", "part": "No.", "nth": "{text}, no. {n}", "repeated_parts": "{n} repeated parts", "curves_over": "Curves over: {axis}",
     "file": "File", "content": "Content",
     "phases": "Phases", "phase": "Phase", "role": "Role", "from": "From", "to": "To", "length": "Length", "time": "Time",
@@ -78,24 +86,44 @@ ENGLISH: dict[str, str] = {
     "checks_worse": "worse", "checks_better": "better", "checks_added": "new", "checks_removed": "no longer made",
     "checks_more used": "more used", "checks_less used": "less used",
     "changed_mark": "changed, before: {old}", "marked": "What changed is marked in the margin.",
+    # the tools of a reader on a screen; what stands in braces is filled in by the page's script
+    "search": "Search", "dark": "Dark", "hits": "{n} found", "all_checks": "All checks", "check_class": "Class", "all_classes": "all",
+    "text_within": "Text", "shown_checks": "{n} of {total} checks", "copy_text": "Copy {text}", "copied": "Copied: {text}",
+    "copy_refused": "The browser does not let the page copy {text}", "as_printed": "As printed",
     # programme
     "calculated_by": "Calculated by", "version": "version", "plugin": "Mechanism", "plugin_version": "Version", "kind": "Kind",
-    "source_hash": "source", "extension": "Extension",
+    "source_hash": "source", "libraries": "With", "extension": "Extension",
     "carried": "Carried with this report", "carried_results": "Results", "attached": "attached to this PDF",
     "verified": "diecut-report verify calculates it again and tells what differs.",
     "config_file": "Configuration file", "sha256": "SHA-256",
     "failed_text": "This mechanism could not be calculated.", "failed_comparison": "This comparison could not be calculated.",
     "skipped_text": "This mechanism was not calculated, since what it refers to was not.",
+    # office files
+    "si_value": "Value, SI", "si_unit": "Unit, SI", "basis": "Basis", "note": "Note", "class": "Class", "message": "Message",
+    "key_result": "Key result", "yes": "yes", "time_ms": "Time, ms",
 }  # fmt: skip
-CATALOGUES: dict[str, dict[str, str]] = {"en": ENGLISH}
+COUNTED = {  # what is said of a number ``n`` of things, with its form for one where English has another
+    "count_fail": "1 of {total} checks fails", "count_warn": "", "count_pass": "1 passes", "count_not_checked": "", "count_error": "",
+    "self_tests": "1 self-test of the calculation holds.", "rests_on": "Rests on 1 assumed value", "more_assumed": "",
+    "repeated_parts": "", "dxf": "", "dxf_profile": "", "csv": "",
+}  # fmt: skip
+
+
+def one(key: str) -> str:
+    """The English words of a key, of what is counted those for one: by them catalogues know it."""
+    return COUNTED.get(key) or ENGLISH[key]
 
 
 class Catalogue(Mapping[str, str]):
-    """The words of one language; in templates ``t.summary``. A missing key is an error."""
+    """The words of one language; in templates ``t.summary``. A missing key is an error, one that is not translated is English."""
 
     def __init__(self, language: str) -> None:
         self.language = language
-        self._texts = CATALOGUES[language]
+        self._own = program_catalogue(language) if language != "en" else None
+        self._texts = {key: self._said(key) for key in ENGLISH}
+
+    def _said(self, key: str) -> str:
+        return (self._own and self._own.text(one(key), key)) or ENGLISH[key]
 
     def __getitem__(self, key: str) -> str:
         return self._texts[key]
@@ -107,8 +135,15 @@ class Catalogue(Mapping[str, str]):
         return len(self._texts)
 
     def say(self, key: str, **parts: object) -> str:
-        """A sentence with its parts filled in."""
-        return self[key].format(**parts)
+        """A sentence with its parts filled in, in the form that goes with their number ``n``."""
+        return self._form(key, parts.get("n")).format(**parts)
+
+    def _form(self, key: str, count: object) -> str:
+        if key not in COUNTED or not isinstance(count, int):
+            return self[key]
+        if self._own and (found := self._own.plural(one(key), count, key)):
+            return found
+        return one(key) if count == 1 else ENGLISH[key]
 
     def listed(self, parts: Sequence[str]) -> str:
         """Several things in a sentence."""

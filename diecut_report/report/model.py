@@ -3,20 +3,20 @@
 from __future__ import annotations
 
 import math
-import re
 from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
 from typing import Any
 
 from markupsafe import Markup
 
+from diecut_report.languages.tokens import worded
 from diecut_report.quantities.units import pretty
 from diecut_report.report.equations import Equation
 from diecut_report.report.number_format import joined, number, parts, quantity
+from diecut_report.report.symbol_list import SymbolRow
 from diecut_report.report.symbols import symbol
 
 Data = Mapping[str, Any]
-_TOKEN = re.compile(r"[a-z][a-z0-9]*(?:_[a-z0-9]+)+")
 LONG = 10  # rows of a table
 ORDER = {"fail": 0, "warn": 1, "pass": 2, "not_checked": 3}
 
@@ -210,6 +210,7 @@ class PrintedChapter:
     loose: list[Item] = field(default_factory=list)
     files: list[File] = field(default_factory=list)
     absent: list[Data] = field(default_factory=list)
+    symbols: list[SymbolRow] = field(default_factory=list)
     errata: list[tuple[str, str, str]] = field(default_factory=list)
     parts: dict[str, Heading] = field(default_factory=dict)
     headings: list[Heading] = field(default_factory=list)
@@ -265,13 +266,6 @@ def rested(shown: QuantityRow, row: Data, words: Mapping[str, str]) -> QuantityR
     basis = words[row["basis"]] if row.get("basis", "given") != "given" else ""
     origin = "" if basis and row.get("origin") == "given" else shown.origin
     return replace(shown, origin=", ".join(filter(None, (origin, basis))), note=row.get("note", ""))
-
-
-def worded(text: str) -> str:
-    """A text input as words: ``cast_iron`` → cast iron, ``polynomial_345`` → polynomial 3-4-5; other texts as they are."""
-    if not _TOKEN.fullmatch(text):
-        return text
-    return " ".join("-".join(part) if part.isdigit() else part for part in text.split("_"))
 
 
 def is_words(text: str) -> bool:

@@ -4,20 +4,24 @@ from __future__ import annotations
 
 import base64
 import gc
+import warnings
 from collections.abc import Iterator
 from contextlib import contextmanager
 from typing import Any
 
 from markupsafe import Markup, escape
 
+from diecut_report.report.backdrop import page_rule
 from diecut_report.report.carried import DATE, CarriedFile
 from diecut_report.report.context import Material
 from diecut_report.report.equations import Equation
 from diecut_report.report.html import filled
 from diecut_report.report.model import Item
 from diecut_report.report.page_engine import HTML, Attachment, URLFetcher
+from diecut_report.report.pdf_archive import Archive
 from diecut_report.report.pdf_figures import FigurePicture, NotDrawn
 from diecut_report.report.pdf_math import Picture
+from diecut_report.report.sheet_frames import SheetBlocks, sheet_blocks
 
 BESIDE_WIDTH = 28.0  # em of a formula that stands beside its description
 BESIDE_LETTERS = 62  # of a description of two lines beside a formula
@@ -30,6 +34,10 @@ class Paper:
 
     def __init__(self, material: Material) -> None:
         self.material = material
+        block = material.document.block
+        words = material.words
+        self.frame: SheetBlocks | None = sheet_blocks(block, words, has_logo=bool(material.logo))
+        self.style = page_rule(block.frame, words["across"] if block.is_held else "")
         self.pictures: dict[str, Picture | FigurePicture] = {}
 
     def display(self, equation: Equation) -> Markup:
@@ -79,9 +87,12 @@ def sheets(material: Material) -> bytes:
     source = filled(material, paper, "print")
     fetcher = URLFetcher(allowed_protocols={"data"}, allow_redirects=False, fail_on_errors=True)
     cache: dict[str, Any] = dict(paper.pictures)
-    with _without_collection():
+    with (
+        _without_collection(),
+        warnings.catch_warnings(action="ignore", category=ResourceWarning),
+    ):  # WeasyPrint's own file
         content: bytes = HTML(string=source, url_fetcher=fetcher).write_pdf(
-            pdf_variant="pdf/ua-1", cache=cache, presentational_hints=False,
+            pdf_variant="pdf/a-3a", cache=cache, presentational_hints=False, finisher=Archive(material.words),
             attachments=[_attached(file, fetcher) for file in material.carried],
         )  # fmt: skip
     return content
@@ -90,7 +101,13 @@ def sheets(material: Material) -> bytes:
 def _attached(file: CarriedFile, fetcher: URLFetcher) -> Attachment:
     """A file in the PDF; its type is that of its address, not what the system takes its ending for."""
     return Attachment(
-        url=file.address, url_fetcher=fetcher, name=file.name, description=file.description, created=DATE, modified=DATE
+        url=file.address,
+        url_fetcher=fetcher,
+        name=file.name,
+        description=file.description,
+        created=DATE,
+        modified=DATE,
+        relationship=file.relationship,
     )
 
 

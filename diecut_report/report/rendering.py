@@ -5,15 +5,19 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import Any
 
+from diecut_report.languages.catalogues import Catalogues
 from diecut_report.report.context import DrawingFault, Material
+from diecut_report.report.house_style import HouseStyle
 from diecut_report.report.html import page
 
 
 class Rendering:
-    """The report of a results document (schema_version 1); what its formats share is made once."""
+    """The report of a results document (schema_version 1), in a firm's own style; what its formats share is made once."""
 
-    def __init__(self, results: Mapping[str, Any]) -> None:
-        self.material = Material(results)
+    def __init__(
+        self, results: Mapping[str, Any], catalogues: Catalogues | None = None, house: HouseStyle | None = None
+    ) -> None:
+        self.material = Material(results, catalogues, house)
 
     @property
     def faults(self) -> list[DrawingFault]:
@@ -25,10 +29,22 @@ class Rendering:
         return page(self.material)
 
     def pdf(self) -> bytes:
-        """The report as PDF (A4, PDF/UA-1); needs the system's pango (OSError without it)."""
+        """The report as PDF (A4, PDF/A-3 and PDF/UA-1); needs the system's pango (OSError without it)."""
         from diecut_report.report.pdf import sheets
 
         return sheets(self.material)
+
+    def docx(self) -> bytes:
+        """The report as a document for word processors."""
+        from diecut_report.report.office.word_file import word_file
+
+        return word_file(self.material)
+
+    def xlsx(self) -> bytes:
+        """The report's numbers as a workbook."""
+        from diecut_report.report.office.workbook import workbook
+
+        return workbook(self.material)
 
 
 def render_html(results: Mapping[str, Any]) -> str:

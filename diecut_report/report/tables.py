@@ -8,6 +8,7 @@ from typing import Any, TypeVar
 
 from markupsafe import Markup
 
+from diecut_report.languages.tokens import worded
 from diecut_report.quantities.units import pretty, to_display
 from diecut_report.report.curves import CurvePlace, table_places
 from diecut_report.report.i18n import Catalogue
@@ -19,7 +20,6 @@ from diecut_report.report.model import (
     is_words,
     rests,
     utilisation,
-    worded,
 )
 from diecut_report.report.number_format import displayed, number
 from diecut_report.report.repeated_parts import Parts

@@ -11,11 +11,14 @@ import numpy as np
 from diecut_report.contract.checks import Check, by_part
 from diecut_report.engine import Calculation
 from diecut_report.engine.printing.substitution import filled
+from diecut_report.engine.shown_units import declared_unit
 from diecut_report.engine.steps.extreme_checks import is_made
 from diecut_report.expressions import Array
-from diecut_report.quantities.formatting import number_text, shown, with_unit
+from diecut_report.languages.phrases import Phrase, phrase
+from diecut_report.quantities.formatting import shown, with_unit
 from diecut_report.quantities.units import unit
 from diecut_report.results import unchecked
+from diecut_report.results.unchecked import check_unit
 
 Data = dict[str, Any]
 Status = Literal["pass", "warn", "fail", "not_checked"]
@@ -129,14 +132,15 @@ def _check(calc: Calculation, check: Check) -> Data:
     if np.isinf([found.demand[0], found.limit[0]]).any():
         raise ValueError(f"check {check.id} compares {found.demand[0].ravel()} with {found.limit[0].ravel()}")
     pair, part = divmod(int(found.worst[0]), found.demand.shape[2])
-    told = _told(check, found, pair, part)
+    display = check_unit(calc, check, [found.demand[0, pair, part], found.limit[0, pair, part]])
+    told = _told(check, display, found, pair, part)
     where, places = _where(calc, check, pair, part, found.demand.shape[2])
-    bounds = f"{told['demand_label']} {_said(told, 'demand')}, {told['limit_label']} {_said(told, 'limit')}"
-    if pair:  # the lower bound governs
-        bounds = f"{told['limit_label']} {_said(told, 'limit')}, {told['demand_label']} {_said(told, 'demand')}"
-    sentence = bounds + _beside(calc, check, found, pair, part) + where
-    passes = told["status"] == "pass"
-    message = f"{sentence}." if passes else f"{sentence}: {filled(calc, check.consequence, places=places)}"
+    sides = ("limit", "demand") if pair else ("demand", "limit")  # the lower bound may govern
+    sentence = _bounds(told, *sides) + _beside(calc, check, display, found, pair, part) + where
+    message = Phrase("{bounds:capital}.", {"bounds:capital": sentence})
+    if told["status"] != "pass":
+        consequence = filled(calc, check.consequence, places=places)
+        message = Phrase("{bounds:capital}: {consequence}", {"bounds:capital": sentence, "consequence": consequence})
     return {
         "id": check.id,
         "title": check.title,
@@ -148,9 +152,9 @@ def _check(calc: Calculation, check: Check) -> Data:
         "unit": unit(check.unit).si,
         "utilisation": told["utilisation"],
         "source": check.source,
-        "message": message[0].upper() + message[1:],
+        "message": message,
         **{key: text for key, text in told.items() if key.endswith(("_label", "_display"))},
-        **_further(calc, check, found, pair, part),
+        **_further(calc, check, display, found, pair, part),
         **({"sized_to_limit": True} if is_sized(calc.given, check) or _is_at_limit(told) else {}),
     }
 
@@ -166,7 +170,7 @@ def _is_at_limit(told: Data) -> bool:
     return told["status"] == "pass" and ratio is not None and abs(ratio - 1) <= AT_LIMIT
 
 
-def _told(check: Check, found: JudgedCheck, pair: int, part: int) -> Data:
+def _told(check: Check, display: str, found: JudgedCheck, pair: int, part: int) -> Data:
     """What is reported of one pair of sides (0: demand and limit, 1: lower bound and demand), of one part."""
     demand, limit, ratio = (float(side[0, pair, part]) for side in (found.demand, found.limit, found.ratio))
     labels = (check.at_least_label, check.demand_label) if pair else (check.demand_label, check.limit_label)
@@ -177,33 +181,40 @@ def _told(check: Check, found: JudgedCheck, pair: int, part: int) -> Data:
         "utilisation": None if math.isnan(ratio) else ratio,
         "demand_label": labels[0],
         "limit_label": labels[1],
-        **{f"{name}_display": text for name, text in _texts(demand, limit, check.unit).items()},
+        **{f"{name}_display": text for name, text in _texts(demand, limit, display).items()},
     }
 
 
-def _said(told: Data, side: str) -> str:
-    return with_unit(*told[f"{side}_display"].values())
+def _bounds(told: Data, *sides: str) -> Phrase:
+    """What is compared, the one beside the other."""
+    labels = [phrase(told[f"{side}_label"]) for side in sides]
+    values = [with_unit(*told[f"{side}_display"].values()) for side in sides]
+    named = dict(zip(("first", "next"), values, strict=True)) | dict(zip(("label", "next_label"), labels, strict=True))
+    return Phrase("{label} {first}, {next_label} {next}", named)
 
 
-def _beside(calc: Calculation, check: Check, found: JudgedCheck, pair: int, part: int) -> str:
+def _beside(calc: Calculation, check: Check, display: str, found: JudgedCheck, pair: int, part: int) -> str:
     """The other bound of a two-sided check, in brackets; none of a curve, which has that at another place."""
     if check.at_least is None or (check.id, pair) in calc.judged:
         return ""
     side, label = (found.limit, check.limit_label) if pair else (found.demand, check.at_least_label)
-    return f" ({label} {with_unit(*shown(float(side[0, 1 - pair, part]), check.unit).values())})"
+    value = with_unit(*shown(float(side[0, 1 - pair, part]), display).values())
+    return Phrase(" ({label} {value})", label=phrase(label), value=value)
 
 
 def _where(calc: Calculation, check: Check, pair: int, part: int, count: int) -> tuple[str, dict[str, int | str]]:
     """Where a check governs, in words: a place of the abscissa, a part of a row; and what a message may name of that."""
     if (check.id, pair) in calc.judged:
         at = _at(calc, check, pair)
-        return f" at {at['symbol']} = {with_unit(at['text'], at['unit'])}", {}
+        return Phrase(" at {symbol} = {value}", symbol=at["symbol"], value=with_unit(at["text"], at["unit"])), {}
     if check.index is not None:
         return "", {"part": check.part_name, "index": check.index}
     if _is_row(calc, check):
         places: dict[str, int | str] = {"part": part + 1, "next": (part + 1) % count + 1, "index": part}
         names = _part_names(calc, check)
-        return f" at {names[part]}" if names else f" at part {part + 1} of {count}", places
+        if names:
+            return Phrase(" at {name}", name=names[part]), places
+        return Phrase(" at part {part} of {count}", part=part + 1, count=count), places
     return "", {}
 
 
@@ -224,11 +235,11 @@ def _part_names(calc: Calculation, check: Check) -> tuple[str, ...]:
 def _at(calc: Calculation, check: Check, pair: int) -> dict[str, str]:
     side = calc.judged[check.id, pair]
     axis = calc.steps[side.axis]
-    text = number_text(float(side.place[0, 0]) / unit(axis.unit).factor, PLACE_DIGITS)
-    return {"symbol": axis.symbol, "text": text, "unit": axis.unit}
+    place = shown(float(side.place[0, 0]), declared_unit(calc, axis.id, axis.unit), PLACE_DIGITS)
+    return {"symbol": axis.symbol} | place
 
 
-def _further(calc: Calculation, check: Check, found: JudgedCheck, pair: int, part: int) -> Data:
+def _further(calc: Calculation, check: Check, display: str, found: JudgedCheck, pair: int, part: int) -> Data:
     """Of a curve the place where it governs; of a row the part that governs, and all parts."""
     if (check.id, pair) in calc.judged:
         return {"at": _at(calc, check, pair)}
@@ -236,7 +247,9 @@ def _further(calc: Calculation, check: Check, found: JudgedCheck, pair: int, par
         return {}
     there = found.there[0].T
     pairs = worst(found.demand[0].T, found.limit[0].T, found.held[0].T, found.ratio[0].T, there)
-    parts = [_told(check, found, int(p), i) if there[i].any() else {"status": None} for i, p in enumerate(pairs)]
+    parts = [
+        _told(check, display, found, int(p), i) if there[i].any() else {"status": None} for i, p in enumerate(pairs)
+    ]
     names = _part_names(calc, check)
     told = [one | {"name": name} for one, name in zip(parts, names, strict=True)] if names else parts
     return {"part": part + 1, "parts": told} | ({"part_name": names[part]} if names else {})

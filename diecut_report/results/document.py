@@ -2,14 +2,20 @@
 
 from __future__ import annotations
 
+import base64
+import platform
 from collections.abc import Iterator
 from typing import Any
+
+import numpy as np
+import scipy
 
 from diecut_report import __version__
 from diecut_report.config.basis import GIVEN
 from diecut_report.config.hidden_letters import printable
 from diecut_report.config.instances import Instance
 from diecut_report.config.loader import Config
+from diecut_report.config.logo import Logo
 from diecut_report.config.model import PRESS, Press
 from diecut_report.config.source_hashes import plugin_code, program_hash
 from diecut_report.config.targets import Node
@@ -19,8 +25,9 @@ from diecut_report.contract.inputs import Block, CurveInput, InOtherUnit, Quanti
 from diecut_report.contract.mechanism import Mechanism
 from diecut_report.contract.varying import Extremes
 from diecut_report.engine import CurveHandle
+from diecut_report.languages.phrases import Phrase, wordings
 from diecut_report.limits import MAX_COMPARISONS
-from diecut_report.quantities.formatting import as_given, shortest
+from diecut_report.quantities.formatting import as_given, given_shown
 from diecut_report.results.bases import Bases, assumed
 from diecut_report.results.comparisons import Found
 from diecut_report.results.mechanism import worst
@@ -29,6 +36,10 @@ from diecut_report.results.reference_origins import with_origins
 from diecut_report.results.summary import counts, governing, summary
 
 Data = dict[str, Any]
+LEFT_OUT = (
+    "{count} comparisons are left out, the first is {first}: at most {most} are made. "
+    "To get one, let its mechanisms be the first of their kinds in the configuration, or put them into one of their own."
+)
 
 
 def document(run: Run) -> Data:
@@ -40,7 +51,7 @@ def document(run: Run) -> Data:
     status = worst(
         "fail" if each == "skipped" else each for each in found
     )  # without an error: what it needs does not hold
-    return {
+    made: Data = {
         "schema_version": 1,
         "program": {"name": "diecut-report", "version": __version__, **_code(config)},
         "config": {
@@ -51,35 +62,40 @@ def document(run: Run) -> Data:
             **_tables(config),
         },
         "project": _project(config.project.model_dump()),
-        "report": {"detail": config.report.detail},
+        "report": config.report.model_dump(exclude_none=True),
         "press": _press(run),
         "status": "error" if run.errors else status,
         "governing": governing(mechanisms),
         "summary": summary(mechanisms) | {"assumed": assumed(config)},
         "mechanisms": mechanisms,
     } | ({"comparisons": comparisons} | _left_out(run) if comparisons else {})
+    return made | {"wordings": wordings([made["mechanisms"], comparisons, made.get("comparisons_left_out")])}
 
 
 def _tables(config: Config) -> Data:
-    """The user's own tables that the config names, whole: the calculation can be done again with them."""
+    """The user's own tables and the logo that the config names, whole: the report can be made again with them."""
     found = [{"file": name, "sha256": tree.sha256, "source_text": tree.text} for name, tree in config.tables.items()]
-    return {"materials": found} if found else {}
+    return ({"materials": found} if found else {}) | ({"logo": _logo(config.logo)} if config.logo else {})
+
+
+def _logo(logo: Logo) -> Data:
+    content = base64.b64encode(logo.content).decode()
+    return {"file": logo.name, "sha256": logo.sha256, "media_type": logo.media_type, "base64": content}
 
 
 def _left_out(run: Run) -> Data:
     """The comparisons beyond the most that a config gets, with words on how to get them."""
     if not run.left_out:
         return {}
-    words = (
-        f"{len(run.left_out)} comparisons are left out, the first is {run.left_out[0]}: at most {MAX_COMPARISONS} are made. "
-        "To get one, let its mechanisms be the first of their kinds in the configuration, or put them into one of their own."
-    )
+    words = Phrase(LEFT_OUT, count=len(run.left_out), first=run.left_out[0], most=MAX_COMPARISONS)
     return {"comparisons_left_out": {"message": words, "names": run.left_out}}
 
 
 def _code(config: Config) -> Data:
-    """Return the hash of the program's code, and of each extension that was run."""
-    return {"source_sha256": program_hash()} | ({"extensions": dict(config.extensions)} if config.extensions else {})
+    """Return the hash of the program's code, and of each extension that was run; and by what the numbers were calculated."""
+    libraries = {"Python": platform.python_version(), "NumPy": np.__version__, "SciPy": scipy.__version__}
+    extensions = {"extensions": dict(config.extensions)} if config.extensions else {}
+    return {"source_sha256": program_hash(), "libraries": libraries} | extensions
 
 
 EMPTY: Data = {
@@ -133,11 +149,11 @@ def _project(fields: Data) -> Data:
 def _press(run: Run) -> Data:
     press, bases = run.blocks[PRESS], Bases(run.config, run.calculations)
     assert isinstance(press, Press)
-    found = []
+    found, chosen = [], run.chosen_units(PRESS)
     for name, value in flatten(press).items():
         meta = declared(Press, tuple(name.split(".")))
         if isinstance(meta, Quantity):
-            shown = {"text": shortest(meta.parsed_unit.from_si(value)), "unit": meta.unit}
+            shown = given_shown(value, chosen.of(name, meta.unit) or meta.unit)
             said_of = {"path": f"{PRESS}.{name}", "description": meta.description, "symbol": meta.symbol}
             node = (PRESS, *name.split("."))
             rests = {"basis": bases.of(node)} | ({"note": note} if (note := bases.said(node).note) else {})
@@ -154,7 +170,7 @@ def resolved(run: Run) -> Data:
         mechanisms[name] = {"kind": kind} | (_plain(block, (name,), instance, bases) if block and instance else {})
     press = config.instances[PRESS]
     assert press is not None
-    return {"schema_version": 1, "project": config.project.model_dump(exclude_none=True), "report": config.report.model_dump(),
+    return {"schema_version": 1, "project": config.project.model_dump(exclude_none=True), "report": config.report.model_dump(exclude_none=True),
             PRESS: _plain(run.blocks[PRESS], (PRESS,), press, bases), "mechanisms": mechanisms}  # fmt: skip
 
 

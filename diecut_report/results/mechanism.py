@@ -12,17 +12,18 @@ import numpy as np
 from diecut_report.config.source_hashes import plugin_code
 from diecut_report.contract.inputs import CurveInput, Quantity, TakenWhole, list_titles
 from diecut_report.contract.result_names import ResultName, count_name, pattern, place_name, result_names
-from diecut_report.contract.spectra import Spectrum, SpectrumLine
 from diecut_report.contract.steps import SILENT, Crossings, Step
 from diecut_report.contract.varying import Varying
 from diecut_report.engine import Calculation, listings
-from diecut_report.engine.calculation import Unproven
 from diecut_report.engine.figure_views import figures
 from diecut_report.engine.printing.items import section_items
+from diecut_report.engine.shown_units import declared_unit, unit_for
 from diecut_report.engine.steps import facts
-from diecut_report.quantities.formatting import shortest, shown
+from diecut_report.languages.phrases import Phrase, phrase
+from diecut_report.quantities.formatting import given_shown, shown
 from diecut_report.quantities.units import unit
 from diecut_report.results.checks import applies, check_results, checks_of
+from diecut_report.results.curves import curves
 from diecut_report.results.exports import exports
 from diecut_report.results.phases import phases, phases_absent
 from diecut_report.results.summary import RANK, counts, failed_self_tests
@@ -105,6 +106,7 @@ def _is_there(calc: Calculation, name: str) -> bool:
 
 
 GIVEN = Provenance("given")
+IDLE = "not checked, though {key} is given: what it limits is not calculated"
 
 
 def absent(calc: Calculation, provenance: Mapping[str, Provenance]) -> list[Data]:
@@ -114,7 +116,7 @@ def absent(calc: Calculation, provenance: Mapping[str, Provenance]) -> list[Data
     checks = checks_of(calc)
     made = {check.id for check in checks if applies(calc, check) or missing(calc, check)}
     idle = [
-        {"title": c.title, "text": f"not checked, though {c.limit} is given: what it limits is not calculated"}
+        {"title": c.title, "text": Phrase(IDLE, key=c.limit)}
         for c in checks
         if _is_limit_given(calc, str(c.limit), provenance) and c.id not in made
     ]
@@ -145,7 +147,8 @@ def inputs(calc: Calculation, provenance: Mapping[str, Provenance]) -> Data:
                 continue
             home = calc.axis[name] if parted else ""
             path = f"{home}.{index}{name.removeprefix(home)}" if parted else name
-            found[path] = _input(meta, part) | _origin(provenance.get(path))
+            display = declared_unit(calc, name, meta.unit) if isinstance(meta, Quantity) else "1"
+            found[path] = _input(meta, part, display) | _origin(provenance.get(path))
             if parted:
                 found[path]["part"] = {"family": home, "index": index, "quantity": name.removeprefix(f"{home}.")}
     return found
@@ -163,7 +166,7 @@ def _origin(provenance: Provenance | None) -> Data:
     )
 
 
-def _input(meta: Any, value: Any) -> Data:
+def _input(meta: Any, value: Any, display: str) -> Data:
     if isinstance(value, TakenWhole) or (isinstance(meta, Quantity) and isinstance(value, str)):
         return {"value": str(value), "unit": "1", "symbol": meta.symbol, "description": meta.description,
                 "display": {"text": str(value), "unit": "1"}}  # fmt: skip
@@ -174,14 +177,14 @@ def _input(meta: Any, value: Any) -> Data:
         return {"value": text if is_curve else plain, "unit": unit(meta.unit).si if is_curve else "1", "symbol": meta.symbol,
                 "description": meta.description, "display": {"text": text, "unit": "1"}}  # fmt: skip
     if isinstance(meta, Varying) and not isinstance(value, float | np.ndarray):
-        return varying(meta, value)
+        return varying(meta, value, display)
     number = float(np.ravel(value)[0])
     return {
         "value": int(number) if meta.integer else number,
         "unit": meta.parsed_unit.si,
         "symbol": meta.symbol,
         "description": meta.description,
-        "display": {"text": shortest(number / meta.parsed_unit.factor), "unit": meta.unit},
+        "display": given_shown(number, display),
     }
 
 
@@ -203,23 +206,32 @@ def _rowed(calc: Calculation, step: Step) -> Data:
         home = {} if step.numbered else {"list": calc.axis[step.id]}
         names = result_names(step, len(row), calc.inputs.get(step.named_by))
         there = [(each, value) for each, value in zip(names, row, strict=True) if value == value]  # no NaN
-        return {each.name: _number(step, value) | home | _part(step, each, **home) for each, value in there}
+        display = _row_unit(calc, step, [value for _, value in there])
+        return {each.name: _number(step, value, display) | home | _part(step, each, **home) for each, value in there}
     if not isinstance(row[0], str) and math.isnan(row[0]):
         return {}
-    found = _number(step, row[0])
+    found = _number(step, row[0], _row_unit(calc, step, row[:1]))
     place = place_name(step.id)
     if place in calc.values:
         axis = calc.steps[calc.axis[step.of]]  # type: ignore[attr-defined]
-        found["at"] = {"symbol": axis.symbol} | shown(float(calc[place][0, 0]), axis.unit, 6)
+        at = shown(float(calc[place][0, 0]), declared_unit(calc, axis.id, axis.unit), 6)
+        found["at"] = {"symbol": axis.symbol} | at
     return {step.id: found}
+
+
+def _row_unit(calc: Calculation, step: Step, values: Any) -> str:
+    """The unit of a row: that of a table's column, in which its greatest value is easy to read."""
+    is_text = any(isinstance(value, str | bool | np.bool_) for value in values)
+    return step.unit if is_text else unit_for(calc, step.id, step.unit, values)
 
 
 def _listed(calc: Calculation, step: Crossings) -> Data:
     places = [x for x in calc[step.id][0] if not math.isnan(x)]
-    count = {"value": len(places), "unit": "1", "symbol": "", "description": f"{step.description}: how many",
+    count = {"value": len(places), "unit": "1", "symbol": "", "description": Phrase("{title}: how many", title=phrase(step.description)),
              "source": step.source, "display": {"text": str(len(places)), "unit": "1"}}  # fmt: skip
     _, *names = result_names(step, len(places))
-    rows = {each.name: _number(step, places[each.index]) | _part(step, each) for each in names}
+    display = _row_unit(calc, step, places)
+    rows = {each.name: _number(step, places[each.index], display) | _part(step, each) for each in names}
     return {count_name(step.id): count} | rows
 
 
@@ -233,7 +245,7 @@ def _part(step: Step, each: ResultName, list: str = "") -> Data:
     return {"part": part | ({"quantity": made.quantity} if made.quantity else {})}
 
 
-def _number(step: Step, value: Any) -> Data:
+def _number(step: Step, value: Any, display: str) -> Data:
     said = {"symbol": step.symbol, "description": step.description, "source": step.source}
     if isinstance(value, str):
         return {"value": value, "unit": "1"} | said | {"display": {"text": value, "unit": "1"}}
@@ -242,53 +254,5 @@ def _number(step: Step, value: Any) -> Data:
     return (
         {"value": round(value) if step.whole else float(value), "unit": unit(step.unit).si}
         | said
-        | {"display": shown(float(value), step.unit, step.digits)}
+        | {"display": shown(float(value), display, step.digits)}
     )
-
-
-def curves(calc: Calculation) -> Data:
-    """Return each curve at the samples of its abscissa, with its one-sided values at the breakpoints."""
-    found: Data = {}
-    for name, domain in calc.domains.items():
-        step = calc.steps[name]
-        found[name] = _curve(step, domain.samples[0])
-        edges = np.unique(domain.joints[0])[1:-1]
-        if len(edges):
-            found[name]["breakpoints"] = edges.tolist()
-    for name, curve in calc.curves.items():
-        if curve.output:
-            found[name] = _curve(curve, calc.curve_samples(name)[0]) | _limits(calc, name)
-    for spectrum in calc.mechanism.spectra:
-        found |= _spectrum(spectrum)
-    return found
-
-
-def _spectrum(spectrum: Spectrum) -> Data:
-    common = {"is_spectrum": True}
-    lines = {line.id: _curve(line, line.values) | {"abscissa": spectrum.id} | common for line in spectrum.lines()}
-    return {spectrum.id: _curve(spectrum, spectrum.values) | common} | lines
-
-
-def _curve(step: Step | SpectrumLine, values: Any) -> Data:
-    if not np.isfinite(np.asarray(values, dtype=float)).all():
-        raise Unproven(f"{step.description} ({step.id}) is a curve that has no value at some of its places")
-    return {"unit": unit(step.unit).si, "values": np.asarray(values, dtype=float).tolist(), "symbol": step.symbol,
-            "description": step.description, "display_unit": step.unit, "source": step.source}  # fmt: skip
-
-
-def _limits(calc: Calculation, name: str) -> Data:
-    axis = calc.axis[name]
-    domain = calc.domains[axis]
-    wide = domain.widths[0] > 1e-12 * domain.period[0, 0]
-    starts, ends, middles = domain.edges[:1, :-1][:, wide], domain.edges[:1, 1:][:, wide], domain.middles[:1, wide]
-    first = np.zeros(1, dtype=int)
-    after = calc.kept("starts", axis, lambda _: (starts, middles), first)[name]
-    before = calc.kept("ends", axis, lambda _: (ends, middles), first)[name]
-    after, before = (np.broadcast_to(limits, starts.shape)[0] for limits in (after, before))
-    joint = (domain.is_joint(starts[:, 1:]) | domain.is_joint(ends[:, :-1]))[0]
-    return {
-        "abscissa": calc.axis[name],
-        "breakpoints": starts[0, 1:][joint].tolist(),
-        "left": before[:-1][joint].tolist(),
-        "right": after[1:][joint].tolist(),
-    }

@@ -8,6 +8,8 @@ from diecut_report.contract.phases import PREFIX
 from diecut_report.contract.steps import Phase
 from diecut_report.engine import Calculation
 from diecut_report.engine.phases import intervals, period_of, phases_of, speed_of
+from diecut_report.engine.shown_units import declared_unit
+from diecut_report.languages.phrases import Phrase, named
 from diecut_report.mechanics.timing.intervals import Interval
 from diecut_report.quantities.formatting import shown
 from diecut_report.quantities.units import unit
@@ -23,6 +25,7 @@ def phases(calc: Calculation) -> Data:
         held = intervals(calc, name)
         if held:
             axis = calc.steps[step.abscissa]
+            display = declared_unit(calc, axis.id, axis.unit)
             found[name] = {
                 "role": step.role,
                 "description": step.description,
@@ -31,8 +34,8 @@ def phases(calc: Calculation) -> Data:
                 "unit": unit(axis.unit).si,
                 "intervals": [list(interval) for interval in held],
                 "display": {
-                    "unit": axis.unit,
-                    "intervals": [_shown(interval, axis.unit, speed_of(calc, step.abscissa)) for interval in held],
+                    "unit": display,
+                    "intervals": [_shown(interval, display, speed_of(calc, step.abscissa)) for interval in held],
                 },
             }
     return found
@@ -56,6 +59,7 @@ def phases_absent(calc: Calculation) -> Data:
             continue
         missing = [key for key in (*chapter.needs, *step.needs) if key not in calc.given]
         if name not in found or len(missing) < len(found[name]["missing"]):
-            words = f"{' and '.join(missing)} not given" if missing else "does not apply to this machine"
+            words = "does not apply to this machine"
+            words = Phrase("{keys} not given", keys=named(missing, " and ")) if missing else words
             found[name] = {"description": step.description, "missing": missing, "text": words}
     return found

@@ -6,7 +6,10 @@ import re
 from collections.abc import Iterator
 from typing import Any
 
+from diecut_report.languages.phrases import Phrase, joined
+
 Data = dict[str, Any]
+FOLLOWS = "{key} follows from {origin}: change it there, so that what else takes it keeps in step."
 ADVISED = r"(?:\bset |\blower |\braise |\btake |\bmake |\baccept |\bchange |\ban? |\bno )({key})\b|\b({key})\b(?= of at (?:least|most)|: )"
 
 
@@ -25,14 +28,15 @@ def _mechanism(mechanisms: Data, name: str) -> Data:
 def _check(mechanisms: Data, name: str, check: Data) -> Data:
     if check["status"] not in ("warn", "fail"):
         return check
-    words = " ".join(dict.fromkeys(_origins(mechanisms, name, check["message"])))
-    return check | ({"message": f"{check['message']} {words}"} if words else {})
+    words = dict.fromkeys(_origins(mechanisms, name, check["message"]))
+    return check | ({"message": joined([check["message"], *words], " ")} if words else {})
 
 
 def _origins(mechanisms: Data, name: str, message: str) -> Iterator[str]:
     for key, data in mechanisms[name]["inputs"].items():
         if "path" in data and re.search(ADVISED.format(key=re.escape(key)), message):
-            yield f"{key} follows from {beginning(mechanisms, data['path'])}: change it there, so that what else takes it keeps in step."
+            origin = beginning(mechanisms, data["path"])
+            yield Phrase(FOLLOWS, key=key, origin=origin)
 
 
 def beginning(mechanisms: Data, path: str) -> str:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import base64
 import codecs
 import json
 from collections.abc import Mapping
@@ -30,6 +31,12 @@ def config_content(results: Mapping[str, Any]) -> bytes:
 def table_contents(results: Mapping[str, Any]) -> dict[str, bytes]:
     """Return the files of the user's own tables, byte for byte, by the names that the configuration gives them."""
     return {table["file"]: _content(table) for table in results["config"].get("materials", ())}
+
+
+def logo_content(results: Mapping[str, Any]) -> dict[str, bytes]:
+    """Return the logo's file by its name; nothing where there is none."""
+    logo = results["config"].get("logo")
+    return {logo["file"]: base64.b64decode(logo["base64"])} if logo else {}
 
 
 def _content(file: Mapping[str, Any]) -> bytes:

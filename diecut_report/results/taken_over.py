@@ -14,6 +14,7 @@ from diecut_report.engine.mechanism_handle import MechanismHandle
 from diecut_report.engine.phases import PhaseHandle
 from diecut_report.engine.steps import facts
 from diecut_report.expressions import Array
+from diecut_report.languages.phrases import Phrase, phrase
 from diecut_report.quantities.plausible import without_rounding
 
 
@@ -29,7 +30,7 @@ def require_facts(calc: Calculation, name: str, target: Target) -> None:
     """Raise Withheld where a result stands on a fact that the machine (of several: none of them) does not meet."""
     missed, words = facts.without(calc, name)
     if missed.all():
-        raise Withheld(f"{target.path}, which is {words or 'not calculated'}")
+        raise Withheld(Phrase("{path}, which is {reason}", path=target.path, reason=phrase(words or "not calculated")))
 
 
 def number(calc: Calculation, name: str) -> Array | None:

@@ -11,11 +11,19 @@ from diecut_report.contract.checks import Check
 from diecut_report.contract.missing_keys import missing_keys
 from diecut_report.contract.placeholders import listed
 from diecut_report.engine import Calculation
+from diecut_report.engine.shown_units import unit_for
+from diecut_report.languages.phrases import Phrase, joined, named, phrase
 from diecut_report.quantities.formatting import shown, with_unit
 from diecut_report.quantities.units import unit
 
 Data = dict[str, Any]
 NOT_CHECKED = "not_checked"
+MISSING = {  # whether several keys are missing, whether a side is known
+    (False, False): "Not checked: {keys} is not given.",
+    (True, False): "Not checked: {keys} are not given.",
+    (False, True): "Not checked: {known}, but {keys} is not given.",
+    (True, True): "Not checked: {known}, but {keys} are not given.",
+}
 
 
 def is_of_machine(check: Check) -> bool:
@@ -40,7 +48,7 @@ def _does_not_exist(calc: Calculation, side: str | float) -> bool:
 def result(calc: Calculation, check: Check, keys: tuple[str, ...]) -> Data:
     """Return a check that is not made, in the form of those that are."""
     demand = _known(calc, check.demand)
-    text = None if demand is None else shown(demand, check.unit)
+    text = None if demand is None else shown(demand, check_unit(calc, check, [demand]))
     return {
         "id": check.id,
         "title": check.title,
@@ -62,13 +70,26 @@ def result(calc: Calculation, check: Check, keys: tuple[str, ...]) -> Data:
     }
 
 
+def check_unit(calc: Calculation, check: Check, sides: list[float]) -> str:
+    """Return the one unit in which the sides of a check are shown."""
+    named = [side for side in (check.demand, check.limit) if isinstance(side, str) and side in calc.chosen_units.by_id]
+    return unit_for(calc, named[0] if named else "", check.unit, sides)
+
+
 def _message(calc: Calculation, check: Check, keys: tuple[str, ...]) -> str:
     """What is known of either side, and what is not given."""
     sides = ((check.demand_label, _known(calc, check.demand)), (check.limit_label, _known(calc, check.limit)))
-    known = [f"{label} {with_unit(*shown(value, check.unit).values())}" for label, value in sides if value is not None]
-    head = f"Not checked: {known[0]}, but" if known else "Not checked:"
-    told = f"{head} {listed(keys)} {'are' if len(keys) > 1 else 'is'} not given."
-    return " ".join([told, *dict.fromkeys(_of_partners(calc, keys))])
+    known = [
+        Phrase(
+            "{label} {value}",
+            label=phrase(label),
+            value=with_unit(*shown(value, check_unit(calc, check, [value])).values()),
+        )
+        for label, value in sides
+        if value is not None
+    ]
+    told: str = Phrase(MISSING[len(keys) > 1, bool(known)], keys=listed(keys), known=known[0] if known else "")
+    return joined([told, *dict.fromkeys(_of_partners(calc, keys))], " ")
 
 
 def _of_partners(calc: Calculation, keys: tuple[str, ...]) -> Iterator[str]:
@@ -77,9 +98,10 @@ def _of_partners(calc: Calculation, keys: tuple[str, ...]) -> Iterator[str]:
         wanted = [key for key in keys if key in partner.takes]
         if wanted and partner.key in calc.given:
             homes = listed([f"{calc.inputs[partner.key]}.{partner.takes[key]}" for key in wanted])
-            yield f"{homes} {'are' if len(wanted) > 1 else 'is'} not there."
+            yield Phrase("{keys} are not there." if len(wanted) > 1 else "{keys} is not there.", keys=homes)
         elif wanted:
-            yield f"There is no {' or '.join(partner.kinds)}, or there are several: name one by {partner.key}."
+            none = "There is no {kinds}, or there are several: name one by {key}."
+            yield Phrase(none, kinds=named(partner.kinds, " or "), key=partner.key)
 
 
 def _known(calc: Calculation, side: str | float) -> float | None:

@@ -6,6 +6,8 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from types import MappingProxyType
 
+from diecut_report.languages.phrases import Phrase, phrase
+
 
 class StandardFault(ValueError):
     """Report a series or table that cannot be trusted, or an id that no file has; the text says which and what to fix."""
@@ -92,5 +94,7 @@ class StandardTable:
 
 def sources_told(taken_from: StandardTable | StandardSeries) -> str:
     """Return in one line what a table or series is and where it comes from."""
-    told = f"{taken_from.title}: {'; '.join(taken_from.sources)}"
-    return f"{told} (one source: {taken_from.only_source})" if taken_from.only_source else told
+    told = Phrase("{title}: {sources}", title=phrase(taken_from.title), sources="; ".join(taken_from.sources))
+    if not taken_from.only_source:
+        return told
+    return Phrase("{told} (one source: {reason})", told=told, reason=phrase(taken_from.only_source))

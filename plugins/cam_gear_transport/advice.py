@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from math import sqrt
 
-from diecut_report.api import below, si, told
+from diecut_report.api import Phrase, below, joined, phrase, si, told
 from diecut_report.plugins.cam_gear_transport import formulas
 
 MODULES = (20, 16, 12, 10, 8, 6, 5, 4, 3, 2.5, 2, 1.5, 1.25, 1)  # mm, the usual ones
@@ -18,19 +18,25 @@ def angle_below(angle: float) -> str:
 
 def leaves_return(dwell: float, sweep: float) -> str:
     """Words on what leaves the return more time."""
-    either = f"a dwell_angle of at most {angle_below(dwell)}" if dwell > 0 else ""
-    other = f"a sector_stop_sweep of at most {angle_below(sweep)} with this dwell" if sweep > 0 else ""
-    return " or ".join(filter(None, (either, other))) or "a shorter dwell_angle with a smaller sector_stop_sweep"
+    either = Phrase("a dwell_angle of at most {angle_below}", angle_below=angle_below(dwell)) if dwell > 0 else ""
+    other = (
+        Phrase("a sector_stop_sweep of at most {angle_below} with this dwell", angle_below=angle_below(sweep))
+        if sweep > 0
+        else ""
+    )
+    return joined(filter(None, (either, other)), " or ") or phrase(
+        "a shorter dwell_angle with a smaller sector_stop_sweep"
+    )
 
 
 def leaves_return_with_teeth(dwell: float, sweep: float) -> str:
     """The same where gear and sector have whole teeth."""
-    return f"{leaves_return(dwell, sweep)} (with these teeth)"
+    return Phrase("{leaves_return} (with these teeth)", leaves_return=leaves_return(dwell, sweep))
 
 
 def slower(cycles: float, share: float) -> str:
     """Words on the cycles that keep a limit, to which there is so large a share of the present ones."""
-    return f"a cycles_per_hour of at most {told(cycles * share, '1/h', up=False)}"
+    return Phrase("a cycles_per_hour of at most {cycles}", cycles=told(cycles * share, "1/h", up=False))
 
 
 def gentler_grip(cycles: float, force: float, held: float) -> str:
@@ -59,8 +65,10 @@ def gentler_sheet(
     highest = min(_return_limit(held, left, rate, limit), (left - least_return) / rate)
     up, down = told(lowest, "deg", up=True), angle_below(highest) if highest > 0 else ""
     if down and float(up[:-1]) <= float(down[:-1]):
-        return f"take a sector_stop_sweep from {up} to {down}, or {slow}"
-    return f"no sector_stop_sweep alone keeps it with this dwell; take {slow}, or a shorter dwell_angle or step"
+        return Phrase("take a sector_stop_sweep from {up} to {down}, or {slow}", up=up, down=down, slow=slow)
+    return Phrase(
+        "no sector_stop_sweep alone keeps it with this dwell; take {slow}, or a shorter dwell_angle or step", slow=slow
+    )
 
 
 def _return_limit(held: float, left: float, rate: float, limit: float) -> float:
@@ -77,18 +85,25 @@ def finer_teeth(center_distance: float, sweep: float, dwell: float) -> str:
         together = formulas.teeth_together(center_distance, module / 1000)
         teeth = formulas.gear_teeth(together, sweep, dwell)
         if formulas.is_whole(together) and teeth >= UNDERCUT and formulas.other_teeth(together, teeth) >= 1:
-            return f"a module of {module:g} mm"
-    return "a smaller module"
+            return Phrase("a module of {module} mm", module=f"{module:g}")
+    return phrase("a smaller module")
 
 
 def smaller_roller(least_radius: float, tangent_distance: float) -> str:
     """Words on the roller that neither undercuts its profile nor makes it cross itself."""
     if tangent_distance <= 0:
-        return "no roller passes with these arms"
-    return f"take a roller_radius of at most {below(min(least_radius, tangent_distance) * 1000):g} mm"
+        return phrase("no roller passes with these arms")
+    return Phrase(
+        "take a roller_radius of at most {least_radius} mm",
+        least_radius=f"{below(min(least_radius, tangent_distance) * 1000):g}",
+    )
 
 
 def softer_contact(pressure: float, allowed: float, width: float, cycles: float) -> str:
     """Words on the width of roller, and the cycles, that keep the allowed pressure: all forces grow with the square of the speed."""
     wide = told(width * (pressure / allowed) ** 2, "mm", up=True)
-    return f"take a roller_width of at least {wide}, or {slower(cycles, allowed / pressure)}, or a lighter conveyor"
+    return Phrase(
+        "take a roller_width of at least {wide}, or {slower}, or a lighter conveyor",
+        wide=wide,
+        slower=slower(cycles, allowed / pressure),
+    )

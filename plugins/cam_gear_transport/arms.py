@@ -9,7 +9,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from diecut_report.api import outward, si
+from diecut_report.api import Phrase, joined, outward, phrase, si
 from diecut_report.mechanics import cam
 from diecut_report.mechanics.motion_laws import LAWS, MotionLaw
 from diecut_report.plugins.cam_gear_transport import formulas, loads
@@ -190,9 +190,15 @@ def narrower(rocker: Rocker) -> Iterator[tuple[dict[str, str], Rocker]]:
 
 
 def _told(values: dict[str, str], greatest: float) -> str:
-    words = [f"{'an' if key[0] == 'a' else 'a'} {key} of {value}" for key, value in values.items()]
-    loaded = " (shorter arms raise the roller forces)" if "arm_length" in values else ""
-    return f"take {', '.join(words)}: the greatest pressure angle is then {in_degrees(greatest):.3g}°{loaded}"
+    forms = {True: "an {key} of {value}", False: "a {key} of {value}"}
+    words = [Phrase(forms[key[0] == "a"], key=key, value=value) for key, value in values.items()]
+    loaded = phrase(" (shorter arms raise the roller forces)") if "arm_length" in values else ""
+    return Phrase(
+        "take {words}: the greatest pressure angle is then {in_degrees}°{loaded}",
+        words=joined(words, ", "),
+        in_degrees=f"{in_degrees(greatest):.3g}",
+        loaded=loaded,
+    )
 
 
 @lru_cache(maxsize=64)  # three checks ask for the same words
@@ -200,16 +206,19 @@ def arms_that_fit(*numbers: float) -> str:
     """Words on arms with which pressure angles, curvature and the way round the shaft pass; on narrower sweeps where none do."""
     rocker = Rocker(*numbers)
     if not leaves_time(rocker):
-        return "leave the return its time first"
+        return phrase("leave the return its time first")
     found = fitting(rocker)
     if found:
         return _told(*found)
     for sweeps, tried in narrower(rocker):
         found = fitting(tried)
         if found:
-            return (f"no arms pass with this dwell and these sweeps; {_told(sweeps | found[0], found[1])}, and the gear is smaller, "
-                    "which raises the forces on teeth and rollers")  # fmt: skip
-    return "no arms pass with this dwell; take a shorter dwell_angle"
+            return Phrase(
+                "no arms pass with this dwell and these sweeps; {told}, and the gear is smaller, which raises "
+                "the forces on teeth and rollers",
+                told=_told(sweeps | found[0], found[1]),
+            )
+    return phrase("no arms pass with this dwell; take a shorter dwell_angle")
 
 
 def angles_at_the_ends(center_distance: float, arm_length: float, held: float, sweep: float) -> str:
@@ -220,4 +229,8 @@ def angles_at_the_ends(center_distance: float, arm_length: float, held: float, s
     """
     middle = in_degrees(acos(-min(arm_length / center_distance, 0.99) * cos(sweep / 2)))
     left, right = (angle - in_degrees(held) / 2 for angle in (middle, 360 - middle))
-    return f"{left:.1f}° and {right:.1f}°, with which the pressure angles at both ends of the swings are the least"
+    return Phrase(
+        "{left}° and {right}°, with which the pressure angles at both ends of the swings are the least",
+        left=f"{left:.1f}",
+        right=f"{right:.1f}",
+    )

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from diecut_report.api import outward, si, told
+from diecut_report.api import Phrase, joined, outward, phrase, si, told
 from diecut_report.plugins.circular_knife import formulas as f
 
 SIZES = ("eccentricity", "edge_radius", "depth", "thickness", "friction", "front_distance", "cut_length")
@@ -35,23 +35,35 @@ def _down(length: float) -> float:
 def _range(given: PlaceRange, length: float) -> str:
     """The distances of the front edge for a cut of this length, in words; empty where there are none."""
     first, last = _up(given.nearest), _down(given.furthest - length)
-    return f"a front_distance from {told(first, 'mm')} to {told(last, 'mm')}" if first <= last else ""
+    return (
+        Phrase("a front_distance from {first} to {last}", first=told(first, "mm"), last=told(last, "mm"))
+        if first <= last
+        else ""
+    )
 
 
 def _shorter(given: PlaceRange, front: float) -> str:
     """The cut that is possible from this front edge, in words; empty where there is none."""
     length = _down(given.furthest - front)
-    return f"a cut_length of at most {told(length, 'mm')}" if front >= given.nearest and length > 0 else ""
+    return (
+        Phrase("a cut_length of at most {length}", length=told(length, "mm"))
+        if front >= given.nearest and length > 0
+        else ""
+    )
 
 
 def placing(given: PlaceRange, front: float, length: float) -> str:
     """What brings the cut into a range: another place, a shorter cut, or both; empty where nothing does."""
     ways = [way for way in (_shorter(given, front), _range(given, length)) if way]
     if ways:
-        return " or ".join(ways)
+        return joined(ways, " or ")
     nearest = _up(given.nearest)
     both = _shorter(given, nearest)
-    return f"a front_distance of {told(nearest, 'mm')} together with {both}" if both else ""
+    return (
+        Phrase("a front_distance of {nearest} together with {both}", nearest=told(nearest, "mm"), both=both)
+        if both
+        else ""
+    )
 
 
 def _end_at(slope: float, eccentricity: float, edge_radius: float, depth: float) -> float:
@@ -97,32 +109,45 @@ def check_advice(*sizes: float) -> str:
 def reach_advice(*sizes: float) -> str:
     """What the edge can cut: where the checks pass, or else where it reaches at all."""
     ways = check_advice(*sizes) or placing(possible(*sizes[:4]), *sizes[5:])
-    return f"{ways} is within reach" if ways else "no cut is within reach of this knife: make its eccentricity greater"
+    return (
+        Phrase("{ways} is within reach", ways=ways)
+        if ways
+        else phrase("no cut is within reach of this knife: make its eccentricity greater")
+    )
 
 
 def entering_advice(*knife: float) -> str:
     """The least distance of the front edge; the sizes are the first four."""
     nearest = max(possible(*knife).nearest, clear_of_blade(*knife))
-    return f"put the board further from the axis: front_distance at least {told(_up(nearest), 'mm')}"
+    return Phrase("put the board further from the axis: front_distance at least {up}", up=told(_up(nearest), "mm"))
 
 
 def shear_advice(least: float, greatest: float, *sizes: float) -> str:
     """What to change where the shear angle leaves what is usual."""
     words = []
     if greatest > f.greatest_shear_angle():
-        words.append(f"at the end of the cut the edge stands at {told(greatest, 'deg')}, more than 20°: the travel is long and the board is "
-                     "pushed forward")  # fmt: skip
+        words.append(
+            Phrase(
+                "at the end of the cut the edge stands at {greatest}, more than 20°: the travel is long and the "
+                "board is pushed forward",
+                greatest=told(greatest, "deg"),
+            )
+        )
     if least < f.least_shear_angle():
         words.append(
-            f"at its start the edge stands at {told(least, 'deg')}, less than 2°, and cuts nearly like a guillotine, with a high force"
+            Phrase(
+                "at its start the edge stands at {least}, less than 2°, and cuts nearly like a guillotine, with "
+                "a high force",
+                least=told(least, "deg"),
+            )
         )
     ways = check_advice(*sizes)
     remedy = (
-        f"{ways} keeps it between 2° and 20°"
+        Phrase("{ways} keeps it between 2° and 20°", ways=ways)
         if ways
-        else "a greater eccentricity or a smaller depth makes the usable part of the edge longer"
+        else phrase("a greater eccentricity or a smaller depth makes the usable part of the edge longer")
     )
-    return f"{', and '.join(words)}; {remedy}."
+    return joined(words, ", and ") + "; " + remedy + "."
 
 
 def expulsion_advice(greatest: float, *sizes: float) -> str:
@@ -132,11 +157,20 @@ def expulsion_advice(greatest: float, *sizes: float) -> str:
     within = sound(*sizes[:5]).furthest <= pushed
     ways = check_advice(*sizes) if within else ""
     least = outward(float(np.tan(greatest / 2)) * (1 + ENOUGH), up=True)
-    held = f"the board must be clamped (without a clamp, friction of at least {told(least, '1')} would hold it)"
-    return f"{ways} lowers the shear angle enough; otherwise {held}." if ways else f"{held}."
+    held = Phrase(
+        "the board must be clamped (without a clamp, friction of at least {least} would hold it)",
+        least=told(least, "1"),
+    )
+    return (
+        Phrase("{ways} lowers the shear angle enough; otherwise {held}.", ways=ways, held=held) if ways else f"{held}."
+    )
 
 
 def return_advice(*sizes: float) -> str:
     """What to change where the edge runs back in the board."""
     ways = check_advice(*sizes)
-    return f"{ways} avoids it." if ways else "a thinner board, a greater edge radius or a greater eccentricity helps."
+    return (
+        Phrase("{ways} avoids it.", ways=ways)
+        if ways
+        else "a thinner board, a greater edge radius or a greater eccentricity helps."
+    )

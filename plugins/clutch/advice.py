@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from math import cbrt, inf, sqrt, tan
 
-from diecut_report.api import told
+from diecut_report.api import Phrase, joined, phrase, told
 
 LARGEST = 2.0  # radius and width of shoes beyond which no advice is given: nobody builds them, m
 MARGIN = 1e-3  # relative: what has to lie beyond a limit is named a little beyond it
@@ -13,13 +13,21 @@ MARGIN = 1e-3  # relative: what has to lie beyond a limit is named a little beyo
 def against_jamming(wedge_angle_limit: float, wedge_friction_limit: float) -> str:
     """Angle and friction with which the cone lifts the shoes."""
     angle = told(wedge_angle_limit * (1 - MARGIN), "deg", up=False)
-    return f"set wedge_angle to at most {angle}, or set wedge_friction to at most {_less(wedge_friction_limit)}"
+    return Phrase(
+        "set wedge_angle to at most {angle}, or set wedge_friction to at most {less}",
+        angle=angle,
+        less=_less(wedge_friction_limit),
+    )
 
 
 def against_locking(friction_angle: float, wedge_slope: float) -> str:
     """Angle and friction with which the wedge opens by itself."""
     angle = told(friction_angle * (1 + MARGIN), "deg", up=True)
-    return f"set wedge_angle to at least {angle}, or set wedge_friction to at most {_less(wedge_slope)}"
+    return Phrase(
+        "set wedge_angle to at least {angle}, or set wedge_friction to at most {less}",
+        angle=angle,
+        less=_less(wedge_slope),
+    )
 
 
 def _less(limit: float) -> str:
@@ -34,13 +42,13 @@ def against_pressure(
     changes.append(against_given_width(least_radius))
     coverage = shoe_coverage * shoe_width / lining_width
     if coverage <= 1 and lining_width <= shoe_radius:
-        changes.append(f"set shoe_coverage to at least {told(coverage, '1', up=True)}")
-    return ", or ".join(changes)
+        changes.append(Phrase("set shoe_coverage to at least {coverage}", coverage=told(coverage, "1", up=True)))
+    return joined(changes, ", or ")
 
 
 def _width(low: float, high: float) -> str:
     low_text, high_text = told(low, "mm", up=True), told(high, "mm", up=False)
-    return f"set shoe_width to between {low_text} and {high_text}"
+    return Phrase("set shoe_width to between {low_text} and {high_text}", low_text=low_text, high_text=high_text)
 
 
 def against_width(shoe_radius: float, lining_width: float, pv: float = 0.0, allowable_pv: float = inf) -> str:
@@ -50,14 +58,14 @@ def against_width(shoe_radius: float, lining_width: float, pv: float = 0.0, allo
 
 def against_given_width(least_radius: float) -> str:
     """Words where the given shoes are too wide."""
-    return f"set shoe_radius to at least {told(least_radius, 'mm', up=True)}"
+    return Phrase("set shoe_radius to at least {least_radius}", least_radius=told(least_radius, "mm", up=True))
 
 
 def _square(size: float) -> str:
     if size > LARGEST:
-        return "design for less torque"
+        return phrase("design for less torque")
     text = told(size, "mm", up=True)
-    return f"set shoe_radius to at least {text} with shoe_width: {text}"
+    return Phrase("set shoe_radius to at least {text} with shoe_width: {text}", text=text)
 
 
 def against_glazing(shoe_radius: float, shoe_width: float, lining_width: float, pv: float, allowable_pv: float) -> str:
@@ -73,7 +81,9 @@ def against_glazing_of_torque(
 ) -> str:
     """The same where the torque is given: of a given power the product is the same at each speed."""
     wider = against_glazing(shoe_radius, shoe_width, lining_width, pv, allowable_pv)
-    return f"{wider}, or set speed to at most {told(speed * allowable_pv / pv, 'rpm', up=False)}"
+    return Phrase(
+        "{wider}, or set speed to at most {speed}", wider=wider, speed=told(speed * allowable_pv / pv, "rpm", up=False)
+    )
 
 
 def against_travel(
@@ -85,11 +95,18 @@ def against_travel(
     radial_gap: float,
 ) -> str:
     """Words where the cone meets its stop before the lining is worn."""
-    changes = [f"set available_travel to at least {told(axial_travel, 'mm', up=True)}"]
+    changes = [
+        Phrase("set available_travel to at least {axial_travel}", axial_travel=told(axial_travel, "mm", up=True))
+    ]
     wear = available_travel * tan(wedge_angle) - radial_gap
     if wear >= 0:
-        changes.append(f"set wear_allowance to at most {told(wear, 'mm', up=False)}")
+        changes.append(Phrase("set wear_allowance to at most {wear}", wear=told(wear, "mm", up=False)))
     if travel_angle < wedge_angle_limit * (1 - MARGIN):
-        changes.append(f"set wedge_angle to at least {told(travel_angle, 'deg', up=True)}, which asks for more force")
-        return ", or ".join(changes)
-    return ", or ".join(changes) + "; with a wedge that still lifts the shoes no angle alone helps"
+        changes.append(
+            Phrase(
+                "set wedge_angle to at least {travel_angle}, which asks for more force",
+                travel_angle=told(travel_angle, "deg", up=True),
+            )
+        )
+        return joined(changes, ", or ")
+    return joined(changes, ", or ") + phrase("; with a wedge that still lifts the shoes no angle alone helps")

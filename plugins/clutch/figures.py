@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 from diecut_report.api import (
     Chart,
     Drawing,
+    Phrase,
     Point,
     Shape,
     View,
@@ -142,7 +143,9 @@ def force_over_angle(view: View) -> list[Shape]:
             "Engagement force", "kN", "Wedge angle", "α", "deg",
             lines=lines,
             marks=[mark(chosen, view["engagement_force"], "chosen")],
-            verticals=[vertical(view["friction_angle"], f"locks itself up to {view.text('friction_angle')}")] if friction else [],
+            verticals=[vertical(view["friction_angle"], Phrase("locks itself up to {friction_angle}", friction_angle=view.text("friction_angle")))]
+            if friction
+            else [],
         )
     ]  # fmt: skip
 

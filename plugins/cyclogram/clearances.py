@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 
-from diecut_report.api import Refusal
+from diecut_report.api import Phrase, Refusal, joined
 from diecut_report.mechanics.timing.clearance import LeastClearance, Station, carriage_clearance, least_clearance
 from diecut_report.mechanics.timing.shaft_curves import ShaftCurve
 from diecut_report.plugins.cyclogram.kinds import POSITION, STEP
@@ -78,19 +78,33 @@ def _standing(transport: LineOfMachines, position: ShaftCurve) -> Any:
 def _line(lines: list[LineOfMachines], name: str, key: str) -> LineOfMachines:
     found = next((each for each in lines if each.name == name), None)
     if found is None:
-        raise Refusal(key, f"is {name}, which is not a line; the lines are {', '.join(each.name for each in lines)}")
+        raise Refusal(
+            key,
+            Phrase(
+                "is {name}, which is not a line; the lines are {text}",
+                name=name,
+                text=joined((each.name for each in lines), ", "),
+            ),
+        )
     return found
 
 
 def _numbers(line: LineOfMachines, name: str, key: str) -> Any:
     found = line.mechanism.numbers(name)
     if found is None:
-        raise Refusal(key, f"is {line.name}, which has no {name}; give what it needs there, or leave the station out")
+        raise Refusal(
+            key,
+            Phrase(
+                "is {name}, which has no {name_2}; give what it needs there, or leave the station out",
+                name=line.name,
+                name_2=name,
+            ),
+        )
     return found
 
 
 def _curve(line: LineOfMachines, name: str, key: str) -> ShaftCurve:
     curve = line.mechanism.curve(name)
     if curve is None:
-        raise Refusal(key, f"is {line.name}, which has no curve {name}")
+        raise Refusal(key, Phrase("is {name}, which has no curve {name_2}", name=line.name, name_2=name))
     return line.curve(curve)

@@ -11,6 +11,7 @@ import numpy as np
 from diecut_report.api import (
     Chart,
     Drawing,
+    Phrase,
     Shape,
     View,
     arc,
@@ -19,6 +20,7 @@ from diecut_report.api import (
     label,
     line,
     mark,
+    phrase,
     polyline,
     told,
     vertical,
@@ -34,7 +36,7 @@ INNER, RING, LAYER = 0.8, 0.8, 0.22  # of the rings: the innermost radius, a lin
 LAYERS = {"working": "link", "rest": "outline", "window": "hidden"}
 TURN = 2 * pi
 POINTS = 721
-AXIS = ("Angle of the main shaft", "Φ", "deg")
+AXIS = (phrase("Angle of the main shaft"), "Φ", "deg")
 
 
 def _pieces(intervals: Intervals, period: float) -> Iterator[tuple[float, float]]:
@@ -135,7 +137,7 @@ def moving(view: View) -> list[Shape]:
     motions: Motions = view.prepared("motions")
     main = _angles(view.prepared("timing"))
     ways = [
-        (f"Way of {name}", line(main, motions.ways.one(k, main[None], main[None], None)[0], name))
+        (Phrase("Way of {name}", name=name), line(main, motions.ways.one(k, main[None], main[None], None)[0], name))
         for k, name in enumerate(motions.ways.names)
     ]
     panels = [chart_panel(title, "mm", *AXIS, lines=[drawn]) for title, drawn in ways]

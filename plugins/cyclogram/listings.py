@@ -6,7 +6,7 @@ from collections.abc import Iterator, Mapping
 from math import isfinite, pi
 from typing import Any
 
-from diecut_report.api import Cell, ListedColumn
+from diecut_report.api import Cell, ListedColumn, Phrase, joined, phrase
 from diecut_report.plugins.cyclogram.kinds import ENERGIES, POSITION
 from diecut_report.plugins.cyclogram.timing import Timing
 from diecut_report.plugins.cyclogram.torques import energy_parts, torque_name
@@ -64,17 +64,30 @@ def lacking(given: Mapping[str, Any]) -> Rows:
     for line in timing.lines:
         transports = line.mechanism.curve(POSITION) is not None
         if transports and not set(line.phases) - set(line.mechanism.phases):
-            yield f"carriages of {line.name} against the window", f"passing of {line.name} is not given"
+            yield (
+                Phrase("carriages of {name} against the window", name=line.name),
+                Phrase("passing of {name} is not given", name=line.name),
+            )
         if transports and "station.transport" not in given:
-            yield f"height over the carriages of {line.name}, carriage_height", "station is not given"
+            yield (
+                Phrase("height over the carriages of {name}, carriage_height", name=line.name),
+                phrase("station is not given"),
+            )
         if line.mechanism.curve(torque_name(line.mechanism, line.torque_curve)) is None:
-            yield f"torque of {line.name}", f"{line.name} has none; the sum is too small by it"
+            yield (
+                Phrase("torque of {name}", name=line.name),
+                Phrase("{name} has none; the sum is too small by it", name=line.name),
+            )
         if line.mechanism.kind in ENERGIES and energy_parts(line.mechanism) is None:
             numbers = [key for key in ENERGIES[line.mechanism.kind].numbers if line.mechanism.number(key) is None]
             yield (
-                f"kinetic energy of {line.name}",
-                f"{' and '.join(numbers)} of {line.name} is not given; it lends nothing",
+                Phrase("kinetic energy of {name}", name=line.name),
+                Phrase(
+                    "{numbers} of {name} is not given; it lends nothing",
+                    numbers=joined(numbers, " and "),
+                    name=line.name,
+                ),
             )
     for held in timing.held:
         if held.angle == held.time == 0:
-            yield f"margin of {held.name}", "margin is not given; 0 is taken"
+            yield Phrase("margin of {name}", name=held.name), phrase("margin is not given; 0 is taken")

@@ -10,7 +10,7 @@ from typing import Any
 
 import numpy as np
 
-from diecut_report.api import GivenMechanism, GivenPhase, Refusal
+from diecut_report.api import GivenMechanism, GivenPhase, Phrase, Refusal, joined
 from diecut_report.mechanics.timing.intervals import Intervals
 from diecut_report.mechanics.timing.lines import DrivenLine, common_period, exact_turns
 from diecut_report.plugins.cyclogram.passing import Stretch
@@ -91,10 +91,14 @@ def lines_of(given: Mapping[str, Any]) -> tuple[LineOnShaft, ...]:
 def _sound(mechanism: Any, index: int, before: list[LineOnShaft]) -> None:
     if any(mechanism.name == other.name for other in before):
         raise Refusal(
-            f"lines.{index}.mechanism", f"is {mechanism.name}, which is a line already; name each mechanism once"
+            f"lines.{index}.mechanism",
+            Phrase("is {name}, which is a line already; name each mechanism once", name=mechanism.name),
         )
     if not mechanism.has_period:
-        words = f"is {mechanism.name}, which runs over nothing that comes again, so that it has no phases; leave it out"
+        words = Phrase(
+            "is {name}, which runs over nothing that comes again, so that it has no phases; leave it out",
+            name=mechanism.name,
+        )
         raise Refusal(f"lines.{index}.mechanism", words)
 
 
@@ -108,7 +112,10 @@ def turns_of(text: str, key: str) -> Fraction:
     try:
         return exact_turns(Fraction(text.replace(" ", "")))
     except (ValueError, ZeroDivisionError):
-        words = f"is “{text}”; a number or a ratio above zero such as 1/2 is needed, with a denominator of at most 64"
+        words = Phrase(
+            "is “{text}”; a number or a ratio above zero such as 1/2 is needed, with a denominator of at most 64",
+            text=text,
+        )
         raise Refusal(key, words) from None
 
 
@@ -124,7 +131,11 @@ def _passing(mechanism: GivenMechanism, stretches: tuple[Stretch, ...], key: str
     found: dict[str, OwnPhase] = {}
     for index, each in enumerate(stretch.of_machine(0) for stretch in stretches):
         if each.name in mechanism.phases or each.name in found:
-            words = f"is {each.name}, the name of another phase of {mechanism.name}; give it one of its own"
+            words = Phrase(
+                "is {name}, the name of another phase of {name_2}; give it one of its own",
+                name=each.name,
+                name_2=mechanism.name,
+            )
             raise Refusal(f"{key}.{index}.name", words)
         each.require(mechanism, f"{key}.{index}")
         turned = TURN * (each.first % each.every)
@@ -143,13 +154,18 @@ def named_phase(lines: tuple[LineOnShaft, ...], text: str, key: str) -> tuple[in
     phase, _, number = rest.partition(".")
     index = next((i for i, each in enumerate(lines) if each.name == name), None)
     if index is None:
-        known = ", ".join(each.name for each in lines)
-        raise Refusal(key, f"is “{text}”, but {name} is not a line; the lines are {known}")
+        known = joined((each.name for each in lines), ", ")
+        raise Refusal(
+            key,
+            Phrase("is “{text}”, but {name} is not a line; the lines are {known}", text=text, name=name, known=known),
+        )
     own = lines[index].phases
     if phase not in own:
-        raise Refusal(key, f"is “{text}”, but {_no_phase(lines[index], phase)}")
+        raise Refusal(key, Phrase("is “{text}”, but {no_phase}", text=text, no_phase=_no_phase(lines[index], phase)))
     if number and not (number.isdecimal() and int(number) < len(own[phase].intervals)):
-        words = f"is “{text}”, but the phase has {len(own[phase].intervals)} intervals, counted from 0"
+        words = Phrase(
+            "is “{text}”, but the phase has {len} intervals, counted from 0", text=text, len=len(own[phase].intervals)
+        )
         raise Refusal(key, words)
     return index, phase, int(number) if number else None
 
@@ -157,7 +173,11 @@ def named_phase(lines: tuple[LineOnShaft, ...], text: str, key: str) -> tuple[in
 def _no_phase(line: LineOnShaft, phase: str) -> str:
     missing = line.mechanism.missing_keys(phase)
     if missing:
-        return f"{line.name} has this phase only if {' and '.join(missing)} is given there"
+        return Phrase(
+            "{name} has this phase only if {missing} is given there", name=line.name, missing=joined(missing, " and ")
+        )
     if missing is not None:
-        return f"the phase {phase} does not apply to the machine {line.name}"
-    return f"{line.name} has no phase “{phase}”; it has {', '.join(line.phases)}"
+        return Phrase("the phase {phase} does not apply to the machine {name}", phase=phase, name=line.name)
+    return Phrase(
+        "{name} has no phase “{phase}”; it has {phases}", name=line.name, phase=phase, phases=joined(line.phases, ", ")
+    )

@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 from scipy.optimize import elementwise
 
-from diecut_report.api import GivenMechanism, Refusal, told
+from diecut_report.api import GivenMechanism, Phrase, Refusal, told
 from diecut_report.plugins.cyclogram.inputs import Passage
 from diecut_report.plugins.cyclogram.kinds import POSITION, STEP
 
@@ -43,11 +43,16 @@ class Stretch:
         step = mechanism.number(STEP)
         if step is None or not is_known(mechanism):
             raise Refusal(
-                key, f"tells what the sheet passes, but the way of the sheet is not known in {mechanism.name}"
+                key,
+                Phrase(
+                    "tells what the sheet passes, but the way of the sheet is not known in {name}", name=mechanism.name
+                ),
             )
         if not self.start < self.end <= step * LONGER:
-            way = f"goes from {told(self.start, 'mm', 6)} to {told(self.end, 'mm', 6)}"
-            words = f"{way}; it must go forward, and no further than the step of {told(step, 'mm')}"
+            way = Phrase("goes from {start} to {end}", start=told(self.start, "mm", 6), end=told(self.end, "mm", 6))
+            words = Phrase(
+                "{way}; it must go forward, and no further than the step of {step}", way=way, step=told(step, "mm")
+            )
             raise Refusal(key, words)
 
 

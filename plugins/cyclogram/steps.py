@@ -6,7 +6,7 @@ from typing import Any
 
 import numpy as np
 
-from diecut_report.api import Chapter, GivenMechanism, Refusal, bind
+from diecut_report.api import Chapter, GivenMechanism, Phrase, Refusal, bind
 from diecut_report.mechanics import common
 from diecut_report.mechanics.timing.clearance import LeastClearance
 from diecut_report.plugins.cyclogram import listings
@@ -122,7 +122,8 @@ def _least(least: LeastClearance) -> Any:
 def _needed(cylinder: GivenMechanism) -> Any:
     height = cylinder.numbers("carriage_clearance")
     if height is None:
-        raise Refusal("station.cylinder", f"is {cylinder.name}, which has no carriage_clearance to hold the room against; give it there")
+        words = "is {name}, which has no carriage_clearance to hold the room against; give it there"
+        raise Refusal("station.cylinder", Phrase(words, name=cylinder.name))
     return height
 
 

@@ -12,7 +12,7 @@ from typing import Any
 
 import numpy as np
 
-from diecut_report.api import InOtherUnit, Refusal, told
+from diecut_report.api import InOtherUnit, Phrase, Refusal, phrase, told
 from diecut_report.mechanics.timing.intervals import Interval, Intervals, complement
 from diecut_report.mechanics.timing.lines import common_period
 from diecut_report.mechanics.timing.margins import PairMargin, margins_within, worst
@@ -223,11 +223,17 @@ def timing_of(given: Mapping[str, Any]) -> Timing:
     names = [each.name for each in held]
     strange = next((index for index, name in enumerate(names) if not NAME.fullmatch(name)), None)
     if strange is not None:
-        words = f"is “{names[strange]}”; its check is called after it, so that it must be letters, digits and _, such as sheet_rests"
+        words = Phrase(
+            "is “{names}”; its check is called after it, so that it must be letters, digits and _, such as sheet_rests",
+            names=names[strange],
+        )
         raise Refusal(f"interlocks.{strange}.name", words)
     again = next((index for index, name in enumerate(names) if name in names[:index]), None)
     if again is not None:
-        raise Refusal(f"interlocks.{again}.name", f"is {names[again]}, the name of another one; give each its own")
+        raise Refusal(
+            f"interlocks.{again}.name",
+            Phrase("is {names}, the name of another one; give each its own", names=names[again]),
+        )
     return Timing(float(given["productivity"][0, 0]), lines, held)
 
 
@@ -236,7 +242,9 @@ def _held(given: Mapping[str, Any], index: int, lines: tuple[LineOnShaft, ...]) 
     within, apart = (given[f"interlocks.{side}"][index] for side in ("within", "apart_from"))
     if bool(within) == bool(apart):
         words = (
-            "needs one of within and apart_from" if not within else "has both within and apart_from; give one of them"
+            phrase("needs one of within and apart_from")
+            if not within
+            else phrase("has both within and apart_from; give one of them")
         )
         raise Refusal(key, words)
     margins = given["interlocks.margin"]

@@ -10,7 +10,7 @@ from typing import Any
 
 import numpy as np
 
-from diecut_report.api import Curve, GivenMechanism, Refusal
+from diecut_report.api import Curve, GivenMechanism, Phrase, Refusal
 from diecut_report.mechanics.timing.shaft_curves import Consumer, ShaftCurve
 from diecut_report.plugins.cyclogram.kinds import ENERGIES, TORQUES, WAYS, Energy
 from diecut_report.plugins.cyclogram.main_shaft import turns_of
@@ -171,7 +171,11 @@ def lines_of_all(given: Mapping[str, Any]) -> list[LineOfMachines]:
 def _torque(line: LineOfMachines, key: str) -> ShaftCurve | None:
     curve = line.mechanism.curve(torque_name(line.mechanism, line.torque_curve))
     if curve is None and line.torque_curve:
-        words = f"is “{line.torque_curve}”, but {line.name} has no curve of this name; leave it out, and its kind's own is taken"
+        words = Phrase(
+            "is “{torque_curve}”, but {name} has no curve of this name; leave it out, and its kind's own is taken",
+            torque_curve=line.torque_curve,
+            name=line.name,
+        )
         raise Refusal(key, words)
     return None if curve is None else line.curve(curve)
 

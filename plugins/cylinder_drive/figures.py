@@ -9,6 +9,7 @@ from diecut_report.api import (
     Level,
     Mark,
     Panel,
+    Phrase,
     Plot,
     Point,
     Polar,
@@ -101,7 +102,10 @@ def linkage(view: View) -> list[Shape]:
         point(rocker_pivot, "pivot", "O₃"),
         point(pin, "joint"),
         point(joint, "joint"),
-        label((-1.2 * a, 1.25 * a), f"crank at {view.text('crank_torque_peak_at')}"),
+        label(
+            (-1.2 * a, 1.25 * a),
+            Phrase("crank at {crank_torque_peak_at}", crank_torque_peak_at=view.text("crank_torque_peak_at")),
+        ),
     ]
 
 

@@ -6,7 +6,7 @@ from math import pi
 
 from scipy.optimize import brentq
 
-from diecut_report.api import told
+from diecut_report.api import Phrase, joined, phrase, told
 from diecut_report.plugins.cylinder_sizing import beam
 
 ROUNDING = 1e-9  # relative
@@ -14,10 +14,16 @@ ROUNDING = 1e-9  # relative
 
 def against_radius(radius_exact: float, radius: float, working_length: float, segment_height: float) -> str:
     """Radius, or segment, with which the circumference beside the flat is the working length."""
-    larger = f"set radius to at least {told(radius_exact, 'mm', up=True)}, or leave it out"
+    larger = Phrase(
+        "set radius to at least {radius_exact}, or leave it out", radius_exact=told(radius_exact, "mm", up=True)
+    )
     if radius <= working_length / (2 * pi):
-        return f"{larger}; no segment is so low that {told(radius, 'mm')} would do"
-    return f"{larger}; or set segment_height to at most {told(segment_height, 'mm', up=False)}"
+        return Phrase("{larger}; no segment is so low that {radius} would do", larger=larger, radius=told(radius, "mm"))
+    return Phrase(
+        "{larger}; or set segment_height to at most {segment_height}",
+        larger=larger,
+        segment_height=told(segment_height, "mm", up=False),
+    )
 
 
 def against_thin_wall(
@@ -25,12 +31,26 @@ def against_thin_wall(
 ) -> str:
     """Bore, or segment, that keeps the wall; with a radius that is too small, those of the exact one."""
     small = radius < radius_exact * (1 - ROUNDING)
-    beside = f", with a radius of at least {told(radius_exact, 'mm', up=True)}" if small else ""
+    beside = (
+        Phrase(", with a radius of at least {radius_exact}", radius_exact=told(radius_exact, "mm", up=True))
+        if small
+        else ""
+    )
     segment = max(radius, radius_exact) - bore_radius - min_wall
-    ways = [f"set bore_radius to at most {told(bore_limit, 'mm', up=False)}{beside}"] if bore_limit > 0 else []
+    ways = (
+        [
+            Phrase(
+                "set bore_radius to at most {bore_limit}{beside}",
+                bore_limit=told(bore_limit, "mm", up=False),
+                beside=beside,
+            )
+        ]
+        if bore_limit > 0
+        else []
+    )
     if 0 < segment < segment_height and not small:
-        ways.append(f"set segment_height to at most {told(segment, 'mm', up=False)}")
-    return ", or ".join(ways) or "make the segment lower and the bore narrower together"
+        ways.append(Phrase("set segment_height to at most {segment}", segment=told(segment, "mm", up=False)))
+    return joined(ways, ", or ") or phrase("make the segment lower and the bore narrower together")
 
 
 def against_deflection(
@@ -47,7 +67,14 @@ def against_deflection(
     def beyond(distance: float) -> float:
         return float(beam.deflection(line_load, generatrix, distance, modulus, second_moment)) - allowed
 
-    stiffer = f"a section of {told(deflection / allowed, '1', up=True)} times this second moment is needed, by a narrower bore or a lower segment"
+    stiffer = Phrase(
+        "a section of {deflection} times this second moment is needed, by a narrower bore or a lower segment",
+        deflection=told(deflection / allowed, "1", up=True),
+    )
     if not beyond(generatrix) < 0 < beyond(span):
         return stiffer
-    return f"set bearing_span to at most {told(brentq(beyond, generatrix, span), 'mm', up=False)}; or {stiffer}"
+    return Phrase(
+        "set bearing_span to at most {brentq}; or {stiffer}",
+        brentq=told(brentq(beyond, generatrix, span), "mm", up=False),
+        stiffer=stiffer,
+    )

@@ -9,7 +9,7 @@ from math import ceil, isfinite
 import numpy as np
 from scipy.optimize import brentq
 
-from diecut_report.api import outward, told
+from diecut_report.api import Phrase, joined, outward, phrase, told
 from diecut_report.plugins.damper import formulas as f
 
 DIGITS = 4  # of lengths; a pad's side has one less, so that three sides have no more
@@ -106,15 +106,24 @@ def against_failure(block: RubberBlock) -> str:
     kind = "elastic_modulus" if block.shore_hardness is None else "shore_hardness"
     missing = [name for name, found in (("adopted_length", lengths), (kind, rubbers)) if not found]
     if not changes:
-        return (
-            f"check kinetic_energy and allowable_stress: no adopted_length or {kind} helps, "
-            f"nor do up to {MOST_DAMPERS} dampers or a pad of up to {told(WIDEST_PAD, 'mm')} a side"
+        return Phrase(
+            "check kinetic_energy and allowable_stress: no adopted_length or {kind} helps, nor do up to "
+            "{most_dampers} dampers or a pad of up to {widest_pad} a side",
+            kind=kind,
+            most_dampers=MOST_DAMPERS,
+            widest_pad=told(WIDEST_PAD, "mm"),
         )
-    return ", or ".join(changes) + (f"; no {' or '.join(missing)} alone helps" if missing else "")
+    return joined(changes, ", or ") + (
+        Phrase("; no {missing} alone helps", missing=joined(missing, " or ")) if missing else ""
+    )
 
 
 def _between(key: str, low: str, high: str) -> str:
-    return f"set {key} to {low}" if low == high else f"set {key} to between {low} and {high}"
+    return (
+        Phrase("set {key} to {low}", key=key, low=low)
+        if low == high
+        else Phrase("set {key} to between {low} and {high}", key=key, low=low, high=high)
+    )
 
 
 def _lengths(block: RubberBlock) -> Iterator[str]:
@@ -128,13 +137,13 @@ def _lengths(block: RubberBlock) -> Iterator[str]:
             f.free_length(block.kinetic_energy, block.elastic_modulus, 1, block.area, block.allowable_stress)
         )
         if least <= sized * (1 + ROUNDING) and sized <= block.three_sides * (1 + ROUNDING):
-            yield "leave adopted_length out, and the length is sized"
+            yield phrase("leave adopted_length out, and the length is sized")
 
 
 def _rubbers(block: RubberBlock) -> Iterator[str]:
     """Moduli, or hardnesses, that pass with the length as it is now, or else with another one."""
-    at_longest = f" with adopted_length: {told(block.longest, 'mm', DIGITS)}"
-    sized = "" if block.adopted_length is None else " and leave adopted_length out"
+    at_longest = Phrase(" with adopted_length: {longest}", longest=told(block.longest, "mm", DIGITS))
+    sized = "" if block.adopted_length is None else phrase(" and leave adopted_length out")
     lengths = {block.adopted_length: "", None: sized, block.longest: at_longest}
     for length, words in lengths.items():
         spoken = _rubber(block, block.moduli(length))
@@ -177,7 +186,11 @@ def _dampers(block: RubberBlock) -> Iterator[str]:
     if count <= MOST_DAMPERS:
         whole = max(ceil(count - ROUNDING), round(block.damper_count) + 1)
         length = min(outward(block.in_steps(block.shortest(whole, area)), up=True), longest)
-        yield f"take {whole} dampers of this pad with adopted_length: {told(length, 'mm', DIGITS)}"
+        yield Phrase(
+            "take {whole} dampers of this pad with adopted_length: {length}",
+            whole=whole,
+            length=told(length, "mm", DIGITS),
+        )
 
 
 def _pad(block: RubberBlock) -> Iterator[str]:
@@ -192,4 +205,8 @@ def _pad(block: RubberBlock) -> Iterator[str]:
     if side <= WIDEST_PAD:
         length = min(outward(block.in_steps(block.shortest(block.damper_count, side**2)), up=True), 3 * side)
         shown = told(side, "mm", DIGITS - 1)
-        yield f"take a pad of at least {shown} by {shown} with adopted_length: {told(length, 'mm', DIGITS)}"
+        yield Phrase(
+            "take a pad of at least {shown} by {shown} with adopted_length: {length}",
+            shown=shown,
+            length=told(length, "mm", DIGITS),
+        )

@@ -9,6 +9,7 @@ import numpy as np
 from diecut_report.api import (
     Chart,
     Drawing,
+    Phrase,
     Point,
     Shape,
     View,
@@ -19,6 +20,7 @@ from diecut_report.api import (
     level,
     line,
     mark,
+    phrase,
     polyline,
     region,
     vertical,
@@ -75,7 +77,10 @@ def _compressed(view: View, level: float, away: float) -> list[Shape]:
         *_laid(view, pressed, view["strain"], level),
         polyline([(length, 0.8 * half), (length, level - half)], "centerline"),
         dimension((pressed, level - half), (length, level - half), -away, view.text("deflection")),
-        label((length + 0.4 * away, level), "pressed together" + ("; dashed: by the drive too" if is_driven else "")),
+        label(
+            (length + 0.4 * away, level),
+            phrase("pressed together") + ("; dashed: by the drive too" if is_driven else ""),
+        ),
     ]
     if is_driven:
         driven = length - view["driven_deflection"]
@@ -104,13 +109,25 @@ def force(view: View) -> list[dict[str, Any]]:
     count = view["damper_count"]
     reach, peak = view["deflection"], count * view["peak_force"]
     marks = [mark(reach, peak, "at rest")]
-    fills = [fill([0.0, reach], [0.0, peak], f"kinetic energy {view.text('kinetic_energy')}")]
+    fills = [
+        fill(
+            [0.0, reach],
+            [0.0, peak],
+            Phrase("kinetic energy {kinetic_energy}", kinetic_energy=view.text("kinetic_energy")),
+        )
+    ]
     levels = []
     if "driven_deflection" in view:
         first = reach, peak
         reach, peak = view["driven_deflection"], count * view["driven_peak_force"]
         marks.append(mark(reach, peak, "at rest with the drive"))
-        fills.append(fill([first[0], reach], [first[1], peak], f"work of the drive {view.text('driving_work')}"))
+        fills.append(
+            fill(
+                [first[0], reach],
+                [first[1], peak],
+                Phrase("work of the drive {driving_work}", driving_work=view.text("driving_work")),
+            )
+        )
         levels.append(level(view["driving_force"], "drive"))
     return [
         chart_panel(

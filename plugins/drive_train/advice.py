@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.optimize import elementwise
 
-from diecut_report.api import si, standard_series, standard_series_by, told
+from diecut_report.api import Phrase, joined, phrase, si, standard_series, standard_series_by, told
 from diecut_report.mechanics import belt_path
 from diecut_report.plugins.drive_train.belts import length_left_over
 
@@ -99,7 +99,10 @@ def driver_advice(
         return _turned(demand, diameter)
     near = np.sort(found[np.argsort(np.abs(found - diameter), kind="stable")[:NAMED]])
     *others, last = (told(driver, "mm") for driver in near)
-    return f"with vbelt.driver_diameter = {' or '.join([', '.join(others), last] if others else [last])} it is met"
+    return Phrase(
+        "with vbelt.driver_diameter = {text} it is met",
+        text=joined([joined(others, ", "), last] if others else [last], " or "),
+    )
 
 
 def _turned(demand: Demand, diameter: float) -> str:
@@ -107,13 +110,15 @@ def _turned(demand: Demand, diameter: float) -> str:
     drivers = SERIES / demand.ratio
     held = demand.holds(drivers, SERIES)
     if not held.any():
-        return (
+        return phrase(
             "no motor's pulley meets it with this ratio and distance; change the gears' teeth or vbelt.center_distance"
         )
     best = np.argmin(np.where(held, np.abs(drivers - diameter), np.inf))
-    return (
-        f"no driver of R40 meets it with this ratio and distance; turn the motor's pulley to {told(drivers[best], 'mm')} "
-        f"for a driven one of {told(SERIES[best], 'mm')}, or change the gears' teeth"
+    return Phrase(
+        "no driver of R40 meets it with this ratio and distance; turn the motor's pulley to {drivers} "
+        "for a driven one of {series}, or change the gears' teeth",
+        drivers=told(drivers[best], "mm"),
+        series=told(SERIES[best], "mm"),
     )
 
 
@@ -126,10 +131,10 @@ def slower_belt_advice(
         return driver_advice(ratio, diameter, least, distance, shortest, longest, speed)
     greatest = 2 * FASTEST_BELT / speed
     if greatest < least:
-        return (
+        return phrase(
             "no pulley of this section is small enough for this motor_speed: take a smaller section or a slower motor"
         )
-    return f"take a vbelt.driver_diameter of at most {told(greatest, 'mm', up=False)}"
+    return Phrase("take a vbelt.driver_diameter of at most {greatest}", greatest=told(greatest, "mm", up=False))
 
 
 def distance_advice(small: float, large: float, shortest: float, longest: float) -> str:
@@ -138,13 +143,17 @@ def distance_advice(small: float, large: float, shortest: float, longest: float)
     distances = distance_of(belts, np.asarray(small), np.asarray(large))
     good = distances[is_wrapped(distances, np.asarray(small), np.asarray(large))]
     if not len(good):
-        return (
+        return phrase(
             "no standard belt of this section is long enough for these pulleys at any distance: take a larger vbelt.section, "
             "a smaller motor's pulley, or gears of a greater ratio"
         )
     if len(good) == 1:
-        return f"take a vbelt.center_distance of {told(good[0], 'mm')}"
-    return f"take a vbelt.center_distance of {told(good.min(), 'mm', up=True)} … {told(good.max(), 'mm', up=False)}"
+        return Phrase("take a vbelt.center_distance of {good}", good=told(good[0], "mm"))
+    return Phrase(
+        "take a vbelt.center_distance of {min} … {max}",
+        min=told(good.min(), "mm", up=True),
+        max=told(good.max(), "mm", up=False),
+    )
 
 
 def gears_advice(total: float, diameter: float, distance: float, shortest: float, longest: float) -> str:
@@ -152,5 +161,8 @@ def gears_advice(total: float, diameter: float, distance: float, shortest: float
     driven = SERIES[(diameter * (1 - 1e-9) <= SERIES) & (diameter * LARGEST_RATIO >= SERIES)]
     held = driven[Room(distance, shortest, longest).holds(np.full_like(driven, diameter), driven)]
     greatest = held.max() / diameter if len(held) else LARGEST_RATIO
-    words = f"give the gears a ratio of at least {told(total / greatest, '1', up=True)}, with more driven teeth or another pair"
-    return words if len(held) else f"{words}, and choose vbelt.center_distance anew"
+    words = Phrase(
+        "give the gears a ratio of at least {total}, with more driven teeth or another pair",
+        total=told(total / greatest, "1", up=True),
+    )
+    return words if len(held) else Phrase("{words}, and choose vbelt.center_distance anew", words=words)

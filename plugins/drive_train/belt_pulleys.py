@@ -6,7 +6,7 @@ from typing import Any
 
 import numpy as np
 
-from diecut_report.api import ByText, Chapter, Check, Steps, arccos, as_number, bind, formula, told
+from diecut_report.api import ByText, Chapter, Check, Phrase, Steps, arccos, as_number, bind, formula, told
 from diecut_report.mechanics import common
 
 # fmt: off
@@ -63,7 +63,7 @@ def next_marked(is_cylinder: Any) -> Any:
 
 def pitch_advice(pitch: float, fewest: float) -> str:
     """The pitch that puts enough teeth into mesh."""
-    return f"a pitch of at most {told(pitch * fewest / FEWEST_IN_MESH, 'mm', up=False)}"
+    return Phrase("a pitch of at most {pitch}", pitch=told(pitch * fewest / FEWEST_IN_MESH, 'mm', up=False))
 
 
 IS_MARKED = bind(common.is_positive, quantity="cylinder_pulley_there")

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from diecut_report.api import si, standard_series, standard_table, told
+from diecut_report.api import Phrase, joined, phrase, si, standard_series, standard_table, told
 
 RATINGS = standard_series("iec_60072_ratings")
 SYNCHRONOUS = tuple(
@@ -21,18 +21,23 @@ def mean_advice(driving_mean: float, braking_mean: float) -> str:
     """Which mean torque belongs to the curve."""
     mean = driving_mean - braking_mean
     if mean < 0:
-        return f"the curve's mean is {told(mean, 'N*m')}, so its load drives: look at its sign"
-    return f"set torque_mean to {told(mean, 'N*m')}, or take both from the same mechanism"
+        return Phrase("the curve's mean is {mean}, so its load drives: look at its sign", mean=told(mean, "N*m"))
+    return Phrase("set torque_mean to {mean}, or take both from the same mechanism", mean=told(mean, "N*m"))
 
 
 def motor_advice(power: float) -> str:
     """How much the motor may have to give, from the power of its shaft."""
     reserve = LARGEST_MOTOR / power
     if reserve >= 1:
-        return f"lower reserve_factor to at most {told(reserve, '1', up=False)}, or lower the torque or the speed of the output"
-    return (
-        f"its shaft may take {told(LARGEST_MOTOR, 'kW')}, not {told(power, 'kW')}: lower the torque or the speed of the "
-        "output, or drive with several motors"
+        return Phrase(
+            "lower reserve_factor to at most {reserve}, or lower the torque or the speed of the output",
+            reserve=told(reserve, "1", up=False),
+        )
+    return Phrase(
+        "its shaft may take {largest_motor}, not {power}: lower the torque or the speed of the output, "
+        "or drive with several motors",
+        largest_motor=told(LARGEST_MOTOR, "kW"),
+        power=told(power, "kW"),
     )
 
 
@@ -40,8 +45,11 @@ def overload_advice(peak: float, breakdown_ratio: float, speed: float, power: fl
     """Which reserve makes a motor whose breakdown torque is enough."""
     needed = peak * speed / breakdown_ratio
     if needed > min(LARGEST_MOTOR, MOST_RESERVE * power):
-        return "give torque_curve, so that a flywheel is sized that takes the peak"
-    return f"give torque_curve, so that a flywheel is sized, or raise reserve_factor to at least {told(needed / power, '1', up=True)}"
+        return phrase("give torque_curve, so that a flywheel is sized that takes the peak")
+    return Phrase(
+        "give torque_curve, so that a flywheel is sized, or raise reserve_factor to at least {needed}",
+        needed=told(needed / power, "1", up=True),
+    )
 
 
 def rim_advice(rim_speed: float, allowed: float, fluctuation: float, density: float) -> str:
@@ -49,12 +57,12 @@ def rim_advice(rim_speed: float, allowed: float, fluctuation: float, density: fl
     ways = []
     steel = rim_speed * (density / DENSITIES["steel"]) ** 0.2
     if density < DENSITIES["steel"] and steel <= RIM_SPEEDS["steel"]:
-        ways.append("take flywheel_material: steel")
+        ways.append(phrase("take flywheel_material: steel"))
     greater = fluctuation * (rim_speed / allowed) ** 5
     if greater < MOST_FLUCTUATION:
-        ways.append(f"accept a speed_fluctuation of at least {told(greater, '1', up=True)}")
-    ways = ways or ["let the flywheel turn slower, with gears of a smaller ratio and a V-belt of a greater one"]
-    return " or ".join(ways)
+        ways.append(Phrase("accept a speed_fluctuation of at least {greater}", greater=told(greater, "1", up=True)))
+    ways = ways or [phrase("let the flywheel turn slower, with gears of a smaller ratio and a V-belt of a greater one")]
+    return joined(ways, " or ")
 
 
 @dataclass(frozen=True)
@@ -100,7 +108,7 @@ class RunUp:
     def smaller_load(self) -> list[str]:
         """The inertia of the load with which the time is kept."""
         left = self.load_inertia - self.too_much / self.load_share
-        return [f"a load_inertia of at most {told(left, 'kg*m**2', up=False)}"] if left > 0 else []
+        return [Phrase("a load_inertia of at most {left}", left=told(left, "kg*m**2", up=False))] if left > 0 else []
 
     def lighter_wheel(self) -> list[str]:
         """The fluctuation of the speed that makes the flywheel light enough."""
@@ -110,15 +118,22 @@ class RunUp:
     def _fluctuating(self, share: float) -> list[str]:
         """The fluctuation of the speed with such a share of the flywheel."""
         greater = self.fluctuation / share
-        return [f"a speed_fluctuation of at least {told(greater, '1', up=True)}"] if greater < MOST_FLUCTUATION else []
+        return (
+            [Phrase("a speed_fluctuation of at least {greater}", greater=told(greater, "1", up=True))]
+            if greater < MOST_FLUCTUATION
+            else []
+        )
 
     def smaller_both(self) -> list[str]:
         """Load and flywheel made smaller alike, where neither is enough by itself."""
         share = 1 - self.too_much / (self.load_inertia * self.load_share + self.wheel * self.wheel_share)
         if self.load_inertia * self.wheel <= 0 or share <= 0:
             return []
-        load = f"a load_inertia of at most {told(self.load_inertia * share, 'kg*m**2', up=False)}"
-        return [f"{load} with {wheel}" for wheel in self._fluctuating(share)]
+        load = Phrase(
+            "a load_inertia of at most {load_inertia}",
+            load_inertia=told(self.load_inertia * share, "kg*m**2", up=False),
+        )
+        return [Phrase("{load} with {wheel}", load=load, wheel=wheel) for wheel in self._fluctuating(share)]
 
     def smaller_inertia(self) -> list[str]:
         """Which inertias keep the time."""
@@ -132,7 +147,11 @@ class RunUp:
         if self.mean_torque <= 0 or self.load <= 0 or (left < 0 < self.accelerating):
             return []
         share = (left if left >= 0 else 0.9 * self.torque) / self.mean_torque
-        return [f"a run_up_load of at most {told(share, '1', up=False)} (load disengaged while it runs up)"]
+        return [
+            Phrase(
+                "a run_up_load of at most {share} (load disengaged while it runs up)", share=told(share, "1", up=False)
+            )
+        ]
 
     def larger_motor(self) -> list[str]:
         """The reserve that makes the motor strong enough."""
@@ -140,12 +159,16 @@ class RunUp:
         power = torque * self.speed / self.torque_ratio
         if power > min(LARGEST_MOTOR, MOST_RESERVE * self.power):
             return []
-        return [f"a reserve_factor of at least {told(power / self.power, '1', up=True)}"]
+        return [Phrase("a reserve_factor of at least {power}", power=told(power / self.power, "1", up=True))]
 
     def longer(self) -> list[str]:
         """The time that the protection would have to accept."""
         time = self.inertia * self.speed / self.accelerating
-        return [f"a protection for heavy starting, allowable_run_up_time = {told(time, 's', up=True)} or more"]
+        return [
+            Phrase(
+                "a protection for heavy starting, allowable_run_up_time = {time} or more", time=told(time, "s", up=True)
+            )
+        ]
 
 
 def run_up_advice(*numbers: float) -> str:
@@ -154,5 +177,5 @@ def run_up_advice(*numbers: float) -> str:
     light = [*run.smaller_inertia(), *run.longer()] if run.accelerating > 0 else []
     ways = [*light[:-1], *run.less_load(), *run.larger_motor(), *light[-1:]]
     if not ways:
-        return "change several of run_up_load, run_up_torque_ratio and the torque together"
-    return f"one of these is enough: {'; '.join(ways)}"
+        return phrase("change several of run_up_load, run_up_torque_ratio and the torque together")
+    return Phrase("one of these is enough: {ways}", ways=joined(ways, "; "))

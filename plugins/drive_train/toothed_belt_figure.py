@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from diecut_report.api import Drawing, Shape, View, arrow, circle, label, point, polyline, radius_dimension
+from diecut_report.api import Drawing, Phrase, Shape, View, arrow, circle, label, point, polyline, radius_dimension
 from diecut_report.plugins.drive_train.layout import layout
 
 
@@ -10,7 +10,7 @@ def belt_layout(view: View) -> list[Shape]:
     """The belt over its pulleys, and where it can be known the cylinder on the die."""
     x, y, radius = (view.row(f"toothed_belt.pulleys.{key}") for key in ("x", "y", "radius"))
     wraps = [view.word(f"wraps.{i}") for i in range(len(x))]
-    drawn = layout(x, y, radius, view.row("pulley_side"), [f"{wraps[0]}, driving", *wraps[1:]])
+    drawn = layout(x, y, radius, view.row("pulley_side"), [Phrase("{wraps}, driving", wraps=wraps[0]), *wraps[1:]])
     roles = view.words("toothed_belt.pulleys.role")
     return drawn + (_cylinder(view, roles.index("cylinder")) if "cylinder" in roles else [])
 
@@ -22,7 +22,7 @@ def _cylinder(view: View, pulley: int) -> list[Shape]:
     return [
         circle((x, y), radius, "ghost"),
         polyline([(x - 2 * radius, y - radius), (x + 2 * radius, y - radius)], "ground"),
-        label((x + 0.75 * radius, y + 0.8 * radius), f"cylinder, on pulley {pulley + 1}"),
+        label((x + 0.75 * radius, y + 0.8 * radius), Phrase("cylinder, on pulley {pulley}", pulley=pulley + 1)),
         label((x - 1.95 * radius, y - 0.9 * radius), "die"),
     ]
 

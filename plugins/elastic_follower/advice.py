@@ -6,7 +6,7 @@ from collections.abc import Callable, Iterator
 
 import numpy as np
 
-from diecut_report.api import outward, told
+from diecut_report.api import Phrase, joined, outward, told
 from diecut_report.mechanics.follower_peaks import peaks
 from diecut_report.mechanics.motion_laws import LAWS
 from diecut_report.plugins.elastic_follower.motion import STIFFEST
@@ -44,8 +44,12 @@ def passing(unit: str, time: str) -> Callable[..., str]:
         ]
         told_ways = told_ways or [*_both(law, stiffness, ratio, limits, unit)]
         if told_ways:
-            return f"take {', or '.join(told_ways)}"
-        return f"no stiffer drive up to λ = {STIFFEST} and no other law keeps both limits: allow more, or give the drive more damping"
+            return Phrase("take {told_ways}", told_ways=joined(told_ways, ", or "))
+        return Phrase(
+            "no stiffer drive up to λ = {stiffest} and no other law keeps both limits: allow more, or give "
+            "the drive more damping",
+            stiffest=STIFFEST,
+        )
 
     return words
 
@@ -54,7 +58,7 @@ def _stiffer(law: str, stiffness: float, ratio: float, limits: tuple[float, floa
     for wanted in tuned(law, ratio, *limits):
         found = outward(stiffness * (wanted / ratio) ** 2, up=True, digits=DIGITS)
         if keeps(law, ratio * float(np.sqrt(found / stiffness)), *limits):
-            yield f"a stiffness of {told(found, unit, DIGITS)}"
+            yield Phrase("a stiffness of {found}", found=told(found, unit, DIGITS))
             return
 
 
@@ -64,7 +68,7 @@ def _slower(law: str, lasts: float, ratio: float, limits: tuple[float, float, fl
         if unit == "1" and found > 1:
             return
         if keeps(law, ratio * found / lasts, *limits):
-            yield f"a rise_time of {told(found, unit, DIGITS)}"
+            yield Phrase("a rise_time of {found}", found=told(found, unit, DIGITS))
             return
 
 
@@ -72,7 +76,7 @@ def _other(law: str, ratio: float, limits: tuple[float, float, float]) -> Iterat
     others = [name for name in LAWS if name != law and keeps(name, ratio, *limits)]
     if others:
         best = min(others, key=lambda name: float(max(peaks(LAWS[name], ratio, limits[0]))) * LAWS[name].A)
-        yield f"motion_law: {best} with this drive"
+        yield Phrase("motion_law: {best} with this drive", best=best)
 
 
 def _both(law: str, stiffness: float, ratio: float, limits: tuple[float, float, float], unit: str) -> Iterator[str]:
@@ -80,4 +84,7 @@ def _both(law: str, stiffness: float, ratio: float, limits: tuple[float, float, 
     wanted = {name: next(tuned(name, ratio, *limits), np.inf) for name in LAWS if name != law}
     best = min(wanted, key=lambda name: wanted[name])
     if np.isfinite(wanted[best]):
-        yield from (f"motion_law: {best} with {stiffer}" for stiffer in _stiffer(best, stiffness, ratio, limits, unit))
+        yield from (
+            Phrase("motion_law: {best} with {stiffer}", best=best, stiffer=stiffer)
+            for stiffer in _stiffer(best, stiffness, ratio, limits, unit)
+        )

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from diecut_report.api import Chapter, Check, bind
+from diecut_report.api import Chapter, Check, bind, phrase
 from diecut_report.plugins.elastic_follower import formulas
 from diecut_report.plugins.elastic_follower.advice import passing
 from diecut_report.plugins.elastic_follower.motion import CURVE, LAW, RATE
@@ -38,7 +38,7 @@ def _of_peak(id: str, title: str, demand: str, label: str, consequence: str) -> 
                      source="001, first paper", consequence=f"{consequence}; {words}", needs=needs)
 
     by_curve = (
-        "a stiffer drive or a lighter link has more natural periods within the motion (see the figure of this motion)"
+        phrase("a stiffer drive or a lighter link has more natural periods within the motion (see the figure of this motion)")
     )
     return check(LAW, "{advice}."), check(CURVE, f"{by_curve}.")
 

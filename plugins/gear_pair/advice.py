@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 
-from diecut_report.api import told
+from diecut_report.api import Phrase, joined, phrase, told
 
 KEYS = ("application_factor", "dynamic_factor", "face_load_factor", "transverse_load_factor")
 
@@ -12,28 +12,31 @@ KEYS = ("application_factor", "dynamic_factor", "face_load_factor", "transverse_
 def assumed_factors(*assumed: float) -> str:
     """The keys of the factors that are assumed."""
     names = [key for key, is_assumed in zip(KEYS, assumed, strict=True) if is_assumed]
-    return " and ".join([", ".join(names[:-1]), names[-1]] if len(names) > 1 else names)
+    return joined([joined(names[:-1], ", "), names[-1]] if len(names) > 1 else names, " and ")
 
 
 def no_module(face_width: float) -> str:
     """Words where no module of the series is enough."""
-    return (
-        f"take a greater face_width than {told(face_width, 'mm')}, better steel or a smaller torque, or give a module"
+    return Phrase(
+        "take a greater face_width than {face_width}, better steel or a smaller torque, or give a module",
+        face_width=told(face_width, "mm"),
     )
 
 
 def greater_module(module: float, least: float) -> str:
     """The module of the series with which flank and root of both gears hold, where there is one."""
-    return f", or set module to {told(least, 'mm')}" if least > module else ""
+    return Phrase(", or set module to {least}", least=told(least, "mm")) if least > module else ""
 
 
 def greater_module_and_distance(_: float) -> str:
     """Words where the module is bound to the distance of the axes."""
-    return ", or take a greater center_distance and module"
+    return phrase(", or take a greater center_distance and module")
 
 
 def _wider(width: float, widest: float) -> str:
-    return f", or set face_width to at least {told(width, 'mm', up=True)}" if width <= widest else ""
+    return (
+        Phrase(", or set face_width to at least {width}", width=told(width, "mm", up=True)) if width <= widest else ""
+    )
 
 
 def against_pitting(gear: int) -> Callable[..., str]:
@@ -41,7 +44,9 @@ def against_pitting(gear: int) -> Callable[..., str]:
 
     def advice(limit: float, safety: float, required: float, face_width: float, widest: float) -> str:
         lacking = required / safety
-        stronger = f"set sigma_h_lim_{gear} to at least {told(limit * lacking, 'MPa', up=True)}"
+        stronger = Phrase(
+            "set sigma_h_lim_{gear} to at least {limit}", gear=gear, limit=told(limit * lacking, "MPa", up=True)
+        )
         return stronger + _wider(face_width * lacking**2, widest)
 
     return advice
@@ -54,7 +59,9 @@ def against_breakage(gear: int) -> Callable[..., str]:
         limit: float, safety: float, required: float, face_width: float, widest: float, face_load: float, at_root: float
     ) -> str:
         lacking = required / safety
-        stronger = f"set sigma_f_lim_{gear} to at least {told(limit * lacking, 'MPa', up=True)}"
+        stronger = Phrase(
+            "set sigma_f_lim_{gear} to at least {limit}", gear=gear, limit=told(limit * lacking, "MPa", up=True)
+        )
         return stronger + _wider(face_width * lacking * face_load / at_root, widest)
 
     return advice
@@ -63,16 +70,20 @@ def against_breakage(gear: int) -> Callable[..., str]:
 def against_undercut(shift_1: float, least_1: float, shift_2: float, least_2: float) -> str:
     """Shifts from which no root is undercut."""
     pairs = (("shift_1", shift_1, least_1), ("shift_2", shift_2, least_2))
-    changes = [f"set {key} to at least {told(least, '1', up=True)}" for key, shift, least in pairs if shift < least]
-    return " and ".join(changes)
+    changes = [
+        Phrase("set {key} to at least {least}", key=key, least=told(least, "1", up=True))
+        for key, shift, least in pairs
+        if shift < least
+    ]
+    return joined(changes, " and ")
 
 
 def against_undercut_at_distance(shift_1: float, least_1: float, shift_2: float, least_2: float) -> str:
     """The same where the wheel's shift follows from the distance of the axes."""
     if shift_1 < least_1:
-        return f"set shift_1 to at least {told(least_1, '1', up=True)}"
+        return Phrase("set shift_1 to at least {least_1}", least_1=told(least_1, "1", up=True))
     most = told(shift_1 + shift_2 - least_2, "1", up=False)
-    return f"set shift_1 to at most {most}, so that the wheel has the rest"
+    return Phrase("set shift_1 to at most {most}, so that the wheel has the rest", most=most)
 
 
 def clearance_for(share: float) -> Callable[..., str]:
@@ -80,7 +91,9 @@ def clearance_for(share: float) -> Callable[..., str]:
 
     def advice(clearance: float, module: float, addendum: float, dedendum: float) -> str:
         if dedendum - addendum >= share * (1 - 1e-9):
-            return "set keep_clearance to true"
-        return f"set dedendum to at least {told(dedendum + share - clearance / module, '1', up=True)}"
+            return phrase("set keep_clearance to true")
+        return Phrase(
+            "set dedendum to at least {dedendum}", dedendum=told(dedendum + share - clearance / module, "1", up=True)
+        )
 
     return advice

@@ -7,7 +7,7 @@ from typing import Any
 
 import numpy as np
 
-from diecut_report.api import Bound, Chapter, Formula, Value, bind, si, standard_series
+from diecut_report.api import Bound, Chapter, Formula, Value, bind, phrase, si, standard_series
 from diecut_report.plugins.gear_pair import advice, rating
 from diecut_report.plugins.gear_pair.mesh import GIVEN_DISTANCE, TEETH
 
@@ -54,7 +54,7 @@ def least_module(*taken: Any) -> Any:
 
 def _value(step: Value, known: dict[str, Any]) -> Any:
     formula = step.formula.formula if isinstance(step.formula, Bound) else step.formula
-    assert isinstance(formula, Formula), "the rating has no formula that a text chooses"
+    assert isinstance(formula, Formula), phrase("the rating has no formula that a text chooses")
     return formula(*(known[name] if isinstance(name, str) else name for name in step.takes()))
 
 

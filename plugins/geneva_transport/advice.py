@@ -7,7 +7,7 @@ from typing import Any
 
 import numpy as np
 
-from diecut_report.api import below, told
+from diecut_report.api import Phrase, below, phrase, told
 from diecut_report.mechanics import triangle
 from diecut_report.plugins.geneva_transport import formulas, loads
 
@@ -65,7 +65,7 @@ def roller_that_fits(slots: float, center: float, clearance: float, roller: floa
     """Words on the greatest smaller roller with which all is sound, among steps of a hundredth."""
     tried = np.array([below(roller * 1000 * share, DIGITS) for share in np.linspace(1, 0.02, 99)])
     fit = tried[passes(slots, center, clearance, tried / 1000, locking)]
-    return f"a roller_radius of {fit[0]:g} mm" if len(fit) else "a greater center_distance"
+    return Phrase("a roller_radius of {fit} mm", fit=f"{fit[0]:g}") if len(fit) else phrase("a greater center_distance")
 
 
 def arc_that_fits(slots: float, center: float, clearance: float, roller: float, locking: float) -> str:
@@ -80,15 +80,23 @@ def arc_that_fits(slots: float, center: float, clearance: float, roller: float, 
     if not len(fit):
         return ""
     best = fit[np.argmin(abs(fit - locking * 1000))]
-    return f"a locking_radius of {best:g} mm (tips {told(flank - best / 1000, 'mm', 3)} thick), or "
+    return Phrase(
+        "a locking_radius of {best} mm (tips {flank} thick), or ",
+        best=f"{best:g}",
+        flank=told(flank - best / 1000, "mm", 3),
+    )
 
 
 def clearance_that_fits(slots: float, center: float, roller: float, locking: float) -> str:
     """Words on the clearance that lets the locking disc reach the wheel."""
     room = locking - loads.rim_distance(center, formulas.rim_radius(formulas.wheel_radius(slots, center), roller))
-    return f"take at most {below(room * 1000, DIGITS):g} mm" if room > 0 else "this arc does not reach the wheel"
+    return (
+        Phrase("take at most {room} mm", room=f"{below(room * 1000, DIGITS):g}")
+        if room > 0
+        else phrase("this arc does not reach the wheel")
+    )
 
 
 def slower_crank(speed: float, peak: float, allowed: float) -> str:
     """Words on the crank's speed at which the sheet keeps its allowed acceleration, which grows with its square."""
-    return f"a crank_speed of at most {told(speed * sqrt(allowed / peak), 'rpm', up=False)}"
+    return Phrase("a crank_speed of at most {speed}", speed=told(speed * sqrt(allowed / peak), "rpm", up=False))

@@ -6,13 +6,13 @@ from functools import partial
 from math import inf, sqrt
 from typing import NamedTuple
 
-from diecut_report.api import Steps, outward, told
+from diecut_report.api import Phrase, Steps, joined, outward, phrase, told
 from diecut_report.plugins.knife_drive.working import ALL, Drives, groups, keys, lacking
 
 ENOUGH = 1e-9  # share by which a limit itself is kept clear of
 MACHINE = ("cylinder_rate", "roller_ratio", "roller_velocity", "grip_time", "allowable_grip_acceleration")
 TIMES = ("signature_interval", "roller_time")
-SHORTER = "a drive with a shorter working stroke"
+SHORTER = phrase("a drive with a shorter working stroke")
 Range = tuple[float, float]
 
 
@@ -56,19 +56,22 @@ class Machine(NamedTuple):
         if first > last or first == inf or last <= 0:
             return ""
         if last == inf:
-            return f"a roller_ratio of at least {told(first, '1')}"
-        start = f"from {told(first, '1')} to" if first else "of at most"
+            return Phrase("a roller_ratio of at least {first}", first=told(first, "1"))
+        start = Phrase("from {first} to", first=told(first, "1")) if first else phrase("of at most")
         return f"a roller_ratio {start} {told(last, '1')}"
 
 
 def slower(rate: float, acceleration: float, allowed: float) -> str:
     """The rate at which an acceleration that grows with its square is allowed, in words."""
-    return f"a cylinder_rate of at most {told(rate * sqrt(allowed / acceleration) * (1 - ENOUGH), '1/h', up=False)}"
+    return Phrase(
+        "a cylinder_rate of at most {rate}",
+        rate=told(rate * sqrt(allowed / acceleration) * (1 - ENOUGH), "1/h", up=False),
+    )
 
 
 def paper(rate: float, acceleration: float, allowed: float) -> str:
     """What lowers the acceleration of the paper by the knife."""
-    return f"take {slower(rate, acceleration, allowed)}, or a drive with a shorter stroke"
+    return Phrase("take {slower}, or a drive with a shorter stroke", slower=slower(rate, acceleration, allowed))
 
 
 def grip(own: int, scales: bool, machine: Machine) -> str:
@@ -77,19 +80,26 @@ def grip(own: int, scales: bool, machine: Machine) -> str:
     if scales:
         size = abs(machine.rollers - machine.speeds[own]) / machine.grip_time
         ways.append(slower(machine.rate, size, machine.allowed))
-    told_ways = " or ".join(filter(None, ways))
-    return f"take {told_ways}; a greater grip_angle helps too" if told_ways else "make grip_angle greater"
+    told_ways = joined(filter(None, ways), " or ")
+    return (
+        Phrase("take {told_ways}; a greater grip_angle helps too", told_ways=told_ways)
+        if told_ways
+        else phrase("make grip_angle greater")
+    )
 
 
 def time_on_table(own: int, machine: Machine) -> str:
     """What frees the table in time."""
     needed = machine.in_time(machine.working[own])
     if needed[0] == inf:
-        return f"the knife's working stroke alone takes as long: take {SHORTER}"
+        return Phrase("the knife's working stroke alone takes as long: take {shorter}", shorter=SHORTER)
     ratios = machine.ratios(needed)
     if ratios:
-        return f"take {ratios}, or {SHORTER}"
-    return f"faster rollers would grip it too hard: take {SHORTER}, or a greater grip_angle and then faster rollers"
+        return Phrase("take {ratios}, or {shorter}", ratios=ratios, shorter=SHORTER)
+    return Phrase(
+        "faster rollers would grip it too hard: take {shorter}, or a greater grip_angle and then faster rollers",
+        shorter=SHORTER,
+    )
 
 
 def links(crank: float, coupler: float, rocker: float, frame: float) -> str:
@@ -97,9 +107,10 @@ def links(crank: float, coupler: float, rocker: float, frame: float) -> str:
     *others, longest = sorted((coupler, rocker, frame))
     room = min(others[0], sum(others) - longest)
     if room > 0:
-        return f"make the crank shorter than {told(room, 'mm', up=False)}"
-    return (
-        f"make the longest of the other links shorter than the two others together, {told(sum(others), 'mm', up=False)}"
+        return Phrase("make the crank shorter than {room}", room=told(room, "mm", up=False))
+    return Phrase(
+        "make the longest of the other links shorter than the two others together, {others}",
+        others=told(sum(others), "mm", up=False),
     )
 
 

@@ -9,7 +9,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from diecut_report.api import Chapter, Step, Steps, as_number, bind, case, prefixed
+from diecut_report.api import Chapter, Step, Steps, as_number, bind, case, phrase, prefixed
 from diecut_report.mechanics import common
 from diecut_report.plugins.knife_drive import formulas
 
@@ -27,9 +27,9 @@ class DriveKind(NamedTuple):
     longer: str
 
 
-PLANETARY = DriveKind("planetary", "planetary drive", "a", "a greater carrier_radius")
-CRANK_SLIDER = DriveKind("crank_slider", "crank-slider", "b", "a greater crank_radius")
-CRANK_ROCKER = DriveKind("crank_rocker", "crank-rocker", "c", "a longer knife_arm or a wider swing")
+PLANETARY = DriveKind("planetary", phrase("planetary drive"), "a", "a greater carrier_radius")
+CRANK_SLIDER = DriveKind("crank_slider", phrase("crank-slider"), "b", "a greater crank_radius")
+CRANK_ROCKER = DriveKind("crank_rocker", phrase("crank-rocker"), "c", "a longer knife_arm or a wider swing")
 ALL = (PLANETARY, CRANK_SLIDER, CRANK_ROCKER)
 Drives = tuple[DriveKind, ...]
 

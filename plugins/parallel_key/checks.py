@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from diecut_report.api import Chapter, Check, told
+from diecut_report.api import Chapter, Check, Phrase, phrase, told
 from diecut_report.plugins.parallel_key.dimensions import LONGEST
 from diecut_report.plugins.parallel_key.load import METHOD
 
@@ -12,9 +12,13 @@ ROUNDING = 1e-9  # relative: what is typed in at its limit reaches it
 def longer(least: float, standard: float, count: float) -> str:
     """The length that holds, where there is a standard one."""
     if least > LONGEST * (1 + ROUNDING):
-        return "no standard key is long enough: take a thicker shaft or stronger material"
-    second = "" if count > 1 else ", or take key_count: 2"
-    return f"set key_length to at least {told(standard, 'mm')}{second} or stronger material"
+        return phrase("no standard key is long enough: take a thicker shaft or stronger material")
+    second = "" if count > 1 else phrase(", or take key_count: 2")
+    return Phrase(
+        "set key_length to at least {standard}{second} or stronger material",
+        standard=told(standard, "mm"),
+        second=second,
+    )
 
 
 # fmt: off

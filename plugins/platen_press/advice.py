@@ -2,14 +2,16 @@
 
 from __future__ import annotations
 
-from diecut_report.api import below, si, told
+from diecut_report.api import Phrase, below, phrase, si, told
 
 STIFFEST = 1e-6  # m, stretch below which no drive can be built
 
 
 def softest_drive(deformation_limit: float) -> str:
     """The stretch of the drive with which friction holds the relaxing rods back."""
-    return _held(deformation_limit) or f"set drive_deformation to at most {_less(deformation_limit, 'mm')}"
+    return _held(deformation_limit) or Phrase(
+        "set drive_deformation to at most {less}", less=_less(deformation_limit, "mm")
+    )
 
 
 def thinnest_rods(deformation_limit: float, drive_deformation: float, rod_area: float, elastic_modulus: float) -> str:
@@ -18,8 +20,10 @@ def thinnest_rods(deformation_limit: float, drive_deformation: float, rod_area: 
         return _held(deformation_limit)
     # a hair less stretch than the limit, for at the limit itself the check fails
     least = rod_area * drive_deformation / (deformation_limit * (1 - 1e-9))
-    return (
-        f"set rod_area to at least {told(least, 'mm**2', up=True)} at elastic_modulus: {told(elastic_modulus, 'GPa')}"
+    return Phrase(
+        "set rod_area to at least {least} at elastic_modulus: {elastic_modulus}",
+        least=told(least, "mm**2", up=True),
+        elastic_modulus=told(elastic_modulus, "GPa"),
     )
 
 
@@ -28,7 +32,7 @@ def _held(deformation_limit: float) -> str:
     return (
         ""
         if deformation_limit > STIFFEST
-        else "check friction, for with so little of it in the joints any stretch does so"
+        else phrase("check friction, for with so little of it in the joints any stretch does so")
     )
 
 
@@ -53,11 +57,12 @@ def smaller_force(
     """
     idle = 2 * inertia_force_max * crank_radius + weight_torque  # more than the torque of free travel
     if torque_max_angle > cutting_start_angle or idle >= allowable_torque:
-        return (
+        return phrase(
             "a slower machine, a lighter platen or less friction lowers it, for the platen's own motion takes so much"
         )
     share = (allowable_torque - weight_torque) / (torque_max - weight_torque)
     force = told(share * cutting_force_max, "kN", up=False)
-    return (
-        f"set cutting_force_max to at most {force}, with shorter rules or softer board; a stiffer drive lowers it too"
+    return Phrase(
+        "set cutting_force_max to at most {force}, with shorter rules or softer board; a stiffer drive lowers it too",
+        force=force,
     )

@@ -11,7 +11,7 @@ from typing import Any
 
 import numpy as np
 
-from diecut_report.api import Curve, told
+from diecut_report.api import Curve, Phrase, joined, phrase, told
 from diecut_report.mechanics.timing.motor_slip import motor_response
 from diecut_report.mechanics.timing.piece_rows import PieceRows
 from diecut_report.plugins.press_consistency.motor import load_of
@@ -44,8 +44,10 @@ def swing(torque: Curve, *numbers: float) -> str:
     allowed = stiffness * speed * fluctuation
     needed = _least(lambda times: _range(follow(lag * times)) <= allowed)
     if not np.isfinite(needed):
-        return "no flywheel keeps it that even"
-    return f"the flywheel needs an inertia of at least {told(motor[3] * needed, 'kg*m**2', up=True)}"
+        return phrase("no flywheel keeps it that even")
+    return Phrase(
+        "the flywheel needs an inertia of at least {motor}", motor=told(motor[3] * needed, "kg*m**2", up=True)
+    )
 
 
 def _range(found: PieceRows) -> float:
@@ -66,18 +68,25 @@ def _advice(torque: Curve, numbers: tuple[float, ...], limit: Callable[[float, f
     heavier = _least(lambda times: bearable(follow(lag * times), 1.0))
     stronger = _least(lambda times: bearable(follow(lag / times), times))
     ways = list(_ways(heavier, stronger, inertia, rated * speed, synchronous - speed, synchronous))
-    return f"it needs {', or '.join(ways)}" if ways else "no flywheel and no motor of this speed would do"
+    return (
+        Phrase("it needs {ways}", ways=joined(ways, ", or "))
+        if ways
+        else phrase("no flywheel and no motor of this speed would do")
+    )
 
 
 def _ways(
     heavier: float, stronger: float, inertia: float, power: float, slip: float, synchronous: float
 ) -> Iterator[str]:
     if np.isfinite(heavier):
-        yield f"a flywheel of at least {told(inertia * heavier, 'kg*m**2', up=True)}"
+        yield Phrase("a flywheel of at least {inertia}", inertia=told(inertia * heavier, "kg*m**2", up=True))
     if heavier * slip <= MOST_SLIP * synchronous:
-        yield f"a slip of at least {told(heavier * slip, 'rpm', up=True)} at the rated torque"
+        yield Phrase("a slip of at least {heavier} at the rated torque", heavier=told(heavier * slip, "rpm", up=True))
     if np.isfinite(stronger):
-        yield f"a rated power of at least {told(power * stronger, 'kW', up=True)}, by a greater reserve_factor of the drive train"
+        yield Phrase(
+            "a rated power of at least {power}, by a greater reserve_factor of the drive train",
+            power=told(power * stronger, "kW", up=True),
+        )
 
 
 def _least(holds: Callable[[float], Any]) -> float:

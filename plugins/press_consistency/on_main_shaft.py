@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping
 from typing import Any
 
-from diecut_report.api import Cell, GivenMechanism, ListedColumn, Refusal
+from diecut_report.api import Cell, GivenMechanism, ListedColumn, Phrase, Refusal, joined
 
 TIMES = (
     ListedColumn("what", "What"), ListedColumn("time", "At the productivity", "t", "ms"),
@@ -20,14 +20,20 @@ def lines_out_of_step(drives: tuple[str, ...], single_position: bool, timing: Gi
     strange = next((name for name in drives if name not in lines), None)
     if strange is not None:
         raise Refusal(
-            "clutch_drives", f"names {strange}, which is not a line of {timing.name}; these are {', '.join(lines)}"
+            "clutch_drives",
+            Phrase(
+                "names {strange}, which is not a line of {name}; these are {lines}",
+                strange=strange,
+                name=timing.name,
+                lines=joined(lines, ", "),
+            ),
         )
     return 0.0 if single_position or set(drives) == set(lines) else float(len(set(drives)))
 
 
 def listed(drives: tuple[str, ...]) -> str:
     """Return the lines that a clutch drives, in words."""
-    return ", ".join(drives)
+    return joined(drives, ", ")
 
 
 def times(given: Mapping[str, Any]) -> Iterator[tuple[Cell, ...]]:
@@ -44,8 +50,8 @@ def _times(timing: GivenMechanism) -> Iterator[tuple[str, float | None]]:
     for row in timing.listing("main_phases"):
         yield str(row[0]), _number(row[PHASE_TIME])
     for row in timing.listing("margins"):
-        yield f"{row[0]}, margin at the start", _number(row[MARGIN_START])
-        yield f"{row[0]}, margin at the end", _number(row[MARGIN_END])
+        yield Phrase("{row}, margin at the start", row=row[0]), _number(row[MARGIN_START])
+        yield Phrase("{row}, margin at the end", row=row[0]), _number(row[MARGIN_END])
 
 
 def _number(cell: Cell) -> float | None:

@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from diecut_report.api import Refusal
+from diecut_report.api import Phrase, Refusal, joined
 from diecut_report.plugins.rolling_bearing.duty import Duty
 from diecut_report.plugins.rolling_bearing.nodes import Nodes
 from diecut_report.plugins.rolling_bearing.part import EXPONENTS, ChosenBearing, GivenBearing
@@ -52,7 +52,7 @@ class Bearings:
 
     def designations(self) -> list[str]:
         """Return for each variant what bearings are taken, in words."""
-        return [", ".join(f"{name} {each.designations[variant]}" for name, each in zip(self.names, self.taken, strict=True))
+        return [joined((f"{name} {each.designations[variant]}" for name, each in zip(self.names, self.taken, strict=True)), ", ")
                 for variant in range(self.variants)]  # fmt: skip
 
     def flag(self, of: Iterable[bool]) -> Array:
@@ -158,7 +158,11 @@ def _of_names(names: tuple[str, ...]) -> None:
         key = f"bearings.{index}.name"
         if not name.isidentifier() or not name.isascii():
             raise Refusal(
-                key, f"is “{name}”; results are called by it, so take letters, digits and underscores, a letter first"
+                key,
+                Phrase(
+                    "is “{name}”; results are called by it, so take letters, digits and underscores, a letter first",
+                    name=name,
+                ),
             )
         if name in names[:index]:
-            raise Refusal(key, f"is {name}, as that of another bearing; give each its own name")
+            raise Refusal(key, Phrase("is {name}, as that of another bearing; give each its own name", name=name))

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from diecut_report.api import Chart, Shape, View, chart_panel, level, line, mark
+from diecut_report.api import Chart, Phrase, Shape, View, chart_panel, level, line, mark
 from diecut_report.plugins.rolling_bearing.bearings import Bearings
 
 POINTS = 361
@@ -20,7 +20,7 @@ def loads_over_cycle(view: View) -> list[Shape]:
         mean, most = view.row("equivalent_load")[index], view.row("equivalent_load_max")[index]
         levels = [level(most, "greatest"), *([level(mean, "equivalent")] if np.isfinite(mean) else [])]
         panels.append(
-            chart_panel(f"Load of {name}", "kN", "Angle of the cycle", "φ", "deg",
+            chart_panel(Phrase("Load of {name}", name=name), "kN", "Angle of the cycle", "φ", "deg",
                         lines=[line(2 * np.pi * share[0], load, "equivalent load")], levels=levels, range=(0, None))
         )  # fmt: skip
     return panels

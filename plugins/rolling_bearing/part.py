@@ -9,7 +9,7 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from diecut_report.api import Refusal, si, table_beside
+from diecut_report.api import Phrase, Refusal, si, table_beside
 from diecut_report.plugins.rolling_bearing import formulas as f
 from diecut_report.plugins.rolling_bearing.duty import Duty, is_curve, of_one_cycle
 from diecut_report.plugins.rolling_bearing.factors import RADIAL_FACTOR, STATIC_FACTORS
@@ -110,9 +110,18 @@ class GivenBearing:
                           "ball bearings stand in the table")  # fmt: skip
         if designation is not None:
             if designation not in CATALOGUE.names:
-                series = f"{CATALOGUE.names[0]} to {CATALOGUE.names[-1]}, series 60, 62 and 63"
-                raise Refusal(self.key("designation"), f"is {designation}, which is not in the table ({series}); give dynamic_rating and "
-                              "static_rating of the maker's catalogue beside it")  # fmt: skip
+                series = Phrase(
+                    "{names} to {names_2}, series 60, 62 and 63", names=CATALOGUE.names[0], names_2=CATALOGUE.names[-1]
+                )
+                raise Refusal(
+                    self.key("designation"),
+                    Phrase(
+                        "is {designation}, which is not in the table ({series}); give dynamic_rating and static_rating "
+                        "of the maker's catalogue beside it",
+                        designation=designation,
+                        series=series,
+                    ),
+                )
             return ChosenBearing(self.of(designation), (designation,) * self.variants, known)
         return self._sized(duty)
 

@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from diecut_report.api import Chapter
+from diecut_report.api import Chapter, Phrase
 
 Array = NDArray[Any]
 GREATEST = 50.0  # times the given size
@@ -37,11 +37,14 @@ class Growth:
         """Say by how much a single shaft must grow for a limit."""
         found = self.least(limit)
         if found is None:
-            return (
-                f"no thicker shaft of this steel is enough, up to {GREATEST:g} times its size; take a stronger steel, or bearings nearer to "
-                "the loads."
+            return Phrase(
+                "no thicker shaft of this steel is enough, up to {greatest} times its size; take a stronger "
+                "steel, or bearings nearer to the loads.",
+                greatest=f"{GREATEST:g}",
             )
-        return f"with all diameters, bores and fillet radii {found:.{DIGITS}f} times as great it is met."
+        return Phrase(
+            "with all diameters, bores and fillet radii {found} times as great it is met.", found=f"{found:.{DIGITS}f}"
+        )
 
     def least(self, limit: str) -> float | None:
         """Return the least growth that meets a limit; None where there is none."""

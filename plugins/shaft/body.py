@@ -8,7 +8,7 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from diecut_report.api import Refusal
+from diecut_report.api import Phrase, Refusal
 from diecut_report.mechanics.beams import SAME_PLACE
 
 Array = NDArray[Any]
@@ -133,11 +133,11 @@ def body(
     rest = 2 + len(names)
     kinds = (*steps, *(types or ()), *[NO_NOTCH] * rest)
     told = (
-        *(f"shoulder {i + 1}" for i in range(count - 1)),
-        *(f"notch {i + 1} ({kind})" for i, kind in enumerate(types or ())),
+        *(Phrase("shoulder {i}", i=i + 1) for i in range(count - 1)),
+        *(Phrase("notch {i} ({kind})", i=i + 1, kind=kind) for i, kind in enumerate(types or ())),
         "bearing A",
         "bearing B",
-        *(f"load {name}" for name in names),
+        *(Phrase("load {name}", name=name) for name in names),
     )
     places = [
         ends[1:-1],
@@ -175,7 +175,10 @@ def _complete(types: tuple[str, ...], own: list[Array]) -> None:
         if kind not in ("custom", SLED_RUNNER) and any(factors):
             raise Refusal(
                 f"notches.{index}",
-                f"has factors of its own, but is of the type {kind}; remove them, or give it the type custom",
+                Phrase(
+                    "has factors of its own, but is of the type {kind}; remove them, or give it the type custom",
+                    kind=kind,
+                ),
             )
         if kind == PRESS_FIT and radius:
             raise Refusal(

@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from diecut_report.api import Curve, Extremes, Refusal
+from diecut_report.api import Curve, Extremes, Phrase, Refusal, joined
 from diecut_report.plugins.shaft.body import columns
 
 Array = NDArray[Any]
@@ -230,8 +230,13 @@ def _of_one_cycle(curves: dict[str, Curve]) -> None:
         if other.cycle != one.cycle:
             raise Refusal(
                 key,
-                f"is a curve over {other.cycle}, but {first} is one over {one.cycle}; all curves of a shaft run over one and the same "
-                "cycle: give one of the two as a number",
+                Phrase(
+                    "is a curve over {cycle}, but {first} is one over {cycle_2}; all curves of a shaft run over one "
+                    "and the same cycle: give one of the two as a number",
+                    cycle=other.cycle,
+                    first=first,
+                    cycle_2=one.cycle,
+                ),
             )
 
 
@@ -239,10 +244,10 @@ def _telling(names: Any, given: dict[str, tuple[Any, ...]], pitch_radius: Any) -
     """Whether the torques can be told: at most one balances, and none with a toothing is known by its extremes alone."""
     balancing = [i for i, each in enumerate(given["torque"]) if isinstance(each, str)]
     if len(balancing) > 1:
-        told = " and ".join(str(names[i]) for i in balancing)
+        told = joined((str(names[i]) for i in balancing), " and ")
         raise Refusal(
             f"loads.{balancing[1]}.torque",
-            f"is balance, as that of another load ({told}); only one load can balance the others",
+            Phrase("is balance, as that of another load ({told}); only one load can balance the others", told=told),
         )
     bounded = [i for i, each in enumerate(given["torque"]) if isinstance(each, Extremes)]
     unknown = bounded + (balancing if bounded else [])
@@ -252,7 +257,8 @@ def _telling(names: Any, given: dict[str, tuple[Any, ...]], pitch_radius: Any) -
         if pitch_radius is not None:
             words = "has a gear, whose forces need the torque at each instant; give the torque as a number or a curve, or the forces without gear"
             raise Refusal(
-                f"loads.{index}.torque", f"is known by its extremes alone, but the load {names[index]} {words}"
+                f"loads.{index}.torque",
+                Phrase("is known by its extremes alone, but the load {names} {words}", names=names[index], words=words),
             )
 
 

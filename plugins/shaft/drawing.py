@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from itertools import accumulate
 
-from diecut_report.api import Point, Shape, View, arrow, dimension, label, point, polyline
+from diecut_report.api import Phrase, Point, Shape, View, arrow, dimension, label, point, polyline
 
 SHARE = 0.06  # of the length, by which marks stand off
 
@@ -28,7 +28,7 @@ def shaft(view: View) -> list[Shape]:
     if "notches.position" in view:
         for i, x in enumerate(view.row("notches.position")):
             radius = _radius(ends, sizes, x)
-            shapes.append(point((x, radius), "mark", f"notch {i + 1}"))
+            shapes.append(point((x, radius), "mark", Phrase("notch {i}", i=i + 1)))
     return [*shapes, dimension((0, -highest), (length, -highest), -4 * SHARE * length, view.text("length"))]
 
 
@@ -51,5 +51,5 @@ def _bearing(view: View, name: str, told: str, highest: float) -> list[Shape]:
     axial = view.word("locating") == name
     return [
         polyline(triangle, "link" if axial else "outline", closed=True),
-        label((x, foot - width), f"{told}, locating" if axial else told, "center"),
+        label((x, foot - width), Phrase("{told}, locating", told=told) if axial else told, "center"),
     ]

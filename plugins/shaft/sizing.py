@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from diecut_report.api import Chapter, ListedColumn, Refusal, si, standard_series
+from diecut_report.api import Chapter, ListedColumn, Phrase, Refusal, joined, phrase, si, standard_series
 from diecut_report.plugins.shaft.body import columns
 
 Array = NDArray[Any]
@@ -76,7 +76,7 @@ class Sizes:
         shown = (float(known[name][machine]) for name in ("fatigue_safety", "yield_safety", "bearing_slope_max"))
         told = "taken" if place == own else _missed(known, machine, self.settled)
         return (
-            f"section {section + 1}",
+            Phrase("section {section}", section=section + 1),
             float(SERIES[place]),
             *(each if np.isfinite(each) else None for each in shown),
             told,
@@ -86,7 +86,7 @@ class Sizes:
 def sizes(known: Mapping[str, Any]) -> Sizes:
     """Return the diameters as given, with those found that are left out."""
     if "sections.length" not in known:
-        raise Refusal("sections", "is empty; give at least one section")
+        raise Refusal("sections", phrase("is empty; give at least one section"))
     given, count = known.get("sections.diameter"), known["sections.length"].shape[1]
     variants = len(known["bearing_a"])
     found = columns(given, count, variants)
@@ -110,8 +110,12 @@ def _refuse_between(fillets: Any, sought: Sequence[int], count: int) -> None:
         if fillet and section in sought and section + 1 in sought:
             raise Refusal(
                 f"sections.{section + 1}.diameter",
-                f"is left out, as that of section {section + 1} before it, but a fillet stands between both, which needs a step; give one "
-                "of the two diameters, or remove the fillet_radius, so that the step counts as sharp",
+                Phrase(
+                    "is left out, as that of section {section} before it, but a fillet stands between both, which "
+                    "needs a step; give one of the two diameters, or remove the fillet_radius, so that the step "
+                    "counts as sharp",
+                    section=section + 1,
+                ),
             )
 
 
@@ -165,9 +169,9 @@ def _holds(known: Mapping[str, Array], pair: tuple[str, str, str]) -> Array:
 def _missed(known: Mapping[str, Array], machine: int, settled: Any) -> str:
     """Say what a machine does not hold."""
     if not np.isfinite(known["fatigue_safety"][machine]):
-        return "cannot be made: bore or fillet do not fit"
+        return phrase("cannot be made: bore or fillet do not fit")
     missed = [pair[2] for pair in settled if not _holds(known, pair)[machine]]
-    return f"not enough for {', '.join(missed)}" if missed else "enough"
+    return Phrase("not enough for {missed}", missed=joined(missed, ", ")) if missed else "enough"
 
 
 # fmt: off

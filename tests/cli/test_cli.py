@@ -191,10 +191,10 @@ def test_schema_of_all_and_of_one_kind(capfd: Capture) -> None:
     [
         (
             ["report", "x.yaml", "--format", "html,pfd"],
-            "'pfd' is not a format (did you mean 'pdf'?); known: html, pdf, json.",
+            "'pfd' is not a format (did you mean 'pdf'?); known: html, pdf, docx, xlsx, json.",
         ),
         (["report", "x.yaml", "--format", ","], "no format is named"),
-        (["report", "x.yaml", "--language", "uk"], "uk; reports in this language wait for its catalogue"),
+        (["report", "x.yaml", "--language", "xx"], "is 'xx', of which the program has no catalogue; allowed: en, uk"),
         (["calc"], "Missing argument 'CONFIG'"),
         (["check"], "Missing argument"),
         (["validate"], "Missing argument"),

@@ -98,11 +98,6 @@ FIXED = [
     ("title: Test", "title: [a]", "2:18: project.title: is a list; a text is needed"),
     (
         "title: Test",
-        "title: T, language: uk",
-        "2:31: project.language: is uk; reports in this language wait for its catalogue",
-    ),
-    (
-        "title: Test",
         "title: T, language: ukr",
         "2:31: project.language: is “ukr” (did you mean 'uk'?); allowed: en, uk",
     ),

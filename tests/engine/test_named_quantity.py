@@ -86,7 +86,7 @@ def test_formulas_of_several_parts_are_printed_with_the_number_of_each() -> None
     items: dict[str, Any] = {item.get("id"): item for item in mechanism_results(calc, {})["sections"][0]["items"]}
     assert items["slip"]["equation"] == Node("-", (Node("sym", ("ω_3",)), Node("sym", ("ω_4",)))).to_json()
     assert items["more"]["equation"] == Node("/", (Node("sym", ("F_t,2",)), Node("sym", ("F_t,1",)))).to_json()
-    assert items["slip"]["result"] == {"text": "3", "unit": "1"} and items["more"]["result"]["text"] == "1.080"
+    assert items["slip"]["result"] == {"text": "3", "unit": "1"} and items["more"]["result"]["text"] == "1.08"
 
 
 def test_a_part_with_the_symbol_of_another_quantity_is_a_fault() -> None:

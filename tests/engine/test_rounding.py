@@ -66,7 +66,7 @@ def test_a_true_difference_is_printed_with_its_numbers() -> None:
 def test_a_function_that_computes_what_its_body_does_not_say_is_refused(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(difference, "function", lambda length, other: 1.01 * (length - other))
     with pytest.raises(
-        Unproven, match=r"What is found \(found\) is 50\.50 mm, but its formula difference .* gives 50 mm"
+        Unproven, match=r"What is found \(found\) is 50\.5 mm, but its formula difference .* gives 50 mm"
     ):
         item(difference, length=0.15)
 

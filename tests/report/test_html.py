@@ -9,10 +9,11 @@ from typing import Any
 import pytest
 from jinja2 import UndefinedError
 
+from diecut_report.languages.catalogues import UnknownLanguage
 from diecut_report.report import Rendering, html, render_html
 
 BAD = "<script>alert(1)</script>"
-VOID = {"meta", "img", "br", "col", "path", "use", "rect", "link", "mspace", "circle", "line"}
+VOID = {"meta", "img", "br", "col", "path", "use", "rect", "link", "mspace", "circle", "line", "input"}
 
 
 class Balance(HTMLParser):
@@ -49,8 +50,9 @@ def test_tags_balance_ids_are_unique_and_links_have_a_target(html: str) -> None:
 
 def test_nothing_comes_from_outside(html: str) -> None:
     addresses = set(re.findall(r"https?://[^\"'\s<>)]+", html))
-    assert addresses <= {"http://www.w3.org/2000/svg", "http://www.w3.org/1999/xlink"}
-    assert not re.search(r"<(script|link|iframe|object|embed|base|form)\b", html)
+    of_comment = {"https://github.com/leeoniya/uPlot"}  # where the plotting library names itself
+    assert addresses <= {"http://www.w3.org/2000/svg", "http://www.w3.org/1999/xlink"} | of_comment
+    assert not re.search(r"<(link|iframe|object|embed|base|form)\b|<script[^>]*\bsrc", html)
     assert set(re.findall(r"url\(\"?([^\")]{0,10})", html)) <= {"data:font/"} | set(
         re.findall(r"url\((#[^)\"]{0,9})", html)
     )
@@ -110,7 +112,12 @@ def test_scripts_in_any_text_are_only_text(request: pytest.FixtureRequest, docum
         for row in [*mechanism.get("outputs", {}).values(), *mechanism.get("inputs", {}).values()]:
             row["symbol"] = BAD
     page = render_html(poisoned)
-    assert "<script" not in page
+    assert re.findall(r"<script[^>]*>", page) == [
+        '<script type="application/json" id="reader-data">',
+        "<script>",
+        "<script>",
+    ]
+    assert BAD not in page
     assert page.count("&lt;script&gt;") > 60
 
 
@@ -138,6 +145,6 @@ def test_templates_have_no_words_of_their_own() -> None:
 
 
 def test_language_without_a_catalogue_is_refused(results: dict[str, Any]) -> None:
-    results["project"]["language"] = "uk"
-    with pytest.raises(KeyError):
+    results["project"]["language"] = "xx"
+    with pytest.raises(UnknownLanguage):
         Rendering(results)

@@ -10,10 +10,12 @@ import subprocess
 import sys
 from functools import cache
 from hashlib import sha256
+from itertools import pairwise
 from pathlib import Path
 from typing import Any
 
 import pytest
+from page import validate_pdf
 from pypdf import PdfReader
 from weasyprint.urls import FatalURLFetchingError
 
@@ -95,6 +97,34 @@ def test_no_link_leads_outside(pdf: Path) -> None:
 def test_weasyprint_has_nothing_to_complain_of(printed: Printed) -> None:
     assert printed.path.read_bytes().startswith(b"%PDF-1.7")
     assert printed.warnings == []
+
+
+@pytest.mark.parametrize("profile", ["3a", "ua1"])
+def test_a_validator_finds_it_fit_for_archives_and_for_all_readers(pdf: Path, profile: str) -> None:
+    found = validate_pdf(pdf, profile=profile)
+    # of a stream whose last byte is CR the validator takes the end of line that follows it for one with it; qpdf does not
+    assert {f.message for f in found.failures if "/Length does not match" not in f.message} == set()
+
+
+def test_configuration_and_results_are_attached_as_what_they_are(pdf: Path) -> None:
+    root: Any = PdfReader(pdf).trailer["/Root"]
+    found = {spec.get_object()["/UF"]: spec.get_object()["/AFRelationship"] for spec in root["/AF"]}
+    assert found == {"config.yaml": "/Source", "results.json": "/Data"} and len(root["/AF"]) == 2
+
+
+def test_each_signer_has_a_field_in_the_box_for_his_signature(pdf: Path) -> None:
+    first: Any = PdfReader(pdf).pages[0]
+    fields = {
+        field["/T"]: field
+        for field in (each.get_object() for each in first["/Annots"])
+        if field["/Subtype"] == "/Widget"
+    }
+    assert list(fields) == ["prepared", "checked", "approved"]
+    assert all(field["/FT"] == "/Sig" and "/V" not in field for field in fields.values())
+    assert fields["checked"]["/TU"] == "Signature: Checked"
+    boxes = [[float(each) for each in field["/Rect"]] for field in fields.values()]
+    assert all(x2 - x1 > 100 and 10 < y2 - y1 < 25 for x1, y1, x2, y2 in boxes)
+    assert all(upper[1] > lower[3] for upper, lower in pairwise(boxes))
 
 
 def test_a_picture_from_outside_stops_the_rendering(results: dict[str, Any], monkeypatch: pytest.MonkeyPatch) -> None:

@@ -9,6 +9,7 @@ from diecut_report.contract.binding import bound
 from diecut_report.contract.part_steps import Interpolated
 from diecut_report.engine.printing.substitution import MOST_DIGITS, Elsewhere, Substitution
 from diecut_report.expressions import Node
+from diecut_report.languages.phrases import Phrase
 from diecut_report.quantities.formatting import shortest, with_unit
 from diecut_report.standards import sources_told
 
@@ -47,7 +48,8 @@ class BetweenRows(Substitution):
             )
             for number, row in enumerate(self.rows, 1)
         )
-        return f"Rows of the table: {'; '.join(rows)}. {sources_told(self.step.table)}"
+        told = {"rows": "; ".join(rows), "sources": sources_told(self.step.table)}
+        return Phrase("Rows of the table: {rows}. {sources}", told)
 
     def unit_of(self, declared: str, *, angle: bool) -> str:
         """Return the table's unit."""

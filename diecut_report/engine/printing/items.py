@@ -29,9 +29,12 @@ from diecut_report.contract.steps import (
 )
 from diecut_report.engine import listings
 from diecut_report.engine.calculation import Calculation, Unproven
-from diecut_report.engine.printing import named_parts, tables
+from diecut_report.engine.printing import methods, named_parts, tables
+from diecut_report.engine.printing.bridges import bridged, conversions
+from diecut_report.engine.printing.contradictions import contradicted
 from diecut_report.engine.printing.definitions import definitions
 from diecut_report.engine.printing.interpolation import BetweenRows
+from diecut_report.engine.printing.methods import METHODS, period
 from diecut_report.engine.printing.shown_place import (
     case_taken,
     is_elsewhere,
@@ -43,24 +46,17 @@ from diecut_report.engine.printing.shown_place import (
     value_at,
 )
 from diecut_report.engine.printing.substitution import (
-    MOST_DIGITS,
     Contradiction,
     Elsewhere,
     Substitution,
     printed,
 )
+from diecut_report.engine.shown_units import step_shown
 from diecut_report.expressions import Array, Node
-from diecut_report.quantities.formatting import number_text, shown, with_unit
-from diecut_report.quantities.units import unit
+from diecut_report.languages.phrases import Phrase, joined, phrase
+from diecut_report.quantities.formatting import number_text
 
 Item = dict[str, Any]
-
-METHODS = {
-    "max": "bounded search on the curve within each smooth piece, one-sided limits at the breakpoints included",
-    "mean": "Gauss–Legendre between the breakpoints, repeated with the doubled order",
-    "derivative": "Chebyshev series between the breakpoints, differentiated; the series is compared with the curve at other places",
-    "accumulated": "Chebyshev series between the breakpoints, integrated; its end compared with Gauss–Legendre",
-}
 
 
 def section_items(calc: Calculation) -> list[dict[str, Any]]:
@@ -83,7 +79,8 @@ def _is_nothing(row: Array) -> bool:
 def items(calc: Calculation, step: Step) -> list[Item]:
     """Return what is printed of a step (nothing of breakpoints and requirements)."""
     if step.exists is not None and step.id in calc.values and _is_nothing(calc.values[step.id][0]):
-        return [_head(step) | {"type": "note", "text": f"{step.description}: does not apply to this machine."}]
+        text = Phrase("{title}: does not apply to this machine.", title=phrase(step.description))
+        return [_head(step) | {"type": "note", "text": text}]
     match step:
         case Value(formula=part):
             return _value(calc, step, bound(part))
@@ -120,7 +117,8 @@ def items(calc: Calculation, step: Step) -> list[Item]:
         case Neighbour() | Words():  # a neighbour stands beside its part in the table of what takes it
             return []
         case Abscissa(points=points):
-            text = f"{step.description}; curves are sampled at {printed(calc, points)} places of it."
+            told = {"title": phrase(step.description), "count": printed(calc, points)}
+            text = Phrase("{title}; curves are sampled at {count} places of it.", told)
             return [_head(step) | {"type": "note", "text": text}]
     return []
 
@@ -138,8 +136,7 @@ def _value(calc: Calculation, step: Value, part: Bound) -> list[Item]:
     if axis in calc.domains:
         item |= located(calc, str(axis), elsewhere)
     elif axis is not None:
-        if names := calc.part_names.get(axis) or calc.inputs.get(step.named_by):
-            item["note"] = " ".join(filter(None, (item.get("note"), f"Shown for: {names[shown_part(calc, step.id)]}.")))
+        item["note"] = joined(filter(None, (item.get("note"), named_parts.told(calc, step, axis))), " ")
         if not named_parts.has_tables(calc, axis):
             taken = [name for name in part.names.values() if isinstance(name, str)]
             return [item, tables.table(calc, step, [*taken, step.id])]
@@ -165,6 +162,7 @@ def _sides(substitution: Substitution, held: bool) -> tuple[Any, Any]:
 
 def _formula(calc: Calculation, part: Bound, step: Step, axis: str | None, elsewhere: bool) -> Item:
     target = value_at(calc, step.id, axis)
+    result = step_shown(calc, step, target)
     marked = marks(calc, axis, elsewhere)
     own = None if axis in calc.domains else shown_part(calc, step.id)
     substitution = _substitution(
@@ -172,20 +170,20 @@ def _formula(calc: Calculation, part: Bound, step: Step, axis: str | None, elsew
     )
     takes = [name for name in part.names.values() if isinstance(name, str)]
     try:
-        numeric = substitution.numeric(target, step.unit, step.digits) if takes else None
+        numeric = substitution.numeric(target, result["unit"], step.digits) if takes else None
     except Contradiction as found:
-        raise Unproven(_contradicted(step, part, found)) from None
+        raise Unproven(contradicted(step, part, found)) from None
     symbolic = substitution.symbolic()
     item: Item = {"equation": symbolic.to_json(), "substituted": numeric and numeric.to_json()}
     if defined := definitions(symbolic):
         item["where"] = defined
     if takes and numeric is None:
-        item["note"] = (
-            "the terms are equal up to the rounding of the computer, or so nearly that printed numbers do not show it"
-        )
+        item["note"] = methods.EQUAL_TERMS
     if isinstance(substitution, BetweenRows):
-        item["note"] = " ".join(filter(None, (item.get("note"), substitution.told())))
-    return item | {"result": shown(target, step.unit, step.digits)}
+        item["note"] = joined(filter(None, (item.get("note"), substitution.told())), " ")
+    return (
+        item | bridged(substitution, numeric, target, result) | conversions(substitution, numeric) | {"result": result}
+    )
 
 
 def _substitution(
@@ -194,21 +192,6 @@ def _substitution(
     if isinstance(step, Interpolated):
         return BetweenRows(calc, step, value_of, marked)
     return Substitution(calc, part, value_of, marked)
-
-
-def _contradicted(step: Step, part: Bound, found: Contradiction) -> str:
-    """Say what is wrong with a formula whose expression does not give its result, with so many digits as show it."""
-    factor, said = unit(step.unit).factor, ("", "")
-    for digits in range(step.digits, MOST_DIGITS + 1):
-        said = (number_text(found.result / factor, digits), number_text(found.printed / factor, digits))
-        if said[0] != said[1]:
-            break
-    result, again = (with_unit(text, step.unit) for text in said)
-    formula = part.formula
-    return (
-        f"{step.description} ({step.id}) is {result}, but its formula {formula.__name__} as it is printed gives {again}, "
-        f"which is more than rounding; it must compute by its parameters and constants alone ({formula.place})"
-    )
 
 
 OPPOSITE = {"<": ">=", "<=": ">", ">": "<=", ">=": "<", "==": "!=", "!=": "=="}
@@ -252,13 +235,13 @@ def _root(calc: Calculation, step: Root) -> Item:
         "type": "found",
         "relation": Node("cmp", ("==", *sides)).to_json(),
         "method": method,
-        "result": shown(value_at(calc, step.id, None), step.unit, step.digits),
+        "result": step_shown(calc, step, value_at(calc, step.id, None)),
         "residual": {"text": residual, "unit": "1"},
     }
 
 
 def _reduced(calc: Calculation, step: Step, of: str) -> Item:
-    result = shown(value_at(calc, step.id, None), step.unit, step.digits)
+    result = step_shown(calc, step, value_at(calc, step.id, None))
     return {"type": "reduction", "of": calc.step_or_input(of).symbol, "result": result}
 
 
@@ -274,16 +257,16 @@ def _reduction(calc: Calculation, step: Reduction) -> Item:
 
 
 def _computed(calc: Calculation, step: Computed | ComputedCurve | CurvePeriod) -> Item:
-    method = f"the period of {calc.meta[step.given].symbol}" if isinstance(step, CurvePeriod) else step.method
+    method = period(calc, step) if isinstance(step, CurvePeriod) else step.method
     if isinstance(step, Computed) and step.is_text:
         result: Item = {"text": calc[step.id][0, 0], "unit": "1"}
     else:
-        result = shown(value_at(calc, step.id, calc.axis.get(step.id)), step.unit, step.digits)
+        result = step_shown(calc, step, value_at(calc, step.id, calc.axis.get(step.id)))
     return _head(step) | {"type": "found", "relation": None, "method": method, "result": result}
 
 
 def _made(calc: Calculation, step: MadeCurve) -> Item:
-    result = shown(value_at(calc, step.id, calc.axis[step.id]), step.unit, step.digits)
+    result = step_shown(calc, step, value_at(calc, step.id, calc.axis[step.id]))
     found = _head(step) | {"type": "found", "relation": None, "method": step.method, "result": result}
     return found | {"at": place_shown(calc, calc.axis[step.id], False)}
 
@@ -291,7 +274,7 @@ def _made(calc: Calculation, step: MadeCurve) -> Item:
 def _of_curve(calc: Calculation, step: Accumulated | Derivative) -> Item:
     operation = "accumulated" if isinstance(step, Accumulated) else "derivative"
     axis = calc.axis[step.id]
-    result = shown(value_at(calc, step.id, axis), step.unit, step.digits)
+    result = step_shown(calc, step, value_at(calc, step.id, axis))
     return _head(step) | {
         "type": "reduction", "operation": operation, "of": calc.step_or_input(step.of).symbol, "result": result,
         "at": place_shown(calc, axis, False), "method": METHODS[operation],

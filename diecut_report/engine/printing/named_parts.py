@@ -7,8 +7,11 @@ from typing import Any
 
 from diecut_report.contract.code_steps import ComputedCurve, PartTable
 from diecut_report.contract.result_names import part_result
+from diecut_report.contract.steps import Step
 from diecut_report.engine.calculation import Calculation
-from diecut_report.engine.printing.shown_place import value_at
+from diecut_report.engine.printing.shown_place import shown_part, value_at
+from diecut_report.engine.shown_units import unit_for
+from diecut_report.languages.phrases import Phrase, phrase
 from diecut_report.quantities.formatting import shown, with_unit
 
 Item = dict[str, Any]
@@ -29,12 +32,23 @@ def names(calc: Calculation, parts: str, row: str) -> Sequence[str]:
 
 def curves(calc: Calculation, step: ComputedCurve, at: Item) -> Item:
     """Return the curves of named parts where they are shown."""
+    own = [part_result(name, step) for name in calc.inputs[step.named_by]]
+    values = [value_at(calc, name, step.abscissa) for name in own]
+    display = unit_for(calc, step.id, step.unit, values)
     head = (
         {"title": "Name", "symbol": "", "unit": "1"},
-        {"title": step.description, "symbol": step.symbol, "unit": step.unit},
+        {"title": step.description, "symbol": step.symbol, "unit": display},
     )
-    own = [part_result(name, step) for name in calc.inputs[step.named_by]]
-    values = [shown(value_at(calc, name, step.abscissa), step.unit, step.digits)["text"] for name in own]
-    where = f"{step.description} at {at['symbol']} = {with_unit(at['text'], at['unit'])}"
-    lines = [list(line) for line in zip(calc.inputs[step.named_by], values, strict=True)]
+    texts = [shown(value, display, step.digits)["text"] for value in values]
+    place = {"symbol": at["symbol"], "value": with_unit(at["text"], at["unit"])}
+    where = Phrase("{title} at {symbol} = {value}", {"title": phrase(step.description), **place})
+    lines = [list(line) for line in zip(calc.inputs[step.named_by], texts, strict=True)]
     return {"type": "table", "id": step.id, "title": where, "columns": list(head), "rows": lines}
+
+
+def told(calc: Calculation, step: Step, axis: str) -> str:
+    """Return which of repeated parts the numbers in a row's formula are of; nothing where there is but one."""
+    names, part = calc.part_names.get(axis) or calc.inputs.get(step.named_by), shown_part(calc, step.id)
+    if names:
+        return Phrase("Shown for: {name}.", name=phrase(names[part]))
+    return Phrase("Shown for part {part}.", part=part + 1) if calc[step.id].shape[1] > 1 else ""

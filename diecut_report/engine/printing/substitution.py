@@ -17,14 +17,20 @@ from diecut_report.contract.binding import Bound
 from diecut_report.contract.result_names import named
 from diecut_report.contract.steps import Words
 from diecut_report.engine.printing.rounding import bounded
+from diecut_report.engine.shown_units import declared_unit, number_unit, unit_for
 from diecut_report.engine.steps import plain_code
 from diecut_report.expressions import Node, evaluate, transform
+from diecut_report.expressions.tree import walk
+from diecut_report.languages.phrases import Phrase, phrase
+from diecut_report.quantities.display import easy_unit, is_nothing
 from diecut_report.quantities.formatting import (
     DIGITS,
     NAMED,
+    given_shown,
     number_text,
     rounded,
     shortest,
+    shown_digits,
     told,
     with_unit,
 )
@@ -34,6 +40,7 @@ if TYPE_CHECKING:
     from diecut_report.engine.calculation import Calculation
 
 MOST_DIGITS = 17
+TRUSTED = 8  # digits up to which a number that is but the rounding of the computer stands as 0
 TRIGONOMETRIC = ("sin", "cos", "tan")
 
 
@@ -41,18 +48,22 @@ def printed(calc: Calculation, name: str, variant: int = 0, part: int = 0, up: b
     """Return a quantity as one would say it: ``40 mm``; of a row the value of one part; rounded up or down where ``up`` says so."""
     step = calc.steps.get(name)
     if isinstance(step, Words):
-        return plain_code.text(step, step.function(*(_plain(calc[taken], variant) for taken in step.takes)), part)
+        return phrase(
+            plain_code.text(step, step.function(*(_plain(calc[taken], variant) for taken in step.takes)), part)
+        )
     row: Any = calc[name]
     if isinstance(row, str | tuple):
         return row if isinstance(row, str) else str(row[part])
     value = row[variant, min(part, row.shape[1] - 1)]
     if isinstance(value, str):
-        return value
+        return phrase(value)
     declared = calc.step_or_input(name)
     digits = getattr(declared, "digits", DIGITS)
     if name not in calc.values:
-        return with_unit(shortest(float(value) / unit(declared.unit).factor), declared.unit)
-    return told(float(value), declared.unit, digits, up=up)
+        display = declared_unit(calc, name, declared.unit)
+        return with_unit(*given_shown(float(value), display).values())
+    display = unit_for(calc, name, declared.unit, [float(value)])
+    return told(float(value), display, digits, up=up)
 
 
 def _plain(value: Any, variant: int) -> Any:
@@ -74,7 +85,7 @@ def filled(
         up = {"up": True, "down": False}.get(found[2])
         return str(places[name]) if name in places else printed(calc, name, variant, int(places.get("index", 0)), up)
 
-    return NAMED.sub(said, text)
+    return Phrase(text, {found[0][1:-1]: said(found) for found in NAMED.finditer(text)})
 
 
 def formula_unit(display: str) -> str:
@@ -103,6 +114,9 @@ class Substitution:
     ) -> None:
         self.calc, self.part, self.value_of, self.elsewhere = calc, part, value_of, elsewhere
         self.constants: Mapping[str, Any] = part.formula.constants
+        self.is_copy = part.formula.tree.op == "sym"  # whether it takes a quantity over as it is
+        self.numbers: dict[str, Node] = {}  # as what each quantity was put in
+        self.in_degrees = False  # whether angles stand in degrees in all of it
 
     def symbolic(self) -> Node:
         """Return the expression in the plugin's symbols."""
@@ -129,7 +143,9 @@ class Substitution:
         None where it is proved that only rounding keeps printed numbers from showing it: the terms that it is the
         difference of are equal, or nearly so. ``Contradiction`` where the expression gives something else.
         """
+        result_digits = shown_digits(target, display, result_digits)
         wanted = rounded(target, display, result_digits)
+        self.in_degrees = unit(display).text == "deg" and self.is_angle(self.part.formula.tree)
         plain = self._at(DIGITS)
         if self._shows(bounded(plain, self._printed_value).value, display, result_digits, wanted):
             return plain
@@ -149,12 +165,38 @@ class Substitution:
         return math.isfinite(value) and rounded(value, display, digits) == wanted
 
     def unit_of(self, declared: str, *, angle: bool) -> str:
-        """Return the unit in which a quantity's number stands; ``angle`` where a trigonometric function takes it."""
+        """Return the unit in which a quantity's number stands; ``angle`` where it stands in degrees."""
         return "deg" if angle and unit(declared).si == "rad" else formula_unit(declared)
 
     def _at(self, digits: int) -> Node:
         """The expression with numbers of so many digits."""
-        return self._with_numbers(self.part.formula.tree, digits, angle=False)
+        return self._with_numbers(self.part.formula.tree, digits, angle=self.in_degrees)
+
+    def is_angle(self, node: Node) -> bool:
+        """Return whether an expression is an angle in whatever unit the angles in it stand: φ_2 − φ_1, 2·φ, but not φ + π."""
+        match node:
+            case Node("sym", (name,)):
+                return self._si_of(name) == "rad"
+            case Node("neg" | "+" | "-", parts):
+                return all(map(self.is_angle, parts))
+            case Node("*", (left, right)):
+                return self.is_angle(left) != self.is_angle(right) and (self._is_pure(left) or self._is_pure(right))
+            case Node("/", (over, under)):
+                return self.is_angle(over) and self._is_pure(under)
+        return False
+
+    def _is_pure(self, node: Node) -> bool:
+        """Whether an expression holds pure numbers alone."""
+        leaves = [leaf for leaf in walk(node) if leaf.op in ("sym", "qty")]
+        return node.op != "apply" and all(leaf.op == "sym" and self._si_of(leaf.args[0]) == "1" for leaf in leaves)
+
+    def _si_of(self, name: str) -> str:
+        """The SI unit of what a parameter or a constant of the formula stands for."""
+        taken = self.part.names.get(name)
+        if isinstance(taken, str):
+            return unit(self.calc.step_or_input(taken).unit).si
+        constant = self.constants.get(name)
+        return "1" if constant is None else unit(constant.unit).si
 
     def comparison(self, holds: bool) -> Node | None:
         """Return a condition with numbers, precise enough that it holds (or not) as printed; None where no number of digits shows it."""
@@ -170,12 +212,16 @@ class Substitution:
         return float(self.constants[leaf.args[0]])
 
     def _with_numbers(self, node: Node, digits: int, *, angle: bool) -> Node:
-        """Angles stand in degrees where a trigonometric function takes them, else in rad."""
+        """Angles stand in degrees where a trigonometric function takes them or the whole is shown so, else in rad."""
         if node.op == "sym":
             return self._number(node, digits, angle=angle)
         if node.op in ("num", "qty"):
             return node
-        inside = node.args[0] in TRIGONOMETRIC if node.op == "call" else angle and node.op in ("+", "-", "neg")
+        inside = (
+            node.args[0] in TRIGONOMETRIC
+            if node.op == "call"
+            else angle and (node.op in ("+", "-", "neg") or (node.op in ("*", "/") and self.is_angle(node)))
+        )
 
         def descend(part: Any) -> Any:
             if isinstance(part, Node):
@@ -188,17 +234,30 @@ class Substitution:
         name = self.part.names.get(leaf.args[0])
         if name is None:
             constant = self.constants.get(leaf.args[0])
-            return leaf if constant is None else Node("qty", (shortest(float(constant), MOST_DIGITS), constant.unit))
+            return leaf if constant is None else _constant(float(constant), constant.unit)
         if not isinstance(name, str):
             return Node("num", (f"{name:g}",))
-        declared = self.calc.step_or_input(name)
-        display = self.unit_of(declared.unit, angle=angle)
-        number = self.value_of(name) / unit(display).factor
+        declared, value = self.calc.step_or_input(name), self.value_of(name)
+        own = self.display(name)
+        display = own if self.is_copy else self.unit_of(own, angle=angle)
+        text = self._text(name, value / unit(display).factor, digits)
+        is_zero = digits <= TRUSTED and is_nothing(value, declared.unit)
+        self.numbers[name] = Node("qty", ("0" if is_zero else text, display))
+        return self.numbers[name]
+
+    def _text(self, name: str, number: float, digits: int) -> str:
+        """A number with so many digits; what is typed as it is."""
         if digits == MOST_DIGITS:
-            return Node("qty", (f"{number:.{digits}g}", display))  # exact: neither as typed nor taken as whole
-        text = (
-            shortest(number, max(digits, 6))
-            if name not in self.calc.values and name not in self.calc.curves
-            else number_text(number, digits)
-        )
-        return Node("qty", (text, display))
+            return f"{number:.{digits}g}"  # exact: neither as typed nor taken as whole
+        is_typed = name not in self.calc.values and name not in self.calc.curves
+        return shortest(number, digits) if is_typed else number_text(number, digits)
+
+    def display(self, name: str) -> str:
+        """Return the unit in which a quantity is shown where it stands for itself."""
+        return number_unit(self.calc, name, self.calc.step_or_input(name), self.value_of(name))
+
+
+def _constant(value: float, declared: str) -> Node:
+    """A constant of a formula, in a unit of its family in which it is easy to read."""
+    display = easy_unit(value, declared)
+    return Node("qty", (shortest(unit(display).from_si(value), MOST_DIGITS), display))

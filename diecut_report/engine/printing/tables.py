@@ -11,17 +11,19 @@ from diecut_report.contract.part_steps import Lookup, Part, Pick, Total
 from diecut_report.contract.steps import Crossings, Step
 from diecut_report.engine.calculation import Calculation
 from diecut_report.engine.printing.substitution import printed
+from diecut_report.engine.shown_units import declared_unit, step_shown, unit_for
 from diecut_report.engine.steps.part_rows import given_of, series_of
-from diecut_report.quantities.formatting import number_text, shown, with_unit
-from diecut_report.quantities.units import unit
+from diecut_report.languages.phrases import Phrase, phrase
+from diecut_report.quantities.formatting import given_shown, shown, with_unit
 from diecut_report.standards import StandardSeries, StandardTable, sources_told
 
 Item = dict[str, Any]
 AS_GIVEN = "as given"
+AMONG = "over the parts with {symbol} > 0"
 SERIES_WORDS = {
-    "above": "the next standard value at or above",
-    "below": "the next standard value at or below",
-    "nearest": "the nearest standard value to",
+    "above": "the next standard value at or above {value}; neighbours not taken: {beside}",
+    "below": "the next standard value at or below {value}; neighbours not taken: {beside}",
+    "nearest": "the nearest standard value to {value}; neighbours not taken: {beside}",
 }
 
 
@@ -30,10 +32,11 @@ def table(calc: Calculation, step: Step, names: list[str]) -> Item:
     declared = [calc.step_or_input(name) for name in names]
     known = calc.inputs.get(step.named_by)
     columns = [{"title": "Name" if known else "No.", "symbol": "", "unit": "1"}]
-    columns += [{"title": d.description, "symbol": d.symbol, "unit": d.unit} for d in declared]
+    units = [_column_unit(calc, name) for name in names]
+    columns += [_column(d, display) for d, display in zip(declared, units, strict=True)]
     count = calc[step.id].shape[1]
     heads = known or [str(i + 1) for i in range(count)]
-    lines = [[heads[i], *(_cell(calc, name, i) for name in names)] for i in range(count)]
+    lines = [[heads[i], *(_cell(calc, *column, i) for column in zip(names, units, strict=True))] for i in range(count)]
     return {"type": "table", "title": step.description, "columns": columns, "rows": lines}
 
 
@@ -41,30 +44,47 @@ def of_parts(calc: Calculation, step: Step, parts: Sequence[str], names: list[st
     """Return rows over declared parts, or a list of the inputs: a line for each part by its name."""
     declared = [calc.step_or_input(name) for name in names]
     columns = [{"title": "Name" if getattr(declared[0], "named_by", "") else "Place", "symbol": "", "unit": "1"}]
-    columns += [{"title": d.description, "symbol": d.symbol, "unit": d.unit} for d in declared]
-    lines = [[part, *(_cell(calc, name, i) for name in names)] for i, part in enumerate(parts)]
+    units = [_column_unit(calc, name) for name in names]
+    columns += [_column(d, display) for d, display in zip(declared, units, strict=True)]
+    lines = [
+        [part, *(_cell(calc, *column, i) for column in zip(names, units, strict=True))] for i, part in enumerate(parts)
+    ]
     return {"type": "table", "id": step.id, "title": step.description, "columns": columns, "rows": lines}
 
 
-def _cell(calc: Calculation, name: str, part: int) -> str:
+def _column(declared: Any, display: str) -> Item:
+    return {"title": declared.description, "symbol": declared.symbol, "unit": display}
+
+
+def _column_unit(calc: Calculation, name: str) -> str:
+    """The one unit of a column; that of an input is its own."""
+    declared, row = calc.step_or_input(name), calc[name]
+    if name not in calc.values or np.asarray(row).dtype.kind not in "fc":
+        return declared_unit(calc, name, declared.unit)
+    return unit_for(calc, name, declared.unit, row[0])
+
+
+def _cell(calc: Calculation, name: str, display: str, part: int) -> str:
     row = calc[name]
     value = row[0, min(part, row.shape[1] - 1)]
     if isinstance(value, str):
         return value
-    is_absent = np.isnan(float(value))
-    return "–" if is_absent else number_text(float(value) / unit(calc.step_or_input(name).unit).factor)
+    if np.isnan(float(value)):
+        return "–"
+    told = shown if name in calc.values else given_shown
+    return told(float(value), display)["text"]
 
 
 def number(calc: Calculation, step: Total | Pick | Lookup | Part) -> Item:
     """Return a number taken from rows, from a table, from a series."""
-    result = shown(float(calc[step.id][0, 0]), step.unit, step.digits)
+    result = step_shown(calc, step, float(calc[step.id][0, 0]))
     match step:
         case Lookup():
             return _lookup(calc, step) | {"result": result}
         case Pick():
             values = _pick(calc, step)
         case Total(operation=operation, among=among):
-            counted = f"over the parts with {calc.step_or_input(among).symbol} > 0" if among else ""
+            counted = Phrase(AMONG, symbol=calc.step_or_input(among).symbol) if among else ""
             values = {"operation": operation, "method": counted}
         case Part(index=index):
             values = {"operation": "last" if index < 0 else "first", "method": ""}
@@ -119,7 +139,7 @@ def _pick(calc: Calculation, step: Pick) -> Item:
     values, display, standard = series_of(calc, step)
     index = int(calc.branch[step.id][0, 0])
     beside = [with_unit(f"{values[i]:g}", display) for i in (index - 1, index + 1) if 0 <= i < len(values)]
-    words = f"{SERIES_WORDS[step.rule]} {printed(calc, step.of)}; neighbours not taken: {', '.join(beside)}"
+    words = Phrase(SERIES_WORDS[step.rule], value=printed(calc, step.of), beside=", ".join(beside))
     return {"operation": "pick", "method": words} | ({"series": standard.title} if standard else {}) | _tables(standard)
 
 
@@ -135,10 +155,11 @@ def crossings(calc: Calculation, step: Crossings) -> Item:
     head = {"id": step.id, "symbol": step.symbol, "description": step.description, "source": step.source}
     places = [float(x) for x in calc[step.id][0] if x == x]
     if not places:
-        return head | {"type": "note", "text": f"{step.description}: there is none."}
-    lines = [[str(i), number_text(x / unit(step.unit).factor, 6)] for i, x in enumerate(places, 1)]
+        return head | {"type": "note", "text": Phrase("{title}: there is none.", title=phrase(step.description))}
+    display = unit_for(calc, step.id, step.unit, places)
+    lines = [[str(i), shown(x, display, 6)["text"]] for i, x in enumerate(places, 1)]
     columns = [
         {"title": "No.", "symbol": "", "unit": "1"},
-        {"title": step.description, "symbol": step.symbol, "unit": step.unit},
+        _column(step, display),
     ]
     return {"type": "table", "id": step.id, "title": step.description, "columns": columns, "rows": lines}

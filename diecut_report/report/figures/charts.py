@@ -28,12 +28,19 @@ PAGE = 650.0  # no chart is higher
 
 def plot(figure: Data, curves: Data, words: Catalogue) -> Figure:
     """Curves of the results, over a common abscissa."""
-    return _sheet([_of_curves(panel, curves, curves[figure["abscissa"]], words) for panel in figure["panels"]], words)
+    return _sheet(diagrams(figure, curves, words), words)
 
 
-def chart(figure: Data, _curves: Data, words: Catalogue) -> Figure:
+def chart(figure: Data, curves: Data, words: Catalogue) -> Figure:
     """Lines that the figure brings itself, each diagram over what it likes."""
-    return _sheet([_of_lines(panel, words) for panel in figure["panels"]], words)
+    return _sheet(diagrams(figure, curves, words), words)
+
+
+def diagrams(figure: Data, curves: Data, words: Catalogue) -> list[PanelData]:
+    """What the diagrams of a plot or a chart hold, from top to bottom."""
+    if figure["type"] == "plot":
+        return [_of_curves(panel, curves, curves[figure["abscissa"]], words) for panel in figure["panels"]]
+    return [_of_lines(panel, words) for panel in figure["panels"]]
 
 
 def _sheet(panels: list[PanelData], words: Catalogue) -> Figure:
@@ -43,12 +50,12 @@ def _sheet(panels: list[PanelData], words: Catalogue) -> Figure:
     room = (PAGE - TOP - sum(feet) - HEAD * len(panels)) / len(panels)
     height = min(HEIGHTS.get(len(panels), 68.0), room)
     wide = WIDTH - LEFT - RIGHT
-    diagrams = [Diagram(panel, wide, height) for panel in panels]
-    for diagram in diagrams[1:]:
-        diagram.follow(diagrams[0])
-    total = TOP + sum(diagram.head for diagram in diagrams) + height * len(panels) + sum(feet)
+    drawn = [Diagram(panel, wide, height) for panel in panels]
+    for diagram in drawn[1:]:
+        diagram.follow(drawn[0])
+    total = TOP + sum(diagram.head for diagram in drawn) + height * len(panels) + sum(feet)
     sheet, bottom = canvas(WIDTH, total), total - TOP
-    for diagram, foot in zip(diagrams, feet, strict=True):
+    for diagram, foot in zip(drawn, feet, strict=True):
         bottom -= diagram.head + height
         axes = sheet.add_axes((LEFT / WIDTH, bottom / total, wide / WIDTH, height / total))
         diagram.draw(axes, words, named=foot == NAMED_FOOT)

@@ -101,7 +101,7 @@ class Diagram:
         return " ".join(parts) + (f", {shown}" if shown else "")
 
     def _head(self, axes: Axes, handles: list[Any]) -> None:
-        axes.set_title(self._title(), pad=4)
+        axes.set_title(self._title(), pad=4, y=1.0)  # where it stands is known: matplotlib need not look for room
         if self.legend is None:
             return
         above = 1 + TITLE / self.frame.height

@@ -8,6 +8,7 @@ from typing import Any
 
 from diecut_report.config import yaml_tree
 from diecut_report.config.discovery import Discovery, DuplicateKind, UnknownKind
+from diecut_report.config.logo import KEY as LOGO
 from diecut_report.config.own_tables import KEY as TABLES
 from diecut_report.config.yaml_tree import KeyPath, Tree
 from diecut_report.config.yaml_values import Scalar, with_values
@@ -74,7 +75,7 @@ def _value(base: Tree, path: KeyPath) -> KeyPath:
 
 
 def _tables(base: Tree, directory: Path, file: str) -> Iterator[tuple[KeyPath, str]]:
-    """Return the copies of the tables that the base names, which the folder keeps beside that of the base."""
+    """Return the copies of the tables, and of the logo, that the base names, which the folder keeps beside that of the base."""
     copies = kept(directory)
     given = base.data.get(TABLES)
     for index, name in enumerate(given if isinstance(given, list) else [given]):
@@ -84,6 +85,9 @@ def _tables(base: Tree, directory: Path, file: str) -> Iterator[tuple[KeyPath, s
                 ((TABLES, index) if isinstance(given, list) else (TABLES,)),
                 copy.relative_to(copies[file].parent).as_posix(),
             )
+    report = base.data.get(LOGO[0])
+    if isinstance(report, dict) and isinstance(logo := report.get(LOGO[1]), str):
+        yield LOGO, copies[str(PurePath(file).parent / logo)].relative_to(copies[file].parent).as_posix()
 
 
 def _named(base: Tree, variant: int, study: str) -> Iterator[tuple[KeyPath, str]]:

@@ -101,7 +101,7 @@ class _StudyReader:
         outputs, curves, objectives, reports = self._results(sampled)
         if sampled.sample is None or self.problems:
             return None
-        tables = sampled.tables | {self._beside_base(name): tree.sha256 for name, tree in base.tables.items()}
+        tables = sampled.tables | {self._beside_base(name): digest for name, digest in base.files.items()}
         files = {name: self._find(name) for name in (self.data["base"], *tables)}
         units = {path: asked.unit for path, asked in sampled.inputs.items()}
         return Study(self.path, self.tree.data, self.tree.text, self.tree.sha256, base, tuple(sampled.bases), sampled.sample, sampled.inputs, units,

@@ -3,21 +3,17 @@
 from __future__ import annotations
 
 import math
-import os
 from collections.abc import Callable, Iterable, Iterator, Mapping
-from contextlib import contextmanager, suppress
 from io import BytesIO
 from itertools import chain, islice
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
-from zipfile import ZIP_DEFLATED, ZipFile, ZipInfo
 
 from diecut_report.errors import Problem, UserError, nearest
 from diecut_report.files import replaced, room
 from diecut_report.study.storage.store import PARTS, Store
 
 if TYPE_CHECKING:
-    from openpyxl import Workbook
     from openpyxl.worksheet._write_only import WriteOnlyWorksheet
 
 NAME = "variants"
@@ -76,16 +72,19 @@ def _write_xlsx(store: Store, temporary: Path, path: Path) -> None:
     from openpyxl import Workbook
     from openpyxl.writer.excel import ExcelWriter
 
+    from diecut_report.report.office.archive import UndatedArchive
+    from diecut_report.report.office.workbook import closed
+
     names = heads(store)
     if len(names) > SHEET_COLUMNS:
         words = f"The results have {len(names)} columns; a sheet holds {SHEET_COLUMNS}. Use CSV."
         raise UserError(Problem(words, str(path)))
     book = Workbook(write_only=True)
     rows = _rows(store, list(names))
-    with room(store.directory), _closed(book):  # it keeps each sheet in a temporary file
+    with room(store.directory), closed(book):  # it keeps each sheet in a temporary file
         for sheet in range(_sheets(store)):
             _fill(book.create_sheet(f"{NAME} {sheet + 1}"), list(names.values()), islice(rows, SHEET_ROWS - 1))
-        ExcelWriter(book, _Archive(temporary, "w", ZIP_DEFLATED, strict_timestamps=False)).save()
+        ExcelWriter(book, UndatedArchive(temporary)).save()
 
 
 def workbook(tables: Mapping[str, list[list[Any]]]) -> bytes:
@@ -93,64 +92,23 @@ def workbook(tables: Mapping[str, list[list[Any]]]) -> bytes:
     from openpyxl import Workbook
     from openpyxl.writer.excel import ExcelWriter
 
+    from diecut_report.report.office.archive import UndatedArchive
+    from diecut_report.report.office.workbook import closed
+
     book, content = Workbook(write_only=True), BytesIO()
-    with _closed(book):
+    with closed(book):
         for name, (heads, *rows) in tables.items():
             _fill(book.create_sheet(name), heads, rows)
-        ExcelWriter(book, _Archive(content, "w", ZIP_DEFLATED, strict_timestamps=False)).save()
+        ExcelWriter(book, UndatedArchive(content)).save()
     return content.getvalue()
 
 
-class _Archive(ZipFile):
-    """An archive of which no member bears the time: one before 1980 cannot be written, and a clock may be wrong."""
-
-    def writestr(
-        self,
-        zinfo_or_arcname: str | ZipInfo,
-        data: Any,
-        compress_type: int | None = None,
-        compresslevel: int | None = None,
-    ) -> None:
-        """Write a member, dated as early as can be."""
-        member = ZipInfo(zinfo_or_arcname) if isinstance(zinfo_or_arcname, str) else zinfo_or_arcname
-        if member is not zinfo_or_arcname:
-            member.compress_type, member.external_attr = self.compression, 0o600 << 16
-        super().writestr(member, data, compress_type, compresslevel)
-
-    def write(
-        self, filename: Any, arcname: Any = None, compress_type: int | None = None, compresslevel: int | None = None
-    ) -> None:
-        """Write a file as a member, dated as early as can be."""
-        os.utime(filename, (0, 0))
-        super().write(filename, arcname, compress_type, compresslevel)
-
-
-@contextmanager
-def _closed(book: Workbook) -> Iterator[None]:
-    """After an error the sheets are closed, which else complain when they are forgotten."""
-    try:
-        yield
-    except BaseException:
-        for sheet in book.worksheets:
-            with suppress(Exception):  # the error that is reported is the one before
-                sheet.close()
-        raise
-
-
 def _fill(sheet: WriteOnlyWorksheet, names: list[str], rows: Iterable[list[Any]]) -> None:
+    from diecut_report.report.office.workbook import text_cell
+
     sheet.freeze_panes = "B2"
     for row in chain([names], rows):
-        sheet.append([_cell(sheet, value) if isinstance(value, str) else value for value in row])
-
-
-def _cell(sheet: WriteOnlyWorksheet, text: str) -> Any:
-    """A text as such: "=1" is not a formula, and characters that a workbook cannot hold are replaced."""
-    from openpyxl.cell import WriteOnlyCell
-    from openpyxl.cell.cell import ILLEGAL_CHARACTERS_RE
-
-    cell = WriteOnlyCell(sheet, ILLEGAL_CHARACTERS_RE.sub("\N{REPLACEMENT CHARACTER}", text))
-    cell.data_type = "s"
-    return cell
+        sheet.append([text_cell(sheet, value) if isinstance(value, str) else value for value in row])
 
 
 def _rows(store: Store, names: list[str]) -> Iterator[list[Any]]:

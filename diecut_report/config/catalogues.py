@@ -1,0 +1,62 @@
+"""The catalogues of the plugins that a report is made with: found without running their code, and judged before they are used."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from functools import partial
+from pathlib import Path
+
+from diecut_report.config.discovery import Discovery
+from diecut_report.errors import Problem, UserError
+from diecut_report.languages.catalogues import SOURCE_LANGUAGE, Catalogues, UnknownLanguage, built_in
+
+TOLD = 3  # texts that are told of an incomplete catalogue
+
+
+def catalogues_for(language: str, kinds: Iterable[str], discovery: Discovery, file: str = "") -> Catalogues:
+    """Return the catalogues for mechanisms of these kinds; UserError where one of the program's own is not complete."""
+    try:
+        found = Catalogues(language, partial(_plugin, discovery))
+    except UnknownLanguage as error:
+        raise UserError(Problem(f"The language {error}.", file, path="project.language")) from None
+    if language != SOURCE_LANGUAGE:
+        problems = [_incomplete(kind, found, file) for kind in dict.fromkeys(kinds) if built_in(kind)]
+        if told := [each for each in problems if each]:
+            raise UserError(told)
+    return found
+
+
+def lacking(catalogues: Catalogues, kinds: Iterable[str]) -> list[str]:
+    """Return in words which foreign plugins have no words in the language, or not all: these stay English."""
+    if catalogues.language == SOURCE_LANGUAGE:
+        return []
+    return list(filter(None, (_lacking(kind, catalogues) for kind in dict.fromkeys(kinds) if not built_in(kind))))
+
+
+def _lacking(kind: str, catalogues: Catalogues) -> str:
+    own, language = catalogues.of(kind), catalogues.language
+    if own is None:
+        return f"The plugin of {kind!r} has no catalogue locale/{language}.po; its words stay English."
+    count = len(own.missing)
+    return (
+        f"The catalogue {language} of the plugin of {kind!r} lacks {count} texts, which stay English." if count else ""
+    )
+
+
+def _incomplete(kind: str, catalogues: Catalogues, file: str) -> Problem | None:
+    own = catalogues.of(kind)
+    if own is not None and not own.missing:
+        return None
+    texts = [] if own is None else own.missing
+    told = "; ".join(f"“{text}”" for text in texts[:TOLD])
+    words = f"Reports in {catalogues.language} wait for the words of {kind}: {len(texts)} texts are not translated ({told} …). "
+    return Problem(f"{words}Give language: {SOURCE_LANGUAGE}.", file, path="project.language")
+
+
+def _plugin(discovery: Discovery, kind: str) -> Path | None:
+    """The file of a plugin that is loaded, or lies in a local folder."""
+    origins = discovery.origins.get(kind, [])
+    try:
+        return origins[0].file() if len(origins) == 1 else None
+    except KeyError:  # an installed package that was not loaded
+        return None

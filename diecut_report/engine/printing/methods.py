@@ -1,0 +1,20 @@
+"""How numbers were found, in words."""
+
+from __future__ import annotations
+
+from diecut_report.contract.steps import CurvePeriod
+from diecut_report.engine.calculation import Calculation
+from diecut_report.languages.phrases import Phrase
+
+EQUAL_TERMS = "the terms are equal up to the rounding of the computer, or so nearly that printed numbers do not show it"
+METHODS = {
+    "max": "bounded search on the curve within each smooth piece, one-sided limits at the breakpoints included",
+    "mean": "Gauss–Legendre between the breakpoints, repeated with the doubled order",
+    "derivative": "Chebyshev series between the breakpoints, differentiated; the series is compared with the curve at other places",
+    "accumulated": "Chebyshev series between the breakpoints, integrated; its end compared with Gauss–Legendre",
+}
+
+
+def period(calc: Calculation, step: CurvePeriod) -> str:
+    """Return that a number is the period of a curve."""
+    return Phrase("the period of {symbol}", symbol=calc.meta[step.given].symbol)

@@ -1,0 +1,42 @@
+"""The unit in which a quantity is shown: the one that the report chose for it, else one in which its values are easy to read."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from diecut_report.contract.inputs import Quantity
+from diecut_report.contract.steps import Step
+from diecut_report.expressions import Array
+from diecut_report.quantities.display import easy_unit
+from diecut_report.quantities.formatting import shown
+
+if TYPE_CHECKING:
+    from diecut_report.engine.calculation import Calculation
+
+
+def declared_unit(calc: Calculation, name: str, declared: str) -> str:
+    """Return the chosen unit of a quantity, else the declared one."""
+    return calc.chosen_units.of(name, declared) or declared
+
+
+def unit_for(calc: Calculation, name: str, declared: str, values: Array | Iterable[float]) -> str:
+    """Return the one unit in which values of a quantity are shown: the greatest of them is easy to read."""
+    if chosen := calc.chosen_units.of(name, declared):
+        return chosen
+    sizes = np.abs(np.asarray(values, dtype=float)).ravel()
+    sizes = sizes[np.isfinite(sizes)]
+    return easy_unit(float(sizes.max()), declared) if len(sizes) else declared
+
+
+def step_shown(calc: Calculation, step: Step, value: float) -> dict[str, str]:
+    """Return a number that a step gives as text, in its unit."""
+    return shown(value, unit_for(calc, step.id, step.unit, [value]), step.digits)
+
+
+def number_unit(calc: Calculation, name: str, declared: Step | Quantity, value: float) -> str:
+    """Return the unit of a number inside of a formula: what is typed stands as it was typed."""
+    is_typed = name not in calc.values and name not in calc.curves
+    return declared_unit(calc, name, declared.unit) if is_typed else unit_for(calc, name, declared.unit, [value])

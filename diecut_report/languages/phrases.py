@@ -1,0 +1,118 @@
+"""Texts that remember what they were filled with, so that they can be said in another language.
+
+A ``Phrase`` is the English sentence itself, a ``str``, and goes wherever a text goes; its template and values are asked for when
+the results are finished.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterable, Mapping, Sequence
+from functools import reduce
+from types import MappingProxyType
+from typing import Any
+
+PLACE = re.compile(r"\{(\w[\w.]*(?::[a-z]+)?)\}")  # ``{name}``; ``{name:capital}`` begins with a capital letter
+CAPITAL = ":capital"
+NOTHING: Mapping[str, str] = MappingProxyType({})
+Wording = dict[str, Any]
+
+
+class Phrase(str):
+    """Hold a text made of a template and of what stands at its places: ``Phrase("set {key} to {low}", key=key, low=told(low, "mm"))``.
+
+    The template is what is translated. A value that is a phrase, too, is translated by itself; any other is a number with its unit, a
+    key or a name, and stands as it is but for the sign of decimals.
+    """
+
+    __slots__ = ("template", "values")
+    template: str
+    values: Mapping[str, str]
+
+    def __new__(cls, template: str, filling: Mapping[str, object] = NOTHING, /, **named: object) -> Phrase:
+        """Fill a template, whose places are named by ``filling`` or by keywords."""
+        values = {name: value if isinstance(value, str) else str(value) for name, value in {**filling, **named}.items()}
+        made = super().__new__(cls, filled(template, values))
+        made.template, made.values = template, values
+        return made
+
+    def __getnewargs__(self) -> tuple[Any, ...]:
+        """Return what a copy is made of."""
+        return self.template, dict(self.values)
+
+    def __str__(self) -> str:
+        """Return the text, which remembers its parts."""
+        return self
+
+    def __add__(self, other: str) -> Phrase:
+        """Return both texts one after the other."""
+        return Phrase("{first}{next}", first=self, next=phrase(other)) if other else self
+
+    def __radd__(self, other: str) -> Phrase:
+        """Return both texts one after the other."""
+        return Phrase("{first}{next}", first=phrase(other), next=self) if other else self
+
+
+def filled(template: str, values: Mapping[str, str]) -> str:
+    """Return a template with its values in; a place without a value stands as it is."""
+
+    def said(place: re.Match[str]) -> str:
+        name = place[1]
+        text = values.get(name, place[0])
+        return text[:1].upper() + text[1:] if name.endswith(CAPITAL) else text
+
+    return PLACE.sub(said, template)
+
+
+def phrase(text: str) -> Phrase:
+    """Return a text as a phrase: one that is none is its own template."""
+    return text if isinstance(text, Phrase) else Phrase(text)
+
+
+def capital(sentence: str) -> Phrase:
+    """Return a sentence that begins with a capital letter."""
+    return Phrase("{sentence:capital}", {f"sentence{CAPITAL}": sentence})
+
+
+def joined(parts: Iterable[str], between: str) -> str:
+    """Return texts with one and the same between them, ``", or "``; each is translated by itself."""
+    texts = [phrase(part) for part in parts]
+    return (
+        reduce(lambda first, each: Phrase(f"{{first}}{between}{{next}}", first=first, next=each), texts)
+        if texts
+        else ""
+    )
+
+
+def named(parts: Sequence[str], between: str) -> str:
+    """Return keys or names, which are not translated, with words between them that are."""
+    return (
+        reduce(lambda first, each: Phrase(f"{{first}}{between}{{next}}", first=first, next=each), parts)
+        if parts
+        else ""
+    )
+
+
+def wording(text: Phrase) -> Wording:
+    """Return how a phrase was made, as plain data."""
+    values = {name: wording(value) if isinstance(value, Phrase) else value for name, value in text.values.items()}
+    return {"text": text.template} | ({"values": values} if values else {})
+
+
+def wordings(data: Any) -> dict[str, Wording]:
+    """Return how each phrase with values in plain data was made, by its text, in their order."""
+    found: dict[str, Wording] = {}
+    _collect(data, found)
+    return found
+
+
+def _collect(data: Any, found: dict[str, Wording]) -> None:
+    if isinstance(data, Phrase):
+        if data.values:
+            found.setdefault(str.__str__(data), wording(data))
+    elif isinstance(data, dict):
+        for part in data.values():
+            _collect(part, found)
+    elif isinstance(data, list | tuple) and data and not isinstance(data[0], float):
+        for part in data:
+            _collect(part, found)

@@ -1,0 +1,74 @@
+"""Texts in another language: looked up as a whole, or made anew of their template and values."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable, Mapping
+from functools import cached_property
+from typing import Any
+
+from diecut_report.languages.catalogues import Catalogues
+from diecut_report.languages.phrases import filled
+
+DECIMAL = re.compile(r"(?<![\w.,])(\d+)\.(\d+)(?![\w.]*\.?\d)")
+CITATION = "citation"  # the context of the words about sources
+EQUATIONS = {
+    re.compile(r"(?P<paper>\b\d{3}) eq\. (?P<numbers>\d[\w–-]*(?:, \d[\w–-]*)*)"): "{paper} eq. {numbers}",
+    re.compile(r"\beq\. (?P<numbers>\d[\w–-]*(?:, \d[\w–-]*)*)"): "eq. {numbers}",
+}
+
+
+class Translator:
+    """Says texts in the language of the catalogues; ``wordings`` are those of the results, by their English text."""
+
+    def __init__(self, catalogues: Catalogues, wordings: Mapping[str, Any], decimal: str) -> None:
+        self.catalogues, self.wordings, self.decimal = catalogues, wordings, decimal
+        self.unknown: dict[str, None] = {}
+
+    def of(self, kind: str) -> Callable[[str], str]:
+        """Return what says the texts of a kind of mechanism."""
+        return lambda text: self.said(text, kind)
+
+    def said(self, text: str, kind: str = "") -> str:
+        """Return a text in the language; one that no catalogue has stands as it is."""
+        if text in self.wordings:
+            return self._made(self.wordings[text], kind)
+        return self.known(text, kind) or text
+
+    def known(self, text: str, kind: str = "") -> str | None:
+        """Return a text that a catalogue has; None where none has it."""
+        for catalogue in self.catalogues.ahead(kind):
+            if found := catalogue.text(text):
+                return found
+        return None
+
+    def _made(self, wording: Mapping[str, Any], kind: str) -> str:
+        template = wording["text"]
+        values = {
+            name: self._made(value, kind) if isinstance(value, Mapping) else self.numbers(value)
+            for name, value in wording.get("values", {}).items()
+        }
+        return filled(self.known(template, kind) or template, values)
+
+    def numbers(self, text: str) -> str:
+        """Return a text with the language's sign of decimals in its numbers."""
+        return DECIMAL.sub(rf"\1{self.decimal}\2", text)
+
+    def source(self, text: str) -> str:
+        """Return where a formula comes from: its words in the language, names of authors and standards as they are."""
+        for pattern, template in EQUATIONS.items():
+            text = pattern.sub(_filler(self._citation.get(template, template)), text)
+        return self._cited.sub(lambda words: self._citation[words[0]], text)
+
+    @cached_property
+    def _citation(self) -> dict[str, str]:
+        return self.catalogues.program.of_context(CITATION)
+
+    @cached_property
+    def _cited(self) -> re.Pattern[str]:
+        longest_first = sorted(self._citation, key=len, reverse=True)
+        return re.compile(rf"(?<![\w{{])(?:{'|'.join(map(re.escape, longest_first))})(?![\w}}])")
+
+
+def _filler(template: str) -> Callable[[re.Match[str]], str]:
+    return lambda found: filled(template, found.groupdict())

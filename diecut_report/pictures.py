@@ -1,0 +1,130 @@
+"""Judges a picture that a user gives, a logo, by what it holds: a PNG that can be unpacked, or an SVG that only draws."""
+
+from __future__ import annotations
+
+import io
+import re
+import warnings
+from collections.abc import Mapping
+from xml.parsers import expat
+
+MOST = 300_000  # bytes of a picture
+MOST_PIXELS = 4_000_000
+MOST_ELEMENTS = 5_000
+DEEPEST = 50
+PNG, SVG = "image/png", "image/svg+xml"
+SIGNATURE = b"\x89PNG\r\n\x1a\n"
+SPACE = "http://www.w3.org/2000/svg"
+PAGES = "http://www.w3.org/1999/xhtml"
+LINK = "http://www.w3.org/1999/xlink href"
+DRAWING = {
+    "svg", "g", "defs", "title", "desc", "metadata", "style", "path", "rect", "circle", "ellipse", "line", "polyline", "polygon",
+    "linearGradient", "radialGradient", "stop", "clipPath",
+}  # fmt: skip
+"""Elements that draw, or say what is drawn: none that runs, embeds, repeats, or is set in letters of a font that may be missing."""
+_OUTSIDE = re.compile(r"@import|@font-face|url\(\s*['\"]?(?!#)", re.IGNORECASE)
+_LENGTH = re.compile(r"\s*(?:\d+\.?\d*|\.\d+)(?:px|pt|pc|mm|cm|in)?\s*")
+
+
+class PictureFault(ValueError):
+    """What is wrong with a picture, in words that follow its name."""
+
+
+def media_type(content: bytes) -> str:
+    """Return what a picture is; PictureFault where it is neither PNG nor SVG, or one that is not taken."""
+    if len(content) > MOST:
+        raise PictureFault(f"is too large: {len(content) / 1e3:.0f} kB; at most {MOST / 1e3:g} kB are taken")
+    if content.startswith(SIGNATURE):
+        _judge_png(content)
+        return PNG
+    if not content.removeprefix(b"\xef\xbb\xbf").lstrip().startswith(b"<"):
+        raise PictureFault("is neither a PNG nor an SVG picture, whatever its name ends in")
+    _SvgJudge().judge(content)
+    return SVG
+
+
+def _judge_png(content: bytes) -> None:
+    from PIL import Image
+
+    try:
+        with warnings.catch_warnings(action="error"), Image.open(io.BytesIO(content), formats=["PNG"]) as picture:
+            if picture.width * picture.height > MOST_PIXELS:
+                raise PictureFault(
+                    f"has {picture.width} × {picture.height} pixels; at most {MOST_PIXELS / 1e6:g} million are taken"
+                )
+            picture.load()
+    except PictureFault:
+        raise
+    except Exception as cause:  # of many kinds, as the library raises them for a damaged file
+        raise PictureFault(f"is a PNG picture that cannot be read: {cause}") from cause
+
+
+class _SvgJudge:
+    """Goes through an SVG without building anything of it."""
+
+    def __init__(self) -> None:
+        self.depth = self.count = 0
+        self.style = False
+        self.parser = expat.ParserCreate(namespace_separator=" ")
+        self.parser.buffer_text = True
+        self.parser.StartElementHandler = self._start
+        self.parser.EndElementHandler = self._end
+        self.parser.CharacterDataHandler = self._text
+        self.parser.StartDoctypeDeclHandler = self._doctype
+        self.parser.ProcessingInstructionHandler = self._instruction
+
+    def judge(self, content: bytes) -> None:
+        """Raise PictureFault where the SVG does more than to draw, or is none."""
+        try:
+            self.parser.Parse(content, True)
+        except expat.ExpatError as error:
+            raise PictureFault(f"is an SVG picture that cannot be read: {error}") from error
+
+    def _start(self, tag: str, given: Mapping[str, str]) -> None:
+        space, _, name = tag.rpartition(" ")
+        self.depth, self.count = self.depth + 1, self.count + 1
+        if self.count > MOST_ELEMENTS or self.depth > DEEPEST:
+            raise PictureFault(
+                f"has more than {MOST_ELEMENTS} elements, or more than {DEEPEST} within each other; give a simpler one"
+            )
+        if self.depth == 1:
+            _judge_root(space, name, given)
+        if (space == SPACE and name not in DRAWING) or space in ("", PAGES):
+            raise PictureFault(
+                f"holds <{name}>; a logo holds shapes alone: save it as plain SVG, with its texts as paths"
+            )
+        self.style = name == "style"
+        for key, value in given.items():
+            _judge_attribute(key, value)
+
+    def _end(self, _tag: str) -> None:
+        self.depth -= 1
+        self.style = False
+
+    def _text(self, text: str) -> None:
+        if self.style and (_OUTSIDE.search(text) or "\\" in text):
+            raise PictureFault("has a style that loads something from outside; embed nothing and refer to nothing")
+
+    def _doctype(self, *_: object) -> None:
+        raise PictureFault("has a document type (<!DOCTYPE …>), which may define entities; remove that line")
+
+    def _instruction(self, *_: object) -> None:
+        raise PictureFault("has a processing instruction (<?…?>), which may load a style from outside; remove it")
+
+
+def _judge_root(space: str, name: str, given: Mapping[str, str]) -> None:
+    if (space, name) != (SPACE, "svg"):
+        raise PictureFault(f"is not an SVG picture: its first element is <{name}>, without the name space {SPACE}")
+    sized = all(_LENGTH.fullmatch(given.get(key, "")) for key in ("width", "height"))
+    if not sized and len(given.get("viewBox", "").replace(",", " ").split()) != 4:
+        raise PictureFault("does not say its size; give it a viewBox, or width and height")
+
+
+def _judge_attribute(key: str, value: str) -> None:
+    name = key.rpartition(" ")[2]
+    if name.lower().startswith("on"):
+        raise PictureFault(f"holds a script ({name}); a logo holds shapes alone")
+    if (key == LINK or name.lower() in ("href", "src")) and not value.startswith("#"):
+        raise PictureFault(f"refers to something outside ({name}); embed nothing and refer to nothing")
+    if _OUTSIDE.search(value) or "\\" in value:
+        raise PictureFault(f"refers to something outside ({name}); embed nothing and refer to nothing")

@@ -1,0 +1,71 @@
+"""How a value is shown where nobody chose its unit: in the unit of its family in which it is easy to read, and no finer than it means."""
+
+from __future__ import annotations
+
+import math
+
+from diecut_report.quantities.units import unit
+
+LEAST, MOST = 0.1, 1e4  # a number is easy to read from the one to below the other
+FAMILIES = (
+    ("um", "mm", "m"),
+    ("N", "kN", "MN"),
+    ("Pa", "kPa", "MPa", "GPa"),
+    ("W", "kW", "MW"),
+    ("J", "kJ", "MJ"),
+    ("us", "ms", "s"),
+    ("N*m", "kN*m", "MN*m"),
+    ("g", "kg", "t"),
+)
+# The finest step of a machine's quantity that can be made or measured, SI.
+STEPS = {
+    "m": 1e-6, "s": 1e-4, "kg": 1e-3, "N": 0.1, "m/s": 1e-3, "K": 0.1,
+}  # fmt: skip
+UNIT_STEPS = {"deg": 0.01, "%": 0.01}  # of these units alone: a small angle in rad is another quantity
+FEWEST, FEWEST_OF_LENGTH = 3, 2  # digits of what is smaller than these steps allow for: 26 µm
+SHORT = 2  # digits of a number that stands as it is, however small: 0.05 mm
+NOTHING = 1e-9  # of a unit: what is less is the rounding of the computer
+NEVER_SMALL = frozenset(
+    ("m", "rad", "s", "N", "N*m", "W", "J", "Pa", "kg", "m/s", "m/s**2", "rad/s", "rad/s**2", "K", "1/s")
+)
+
+
+def easy_unit(value: float, declared: str) -> str:
+    """Return the unit of the declared one's family in which an SI value is easy to read; the declared one where it is already."""
+    family = next((units for units in FAMILIES if unit(declared).text in units), ())
+    number = abs(value) / unit(declared).factor
+    if not family or not math.isfinite(number) or number == 0 or LEAST <= number < MOST or is_nothing(value, declared):
+        return declared
+    if number < LEAST:
+        if _is_short(number):
+            return declared
+        smaller = [each for each in family if unit(each).factor < unit(declared).factor]
+        fitting = (each for each in reversed(smaller) if abs(value) / unit(each).factor >= LEAST)
+        return next(fitting, smaller[0] if smaller else declared)
+    greater = [each for each in family if unit(each).factor > unit(declared).factor]
+    return next(
+        (each for each in greater if abs(value) / unit(each).factor < MOST), greater[-1] if greater else declared
+    )
+
+
+def _is_short(number: float) -> bool:
+    """Whether a number is one that somebody wrote: 0.05, but not 0.02591, nor 0.000002."""
+    return number >= LEAST / 100 and abs(float(f"{number:.{SHORT - 1}e}") - number) <= 1e-12 * number
+
+
+def is_nothing(value: float, unit_text: str) -> bool:
+    """Return whether an SI value is so small in its unit that it is but the rounding of the computer."""
+    own = unit(unit_text)
+    return (own.si in NEVER_SMALL or own.text == "%") and abs(value) < NOTHING * own.factor
+
+
+def meant_digits(value: float, unit_text: str, digits: int) -> int:
+    """Return how many of the significant digits of an SI value mean something: none finer than can be made or measured."""
+    own = unit(unit_text)
+    step = UNIT_STEPS.get(own.text) or (STEPS[own.si] / own.factor if own.si in STEPS else None)
+    number = abs(value) / own.factor
+    if step is None or number == 0 or not math.isfinite(number):
+        return digits
+    first = math.floor(math.log10(float(f"{number:.{digits - 1}e}")))
+    fewest = FEWEST_OF_LENGTH if own.si == "m" else FEWEST
+    return min(digits, max(first - round(math.log10(step)) + 1, fewest))

@@ -1,0 +1,252 @@
+"""The sheets of a report's workbook: summary, inputs, results, checks, phases, and the curves of each mechanism."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from typing import Any
+
+from diecut_report.languages.tokens import worded
+from diecut_report.quantities.units import pretty
+from diecut_report.quantities.units import unit as unit_of
+from diecut_report.report.context import Material
+from diecut_report.report.i18n import Catalogue
+from diecut_report.report.number_format import significant
+from diecut_report.report.office.sheet import (
+    Cell,
+    CellNumber,
+    WorkSheet,
+    converted,
+    defined_name,
+    form_of,
+    printed,
+    shown,
+    si,
+)
+from diecut_report.report.scope import parts, scope
+
+Data = Mapping[str, Any]
+MOST_CURVE_ROWS = 400  # of a curve; of one with more points every second, third … is given
+PROJECT = (
+    ("document", "document_number"),
+    ("revision", "revision"),
+    ("date", "date"),
+    ("organisation", "organisation"),
+    ("department", "department"),
+)
+STATUSES = ("fail", "warn", "pass", "not_checked")
+DIGITS = 6  # of a curve's greatest value
+SHARE = "0.0%"
+
+
+def sheets(material: Material) -> list[WorkSheet]:
+    """Return all sheets of a report, whatever its detail; of the mechanisms that it shows."""
+    results, words = scope(material.said).results, material.words
+    whole = [_summary(material), _inputs(results, words), _results(results, words), _checks(results, words)]
+    phases = _phases(results, words)
+    curves = [_curves(name, data, words) for name, data in parts(results) if data.get("curves")]
+    return [*whole, *([phases] if phases.rows else []), *curves]
+
+
+def _summary(material: Material) -> WorkSheet:
+    """What is calculated, the verdict, and how each mechanism fares."""
+    document, words = material.document, material.words
+    project = [(words[key], document.project[name]) for key, name in PROJECT if document.project[name]]
+    project += [(words["status"], document.block.status)]
+    project += [(words[role], who) for role, who in document.block.signers if who]
+    governing = document.governing
+    told = [
+        (words["press"], document.press["name"]),
+        *project,
+        (words["verdict"], " ".join([document.verdict, *(f"{count}." for count in document.counts)])),
+        *([(words["governing"], f"{governing.mechanism}: {governing.title}, {governing.used}")] if governing else []),
+        *((words["fail"], f"{row.mechanism}: {row.title}. {row.message}") for row in document.failures),
+        *(("", note) for note in document.notes),
+        (words["calculated_by"], f"{document.program['name']} {document.program['version']}"),
+        (words["config_file"], document.config["file"]),
+        (words["sha256"], document.config["sha256"]),
+    ]
+    rows: list[list[Cell]] = [[name, text] for name, text in told]
+    rows += [[], [words["mechanism"], words["description"], *(words[status] for status in STATUSES), words["verdict"]]]
+    rows += [
+        [c.name, c.title, *(CellNumber(c.count(status), "0") for status in STATUSES), words[c.face]]
+        for c in document.chapters
+    ]
+    return WorkSheet(
+        words["summary"], [[document.project["document_type"], document.title]], rows, [22, 70, 12, 12, 12, 14, 14]
+    )
+
+
+def _inputs(results: Data, words: Catalogue) -> WorkSheet:
+    heads = (
+        "mechanism",
+        "path",
+        "description",
+        "symbol",
+        "value",
+        "unit",
+        "si_value",
+        "si_unit",
+        "basis",
+        "note",
+        "origin",
+        "typed",
+    )
+    rows = [_input("", field["path"], field, words) for field in results["press"]["fields"]]
+    rows += [_input(name, key, row, words) for name, data in parts(results) for key, row in _of(data, "inputs")]
+    widths = [16, 28, 52, 9, 14, 11, 16, 11, 14, 30, 16, 30]
+    return WorkSheet(words["inputs"], [[words[head] for head in heads]], rows, widths, held=2)
+
+
+def _input(mechanism: str, key: str, row: Data, words: Catalogue) -> list[Cell]:
+    origin = row.get("origin", "given")
+    typed = row.get("text") or (row.get("path", "") if origin != "given" else "")
+    basis = words[row.get("basis", "given")]
+    return [mechanism, key, *_quantity(row), basis, row.get("note", ""), words[origin], str(typed or "")]
+
+
+def _quantity(row: Data) -> list[Cell]:
+    """Return description, symbol, value, unit, and value and unit as calculated."""
+    value, display = row["value"], row["display"]
+    cell = shown(value, display)
+    if isinstance(cell, str):
+        return [row["description"], row["symbol"], worded(cell), pretty(display["unit"]), None, ""]
+    return [row["description"], row["symbol"], cell, pretty(display["unit"]), si(value), pretty(row["unit"])]
+
+
+def _of(data: Data, what: str) -> Iterator[tuple[str, Data]]:
+    """Give the rows of a mechanism; none of one that was not calculated."""
+    yield from data.get(what, {}).items()
+
+
+def _results(results: Data, words: Catalogue) -> WorkSheet:
+    """The results; each value has its name: ``drive.crank_torque_peak``."""
+    heads = (
+        "mechanism",
+        "path",
+        "description",
+        "symbol",
+        "value",
+        "unit",
+        "si_value",
+        "si_unit",
+        "place",
+        "unit",
+        "key_result",
+        "source",
+    )
+    sheet = WorkSheet(
+        words["results"], [[words[head] for head in heads]], [], [16, 30, 52, 9, 14, 11, 16, 11, 14, 11, 10, 40], held=2
+    )
+    for name, data in parts(results):
+        for key, row in _of(data, "outputs"):
+            is_key = words["yes"] if row.get("key") else ""
+            sheet.rows.append([name, key, *_quantity(row), *_place(row), is_key, row.get("source", "")])
+            sheet.names[defined_name(f"{name}.{key}", sheet.names)] = (len(sheet.rows) + 1, 5)
+    return sheet
+
+
+def _place(row: Data) -> list[Cell]:
+    """Return where an extreme lies, and the unit with the symbol of that."""
+    at = row.get("at")
+    return [printed(at["text"]), f"{pretty(at['unit'])} ({at['symbol']})"] if at else [None, ""]
+
+
+def _checks(results: Data, words: Catalogue) -> WorkSheet:
+    heads = (
+        "mechanism",
+        "path",
+        "check",
+        "class",
+        "verdict",
+        "demand",
+        "",
+        "limit",
+        "unit",
+        "utilisation",
+        "margin",
+        "message",
+        "missing",
+        "source",
+    )
+    rows = [_check(name, check, words) for name, data in parts(results) for check in data.get("checks", ())]
+    widths = [16, 24, 44, 11, 12, 14, 4, 14, 11, 11, 14, 70, 30, 40]
+    return WorkSheet(words["checks"], [[words[head] if head else "" for head in heads]], rows, widths, held=3)
+
+
+def _check(name: str, check: Data, words: Catalogue) -> list[Cell]:
+    sides = {side: check[f"{side}_display"] for side in ("demand", "limit", "margin")}
+    unit = next((display["unit"] for display in sides.values() if display), "1")
+    demand, limit = (_side(check[side], sides[side], unit) for side in ("demand", "limit"))
+    margin = _margin(sides["margin"], unit)
+    share = check["utilisation"]
+    return [
+        name, check["id"], check["title"], words[f"class_{check['class']}"] if check.get("class") else "", words[check["status"]],
+        demand, check["operator"], limit, pretty(unit), None if share is None else CellNumber(share, SHARE), margin,
+        check["message"], ", ".join(check.get("missing", ())), check["source"],
+    ]  # fmt: skip
+
+
+def _side(value: float | None, display: Data | None, unit: str) -> Cell:
+    """Return a side of a check as a number of the unit that all of the check stands in."""
+    if value is None or display is None:
+        return None
+    return shown(value, display) if display["unit"] == unit else CellNumber(converted(value, unit))
+
+
+def _margin(display: Data | None, unit: str) -> Cell:
+    """Return what is left to the limit, which the results hold as a text alone, in the unit of the check."""
+    if display is None or display["unit"] == unit:
+        return printed(display["text"]) if display else None
+    return CellNumber(converted(unit_of(display["unit"]).to_si(float(display["text"])), unit))
+
+
+def _phases(results: Data, words: Catalogue) -> WorkSheet:
+    heads = ("mechanism", "path", "phase", "role", "from", "to", "length", "unit", "time_ms")
+    rows: list[list[Cell]] = []
+    for name, data in parts(results):
+        for key, phase in _of(data, "phases"):
+            display = phase["display"]
+            for interval in display["intervals"]:
+                ends = [printed(interval[each]) for each in ("from", "to", "length")]
+                time = printed(interval["time"]) if "time" in interval else None
+                rows.append(
+                    [
+                        name,
+                        key,
+                        phase["description"],
+                        words[f"role_{phase['role']}"],
+                        *ends,
+                        pretty(display["unit"]),
+                        time,
+                    ]
+                )
+    return WorkSheet(
+        words["phases"], [[words[head] for head in heads]], rows, [16, 20, 50, 18, 12, 12, 12, 9, 12], held=2
+    )
+
+
+def _curves(name: str, data: Data, words: Catalogue) -> WorkSheet:
+    """The samples of all curves, each beside its abscissa: names with units above, what they are below."""
+    columns = list(_columns(data["curves"]))
+    heads = [[f"{key} [{pretty(curve['display_unit']) or '1'}]" for key, curve in columns]]
+    heads.append([f"{curve['description']} {curve['symbol']}".strip() for _, curve in columns])
+    values = [_samples(curve) for _, curve in columns]
+    longest = max(map(len, values), default=0)
+    rows: list[list[Cell]] = [[each[row] if row < len(each) else None for each in values] for row in range(longest)]
+    return WorkSheet(name, heads, rows, [18] * len(columns))
+
+
+def _columns(curves: Data) -> Iterator[tuple[str, Data]]:
+    """Give the curves in groups, each behind its abscissa."""
+    axes = dict.fromkeys(curve["abscissa"] for curve in curves.values() if "abscissa" in curve)
+    for axis in axes:
+        yield axis, curves[axis]
+        yield from ((key, curve) for key, curve in curves.items() if curve.get("abscissa") == axis and key not in axes)
+
+
+def _samples(curve: Data) -> list[Cell]:
+    """Return a curve's values in its display unit, with as many digits as its greatest one asks for; of very many some, evenly."""
+    step = -(-len(curve["values"]) // MOST_CURVE_ROWS) or 1
+    values = [None if value is None else converted(value, curve["display_unit"]) for value in curve["values"][::step]]
+    form = form_of(significant(max((abs(value) for value in values if value is not None), default=0.0), DIGITS))
+    return [None if value is None else CellNumber(value, form) for value in values]

@@ -1,0 +1,194 @@
+"""The body of a DOCX while it is written: what counts up in it, and the parts that stand in several places."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from typing import TYPE_CHECKING
+
+from diecut_report.report.equations import Equation
+from diecut_report.report.i18n import Catalogue
+from diecut_report.report.model import CheckRow, Item, PartsTable, PrintedTable, QuantityRow
+from diecut_report.report.office.omml import OfficeMath, office_math
+from diecut_report.report.office.wordml import (
+    Inline,
+    TableColumn,
+    bold,
+    bookmark,
+    key,
+    link,
+    new_line,
+    paragraph,
+    picture,
+    rich,
+    run,
+    small,
+    table,
+)
+from diecut_report.report.symbols import prose
+
+if TYPE_CHECKING:
+    from diecut_report.report.figures.raster import Raster
+
+MARKS = {"pass": "✓", "warn": "!", "fail": "✗", "error": "✗", "skipped": "–", "not_checked": "?", "incomplete": "?"}
+NAMED_PART = 3.0  # the share of a column that names parts, where they have more than numbers
+
+
+class WordBody:
+    """Gathers the paragraphs and tables of a document in their order."""
+
+    def __init__(
+        self,
+        words: Catalogue,
+        rasters: Mapping[str, Raster],
+        failed: Callable[[str], str],
+        embed: Callable[[bytes], str],
+    ) -> None:
+        self.words, self.rasters, self.failed, self.embed = words, rasters, failed, embed
+        self.math = OfficeMath(words, words["decimal"])
+        self.parts: list[str] = []
+        self._anchors: dict[str, str] = {}
+        self._drawn = 0
+        self._placed = 0
+
+    def anchor(self, name: str) -> str:
+        """The bookmark of an anchor of the report: short, and of letters that a bookmark may have."""
+        return self._anchors.setdefault(name, f"r{len(self._anchors) + 1}")
+
+    def heading(self, level: int, number: str, title: str, anchor: str) -> None:
+        """A heading with its number, to which links lead."""
+        self._placed += 1
+        inner = run(f"{number}\u2002" if number else "") + rich(prose(title))
+        self.parts.append(paragraph(bookmark(self._placed, self.anchor(anchor), inner), f"Heading{level}"))
+
+    def subheading(self, title: str) -> None:
+        """A heading without a number, which no contents list."""
+        self.parts.append(paragraph(rich(prose(title)), "Heading4"))
+
+    def say(self, inner: Inline, style: str = "", *, keep: bool = False) -> None:
+        """A paragraph."""
+        if inner:
+            self.parts.append(paragraph(inner, style, keep=keep))
+
+    def tell(self, text: str, style: str = "") -> None:
+        """A paragraph of a text."""
+        self.say(rich(prose(text)), style)
+
+    def listed(self, lines: Iterable[Inline]) -> None:
+        """Lines with a dot before each."""
+        for line in lines:
+            self.say(line, "ListBullet")
+
+    def table(self, columns: Sequence[TableColumn], rows: Sequence[Sequence[Inline]], *, headed: bool = True) -> None:
+        """A table, and air below it."""
+        if rows:
+            self.parts += [table(columns, rows, headed=headed), paragraph("", "TableText")]
+
+    def head(self, word: str, share: float, *, right: bool = False) -> TableColumn:
+        """A column with a word of the catalogue as its head."""
+        return TableColumn(run(self.words[word] if word else ""), share, right)
+
+    def status(self, status: str) -> Inline:
+        """A verdict by its sign and its word."""
+        return bold(f"{MARKS[status]} {self.words[status]}")
+
+    def linked(self, row: CheckRow) -> Inline:
+        """The title of a check that leads to its chapter."""
+        return link(self.anchor(f"m-{row.chapter}"), rich(prose(row.title)))
+
+    def caption(self, word: str, number: str, title: Inline, *, keep: bool = False) -> None:
+        """What a table or a figure is called."""
+        self.say(run(f"{self.words[word]} {number} ") + title, "Caption", keep=keep)
+
+    def quantities(self, rows: Sequence[QuantityRow], *, sourced: bool = True) -> None:
+        """Quantities, a line for each."""
+        is_placed = any(row.at for row in rows)
+        columns = [
+            self.head("quantity", 7),
+            self.head("symbol", 1.6),
+            self.head("value", 2.4, right=True),
+            self.head("unit", 1.6),
+        ]
+        columns += [self.head("place", 2.6)] if is_placed else []
+        columns += [self.head("source", 3)] if sourced else []
+
+        def cells(row: QuantityRow) -> list[Inline]:
+            found = [
+                rich(prose(row.description)),
+                rich(row.symbol),
+                rich(prose(row.value)) if row.wordy else run(row.value),
+                run(row.unit),
+            ]
+            return [*found, *([rich(row.at)] if is_placed else []), *([small(prose(row.source))] if sourced else [])]
+
+        self.table(columns, [cells(row) for row in rows])
+
+    def data_table(self, found: PrintedTable) -> None:
+        """A table of the calculation."""
+        self.caption("table", found.number, rich(prose(found.title)), keep=True)
+        columns = []
+        for index, (title, symbol, unit) in enumerate(found.columns):
+            head = rich(prose(title)) + (run(" ") + rich(symbol) if symbol else "") + run(f", {unit}" if unit else "")
+            is_number = bool(found.rows) and all(row[index][:1] in "−–0123456789" for row in found.rows)
+            columns.append(TableColumn(head, 1 if is_number else 2, is_number))
+        self.table(columns, [[run(text) for text in row] for row in found.rows])
+
+    def parts_table(self, found: PartsTable) -> None:
+        """A table of repeated parts."""
+        title = rich(prose(found.title)) + (run(" ") + key(found.family) if found.family else "")
+        self.caption(
+            "table", found.number, title or run(self.words.say("repeated_parts", n=len(found.lines))), keep=True
+        )
+        is_counted = bool(found.lines) and found.lines[0][0].isdigit()
+        columns = [self.head("part", 1 if is_counted else NAMED_PART)]
+        for each in found.columns:
+            head = rich(prose(each.title)) + (run(" ") + rich(each.symbol) if each.symbol else "")
+            head += run(f", {each.unit}" if each.unit else "") + (new_line() + key(each.key) if each.key else "")
+            columns.append(TableColumn(head + (new_line() + small(prose(each.source)) if each.source else ""), 2))
+        rows = [
+            [run(number), *(run(cell.text) + (new_line() + small(cell.note) if cell.note else "") for cell in cells)]
+            for number, cells in found.lines
+        ]
+        self.table(columns, rows)
+
+    def formula(self, equation: Equation) -> None:
+        """An equation that can be edited, in one or several lines."""
+        *lines, last = office_math(equation, self.math)
+        for index, line in enumerate([*lines, last]):
+            self.say(line, "FormulaRow" if index else "Formula", keep=index < len(lines))
+
+    def figure(self, number: str, title: str, caption: str) -> None:
+        """A figure above its caption; where it could not be drawn, why."""
+        drawing = self.rasters.get(number)
+        if drawing is None:
+            self.say(bold(self.words["not_drawn"]) + run(" ") + rich(prose(self.failed(number))), keep=True)
+        else:
+            self._drawn += 1
+            told = " ".join(filter(None, (f"{title}.", caption)))
+            inner = picture(self._drawn, self.embed(drawing.content), drawing.width, drawing.height, told)
+            self.say(inner, keep=True)
+        self.caption("figure", number, bold(f"{title}.") + (run(" ") + rich(prose(caption)) if caption else ""))
+
+    def item(self, item: Item) -> None:
+        """One step of a calculation."""
+        if item.type == "note":
+            self.tell(item.text, "Why")
+        elif item.type == "figure":
+            self.figure(item.number, item.title, item.caption)
+        elif item.table is not None:
+            self.data_table(item.table)
+        else:
+            self._step(item)
+
+    def _step(self, item: Item) -> None:
+        result = f": {item.text}" if item.text else ""
+        source = run("  ") + small(prose(item.source)) if item.source else ""
+        self.say(run(f"({item.number}) ") + rich(prose(item.description)) + bold(result) + source, "Lead")
+        if item.words:
+            self.tell(f"{self.words['since']}: {item.words}", "Why")
+        for equation in filter(None, (item.condition, item.equation)):
+            self.formula(equation)
+        for definition in item.definitions:
+            self.tell(self.words["where"], "Why")
+            self.formula(definition)
+        for note in item.notes:
+            self.tell(note, "Why")

@@ -1,0 +1,229 @@
+"""The chapters of a DOCX, and what follows them: press data, calculations, sources, program, appendix."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+
+from diecut_report.report.document import ReportDocument
+from diecut_report.report.model import Heading, PrintedChapter, QuantityRow
+from diecut_report.report.office.word_body import WordBody
+from diecut_report.report.office.word_front import check_table
+from diecut_report.report.office.wordml import Inline, TableColumn, bold, key, new_line, rich, run, small
+from diecut_report.report.scope import FULL
+from diecut_report.report.symbols import prose
+
+HASH = 12  # letters of a hash
+
+
+def key_results(body: WordBody, document: ReportDocument) -> None:
+    """The key results of each mechanism with one sketch, for a brief report."""
+    words = document.words
+    body.heading(1, "2", words["key_results"], "key-results")
+    for chapter in document.chapters:
+        body.heading(2, chapter.letter, chapter.title, chapter.anchor)
+        if chapter.lost:
+            body.tell(chapter.error or words["skipped_text"])
+            continue
+        body.quantities(chapter.key_results, sourced=False)
+        for number, figure in chapter.figures:
+            body.figure(number, figure["title"], "")
+    body.tell(words["more_in"], "Why")
+
+
+def press_data(body: WordBody, document: ReportDocument) -> None:
+    """What is given of the press as a whole."""
+    body.heading(1, "2", document.words["press_data"], "press")
+    if document.press_rows:
+        _inputs(body, document.press_rows)
+    else:
+        body.tell(document.words["no_press_data"])
+
+
+def chapter(body: WordBody, part: PrintedChapter, document: ReportDocument) -> None:
+    """The whole calculation of one mechanism."""
+    words = document.words
+    body.heading(1, part.letter, part.title, part.anchor)
+    version = f" {part.version}" if part.version else ""
+    body.say(key(part.name) + run(f" · {part.kind}{version} · ") + body.status(part.face))
+    if part.lost:
+        lost = "skipped_text" if part.status == "skipped" else "failed_comparison" if part.between else "failed_text"
+        body.say(bold(words[lost]))
+        body.tell(part.error)
+        return
+    _given(body, part)
+    _calculation(body, part)
+    _outcome(body, part)
+    _checks(body, part, document)
+    _rest(body, part)
+
+
+def _head(body: WordBody, heading: Heading | None) -> None:
+    if heading:
+        body.heading(2, heading.number, heading.title, heading.anchor)
+
+
+def _given(body: WordBody, part: PrintedChapter) -> None:
+    """Purpose, assumptions, inputs."""
+    if part.between:
+        body.tell(
+            f"{body.words['comparison']} {body.words.listed([f'{other.letter} {other.title}' for other in part.between])}"
+        )
+    _head(body, part.parts.get("purpose"))
+    body.tell(part.summary)
+    if part.assumptions:
+        body.subheading(body.words["assumptions"])
+        body.listed(rich(prose(text)) for text in part.assumptions)
+    _head(body, part.parts.get("inputs"))
+    _inputs(body, part.inputs)
+    for table in part.input_parts:
+        body.parts_table(table)
+
+
+def _inputs(body: WordBody, rows: Sequence[QuantityRow]) -> None:
+    typed = TableColumn(run(f"{body.words['typed']}, {body.words['origin'].lower()}"), 4)
+    columns = [
+        body.head("quantity", 6),
+        body.head("symbol", 1.5),
+        body.head("value", 2.2, right=True),
+        body.head("unit", 1.5),
+        typed,
+    ]
+
+    def cells(row: QuantityRow) -> list[Inline]:
+        description = rich(prose(row.description)) + (new_line() + key(row.key) if row.key else "")
+        said = " ".join(filter(None, (row.typed, row.origin)))
+        told = small(said) + (new_line() + small(prose(row.note)) if row.note else "")
+        return [
+            description,
+            rich(row.symbol),
+            rich(prose(row.value)) if row.wordy else run(row.value),
+            run(row.unit),
+            told,
+        ]
+
+    body.table(columns, [cells(row) for row in rows])
+
+
+def _calculation(body: WordBody, part: PrintedChapter) -> None:
+    for section in part.sections:
+        _head(body, section.heading)
+        body.tell(section.text)
+        body.tell(section.shown, "Why")
+        for item in section.items:
+            body.item(item)
+    for item in part.loose:
+        body.item(item)
+
+
+def _outcome(body: WordBody, part: PrintedChapter) -> None:
+    """Results and phases."""
+    _head(body, part.parts.get("results"))
+    body.quantities(part.outputs)
+    for table in part.output_parts:
+        body.parts_table(table)
+    _head(body, part.parts.get("phases"))
+    for phases in part.phases:
+        body.data_table(phases)
+    body.listed(rich(prose(text)) for text in part.phases_absent)
+
+
+def _checks(body: WordBody, part: PrintedChapter, document: ReportDocument) -> None:
+    """The checks of a mechanism; in a full report each with its words, else those that warn."""
+    if "checks" not in part.parts:
+        return
+    _head(body, part.parts["checks"])
+    rows = [row for row in part.checks if not row.is_self_test]
+    made, left = ([row for row in rows if row.is_made is is_made] for is_made in (True, False))
+    if not rows:
+        body.tell(document.words["no_checks"])
+    if made:
+        check_table(body, made)
+    for row in rows if document.detail == FULL else made:
+        if document.detail == FULL or row.status == "warn":
+            body.say(bold(f"{row.title}: ") + rich(prose(row.message)), "Why")
+        if row.parts:
+            body.parts_table(row.parts)
+    if left:
+        said = " · ".join(f"{row.title} ({document.words.say('needs', keys=', '.join(row.missing))})" for row in left)
+        body.say(bold(document.words["not_checked"].capitalize()) + run(f": {said}"))
+
+
+def _rest(body: WordBody, part: PrintedChapter) -> None:
+    """Files beside the report, and what is not calculated."""
+    _head(body, part.parts.get("files"))
+    body.table(
+        [body.head("file", 3), body.head("content", 5)],
+        [[key(each.name), rich(prose(each.content))] for each in part.files],
+    )
+    _head(body, part.parts.get("absent"))
+    body.listed(bold(str(each["title"])) + run(": ") + rich(prose(each["text"])) for each in part.absent)
+
+
+def closing(body: WordBody, document: ReportDocument) -> None:
+    """Sources, and what calculated."""
+    words, program = document.words, document.program
+    body.heading(1, "3", words["sources"], "sources")
+    if not document.sources:
+        body.tell(words["no_sources"])
+    body.table(
+        [body.head("number", 1), body.head("source", 7)],
+        [[run(number), run(text)] for number, text in document.sources],
+    )
+    body.heading(1, "4", words["program"], "program")
+    rows = [
+        [
+            run(words["calculated_by"]),
+            run(f"{program['name']} {program['version']}") + _hash(body, program.get("source_sha256")),
+        ],
+        *([run(words["extension"]), key(name) + _hash(body, digest)] for name, digest in _extensions(program).items()),
+        [run(words["config_file"]), run(document.config["file"])],
+        [run(words["sha256"]), key(document.config["sha256"])],
+    ]
+    body.table([TableColumn("", 2), TableColumn("", 6)], rows, headed=False)
+    columns = [
+        body.head("mechanism", 4),
+        body.head("kind", 2.5),
+        body.head("plugin_version", 3),
+        body.head("verdict", 2),
+    ]
+    body.table(columns, [
+        [run(f"{part.letter} {part.title} (") + key(part.name) + run(")"), key(part.kind),
+         run(part.version or "–") + _hash(body, part.source_sha256), body.status(part.face)]
+        for part in document.chapters
+    ])  # fmt: skip
+
+
+def _extensions(program: Mapping[str, object]) -> Mapping[str, str]:
+    found = program.get("extensions")
+    return found if isinstance(found, Mapping) else {}
+
+
+def _hash(body: WordBody, digest: object) -> Inline:
+    return new_line() + small(f"{body.words['source_hash']} {str(digest)[:HASH]}") if digest else ""
+
+
+def appendix(body: WordBody, document: ReportDocument) -> None:
+    """Self-tests, curves, errata, and the configuration as given."""
+    words = document.words
+    body.heading(1, "5", words["appendix"], "appendix")
+    body.heading(2, "5.1", words["self_test_list"], "self-tests")
+    if document.self_tests:
+        check_table(body, document.self_tests)
+    else:
+        body.tell(words["no_self_tests"])
+    body.heading(2, "5.2", words["curves"], "curves")
+    curved = [part for part in document.chapters if part.curves]
+    body.tell(words["curves_note" if curved else "no_curves"])
+    for part in curved:
+        body.subheading(f"{part.letter} {part.title}")
+        for table in part.curves:
+            body.data_table(table)
+    body.heading(2, "5.3", words["errata"], "errata")
+    if not document.errata:
+        body.tell(words["no_errata"])
+    for source, text, touches in document.errata:
+        touched = new_line() + small(f"{words['touches']}: {touches}") if touches else ""
+        body.listed([bold(f"{source}: ") + rich(prose(text)) + touched])
+    body.heading(2, "5.4", words["configuration"], "configuration")
+    for line in document.config["source_text"].splitlines():
+        body.parts.append(f'<w:p><w:pPr><w:pStyle w:val="Listing"/></w:pPr>{run(line)}</w:p>')

@@ -1,0 +1,145 @@
+"""A report as a workbook (XLSX) by openpyxl, which is imported only when one is made: numbers are numbers, texts are never formulas."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from contextlib import contextmanager, suppress
+from io import BytesIO
+from typing import TYPE_CHECKING, Any
+
+from diecut_report.report.carried import DATE
+from diecut_report.report.context import Material
+from diecut_report.report.office.archive import UndatedArchive, holdable
+from diecut_report.report.office.sheet import LONGEST_TEXT, Cell, CellNumber, WorkSheet, sheet_names
+from diecut_report.report.office.sheets import sheets
+
+if TYPE_CHECKING:
+    from openpyxl import Workbook
+    from openpyxl.worksheet._write_only import WriteOnlyWorksheet
+
+HEAD_COLOUR = "E9EDF1"
+FORMULA_SIGNS = ("=", "+", "-", "@", "\t", "\r")  # what a spreadsheet takes for the begin of a formula
+WRAPPED_FROM = 40  # letters wide: the texts of such a column go on in a further line
+
+
+def workbook(material: Material) -> bytes:
+    """Return the report as XLSX; the same bytes for the same results."""
+    from openpyxl import Workbook
+    from openpyxl.writer.excel import ExcelWriter
+
+    book, content, made = Workbook(write_only=True), BytesIO(), sheets(material)
+    with closed(book):
+        for name, sheet in zip(sheet_names(sheet.title for sheet in made), made, strict=True):
+            _Filled(book.create_sheet(name), sheet).fill()
+            _name_cells(book, name, sheet)
+        _describe(book, material)
+        # not Workbook.save, which writes the time
+        ExcelWriter(book, UndatedArchive(content)).save()
+    return content.getvalue()
+
+
+class _Filled:
+    """Writes a sheet from above to below, as it must be where no cell is kept."""
+
+    def __init__(self, into: WriteOnlyWorksheet, sheet: WorkSheet) -> None:
+        from openpyxl.styles import Alignment, Font, PatternFill
+        from openpyxl.worksheet.properties import PageSetupProperties
+
+        self.into, self.sheet = into, sheet
+        self.cells: dict[tuple[int, str], Any] = {}
+        self._fitted = PageSetupProperties(fitToPage=True)
+        self.bold, self.fill_of_heads = (
+            Font(name="Calibri", size=11, bold=True),
+            PatternFill("solid", fgColor=HEAD_COLOUR),
+        )
+        self.top = Alignment(vertical="top", indent=1)
+        self.wrapped = Alignment(vertical="top", indent=1, wrap_text=True)
+
+    def fill(self) -> None:
+        """Write all."""
+        from openpyxl.utils import get_column_letter
+
+        for column, width in enumerate(self.sheet.widths, 1):
+            self.into.column_dimensions[get_column_letter(column)].width = width
+        self.into.freeze_panes = f"{get_column_letter(self.sheet.held + 1)}{len(self.sheet.heads) + 1}"
+        self._set_page()
+        for head in self.sheet.heads:
+            self.into.append([self._head(text) for text in head])
+        for row in self.sheet.rows:
+            self.into.append([self._cell(value, column) for column, value in enumerate(row)])
+
+    def _set_page(self) -> None:
+        """Print it across the page, all columns on a page, with the heads on each."""
+        self.into.page_setup.orientation, self.into.page_setup.paperSize = "landscape", 9  # A4
+        self.into.sheet_properties.pageSetUpPr = self._fitted
+        self.into.page_setup.fitToHeight = 0
+        self.into.print_title_rows = f"1:{len(self.sheet.heads)}"
+
+    def _head(self, text: str) -> Any:
+        cell = text_cell(self.into, text)
+        cell.font, cell.fill, cell.alignment = self.bold, self.fill_of_heads, self.wrapped
+        return cell
+
+    def _cell(self, value: Cell, column: int) -> Any:
+        if isinstance(value, CellNumber):
+            return self._number(value, column)
+        if not value:
+            return None
+        cell = text_cell(self.into, value)
+        widths = self.sheet.widths
+        cell.alignment = self.wrapped if column < len(widths) and widths[column] >= WRAPPED_FROM else self.top
+        return cell
+
+    def _number(self, number: CellNumber, column: int) -> Any:
+        """Return a number for its column; a row is written before the next, so one cell of a form does for all of them."""
+        from openpyxl.cell import WriteOnlyCell
+
+        key = column, number.form
+        if key not in self.cells:
+            self.cells[key] = WriteOnlyCell(self.into)
+            self.cells[key].number_format = number.form
+        self.cells[key].value = number.value
+        return self.cells[key]
+
+
+def text_cell(sheet: WriteOnlyWorksheet, text: str) -> Any:
+    """Return a text for a sheet as such: "=1" is not a formula, and characters that a workbook cannot hold are replaced."""
+    from openpyxl.cell import WriteOnlyCell
+
+    cell = WriteOnlyCell(sheet, holdable(text)[:LONGEST_TEXT])
+    cell.data_type = "s"
+    cell.quotePrefix = text.startswith(FORMULA_SIGNS)  # so that it stays a text when somebody edits it
+    return cell
+
+
+@contextmanager
+def closed(book: Workbook) -> Iterator[None]:
+    """After an error the sheets are closed, which else complain when they are forgotten."""
+    try:
+        yield
+    except BaseException:
+        for sheet in book.worksheets:
+            with suppress(Exception):  # the error that is reported is the one before
+                sheet.close()
+        raise
+
+
+def _name_cells(book: Workbook, name: str, sheet: WorkSheet) -> None:
+    """Give cells their names."""
+    from openpyxl.utils import absolute_coordinate, get_column_letter, quote_sheetname
+    from openpyxl.workbook.defined_name import DefinedName
+
+    for each, (row, column) in sheet.names.items():
+        place = absolute_coordinate(f"{get_column_letter(column)}{row}")
+        book.defined_names[each] = DefinedName(each, attr_text=f"{quote_sheetname(name)}!{place}")
+
+
+def _describe(book: Workbook, material: Material) -> None:
+    """Say whose it is and what it holds, where programs and archives look for it."""
+    project, document = material.document.project, material.document
+    told = book.properties
+    told.title, told.subject = holdable(document.title), holdable(project["document_number"])
+    told.creator = told.lastModifiedBy = holdable(project["prepared_by"] or document.program["name"])
+    told.description = holdable(f"{document.program['name']} {document.program['version']}")
+    told.language, told.version = document.words.language, holdable(project["revision"])
+    told.created = told.modified = DATE

@@ -1,0 +1,41 @@
+"""What is said of a formula where it is first needed in a chapter: what its names stand for, how its units are converted."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from typing import Any
+
+from diecut_report.report.equations import Equation, Equations
+from diecut_report.report.i18n import Catalogue
+from diecut_report.report.number_format import quantity
+
+Data = Mapping[str, Any]
+
+
+class SaidOnce:
+    """Remembers what a chapter has said already."""
+
+    def __init__(self, equations: Equations, words: Catalogue) -> None:
+        self.equations, self.words = equations, words
+        self.defined: set[str] = set()
+
+    def definitions(self, item: Data) -> Iterator[Equation]:
+        """What names in the formula stand for, where that was not said already."""
+        for equation in self.equations.definitions(item):
+            if equation.text not in self.defined:
+                self.defined.add(equation.text)
+                yield equation
+
+    def conversions(self, item: Data) -> Iterator[str]:
+        """How numbers of the formula follow from what stands elsewhere in another unit, where that was not said already."""
+        told = [self._converted(each) for each in item.get("conversions", ())]
+        new = [each for each in told if each not in self.defined]
+        self.defined.update(new)
+        if new:
+            yield f"{self.words['where']} {self.words.listed(new)}"
+
+    def _converted(self, conversion: Data) -> str:
+        """A quantity in its own unit, and in the formula's."""
+        sides = (conversion[key] for key in ("shown", "converted"))
+        texts = [quantity(side["text"], side["unit"], self.words["decimal"]) for side in sides]
+        return " = ".join((conversion["symbol"], *texts))

@@ -1,0 +1,126 @@
+"""A results document in another language: the same places, numbers and keys, with the texts translated for print."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable, Mapping
+from typing import Any
+
+from diecut_report.languages.catalogues import SOURCE_LANGUAGE, Catalogues
+from diecut_report.languages.tokens import worded
+from diecut_report.languages.translation import Translator
+from diecut_report.report.i18n import Catalogue
+
+Data = Mapping[str, Any]
+Say = Callable[[str], str]
+SAID = frozenset({"title", "summary", "assumptions", "error", "warnings", "description", "message", "demand_label", "limit_label", "method",
+                  "words", "caption", "label", "touches", "lines", "by", "table", "series"})  # fmt: skip
+"""Keys of results whose texts the report prints."""
+NUMBERS = frozenset({"values", "left", "right", "breakpoints", "points", "outer", "holes", "intervals"})
+DATE = re.compile(r"(\d{4})-(\d\d)-(\d\d)")
+
+
+def translated(results: Data, catalogues: Catalogues) -> Data:
+    """Return the results as they are printed in the language of the catalogues; English ones as they are."""
+    if catalogues.language == SOURCE_LANGUAGE:
+        return results
+    for data in (*results["mechanisms"].values(), *results.get("comparisons", {}).values()):
+        catalogues.of(data["kind"])
+    words = Translator(catalogues, results.get("wordings", {}), Catalogue(catalogues.language)["decimal"])
+    found = {**results, "project": _dated(results["project"])}
+    for part in ("mechanisms", "comparisons"):
+        if part in results:
+            found[part] = {name: _Mechanism(words, data["kind"]).said(data) for name, data in results[part].items()}
+    rest = _Mechanism(words, "")
+    found["press"] = rest.of_press(results["press"])
+    found |= {key: rest.walk(results[key]) for key in ("comparisons_left_out", "changes") if key in results}
+    return found
+
+
+def _dated(project: Data) -> Data:
+    """The project with its dates as they are written in documents: 22.11.2026."""
+    lines = [{**line, "date": _date(line.get("date"))} for line in project.get("revisions") or ()]
+    return {**project, "date": _date(project.get("date"))} | ({"revisions": lines} if lines else {})
+
+
+def _date(given: Any) -> Any:
+    found = DATE.fullmatch(given) if isinstance(given, str) else None
+    return ".".join(reversed(found.groups())) if found else given
+
+
+class _Mechanism:
+    """Says the texts of one mechanism's results."""
+
+    def __init__(self, words: Translator, kind: str) -> None:
+        self.words, self.kind = words, kind
+
+    def said(self, data: Data) -> Data:
+        """The results of the mechanism."""
+        own = {
+            "inputs": {key: self._row(row) for key, row in data["inputs"].items()},
+            "lists": {key: self.text(title) for key, title in data.get("lists", {}).items()},
+            "figures": [self._drawn(figure) for figure in data["figures"]],
+        }
+        return {**self.walk({key: part for key, part in data.items() if key not in own}), **own}
+
+    def of_press(self, press: Data) -> Data:
+        """The fields of the press."""
+        return {**press, "fields": [self._row(row) for row in press["fields"]]}
+
+    def text(self, text: str) -> str:
+        """A text of the mechanism."""
+        return self.words.said(text, self.kind)
+
+    def _shown(self, text: str) -> str:
+        """A value that is a text: the words of a choice, or a key in words."""
+        return self.words.known(worded(text), self.kind) or self.text(text)
+
+    def _row(self, row: Data) -> Data:
+        """An input, or a field of the press: what was typed and noted stands as it is."""
+        display = {**row["display"], "text": self._shown(row["display"]["text"])}
+        return {**row, "description": self.text(row["description"]), "display": display}
+
+    def walk(self, data: Any) -> Any:
+        """Any part of the results."""
+        if isinstance(data, Mapping):
+            return {key: self._part(key, part, data) for key, part in data.items()}
+        return [self.walk(part) for part in data] if isinstance(data, list) else data
+
+    def _part(self, key: str, part: Any, home: Data) -> Any:
+        if key in NUMBERS:
+            return self.walk(part) if isinstance(part, Mapping) else part
+        if isinstance(part, str):
+            return self._string(key, part)
+        if key in SAID and isinstance(part, list):
+            return [self.text(each) if isinstance(each, str) else self.walk(each) for each in part]
+        if key == "rows" and "columns" in home:
+            return [[self._shown(cell) if isinstance(cell, str) else cell for cell in row] for row in part]
+        return self.walk(part)
+
+    def _string(self, key: str, text: str) -> str:
+        if key in SAID:
+            return self.text(text)
+        if key == "source":
+            return self.words.source(text)
+        if key in ("text", "key", "column", "note", "part_name", "name"):
+            return self._shown(text)
+        return text
+
+    def _drawn(self, data: Any) -> Any:
+        """A figure, or a part of it: whatever text is not translated has at least its numbers in the language's form."""
+        if isinstance(data, Mapping):
+            return {key: self._drawn_part(key, part) for key, part in data.items()}
+        return [self._drawn(part) for part in data] if isinstance(data, list) else data
+
+    def _drawn_part(self, key: str, part: Any) -> Any:
+        if key in NUMBERS:
+            return part
+        if key not in SAID and key != "text":
+            return self._drawn(part)
+        if isinstance(part, str):
+            return self.words.numbers(self.text(part))
+        if isinstance(part, list):
+            return [
+                self.words.numbers(self.text(each)) if isinstance(each, str) else self._drawn(each) for each in part
+            ]
+        return self._drawn(part)

@@ -1,0 +1,67 @@
+"""Curves and spectra of a calculation as plain data."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+
+from diecut_report.contract.spectra import Spectrum, SpectrumLine
+from diecut_report.contract.steps import Step
+from diecut_report.engine import Calculation
+from diecut_report.engine.calculation import Unproven
+from diecut_report.engine.shown_units import declared_unit, unit_for
+from diecut_report.quantities.units import unit
+
+Data = dict[str, Any]
+
+
+def curves(calc: Calculation) -> Data:
+    """Return each curve at the samples of its abscissa, with its one-sided values at the breakpoints."""
+    found: Data = {}
+    for name, domain in calc.domains.items():
+        step = calc.steps[name]
+        found[name] = _curve(step, domain.samples[0], declared_unit(calc, name, step.unit))
+        edges = np.unique(domain.joints[0])[1:-1]
+        if len(edges):
+            found[name]["breakpoints"] = edges.tolist()
+    for name, curve in calc.curves.items():
+        if curve.output:
+            values = calc.curve_samples(name)[0]
+            found[name] = _curve(curve, values, unit_for(calc, name, curve.unit, values)) | _limits(calc, name)
+    for spectrum in calc.mechanism.spectra:
+        found |= _spectrum(spectrum)
+    return found
+
+
+def _spectrum(spectrum: Spectrum) -> Data:
+    common = {"is_spectrum": True}
+    lines = {
+        line.id: _curve(line, line.values, line.unit) | {"abscissa": spectrum.id} | common for line in spectrum.lines()
+    }
+    return {spectrum.id: _curve(spectrum, spectrum.values, spectrum.unit) | common} | lines
+
+
+def _curve(step: Step | SpectrumLine, values: Any, display: str) -> Data:
+    if not np.isfinite(np.asarray(values, dtype=float)).all():
+        raise Unproven(f"{step.description} ({step.id}) is a curve that has no value at some of its places")
+    return {"unit": unit(step.unit).si, "values": np.asarray(values, dtype=float).tolist(), "symbol": step.symbol,
+            "description": step.description, "display_unit": display, "source": step.source}  # fmt: skip
+
+
+def _limits(calc: Calculation, name: str) -> Data:
+    axis = calc.axis[name]
+    domain = calc.domains[axis]
+    wide = domain.widths[0] > 1e-12 * domain.period[0, 0]
+    starts, ends, middles = domain.edges[:1, :-1][:, wide], domain.edges[:1, 1:][:, wide], domain.middles[:1, wide]
+    first = np.zeros(1, dtype=int)
+    after = calc.kept("starts", axis, lambda _: (starts, middles), first)[name]
+    before = calc.kept("ends", axis, lambda _: (ends, middles), first)[name]
+    after, before = (np.broadcast_to(limits, starts.shape)[0] for limits in (after, before))
+    joint = (domain.is_joint(starts[:, 1:]) | domain.is_joint(ends[:, :-1]))[0]
+    return {
+        "abscissa": calc.axis[name],
+        "breakpoints": starts[0, 1:][joint].tolist(),
+        "left": before[:-1][joint].tolist(),
+        "right": after[1:][joint].tolist(),
+    }

@@ -1,0 +1,289 @@
+"""The HTML report in headless Chromium, as a reader meets it. Run by scripts/browser.sh, which brings the driver and axe-core."""
+
+from __future__ import annotations
+
+import json
+import os
+import re
+import subprocess
+import sys
+from collections.abc import Iterator
+from pathlib import Path
+from typing import Any
+
+import pytest
+from playwright.sync_api import Browser, Page, sync_playwright
+
+CONFIGS = os.environ.get("BROWSER_CONFIGS", "").split() or [
+    "benchmarks/two_mechanisms.yaml", "configs/circular_knife.yaml", "configs/flat_cylinder_mechanisms.yaml",
+]  # fmt: skip
+WIDE, NARROW = {"width": 1280, "height": 900}, {"width": 390, "height": 844}
+TOO_WIDE = """() => Array.from(document.querySelectorAll("main table, main .scroll:not(.fig)"))
+    .filter(e => e.getClientRects().length && (e.scrollWidth > e.clientWidth + 1 || e.getBoundingClientRect().right > innerWidth + 1))
+    .map(e => e.className + " " + e.textContent.trim().slice(0, 60))"""
+OUT_OF_BOX = """() => Array.from(document.querySelectorAll("math")).filter(e => e.getBoundingClientRect().right > innerWidth
+    && !e.closest(".math, .why")).map(e => e.textContent.slice(0, 60))"""
+SERIOUS = {"serious", "critical"}
+
+
+@pytest.fixture(scope="module")
+def browser() -> Iterator[Browser]:
+    with sync_playwright() as driver:
+        program = os.environ.get("CHROMIUM", "/usr/bin/chromium")
+        made = driver.chromium.launch(executable_path=program, args=["--no-sandbox"])
+        yield made
+        made.close()
+
+
+@pytest.fixture(scope="module", params=CONFIGS)
+def report(request: pytest.FixtureRequest, tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """A report as HTML, with its results beside it."""
+    folder, config = tmp_path_factory.mktemp("page"), Path(request.param)
+    _reported(config, folder)
+    return folder / f"{config.stem}.html"
+
+
+def _reported(config: Path, folder: Path) -> None:
+    command = [
+        sys.executable,
+        "-m",
+        "diecut_report",
+        "report",
+        config,
+        "-o",
+        folder,
+        "--format",
+        "html,json",
+        "--quiet",
+    ]
+    done = subprocess.run(command, capture_output=True, text=True, check=False)
+    assert done.returncode in (0, 1), done.stderr
+
+
+class Opened:
+    """A page with what it said and asked for."""
+
+    def __init__(self, browser: Browser, file: Path, **options: Any) -> None:
+        context = browser.new_context(**{"viewport": WIDE, **options})
+        context.grant_permissions(["clipboard-read", "clipboard-write"])
+        self.page: Page = context.new_page()
+        self.said: list[str] = []
+        self.asked: list[str] = []
+        self.page.on("console", lambda message: self.said.append(message.text))
+        self.page.on("pageerror", lambda error: self.said.append(str(error)))
+        self.page.on("dialog", lambda dialog: (self.said.append(dialog.message), dialog.dismiss()))
+        self.page.on("request", lambda request: self.asked.append(request.url))
+        self.page.goto(file.resolve().as_uri())
+
+    def scrolled(self) -> None:
+        """Go down the whole page, so that every curve is drawn."""
+        self.page.evaluate("""async () => { for (let y = 0; y < document.documentElement.scrollHeight; y += 600) {
+            scrollTo(0, y); await new Promise(done => setTimeout(done, 30)); } scrollTo(0, 0); }""")
+
+
+def _results(report: Path) -> dict[str, Any]:
+    found: dict[str, Any] = json.loads(report.with_suffix(".json").read_text("utf-8"))
+    return found
+
+
+@pytest.mark.parametrize("scheme", ["light", "dark"])
+@pytest.mark.parametrize("size", [WIDE, NARROW], ids=["1280", "390"])
+def test_the_page_breaks_nothing_asks_for_nothing_and_axe_finds_nothing_serious(
+    browser: Browser, report: Path, size: Any, scheme: Any
+) -> None:
+    opened = Opened(browser, report, viewport=size, color_scheme=scheme)
+    opened.scrolled()
+    opened.page.locator("#all-checks > summary").click()
+    assert opened.said == []
+    assert [url for url in opened.asked if not url.startswith(("data:", "file:"))] == []
+    assert opened.page.evaluate("document.documentElement.scrollWidth") <= size["width"]
+    opened.page.evaluate(Path(os.environ["AXE"]).read_text("utf-8"))
+    found = opened.page.evaluate("axe.run(document, {resultTypes: ['violations']})")
+    serious = [rule for rule in found["violations"] if rule["impact"] in SERIOUS]
+    assert [
+        (rule["id"], len(rule["nodes"]), [node["html"][:200] for node in rule["nodes"][:3]]) for rule in serious
+    ] == []
+
+
+def test_at_390_px_no_table_scrolls_sideways_and_formulas_scroll_in_boxes_of_their_own(
+    browser: Browser, report: Path
+) -> None:
+    page = Opened(browser, report, viewport=NARROW).page
+    page.evaluate("document.getElementById('all-checks').open = true")
+    assert page.evaluate(TOO_WIDE) == []
+    assert page.evaluate(OUT_OF_BOX) == []
+    first = page.locator("table.checks tbody tr").first
+    if first.count():
+        places = first.locator("td").evaluate_all(
+            "cells => cells.map(c => [c.getBoundingClientRect().top, !!c.querySelector('.badge')])"
+        )
+        assert min(place for place in places if place[0])[1], "the verdict stands first"
+
+
+def test_without_scripts_everything_is_there(browser: Browser, report: Path) -> None:
+    page = Opened(browser, report, java_script_enabled=False).page
+    content = report.read_text("utf-8")
+    assert page.locator("figure .fig svg:visible").count() == content.count('<div class="scroll fig">')
+    assert page.locator("nav.toc li:visible").count() == content.count('<li class="d')
+    assert page.locator(".tools:visible, .filters:visible, .reading, .copy").count() == 0
+
+
+def test_the_list_of_checks_is_filtered(browser: Browser, report: Path) -> None:
+    page = Opened(browser, report).page
+    page.locator("#all-checks > summary").click()
+    results = _results(report)
+    every = [check for part in (*results["mechanisms"].values(), *results.get("comparisons", {}).values()) for check in part.get("checks", ())
+             if check.get("class") != "numerical"]  # fmt: skip
+    rows = page.locator("#all-checks tbody tr:visible")
+    for status in {check["status"] for check in every}:
+        button = page.locator(f'#all-checks button[data-status="{status}"]')
+        button.click()
+        assert rows.count() == sum(check["status"] == status for check in every)
+        button.click()
+    assert rows.count() == len(every)
+    page.locator("#all-checks .filters input").fill(every[-1]["title"].lower())
+    assert 1 <= rows.count() < len(every)
+
+
+def test_search_finds_headings_quantities_and_symbols_and_goes_there(browser: Browser, report: Path) -> None:
+    page = Opened(browser, report).page
+    mechanism = next(part for part in _results(report)["mechanisms"].values() if part.get("outputs"))
+    row = next(iter(mechanism["outputs"].values()))
+    page.keyboard.press("/")
+    page.keyboard.type(row["description"][:25])
+    page.keyboard.press("ArrowDown")
+    page.keyboard.press("Enter")
+    found = page.locator(".found").first
+    assert row["description"][:25].lower() in found.inner_text().lower()
+    assert found.evaluate("e => e.getBoundingClientRect().top >= 0 && e.getBoundingClientRect().top < innerHeight")
+    page.locator("#reader-search").fill("no such thing in this report")
+    assert page.locator("#reader-found button").count() == 0
+
+
+def test_a_number_is_copied_with_its_unit_by_mouse_and_by_keyboard(browser: Browser, report: Path) -> None:
+    page = Opened(browser, report).page
+    cell = page.locator(
+        "table.quantities td.num:has(+ td.unit:not(:empty)), table.keys td.num:has(+ td.unit:not(:empty))"
+    ).first
+    expected = cell.evaluate("e => e.firstChild.textContent + ' ' + e.nextElementSibling.textContent").replace(
+        "\u2212", "-"
+    )
+    button = cell.locator(".copy")
+    assert button.get_attribute("aria-label").startswith("Copy ")
+    for press in (lambda: button.click(force=True), lambda: (button.focus(), page.keyboard.press("Enter"))):
+        page.evaluate("navigator.clipboard.writeText('')")
+        press()
+        page.wait_for_function("document.getElementById('reader-told').textContent !== ''")
+        assert page.evaluate("navigator.clipboard.readText()").replace(" ", "") == re.sub(r"\s", "", expected)
+
+
+def test_light_and_dark_follow_the_system_and_the_switch(browser: Browser, report: Path) -> None:
+    ground = "getComputedStyle(document.documentElement).backgroundColor"
+    page = Opened(browser, report, color_scheme="dark").page
+    dark = page.evaluate(ground)
+    page.locator("#reader-theme").click()
+    light = page.evaluate(ground)
+    assert dark != light == "rgb(255, 255, 255)"
+    page.reload()
+    assert page.evaluate(ground) == light, "the choice is kept"
+
+
+def test_the_contents_say_where_the_reader_is(browser: Browser, report: Path) -> None:
+    page = Opened(browser, report).page
+    for head in page.locator("main h2[id]").all()[1:3]:
+        name = head.get_attribute("id")
+        page.evaluate("name => document.getElementById(name).scrollIntoView()", name)
+        page.wait_for_function(
+            "name => document.querySelector('nav [aria-current]').getAttribute('href') === '#' + name", arg=name
+        )
+
+
+def _curves(report: Path) -> Iterator[tuple[str, dict[str, Any], dict[str, Any]]]:
+    for mechanism in _results(report)["mechanisms"].values():
+        for figure in mechanism.get("figures", ()):
+            if figure["type"] == "plot" and mechanism["curves"][figure["abscissa"]]["unit"] == "rad":
+                yield figure["title"], figure, mechanism["curves"]
+
+
+def test_all_curves_of_a_mechanism_are_read_at_the_place_of_the_slider(browser: Browser, report: Path) -> None:
+    """Held against the results: what stands beside a curve is its value at the angle, within what is printed."""
+    opened = Opened(browser, report)
+    opened.scrolled()
+    page, read = opened.page, 0
+    for title, figure, curves in list(_curves(report))[:6]:
+        box = page.locator(
+            "figure.read", has=page.locator("figcaption strong", has_text=re.compile(f"^{re.escape(title)}"))
+        )
+        if not box.count():
+            continue
+        over = curves[figure["abscissa"]]["values"]
+        place = len(over) // 3
+        slider = box.first.locator("input[type=range]").first
+        slider.evaluate(
+            "(e, x) => { e.step = 'any'; e.value = x; e.dispatchEvent(new Event('input')); }",
+            over[place] * 57.29577951308232,
+        )
+        shown = box.first.locator(".r-value").all_inner_texts()
+        names = [series["curve"] for panel in figure["panels"] for series in panel["series"]]
+        for text, name in zip(shown, names, strict=True):
+            number = float(re.sub(r"[^\d.−]", "", text.split("×")[0].split("\u00a0")[0]).replace("−", "-"))
+            if (
+                curves[name]["display_unit"] == curves[name]["unit"]
+                and "×" not in text
+                and name not in curves[name].get("left", ())
+            ):
+                greatest = max(map(abs, curves[name]["values"]))
+                assert number == pytest.approx(curves[name]["values"][place], abs=2e-3 * greatest)
+                read += 1
+        at = {output for output in page.locator("figure.read output").all_inner_texts() if output}
+        assert box.first.locator("output").first.inner_text() in at
+    assert read or not list(_curves(report))
+
+
+def test_diagrams_of_a_mechanism_follow_the_mouse_over_one_of_them(browser: Browser, report: Path) -> None:
+    opened = Opened(browser, report)
+    opened.scrolled()
+    page = opened.page
+    groups = page.evaluate("""() => { const data = JSON.parse(document.getElementById('reader-data').textContent), found = {};
+        Object.entries(data.figures).forEach(([n, f]) => f.panels.forEach(p => (found[p.group] = found[p.group] || new Set()).add(n)));
+        return Object.values(found).map(s => Array.from(s)).filter(s => s.length > 1); }""")
+    for first, *others in groups[:2]:
+        chart = page.locator(f'[id="fig-{first}"] .u-over').first
+        chart.scroll_into_view_if_needed()
+        box = chart.bounding_box()
+        page.mouse.move(box["x"] + box["width"] * 0.6, box["y"] + box["height"] / 2)
+        place = page.locator(f'[id="fig-{first}"] output').first.inner_text()
+        assert place
+        for other in others:
+            assert place in page.locator(f'[id="fig-{other}"] output').all_inner_texts()
+
+
+def test_a_figure_is_shown_as_printed_on_demand_and_on_paper(browser: Browser, report: Path) -> None:
+    page = Opened(browser, report).page
+    numbers = page.evaluate("Object.keys(JSON.parse(document.getElementById('reader-data').textContent).figures)")
+    if not numbers:
+        return
+    page.evaluate("name => document.getElementById(name).scrollIntoView()", f"fig-{numbers[0]}")
+    figure = page.locator("figure.read").first
+    figure.wait_for()
+    assert not figure.locator(".fig svg").is_visible()
+    figure.locator(".as-printed").click()
+    assert figure.locator(".fig svg").is_visible() and not figure.locator(".reading").is_visible()
+    figure.locator(".as-printed").click()
+    page.emulate_media(media="print")
+    assert figure.locator(".fig svg").is_visible() and not figure.locator(".reading").is_visible()
+
+
+HOSTILE = "</script><img src=x onerror=alert(1)><script>alert(2)</script>"
+
+
+def test_texts_of_a_stranger_stay_texts_in_everything_that_the_scripts_build(browser: Browser, tmp_path: Path) -> None:
+    text = Path("benchmarks/two_mechanisms.yaml").read_text("utf-8")
+    file = tmp_path / "bad.yaml"
+    file.write_text(re.sub(r"title: .*", lambda _: f"title: {json.dumps(HOSTILE)}", text), "utf-8")
+    _reported(file, tmp_path)
+    opened = Opened(browser, tmp_path / "bad.html")
+    opened.scrolled()
+    opened.page.locator("#reader-search").fill("onerror")
+    assert opened.said == []
+    assert opened.page.locator("img").count() == 0

@@ -1,0 +1,78 @@
+"""How a value is shown: unit and digits by what they mean."""
+
+from __future__ import annotations
+
+import math
+
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from diecut_report.quantities.display import FAMILIES, easy_unit
+from diecut_report.quantities.formatting import shortest, shown, with_unit
+from diecut_report.quantities.units import parse_quantity, unit
+
+
+def printed(quantity: str, declared: str) -> str:
+    """A computed quantity as a report shows it, in ASCII."""
+    value = parse_quantity(quantity, declared)
+    text = shown(value, easy_unit(value, declared))
+    return f"{text['text']} {text['unit']}"
+
+
+@pytest.mark.parametrize(
+    ("quantity", "declared", "text"),
+    [
+        ("0.0259123 mm", "mm", "26 um"),  # a micrometre is the finest that is made
+        ("0.05 mm", "mm", "0.05 mm"),  # as somebody wrote it
+        ("0.10512345 m", "mm", "105.1 mm"),
+        ("12345.6 mm", "mm", "12.35 m"),
+        ("1100 W", "kW", "1.1 kW"),
+        ("38.8012 W", "kW", "38.80 W"),  # its zero is rounded to, and stands
+        ("11764.5 N", "N", "11.76 kN"),
+        ("36028.5 MPa", "MPa", "36.03 GPa"),
+        ("44.22 N", "N", "44.2 N"),
+        ("5.9831 deg", "deg", "5.98 deg"),
+        ("0.0288012 deg", "deg", "0.0288 deg"),
+        ("-5e-14 deg", "deg", "0 deg"),
+        ("2.2e-14 %", "%", "0 %"),
+        ("0.95266 kg", "kg", "0.953 kg"),
+        ("1.3351 K", "K", "1.34 K"),
+        ("3.596e-16", "1", "3.596e-16 1"),  # a residual is not zero
+        ("3596 1/h", "1/h", "3596 1/h"),
+    ],
+)
+def test_digits_and_unit_say_what_is_meant(quantity: str, declared: str, text: str) -> None:
+    assert printed(quantity, declared) == text
+
+
+@given(st.sampled_from([(each, family) for family in FAMILIES for each in family]), st.floats(1e-5, 1e7))
+def test_an_easy_number_lies_in_its_range_where_its_family_reaches(
+    declared: tuple[str, tuple[str, ...]], number: float
+) -> None:
+    own, family = declared
+    value = unit(own).to_si(number)
+    chosen = easy_unit(value, own)
+    shown_number = value / unit(chosen).factor
+    if chosen == own:
+        return
+    assert unit(chosen).si == unit(own).si and chosen in family
+    assert 0.1 * (1 - 1e-9) <= shown_number < 1e4 * (1 + 1e-9) or chosen in (family[0], family[-1])
+
+
+@given(st.floats(1e-6, 1e6), st.sampled_from(["mm", "deg", "N", "s", "kg", "m/s", "K", "%", "kW", "1"]))
+def test_a_shown_number_is_its_value_rounded_at_its_last_digit(number: float, declared: str) -> None:
+    value = unit(declared).to_si(number)
+    text = shown(value, declared)["text"]
+    mantissa, _, power = text.partition("e")
+    last = 10.0 ** (int(power or 0) - len(mantissa.partition(".")[2]))
+    assert math.isclose(float(text), value / unit(declared).factor, abs_tol=0.5 * last * (1 + 1e-9), rel_tol=1e-12)
+
+
+@pytest.mark.parametrize("text", ["0.05", "123.456789", "1450", "0.1234567", "2000.250", "12.5"])
+def test_a_typed_number_is_never_rounded(text: str) -> None:
+    assert float(shortest(unit("mm").from_si(parse_quantity(f"{text} mm", "mm")))) == float(text)
+
+
+def test_revolutions_a_minute_are_printed_as_the_standard_writes_them() -> None:
+    assert with_unit("60", "rpm") == "60 r/min" and unit("r/min") == unit("rpm")

@@ -1,0 +1,157 @@
+"""What the page has for a reader at a screen: its scripts and what they may do, their data, and that all is there without them."""
+
+from __future__ import annotations
+
+import base64
+import json
+import math
+import re
+from hashlib import sha256
+from typing import Any
+
+import numpy as np
+import pytest
+
+from diecut_report.report import Rendering
+from diecut_report.report.figures.panel_data import Across, Line, PanelData
+from diecut_report.report.html import folder
+from diecut_report.report.i18n import Catalogue
+from diecut_report.report.reader_data import _is_readable, _line, _panel, _Pool, reader_data
+
+UPLOT = {  # version 1.6.32 as it is published, with its licence
+    "uPlot.iife.min.js": "19c8d4c6ad88929a79f4ae49d6f7161566dfd0ba3d15cc495e974f787eb78f1f",
+    "uPlot.min.css": "df630c6a8d6f8eeaff264b50f73ce5b114f646ffd9a0bb74f049b0a00135fa04",
+    "LICENSE.txt": "8f989229699b4fe2f1a0432d0e9edc338a8a911e250e2d1b01ecd770a5f5b1bd",
+}
+BREAKING = "</script><!--<script>alert(1)</script>\u2028&amp;"
+
+
+def _scripts(page: str) -> tuple[str, list[str]]:
+    """The data of a page's scripts, and the scripts that a browser runs."""
+    found = re.findall(r"<script([^>]*)>(.*?)</script>", page, re.DOTALL)
+    data = [text for attributes, text in found if 'type="application/json"' in attributes]
+    assert len(data) == 1
+    return data[0], [text for attributes, text in found if not attributes]
+
+
+def _data(page: str) -> dict[str, Any]:
+    found: dict[str, Any] = json.loads(_scripts(page)[0])
+    return found
+
+
+def test_the_policy_allows_the_scripts_of_the_page_by_their_hashes_and_no_others(html: str) -> None:
+    policy = re.findall(r'http-equiv="Content-Security-Policy" content="([^"]*)"', html)
+    rules = dict(rule.strip().partition(" ")[::2] for rule in policy[0].replace("&#39;", "'").split(";"))
+    hashes = [base64.b64encode(sha256(text.encode()).digest()).decode() for text in _scripts(html)[1]]
+    assert len(hashes) == 2
+    assert rules["script-src"].split() == [f"'sha256-{found}'" for found in hashes]
+    assert rules["default-src"] == "'none'" and rules["base-uri"] == "'none'" and rules["form-action"] == "'none'"
+
+
+def test_no_element_has_a_script_of_its_own(html: str) -> None:
+    elements = re.sub(r"(<script[^>]*>).*?</script>", r"\1", html, flags=re.DOTALL)
+    assert not re.search(r"<[^>]*\son[a-z]+\s*=|javascript:", elements)
+
+
+def test_the_plotting_library_is_as_published() -> None:
+    files = {path.name: sha256(path.read_bytes()).hexdigest() for path in (folder() / "uplot").iterdir()}
+    assert files == UPLOT
+    assert "v1.6.32" in (folder() / "uplot" / "uPlot.iife.min.js").read_text("utf-8")[:100]
+
+
+def test_no_script_of_the_page_could_end_its_own_element() -> None:
+    for path in folder().rglob("*.js"):
+        text = path.read_bytes()
+        assert b"</script" not in text and b"<!--" not in text and b"\r" not in text, path.name
+
+
+def test_the_data_of_scripts_are_the_curves_in_the_units_that_are_shown(html: str, results: dict[str, Any]) -> None:
+    """Held against the results by hand: each sample of the velocity and of the torque, over degrees for radians."""
+    data = _data(html)
+    panels = {
+        panel["title"]: panel for figure in data["figures"].values() for panel in figure["panels"]
+        if panel["across"]["unit"] == "°"
+    }  # fmt: skip
+    curves = results["mechanisms"]["drive"]["curves"]
+    for title, name in (("Velocity", "velocity"), ("Torque", "crank_torque")):
+        line = panels[title]["lines"][0]
+        xs, ys = (np.array(data["rows"][line[key]]) for key in ("x", "y"))
+        angles, values = np.degrees(curves["crank_angle"]["values"]), np.array(curves[name]["values"])
+        near = np.abs(xs - angles[:, None]).argmin(axis=1)
+        assert np.abs(xs[near] - angles).max() <= 1e-3
+        assert np.abs(ys[near] - values).max() <= 1e-4 * np.abs(values).max()
+
+
+def test_every_figure_is_there_without_scripts(html: str) -> None:
+    for number in _data(html)["figures"]:
+        figure = re.search(rf'<figure id="fig-{number}">.*?</figure>', html, re.DOTALL)
+        assert figure and "<svg" in figure[0] and "<title>" in figure[0]
+
+
+def test_tools_that_need_a_script_are_hidden_without_one(html: str) -> None:
+    assert html.count('<div class="tools" hidden>') == 1
+    assert html.count('<div class="filters" hidden>') == 1
+
+
+def test_each_check_of_the_machine_stands_in_the_list_of_all_checks(html: str, results: dict[str, Any]) -> None:
+    table = html[html.index('<table class="finds"') :]
+    listed = re.findall(r'<tr data-status="(\w+)"', table[: table.index("</table>")])
+    checks = [
+        check for mechanism in (*results["mechanisms"].values(), *results["comparisons"].values())
+        for check in mechanism.get("checks", ()) if check.get("class") != "numerical"
+    ]  # fmt: skip
+    assert checks and sorted(listed) == sorted(check["status"] for check in checks)
+
+
+def test_chapters_have_their_verdict_in_the_contents(html: str, results: dict[str, Any]) -> None:
+    contents = html[html.index('<nav class="toc"') : html.index("</nav>")]
+    chapters = [*results["mechanisms"].values(), *results.get("comparisons", {}).values()]
+    marks = re.findall(r'<span class="mk (\w+)" role="img" aria-label="([^"]+)"', contents)
+    assert len(marks) == len(chapters)
+    assert ("error", "error") in marks and ("fail", "fail") in marks
+
+
+def test_no_text_breaks_out_of_the_data(plain: dict[str, Any]) -> None:
+    panel = {"title": BREAKING, "unit": "mm", "lines": [{"x": [0.0, 1.0], "y": [0.0, 1.0], "label": BREAKING}], "fills": [],
+             "marks": [], "levels": [], "verticals": [], "x": {"title": BREAKING, "symbol": "x", "unit": "mm"}}  # fmt: skip
+    drawn = next(
+        mechanism for mechanism in plain["mechanisms"].values() if mechanism["status"] not in ("error", "skipped")
+    )
+    drawn["sections"] = []
+    drawn["figures"] = [{"id": "x", "title": "Hostile", "caption": "", "type": "chart", "panels": [panel], "shows": []}]
+    material = Rendering(plain).material
+    material.__dict__["figures"] = {number: None for part in material.document.chapters for number, _ in part.figures}
+    text = reader_data(material)  # drawn or not: no font has all of these characters
+    assert not set("<>&\u2028") & set(text)
+    assert BREAKING in json.dumps(json.loads(text), ensure_ascii=False)
+
+
+def test_a_line_keeps_its_jump_and_its_gap() -> None:
+    pool, nan = _Pool(), math.nan
+    made = _line(Line(np.array([0.0, 1.0, 1.0, nan, 2.0]), np.array([1.0, 2.0, 5.0, 7.0, 6.00004]), "F_t"), pool)
+    assert pool.rows[made["x"]] == [0.0, 1.0, 1.0, 1.0, 2.0]
+    assert pool.rows[made["y"]] == [1.0, 2.0, 5.0, None, 6.0]
+
+
+def test_rounding_takes_no_more_than_a_cursor_can_show_and_no_minus_stays_before_zero() -> None:
+    pool = _Pool()
+    assert pool.rows[pool.row([123456.0, -1e-9, 0.0, math.inf], 5)] == [123460.0, 0.0, 0.0, None]
+    assert math.copysign(1.0, pool.rows[0][1] or 0.0) == 1.0
+
+
+def _diagram(x: list[float], name: str = "φ") -> PanelData:
+    return PanelData(title="T", unit="N", across=Across("Angle", name, "deg", 0.0, 2.0), lines=[Line(np.array(x), np.zeros(len(x)), "")])  # fmt: skip
+
+
+@pytest.mark.parametrize(("x", "readable"), [([0.0, 1.0, 2.0], True), ([0.0, 2.0, 1.0], False), ([0.0], False)])
+def test_a_line_is_read_where_it_has_one_height_at_a_place(x: list[float], readable: bool) -> None:
+    assert _is_readable(_diagram(x)) is readable
+
+
+def test_diagrams_of_a_mechanism_over_the_same_angle_share_their_cursor() -> None:
+    pool, raw, words = _Pool(), {"levels": [], "marks": []}, Catalogue("en")
+    panels = [
+        _panel(name, _diagram([0.0, 2.0], sign), raw, words, pool)
+        for name, sign in (("a", "φ"), ("a", "φ"), ("a", "ψ"), ("b", "φ"))
+    ]
+    assert [panel["group"] for panel in panels] == [0, 0, 1, 2]

@@ -1,0 +1,95 @@
+"""A logo is judged by what it holds: what only draws is taken, what runs, loads or explodes is not."""
+
+from __future__ import annotations
+
+import io
+import struct
+import zlib
+
+import pytest
+from PIL import Image
+
+from diecut_report.pictures import MOST, MOST_ELEMENTS, PictureFault, media_type
+
+HEAD = '<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 4 4">'
+LINKED = HEAD.replace(" viewBox", ' xmlns:xlink="http://www.w3.org/1999/xlink" viewBox')
+
+
+def svg(body: str, head: str = HEAD) -> bytes:
+    return f"{head}{body}</svg>".encode()
+
+
+def png(width: int = 4, height: int = 3) -> bytes:
+    made = io.BytesIO()
+    Image.new("RGBA", (width, height), "#0b5c8f80").save(made, "PNG")
+    return made.getvalue()
+
+
+def chunk(name: bytes, data: bytes) -> bytes:
+    return struct.pack(">I", len(data)) + name + data + struct.pack(">I", zlib.crc32(name + data))
+
+
+def huge() -> bytes:
+    head = struct.pack(">IIBBBBB", 9_000, 9_000, 8, 2, 0, 0, 0)
+    return (
+        b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", head) + chunk(b"IDAT", zlib.compress(bytes(1000))) + chunk(b"IEND", b"")
+    )
+
+
+DRAWN = [
+    svg('<path d="M0 0L4 4" stroke="#000"/>'),
+    b"\xef\xbb\xbf" + svg("<title>a</title>"),
+    svg(
+        '<defs><linearGradient id="a"><stop offset="1"/></linearGradient></defs><rect fill="url(#a)" width="1" height="1"/>'
+    ),
+    svg("<style>.a{fill:#fff}</style>", '<svg xmlns="http://www.w3.org/2000/svg" width="20mm" height="10mm">'),
+    svg('<x:namedview xmlns:x="http://sodipodi.sourceforge.net/DTD/sodipodi-0.dtd" pagecolor="#fff"/>'),
+]
+
+
+@pytest.mark.parametrize("content", DRAWN)
+def test_a_drawing_is_taken(content: bytes) -> None:
+    assert media_type(content) == "image/svg+xml"
+
+
+def test_a_png_is_taken() -> None:
+    assert media_type(png()) == "image/png"
+
+
+REFUSED = [
+    (svg("<script>alert(1)</script>"), "holds <script>"),
+    (svg("<foreignObject/>"), "holds <foreignObject>"),
+    (svg('<image href="#a"/>'), "holds <image>"),
+    (svg("<text>a</text>"), "texts as paths"),
+    (svg('<use href="#a"/>'), "holds <use>"),
+    (svg('<p xmlns="http://www.w3.org/1999/xhtml"/>'), "holds <p>"),
+    (svg('<path onload="alert(1)"/>'), "holds a script (onload)"),
+    (svg('<linearGradient xlink:href="http://x/a"/>', LINKED), "refers to something outside (href)"),
+    (svg('<linearGradient href="data:image/png;base64,AA"/>'), "refers to something outside"),
+    (svg('<rect fill="url(http://x/a)"/>'), "refers to something outside (fill)"),
+    (svg("<rect style=\"fill:url( '//x')\"/>"), "refers to something outside (style)"),
+    (svg('<rect style="fill:u\\72l(//x)"/>'), "refers to something outside (style)"),
+    (svg("<style>@import 'x';</style>"), "loads something from outside"),
+    (svg("<style>a{b:url(//x)}</style>"), "loads something from outside"),
+    (b'<?xml-stylesheet href="a.css"?>' + svg(""), "processing instruction"),
+    (b'<!DOCTYPE svg [<!ENTITY a "b">]>' + svg("&a;"), "document type"),
+    (svg("", '<svg xmlns="http://www.w3.org/2000/svg">'), "does not say its size"),
+    (svg("", '<svg viewBox="0 0 1 1">'), "is not an SVG picture"),
+    (b"<html></html>", "is not an SVG picture"),
+    (b"<svg", "cannot be read"),
+    (svg("<g/>" * MOST_ELEMENTS), "elements"),
+    (svg("<g>" * 60 + "</g>" * 60), "within each other"),
+    (b"GIF89a", "neither a PNG nor an SVG"),
+    (b"", "neither a PNG nor an SVG"),
+    (bytes(MOST + 1), "too large: 300 kB"),
+    (png()[:40], "cannot be read"),
+    (png()[:20] + b"\xff" + png()[21:], "cannot be read"),
+    (huge(), "9000 × 9000 pixels"),
+]
+
+
+@pytest.mark.parametrize(("content", "words"), REFUSED, ids=[words for _, words in REFUSED])
+def test_what_does_more_than_to_draw_is_refused(content: bytes, words: str) -> None:
+    with pytest.raises(PictureFault) as caught:
+        media_type(content)
+    assert words in str(caught.value)
