@@ -13,15 +13,13 @@ from numpy.typing import NDArray
 from diecut_report.mechanics.beams import Loading, Supports
 from diecut_report.plugins.shaft import formulas, totals
 from diecut_report.plugins.shaft.body import Body
-from diecut_report.plugins.shaft.cycle import Cycle, Instants, joined
+from diecut_report.plugins.shaft.cycle import Cycle, Instants, side_by_side
 from diecut_report.plugins.shaft.elastic import ElasticShaft
 from diecut_report.plugins.shaft.material_point import worst_points
 from diecut_report.plugins.shaft.statics import Sides, Statics
 
 Array = NDArray[Any]
-SAMPLED = (
-    16  # variants whose loads are sampled at once, of each shaft the same, so that shafts find what others sampled
-)
+SAMPLED = 16  # variants whose loads are sampled at once, alike of all shafts: they find what others sampled
 VALUES, MOST = 2**19, 4  # of a force in the sections, and blocks of samples, that are known at once
 
 
@@ -47,7 +45,7 @@ class UnderLoad:
         """Yield the variants in blocks, each with the shaft under its loads."""
         for start in range(0, self.variants, self._block):
             rows = np.arange(start, min(start + self._block, self.variants))
-            yield rows, self._under(rows, joined([self._sampled(first) for first in rows[::SAMPLED]]))
+            yield rows, self._under(rows, side_by_side([self._sampled(first) for first in rows[::SAMPLED]]))
 
     @property
     def _block(self) -> int:
