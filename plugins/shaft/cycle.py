@@ -30,7 +30,7 @@ class Instants:
     couple_xz: Array
 
 
-def gathered(parts: Sequence[Instants]) -> Instants:
+def side_by_side(parts: Sequence[Instants]) -> Instants:
     """Return the loads of several blocks of variants as those of one."""
     if len(parts) == 1:
         return parts[0]

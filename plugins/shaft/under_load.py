@@ -13,15 +13,13 @@ from numpy.typing import NDArray
 from diecut_report.mechanics.beams import Loading, Supports
 from diecut_report.plugins.shaft import formulas, totals
 from diecut_report.plugins.shaft.body import Body
-from diecut_report.plugins.shaft.cycle import Cycle, Instants, gathered
+from diecut_report.plugins.shaft.cycle import Cycle, Instants, side_by_side
 from diecut_report.plugins.shaft.elastic import ElasticShaft
 from diecut_report.plugins.shaft.material_point import worst_points
 from diecut_report.plugins.shaft.statics import Sides, Statics
 
 Array = NDArray[Any]
-SAMPLED = (
-    16  # variants whose loads are sampled at once, of each shaft the same, so that shafts find what others sampled
-)
+SAMPLED = 16  # variants whose loads are sampled at once, alike of all shafts: they find what others sampled
 VALUES, MOST = 2**19, 4  # of a force in the sections, and blocks of samples, that are known at once
 
 
@@ -47,12 +45,12 @@ class UnderLoad:
         """Yield the variants in blocks, each with the shaft under its loads."""
         for start in range(0, self.variants, self._block):
             rows = np.arange(start, min(start + self._block, self.variants))
-            yield rows, self._under(rows, gathered([self._sampled(first) for first in rows[::SAMPLED]]))
+            yield rows, self._under(rows, side_by_side([self._sampled(first) for first in rows[::SAMPLED]]))
 
     @property
     def _block(self) -> int:
         """How many variants are calculated at once: enough that calls cost little, few enough that forces stay near the processor."""
-        of_each: int = 2 * len(self.body.x) * self.cycle.share.shape[1]
+        of_each = 2 * len(self.body.x) * int(self.cycle.share.shape[1])
         return SAMPLED * min(max(1, VALUES // (of_each * SAMPLED)), MOST)
 
     def _sampled(self, first: int) -> Instants:
