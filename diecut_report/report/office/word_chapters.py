@@ -157,6 +157,15 @@ def _rest(body: WordBody, part: PrintedChapter) -> None:
     )
     _head(body, part.parts.get("absent"))
     body.listed(bold(str(each["title"])) + run(": ") + rich(prose(each["text"])) for each in part.absent)
+    _symbols(body, part)
+
+
+def _symbols(body: WordBody, part: PrintedChapter) -> None:
+    """The symbols of a chapter's formulas, each with its meaning and unit."""
+    if part.symbols:
+        _head(body, part.parts["symbols"])
+        told = [(row.symbol, ", ".join(filter(None, (row.meaning, row.unit)))) for row in part.symbols]
+        body.listed(rich(letter) + run("  ") + rich(prose(text)) for letter, text in told)
 
 
 def closing(body: WordBody, document: ReportDocument) -> None:
