@@ -12,10 +12,13 @@ import signal
 from typing import NoReturn
 
 INTERRUPTED = 130  # as shells have it
+THREADS = "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS"  # read when linear algebra is loaded; what the user sets stays
 
 
 def run() -> NoReturn:
     """Run the command line. While its modules are loaded Ctrl-C ends it at once: there is nothing yet to be put in order."""
+    for name in THREADS:  # small products gain nothing by threads, which only wait for each other
+        os.environ.setdefault(name, "1")
     is_usual = (
         signal.getsignal(signal.SIGINT) is signal.default_int_handler
     )  # in the background of a shell it is ignored

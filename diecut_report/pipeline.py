@@ -19,6 +19,7 @@ from diecut_report.results.changes import changes
 from diecut_report.results.results_file import encoded, results_text
 
 if TYPE_CHECKING:
+    from diecut_report.report.house_style import HouseStyle
     from diecut_report.results.press_run import Run
 
 FORMATS = ("html", "pdf", "docx", "xlsx", "json")
@@ -45,17 +46,22 @@ class Lost(NamedTuple):
 
 
 class AskedReport(NamedTuple):
-    """How a report is wanted, in place of what its configuration says: language, detail, the mechanisms that alone are shown."""
+    """How a report is wanted, in place of what its configuration says: language, detail, the mechanisms that alone are shown.
+
+    ``house`` are a firm's own templates for HTML and PDF.
+    """
 
     language: str | None = None
     detail: str | None = None
     only: tuple[str, ...] = ()
+    house: HouseStyle | None = None
 
     def told(self, results: Data) -> None:
         """Say it in the results, of which alone the report is made."""
         results["project"] |= {"language": self.language} if self.language else {}
         results["report"] |= {"detail": self.detail} if self.detail else {}
         results["report"] |= {"only": list(self.only)} if self.only else {}
+        results["report"] |= {"template_sha256": self.house.sha256} if self.house else {}
 
 
 AS_CONFIGURED = AskedReport()
@@ -115,7 +121,7 @@ def report(
     if former is not None:
         results["changes"] = changes(former, results)
     catalogues = catalogues_of(results, discovery, formats)
-    contents, undrawn = rendered(results, formats, tell, catalogues)
+    contents, undrawn = rendered(results, formats, tell, catalogues, asked.house)
     files_beside, unwritten = exported(results, tell)
     contents |= files_beside
     stem = Path(config.name).stem
@@ -127,7 +133,7 @@ def report(
 
 def catalogues_of(results: Data, discovery: Discovery, formats: Sequence[str], file: str = "") -> Catalogues:
     """Return the catalogues for a report of these results; UserError where the words of one of their mechanisms are not complete."""
-    printed = {"html", "pdf"} & set(formats)
+    printed = set(DRAWN) & set(formats)
     language = results["project"].get("language") or SOURCE_LANGUAGE
     return catalogues_for(language if printed else SOURCE_LANGUAGE, _kinds(results), discovery, file)
 
@@ -219,7 +225,11 @@ def _broken(results: Data, places: Places, lost: Lost) -> PluginError:
 
 
 def rendered(
-    results: Data, formats: Sequence[str], tell: Tell, catalogues: Catalogues | None = None
+    results: Data,
+    formats: Sequence[str],
+    tell: Tell,
+    catalogues: Catalogues | None = None,
+    house: HouseStyle | None = None,
 ) -> tuple[dict[str, bytes], list[Lost]]:
     """Return the content of each format, all complete before anything is written; and the figures that could not be drawn."""
     undrawn: list[Lost] = []
@@ -228,7 +238,7 @@ def rendered(
         tell("drawing the report")
         from diecut_report.report import Rendering
 
-        rendering = Rendering(results, catalogues)
+        rendering = Rendering(results, catalogues, house)
         if "html" in formats:
             contents["html"] = encoded(rendering.html())
         if "pdf" in formats:

@@ -38,6 +38,7 @@ LAYERS = [
     {"testing"},
     {"results"},
     {"report"},
+    {"house_folder"},
     {"pipeline"},
     {"exchange"},
     {"study"},
@@ -56,11 +57,15 @@ ONLY_IN = {  # library: the modules of the program that may import it
     "docx": r"diecut_report\.report\.office\.word_(file|styles)",
     "pyarrow": r"diecut_report\.study\.(storage|tables)\.\w+",
     "threadpoolctl": r"diecut_report\.study\.execution\.process_settings",
-    "pikepdf": r"diecut_report\.exchange\.pdf_attachments",
+    "pikepdf": r"diecut_report\.exchange\.(pdf_attachments|later_changes)",
+    "pyhanko": r"diecut_report\.exchange\.(signing|signature_status|signatures)",
+    "pyhanko_certvalidator": r"diecut_report\.exchange\.(signing|signature_status|signatures)",
+    "cryptography": r"diecut_report\.exchange\.(signing|signature_status|signatures|signing_keys)",
+    "asn1crypto": r"diecut_report\.exchange\.signing",
     "weasyprint": r"diecut_report\.report\.page_engine",
     "pydyf": r"diecut_report\.report\.page_engine",
     "ezdxf": r"diecut_report\.report\.profile_files",
-    "jinja2": r"diecut_report\.report\.(html|document)",
+    "jinja2": r"diecut_report\.report\.(html|document|house_style)",
     "scipy.stats": r"diecut_report\.study\..*",  # slow to import, and needed by studies alone
     "matplotlib.pyplot": r"(?!)",  # keeps global state
 }

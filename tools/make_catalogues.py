@@ -30,14 +30,18 @@ def main() -> None:
 
 
 def catalogues(language: str) -> Iterator[tuple[Path, Catalog]]:
-    """Yield each catalogue as it is to be, with its file: the program's, and those of its plugins."""
+    """Yield each catalogue as it is to be, with its file."""
+    for file, project, found in wanted(language):
+        yield file, updated(file, language, found, project)
+
+
+def wanted(language: str) -> Iterator[tuple[Path, str, list[ProgramText]]]:
+    """Yield for each catalogue its file, what it is of, and its texts: the program's, and those of its plugins."""
     discovery = Discovery()
-    file = file_beside(ROOT / "diecut_report" / "__init__.py", language)
-    yield file, updated(file, language, list(program_texts()), "diecut-report")
+    yield file_beside(ROOT / "diecut_report" / "__init__.py", language), "diecut-report", list(program_texts())
     for kind in discovery.origins:
         file = file_beside(ROOT / "plugins" / kind / "__init__.py", language)
-        found = [ProgramText(text, note=of) for text, of in plugin_texts(discovery.mechanism(kind))]
-        yield file, updated(file, language, found, kind)
+        yield file, kind, [ProgramText(text, note=of) for text, of in plugin_texts(discovery.mechanism(kind))]
 
 
 def plugin_texts(mechanism: Mechanism) -> list[DeclaredText]:

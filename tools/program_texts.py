@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import ast
 from collections.abc import Iterator
+from functools import cache
 from pathlib import Path
 from typing import NamedTuple
 
@@ -11,13 +12,17 @@ from diecut_report.config.model import Press
 from diecut_report.declaration.texts import inputs_texts, is_text
 from diecut_report.engine.printing import methods, tables
 from diecut_report.languages.translation import CITATION, EQUATIONS
+from diecut_report.mechanics.motion_laws import LAWS
 from diecut_report.report.i18n import COUNTED, ENGLISH, one
 from diecut_report.results import document, mechanism, reference_origins, unchecked
 
 ROOT = Path(__file__).parents[1]
-CONSTANTS = (*methods.METHODS.values(), *tables.SERIES_WORDS.values(), tables.AS_GIVEN, tables.AMONG, mechanism.IDLE,
+CONSTANTS = (*methods.METHODS.values(), methods.EQUAL_TERMS, "True", "False", *tables.SERIES_WORDS.values(), tables.AS_GIVEN, tables.AMONG,
+             mechanism.IDLE,
              reference_origins.FOLLOWS, *unchecked.MISSING.values(), document.LEFT_OUT, "a curve", "yes", "no", "Name", "No.", "Place",
-             "does not apply to this machine", "It refers to what is not there, which gives no results.", "not calculated")  # fmt: skip
+             "does not apply to this machine", "It refers to what is not there, which gives no results.", "not calculated",
+             "Taken at {place}, in the middle of its smooth piece; it is the same in all of it.",
+             "There is no {kinds}, or there are several: name one by {key}.")  # fmt: skip
 """Texts that the program holds outside of the calls that make phrases."""
 JOINING = ("joined", "named")
 SOURCES = (*EQUATIONS.values(),
@@ -44,7 +49,11 @@ class ProgramText(NamedTuple):
 def program_texts() -> Iterator[ProgramText]:
     """Yield each text of the program once."""
     seen = set()
-    for found in (*_words(), *map(ProgramText, (*CONSTANTS, *_phrases(), *_press())), *_sources()):
+    for found in (
+        *_words(),
+        *map(ProgramText, (*CONSTANTS, *_phrases(), *_press(), *(law.title for law in LAWS.values()))),
+        *_sources(),
+    ):
         if (found.context, found.text) not in seen:
             seen.add((found.context, found.text))
             yield found
@@ -74,14 +83,14 @@ def _phrases() -> Iterator[str]:
 
 def _called(file: Path, names: tuple[str, ...], place: int) -> Iterator[str]:
     """The constant texts that a file hands to functions."""
-    for node in ast.walk(ast.parse(file.read_text("utf-8"))):
-        if (
-            isinstance(node, ast.Call)
-            and isinstance(node.func, ast.Name)
-            and node.func.id in names
-            and len(node.args) > place
-        ):
+    for node in _calls(file):
+        if isinstance(node.func, ast.Name) and node.func.id in names and len(node.args) > place:
             yield from _constants(node.args[place])
+
+
+@cache
+def _calls(file: Path) -> list[ast.Call]:
+    return [node for node in ast.walk(ast.parse(file.read_text("utf-8"))) if isinstance(node, ast.Call)]
 
 
 def _constants(argument: ast.expr) -> Iterator[str]:

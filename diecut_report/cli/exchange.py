@@ -25,12 +25,14 @@ from diecut_report.cli.output import (
 )
 from diecut_report.cli.progress import Progress
 from diecut_report.cli.study import source
+from diecut_report.cli.template import template_option
 from diecut_report.config.discovery import Discovery
 
 if TYPE_CHECKING:
     from diecut_report.exchange.agreement import Agreement, Difference
     from diecut_report.exchange.carried_results import CarriedResults
     from diecut_report.exchange.verification import Told, Verification
+    from diecut_report.report.house_style import HouseStyle
 
 SHOWN = 20  # differences that are told
 path_of = click.Path(path_type=Path)
@@ -59,9 +61,13 @@ def extract(report: Path, folder: Path, folders: tuple[Path, ...], quiet: bool) 
 @click.command(cls=HelpfulCommand)
 @click.argument("report", metavar="REPORT", type=path_of)
 @click.option("--numbers", is_flag=True, help="Hold the numbers alone against it, not the pages, which takes longer.")
+@click.option("--trust", metavar="FILE", type=path_of, help="Certificates (PEM) to which signatures must lead.")
+@template_option
 @common
-def verify(report: Path, numbers: bool, folders: tuple[Path, ...], quiet: bool) -> int:
-    """Calculate a REPORT (PDF, HTML or results) again; tell whether program, plugins and every number agree.
+def verify(
+    report: Path, numbers: bool, trust: Path | None, house: HouseStyle | None, folders: tuple[Path, ...], quiet: bool
+) -> int:
+    """Calculate a REPORT (PDF, HTML or results) again; tell whether program, plugins and every number agree, and who has signed it.
 
     Exit codes: 0 everything agrees, 1 something does not, 2 the report cannot be read, 3 a plugin broke.
     """
@@ -71,7 +77,7 @@ def verify(report: Path, numbers: bool, folders: tuple[Path, ...], quiet: bool) 
 
     carried = carried_results(report)
     with Progress(quiet) as progress, redirect_stdout(sys.stderr):
-        found = judged(carried, Discovery(folders), progress, moves, pages=not numbers)
+        found = judged(carried, Discovery(folders), progress, moves, pages=not numbers, trusted=trust, house=house)
     tell(str(error) for error in found.broken)
     emit("".join(f"{line}\n" for line in _lines(carried, found)))
     return PLUGIN_BROKE if found.broken else PASSED if found.holds else CHECK_FAILED
@@ -90,6 +96,9 @@ def _lines(carried: CarriedResults, found: Verification) -> Iterator[str]:
         yield f"    and {len(found.agreement.differences) - SHOWN} more"
     if found.pages:
         yield _line("pages", found.pages)
+    yield from (_line("signature", (each.words, each.holds)) for each in found.signatures)
+    if carried.form == "pdf" and not found.signatures:
+        yield _line("signature", ("none: the report is not signed", True))
     yield "Everything agrees." if found.holds else "Not everything agrees."
 
 
@@ -133,6 +142,7 @@ def _value(value: object) -> str:
     help="html,pdf (default), also docx,xlsx.",
 )
 @language_option
+@template_option
 @verdict.strict_option
 @common
 def render(
@@ -140,6 +150,7 @@ def render(
     folder: Path,
     formats: list[str],
     language: str | None,
+    house: HouseStyle | None,
     strict: bool,
     folders: tuple[Path, ...],
     quiet: bool,
@@ -149,7 +160,7 @@ def render(
     from diecut_report.exchange.rendering import told
 
     with Progress(quiet) as progress, redirect_stdout(sys.stderr):
-        outcome, lost = rendered(results, folder, formats, progress, Discovery(folders), language)
+        outcome, lost = rendered(results, folder, formats, progress, Discovery(folders), language, house)
     tell((*told(lost), *outcome.warnings))
     if not quiet:
         tell(f"written: {path}" for path in outcome.written)

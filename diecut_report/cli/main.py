@@ -41,12 +41,15 @@ from diecut_report.cli.output import (
     usage,
 )
 from diecut_report.cli.progress import Progress
+from diecut_report.cli.signing import sign
 from diecut_report.cli.study import batch, source, variants
+from diecut_report.cli.template import template_option
 from diecut_report.config.discovery import Discovery, DuplicateKind, UnknownKind
 from diecut_report.errors import PluginError, Problem, Unwritable, UserError, nearest
 
 if TYPE_CHECKING:
     from diecut_report.pipeline import ReportOutcome
+    from diecut_report.report.house_style import HouseStyle
 
 
 def run() -> NoReturn:
@@ -159,6 +162,7 @@ config_argument = click.argument("config", type=click.Path(path_type=Path))
     help="brief, standard or full, in place of the configuration's (standard).",
 )
 @click.option("--only", metavar="NAMES", callback=_only, help="Report these mechanisms alone: drive,clutch.")
+@template_option
 @verdict.strict_option
 @common
 def report(
@@ -169,6 +173,7 @@ def report(
     previous: Path | None,
     detail: str | None,
     only: tuple[str, ...],
+    house: HouseStyle | None,
     strict: bool,
     folders: tuple[Path, ...],
     quiet: bool,
@@ -181,7 +186,7 @@ def report(
     with Progress(quiet) as progress, redirect_stdout(sys.stderr):
         discovery = Discovery(folders)
         former = None if previous is None else side(source(previous, discovery), discovery, progress)[0]
-        given, asked = source(config, discovery), pipeline.AskedReport(language, detail, only)
+        given, asked = source(config, discovery), pipeline.AskedReport(language, detail, only, house)
         outcome = pipeline.report(given, discovery, progress, folder, formats, asked, moves, former)
     if not quiet:
         tell(f"written: {path}" for path in outcome.written)
@@ -267,6 +272,7 @@ program.add_command(extract)
 program.add_command(verify)
 program.add_command(render)
 program.add_command(diff)
+program.add_command(sign)
 
 
 # --- verdict ---------------------------------------------------------------------------------------------------------

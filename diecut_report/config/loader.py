@@ -8,7 +8,7 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any, get_args
 
-from diecut_report.config import partners, yaml_tree
+from diecut_report.config import partners, report_units, yaml_tree
 from diecut_report.config.caps import too_much
 from diecut_report.config.curve_keys import linked
 from diecut_report.config.dependency_order import ordered
@@ -94,6 +94,9 @@ def examined(given: Path | Tree, discovery: Discovery, *, find: Find | None = No
     order, loops = ordered(reader.instances, linker.links)
     logo, faults = logo_of(tree, find)
     problems = [*reader.problems, *tables.problems, *faults, *linker.problems, *_wrong_values(reader, linker), *loops]
+    problems += report_units.faults(
+        reader.report and reader.report.units, reader.instances, ConfigPlace(tree, ("report",))
+    )
     if problems:
         problems += [
             reader.place.problem(("mechanisms", name, "kind"), str(error)) for name, error in reader.broken.items()

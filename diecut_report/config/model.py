@@ -57,6 +57,7 @@ class ReportSettings(Block):
     status: Annotated[Literal["draft", "for check", "released"], Text("How far the document has come")] = "draft"
     frame: Annotated[Literal["plain", "iso7200", "dstu2104"], Text("Frame and title block of the sheets")] = "plain"
     logo: Annotated[str | None, Text("File with the organisation's logo beside the configuration: PNG, SVG")] = None
+    units: Annotated[Any, Text("Units in which quantities are shown, by dimension or by MECHANISM.QUANTITY")] = None
 
 
 class Sheet(Block):

@@ -10,6 +10,7 @@ from diecut_report.config.basis import BASES
 from diecut_report.config.loader import NAME, RESERVED
 from diecut_report.config.model import Press, Project, ReportSettings
 from diecut_report.config.own_tables import MOST
+from diecut_report.config.report_units import DIMENSIONS
 from diecut_report.config.validation import keys_of
 from diecut_report.contract.inputs import Block, CurveInput, MechanismInput, PhaseInput, Quantity, Text
 from diecut_report.contract.mechanism import Mechanism
@@ -17,7 +18,7 @@ from diecut_report.contract.placeholders import OneOf
 from diecut_report.contract.unit_variants import in_all_units
 from diecut_report.contract.varying import Varying
 from diecut_report.limits import MAX_CURVE_VALUES, MAX_MECHANISMS, MAX_PARTS, MAX_TEXT
-from diecut_report.quantities.units import pretty
+from diecut_report.quantities.units import MAX_UNIT_LENGTH, pretty
 
 Schema = dict[str, Any]
 DRAFT = "https://json-schema.org/draft/2020-12/schema"
@@ -43,7 +44,7 @@ def config_schema(mechanisms: Mapping[str, Mechanism], broken: Mapping[str, str]
         "properties": {
             "schema_version": {"const": 1, "description": "Version of this form of the file."},
             "project": block_schema(Project, refers=False),
-            "report": block_schema(ReportSettings, refers=False),
+            "report": _report(),
             "press": block_schema(Press),
             "materials": _materials(),
             "mechanisms": {
@@ -62,6 +63,20 @@ def config_schema(mechanisms: Mapping[str, Mechanism], broken: Mapping[str, str]
 def kind_schema(mechanism: Mechanism) -> Schema:
     """Schema of one mechanism's block in a config."""
     return {"$schema": DRAFT} | _of_kind(mechanism)
+
+
+def _report() -> Schema:
+    """How the report is made, with the units that it may choose."""
+    schema = block_schema(ReportSettings, refers=False)
+    chosen = {"type": "string", "maxLength": MAX_UNIT_LENGTH}
+    units = {
+        "type": "object",
+        "description": "Units in which quantities are shown: of a dimension, or of one quantity, MECHANISM.QUANTITY.",
+        "properties": {name: chosen | {"description": f"A unit such as {si}."} for name, si in DIMENSIONS.items()},
+        "patternProperties": {r"^[^.]+\..+$": chosen},
+        "additionalProperties": False,
+    }
+    return schema | {"properties": schema["properties"] | {"units": units}}
 
 
 def _materials() -> Schema:

@@ -12,6 +12,9 @@ from diecut_report.declaration.texts import DeclaredText
 WORDS = re.compile(r"(?<![\w{.])[A-Za-z][a-z'’-]+(?![\w}(])")
 NAMES = re.compile(r"[\w.{}\[\],:+/*-]*")
 JOINING = re.compile(r"[\s,;]*(?:and|or)[\s,;]*")
+LABELS = {"label": 1, "mark": 2, "level": 1, "vertical": 1, "line": 2, "fill": 2, "point": 2, "arrow": 3, "dimension": 3, "phrase": 0,
+          "radius_dimension": 3, "box": 3}  # fmt: skip
+"""Functions that draw, each with the place of its words; and that which marks a text."""
 SILENT_CALLS = {"ValueError", "TypeError", "KeyError", "AssertionError", "RuntimeError"}
 SILENT_KEYWORDS = {"source", "needs", "lacks", "id", "symbol", "unit", "role", "anchor"}
 
@@ -56,12 +59,23 @@ class _Finder(ast.NodeVisitor):
     def visit_Call(self, node: ast.Call) -> None:
         if isinstance(node.func, ast.Name) and node.func.id in SILENT_CALLS:
             return
+        self._note_label(node)
         self.visit(node.func)
         for argument in node.args:
             self.visit(argument)
         for keyword in node.keywords:
             if keyword.arg not in SILENT_KEYWORDS:
                 self.visit(keyword.value)
+
+    def _note_label(self, node: ast.Call) -> None:
+        """Note the words beside what is drawn, which may be a single one."""
+        name = node.func.id if isinstance(node.func, ast.Name) else ""
+        if (self.depth or name == "phrase") and name in LABELS:
+            said = [
+                *node.args[LABELS[name] :][:1],
+                *(each.value for each in node.keywords if each.arg in ("label", "text", "lines")),
+            ]
+            self.found += [text for each in said for text in _spoken(each) if WORDS.fullmatch(text) or name == "phrase"]
 
     def visit_Subscript(self, node: ast.Subscript) -> None:
         self.visit(node.value)
@@ -79,6 +93,17 @@ class _Finder(ast.NodeVisitor):
     def _note(self, text: str, kept: list[str]) -> None:
         if self.depth and WORDS.search(text) and not JOINING.fullmatch(text) and not _is_name(text):
             kept.append(text)
+
+
+def _spoken(part: ast.expr) -> Iterator[str]:
+    """The constant texts of which a label is one, or is put together."""
+    match part:
+        case ast.Constant(value=str() as text):
+            yield text
+        case ast.IfExp(body=first, orelse=other) | ast.BinOp(left=first, right=other):
+            yield from (*_spoken(first), *_spoken(other))
+        case ast.List(elts=parts) | ast.Tuple(elts=parts):
+            yield from (text for each in parts for text in _spoken(each))
 
 
 def _is_name(text: str) -> bool:

@@ -16,7 +16,7 @@ from diecut_report.contract.mechanism import Mechanism
 from diecut_report.contract.steps import Accumulated, Choice, Derivative, FromCurve, Step, Value
 from diecut_report.contract.unit_variants import in_form
 from diecut_report.engine import named_quantity
-from diecut_report.engine.chosen_units import ChosenUnits
+from diecut_report.engine.chosen_units import NONE_CHOSEN
 from diecut_report.engine.input_rows import column
 from diecut_report.engine.numerics.chebyshev import PieceSeries
 from diecut_report.engine.numerics.curve_evaluation import MANY, Curves, several
@@ -121,8 +121,7 @@ class Calculation:
         self.steps: dict[str, Step] = {step.id: step for _, step in mechanism.active(self.given)}
         self.axis = mechanism.axes(self.given)
         self.values: dict[str, Array] = {}
-        self.curves: dict[str, CurveStep] = {}
-        self.domains: dict[str, Domain] = {}
+        self.curves, self.domains = dict[str, CurveStep](), dict[str, Domain]()
         self.part_names: dict[str, tuple[str, ...]] = {}  # of the repeated parts that follow from the inputs
         self.row_of: dict[str, str] = {}  # for each number that is called by the name of its part, the row
         self.series: dict[str, PieceSeries] = {}
@@ -132,13 +131,12 @@ class Calculation:
         self._kept: dict[tuple[str, str], tuple[Array, CurveSampler]] = {}  # curves already known at often used places
         self.ahead: dict[str, tuple[str, ...]] = {}  # for each abscissa the curves that coming steps ask for
         self.searches: dict[str, Any] = {}  # for each abscissa, of jumps in its pieces (switches)
-        self.recent = RecentPlaces[CurveSampler](8)  # of a single machine: of many they are large
-        self.shared = SharedPlaces()  # of many machines
+        self.recent, self.shared = RecentPlaces[CurveSampler](8), SharedPlaces()  # of a single machine; of many
         self._tables: dict[str, SampleCache] = {}
         self.extremes: dict[tuple[str, float], tuple[Array, Found]] = {}  # with the pieces they are of
         self.judged: dict[tuple[str, int], Side] = {}  # for each check on a curve and its sides, where it governs
         self.flaws: dict[int, tuple[str, str]] = {}  # for each impossible variant the key and the message
-        self.chosen_units = ChosenUnits()  # what a report chose to show quantities in
+        self.chosen_units = NONE_CHOSEN  # what a report chose to show quantities in
         self.withheld: dict[str, Array] = {}  # for each fact, which variants do not meet it
 
     def __getitem__(self, name: str) -> Array:

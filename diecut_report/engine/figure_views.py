@@ -187,7 +187,13 @@ def _panel(panel: Panel, view: MachineView, abscissa: str) -> dict[str, Any]:
         key: [plain(part, view) for part in parts] for key, parts in named.items()
     }
     curves = [(one.label, view.heights(one.curve, abscissa)) for one in panel.series if panel.range]
-    return axis_range.declared(made, panel.range, view, curves)
+    return _in_chosen_unit(view, axis_range.declared(made, panel.range, view, curves))
+
+
+def _in_chosen_unit(view: MachineView, made: dict[str, Any]) -> dict[str, Any]:
+    """A panel, all of whose values are in SI, in the unit that the report chose for its first curve or its dimension."""
+    first = made["series"][0]["curve"] if made["series"] else ""
+    return made | {"unit": view.calc.chosen_units.of(first, made["unit"]) or made["unit"]}
 
 
 def _polar(figure: Polar, view: MachineView, head: dict[str, Any]) -> dict[str, Any]:

@@ -19,7 +19,7 @@ FAULTS = (pikepdf.PdfError, RuntimeError, ValueError, TypeError, KeyError, Attri
 
 def attachment(content: bytes, name: str, most: int, file: str) -> bytes | None:
     """Return the attachment of a name, None where the PDF has none; UserError where it cannot be read, or is larger than ``most``."""
-    _bounded(most)
+    bounded(most)
     try:
         with pikepdf.open(io.BytesIO(content), attempt_recovery=False, suppress_warnings=True) as pdf:
             return _found(pdf, name, most, file)
@@ -32,7 +32,7 @@ def attachment(content: bytes, name: str, most: int, file: str) -> bytes | None:
 
 
 @cache
-def _bounded(most: int) -> None:
+def bounded(most: int) -> None:
     """Let the library unpack no more than so much of any stream, be it one that only tells where the objects stand."""
     settings.set_qpdf_limits(
         doc_max_warnings=MOST_WARNINGS, parser_max_nesting=DEEPEST, parser_max_container_size=MOST_ITEMS,

@@ -13,13 +13,21 @@ from diecut_report.exchange.carried_results import carried_results
 from diecut_report.files import write_all
 from diecut_report.languages.catalogues import Catalogues
 from diecut_report.limits import MAX_PRINTED_MECHANISMS
+from diecut_report.report.house_style import HouseStyle
 
+TEMPLATE = "template_sha256"
 Contents = dict[str, bytes]
 Tell = Callable[[str], None]
 
 
 def render(
-    file: Path, folder: Path, formats: Sequence[str], tell: Tell, discovery: Discovery, language: str | None = None
+    file: Path,
+    folder: Path,
+    formats: Sequence[str],
+    tell: Tell,
+    discovery: Discovery,
+    language: str | None = None,
+    house: HouseStyle | None = None,
 ) -> tuple[pipeline.ReportOutcome, list[pipeline.Lost]]:
     """Write the report of a results file, or of a report, as ``STEM.html``, ``STEM.pdf`` and the exports beside it.
 
@@ -27,8 +35,12 @@ def render(
     """
     carried = carried_results(file)
     pipeline.AskedReport(language).told(carried.results)
+    if template_of(carried.results) or house:  # the pages are set with other templates than those were
+        asked = carried.results.get("report")
+        kept = {key: value for key, value in asked.items() if key != TEMPLATE} if isinstance(asked, dict) else {}
+        carried.results["report"] = kept | ({TEMPLATE: house.sha256} if house else {})
     catalogues = pipeline.catalogues_of(carried.results, discovery, formats, str(file))
-    contents, lost = document(carried.results, formats, tell, str(file), catalogues)
+    contents, lost = document(carried.results, formats, tell, str(file), catalogues, house)
     beside, unwritten = pipeline.exported(carried.results, tell)
     files = {folder / f"{file.stem}.{ending}": content for ending, content in (contents | beside).items()}
     write_all(files, keep=file)
@@ -36,13 +48,24 @@ def render(
     return pipeline.ReportOutcome(carried.results, tuple(files), (), warnings), [*lost, *unwritten]
 
 
+def template_of(results: dict[str, Any]) -> str:
+    """Return the hash of the templates that a report was set with; nothing where they are the program's alone."""
+    asked = results.get("report")
+    return str(asked.get(TEMPLATE, "")) if isinstance(asked, dict) else ""
+
+
 def document(
-    results: dict[str, Any], formats: Sequence[str], tell: Tell, file: str, catalogues: Catalogues | None = None
+    results: dict[str, Any],
+    formats: Sequence[str],
+    tell: Tell,
+    file: str,
+    catalogues: Catalogues | None = None,
+    house: HouseStyle | None = None,
 ) -> tuple[Contents, list[pipeline.Lost]]:
     """Return a document in its formats, and what of it could not be drawn; UserError where these are not results of the program."""
     _refuse_many_sheets(results, formats, file)
     try:
-        return pipeline.rendered(results, formats, tell, catalogues)
+        return pipeline.rendered(results, formats, tell, catalogues, house)
     except UserError:
         raise
     except Exception as cause:  # of any kind: whoever wrote the file may have put anything in any place

@@ -118,6 +118,7 @@ class ProgramForm(_PartOfResults):
 
     name: Literal["diecut-report"]
     version: str
+    libraries: dict[str, str] = {}
 
 
 class CountsForm(_PartOfResults):

@@ -18,8 +18,10 @@ from diecut_report.config.yaml_tree import Tree
 from diecut_report.errors import PluginError
 from diecut_report.exchange.agreement import Agreement, agreement
 from diecut_report.exchange.carried_results import CarriedResults
-from diecut_report.exchange.rendering import document
+from diecut_report.exchange.rendering import document, template_of
 from diecut_report.exchange.results_form import parsed
+from diecut_report.exchange.signatures import Signature, signatures
+from diecut_report.report.house_style import HouseStyle
 from diecut_report.results.results_file import encoded
 
 Data = Mapping[str, Any]
@@ -41,22 +43,31 @@ class Verification:
     agreement: Agreement
     pages: Told | None
     broken: tuple[PluginError, ...] = field(default=())
+    signatures: tuple[Signature, ...] = field(default=())
 
     @property
     def holds(self) -> bool:
         """Return whether everything agrees."""
         told = [self.program, *self.plugins, self.config, *([self.pages] if self.pages else [])]
-        return all(good for _, good in told) and not self.agreement.differences and not self.broken
+        return (
+            all(good for _, good in told)
+            and all(each.holds for each in self.signatures)
+            and not self.agreement.differences
+            and not self.broken
+        )
 
 
 def verify(
-    carried: CarriedResults, discovery: Discovery, tell: Callable[[str], None], weigh: pipeline.Weigh, *, pages: bool = True
+    carried: CarriedResults, discovery: Discovery, tell: Callable[[str], None], weigh: pipeline.Weigh, *, pages: bool = True,
+    trusted: Path | None = None, house: HouseStyle | None = None,
 ) -> Verification:  # fmt: skip
     """Calculate the configuration of a report again and hold the report against that; without ``pages`` its numbers alone.
 
+    ``trusted`` holds the certificates that signatures must lead to; without it anybody's signature holds that is whole.
     UserError where its configuration cannot be calculated any more.
     """
     results = carried.results
+    signed = signatures(carried.content, trusted) if carried.form == "pdf" else []
     weighing = weigh if "moves" in results["summary"] else None
     with _tables(carried) as find:
         outcome, text = pipeline.calc(_tree(carried), discovery, tell, weigh=weighing, find=find)
@@ -69,8 +80,9 @@ def verify(
         list(_plugins(_calculated(results), _calculated(again))),
         _config(carried),
         numbers,
-        _pages(carried, tell, is_same=program[1] and not numbers.differences) if is_set else None,
+        _pages(carried, tell, house, signed, is_same=program[1] and not numbers.differences) if is_set else None,
         outcome.broken,
+        tuple(signed),
     )
 
 
@@ -100,12 +112,23 @@ def _program(first: Data, again: Data) -> Told:
     named = f"{first['name']} {first['version']}"
     old, new = (str(each.get("source_sha256", "")) for each in (first, again))
     if (first["version"], old, first.get("extensions")) == (again["version"], new, again.get("extensions")):
-        return f"{named}, source {old[:SHORT]}: the same", True
+        return f"{named}, source {old[:SHORT]}: the same{_others(first, again)}", True
     if first["version"] != again["version"]:
         return f"{named} made the report, this is {again['version']}", False
     if old != new:
         return f"{named}, but its source is another one ({old[:SHORT]} then, {new[:SHORT]} now)", False
     return f"{named}, but its extensions are others", False
+
+
+def _others(first: Data, again: Data) -> str:
+    """Which libraries have another version now, where the report tells theirs: it may explain what differs."""
+    old, new = first.get("libraries", {}), again["libraries"]
+    told = [
+        f"{name} {version} then, {new.get(name, 'none')} now"
+        for name, version in old.items()
+        if new.get(name) != version
+    ]
+    return f"; {', '.join(told)}" if told else ""
 
 
 def _plugins(first: Data, again: Data) -> Iterator[Told]:
@@ -167,15 +190,28 @@ def _resolved(data: Data) -> Data:
     return {**data, "project": project}
 
 
-def _pages(carried: CarriedResults, tell: Callable[[str], None], *, is_same: bool) -> Told:
+def _pages(
+    carried: CarriedResults,
+    tell: Callable[[str], None],
+    house: HouseStyle | None,
+    signed: list[Signature],
+    *,
+    is_same: bool,
+) -> Told:
     """Whether the document is what this program makes of the results in it; not where these are not its own."""
     if not is_same:
         return "not compared, since the program or the numbers are others", True
-    contents, _ = document(carried.results, [carried.form], tell, str(carried.path))
+    asked = template_of(carried.results)
+    if asked != (house.sha256 if house else ""):
+        own = f"templates of their own (SHA-256 {asked[:SHORT]})" if asked else "the program's templates alone"
+        return f"not compared, since they are set with {own}; --template DIR names the templates", True
+    contents, _ = document(carried.results, [carried.form], tell, str(carried.path), house=house)
     made = contents[carried.form]
     if carried.content == made:
         return "byte for byte what the program makes of these results", True
     if carried.form == "pdf" and carried.content.startswith(made):
+        if signed and all(each.holds for each in signed):
+            return "byte for byte what the program makes of these results, and after it the signatures", True
         more = len(carried.content) - len(made)
         return (
             f"what the program makes of these results, with {more} bytes that were added later (a signature, a note)",

@@ -48,6 +48,10 @@ class TextCatalogue:
         found = self._texts.get((context, english))
         return found[0] if found else None
 
+    def of_context(self, context: str) -> dict[str, str]:
+        """Return all texts of a context, by their English form."""
+        return {english: said[0] for (own, english), said in self._texts.items() if own == context}
+
     def plural(self, english: str, count: int, context: str | None = None) -> str | None:
         """Return the form of a text that goes with a count; ``english`` is that of one."""
         found = self._texts.get((context, english))

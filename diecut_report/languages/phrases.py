@@ -19,7 +19,7 @@ Wording = dict[str, Any]
 
 
 class Phrase(str):
-    """A text made of a template and of what stands at its places: ``Phrase("set {key} to {low}", key=key, low=told(low, "mm"))``.
+    """Hold a text made of a template and of what stands at its places: ``Phrase("set {key} to {low}", key=key, low=told(low, "mm"))``.
 
     The template is what is translated. A value that is a phrase, too, is translated by itself; any other is a number with its unit, a
     key or a name, and stands as it is but for the sign of decimals.

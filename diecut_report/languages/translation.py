@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Callable, Mapping
+from functools import cached_property
 from typing import Any
 
 from diecut_report.languages.catalogues import Catalogues
@@ -11,12 +12,10 @@ from diecut_report.languages.phrases import filled
 
 DECIMAL = re.compile(r"(?<![\w.,])(\d+)\.(\d+)(?![\w.]*\.?\d)")
 CITATION = "citation"  # the context of the words about sources
-BETWEEN = re.compile(r"(; |, | \(|\)| … |–)")
 EQUATIONS = {
     re.compile(r"(?P<paper>\b\d{3}) eq\. (?P<numbers>\d[\w–-]*(?:, \d[\w–-]*)*)"): "{paper} eq. {numbers}",
     re.compile(r"\beq\. (?P<numbers>\d[\w–-]*(?:, \d[\w–-]*)*)"): "eq. {numbers}",
 }
-WORD = re.compile(r"[A-Za-z][A-Za-z'’.-]*")
 
 
 class Translator:
@@ -57,13 +56,18 @@ class Translator:
 
     def source(self, text: str) -> str:
         """Return where a formula comes from: its words in the language, names of authors and standards as they are."""
-        program = self.catalogues.program
         for pattern, template in EQUATIONS.items():
-            text = pattern.sub(_filler(program.text(template, CITATION) or template), text)
-        return program.text(text, CITATION) or "".join(
-            program.text(part, CITATION) or WORD.sub(lambda word: program.text(word[0], CITATION) or word[0], part)
-            for part in BETWEEN.split(text)
-        )
+            text = pattern.sub(_filler(self._citation.get(template, template)), text)
+        return self._cited.sub(lambda words: self._citation[words[0]], text)
+
+    @cached_property
+    def _citation(self) -> dict[str, str]:
+        return self.catalogues.program.of_context(CITATION)
+
+    @cached_property
+    def _cited(self) -> re.Pattern[str]:
+        longest_first = sorted(self._citation, key=len, reverse=True)
+        return re.compile(rf"(?<![\w{{])(?:{'|'.join(map(re.escape, longest_first))})(?![\w}}])")
 
 
 def _filler(template: str) -> Callable[[re.Match[str]], str]:

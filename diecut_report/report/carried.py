@@ -6,6 +6,7 @@ import base64
 import gzip
 from collections.abc import Mapping
 from datetime import datetime
+from hashlib import sha256
 from typing import Any, NamedTuple
 
 from diecut_report.results.results_file import config_content, encoded, results_text
@@ -30,6 +31,11 @@ class CarriedFile(NamedTuple):
     def address(self) -> str:
         """The file as a data address."""
         return f"data:{self.media_type};base64,{base64.b64encode(self.content).decode()}"
+
+    @property
+    def digest(self) -> str:
+        """The SHA-256 of the file."""
+        return sha256(self.content).hexdigest()
 
     @property
     def packed(self) -> CarriedFile:

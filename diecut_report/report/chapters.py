@@ -27,6 +27,7 @@ from diecut_report.report.number_format import quantity
 from diecut_report.report.repeated_parts import counted, gathered
 from diecut_report.report.said_once import SaidOnce
 from diecut_report.report.scope import BRIEF, FULL
+from diecut_report.report.symbol_list import symbol_rows
 from diecut_report.report.tables import Tables
 
 Data = Mapping[str, Any]
@@ -102,6 +103,9 @@ class _Filler:
         part.absent = mechanism["absent"]
         if part.absent:
             self._head("absent")
+        part.symbols = symbol_rows(mechanism)
+        if part.symbols:
+            self._head("symbols")
         if self.is_full:
             part.curves = self.tables.of_curves(mechanism["curves"])
             part.errata = [(e["source"], e["text"], self._touched(e)) for e in mechanism["errata"]]

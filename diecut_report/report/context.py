@@ -11,6 +11,7 @@ from diecut_report.report.carried import CarriedFile, carried_files
 from diecut_report.report.changes import PrintedChanges, marked, printed_changes
 from diecut_report.report.document import ReportDocument, document
 from diecut_report.report.equations import Equations
+from diecut_report.report.house_style import HouseStyle
 from diecut_report.report.i18n import Catalogue
 from diecut_report.report.scope import BRIEF, parts
 from diecut_report.report.translated import translated
@@ -40,8 +41,10 @@ class DrawingFault(NamedTuple):
 class Material:
     """The parts of the report of a results document."""
 
-    def __init__(self, results: Mapping[str, Any], catalogues: Catalogues | None = None) -> None:
-        self.results = results
+    def __init__(
+        self, results: Mapping[str, Any], catalogues: Catalogues | None = None, house: HouseStyle | None = None
+    ) -> None:
+        self.results, self.house = results, house
         self.words = Catalogue(results["project"].get("language") or SOURCE_LANGUAGE)
         self.catalogues = catalogues or Catalogues(self.words.language)
         self.typesetter = Typesetter()

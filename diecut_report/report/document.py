@@ -77,6 +77,11 @@ class ReportDocument:
         return "incomplete" if self.status == "pass" and self.unchecked else self.status
 
     @property
+    def faces(self) -> Data:
+        """The verdicts of the chapters as they are shown, by the anchors of the chapters."""
+        return {part.anchor: part.face for part in self.chapters}
+
+    @property
     def sized(self) -> list[CheckRow]:
         """The checks of what the program sized to their limits."""
         return [row for row in self.checks if row.is_sized]

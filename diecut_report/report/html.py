@@ -10,11 +10,12 @@ from importlib import import_module
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Protocol
 
-from jinja2 import Environment, FileSystemLoader, StrictUndefined
+from jinja2 import Environment, FileSystemLoader
 from markupsafe import Markup
 
 from diecut_report.report.context import Material
 from diecut_report.report.equations import Equation
+from diecut_report.report.house_style import OPTIONS, in_words, refuse_fetching
 from diecut_report.report.model import Item
 from diecut_report.report.number_format import tidy
 from diecut_report.report.reader_data import reader_data
@@ -36,6 +37,7 @@ POLICY = (
 READER = ("uplot/uPlot.min.css", "reader.css")
 SCRIPTS = ("uplot/uPlot.iife.min.js", "reader.js")
 FORMS = {"screen": "woff2", "print": "truetype"}  # a page engine would unpack the smaller form at each report
+FILTERS: dict[str, Callable[..., Any]] = {"prose": prose, "symbol": symbol, "tidy": tidy}
 END = "</body>\n</html>"
 MATH = {("Report Math", 400, "normal"): "report-math"}
 
@@ -108,11 +110,18 @@ def filled(material: Material, medium: Medium, kind: str, *scripts: str) -> str:
     sheets = ["report.css", f"{kind}.css", *(["changes.css"] if material.changes else []), *(READER if scripts else ())]
     sheets += [f"frame_{document.block.frame}.css"] if kind == "print" else []
     style = "\n".join([_font_faces(tuple(faces.items()), FORMS[kind]), *map(_read, sheets), medium.style])
-    return _environment().get_template("report.html.j2").render(
+    house = material.house
+    environment = _environment() if house is None else house.environment(folder(), FILTERS)
+    style += f"\n{house.css}" if house else ""
+    with in_words(house):
+        made = environment.get_template("report.html.j2").render(
         doc=document, t=document.words, kind=kind, style=Markup(style), policy=policy(*scripts),
         math=medium, figure=medium.figure, failed=material.failed, frame=medium.frame, logo=material.logo,
         carried=material.carried, changes=material.changes,
     )  # fmt: skip
+    if house:
+        refuse_fetching(made, house, "; ".join(POLICY) if kind == "screen" else "")
+    return made
 
 
 def policy(*scripts: str) -> str:
@@ -145,13 +154,6 @@ def _font_faces(faces: tuple[tuple[tuple[str, int, str], str], ...], form: str =
 
 @cache
 def _environment() -> Environment:
-    environment = Environment(
-        loader=FileSystemLoader(folder()),
-        autoescape=True,
-        undefined=StrictUndefined,
-        trim_blocks=True,
-        lstrip_blocks=True,
-    )
-    filters: dict[str, Callable[..., Any]] = {"prose": prose, "symbol": symbol, "tidy": tidy}
-    environment.filters.update(filters)
+    environment = Environment(loader=FileSystemLoader(folder()), **OPTIONS)
+    environment.filters.update(FILTERS)
     return environment

@@ -12,6 +12,8 @@ from fontTools.pens.svgPathPen import SVGPathPen
 from fontTools.pens.transformPen import TransformPen
 from fontTools.ttLib import TTFont
 
+from diecut_report.report.pdf_math import OperatorPen
+
 MILLIMETRE = 72 / 25.4  # in points
 LINE = 1.2  # of a line's letters
 ROOM = 1.02  # what a line may come out wider than it is measured
@@ -56,6 +58,16 @@ def outline(text: str, face: str = BOLD) -> tuple[str, float]:
         glyphs[_named(letter, face)].draw(TransformPen(pen, (scale, 0, 0, -scale, x, 0)))
         x += _widths(face)(letter)
     return pen.getCommands(), x
+
+
+def drawn(text: str, face: str = REGULAR) -> str:
+    """Return the operators that draw a text in a PDF, in em from its baseline's start, y upwards."""
+    glyphs, x, scale = _font(face).getGlyphSet(), 0.0, 1 / _font(face)["head"].unitsPerEm
+    pen = OperatorPen(glyphs)
+    for letter in text:
+        glyphs[_named(letter, face)].draw(TransformPen(pen, (scale, 0, 0, scale, x, 0)))
+        x += _widths(face)(letter)
+    return " ".join([*pen.operators, "f"]) if pen.operators else ""
 
 
 def _lines(text: str, width: float, face: str) -> Iterator[str]:

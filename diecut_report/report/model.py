@@ -13,6 +13,7 @@ from diecut_report.languages.tokens import worded
 from diecut_report.quantities.units import pretty
 from diecut_report.report.equations import Equation
 from diecut_report.report.number_format import joined, number, parts, quantity
+from diecut_report.report.symbol_list import SymbolRow
 from diecut_report.report.symbols import symbol
 
 Data = Mapping[str, Any]
@@ -209,6 +210,7 @@ class PrintedChapter:
     loose: list[Item] = field(default_factory=list)
     files: list[File] = field(default_factory=list)
     absent: list[Data] = field(default_factory=list)
+    symbols: list[SymbolRow] = field(default_factory=list)
     errata: list[tuple[str, str, str]] = field(default_factory=list)
     parts: dict[str, Heading] = field(default_factory=dict)
     headings: list[Heading] = field(default_factory=list)

@@ -7,14 +7,17 @@ from typing import Any
 
 from diecut_report.languages.catalogues import Catalogues
 from diecut_report.report.context import DrawingFault, Material
+from diecut_report.report.house_style import HouseStyle
 from diecut_report.report.html import page
 
 
 class Rendering:
-    """The report of a results document (schema_version 1); what its formats share is made once."""
+    """The report of a results document (schema_version 1), in a firm's own style; what its formats share is made once."""
 
-    def __init__(self, results: Mapping[str, Any], catalogues: Catalogues | None = None) -> None:
-        self.material = Material(results, catalogues)
+    def __init__(
+        self, results: Mapping[str, Any], catalogues: Catalogues | None = None, house: HouseStyle | None = None
+    ) -> None:
+        self.material = Material(results, catalogues, house)
 
     @property
     def faults(self) -> list[DrawingFault]:

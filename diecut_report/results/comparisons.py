@@ -14,6 +14,7 @@ from diecut_report.contract.inputs import SI, Block, Quantity, flatten, meta_of
 from diecut_report.contract.mechanism import Comparison
 from diecut_report.contract.unit_variants import in_form
 from diecut_report.engine import Calculation, CurveHandle, calculate
+from diecut_report.engine.chosen_units import NONE_CHOSEN, ChosenUnits
 from diecut_report.quantities.plausible import without_rounding
 from diecut_report.quantities.units import unit
 from diecut_report.results.mechanism import Provenance, mechanism_results
@@ -53,8 +54,8 @@ def found(calculations: Mapping[str, Calculation]) -> Iterator[Found]:
             yield Found(comparison, dict(zip(comparison.kinds, names, strict=True)))
 
 
-def compared(case: Found, calculations: Mapping[str, Calculation]) -> Data:
-    """Return the results of a comparison, in the form of a mechanism's, and between which instances it is."""
+def compared(case: Found, calculations: Mapping[str, Calculation], chosen: ChosenUnits = NONE_CHOSEN) -> Data:
+    """Return the results of a comparison, in the form of a mechanism's, shown in the chosen units, and between which instances it is."""
     values, origins = {}, {}
     for key, (kind, name) in case.comparison.takes.items():
         instance = case.between[kind]
@@ -63,6 +64,7 @@ def compared(case: Found, calculations: Mapping[str, Calculation]) -> Data:
             values[key], origins[key] = value, Provenance("reference", f"{instance}.{name}")
     block = _block(case, values)
     calculation = calculate(case.comparison.mechanism, flatten(block))
+    calculation.chosen_units = chosen
     return mechanism_results(calculation, origins) | {"between": list(case.between.values())}
 
 

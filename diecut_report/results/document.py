@@ -3,8 +3,12 @@
 from __future__ import annotations
 
 import base64
+import platform
 from collections.abc import Iterator
 from typing import Any
+
+import numpy as np
+import scipy
 
 from diecut_report import __version__
 from diecut_report.config.basis import GIVEN
@@ -88,8 +92,10 @@ def _left_out(run: Run) -> Data:
 
 
 def _code(config: Config) -> Data:
-    """Return the hash of the program's code, and of each extension that was run."""
-    return {"source_sha256": program_hash()} | ({"extensions": dict(config.extensions)} if config.extensions else {})
+    """Return the hash of the program's code, and of each extension that was run; and by what the numbers were calculated."""
+    libraries = {"Python": platform.python_version(), "NumPy": np.__version__, "SciPy": scipy.__version__}
+    extensions = {"extensions": dict(config.extensions)} if config.extensions else {}
+    return {"source_sha256": program_hash(), "libraries": libraries} | extensions
 
 
 EMPTY: Data = {
@@ -143,11 +149,11 @@ def _project(fields: Data) -> Data:
 def _press(run: Run) -> Data:
     press, bases = run.blocks[PRESS], Bases(run.config, run.calculations)
     assert isinstance(press, Press)
-    found = []
+    found, chosen = [], run.chosen_units(PRESS)
     for name, value in flatten(press).items():
         meta = declared(Press, tuple(name.split(".")))
         if isinstance(meta, Quantity):
-            shown = given_shown(value, meta.unit)
+            shown = given_shown(value, chosen.of(name, meta.unit) or meta.unit)
             said_of = {"path": f"{PRESS}.{name}", "description": meta.description, "symbol": meta.symbol}
             node = (PRESS, *name.split("."))
             rests = {"basis": bases.of(node)} | ({"note": note} if (note := bases.said(node).note) else {})

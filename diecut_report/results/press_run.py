@@ -9,6 +9,7 @@ from typing import Any
 
 import numpy as np
 
+from diecut_report.config import report_units
 from diecut_report.config.discovery import said
 from diecut_report.config.instances import Instance, Slot, slots
 from diecut_report.config.loader import Config, substituted
@@ -18,6 +19,7 @@ from diecut_report.config.validation import declared, validate
 from diecut_report.contract.inputs import SI, Block, CurveInput, Quantity, flatten
 from diecut_report.contract.mechanism import Mechanism
 from diecut_report.engine import Calculation, Impossible, calculate
+from diecut_report.engine.chosen_units import ChosenUnits
 from diecut_report.errors import PluginError, Problem, UserError
 from diecut_report.languages.phrases import Phrase, named
 from diecut_report.limits import MAX_COMPARISONS
@@ -228,7 +230,14 @@ class Run:
             self._broke(instance, cause)
 
     def _made(self, instance: Instance, mechanism: Mechanism, block: Block) -> Calculation:
-        return calculate(mechanism, flatten(block))
+        calculation = calculate(mechanism, flatten(block))
+        calculation.chosen_units = self.chosen_units(instance.name)
+        return calculation
+
+    def chosen_units(self, name: str) -> ChosenUnits:
+        """Return the units that the report chose for the quantities of a mechanism."""
+        chosen = self.config.report.units or {}
+        return ChosenUnits(report_units.by_si(chosen), report_units.by_id(chosen, name))
 
     def _printed(self, instance: Instance, calculation: Calculation) -> None:
         found = mechanism_results(calculation, self._provenance(instance))
@@ -240,7 +249,7 @@ class Run:
         self.tell(case.name)
         self.cases.append(case)
         try:
-            self.comparisons[case.name] = compared(case, self.calculations)
+            self.comparisons[case.name] = compared(case, self.calculations, self.chosen_units(""))
         except Uncomparable as fault:
             self.problems.append(self._uncomparable(fault))
         except (Exception, SystemExit) as cause:

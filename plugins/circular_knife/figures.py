@@ -6,10 +6,10 @@ from typing import Any
 
 import numpy as np
 
-from diecut_report.api import Chart, Drawing, Shape, View, chart_panel, level, line, mark, vertical
+from diecut_report.api import Chart, Drawing, Shape, View, chart_panel, level, line, mark, phrase, vertical
 from diecut_report.plugins.circular_knife.drawing import front, positions
 
-ANGLE = ("knife angle", "φ", "deg")
+ANGLE = (phrase("knife angle"), "φ", "deg")
 INSIDE = 1e-9  # share of the cut by which the curves' ends are taken inside it
 POINTS = 121
 
@@ -56,8 +56,12 @@ def motion(view: View) -> list[Shape]:
 
 def load(view: View) -> list[Shape]:
     """Force and torque over the cut."""
-    forces = (("force", "force"), ("working_force", "by virtual work"))
-    torques = (("torque", "whole"), ("friction_torque", "friction"), ("useful_torque", "cutting"))
+    forces = (("force", phrase("force")), ("working_force", "by virtual work"))
+    torques = (
+        ("torque", phrase("whole")),
+        ("friction_torque", phrase("friction")),
+        ("useful_torque", phrase("cutting")),
+    )
     return [
         panel(view, "Force down on the board", "N", *forces, marks=greatest(view, "force_max")),
         panel(view, "Torque at the knife's shaft", "N*m", *torques, marks=greatest(view, "torque_max")),

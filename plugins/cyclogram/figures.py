@@ -20,6 +20,7 @@ from diecut_report.api import (
     label,
     line,
     mark,
+    phrase,
     polyline,
     told,
     vertical,
@@ -35,7 +36,7 @@ INNER, RING, LAYER = 0.8, 0.8, 0.22  # of the rings: the innermost radius, a lin
 LAYERS = {"working": "link", "rest": "outline", "window": "hidden"}
 TURN = 2 * pi
 POINTS = 721
-AXIS = ("Angle of the main shaft", "Φ", "deg")
+AXIS = (phrase("Angle of the main shaft"), "Φ", "deg")
 
 
 def _pieces(intervals: Intervals, period: float) -> Iterator[tuple[float, float]]:

@@ -20,6 +20,7 @@ from diecut_report.api import (
     level,
     line,
     mark,
+    phrase,
     polyline,
     region,
     vertical,
@@ -76,7 +77,10 @@ def _compressed(view: View, level: float, away: float) -> list[Shape]:
         *_laid(view, pressed, view["strain"], level),
         polyline([(length, 0.8 * half), (length, level - half)], "centerline"),
         dimension((pressed, level - half), (length, level - half), -away, view.text("deflection")),
-        label((length + 0.4 * away, level), "pressed together" + ("; dashed: by the drive too" if is_driven else "")),
+        label(
+            (length + 0.4 * away, level),
+            phrase("pressed together") + ("; dashed: by the drive too" if is_driven else ""),
+        ),
     ]
     if is_driven:
         driven = length - view["driven_deflection"]

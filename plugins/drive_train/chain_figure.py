@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from diecut_report.api import Drawing, Phrase, Point, Shape, View, box, joined, label, polyline, told
+from diecut_report.api import Drawing, Phrase, Point, Shape, View, box, joined, label, phrase, polyline, told
 
 BELT_AT, BOX_LEFT, BOX_WIDTH, HIGHEST = 46.0, 104.0, 56.0, 100.0
 WHEEL = 3.0  # width of pulleys and gears
@@ -25,13 +25,16 @@ def _wheel(x: float, y: float, radius: float, role: str = "body", width: float =
 def _numbers(view: View, heights: list[float], tall: float) -> list[Shape]:
     """For each shaft a box with its number, speed, torque and power."""
     last = len(heights)
-    names = {1: "motor", 2: "flywheel" if "flywheel_inertia" in view else "driven pulley"}
+    driven = phrase("flywheel") if "flywheel_inertia" in view else phrase("driven pulley")
+    names = {1: phrase("motor"), 2: driven}
     speeds, torques, powers = (shaft_values(view, name) for name in ("speed", "torque", "power"))
     shapes = []
     for i, y in enumerate(heights):
-        role = joined([name for name in (names.get(i + 1, ""), "output" if i + 1 == last else "") if name], ", ")
+        role = joined(
+            [name for name in (names.get(i + 1, ""), phrase("output") if i + 1 == last else "") if name], ", "
+        )
         values = f"{told(speeds[i], 'rpm')} · {told(torques[i], 'N*m')} · {told(powers[i], 'kW')}"
-        title = Phrase("Shaft {i}", i=i + 1) + (f": {role}" if role else "")
+        title = Phrase("Shaft {i}", i=i + 1) + (Phrase(": {role}", role=role) if role else "")
         shapes.append(box((BOX_LEFT + BOX_WIDTH / 2, y), BOX_WIDTH, tall, [title, values]))
     return shapes
 

@@ -7,13 +7,13 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from diecut_report.api import Chart, Mark, Panel, Plot, Series, Shape, View, chart_panel, level, line, mark
+from diecut_report.api import Chart, Mark, Panel, Plot, Series, Shape, View, chart_panel, level, line, mark, phrase
 from diecut_report.mechanics.follower_peaks import peaks
 from diecut_report.mechanics.motion_laws import LAWS
 from diecut_report.plugins.elastic_follower.motion import CURVE
 from diecut_report.plugins.elastic_follower.spectrum import DAMPINGS, FIRST, LAST, RATIOS, of_law
 
-PERIODS = ("Natural periods within the motion", "λ", "1")
+PERIODS = (phrase("Natural periods within the motion"), "λ", "1")
 OWN = 64  # points of the line of this machine's own motion
 OWN_DAMPED = 40  # the same where there is a line for each damping
 

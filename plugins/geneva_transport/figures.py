@@ -6,12 +6,12 @@ from typing import Any
 
 import numpy as np
 
-from diecut_report.api import Chart, Drawing, Shape, View, chart_panel, level, line, mark, vertical
+from diecut_report.api import Chart, Drawing, Shape, View, chart_panel, level, line, mark, phrase, vertical
 from diecut_report.plugins.geneva_transport import formulas, loads
 from diecut_report.plugins.geneva_transport.drawing import at_entry, positions
 
 COUNTED = "Angles are counted from the middle of the motion: what the results name as α of more than 180° stands here 360° lower, at the same place."
-FROM_MIDDLE = ("Crank angle from the middle of the motion", "α", "deg")
+FROM_MIDDLE = (phrase("Crank angle from the middle of the motion"), "α", "deg")
 Curves = dict[str, Any]
 
 

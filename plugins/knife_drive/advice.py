@@ -12,7 +12,7 @@ from diecut_report.plugins.knife_drive.working import ALL, Drives, groups, keys,
 ENOUGH = 1e-9  # share by which a limit itself is kept clear of
 MACHINE = ("cylinder_rate", "roller_ratio", "roller_velocity", "grip_time", "allowable_grip_acceleration")
 TIMES = ("signature_interval", "roller_time")
-SHORTER = "a drive with a shorter working stroke"
+SHORTER = phrase("a drive with a shorter working stroke")
 Range = tuple[float, float]
 
 

@@ -7,15 +7,28 @@ from typing import Any
 
 import numpy as np
 
-from diecut_report.api import Chart, Drawing, Phrase, Shape, View, chart_panel, fill, level, line, mark, vertical
+from diecut_report.api import (
+    Chart,
+    Drawing,
+    Phrase,
+    Shape,
+    View,
+    chart_panel,
+    fill,
+    level,
+    line,
+    mark,
+    phrase,
+    vertical,
+)
 from diecut_report.plugins.knife_drive.drawing import CRANK_ROCKER_DRAWN, CRANK_SLIDER_DRAWN, PLANETARY_DRAWN
 from diecut_report.plugins.knife_drive.table import table
 from diecut_report.plugins.knife_drive.working import ALL, CRANK_ROCKER, CRANK_SLIDER, PLANETARY, DriveKind
 
 Values = Any
-CURVES = (("displacement", "Displacement of the edge", "mm", "S"), ("velocity", "Velocity of the edge", "m/s", "V"),
-          ("acceleration", "Acceleration of the edge", "m/s**2", "W"))  # fmt: skip
-FROM_LOWEST = ("Crank angle from the lowest point", "ψ", "deg")
+CURVES = (("displacement", phrase("Displacement of the edge"), "mm", "S"), ("velocity", phrase("Velocity of the edge"), "m/s", "V"),
+          ("acceleration", phrase("Acceleration of the edge"), "m/s**2", "a"))  # fmt: skip
+FROM_LOWEST = (phrase("Crank angle from the lowest point"), "ψ", "deg")
 TURN = 2 * np.pi
 AROUND = np.linspace(0, TURN, 721)
 
@@ -65,7 +78,7 @@ def from_lowest(view: View) -> list[Shape]:
         heights[drive] = at(view, f"{drive.key}_acceleration", places)
     return [
         _common(view, "Speed of the edge towards the rollers", "m/s", psi, speeds, rollers),
-        _common(view, "Acceleration of the edge", "m/s**2", psi, heights, [],
+        _common(view, phrase("Acceleration of the edge"), "m/s**2", psi, heights, [],
                 levels=[level(view["allowable_paper_acceleration"], "allowed")]),
     ]  # fmt: skip
 

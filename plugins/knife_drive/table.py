@@ -4,19 +4,19 @@ from __future__ import annotations
 
 from textwrap import wrap
 
-from diecut_report.api import Phrase, Shape, View, box, told
+from diecut_report.api import Phrase, Shape, View, box, phrase, told
 from diecut_report.plugins.knife_drive.working import ALL
 
 LINES = (
-    ("Working stroke", "working_angle", "deg"),
-    ("Its duration", "working_time", "ms"),
-    ("Speed at contact", "contact_velocity", "m/s"),
-    ("Greatest acceleration", "acceleration_peak", "m/s**2"),
-    ("Acceleration at the end", "acceleration_end", "m/s**2"),
-    ("Stroke", "stroke", "mm"),
-    ("Factor", "end_factor", "1"),
-    ("Acceleration in the grip", "grip_size", "m/s**2"),
-    ("Time on the table", "table_time", "ms"),
+    (phrase("Working stroke"), "working_angle", "deg"),
+    (phrase("Its duration"), "working_time", "ms"),
+    (phrase("Speed at contact"), "contact_velocity", "m/s"),
+    (phrase("Greatest acceleration"), "acceleration_peak", "m/s**2"),
+    (phrase("Acceleration at the end"), "acceleration_end", "m/s**2"),
+    (phrase("Stroke"), "stroke", "mm"),
+    (phrase("Factor"), "end_factor", "1"),
+    (phrase("Acceleration in the grip"), "grip_size", "m/s**2"),
+    (phrase("Time on the table"), "table_time", "ms"),
 )
 FIRST, OTHER, HIGH = 1.5, 1.6, 0.3  # widths of the columns, height of a line
 GAP = 0.06  # between boxes
@@ -37,8 +37,8 @@ def table(view: View) -> list[Shape]:
             box((FIRST + (i + 0.5) * OTHER, y), OTHER - GAP, HIGH - GAP, [cell], role) for i, cell in enumerate(cells)
         ]
     width = FIRST + OTHER * len(drives)
-    words = [line for text in _verdicts(view) for line in wrap(text, int(width * LETTERS))]
-    high = HIGH * len(words)
+    words = _verdicts(view)
+    high = HIGH * sum(len(wrap(text, int(width * LETTERS))) for text in words)
     below = -HIGH * (len(rows) - 0.5) - high / 2
     return [*shapes, box((width / 2, below), width - GAP, high - GAP, words, "body")]
 

@@ -18,6 +18,7 @@ from diecut_report.api import (
     View,
     dimension,
     label,
+    phrase,
     polyline,
     region,
 )
@@ -65,7 +66,7 @@ def _bearing(view: View, half: float, bottom: float, crown: float) -> list[Shape
     ]
 
 
-LOADS = (("regular", ""), ("greatest", "_peak"))
+LOADS = ((phrase("regular"), ""), (phrase("greatest"), "_peak"))
 FIGURES = (
     Drawing(
         id="section",

@@ -21,13 +21,14 @@ from diecut_report.api import (
     level,
     line,
     mark,
+    phrase,
     vertical,
 )
 from diecut_report.plugins.platen_press.drawing import machine, relaxed
 
 POINTS = 28_801  # over the turn, of which a small part about the dead centre is drawn
 MARGIN = 1.2  # of what is drawn to the angles of cutting and relaxing
-FROM_DEAD_CENTER = ("Crank angle from the dead centre", "φ", "deg")
+FROM_DEAD_CENTER = (phrase("Crank angle from the dead centre"), "φ", "deg")
 SOURCE_PEAK = 5100.0  # N·m, printed by 001, conclusion 1
 SOURCE_MACHINE = {
     "cutting_force_max": 5e5, "platen_mass": 306.0, "drive_deformation": 4.5e-4, "material_thickness": 5e-4, "crank_radius": 0.11,

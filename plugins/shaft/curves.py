@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from diecut_report.plugins.shaft.statics import Statics
+from diecut_report.plugins.shaft.statics import Statics, greatest_size, resultant
 from diecut_report.plugins.shaft.under_load import UnderLoad
 
 Array = NDArray[Any]
@@ -54,14 +54,14 @@ def _on_side(values: Array, side: Array) -> Array:
 @along
 def bending_moment(statics: Statics, places: Array, side: Array) -> Array:
     """The greatest bending moment over the cycle."""
-    found: Array = np.max(_on_side(statics.sides(places).bending, side), axis=1)
+    found: Array = np.max(_on_side(resultant(*statics.moments(places)), side), axis=1)
     return found
 
 
 @along
 def torque(statics: Statics, places: Array, side: Array) -> Array:
     """The greatest size of the torque over the cycle."""
-    found: Array = np.max(_on_side(statics.sides(places).torque_size, side), axis=1)
+    found: Array = np.max(_on_side(greatest_size(*statics.torques(places)), side), axis=1)
     return found
 
 
@@ -69,10 +69,8 @@ def moment_in(plane: int) -> Curve:
     """Return the moment in a plane, x-y (0) or x-z (1), at the instant of the greatest moment."""
 
     def at(statics: Statics, places: Array, side: Array) -> Array:
-        bending = statics.sides(statics.x).bending
-        instant = int(np.unravel_index(np.argmax(bending), bending.shape)[3])
-        sides = statics.sides(places)
-        return _on_side((sides.xy, sides.xz)[plane], side)[:, instant]
+        still = statics.at_instant(statics.instant_of_moment)
+        return _on_side(still.moments(places)[plane], side)[:, 0]
 
     return along(at)
 

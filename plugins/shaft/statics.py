@@ -17,7 +17,6 @@ from diecut_report.plugins.shaft.cycle import SPARSE, Cycle, Instants, looked_at
 from diecut_report.plugins.shaft.elastic import ElasticShaft, between
 
 Array = NDArray[Any]
-BLOCK = 16  # variants at once
 FINE = np.linspace(0, 1, 101)  # of a piece, where the greatest deflection is looked for at its instant
 PROVED = 24  # instants at which the deflection line is proved by its energy
 
@@ -36,22 +35,30 @@ class Sides:
     @cached_property
     def bending(self) -> Array:
         """Return the resultant bending moment."""
-        found: Array = np.sqrt(self.xy**2 + self.xz**2)
-        return found
+        return resultant(self.xy, self.xz)
 
     @cached_property
     def torque_size(self) -> Array:
         """Return the greatest size that the torque may have."""
-        low, high = self.torque_bounds
-        size: Array = np.maximum(np.abs(self.torque + low), np.abs(self.torque + high))
-        return size
+        return greatest_size(self.torque, self.torque_bounds)
 
     @cached_property
     def axial_size(self) -> Array:
         """Return the greatest size that the axial force may have."""
-        low, high = self.axial_bounds
-        size: Array = np.maximum(np.abs(self.axial + low), np.abs(self.axial + high))
-        return size
+        return greatest_size(self.axial, self.axial_bounds)
+
+
+def resultant(in_y: Array, in_z: Array) -> Array:
+    """Return the size of what acts in both planes."""
+    found: Array = np.sqrt(in_y**2 + in_z**2)
+    return found
+
+
+def greatest_size(values: Array, bounds: tuple[Array, Array]) -> Array:
+    """Return the greatest size of values to which something between bounds is added."""
+    low, high = bounds
+    found: Array = np.maximum(np.abs(values + low), np.abs(values + high))
+    return found
 
 
 @dataclass(frozen=True)
@@ -93,15 +100,28 @@ class Statics:
 
     def sides(self, x: Array) -> Sides:
         """Return the forces in the sections at places (places, variants)."""
-        xy, xz = (np.stack(plane.moments(x)) for plane in self.planes)
+        torque, bounds = self.torques(x)
         given = _no_more_than_needed(self.loads.axial_force)
         held = np.concatenate([self.cycle.places, self.locating[None]])
         axial = np.concatenate([given, -np.sum(given, axis=0, keepdims=True)])
+        axial = -np.stack(beams.before_and_behind(x, held, axial))
+        return Sides(*self.moments(x), torque, axial, bounds, self._both(self._axial_bounds, x))
+
+    def moments(self, x: Array) -> tuple[Array, Array]:
+        """Return the moments in both planes just before and just behind places, (2, places, variants, instants) each."""
+        return tuple(np.stack(plane.moments(x)) for plane in self.planes)  # type: ignore[return-value]
+
+    def torques(self, x: Array) -> tuple[Array, tuple[Array, Array]]:
+        """Return the torque there, and what is added by torques known by their extremes."""
         torque = beams.before_and_behind(x, self.cycle.places, _no_more_than_needed(self.loads.torque))
-        return Sides(
-            xy, xz, np.stack(torque), -np.stack(beams.before_and_behind(x, held, axial)),
-            self._both(self._torque_bounds, x), self._both(self._axial_bounds, x),
-        )  # fmt: skip
+        return np.stack(torque), self._both(self._torque_bounds, x)
+
+    @cached_property
+    def instant_of_moment(self) -> Array:
+        """Return at which instant the bending moment is greatest, (variants,)."""
+        xy, xz = self.moments(self.x)
+        found: Array = np.argmax(np.max(xy**2 + xz**2, axis=(0, 1)), axis=1)
+        return found
 
     def _both(self, bounds: Callable[[Array], tuple[Array, Array]], x: Array) -> tuple[Array, Array]:
         before, behind = bounds(x - 2 * SAME_PLACE), bounds(x + 2 * SAME_PLACE)

@@ -13,12 +13,16 @@ from numpy.typing import NDArray
 from diecut_report.mechanics.beams import Loading, Supports
 from diecut_report.plugins.shaft import formulas, totals
 from diecut_report.plugins.shaft.body import Body
-from diecut_report.plugins.shaft.cycle import Cycle, Instants
+from diecut_report.plugins.shaft.cycle import Cycle, Instants, gathered
 from diecut_report.plugins.shaft.elastic import ElasticShaft
 from diecut_report.plugins.shaft.material_point import worst_points
-from diecut_report.plugins.shaft.statics import BLOCK, Sides, Statics
+from diecut_report.plugins.shaft.statics import Sides, Statics
 
 Array = NDArray[Any]
+SAMPLED = (
+    16  # variants whose loads are sampled at once, of each shaft the same, so that shafts find what others sampled
+)
+VALUES, MOST = 2**19, 4  # of a force in the sections, and blocks of samples, that are known at once
 
 
 @dataclass(frozen=True)
@@ -41,20 +45,26 @@ class UnderLoad:
 
     def blocks(self) -> Iterator[tuple[Array, Statics]]:
         """Yield the variants in blocks, each with the shaft under its loads."""
-        for start in range(0, self.variants, BLOCK):
-            rows = np.arange(start, min(start + BLOCK, self.variants))
-            if start not in self._loads:
-                self._loads[start] = self.cycle.at(self.cycle.share[rows], self.cycle.middle[rows], rows)
-            yield rows, self._under(rows, self._loads[start])
+        for start in range(0, self.variants, self._block):
+            rows = np.arange(start, min(start + self._block, self.variants))
+            yield rows, self._under(rows, gathered([self._sampled(first) for first in rows[::SAMPLED]]))
+
+    @property
+    def _block(self) -> int:
+        """How many variants are calculated at once: enough that calls cost little, few enough that forces stay near the processor."""
+        of_each = 2 * len(self.body.x) * self.cycle.share.shape[1]
+        return SAMPLED * min(max(1, VALUES // (of_each * SAMPLED)), MOST)
+
+    def _sampled(self, first: int) -> Instants:
+        """The loads of a block by its first variant: they are asked for twice, and cost more than what is made of them."""
+        if first not in self._loads:
+            rows = np.arange(first, min(first + SAMPLED, self.variants))
+            self._loads[first] = self.cycle.at(self.cycle.share[rows], self.cycle.middle[rows], rows)
+        return self._loads[first]
 
     @cached_property
     def _loads(self) -> dict[int, Instants]:
-        """The loads of the blocks, by their first variants: they are asked for twice, and cost more than what is made of them."""
         return {}
-
-    def of(self, rows: Array, share: Array, middle: Array) -> Statics:
-        """Return variants under their loads at shares of the cycle (rows, instants)."""
-        return self._under(rows, self.cycle.at(share, middle, rows))
 
     def _under(self, rows: Array, loads: Instants) -> Statics:
         body = self.body
@@ -105,8 +115,19 @@ class UnderLoad:
         )
         inner = np.broadcast_to(middle, x.shape)
         for own, variant, mid in zip(x, chosen, inner, strict=True):
+            yield self._alone(int(variant)), own[:, None], (mid > own).astype(int)
+
+    def _alone(self, variant: int) -> Statics:
+        """One of the variants; of the last one what was found is kept, since several curves are asked of it."""
+        if variant not in self._last:
             row = np.array([variant])
-            yield self.of(row, self.cycle.share[row], self.cycle.middle[row]), own[:, None], (mid > own).astype(int)
+            self._last.clear()
+            self._last[variant] = self._under(row, self.cycle.at(self.cycle.share[row], self.cycle.middle[row], row))
+        return self._last[variant]
+
+    @cached_property
+    def _last(self) -> dict[int, Statics]:
+        return {}
 
     # --- the state of each place --------------------------------------------------------------------------------------------
 

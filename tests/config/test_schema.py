@@ -102,8 +102,8 @@ def test_descriptions_tell_unit_range_and_default() -> None:
         keys["arm"]["description"]
         == "Arm. Unit: mm. Allowed: > 0 mm, ≤ 1000 mm. Plausible: 1 µm to 100 m. Default: 100 mm."
     )
-    plausible = "Plausible: 0.0001 rpm to 1000000 rpm"
-    told = f"Speed. Unit: rpm. Allowed: > 0 rpm. {plausible}. Default: from press.productivity."
+    plausible = "Plausible: 0.0001 r/min to 1000000 r/min"
+    told = f"Speed. Unit: r/min. Allowed: > 0 r/min. {plausible}. Default: from press.productivity."
     assert keys["speed"]["description"] == told
     told = "Teeth. Unit: none (a pure number). Allowed: ≥ 12. Plausible: 1e-06 to 1000000. Default: 20."
     assert keys["teeth"]["description"] == told

@@ -195,7 +195,7 @@ def test_a_derivative_is_printed_with_its_place_and_proof() -> None:
     )
     assert "Chebyshev series" in printed["method"] and float(printed["residual"]["text"]) < 1e-12
     latex, text = equation(printed)
-    assert text == "v = dy/dt = 1.500 rad/s at t = 0.250000 s"
+    assert text == "v = dy/dt = 1.5 rad/s at t = 0.25 s"
     assert r"\frac{\mathrm{d}y}{\mathrm{d}t}" in latex
 
 

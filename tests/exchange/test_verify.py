@@ -3,11 +3,15 @@
 from __future__ import annotations
 
 import json
+import platform
 from collections.abc import Callable
+from hashlib import sha256
 from pathlib import Path
 from typing import Any
 
+import numpy as np
 import pytest
+import scipy
 
 from diecut_report.exchange.agreement import agreement
 from tests.configs import SMALL, saved
@@ -65,6 +69,23 @@ TAMPERED: list[tuple[Callable[[Data], None], list[str]]] = [
     (set_plugin, ["✗ plugins", "clutch: version", "source 000000000000 then"]),
     (set_verdict, ["✗ numbers", "status: warn → pass", "1 other values differ"]),
 ]
+
+
+def test_another_version_of_a_library_is_told_and_no_fault(small_report: Path, tmp_path: Path, capfd: Capture) -> None:
+    def change(data: Data) -> None:
+        data["program"]["libraries"]["NumPy"] = "1.0"
+
+    assert run("verify", changed(small_report / "small.json", tmp_path / "a.json", change)) == 0
+    assert f"the same; NumPy 1.0 then, {np.__version__} now" in capfd.readouterr().out
+
+
+def test_a_report_tells_the_hashes_of_what_it_carries(small_report: Path) -> None:
+    page = (small_report / "small.html").read_text("utf-8")
+    results = (small_report / "small.json").read_bytes()
+    program = json.loads(results)["program"]
+    assert f'<td class="key">{sha256(results).hexdigest()}</td>' in page
+    assert f"Python {platform.python_version()}, NumPy {np.__version__}, SciPy {scipy.__version__}" in page
+    assert program["source_sha256"][:12] in page and program["libraries"]["SciPy"] == scipy.__version__
 
 
 @pytest.mark.parametrize(("change", "words"), TAMPERED, ids=[change.__name__ for change, _ in TAMPERED])

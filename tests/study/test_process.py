@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 import platform
 import subprocess
 import sys
@@ -45,3 +46,28 @@ print({pool["num_threads"] for pool in threadpool_info() if pool["user_api"] == 
 def test_linear_algebra_takes_one_thread() -> None:
     said = subprocess.run([sys.executable, "-c", THREADS], check=True, capture_output=True, text=True).stdout
     assert said == "{1}\n"
+
+
+STARTED = """
+import os, sys
+from diecut_report.__main__ import run
+sys.argv = ["diecut-report", "--version"]
+def told(code):
+    from threadpoolctl import threadpool_info
+    print(code, *(library["num_threads"] for library in threadpool_info() if library["user_api"] == "blas"))
+os._exit = told
+run()
+"""
+
+
+@pytest.mark.parametrize(("given", "expected"), [({}, "1"), ({"OPENBLAS_NUM_THREADS": "2"}, "2")])
+def test_the_program_takes_one_thread_for_products_unless_the_user_says_otherwise(
+    given: dict[str, str], expected: str
+) -> None:
+    around = {name: value for name, value in os.environ.items() if "_NUM_THREADS" not in name}
+    command = [sys.executable, "-c", STARTED]
+    done = subprocess.run(command, check=True, capture_output=True, text=True, env=around | given)
+    code, *threads = done.stdout.splitlines()[-1].split()
+    assert code == "0"
+    if os.cpu_count() != 1 and threads:
+        assert set(threads) == {expected}

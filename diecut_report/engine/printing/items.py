@@ -29,7 +29,7 @@ from diecut_report.contract.steps import (
 )
 from diecut_report.engine import listings
 from diecut_report.engine.calculation import Calculation, Unproven
-from diecut_report.engine.printing import named_parts, tables
+from diecut_report.engine.printing import methods, named_parts, tables
 from diecut_report.engine.printing.bridges import bridged, conversions
 from diecut_report.engine.printing.contradictions import contradicted
 from diecut_report.engine.printing.definitions import definitions
@@ -178,9 +178,7 @@ def _formula(calc: Calculation, part: Bound, step: Step, axis: str | None, elsew
     if defined := definitions(symbolic):
         item["where"] = defined
     if takes and numeric is None:
-        item["note"] = (
-            "the terms are equal up to the rounding of the computer, or so nearly that printed numbers do not show it"
-        )
+        item["note"] = methods.EQUAL_TERMS
     if isinstance(substitution, BetweenRows):
         item["note"] = joined(filter(None, (item.get("note"), substitution.told())), " ")
     return (

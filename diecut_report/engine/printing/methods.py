@@ -6,6 +6,7 @@ from diecut_report.contract.steps import CurvePeriod
 from diecut_report.engine.calculation import Calculation
 from diecut_report.languages.phrases import Phrase
 
+EQUAL_TERMS = "the terms are equal up to the rounding of the computer, or so nearly that printed numbers do not show it"
 METHODS = {
     "max": "bounded search on the curve within each smooth piece, one-sided limits at the breakpoints included",
     "mean": "Gauss–Legendre between the breakpoints, repeated with the doubled order",

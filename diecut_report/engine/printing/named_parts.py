@@ -50,5 +50,5 @@ def told(calc: Calculation, step: Step, axis: str) -> str:
     """Return which of repeated parts the numbers in a row's formula are of; nothing where there is but one."""
     names, part = calc.part_names.get(axis) or calc.inputs.get(step.named_by), shown_part(calc, step.id)
     if names:
-        return Phrase("Shown for: {name}.", name=names[part])
+        return Phrase("Shown for: {name}.", name=phrase(names[part]))
     return Phrase("Shown for part {part}.", part=part + 1) if calc[step.id].shape[1] > 1 else ""

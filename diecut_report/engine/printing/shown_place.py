@@ -13,6 +13,7 @@ from diecut_report.engine.calculation import Calculation
 from diecut_report.engine.printing.substitution import Elsewhere
 from diecut_report.engine.shown_units import declared_unit
 from diecut_report.expressions import Array, Node
+from diecut_report.languages.phrases import Phrase
 from diecut_report.quantities.formatting import shown, with_unit
 
 Item = dict[str, Any]
@@ -89,7 +90,8 @@ def located(calc: Calculation, axis: str, elsewhere: bool) -> Item:
     if not elsewhere:
         return {"at": place}
     told = f"{place['symbol']} = {with_unit(place['text'], place['unit'])}"
-    return {"at": place, "note": f"Taken at {told}, in the middle of its smooth piece; it is the same in all of it."}
+    words = "Taken at {place}, in the middle of its smooth piece; it is the same in all of it."
+    return {"at": place, "note": Phrase(words, place=told)}
 
 
 def marks(calc: Calculation, axis: str | None, elsewhere: bool) -> Elsewhere | None:

@@ -13,7 +13,7 @@ import numpy as np
 from scipy.optimize import elementwise
 
 from diecut_report.expressions import Array, formula
-from diecut_report.mechanics.timing.piece_rows import NODES, WEIGHTS
+from diecut_report.mechanics.timing.piece_rows import NODES, WEIGHTS, vertices
 
 TURN = 2 * np.pi
 AT = 1e-9  # rad from a dead centre that is none
@@ -101,17 +101,7 @@ def worst_slip(inertia: Inertia, dead_centers: Array, clutch: SlippingClutch) ->
         best = angles[machines, np.argmax(heats, axis=1)]
         if zoom < ZOOMS:
             angles, width = best[:, None] + width * ACROSS, width * (ACROSS[1] - ACROSS[0])
-    return slip(inertia, dead_centers, clutch, (best + width * _vertex(heats)) % TURN)
-
-
-def _vertex(heats: Array) -> Array:
-    """Where a parabola through the greatest of equally spaced values and its neighbours is highest, in their spacing from it."""
-    best = np.argmax(heats, axis=1)
-    inner = np.clip(best, 1, heats.shape[1] - 2)
-    before, here, after = (heats[np.arange(len(heats)), inner + step] for step in (-1, 0, 1))
-    bend = before - 2 * here + after
-    found = np.where((bend < 0) & (best == inner), (before - after) / (2 * np.where(bend < 0, bend, -1.0)), 0.0)
-    return np.clip(found, -0.5, 0.5)
+    return slip(inertia, dead_centers, clutch, (best + width * vertices(heats)) % TURN)
 
 
 def _slips(inertia: Inertia, dead_centers: Array, clutch: SlippingClutch, starts: Array) -> tuple[Array, Array]:

@@ -31,9 +31,7 @@ PROJECT = (
     ("revision", "revision"),
     ("date", "date"),
     ("organisation", "organisation"),
-    ("prepared", "prepared_by"),
-    ("checked", "checked_by"),
-    ("approved", "approved_by"),
+    ("department", "department"),
 )
 STATUSES = ("fail", "warn", "pass", "not_checked")
 DIGITS = 6  # of a curve's greatest value
@@ -42,7 +40,7 @@ SHARE = "0.0%"
 
 def sheets(material: Material) -> list[WorkSheet]:
     """Return all sheets of a report, whatever its detail; of the mechanisms that it shows."""
-    results, words = scope(material.results).results, material.words
+    results, words = scope(material.said).results, material.words
     whole = [_summary(material), _inputs(results, words), _results(results, words), _checks(results, words)]
     phases = _phases(results, words)
     curves = [_curves(name, data, words) for name, data in parts(results) if data.get("curves")]
@@ -53,6 +51,8 @@ def _summary(material: Material) -> WorkSheet:
     """What is calculated, the verdict, and how each mechanism fares."""
     document, words = material.document, material.words
     project = [(words[key], document.project[name]) for key, name in PROJECT if document.project[name]]
+    project += [(words["status"], document.block.status)]
+    project += [(words[role], who) for role, who in document.block.signers if who]
     governing = document.governing
     told = [
         (words["press"], document.press["name"]),
@@ -71,7 +71,9 @@ def _summary(material: Material) -> WorkSheet:
         [c.name, c.title, *(CellNumber(c.count(status), "0") for status in STATUSES), words[c.face]]
         for c in document.chapters
     ]
-    return WorkSheet(words["summary"], [[words["calculation"], document.title]], rows, [22, 70, 12, 12, 12, 14, 14])
+    return WorkSheet(
+        words["summary"], [[document.project["document_type"], document.title]], rows, [22, 70, 12, 12, 12, 14, 14]
+    )
 
 
 def _inputs(results: Data, words: Catalogue) -> WorkSheet:
@@ -157,7 +159,7 @@ def _checks(results: Data, words: Catalogue) -> WorkSheet:
         "class",
         "verdict",
         "demand",
-        "operator",
+        "",
         "limit",
         "unit",
         "utilisation",
@@ -168,7 +170,7 @@ def _checks(results: Data, words: Catalogue) -> WorkSheet:
     )
     rows = [_check(name, check, words) for name, data in parts(results) for check in data.get("checks", ())]
     widths = [16, 24, 44, 11, 12, 14, 4, 14, 11, 11, 14, 70, 30, 40]
-    return WorkSheet(words["checks"], [[words[head] for head in heads]], rows, widths, held=3)
+    return WorkSheet(words["checks"], [[words[head] if head else "" for head in heads]], rows, widths, held=3)
 
 
 def _check(name: str, check: Data, words: Catalogue) -> list[Cell]:

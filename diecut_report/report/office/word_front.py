@@ -24,33 +24,32 @@ from diecut_report.report.office.wordml import (
 )
 from diecut_report.report.scope import BRIEF, FULL
 from diecut_report.report.symbols import prose
+from diecut_report.report.title_block import REVISION
 
 STATUSES = ("fail", "warn", "pass", "not_checked")
 
 
+FACTS = (("document", "document_number"), ("revision", "revision"), ("date", "date"))
+
+
 def title_block(body: WordBody, document: ReportDocument) -> None:
-    """Whose calculation of what this is, who signs it, and its revisions."""
-    words, project = document.words, document.project
-    body.say(small(" · ".join(filter(None, (project["organisation"], words["calculation"])))))
-    body.say(run(document.title), "Title")
-    body.say(run(f"{words['press']} {document.press['name']}"))
-    facts = [
-        (words[name], project[key])
-        for name, key in (("document", "document_number"), ("revision", "revision"), ("date", "date"))
-    ]
-    body.table(
-        [TableColumn("", 1)] * 3, [[small(name) + new_line() + bold(text or "–") for name, text in facts]], headed=False
+    """Whose calculation of what this is, its status, who signs it, and its revisions."""
+    words, project, block = document.words, document.project, document.block
+    body.say(
+        small(" · ".join(filter(None, (project["organisation"], project["department"], project["document_type"]))))
     )
-    roles = [(words[role], project[f"{role}_by"]) for role in ("prepared", "checked", "approved")]
+    body.say(run(document.title), "Title")
+    body.say(bold(words["across"]) if block.is_held else "")
+    body.say(run(f"{words['press']} {document.press['name']}"))
+    facts = [*((words[name], project[of]) for name, of in FACTS), (words["status"], block.status)]
+    cells = [small(name) + new_line() + bold(text or "–") for name, text in facts]
+    body.table([TableColumn("", 1)] * len(facts), [cells], headed=False)
     columns = [body.head(word, share) for word, share in (("release", 2), ("name", 3), ("date", 2), ("signature", 3))]
-    body.table(columns, [[run(role), run(who), "", ""] for role, who in roles])
+    body.table(columns, [[run(words[role]), run(who), "", ""] for role, who in block.signers])
     columns = [
         body.head(word, share) for word, share in (("revision", 1.5), ("date", 2), ("description", 5), ("by", 2.5))
     ]
-    body.table(
-        columns,
-        [[run(row[name]) for name in ("revision", "date", "description", "by")] for row in project["revisions"]],
-    )
+    body.table(columns, [[run(row[name]) for name in REVISION] for row in project["revisions"]])
 
 
 def contents(body: WordBody, document: ReportDocument) -> None:

@@ -1,0 +1,62 @@
+"""The command that signs a report. A password comes from a prompt or from the environment, never from the command line."""
+
+from __future__ import annotations
+
+import os
+import sys
+from pathlib import Path
+
+import click
+
+from diecut_report.cli.output import PASSED, HelpfulCommand, common, tell
+from diecut_report.errors import Problem, UserError
+
+PASSWORD = "DIECUT_REPORT_KEY_PASSWORD"  # the name of a variable of the environment
+path_of = click.Path(path_type=Path)
+
+
+@click.command(cls=HelpfulCommand)
+@click.argument("report", metavar="REPORT.pdf", type=path_of)
+@click.option(
+    "--key", required=True, metavar="FILE", type=path_of, help="Your private key: PKCS #12 (.p12, .pfx) or PEM."
+)
+@click.option("--cert", metavar="FILE", type=path_of, help="Its certificate (PEM), where it is not in the same file.")
+@click.option(
+    "--field", metavar="NAME", help="prepared, checked, norm_checked or approved; needed where several are free."
+)
+@click.option("--reason", metavar="TEXT", help="Why you sign, as the signature tells it.")
+@click.option("-o", "target", metavar="FILE", type=path_of, help="Write to another file (default: REPORT.pdf itself).")
+@common
+def sign(
+    report: Path, key: Path, cert: Path | None, field: str | None, reason: str | None, target: Path | None,
+    folders: tuple[Path, ...], quiet: bool,
+) -> int:  # fmt: skip
+    """Sign a report in one of its fields. What is there stays as it is, byte for byte, so that others can sign it too.
+
+    The key's password is asked for, or taken from the variable DIECUT_REPORT_KEY_PASSWORD.
+    """
+    from diecut_report.exchange.signing import Signing
+    from diecut_report.exchange.signing import sign as signed
+    from diecut_report.exchange.signing_keys import signing_key
+
+    out = target or report
+    for given in filter(None, (key, cert)):
+        if out.exists() and given.exists() and out.samefile(given):
+            words = "This is the key or its certificate; it would be written over. Choose another file with -o."
+            raise UserError(Problem(words, str(out)))
+    found = signing_key(key, cert, _password)
+    signed(Signing(report, out, field, reason), found, lambda words: None if quiet else tell([f"{out}: {words}"]))
+    return PASSED
+
+
+def _password() -> bytes:
+    given = os.environ.get(PASSWORD)
+    if given is not None:
+        return given.encode()
+    if not sys.stdin or not sys.stdin.isatty():
+        words = (
+            f"The key has a password. Set the variable {PASSWORD}, or run the command on a terminal, which asks for it."
+        )
+        raise UserError(Problem(words))
+    asked: str = click.prompt("Password of the key", hide_input=True, err=True)
+    return asked.encode()

@@ -1,0 +1,129 @@
+"""Signs a report: adds a signature into one of its fields, and changes none of the bytes that are there."""
+
+from __future__ import annotations
+
+import io
+from collections.abc import Callable
+from dataclasses import dataclass
+from datetime import UTC, datetime
+from pathlib import Path
+from typing import Any
+
+from asn1crypto import keys, x509
+from cryptography.hazmat.primitives import serialization
+from pyhanko.keys.internal import translate_pyca_cryptography_cert_to_asn1
+from pyhanko.pdf_utils.content import RawContent
+from pyhanko.pdf_utils.incremental_writer import IncrementalPdfFileWriter
+from pyhanko.pdf_utils.layout import AxisAlignment, BoxConstraints, Margins, SimpleBoxLayoutRule
+from pyhanko.pdf_utils.misc import PdfError
+from pyhanko.sign.fields import SigSeedSubFilter, enumerate_sig_fields
+from pyhanko.sign.general import SigningError
+from pyhanko.sign.signers import PdfSignatureMetadata, PdfSigner, SimpleSigner
+from pyhanko.stamp import StaticStampStyle
+from pyhanko_certvalidator.registry import SimpleCertificateStore
+
+from diecut_report.errors import Problem, UserError, nearest
+from diecut_report.exchange.carried_results import MOST, form_of
+from diecut_report.exchange.signing_keys import SigningKey
+from diecut_report.files import write_all
+from diecut_report.given_files import content
+from diecut_report.report.letters import LINE, MILLIMETRE, drawn, fitted
+
+SMALLEST, LARGEST = 2.5, 8.0  # points of the letters in a field
+PAD = 1.0  # points between a field's edge and its letters
+LIFTED = 0.3  # of a line: its baseline above its lower edge
+NONE_FREE = (
+    "This PDF has no free field for a signature: an earlier version or another program made it, or all have signed it."
+)
+
+
+@dataclass(frozen=True)
+class Signing:
+    """What is signed and how: the field (None where only one is free), a reason, and the file to write."""
+
+    report: Path
+    target: Path
+    field: str | None = None
+    reason: str | None = None
+
+
+class Additions(IncrementalPdfFileWriter):
+    """Adds to a PDF, and leaves its metadata as they are: they say what PDF/A it is, which the library would write otherwise."""
+
+    def _update_meta(self) -> None:
+        """Write no metadata."""
+
+
+def sign(asked: Signing, key: SigningKey, tell: Callable[[str], None]) -> None:
+    """Write a report with a signature; UserError in words where it cannot be signed, and then nothing is written."""
+    whole = content(asked.report, MOST, "a report as PDF")
+    if form_of(whole) != "pdf":
+        words = "This is not a PDF. Give a report that `diecut-report report` wrote as PDF; other formats hold no signatures."
+        raise UserError(Problem(words, str(asked.report)))
+    try:
+        signed, field = _signed(whole, asked, key)
+    except (
+        PdfError,
+        SigningError,
+        ValueError,
+        KeyError,
+        TypeError,
+        AttributeError,
+        IndexError,
+        RecursionError,
+    ) as error:
+        words = f"The PDF cannot be signed: {error}. Give the file as the program wrote it."
+        raise UserError(Problem(words, str(asked.report))) from error
+    write_all({asked.target: signed}, keep=key.file)
+    tell(f"signed by {key.name} in the field {field}")
+
+
+def _signed(whole: bytes, asked: Signing, key: SigningKey) -> tuple[bytes, str]:
+    writer = Additions(io.BytesIO(whole))
+    free = {name: widget.get_object() for name, _, widget in enumerate_sig_fields(writer.prev, filled_status=False)}
+    field = _chosen(list(free), asked)
+    now = datetime.now(UTC)
+    x1, y1, x2, y2 = (float(each) for each in free[field]["/Rect"])
+    told = f"{key.name}, {now:%Y-%m-%d %H:%M} UTC" + (f", {asked.reason}" if asked.reason else "")
+    form = PdfSignatureMetadata(
+        field_name=field, md_algorithm="sha256", name=key.name, reason=asked.reason, subfilter=SigSeedSubFilter.PADES
+    )
+    signer = PdfSigner(form, _signer(key), stamp_style=_appearance(told, abs(x2 - x1), abs(y2 - y1)))
+    made: Any = signer.sign_pdf(writer, existing_fields_only=True)
+    return made.getvalue(), field
+
+
+def _chosen(free: list[str], asked: Signing) -> str:
+    file = str(asked.report)
+    if not free:
+        raise UserError(Problem(NONE_FREE, file))
+    if asked.field is None and len(free) > 1:
+        raise UserError(Problem(f"Several fields are free; name one with --field: {', '.join(free)}.", file))
+    if asked.field is not None and asked.field not in free:
+        words = f"There is no free field {asked.field!r}{nearest(asked.field, free)}; free are: {', '.join(free)}."
+        raise UserError(Problem(words, file))
+    return asked.field or free[0]
+
+
+def _signer(key: SigningKey) -> SimpleSigner:
+    secret = key.private.private_bytes(
+        serialization.Encoding.DER, serialization.PrivateFormat.PKCS8, serialization.NoEncryption()
+    )
+    chain: Any = SimpleCertificateStore()  # type: ignore[no-untyped-call]
+    chain.register_multiple(translate_pyca_cryptography_cert_to_asn1(each) for each in key.others)
+    own: x509.Certificate = translate_pyca_cryptography_cert_to_asn1(key.certificate)
+    return SimpleSigner(signing_cert=own, signing_key=keys.PrivateKeyInfo.load(secret), cert_registry=chain)
+
+
+def _appearance(text: str, width: float, height: float) -> StaticStampStyle:
+    """The text in the field, as outlines: no font is needed that the document has not embedded."""
+    room = width - 2 * PAD, height - 2 * PAD
+    lines, size = fitted(text, room[0] / MILLIMETRE, room[1] / MILLIMETRE, LARGEST, SMALLEST)
+    top = (height + len(lines) * size * LINE) / 2
+    drawing = [
+        f"q {size:.3f} 0 0 {size:.3f} {PAD:.3f} {top - (number + 1 - LIFTED) * size * LINE:.3f} cm {drawn(line)} Q"
+        for number, line in enumerate(lines)
+    ]
+    layout = SimpleBoxLayoutRule(AxisAlignment.ALIGN_MIN, AxisAlignment.ALIGN_MIN, Margins(0, 0, 0, 0))
+    picture = RawContent("\n".join(drawing).encode(), box=BoxConstraints(width=width, height=height))
+    return StaticStampStyle(border_width=0, background=picture, background_layout=layout)

@@ -1,0 +1,98 @@
+"""Reads the key that a report is signed with: PKCS #12, or PEM beside its certificate; its password is asked for where it has one."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from datetime import UTC, datetime
+from pathlib import Path
+from typing import Any, NoReturn
+
+from cryptography import x509
+from cryptography.hazmat.primitives import serialization
+from cryptography.hazmat.primitives.serialization import pkcs12
+from cryptography.x509.oid import NameOID
+
+from diecut_report.errors import Problem, UserError
+from diecut_report.given_files import content
+
+MOST = 1_000_000  # bytes of a key or of certificates
+PEM = b"-----BEGIN"
+WRONG = "The key cannot be opened: the password is wrong, or the file is damaged or not a key (PKCS #12, PEM)."
+Ask = Callable[[], bytes]
+"""Gives the password; UserError where nobody can be asked for it."""
+
+
+@dataclass(frozen=True)
+class SigningKey:
+    """A private key, its certificate, and the certificates that lead from it to one that is trusted."""
+
+    file: Path
+    private: Any
+    certificate: x509.Certificate
+    others: tuple[x509.Certificate, ...] = ()
+
+    @property
+    def name(self) -> str:
+        """Whose certificate it is."""
+        found = self.certificate.subject.get_attributes_for_oid(NameOID.COMMON_NAME)
+        return str(found[0].value) if found else self.certificate.subject.rfc4514_string()
+
+
+def signing_key(key: Path, certificates: Path | None, ask: Ask) -> SigningKey:
+    """Return the key in a file with its certificate, which may stand in another one; UserError in words where they do not serve."""
+    whole = content(key, MOST, "a key (PKCS #12 or PEM)")
+    private, found = _pem(whole, key, ask) if PEM in whole else _pkcs12(whole, key, ask)
+    if certificates is not None:
+        found = certificates_in(content(certificates, MOST, "a certificate (PEM)"), certificates) + found
+    if not found:
+        _refuse(key, "The file holds no certificate. Give that of the key with --cert.")
+    own = [each for each in found if each.public_key() == private.public_key()]
+    if not own:
+        _refuse(
+            certificates or key,
+            "This is not the certificate of the key: it belongs to another one. Give that of the key with --cert.",
+        )
+    now, last = datetime.now(UTC), own[0].not_valid_after_utc
+    if not own[0].not_valid_before_utc <= now <= last:
+        _refuse(
+            certificates or key,
+            f"The certificate is not valid now: from {own[0].not_valid_before_utc:%Y-%m-%d} to {last:%Y-%m-%d}.",
+        )
+    return SigningKey(key, private, own[0], tuple(each for each in found if each != own[0]))
+
+
+def _pkcs12(whole: bytes, file: Path, ask: Ask) -> tuple[Any, list[x509.Certificate]]:
+    try:
+        private, own, others = pkcs12.load_key_and_certificates(whole, None)
+    except ValueError:  # it has a password, or is none
+        try:
+            private, own, others = pkcs12.load_key_and_certificates(whole, ask())
+        except ValueError:
+            _refuse(file, WRONG)
+    if private is None:
+        _refuse(file, "The file holds no private key.")
+    return private, [*([own] if own else []), *others]
+
+
+def _pem(whole: bytes, file: Path, ask: Ask) -> tuple[Any, list[x509.Certificate]]:
+    try:
+        try:
+            private: Any = serialization.load_pem_private_key(whole, None)
+        except TypeError:  # it has a password
+            private = serialization.load_pem_private_key(whole, ask())
+    except (ValueError, TypeError):
+        _refuse(file, WRONG)
+    return private, certificates_in(whole, file) if b"BEGIN CERTIFICATE" in whole else []
+
+
+def certificates_in(whole: bytes, file: Path) -> list[x509.Certificate]:
+    """Return the certificates that a file holds as PEM, or the one that it is; UserError where there is none."""
+    try:
+        return x509.load_pem_x509_certificates(whole) if PEM in whole else [x509.load_der_x509_certificate(whole)]
+    except ValueError:
+        _refuse(file, "This is not a certificate that can be read. Give one as PEM.")
+
+
+def _refuse(file: Path, words: str) -> NoReturn:
+    raise UserError(Problem(words, str(file))) from None

@@ -1,0 +1,209 @@
+"""A firm's own templates over the report's: blocks that they override, a style sheet, pictures. They are data of strangers.
+
+They are filled in a sandbox: they see the report's content, change nothing of it, call no Python of their own, and read no file.
+"""
+
+from __future__ import annotations
+
+import re
+import traceback
+from collections.abc import Callable, Iterator, Mapping
+from contextlib import contextmanager
+from dataclasses import dataclass, field
+from hashlib import sha256
+from html.parser import HTMLParser
+from pathlib import Path
+from typing import Any
+
+from jinja2 import (
+    BaseLoader,
+    Environment,
+    FileSystemLoader,
+    StrictUndefined,
+    TemplateNotFound,
+    TemplateSyntaxError,
+    nodes,
+)
+from jinja2.sandbox import ImmutableSandboxedEnvironment
+
+from diecut_report.errors import Problem, UserError, nearest
+
+OWN = "program/"  # before the name of a template: the program's, whatever the firm has
+ENDING, CSS = ".html.j2", "house.css"
+MAIN = "report.html.j2"
+FETCHING = ("src", "srcset", "data", "poster", "background", "xlink:href")
+WITH_HREF = ("link", "image", "use", "base")
+_FETCHED_BY_CSS = re.compile(r"@import|url\(\s*(?!['\"]?(?:data:|#))[^)]{0,60}", re.IGNORECASE)
+OPTIONS: dict[str, Any] = {"autoescape": True, "undefined": StrictUndefined, "trim_blocks": True, "lstrip_blocks": True}
+
+Filters = Mapping[str, Callable[..., Any]]
+
+
+@dataclass(frozen=True)
+class HouseStyle:
+    """What a folder of a firm's templates holds: texts by the names of their files, pictures as data addresses."""
+
+    folder: str
+    templates: Mapping[str, str] = field(default_factory=dict)
+    css: str = ""
+    pictures: Mapping[str, str] = field(default_factory=dict)
+
+    @property
+    def sha256(self) -> str:
+        """The hash of all that it holds."""
+        told = [sorted(self.templates.items()), self.css, sorted(self.pictures.items())]
+        return sha256(repr(told).encode("utf-8", "surrogatepass")).hexdigest()
+
+    def environment(self, programs: Path, filters: Filters) -> Environment:
+        """Return what fills templates: the firm's before the program's."""
+        environment = ImmutableSandboxedEnvironment(loader=_HouseLoader(self, programs), **OPTIONS)
+        environment.filters.update(filters)
+        environment.globals["picture"] = self._picture
+        return environment
+
+    def _picture(self, name: str) -> str:
+        if name not in self.pictures:
+            raise ValueError(f"{name!r} is not a picture of the folder{nearest(name, self.pictures)}")
+        return self.pictures[name]
+
+    def path(self, name: str) -> str:
+        """The file of a template."""
+        return str(Path(self.folder) / name)
+
+
+class _HouseLoader(BaseLoader):
+    """Finds a template in the firm's folder, else in the program's; ``program/NAME`` is always the program's."""
+
+    def __init__(self, house: HouseStyle, programs: Path) -> None:
+        self.house, self.programs = house, FileSystemLoader(programs)
+
+    def get_source(self, environment: Environment, template: str) -> tuple[str, str | None, Callable[[], bool] | None]:
+        """Return a template's text and its file."""
+        if template in self.house.templates:
+            return self.house.templates[template], self.house.path(template), lambda: True
+        return self.programs.get_source(environment, template.removeprefix(OWN))
+
+
+def problems(house: HouseStyle, programs: Path) -> list[Problem]:
+    """Return what is wrong with a firm's templates before any is filled: their syntax, names that nothing asks for, what would be fetched."""
+    known = sorted(path.name for path in programs.glob(f"*{ENDING}"))
+    environment = Environment(loader=FileSystemLoader(programs), **OPTIONS)
+    found = [
+        problem for name, text in house.templates.items() for problem in _judged(house, name, text, known, environment)
+    ]
+    return found + [
+        Problem(f"{what} would be fetched; a report fetches nothing. Put pictures into the folder, and write them as data: addresses.",
+                house.path(CSS), line)
+        for what, line in _fetched(house.css)
+    ]  # fmt: skip
+
+
+def _judged(house: HouseStyle, name: str, text: str, known: list[str], environment: Environment) -> Iterator[Problem]:
+    if name not in known and not name.startswith("_"):
+        words = f"{name!r} is not a template of the program{nearest(name, known)}, so nothing asks for it. Your own begin with _."
+        yield Problem(words, house.path(name))
+    try:
+        tree = environment.parse(text)
+    except TemplateSyntaxError as error:
+        yield Problem(f"{error.message}.", house.path(name), error.lineno)
+        return
+    extended = [each.template.value for each in tree.find_all(nodes.Extends) if isinstance(each.template, nodes.Const)]
+    for asked in extended:
+        if str(asked).removeprefix(OWN) not in known:
+            yield Problem(
+                f"{asked!r} is not a template of the program{nearest(str(asked).removeprefix(OWN), known)}.",
+                house.path(name),
+            )
+        elif not str(asked).startswith(OWN) and asked == name:
+            yield Problem(f'A template cannot extend itself. Write {{% extends "{OWN}{name}" %}}.', house.path(name), 1)
+        else:
+            yield from _unknown_blocks(house, name, tree, blocks(str(asked).removeprefix(OWN), environment))
+
+
+def _unknown_blocks(house: HouseStyle, name: str, tree: nodes.Template, known: list[str]) -> Iterator[Problem]:
+    for block in tree.find_all(nodes.Block):
+        if block.name not in known:
+            words = f"{block.name!r} is not a block of the template{nearest(block.name, known)}; its blocks: {', '.join(known)}."
+            yield Problem(words, house.path(name), block.lineno)
+
+
+def blocks(name: str, environment: Environment) -> list[str]:
+    """Return the blocks of a template of the program, in their order."""
+    assert environment.loader is not None
+    source, _, _ = environment.loader.get_source(environment, name)
+    return [block.name for block in environment.parse(source).find_all(nodes.Block)]
+
+
+def _fetched(css: str) -> Iterator[tuple[str, int]]:
+    for found in _FETCHED_BY_CSS.finditer(css):
+        yield found[0], css.count("\n", 0, found.start()) + 1
+
+
+@contextmanager
+def in_words(house: HouseStyle | None) -> Iterator[None]:
+    """What goes wrong while a firm's template is filled is told with its file and line; what goes wrong elsewhere is raised as it is."""
+    try:
+        yield
+    except UserError:
+        raise
+    except Exception as cause:  # of any kind: a template may call, divide, index whatever it likes
+        files = {house.path(name) for name in house.templates} if house else set()
+        places = [frame for frame in traceback.extract_tb(cause.__traceback__) if frame.filename in files]
+        if not places:
+            raise
+        said = f"{cause}"
+        if isinstance(cause, TemplateNotFound):
+            said = f"{cause.name!r} is not a template of the folder or the program"
+        words = f"The template cannot be filled: {said.rstrip('.') or type(cause).__name__}."
+        raise UserError(Problem(words, places[-1].filename, places[-1].lineno)) from cause
+
+
+def refuse_fetching(page: str, house: HouseStyle, policy: str) -> None:
+    """Refuse a page for which something would be fetched, or that lost what forbids a browser to do so.
+
+    ``policy`` is how that begins; a page that is only printed has none.
+    """
+    reader = _Fetched()
+    reader.feed(page)
+    advice = 'a report fetches nothing. Put pictures into the folder and write {{ picture("NAME") }}.'
+    found = [Problem(f"{each} would be fetched; {advice}", house.folder) for each in reader.found]
+    if policy and (len(reader.policies) != 1 or not reader.policies[0].startswith(policy)):
+        words = f"The page has lost its Content-Security-Policy. Override blocks of {MAIN}, not the whole of it, or keep its head."
+        found.append(Problem(words, house.folder))
+    if found:
+        raise UserError(found)
+
+
+class _Fetched(HTMLParser):
+    """Gathers what a page would fetch, and its policies."""
+
+    def __init__(self) -> None:
+        super().__init__()
+        self.found: list[str] = []
+        self.policies: list[str] = []
+        self._style = False
+
+    def handle_starttag(self, tag: str, attrs: list[tuple[str, str | None]]) -> None:
+        """Look at an element."""
+        given = {name: value or "" for name, value in attrs}
+        if tag == "meta" and given.get("http-equiv", "").lower() == "content-security-policy":
+            self.policies.append(given.get("content", ""))
+        elif tag == "meta" and given.get("http-equiv", "").lower() == "refresh":
+            self.found.append("<meta http-equiv=refresh>")
+        self._style = tag == "style"
+        named = (*FETCHING, *(("href",) if tag in WITH_HREF else ()))
+        addresses = [given[name] for name in named if name in given]
+        self.found += [f"<{tag}> {each[:80]}" for each in addresses if each and not each.startswith(("data:", "#"))]
+        self._judge_css(given.get("style", ""))
+
+    def handle_data(self, data: str) -> None:
+        """Look at a style sheet in the page."""
+        if self._style:
+            self._judge_css(data)
+
+    def handle_endtag(self, tag: str) -> None:
+        """A style sheet ends."""
+        self._style = False
+
+    def _judge_css(self, css: str) -> None:
+        self.found += [what for what, _ in _fetched(css)]

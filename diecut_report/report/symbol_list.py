@@ -1,0 +1,72 @@
+"""The list of a chapter's symbols: each letter of its formulas with its meaning and unit, and what a source writes for it."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from typing import Any, NamedTuple
+
+from markupsafe import Markup
+
+from diecut_report.quantities.units import pretty
+from diecut_report.report.symbols import symbol
+
+Data = Mapping[str, Any]
+GROUPS = ("inputs", "curves", "outputs", "values")
+TREES = ("equation", "relation", "condition")
+
+
+class SymbolRow(NamedTuple):
+    """A symbol with its meaning, its unit, and the letter of the source where that is another one."""
+
+    symbol: Markup
+    meaning: str
+    unit: str
+    in_source: Markup
+
+
+def symbol_rows(mechanism: Data) -> list[SymbolRow]:
+    """The symbols that stand in a chapter's formulas, in the order of the alphabet, Latin letters first."""
+    used = set(_used(mechanism["sections"]))
+    known: dict[str, Data] = {}
+    for group in GROUPS:
+        for row in mechanism[group].values():
+            if row["symbol"] in used:
+                known.setdefault(row["symbol"], row)
+    return [_row(known[name]) for name in sorted(known, key=_order)]
+
+
+def _row(row: Data) -> SymbolRow:
+    unit = row["display_unit"] if "display_unit" in row else row["display"]["unit"]
+    in_source = row.get("source_symbol", "")
+    return SymbolRow(
+        symbol(row["symbol"]),
+        row["description"].partition(";")[0],
+        pretty(unit),
+        symbol(in_source) if in_source else Markup(""),
+    )
+
+
+def _order(name: str) -> tuple[bool, str, str]:
+    letter = name.lstrip("|[0123456789")
+    return not letter[:1].isascii(), letter.casefold(), letter
+
+
+def _used(sections: list[Data]) -> Iterator[str]:
+    """The symbols of results and of formulas."""
+    for section in sections:
+        for item in section["items"]:
+            if item.get("symbol"):
+                yield item["symbol"]
+            for tree in (item.get(key) for key in TREES):
+                yield from _leaves(tree)
+            for each in item.get("where", ()):
+                yield from _leaves(each["as"])
+
+
+def _leaves(tree: Any) -> Iterator[str]:
+    if isinstance(tree, list):
+        if len(tree) == 2 and tree[0] == "sym":
+            yield tree[1]
+        else:
+            for part in tree:
+                yield from _leaves(part)

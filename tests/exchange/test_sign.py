@@ -1,0 +1,344 @@
+"""A report is signed in its fields, one signer after the other, and whatever is changed afterwards shows."""
+
+from __future__ import annotations
+
+import io
+import os
+import subprocess
+import sys
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass
+from datetime import UTC, datetime, timedelta
+from pathlib import Path
+from random import Random
+from typing import Any
+
+import pikepdf
+import pytest
+from cryptography import x509
+from cryptography.hazmat.primitives import hashes, serialization
+from cryptography.hazmat.primitives.asymmetric import ec
+from cryptography.hazmat.primitives.serialization import pkcs12
+from cryptography.x509.oid import NameOID
+from page import validate_pdf
+from pyhanko.pdf_utils.generic import DictionaryObject, NameObject, NumberObject
+
+from diecut_report.exchange.signatures import signatures
+from diecut_report.exchange.signing import Additions
+from tests.exchange.reports import run, saved_pdf
+
+Capture = pytest.CaptureFixture[str]
+Patch = pytest.MonkeyPatch
+PASSWORD = "right"
+VARIABLE = "DIECUT_REPORT_KEY_PASSWORD"
+PEM = serialization.Encoding.PEM
+
+
+@dataclass
+class Signer:
+    """Somebody with a key and a certificate that he made himself."""
+
+    private: ec.EllipticCurvePrivateKey
+    certificate: x509.Certificate
+
+    def p12(self, path: Path, password: str | None = PASSWORD) -> Path:
+        hidden = serialization.BestAvailableEncryption(password.encode()) if password else serialization.NoEncryption()
+        path.write_bytes(pkcs12.serialize_key_and_certificates(b"key", self.private, self.certificate, None, hidden))
+        return path
+
+    def pem(self, path: Path, password: str | None = None) -> Path:
+        hidden = serialization.BestAvailableEncryption(password.encode()) if password else serialization.NoEncryption()
+        path.write_bytes(self.private.private_bytes(PEM, serialization.PrivateFormat.PKCS8, hidden))
+        return path
+
+    def cert(self, path: Path) -> Path:
+        path.write_bytes(self.certificate.public_bytes(PEM))
+        return path
+
+
+def signer(name: str, days: int = 9) -> Signer:
+    private = ec.generate_private_key(ec.SECP256R1())
+    named = x509.Name([x509.NameAttribute(NameOID.COMMON_NAME, name)])
+    made = x509.CertificateBuilder().subject_name(named).issuer_name(named).public_key(private.public_key())
+    made = made.serial_number(x509.random_serial_number()).not_valid_before(datetime.now(UTC) - timedelta(20))
+    return Signer(private, made.not_valid_after(datetime.now(UTC) + timedelta(days)).sign(private, hashes.SHA256()))
+
+
+@pytest.fixture(scope="module")
+def engineer() -> Signer:
+    return signer("Головний інженер")
+
+
+@pytest.fixture
+def key(engineer: Signer, tmp_path: Path, monkeypatch: Patch) -> Path:
+    """The engineer's key, with its password in the environment."""
+    monkeypatch.setenv(VARIABLE, PASSWORD)
+    return engineer.p12(tmp_path / "key.p12")
+
+
+@pytest.fixture
+def pdf(small_report: Path, tmp_path: Path) -> Path:
+    """A copy of a small report."""
+    path = tmp_path / "small.pdf"
+    path.write_bytes((small_report / "small.pdf").read_bytes())
+    return path
+
+
+@pytest.fixture
+def signed(pdf: Path, key: Path) -> Path:
+    """The report, signed by the one who approves it."""
+    assert run("sign", pdf, "--key", key, "--field", "approved", "--quiet") == 0
+    return pdf
+
+
+def test_one_signs_after_the_other_and_the_report_agrees_in_everything(
+    small_report: Path, pdf: Path, key: Path, tmp_path: Path, capfd: Capture
+) -> None:
+    out = tmp_path / "out" / "signed.pdf"
+    assert run("sign", pdf, "--key", key, "--field", "checked", "--reason", "Checked by hand", "-o", out) == 0
+    assert "signed by Головний інженер in the field checked" in capfd.readouterr().err
+    once = out.read_bytes()
+    assert once.startswith(pdf.read_bytes()) and pdf.read_bytes() == (small_report / "small.pdf").read_bytes()
+    assert validate_pdf(out, profile="3a").is_compliant and validate_pdf(out, profile="ua1").is_compliant
+    assert run("sign", out, "--key", key, "--field", "approved", "--quiet") == 0
+    assert out.read_bytes().startswith(once)
+    assert run("verify", out) == 0
+    told = capfd.readouterr().out
+    assert "✓ pages          byte for byte what the program makes of these results, and after it the signatures" in told
+    assert (
+        "✓ signature      checked: Головний інженер, " in told
+        and "Checked by hand, since then others have signed" in told
+    )
+    assert "✓ signature      approved: Головний інженер, " in told and "nothing changed since; certificate" in told
+    assert run("extract", out, "-o", tmp_path / "back", "--quiet") == 0
+    assert (tmp_path / "back" / "signed.json").read_bytes() == (small_report / "small.json").read_bytes()
+
+
+def test_a_signature_shows_in_its_field(signed: Path) -> None:
+    with pikepdf.open(signed) as opened:
+        [field] = [each for each in opened.pages[0].Annots if each.get("/T") == "approved"]
+        assert b" c" in field.AP.N.read_bytes() or b"Do" in field.AP.N.read_bytes()
+        assert str(field.V.Name) == "Головний інженер"
+
+
+def test_a_report_that_nobody_signed_says_so(pdf: Path, capfd: Capture) -> None:
+    assert run("verify", pdf, "--numbers") == 0
+    assert "✓ signature      none: the report is not signed" in capfd.readouterr().out
+
+
+def test_a_byte_that_is_changed_after_signing_is_told(signed: Path, capfd: Capture) -> None:
+    whole = signed.read_bytes()
+    assert whole.count(b'x-default">Test<') == 1
+    signed.write_bytes(whole.replace(b'x-default">Test<', b'x-default">Text<'))
+    assert run("verify", signed, "--numbers") == 1
+    assert "✗ signature      approved: Головний інженер, " in (told := capfd.readouterr().out)
+    assert "what was signed has been changed since" in told and "Not everything agrees." in told
+
+
+def later(path: Path, change: Callable[[Any], Any]) -> bytes:
+    """A signed PDF with a later version of an object of it, as a program adds that."""
+    writer = Additions(io.BytesIO(path.read_bytes()))
+    writer.update_container(change(writer.root))
+    made = io.BytesIO()
+    writer.write(made)
+    return made.getvalue()
+
+
+def turned(root: Any) -> Any:
+    sheet = root["/Pages"]["/Kids"][0]
+    sheet["/Rotate"] = NumberObject(90)
+    return sheet
+
+
+def without_sheet(root: Any) -> Any:
+    root["/Pages"]["/Kids"].pop()
+    return root["/Pages"]
+
+
+def with_other_results(root: Any) -> Any:
+    file = root["/Names"]["/EmbeddedFiles"]["/Names"][3]["/EF"]["/F"]
+    file._data, file._encoded_data = b"{}", None
+    return file
+
+
+def moved_field(root: Any) -> Any:
+    field = root["/AcroForm"]["/Fields"][0]
+    field["/Rect"][0] = NumberObject(0)
+    return field
+
+
+def filled_field(root: Any) -> Any:
+    field = root["/AcroForm"]["/Fields"][0]
+    field["/V"] = DictionaryObject({NameObject("/Type"): NameObject("/Sig")})
+    return field
+
+
+def with_action(root: Any) -> Any:
+    root["/OpenAction"] = DictionaryObject({NameObject("/S"): NameObject("/JavaScript")})
+    return root
+
+
+def test_an_object_that_is_written_again_as_it_was_is_no_change(signed: Path) -> None:
+    found = signatures(later(signed, lambda root: root["/Pages"]["/Kids"][0]))
+    assert found[0].holds and "added to the file after the last signature" in found[1].words
+
+
+@pytest.mark.parametrize("change", [turned, without_sheet, with_other_results, moved_field, filled_field, with_action])
+def test_an_object_that_is_changed_after_signing_is_told(signed: Path, change: Callable[[Any], Any]) -> None:
+    found = next(iter(signatures(later(signed, change))))
+    assert not found.holds and "the document has been changed since" in found.words
+
+
+def test_what_is_added_behind_the_signature_is_told(signed: Path) -> None:
+    found = signatures(signed.read_bytes() + b"% more")
+    assert [each.holds for each in found] == [True, False]
+    assert "added to the file after the last signature" in found[-1].words
+
+
+def test_a_file_that_ends_twice_does_not_hold(signed: Path) -> None:
+    assert not all(each.holds for each in signatures(signed.read_bytes() + b"\n%%EOF\n"))
+
+
+def damaged(whole: bytes) -> Iterator[bytes]:
+    """The file with letters changed in what signing has added: hardest where it tells of objects and of the certificate."""
+    start, chance = whole.rindex(b"%%EOF", 0, len(whole) - 10), Random(7)
+    for _ in range(25):
+        place = chance.randrange(start, len(whole))
+        yield whole[:place] + bytes(chance.randrange(256) for _ in range(3)) + whole[place + 3 :]
+    yield whole[:-100]
+    yield b"%PDF-1.7 /ByteRange"
+
+
+def test_a_damaged_signature_is_told_in_words(signed: Path) -> None:
+    whole = signed.read_bytes()
+    start = whole.index(b"/ByteRange")
+    assert not any(
+        each.holds for each in signatures(whole.replace(whole[start : start + 20], b"/ByteRange [0 9 9 9 ", 1))
+    )
+    for each in damaged(whole):
+        # behind the signature itself its room is filled with zeros, which nobody reads
+        place = next((i for i, (a, b) in enumerate(zip(whole, each, strict=False)) if a != b), len(whole))
+        is_padding = whole[place - 50 : place + 50] == b"0" * 100
+        assert is_padding or not all(found.holds for found in signatures(each))
+
+
+def test_who_is_not_trusted_is_told_where_trust_is_asked_for(
+    signed: Path, engineer: Signer, tmp_path: Path, capfd: Capture
+) -> None:
+    own, other = engineer.cert(tmp_path / "own.pem"), signer("Another").cert(tmp_path / "other.pem")
+    assert run("verify", signed, "--numbers", "--trust", own) == 0
+    assert "nothing changed since, trusted" in capfd.readouterr().out
+    assert run("verify", signed, "--numbers", "--trust", other) == 1
+    assert "does not lead to one that you trust" in capfd.readouterr().out
+    assert run("verify", signed, "--numbers", "--trust", signed) == 2
+    assert "not a certificate" in capfd.readouterr().err
+
+
+def test_a_pem_key_signs_with_its_certificate_beside_it(
+    pdf: Path, engineer: Signer, tmp_path: Path, monkeypatch: Patch
+) -> None:
+    plain, cert = engineer.pem(tmp_path / "key.pem"), engineer.cert(tmp_path / "cert.pem")
+    assert run("sign", pdf, "--key", plain, "--cert", cert, "--field", "prepared", "--quiet") == 0
+    monkeypatch.setenv(VARIABLE, "x")
+    hidden = engineer.pem(tmp_path / "hidden.pem", "x")
+    assert run("sign", pdf, "--key", hidden, "--cert", cert, "--field", "checked", "--quiet") == 0
+    assert [each.holds for each in signatures(pdf.read_bytes())] == [True, True]
+
+
+def test_a_signature_without_a_password_needs_none(
+    pdf: Path, engineer: Signer, tmp_path: Path, monkeypatch: Patch
+) -> None:
+    monkeypatch.delenv(VARIABLE, raising=False)
+    assert run("sign", pdf, "--key", engineer.p12(tmp_path / "a.p12", None), "--field", "prepared", "--quiet") == 0
+
+
+# --- what cannot be signed -------------------------------------------------------------------------------------------
+
+
+def refused(capfd: Capture, words: str, *arguments: object) -> None:
+    assert run("sign", *arguments) == 2
+    told = capfd.readouterr().err
+    assert words in told and "Traceback" not in told
+
+
+def test_a_wrong_password_is_told(
+    pdf: Path, key: Path, engineer: Signer, tmp_path: Path, monkeypatch: Patch, capfd: Capture
+) -> None:
+    before = pdf.read_bytes()
+    monkeypatch.setenv(VARIABLE, "wrong")
+    refused(capfd, f"{key}: The key cannot be opened: the password is wrong", pdf, "--key", key, "--field", "checked")
+    refused(capfd, "the password is wrong", pdf, "--key", engineer.pem(tmp_path / "a.pem", "x"), "--field", "checked")
+    (tmp_path / "none.p12").write_bytes(b"x")
+    refused(capfd, "or not a key", pdf, "--key", tmp_path / "none.p12", "--field", "checked")
+    monkeypatch.delenv(VARIABLE)
+    monkeypatch.setattr("sys.stdin", None)
+    refused(capfd, f"Set the variable {VARIABLE}", pdf, "--key", key, "--field", "checked")
+    assert pdf.read_bytes() == before
+
+
+def test_a_field_that_is_not_there_or_not_free_is_told(signed: Path, key: Path, capfd: Capture) -> None:
+    refused(capfd, "Several fields are free; name one with --field: prepared, checked.", signed, "--key", key)
+    refused(
+        capfd, "no free field 'approved'; free are: prepared, checked.", signed, "--key", key, "--field", "approved"
+    )
+    refused(capfd, "no free field 'cheked' (did you mean 'checked'?)", signed, "--key", key, "--field", "cheked")
+
+
+def test_a_certificate_of_another_key_is_told(
+    pdf: Path, key: Path, engineer: Signer, tmp_path: Path, capfd: Capture
+) -> None:
+    other, late = signer("Another").cert(tmp_path / "other.pem"), signer("Late", days=-9)
+    plain = engineer.pem(tmp_path / "key.pem")
+    refused(
+        capfd,
+        f"{other}: This is not the certificate of the key",
+        pdf,
+        "--key",
+        plain,
+        "--cert",
+        other,
+        "--field",
+        "checked",
+    )
+    refused(capfd, f"{plain}: The file holds no certificate", pdf, "--key", plain, "--field", "checked")
+    refused(
+        capfd, "The certificate is not valid now", pdf, "--key", late.p12(tmp_path / "late.p12"), "--field", "checked"
+    )
+
+
+def test_what_is_not_a_report_as_pdf_is_told(small_report: Path, key: Path, tmp_path: Path, capfd: Capture) -> None:
+    refused(capfd, "This is not a PDF", small_report / "small.html", "--key", key)
+    refused(capfd, "There is no such file", tmp_path / "none.pdf", "--key", key)
+    (tmp_path / "damaged.pdf").write_bytes(b"%PDF-1.7\n%%EOF")
+    refused(capfd, "The PDF cannot be signed", tmp_path / "damaged.pdf", "--key", key)
+    other = pikepdf.new()
+    other.add_blank_page()
+    (tmp_path / "other.pdf").write_bytes(saved_pdf(other))
+    refused(capfd, "no free field for a signature", tmp_path / "other.pdf", "--key", key)
+    (tmp_path / "closed.pdf").write_bytes(saved_pdf(other, "x"))
+    refused(capfd, "no free field for a signature", tmp_path / "closed.pdf", "--key", key)
+
+
+def test_an_output_that_cannot_be_written_is_told(pdf: Path, key: Path, tmp_path: Path, capfd: Capture) -> None:
+    (tmp_path / "folder").mkdir()
+    arguments = (pdf, "--key", key, "--field", "checked", "-o")
+    refused(capfd, "a folder has this name", *arguments, tmp_path / "folder")
+    before = key.read_bytes()
+    refused(capfd, "This is the key or its certificate", *arguments, key)
+    assert key.read_bytes() == before and sorted(path.name for path in tmp_path.iterdir()) == [
+        "folder",
+        "key.p12",
+        "small.pdf",
+    ]
+
+
+def test_a_report_without_signatures_is_judged_without_the_library_that_reads_them(small_report: Path) -> None:
+    code = (
+        "import sys; from diecut_report.cli.main import main; from diecut_report.exchange.signatures import signatures; "
+        f"signatures(open({str(small_report / 'small.pdf')!r}, 'rb').read()); "
+        "print([name for name in ('pyhanko', 'cryptography') if name in sys.modules])"
+    )
+    done = subprocess.run(
+        [sys.executable, "-c", code], capture_output=True, text=True, check=True, env=dict(os.environ)
+    )
+    assert done.stdout == "[]\n"

@@ -1,0 +1,203 @@
+"""A firm's own templates: they override blocks, reach nothing else, and what is wrong with them is told with file and line."""
+
+from __future__ import annotations
+
+import re
+from pathlib import Path
+from types import SimpleNamespace
+from typing import Any
+
+import pytest
+from jinja2 import Environment, FileSystemLoader
+
+from diecut_report.cli.main import main
+from diecut_report.errors import UserError
+from diecut_report.exchange.verification import _pages
+from diecut_report.house_folder import house_style
+from diecut_report.report.context import Material
+from diecut_report.report.house_style import HouseStyle, blocks, refuse_fetching
+from diecut_report.report.html import POLICY, Screen, filled, folder, page
+from diecut_report.report.pdf import Paper
+from tests.configs import SMALL, saved
+
+Data = dict[str, Any]
+DOCS = Path(__file__).parents[2] / "docs"
+HEAD = f'<meta http-equiv="Content-Security-Policy" content="{POLICY[0]}; script-src x">'
+EXTENDS = '{% extends "program/report.html.j2" %}\n'
+
+
+def closing(text: str) -> str:
+    """A template whose block at the end has a text, on its third line."""
+    return f"{EXTENDS}{{% block closing %}}\n{text}\n{{% endblock %}}\n"
+
+
+def written(tmp_path: Path, **files: str) -> Path:
+    """A folder with files; ``__`` stands for a dot."""
+    for name, text in files.items():
+        (tmp_path / name.replace("__", ".")).write_text(text, "utf-8")
+    return tmp_path
+
+
+@pytest.fixture
+def brief(plain: Data) -> Data:
+    """A brief report of one mechanism, which is soon made."""
+    cylinder = plain["mechanisms"]["cylinder"]
+    return plain | {"mechanisms": {"cylinder": cylinder}, "comparisons": {}, "report": {"detail": "brief"}}
+
+
+def test_the_example_overrides_its_blocks_on_screen_and_in_print(plain: Data) -> None:
+    house = house_style(DOCS / "house-style")
+    material = Material(plain, house=house)
+    for text in (page(material), filled(material, Paper(material), "print")):
+        assert text.index("Department of presses") < text.index("<h1>Sample press</h1>")
+        assert "holds for the configuration press.yaml alone" in text
+        assert text.count("Reviewed by the group") == sum(not part.lost for part in material.document.chapters)
+        assert 'src="data:image/png;base64,' in text and ".house-terms" in text.partition("</style>")[0]
+        assert 'id="summary"' in text and "could be calculated." in text
+    assert page(Material(plain, house=house_style(DOCS / "house-style"))) == page(material)
+
+
+def test_the_blocks_are_those_of_the_guide() -> None:
+    guide = (DOCS / "house-style.md").read_text("utf-8")
+    environment = Environment(loader=FileSystemLoader(folder()), autoescape=True)
+    for name in ("report.html.j2", "chapter.html.j2"):
+        (line,) = re.findall(rf"^- `{re.escape(name)}`: (.*)$", guide, re.MULTILINE)
+        told = re.findall(r"`(\w+)`", line.replace("(within `summary`)", ""))
+        assert told == blocks(name, environment)
+
+
+def test_a_folder_without_templates_changes_nothing_but_the_style(brief: Data, tmp_path: Path) -> None:
+    house = house_style(written(tmp_path, house__css="h1 { color: red; }"))
+    assert page(Material(brief, house=house)).replace("\nh1 { color: red; }", "") == page(Material(brief))
+
+
+FAULTS = {
+    "syntax": ({"report__html__j2": EXTENDS + "{% block closing %}"}, "report.html.j2:2: Unexpected end of template"),
+    "template": ({"reprot__html__j2": EXTENDS}, "is not a template of the program (did you mean 'report.html.j2'?)"),
+    "extends": ({"report__html__j2": '{% extends "program/repor.html.j2" %}'}, "(did you mean 'report.html.j2'?)"),
+    "itself": ({"report__html__j2": '{% extends "report.html.j2" %}'}, 'Write {% extends "program/report.html.j2" %}'),
+    "block": (
+        {"report__html__j2": EXTENDS + "\n{% block titel_block %}{% endblock %}"},
+        "report.html.j2:3: 'titel_block' is not a block of the template (did you mean 'title_block'?)",
+    ),
+    "css name": ({"hous__css": ""}, "Nothing asks for 'hous.css' (did you mean 'house.css'?)"),
+    "css fetches": (
+        {"house__css": "\np {background: url(http://x/y.png)}"},
+        "house.css:2: url(http://x/y.png would be fetched",
+    ),
+    "css imports": ({"house__css": '@import "x.css";'}, "house.css:1: @import would be fetched"),
+    "css ends": ({"house__css": "p {}\n</style><script>"}, "house.css:2: '</' would end the style sheet"),
+    "picture": ({"mark__png": "GIF89a"}, "mark.png: The file is neither a PNG nor an SVG picture"),
+}
+
+
+@pytest.mark.parametrize("name", FAULTS)
+def test_what_is_wrong_with_the_files_is_told_before_anything_is_calculated(name: str, tmp_path: Path) -> None:
+    files, words = FAULTS[name]
+    with pytest.raises(UserError) as error:
+        house_style(written(tmp_path, **files))
+    assert words in str(error.value)
+
+
+def test_what_is_no_folder_or_no_text_is_told(tmp_path: Path) -> None:
+    with pytest.raises(UserError, match="This is not a folder"):
+        house_style(tmp_path / "none")
+    (tmp_path / "report.html.j2").write_bytes(b"\xff\xfe\x00")
+    with pytest.raises(UserError, match="is not UTF-8"):
+        house_style(tmp_path)
+
+
+@pytest.mark.parametrize(
+    ("text", "words"),
+    [
+        ("{{ doc.projekt }}", "has no attribute 'projekt'"),
+        ("{{ 1 / 0 }}", "division by zero"),
+        ("{{ ''.__class__.__mro__ }}", "access to attribute '__class__'"),
+        ("{{ doc.chapters.append(1) }}", "access to attribute 'append' of 'list' object is unsafe"),
+        ("{{ doc.project.update({'title': 'x'}) }}", "access to attribute 'update' of 'dict' object is unsafe"),
+        ("{{ page.x }}", "'page' is undefined"),
+        ("{{ math.display.__func__.__globals__ }}", "unsafe"),
+        ("{{ '{0.__class__}'.format(doc) }}", "unsafe"),
+        ("{% for i in range(1000000000) %}{% endfor %}", "Range too big"),
+        ("{% include '/etc/passwd' %}", "'/etc/passwd' is not a template"),
+        ("{% include '../pyproject.toml' %}", "'../pyproject.toml' is not a template"),
+        ("{{ picture('mark.png') }}", "'mark.png' is not a picture of the folder"),
+    ],
+)
+def test_what_goes_wrong_in_a_template_is_told_with_its_line(
+    brief: Data, tmp_path: Path, text: str, words: str
+) -> None:
+    house = house_style(written(tmp_path, report__html__j2=closing(text)))
+    with pytest.raises(UserError) as error:
+        page(Material(brief, house=house))
+    assert str(error.value).startswith(f"{tmp_path / 'report.html.j2'}:3: ") and words in str(error.value)
+    assert brief["project"]["title"] == "Sample press"
+
+
+@pytest.mark.parametrize(
+    ("text", "words"),
+    [
+        ('<img src="http://example.com/x.png" alt="">', "<img> http://example.com/x.png would be fetched"),
+        ('<link rel="stylesheet" href="x.css">', "<link> x.css would be fetched"),
+        ('<p style="background: url(//x)">', "url(//x would be fetched"),
+        ("<style>@import 'x';</style>", "@import would be fetched"),
+        ('<iframe src="file:///etc/passwd"></iframe>', "<iframe> file:///etc/passwd would be fetched"),
+        ('<meta http-equiv="refresh" content="0; url=http://x">', "<meta http-equiv=refresh> would be fetched"),
+        ('<meta http-equiv="Content-Security-Policy" content="">', "has lost its Content-Security-Policy"),
+    ],
+)
+def test_a_page_that_fetches_is_refused(text: str, words: str) -> None:
+    with pytest.raises(UserError) as error:
+        refuse_fetching(f"{HEAD}{text}", HouseStyle("house"), POLICY[0])
+    assert words in str(error.value)
+
+
+def test_pages_are_judged_whatever_their_medium(brief: Data, tmp_path: Path) -> None:
+    text = '<img src="http://example.com/x.png" alt="">'
+    material = Material(brief, house=house_style(written(tmp_path, report__html__j2=closing(text))))
+    for kind, medium in (("screen", Screen(material)), ("print", Paper(material))):
+        with pytest.raises(UserError, match=r"<img> http://example\.com/x\.png would be fetched"):
+            filled(material, medium, kind)
+
+
+def test_what_lies_in_the_page_and_links_are_not_fetched() -> None:
+    text = '<a href="https://example.com">x</a><img src="data:image/png;base64,AA=="><use xlink:href="#a"/><p style="fill: url(#b)">'
+    refuse_fetching(f"{HEAD}{text}", HouseStyle("house"), POLICY[0])
+
+
+def test_a_fault_of_the_program_itself_stays_one(brief: Data, tmp_path: Path) -> None:
+    house = house_style(written(tmp_path, report__html__j2=closing("x")))
+    del brief["mechanisms"]["cylinder"]["outputs"]
+    with pytest.raises(KeyError):
+        page(Material(brief, house=house))
+
+
+def test_the_command_refuses_before_it_calculates(tmp_path: Path, capfd: pytest.CaptureFixture[str]) -> None:
+    (tmp_path / "house").mkdir()
+    house = written(tmp_path / "house", report__html__j2=EXTENDS + "{% block x %}{% endblock %}")
+    arguments = ["report", str(saved(tmp_path, SMALL)), "-o", str(tmp_path / "out"), "--format", "html", "--quiet"]
+    assert main([*arguments, "--template", str(house)]) == 2
+    assert "report.html.j2:2: 'x' is not a block" in capfd.readouterr().err and not (tmp_path / "out").exists()
+
+
+@pytest.mark.nightly
+def test_pages_set_with_the_same_templates_are_verified(tmp_path: Path, capfd: pytest.CaptureFixture[str]) -> None:
+    (tmp_path / "house").mkdir()
+    house = written(tmp_path / "house", report__html__j2=closing("<p>Ours</p>"))
+    arguments = [str(saved(tmp_path, SMALL)), "-o", str(tmp_path / "out"), "--format", "html", "--quiet"]
+    assert main(["report", *arguments, "--template", str(house)]) == 0
+    page = tmp_path / "out" / "press.html"
+    assert "<p>Ours</p>" in page.read_text("utf-8")
+    assert main(["verify", str(page), "--quiet", "--template", str(house)]) == 0
+    assert "byte for byte" in capfd.readouterr().out
+
+
+def test_pages_set_with_other_templates_are_not_compared() -> None:
+    carried: Any = SimpleNamespace(results={"report": {"template_sha256": "ab" * 32}})
+    own = ("not compared, since they are set with templates of their own (SHA-256 abababababab); "
+           "--template DIR names the templates")  # fmt: skip
+    assert _pages(carried, print, HouseStyle("other"), [], is_same=True) == (own, True)
+    for strange in ({}, {"report": []}):
+        carried.results = strange
+        words, _ = _pages(carried, print, HouseStyle("other"), [], is_same=True)
+        assert "the program's templates alone" in words

@@ -1,0 +1,123 @@
+"""A report in Ukrainian: no English word is left in it, and numbers have a decimal comma."""
+
+from __future__ import annotations
+
+import html
+import json
+import re
+from collections.abc import Iterator
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from diecut_report import pipeline
+from diecut_report.config.discovery import Discovery
+from diecut_report.report import Rendering
+from tests.examples import few
+
+CONFIGS = Path(__file__).parents[2] / "configs"
+LATIN = re.compile(r"(?<![\w.])[A-Za-z][a-z]{2,}(?![a-z]*_)")  # symbols and units are shorter, or have other signs
+VERBATIM = (
+    "citation",
+    "id",
+    "symbol",
+    "unit",
+    "path",
+    "text",
+    "note",
+    "source_text",
+    "file",
+    "kind",
+    "name",
+    "sha256",
+    "source",
+)
+OWN = {
+    "diecut",
+    "report",
+    "verify",
+    "results",
+    "json",
+    "config",
+    "yaml",
+    "SHA",
+    "rpm",
+    "mrad",
+    "rad",
+    "min",
+    "max",
+    "PDF",
+}
+MARKUP = (r"<(style|script|math|pre)\b.*?</\1>", r"<a [^>]*download.*?</a>", r'<(\w+) class="?(?:key|sy)\b.*?</\1>')
+
+
+def visible(page: str) -> list[str]:
+    """The texts of a page, those of its figures too; formulas, keys and symbols left out."""
+    figures = " ".join(re.findall(r'aria-label="([^"]*)"', page))
+    for pattern in MARKUP:
+        page = re.sub(pattern, " ", page, flags=re.DOTALL)
+    return [line for line in re.split(r"<[^>]*>", html.unescape(page + figures)) if line.strip()]
+
+
+def verbatim(data: Any, key: str = "") -> Iterator[str]:
+    """Words of results that stand in a report as they are: names, keys, symbols, citations, what was typed."""
+    if isinstance(data, dict):
+        for name, part in data.items():
+            yield name
+            yield from verbatim(part, name)
+    elif isinstance(data, list):
+        for part in data:
+            yield from verbatim(part, key)
+    elif isinstance(data, str) and key in VERBATIM:
+        yield data
+
+
+def in_ukrainian(results: dict[str, Any]) -> str:
+    """The page of a report."""
+    results["project"]["language"] = "uk"
+    return Rendering(results).html()
+
+
+def left_over(results: dict[str, Any], page: str) -> dict[str, str]:
+    """The Latin words of a page that neither the user nor a source wrote, each with its line."""
+    told = {**results, "project": None, "wordings": None}
+    known = {
+        word
+        for text in (*verbatim(told), *map(str, results["project"].values()))
+        for word in re.findall(r"[A-Za-z]+", text)
+    }
+    return {w: line.strip() for line in visible(page) for w in LATIN.findall(line) if w not in known | OWN}
+
+
+@pytest.fixture(scope="module")
+def small(small_report: Path) -> dict[str, Any]:
+    """The results of the small press."""
+    found: dict[str, Any] = json.loads((small_report / "small.json").read_text("utf-8"))
+    return found
+
+
+def test_no_english_word_is_left(small: dict[str, Any]) -> None:
+    page = in_ukrainian(small)
+    assert 'lang="uk"' in page and "Основні результати" in page
+    assert left_over(small, page) == {}
+
+
+def test_numbers_have_a_decimal_comma(small: dict[str, Any]) -> None:
+    numbers = [
+        found for line in visible(in_ukrainian(small)) for found in re.findall(r"(?<![\w.])\d+[.,]\d+(?![\w.])", line)
+    ]
+    pointed = {number for number in numbers if "." in number}
+    typed = {str(row.get("text", "")) for data in small["mechanisms"].values() for row in data["inputs"].values()}
+    assert sum("," in number for number in numbers) > 10
+    assert {number for number in pointed if not any(number in text for text in typed)} <= {"0.1", "1.0"}  # versions
+
+
+@pytest.mark.parametrize(
+    "config", few(sorted(CONFIGS.glob("*.yaml")), lambda file: file.stem == "circular_knife"), ids=lambda f: f.stem
+)
+def test_no_english_word_is_left_in_an_example(config: Path) -> None:
+    if "study" in config.stem:
+        return
+    outcome, _ = pipeline.calc(config, Discovery([]), lambda _: None)
+    assert left_over(outcome.results, in_ukrainian(outcome.results)) == {}
