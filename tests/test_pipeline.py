@@ -190,7 +190,7 @@ def test_an_impossible_machine_is_bad_input_at_its_key(tmp_path: Path) -> None:
 class Painted:
     """A rendering that costs nothing."""
 
-    def __init__(self, results: dict[str, Any]) -> None:
+    def __init__(self, results: dict[str, Any], *_: object) -> None:
         self.title = results["project"]["title"]
         self.faults: list[Any] = []
 

@@ -29,7 +29,7 @@ Told = tuple[str, bool]  # what was found, in words, and whether it is as it sho
 SHORT = 12  # of a hash, as in a report
 OF_CODE = ("plugin_version", "plugin_sha256", "plugin_file")
 """What tells of the code and is held against the program's own apart from the numbers."""
-OF_DOCUMENT = ("program", "config", "mechanisms", "comparisons", "report", "changes")
+OF_DOCUMENT = ("program", "config", "mechanisms", "comparisons", "report", "changes", "wordings")
 """What is compared by itself, or is a choice of the document: how much it shows, and against which former one."""
 
 
@@ -80,7 +80,9 @@ def verify(
         list(_plugins(_calculated(results), _calculated(again))),
         _config(carried),
         numbers,
-        _pages(carried, tell, house, signed, is_same=program[1] and not numbers.differences) if is_set else None,
+        _pages(carried, tell, house, signed, discovery, is_same=program[1] and not numbers.differences)
+        if is_set
+        else None,
         outcome.broken,
         tuple(signed),
     )
@@ -195,6 +197,7 @@ def _pages(
     tell: Callable[[str], None],
     house: HouseStyle | None,
     signed: list[Signature],
+    discovery: Discovery,
     *,
     is_same: bool,
 ) -> Told:
@@ -205,7 +208,8 @@ def _pages(
     if asked != (house.sha256 if house else ""):
         own = f"templates of their own (SHA-256 {asked[:SHORT]})" if asked else "the program's templates alone"
         return f"not compared, since they are set with {own}; --template DIR names the templates", True
-    contents, _ = document(carried.results, [carried.form], tell, str(carried.path), house=house)
+    catalogues = pipeline.catalogues_of(carried.results, discovery, [carried.form], str(carried.path))
+    contents, _ = document(carried.results, [carried.form], tell, str(carried.path), catalogues, house)
     made = contents[carried.form]
     if carried.content == made:
         return "byte for byte what the program makes of these results", True

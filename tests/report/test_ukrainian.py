@@ -34,6 +34,9 @@ VERBATIM = (
     "source",
 )
 OWN = {
+    "Num",
+    "Sci",
+    "Python",
     "diecut",
     "report",
     "verify",
