@@ -8,14 +8,11 @@ from pathlib import Path
 
 from diecut_report.errors import Problem, UserError, nearest
 from diecut_report.given_files import content
+from diecut_report.pictures import MOST, PictureFault, media_type
 from diecut_report.report.house_style import CSS, ENDING, HouseStyle, problems
 
-MOST_TEXT, MOST_PICTURE, MOST_FILES = 1_000_000, 5_000_000, 100
-PICTURES = {  # ending: media type, and how such a file begins
-    ".png": ("image/png", b"\x89PNG\r\n\x1a\n"),
-    ".jpg": ("image/jpeg", b"\xff\xd8\xff"),
-    ".jpeg": ("image/jpeg", b"\xff\xd8\xff"),
-}
+MOST_TEXT, MOST_FILES = 1_000_000, 100
+PICTURES = (".png", ".svg")
 
 
 def house_style(folder: Path) -> HouseStyle:
@@ -47,10 +44,11 @@ def _text(path: Path) -> str:
 
 
 def _picture(path: Path) -> str:
-    media, begin = PICTURES[path.suffix.lower()]
-    found = content(path, MOST_PICTURE, "a picture")
-    if not found.startswith(begin):
-        raise UserError(Problem(f"The file is not a picture of the type {media}. Save it as one.", str(path)))
+    found = content(path, MOST, "a picture")
+    try:
+        media = media_type(found)
+    except PictureFault as fault:
+        raise UserError(Problem(f"The file {fault}. Give another picture.", str(path))) from fault
     return f"data:{media};base64,{base64.b64encode(found).decode()}"
 
 
@@ -59,11 +57,11 @@ def _unused(files: list[Path], made: HouseStyle) -> list[Problem]:
     wrong = [
         path
         for path in files
-        if path.suffix in (".css", ".j2", ".html", ".svg") and path.name not in (*made.templates, CSS)
+        if path.suffix in (".css", ".j2", ".html", ".jpg", ".jpeg", ".gif") and path.name not in (*made.templates, CSS)
     ]
     return [
         Problem(f"Nothing asks for {path.name!r}{nearest(path.name, [CSS])}. A folder holds templates (NAME{ENDING}), {CSS}, "
-                "and pictures (PNG, JPEG).", str(path))
+                "and pictures (PNG, SVG).", str(path))
         for path in wrong
     ]  # fmt: skip
 

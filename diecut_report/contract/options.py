@@ -16,6 +16,7 @@ class Options(TypedDict, total=False):
     """Declare what any step may say besides; see ``Step``."""
 
     source: str
+    source_symbol: str
     digits: int
     output: bool
     needs: tuple[str, ...]

@@ -32,7 +32,13 @@ def prefixed(prefix: str, steps: Iterable[Step], shared: tuple[str, ...], symbol
         return f"{prefix}{name}" if name in own else name
 
     return tuple(
-        replace(step, id=str(rename(step.id)), symbol=step.symbol + symbol_suffix, **_renamed(step, rename))
+        replace(
+            step,
+            id=str(rename(step.id)),
+            symbol=step.symbol + symbol_suffix,
+            source_symbol=step.source_symbol and step.source_symbol + symbol_suffix,
+            **_renamed(step, rename),
+        )
         for step in steps
     )
 

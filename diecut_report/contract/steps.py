@@ -22,8 +22,8 @@ class Step:
     ``needs`` and ``lacks`` name optional inputs: the step is part of the calculation when all of ``needs`` are given
     and none of ``lacks``. ``output`` puts the quantity among the outputs of the results file, else among its values.
     A text input takes part in them by its value: ``needs=("engagement=away",)``.
-    ``exists`` is a condition on numbers: where it does not hold the quantity is absent for that machine.
-    ``whole`` marks a count, an integer in the results. ``units`` are other units, each with the input beside which it holds: (("mass", "N"),).
+    ``exists`` is a condition on numbers: where it does not hold the quantity is absent for that machine. ``source_symbol`` is the
+    letter that the source writes, where that is another one. ``whole`` marks a count, an integer in the results. ``units`` are other units, each with the input beside which it holds: (("mass", "N"),).
     A row over repeated parts is named ``ID.0``, ``ID.1`` … in the results, or by ``numbered`` (``shaft_{}_speed``) from ``first`` on,
     or with ``named_by``, the text input of the parts' names (``bearings.name``), after them: ``NAME_ID``.
     """
@@ -33,6 +33,7 @@ class Step:
     unit: str = "1"
     description: str = ""
     source: str = ""
+    source_symbol: str = ""
     digits: int = 4
     output: bool = True
     needs: tuple[str, ...] = ()

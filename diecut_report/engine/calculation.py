@@ -16,7 +16,7 @@ from diecut_report.contract.mechanism import Mechanism
 from diecut_report.contract.steps import Accumulated, Choice, Derivative, FromCurve, Step, Value
 from diecut_report.contract.unit_variants import in_form
 from diecut_report.engine import named_quantity
-from diecut_report.engine.chosen_units import ChosenUnits
+from diecut_report.engine.chosen_units import NONE_CHOSEN
 from diecut_report.engine.input_rows import column
 from diecut_report.engine.numerics.chebyshev import PieceSeries
 from diecut_report.engine.numerics.curve_evaluation import MANY, Curves, several
@@ -136,7 +136,7 @@ class Calculation:
         self.extremes: dict[tuple[str, float], tuple[Array, Found]] = {}  # with the pieces they are of
         self.judged: dict[tuple[str, int], Side] = {}  # for each check on a curve and its sides, where it governs
         self.flaws: dict[int, tuple[str, str]] = {}  # for each impossible variant the key and the message
-        self.chosen_units = ChosenUnits()  # what a report chose to show quantities in
+        self.chosen_units = NONE_CHOSEN  # what a report chose to show quantities in
         self.withheld: dict[str, Array] = {}  # for each fact, which variants do not meet it
 
     def __getitem__(self, name: str) -> Array:

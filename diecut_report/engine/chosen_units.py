@@ -18,3 +18,6 @@ class ChosenUnits:
     def of(self, name: str, declared: str) -> str | None:
         """Return the unit chosen for a quantity that is declared in a unit; None where none is."""
         return self.by_id.get(name) or self.by_si.get(unit(declared).si)
+
+
+NONE_CHOSEN = ChosenUnits()

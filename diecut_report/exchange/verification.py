@@ -80,7 +80,7 @@ def verify(
         list(_plugins(_calculated(results), _calculated(again))),
         _config(carried),
         numbers,
-        _pages(carried, tell, signed, house, discovery, is_same=program[1] and not numbers.differences)
+        _pages(carried, tell, house, signed, discovery, is_same=program[1] and not numbers.differences)
         if is_set
         else None,
         outcome.broken,
@@ -195,8 +195,8 @@ def _resolved(data: Data) -> Data:
 def _pages(
     carried: CarriedResults,
     tell: Callable[[str], None],
-    signed: list[Signature],
     house: HouseStyle | None,
+    signed: list[Signature],
     discovery: Discovery,
     *,
     is_same: bool,

@@ -24,7 +24,7 @@ STEPS = {
 UNIT_STEPS = {"deg": 0.01, "%": 0.01}  # of these units alone: a small angle in rad is another quantity
 FEWEST, FEWEST_OF_LENGTH = 3, 2  # digits of what is smaller than these steps allow for: 26 µm
 SHORT = 2  # digits of a number that stands as it is, however small: 0.05 mm
-NOTHING = 1e-9  # of a unit: what is less is the rounding of the computer
+NOTHING = 1e-7  # of a unit: what is less is the rounding of the computer
 NEVER_SMALL = frozenset(
     ("m", "rad", "s", "N", "N*m", "W", "J", "Pa", "kg", "m/s", "m/s**2", "rad/s", "rad/s**2", "K", "1/s")
 )

@@ -26,12 +26,12 @@ def number_text(value: float, digits: int = DIGITS) -> str:
     if -4 <= exponent < 6:
         return _without_zeros(f"{value:.{max(digits - 1 - exponent, 0)}f}", value)
     mantissa, power = f"{value:.{digits - 1}e}".split("e")
-    return f"{_without_zeros(mantissa, value / 10.0 ** int(power))}e{int(power)}"
+    return f"{_without_zeros(mantissa, value, f'e{int(power)}')}e{int(power)}"
 
 
-def _without_zeros(text: str, value: float) -> str:
+def _without_zeros(text: str, value: float, power: str = "") -> str:
     """A decimal text without the zeros at its end, where it is the value itself and not a rounding of it."""
-    is_exact = "." in text and abs(float(text) - value) <= EXACT * abs(value)
+    is_exact = "." in text and abs(float(text + power) - value) <= EXACT * abs(value)
     return text.rstrip("0").rstrip(".") if is_exact else text
 
 

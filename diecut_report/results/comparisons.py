@@ -14,7 +14,7 @@ from diecut_report.contract.inputs import SI, Block, Quantity, flatten, meta_of
 from diecut_report.contract.mechanism import Comparison
 from diecut_report.contract.unit_variants import in_form
 from diecut_report.engine import Calculation, CurveHandle, calculate
-from diecut_report.engine.chosen_units import ChosenUnits
+from diecut_report.engine.chosen_units import NONE_CHOSEN, ChosenUnits
 from diecut_report.quantities.plausible import without_rounding
 from diecut_report.quantities.units import unit
 from diecut_report.results.mechanism import Provenance, mechanism_results
@@ -54,7 +54,7 @@ def found(calculations: Mapping[str, Calculation]) -> Iterator[Found]:
             yield Found(comparison, dict(zip(comparison.kinds, names, strict=True)))
 
 
-def compared(case: Found, calculations: Mapping[str, Calculation], chosen: ChosenUnits) -> Data:
+def compared(case: Found, calculations: Mapping[str, Calculation], chosen: ChosenUnits = NONE_CHOSEN) -> Data:
     """Return the results of a comparison, in the form of a mechanism's, shown in the chosen units, and between which instances it is."""
     values, origins = {}, {}
     for key, (kind, name) in case.comparison.takes.items():

@@ -46,7 +46,8 @@ def _curve(step: Step | SpectrumLine, values: Any, display: str) -> Data:
     if not np.isfinite(np.asarray(values, dtype=float)).all():
         raise Unproven(f"{step.description} ({step.id}) is a curve that has no value at some of its places")
     return {"unit": unit(step.unit).si, "values": np.asarray(values, dtype=float).tolist(), "symbol": step.symbol,
-            "description": step.description, "display_unit": display, "source": step.source}  # fmt: skip
+            "description": step.description, "display_unit": display, "source": step.source,
+            **({"source_symbol": step.source_symbol} if isinstance(step, Step) and step.source_symbol else {})}  # fmt: skip
 
 
 def _limits(calc: Calculation, name: str) -> Data:

@@ -247,6 +247,7 @@ def _part(step: Step, each: ResultName, list: str = "") -> Data:
 
 def _number(step: Step, value: Any, display: str) -> Data:
     said = {"symbol": step.symbol, "description": step.description, "source": step.source}
+    said |= {"source_symbol": step.source_symbol} if step.source_symbol else {}
     if isinstance(value, str):
         return {"value": value, "unit": "1"} | said | {"display": {"text": value, "unit": "1"}}
     if isinstance(value, bool | np.bool_):

@@ -119,7 +119,7 @@ FIGURES = (
     Plot(id="sheet", title="Motion of the sheet", abscissa="disc_angle", needs=SHEET,
          caption="Position, velocity and acceleration of the sheet over a cycle. " + SHADED,
          panels=(_panel("Position", "mm", ("sheet_position", "x")), _panel("Velocity", "m/s", ("sheet_velocity", "V")),
-                 _panel("Acceleration", "m/s**2", ("sheet_acceleration", "W"), named=True))),
+                 _panel("Acceleration", "m/s**2", ("sheet_acceleration", "a_s"), named=True))),
     Chart(id="laws", title="Motion laws for the same dwell", build=laws_compared,
           caption="Speed and acceleration of the gear by each law of motion, each with its greatest value, for the same dwell and the same "
           "sweeps of the sector. A law with a lower peak velocity stops the sector sooner and leaves its return more time."),

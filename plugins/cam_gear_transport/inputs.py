@@ -64,7 +64,7 @@ class CamGearTransport(Inputs):
     chain_pitch: Annotated[float | None, Quantity("p", "mm", "Pitch of the conveyor's chain", gt=0)] = None
     sprocket_ratio: Annotated[float, Quantity("u", "1", "Turns of the sprocket for each turn of the gear", gt=0)] = 1
     allowable_sheet_acceleration: Annotated[
-        float | None, Quantity("[W]", "m/s**2", "Allowed acceleration of the sheet", gt=0)
+        float | None, Quantity("[a_s]", "m/s**2", "Allowed acceleration of the sheet", gt=0)
     ] = None
     grammage: Annotated[
         float | None,

@@ -17,10 +17,10 @@ conveyor.value("sheet_step", "S", "mm", "Step of the conveyor in a cycle", formu
 conveyor.value("sheet_position", "x", "mm", "Position of the sheet from its dwell", bind(formulas.travel, angle="gear_angle"), source="kinematics")
 conveyor.value("sheet_velocity", "V", "m/s", "Velocity of the sheet",
                lambda gear_speed, sheet_step, cycles_per_hour: sheet_step * cycles_per_hour * gear_speed / (2 * np.pi), source="kinematics")
-conveyor.value("sheet_acceleration", "W", "m/s**2", "Acceleration of the sheet", bind(formulas.travel, angle="gear_acceleration"),
+conveyor.value("sheet_acceleration", "a_s", "m/s**2", "Acceleration of the sheet", bind(formulas.travel, angle="gear_acceleration"),
                source="kinematics")
 conveyor.reduction("sheet_velocity_max", "V_max", "m/s", "Greatest velocity of the sheet", "abs_max", of="sheet_velocity", source="kinematics")
-conveyor.reduction("sheet_acceleration_max", "W_max", "m/s**2", "Greatest acceleration of the sheet", "abs_max", of="sheet_acceleration",
+conveyor.reduction("sheet_acceleration_max", "a_s,max", "m/s**2", "Greatest acceleration of the sheet", "abs_max", of="sheet_acceleration",
                    source="kinematics")
 conveyor.words("sheet_gentler", advice.gentler_sheet,
                ("sheet_acceleration_max", "allowable_sheet_acceleration", "time_dwell", "sector_dwell_sweep", "sector_stop_sweep",

@@ -86,8 +86,8 @@ forces.reduction("working_force_max", "F_w,max", "N", "Greatest force down by vi
 forces.reduction("torque_max", "M_max", "N*m", "Greatest torque at the knife's shaft", "max", of="torque", source="statics")
 forces.reduction("useful_work", "W_u", "J", "Work of cutting, from φ_1 to φ_2", "integral", of="useful_torque", source="energy")
 forces.reduction("work", "W", "J", "Work of a cut, with friction", "integral", of="torque", source="energy")
-forces.value("power_mean", "N_mean", "W", "Mean power over a turn with one cut", lambda work, speed: work * speed / (2 * np.pi), source="energy")
-forces.value("power_peak", "N_max", "W", "Greatest power", lambda torque_max, speed: torque_max * speed, source="energy")
+forces.value("power_mean", "P_mean", "W", "Mean power over a turn with one cut", lambda work, speed: work * speed / (2 * np.pi), source="energy")
+forces.value("power_peak", "P_max", "W", "Greatest power", lambda torque_max, speed: torque_max * speed, source="energy")
 
 guillotine = Chapter("Compared with a guillotine",
                      text="A straight blade parallel to the counter-knife cuts the same length at once. Its work is not quite the work of cutting "

@@ -197,11 +197,11 @@ for name, symbol, unit, words, figure in (
                      "Gauss–Legendre between the breakpoints; extremes within each smooth piece")
 torques.value("greatest_peak", "M_g,peak", "N*m", "Greatest size of the torque of the greatest consumer alone",
               lambda greatest_max, greatest_min: np.maximum(greatest_max, -greatest_min))
-torques.value("power_mean", "N_mean", "kW", "Mean power at the main shaft", lambda torque_mean, main_shaft_speed: torque_mean * main_shaft_speed)
-torques.value("power_peak", "N_peak", "kW", "Peak power at the main shaft", lambda torque_peak, main_shaft_speed: torque_peak * main_shaft_speed)
-torques.value("greatest_power_mean", "N_g,mean", "kW", "Mean power of the greatest consumer alone",
+torques.value("power_mean", "P_mean", "kW", "Mean power at the main shaft", lambda torque_mean, main_shaft_speed: torque_mean * main_shaft_speed)
+torques.value("power_peak", "P_peak", "kW", "Peak power at the main shaft", lambda torque_peak, main_shaft_speed: torque_peak * main_shaft_speed)
+torques.value("greatest_power_mean", "P_g,mean", "kW", "Mean power of the greatest consumer alone",
               lambda greatest_mean, main_shaft_speed: greatest_mean * main_shaft_speed)
-torques.value("greatest_power_peak", "N_g,peak", "kW", "Peak power of the greatest consumer alone",
+torques.value("greatest_power_peak", "P_g,peak", "kW", "Peak power of the greatest consumer alone",
               lambda greatest_peak, main_shaft_speed: greatest_peak * main_shaft_speed)
 torques.value("torque_excess", "ΔM", "N*m", "Torque above its mean", lambda main_shaft_torque, torque_mean: main_shaft_torque - torque_mean,
               output=False)

@@ -83,7 +83,7 @@ class Timing:
         """Return the offset found, None where none is to be found."""
         if self.moved is None:
             return None
-        return best_offset(tents_of(self.interlocks(self.drawn), self.period, self.productivity), self.span)
+        return best_offset(tents_of(self.as_drawn, self.period, self.productivity), self.span)
 
     @cached_property
     def lines(self) -> tuple[LineOnShaft, ...]:
@@ -107,6 +107,11 @@ class Timing:
         inside, outside = (self.moved is not None and side[0] == self.moved for side in (held.inner, held.outer))
         moved: Moved | None = None if inside == outside else "inner" if inside else "outer"
         return Interlock(held.name, sides[0], outer, moved, held.angle, held.time)
+
+    @cached_property
+    def as_drawn(self) -> list[Interlock]:
+        """Return the interlocks with the automatic offset at zero."""
+        return self.interlocks(self.drawn)
 
     @cached_property
     def final(self) -> list[Interlock]:
@@ -135,7 +140,7 @@ class Timing:
     @cached_property
     def needed(self) -> list[float]:
         """Return for each interlock how long its one window must be; NaN where it has several, or the offset is fixed."""
-        return [self._needed(each) for each in self.interlocks(self.drawn)]
+        return [self._needed(each) for each in self.as_drawn]
 
     def _needed(self, each: Interlock) -> float:
         lengths = {round(end - start, 9) for start, end in each.outer}
@@ -176,7 +181,7 @@ class Timing:
         """Return the largest productivity that the margins of time allow."""
         if self.moved is None:
             return fixed_productivity_limit(self.final, self.period)
-        return productivity_limit(self.interlocks(self.drawn), self.period, self.span)
+        return productivity_limit(self.as_drawn, self.period, self.span)
 
     @cached_property
     def needed_lengths(self) -> list[float]:

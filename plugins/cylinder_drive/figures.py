@@ -133,7 +133,7 @@ FIGURES = (
                 spans=STROKES,
             ),
             Panel(
-                title="Acceleration", unit="m/s**2", series=(Series(curve="acceleration", label="W"),), spans=STROKES
+                title="Acceleration", unit="m/s**2", series=(Series(curve="acceleration", label="a_c"),), spans=STROKES
             ),
         ),
     ),

@@ -45,8 +45,8 @@ torque.reduction("crank_torque_max", "M_max", "N*m", "Greatest driving torque", 
 torque.reduction("crank_torque_min", "M_min", "N*m", "Greatest braking torque", "min", of="crank_torque")
 torque.reduction("crank_torque_mean", "M_mean", "N*m", "Mean torque", "mean", of="crank_torque")
 torque.reduction("crank_torque_rms", "M_rms", "N*m", "Root mean square torque", "rms", of="crank_torque")
-torque.value("power_mean", "N_mean", "kW", "Mean power at the crank", bind(loads.power, torque="crank_torque_mean"))
-torque.value("power_peak", "N_peak", "kW", "Peak power at the crank", bind(loads.power, torque="crank_torque_peak"))
+torque.value("power_mean", "P_mean", "kW", "Mean power at the crank", bind(loads.power, torque="crank_torque_mean"))
+torque.value("power_peak", "P_peak", "kW", "Peak power at the crank", bind(loads.power, torque="crank_torque_peak"))
 torque.crossings("torque_reversal", "φ_r", "deg", "Crank angle at which the torque reverses (backlash)", of="crank_torque")
 
 energy = Chapter("Energy balance",

@@ -97,7 +97,7 @@ class CylinderDrive(Inputs):
         None
     )
     allowable_acceleration: Annotated[
-        float | None, Quantity("[W]", "m/s**2", "Allowed acceleration of the cylinder", gt=0)
+        float | None, Quantity("[a_c]", "m/s**2", "Allowed acceleration of the cylinder", gt=0)
     ] = None
     allowable_tooth_force: Annotated[
         float | None, Quantity("[F_t]", "kN", "Allowed tangential force between the teeth of sector and pinion", gt=0)

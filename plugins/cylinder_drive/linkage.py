@@ -121,9 +121,10 @@ kinematics.value("displacement", "S", "mm", "Displacement of the cylinder", bind
 kinematics.value("velocity", "V", "m/s", "Velocity of the cylinder",
                  lambda rocker_speed_ratio, crank_speed, sector_ratio, cylinder_radius:
                      rocker_speed_ratio * crank_speed * sector_ratio * cylinder_radius, source="000 eq. 9")
-kinematics.value("acceleration", "W", "m/s**2", "Acceleration of the cylinder",
+kinematics.value("acceleration", "a_c", "m/s**2", "Acceleration of the cylinder",
                  lambda rocker_acceleration_ratio, crank_speed, sector_ratio, cylinder_radius:
-                     rocker_acceleration_ratio * crank_speed ** 2 * sector_ratio * cylinder_radius, source="000 eq. 10")
+                     rocker_acceleration_ratio * crank_speed ** 2 * sector_ratio * cylinder_radius, source="000 eq. 10",
+                 source_symbol="W")
 kinematics.value("cylinder_rotation", "θ", "deg", "Rotation of the cylinder", lambda rocker_angle, sector_ratio: rocker_angle * sector_ratio,
                  source="000 eq. 8", output=False)
 kinematics.value("cylinder_speed", "ω_c", "rad/s", "Angular speed of the cylinder",
@@ -133,7 +134,7 @@ kinematics.value("cylinder_acceleration", "ε_c", "rad/s**2", "Angular accelerat
                  lambda rocker_acceleration_ratio, crank_speed, sector_ratio: as_angle(rocker_acceleration_ratio * crank_speed ** 2) * sector_ratio,
                  source="000, after eq. 12", output=False)
 kinematics.reduction("velocity_max", "V_max", "m/s", "Greatest speed of the cylinder", "abs_max", of="velocity")
-kinematics.reduction("acceleration_max", "W_max", "m/s**2", "Greatest acceleration of the cylinder", "abs_max", of="acceleration")
+kinematics.reduction("acceleration_max", "a_c,max", "m/s**2", "Greatest acceleration of the cylinder", "abs_max", of="acceleration")
 kinematics.value("crank_speed_most", "ω_1,max", "rpm", "Speed of the crank with the allowed acceleration",
                  lambda crank_speed, acceleration_max, allowable_acceleration: crank_speed * np.sqrt(allowable_acceleration / acceleration_max),
                  output=False, needs=("allowable_acceleration",))

@@ -106,6 +106,6 @@ class Damper(Inputs):
         float | None, Quantity("[a]", "m/s**2", "Allowed deceleration of the stop", gt=0)
     ] = None
     allowable_heat_power: Annotated[
-        float | None, Quantity("[N_h]", "W", "Heat that the dampers of one end may give off", gt=0)
+        float | None, Quantity("[P_h]", "W", "Heat that the dampers of one end may give off", gt=0)
     ] = None
     drive: DriveBlock | None = None

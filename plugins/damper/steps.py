@@ -73,7 +73,7 @@ stop.value("rebound_velocity", "v_r", "m/s", "Speed of the rebound", lambda velo
            source="energy")
 
 heat = Chapter("Heat", needs=("impacts_per_hour",), absent="not calculated: neither impacts_per_hour nor the press's productivity is given")
-heat.value("heat_power", "N_h", "W", "Heat that the dampers of one end give off",
+heat.value("heat_power", "P_h", "W", "Heat that the dampers of one end give off",
            lambda loss_fraction, kinetic_energy, impacts_per_hour: loss_fraction * kinetic_energy * impacts_per_hour, source="energy")
 
 buckling = Chapter("Buckling",

@@ -147,7 +147,7 @@ def _in_units(step: str, needs: tuple[str, ...], lacks: tuple[str, ...]) -> Step
         steps.value(f"{drive}_sheet_velocity_max", f"V_{drive[0]}", "m/s", f"{name}: greatest velocity of the sheet",
                     bind(related.in_metres, relative=f"{drive}_velocity_peak", step=step), source="kinematics", needs=needs, lacks=lacks)
     for drive, name in drives:
-        steps.value(f"{drive}_sheet_acceleration_max", f"W_{drive[0]}", "m/s**2", f"{name}: greatest acceleration of the sheet",
+        steps.value(f"{drive}_sheet_acceleration_max", f"a_s{drive[0]}", "m/s**2", f"{name}: greatest acceleration of the sheet",
                     bind(related.in_metres_squared, relative=f"{drive}_acceleration_peak", step=step), source="kinematics", needs=needs, lacks=lacks)
     for drive, name in drives:
         steps.value(f"{drive}_torque_peak", f"M_{drive[0]}", "N*m", f"{name}: greatest torque for the conveyor's mass alone",

@@ -30,10 +30,10 @@ COMPARED = (
     ("stroke", "H", "Stroke", "mm"),
     ("working_time", "t_w", "Duration of the working stroke", "ms"),
     ("contact_velocity", "V_t", "Speed at contact", "m/s"),
-    ("acceleration_peak", "W_m", "Greatest acceleration in the working stroke", "m/s**2"),
-    ("acceleration_end", "W_0", "Acceleration at the lowest point", "m/s**2"),
+    ("acceleration_peak", "a_m", "Greatest acceleration in the working stroke", "m/s**2"),
+    ("acceleration_end", "a_0", "Acceleration at the lowest point", "m/s**2"),
     ("end_factor", "k", "Factor of the acceleration at the lowest point", "1"),
-    ("grip_size", "W_s", "Size of the acceleration in the grip", "m/s**2"),
+    ("grip_size", "a_s", "Size of the acceleration in the grip", "m/s**2"),
 )
 # The first with the table at the edge's highest point, the second with rollers as fast as the knife
 MAY_VANISH = ("contact_velocity", "grip_size")
@@ -65,7 +65,7 @@ def _best(drives: Drives) -> Steps:
     *first, last = drives
     words = {drive: f"the {drive.name} has the least acceleration" for drive in drives}
     steps = Steps()
-    steps.value(f"best_{PEAK}", "W_m,best", "m/s**2", "Least of the greatest accelerations in the working stroke", _least(drives), output=False,
+    steps.value(f"best_{PEAK}", "a_m,best", "m/s**2", "Least of the greatest accelerations in the working stroke", _least(drives), output=False,
                 **given)
     steps.choice("best_drive", "→", "1", "Drive that is gentlest on the paper", *(case(d.key, words[d], _is_best(d)) for d in first),
                  case(last.key, words[last]), **given)
@@ -133,7 +133,7 @@ best.add(_best(drives) for drives in SEVERAL)
 best.add(_ratios(drive) for drive in ALL)
 best.add(_verdict(drives) for drives in SEVERAL)
 
-OTHERS = (("acceleration_peak", "W_m", "Greatest acceleration in the working stroke", "m/s**2"), ("stroke", "H", "Stroke", "mm"),
+OTHERS = (("acceleration_peak", "a_m", "Greatest acceleration in the working stroke", "m/s**2"), ("stroke", "H", "Stroke", "mm"),
           ("end_factor", "k", "Factor of the acceleration at the lowest point", "1"))
 
 
@@ -177,7 +177,7 @@ def _of_planetary(lacks: tuple[str, ...], *pair: str) -> Steps:
 
 
 why = Chapter("Why the drives differ",
-              text="At the lowest point the acceleration is W₀ = k·H·ω₁²/2: stroke H times a factor k of the drive, which is 1 for the planetary "
+              text="At the lowest point the acceleration is a₀ = k·H·ω₁²/2: stroke H times a factor k of the drive, which is 1 for the planetary "
                    "drive and 1 + r/l for the crank-slider. With usual links the factors are near 1, so at equal stroke the drives differ little; "
                    "a shorter stroke at the same working depth lowers the acceleration in proportion.", needs=(PLANETARY.key,),
               absent="The planetary drive against the others: there is no block planetary.")

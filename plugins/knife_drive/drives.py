@@ -34,16 +34,16 @@ PLANETARY.add(working.reaches(working.PLANETARY))
 PLANETARY.value("displacement", "S_", "mm", "Displacement of the edge from the carrier's axis",
                 bind(formulas.planetary_displacement, carrier_radius=RADIUS), source="004 eq. 1")
 PLANETARY.value("velocity", "V_", "m/s", "Velocity of the edge", bind(formulas.planetary_velocity, carrier_radius=RADIUS), source="004 eq. 1")
-PLANETARY.value("acceleration", "W_", "m/s**2", "Acceleration of the edge", bind(formulas.planetary_acceleration, carrier_radius=RADIUS),
-                source="004 eq. 1")
+PLANETARY.value("acceleration", "a_", "m/s**2", "Acceleration of the edge", bind(formulas.planetary_acceleration, carrier_radius=RADIUS),
+                source="004 eq. 1", source_symbol="W_")
 PLANETARY.value("lowest_angle", "φ_0", "deg", "Crank angle of the lowest point", lambda: 3 * np.pi / 2, source="004 eq. 1")
 PLANETARY.value("working_angle", "φ_w", "deg", "Crank angle of the working stroke", bind(formulas.planetary_working_angle, carrier_radius=RADIUS),
                 source="004 eq. 1, solved", digits=6)
 PLANETARY.add(CONTACT)
 PLANETARY.value("contact_rate", "v_t", "m/s", "Velocity of the edge as it meets the signature",
                 bind(formulas.planetary_velocity, crank_angle="contact_angle", carrier_radius=RADIUS), source="004 eq. 1", output=False)
-PLANETARY.value("acceleration_end", "W_0", "m/s**2", "Acceleration of the edge at its lowest point",
-                bind(formulas.planetary_acceleration, crank_angle="lowest_angle", carrier_radius=RADIUS), source="004 eq. 1")
+PLANETARY.value("acceleration_end", "a_0", "m/s**2", "Acceleration of the edge at its lowest point",
+                bind(formulas.planetary_acceleration, crank_angle="lowest_angle", carrier_radius=RADIUS), source="004 eq. 1", source_symbol="W_0")
 PLANETARY.add(GRIP)
 PLANETARY.value("grip_rate", "v_g", "m/s", "Velocity of the edge when gripping begins",
                 bind(formulas.planetary_velocity, crank_angle="grip_begin", carrier_radius=RADIUS), source="004 eq. 1", output=False, lacks=NO_SPEED)
@@ -85,21 +85,21 @@ CRANK_SLIDER.value("displacement", "S_", "mm", "Height of the edge above its low
                    bind(slider_crank.displacement, coupler_angle="rod_angle", crank_radius=CRANK), source="004 eq. 2, corrected")
 CRANK_SLIDER.value("velocity", "V_", "m/s", "Velocity of the edge", bind(slider_crank.velocity, coupler_angle="rod_angle", crank_radius=CRANK),
                    source="004 eq. 2")
-CRANK_SLIDER.value("acceleration", "W_", "m/s**2", "Acceleration of the edge",
-                   bind(slider_crank.acceleration, coupler_angle="rod_angle", crank_radius=CRANK), source="004 eq. 2")
+CRANK_SLIDER.value("acceleration", "a_", "m/s**2", "Acceleration of the edge",
+                   bind(slider_crank.acceleration, coupler_angle="rod_angle", crank_radius=CRANK), source="004 eq. 2", source_symbol="W_")
 CRANK_SLIDER.value("lowest_angle", "φ_0", "deg", "Crank angle of the lowest point: a turn after φ = 0", lambda: 2 * np.pi, source="004 eq. 2")
 CRANK_SLIDER.value("working_angle", "φ_w", "deg", "Crank angle of the working stroke",
                    bind(slider_crank.crank_angle_at, displacement="working_depth", crank_radius=CRANK, rod_length=ROD), source="004 eq. 2, solved",
                    digits=6)
 CRANK_SLIDER.add(CONTACT)
 CRANK_SLIDER.add(_slider_at("contact", "t", "as it meets the signature"))
-CRANK_SLIDER.value("acceleration_end", "W_0", "m/s**2", "Acceleration of the edge at its lowest point",
-                   bind(formulas.slider_end_acceleration, crank_radius=CRANK), source="004 eq. 2 at φ = 0")
+CRANK_SLIDER.value("acceleration_end", "a_0", "m/s**2", "Acceleration of the edge at its lowest point",
+                   bind(formulas.slider_end_acceleration, crank_radius=CRANK), source="004 eq. 2 at φ = 0", source_symbol="W_0")
 CRANK_SLIDER.add(GRIP)
 CRANK_SLIDER.add(_slider_at("grip", "g", "when gripping begins", NO_SPEED))
 CRANK_SLIDER.add(_first_order("displacement", "S", "mm", "height", slider_crank.displacement_first_order))
 CRANK_SLIDER.add(_first_order("velocity", "V", "m/s", "velocity", slider_crank.velocity_first_order))
-CRANK_SLIDER.add(_first_order("acceleration", "W", "m/s**2", "acceleration", slider_crank.acceleration_first_order))
+CRANK_SLIDER.add(_first_order("acceleration", "a", "m/s**2", "acceleration", slider_crank.acceleration_first_order))
 CRANK_SLIDER.value("acceleration_difference_share", "δ_W", "1",
                    "Greatest difference of the first-order acceleration, to the acceleration at the lowest point",
                    lambda acceleration_difference, acceleration_end: acceleration_difference / acceleration_end, source="this method")

@@ -27,7 +27,7 @@ from diecut_report.plugins.knife_drive.working import ALL, CRANK_ROCKER, CRANK_S
 
 Values = Any
 CURVES = (("displacement", phrase("Displacement of the edge"), "mm", "S"), ("velocity", phrase("Velocity of the edge"), "m/s", "V"),
-          ("acceleration", phrase("Acceleration of the edge"), "m/s**2", "W"))  # fmt: skip
+          ("acceleration", phrase("Acceleration of the edge"), "m/s**2", "a"))  # fmt: skip
 FROM_LOWEST = (phrase("Crank angle from the lowest point"), "ψ", "deg")
 TURN = 2 * np.pi
 AROUND = np.linspace(0, TURN, 721)

@@ -79,9 +79,9 @@ class KnifeDrive(Inputs):
     crank_slider: Annotated[CrankSlider | None, Text("Crank-slider drive")] = None
     crank_rocker: Annotated[CrankRocker | None, Text("Crank-rocker drive")] = None
     allowable_paper_acceleration: Annotated[
-        float, Quantity("[W]", "m/s**2", "Allowed acceleration of the paper by the knife", gt=0)
+        float, Quantity("[a]", "m/s**2", "Allowed acceleration of the paper by the knife", gt=0)
     ] = 1000
     allowable_grip_acceleration: Annotated[
-        float, Quantity("[W_g]", "m/s**2", "Allowed acceleration of the paper in the grip of the rollers", gt=0)
+        float, Quantity("[a_g]", "m/s**2", "Allowed acceleration of the paper in the grip of the rollers", gt=0)
     ] = 10000
     n_points: Annotated[int, POINTS] = 720

@@ -95,9 +95,10 @@ CURVES.add(_either("rocker_angle", "δ_3", "deg", "Angle of the rocker from the 
 CURVES.value("displacement", "S_", "mm", "Height of the edge above its lowest point, along its arc",
              bind(common.product, first="rocker_angle", second=ARM), source="004 eq. 3")
 CURVES.add(_rate("velocity", "V_", "Velocity of the edge along its arc", "rocker_speed_ratio"))
-CURVES.add(_either("acceleration", "W_", "m/s**2", "Acceleration of the edge along its arc",
+CURVES.add(_either("acceleration", "a_", "m/s**2", "Acceleration of the edge along its arc",
                    bind(formulas.edge_acceleration, acceleration_ratio="rocker_acceleration_ratio", knife_arm=ARM),
-                   bind(formulas.edge_acceleration_inner, acceleration_ratio="rocker_acceleration_ratio", knife_arm=ARM), source="004 eq. 3"))
+                   bind(formulas.edge_acceleration_inner, acceleration_ratio="rocker_acceleration_ratio", knife_arm=ARM), source="004 eq. 3",
+                   source_symbol="W_"))
 
 PLACES = Steps()
 PLACES.add(_either("table_direction", "γ_h", "deg", "Direction of the rocker with the edge at the table",
@@ -122,9 +123,10 @@ PLACES.add(_either("dead_span", "λ_d", "1", "Crank and coupler in line at the l
 PLACES.value("dead_transmission_angle", "μ_0", "deg", "Transmission angle at the lowest point",
              bind(triangle.enclosed_angle, one_side="dead_span", other_side="rocker_ratio",
              opposite_side="frame_ratio"), source="law of cosines")
-PLACES.add(_either("acceleration_end", "W_0", "m/s**2", "Acceleration of the edge at its lowest point",
+PLACES.add(_either("acceleration_end", "a_0", "m/s**2", "Acceleration of the edge at its lowest point",
                    bind(formulas.end_acceleration_outer, knife_arm=ARM, dead_angle="dead_transmission_angle"),
-                   bind(formulas.end_acceleration_inner, knife_arm=ARM, dead_angle="dead_transmission_angle"), source="004 eq. 3 at the dead centre"))
+                   bind(formulas.end_acceleration_inner, knife_arm=ARM, dead_angle="dead_transmission_angle"), source="004 eq. 3 at the dead centre",
+                   source_symbol="W_0"))
 PLACES.add(GRIP)
 PLACES.add(_speed_ratio("grip_begin", "grip_", "g", " when gripping begins", NO_SPEED))
 PLACES.add(_rate("grip_rate", "v_g", "Velocity of the edge when gripping begins", "grip_rocker_speed_ratio", output=False, lacks=NO_SPEED))

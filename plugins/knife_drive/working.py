@@ -76,19 +76,19 @@ WORKING.choice("working", "s_", "1", "Whether the knife leads the signature (1) 
                     lambda crank_angle, lowest_angle, working_angle:
                         np.cos(crank_angle - lowest_angle + working_angle / 2) > np.cos(working_angle / 2)),
                case(lambda: 0, "outside the working stroke"), output=False, per_piece=True)
-WORKING.choice("paper_acceleration", "W_p", "m/s**2", "Acceleration of the signature while the knife leads it",
+WORKING.choice("paper_acceleration", "a_p", "m/s**2", "Acceleration of the signature while the knife leads it",
                case(lambda acceleration: acceleration, "within the working stroke", bind(formulas.holds, flag="working")),
                case(lambda: 0, "outside the working stroke"), output=False)
-WORKING.reduction("acceleration_peak", "W_m", "m/s**2", "Greatest acceleration in the working stroke", "abs_max", of="paper_acceleration")
+WORKING.reduction("acceleration_peak", "a_m", "m/s**2", "Greatest acceleration in the working stroke", "abs_max", of="paper_acceleration")
 WORKING.value("end_factor", "k_", "1", "Acceleration at the lowest point to that of a harmonic motion of the same stroke, H·ω₁²/2",
               lambda acceleration_end, stroke, crank_speed: 2 * acceleration_end / (stroke * as_number(crank_speed) ** 2), source="this method")
 WORKING.value("grip_velocity", "V_g", "m/s", "Speed of the signature when gripping begins", lambda grip_speed: grip_speed, source="input",
               needs=("grip_speed",))
 WORKING.value("grip_velocity", "V_g", "m/s", "Speed of the edge when gripping begins", lambda grip_rate: abs(grip_rate), source="kinematics",
               lacks=("grip_speed",))
-WORKING.value("grip_acceleration", "W_g", "m/s**2", "Acceleration of the signature in the grip of the rollers",
+WORKING.value("grip_acceleration", "a_g", "m/s**2", "Acceleration of the signature in the grip of the rollers",
               lambda roller_velocity, grip_velocity, grip_time: (roller_velocity - grip_velocity) / grip_time, source="004, after Fig. 3")
-WORKING.value("grip_size", "W_s", "m/s**2", "Size of the acceleration in the grip of the rollers", lambda grip_acceleration: abs(grip_acceleration),
+WORKING.value("grip_size", "a_s", "m/s**2", "Size of the acceleration in the grip of the rollers", lambda grip_acceleration: abs(grip_acceleration),
               output=False)
 WORKING.value("table_time", "t_t", "ms", "Time of the signature on the table, from contact on",
               lambda working_time, roller_time: working_time + roller_time, source="kinematics", needs=("signature_length",))

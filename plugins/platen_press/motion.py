@@ -89,7 +89,7 @@ contact.value("contact_rod_angle", "β_c", "deg", "Angle of the rods to the guid
 contact.value("velocity_at_contact", "V_c", "m/s", "Speed of the platen at contact with the board",
               bind(slider_crank.inner_velocity, crank_angle="cutting_start_angle", coupler_angle="contact_rod_angle"), source="loop")
 contact.value("friction_arm", "X", "mm", "Arm of the joints' friction at the dead centre", formulas.friction_arm, source="001 eq. 10, 11", digits=5)
-contact.value("acceleration_dead_center", "W_0", "m/s**2", "Acceleration of the platen at the dead centre",
+contact.value("acceleration_dead_center", "a_0", "m/s**2", "Acceleration of the platen at the dead centre",
               lambda crank_radius, crank_speed, lambda_ratio: crank_radius * crank_speed ** 2 * (1 - lambda_ratio), output=False)
 contact.value("inertia_dead_center", "P_i0", "N", "Inertia force at the dead centre", bind(formulas.inertia, acceleration="acceleration_dead_center"))
 contact.value("torque_dead_center", "M_0", "N*m", "Torque at the dead centre, with the inertia force",
@@ -123,7 +123,7 @@ motion_chapter.value("platen_velocity_first_order", "V_1", "m/s", "The same to t
                      bind(slider_crank.inner_velocity_first_order, crank_ratio="lambda_ratio"), source="001 eq. 2")
 motion_chapter.value("first_order_error", "ΔV", "m/s", "Exact speed less the first-order one",
                      lambda platen_velocity_ideal, platen_velocity_first_order: platen_velocity_ideal - platen_velocity_first_order, output=False)
-motion_chapter.value("platen_acceleration", "W", "m/s**2", "Acceleration of the platen away from the die, ideal",
+motion_chapter.value("platen_acceleration", "a_p", "m/s**2", "Acceleration of the platen away from the die, ideal",
                      bind(slider_crank.inner_acceleration, coupler_angle="rod_angle", crank_ratio="lambda_ratio"), source="loop")
 motion_chapter.choice("platen_displacement_true", "u_t", "mm", "Displacement of the platen, true",
                       *by_phase(bind(common.same, quantity="drive_deformation"), bind(common.same, quantity="platen_displacement"),

@@ -135,7 +135,7 @@ work.value("strain_energy", "W_e", "J", "Energy that the rods store and give bac
            bind(formulas.cutting_work, material_thickness="drive_deformation"), source="energy")
 work.value("friction_share", "k_f", "%", "Share of the work that friction takes",
            lambda friction_work, work_per_cycle: friction_work / work_per_cycle)
-work.value("power_mean", "N_mean", "W", "Mean power at the main shaft", lambda work_per_cycle, cycles_per_hour: work_per_cycle * cycles_per_hour)
+work.value("power_mean", "P_mean", "W", "Mean power at the main shaft", lambda work_per_cycle, cycles_per_hour: work_per_cycle * cycles_per_hour)
 work.value("energy_residual", "r_E", "1", "Difference of work and what it is spent on, relative",
            lambda work_per_cycle, cutting_work, friction_work: abs(work_per_cycle - cutting_work - friction_work) / work_per_cycle,
            source="conservation of energy", output=False)

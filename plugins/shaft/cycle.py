@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from typing import Any
 
@@ -28,6 +28,13 @@ class Instants:
     torque: Array
     couple_xy: Array
     couple_xz: Array
+
+
+def side_by_side(parts: Sequence[Instants]) -> Instants:
+    """Return the loads of several blocks of variants as those of one."""
+    if len(parts) == 1:
+        return parts[0]
+    return Instants(*(np.concatenate([getattr(each, name) for each in parts], axis=1) for name in COMPONENTS))
 
 
 @dataclass(frozen=True)

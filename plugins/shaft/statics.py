@@ -17,7 +17,6 @@ from diecut_report.plugins.shaft.cycle import SPARSE, Cycle, Instants, looked_at
 from diecut_report.plugins.shaft.elastic import ElasticShaft, between
 
 Array = NDArray[Any]
-BLOCK = 16  # variants at once
 FINE = np.linspace(0, 1, 101)  # of a piece, where the greatest deflection is looked for at its instant
 PROVED = 24  # instants at which the deflection line is proved by its energy
 

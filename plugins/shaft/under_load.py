@@ -13,12 +13,14 @@ from numpy.typing import NDArray
 from diecut_report.mechanics.beams import Loading, Supports
 from diecut_report.plugins.shaft import formulas, totals
 from diecut_report.plugins.shaft.body import Body
-from diecut_report.plugins.shaft.cycle import Cycle, Instants
+from diecut_report.plugins.shaft.cycle import Cycle, Instants, side_by_side
 from diecut_report.plugins.shaft.elastic import ElasticShaft
 from diecut_report.plugins.shaft.material_point import worst_points
-from diecut_report.plugins.shaft.statics import BLOCK, Sides, Statics
+from diecut_report.plugins.shaft.statics import Sides, Statics
 
 Array = NDArray[Any]
+SAMPLED = 16  # variants whose loads are sampled at once, alike of all shafts: they find what others sampled
+VALUES, MOST = 2**19, 4  # of a force in the sections, and blocks of samples, that are known at once
 
 
 @dataclass(frozen=True)
@@ -41,15 +43,25 @@ class UnderLoad:
 
     def blocks(self) -> Iterator[tuple[Array, Statics]]:
         """Yield the variants in blocks, each with the shaft under its loads."""
-        for start in range(0, self.variants, BLOCK):
-            rows = np.arange(start, min(start + BLOCK, self.variants))
-            if start not in self._loads:
-                self._loads[start] = self.cycle.at(self.cycle.share[rows], self.cycle.middle[rows], rows)
-            yield rows, self._under(rows, self._loads[start])
+        for start in range(0, self.variants, self._block):
+            rows = np.arange(start, min(start + self._block, self.variants))
+            yield rows, self._under(rows, side_by_side([self._sampled(first) for first in rows[::SAMPLED]]))
+
+    @property
+    def _block(self) -> int:
+        """How many variants are calculated at once: enough that calls cost little, few enough that forces stay near the processor."""
+        of_each = 2 * len(self.body.x) * int(self.cycle.share.shape[1])
+        return SAMPLED * min(max(1, VALUES // (of_each * SAMPLED)), MOST)
+
+    def _sampled(self, first: int) -> Instants:
+        """The loads of a block by its first variant: they are asked for twice, and cost more than what is made of them."""
+        if first not in self._loads:
+            rows = np.arange(first, min(first + SAMPLED, self.variants))
+            self._loads[first] = self.cycle.at(self.cycle.share[rows], self.cycle.middle[rows], rows)
+        return self._loads[first]
 
     @cached_property
     def _loads(self) -> dict[int, Instants]:
-        """The loads of the blocks, by their first variants: they are asked for twice, and cost more than what is made of them."""
         return {}
 
     def _under(self, rows: Array, loads: Instants) -> Statics:

@@ -13,7 +13,7 @@ from diecut_report.engine import Impossible
 from tests.machines import number
 from tests.plugins.clutches import BASE, checks, clutch
 
-NUMBER = r"\d+(?:\.\d+)?(?:e-?\d+)?(?:°| 1/h| rpm| mm)?"
+NUMBER = r"\d+(?:\.\d+)?(?:e-?\d+)?(?:°| 1/h| r/min| mm)?"
 SET = re.compile(
     rf"set (?P<key>\w+) to (?:at least|at most|between) (?P<low>{NUMBER})(?: and (?P<high>{NUMBER}))?"
     rf"(?: with shoe_width: (?P<width>{NUMBER}))?"

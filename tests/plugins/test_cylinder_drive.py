@@ -206,7 +206,7 @@ def test_an_impossible_drive_is_refused_in_words(changes: dict[str, Any], key: s
 def test_the_refusal_tells_both_sums_of_the_lengths_of_links() -> None:
     with pytest.raises(Impossible) as refused:
         drive(frame_ratio=2.0, coupler_ratio=1.5, rocker_ratio=1.25)
-    assert "longest one (3 together) shorter than the other two together (2.750) (Grashof)" in refused.value.message
+    assert "longest one (3 together) shorter than the other two together (2.75) (Grashof)" in refused.value.message
 
 
 def test_all_reasons_why_a_drive_cannot_be_are_told_at_once() -> None:

@@ -66,7 +66,7 @@ def test_a_belt_that_would_have_to_speed_up_is_refused_in_words() -> None:
     with pytest.raises(Impossible) as refused:
         train(output_speed="300 rpm")
     assert refused.value.key == "output_speed"
-    assert "300 rpm" in refused.value.message and "0.9667" in refused.value.message
+    assert "300 r/min" in refused.value.message and "0.9667" in refused.value.message
 
 
 def test_a_ratio_of_one_is_possible() -> None:

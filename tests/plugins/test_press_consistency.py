@@ -226,7 +226,7 @@ def test_a_flywheel_as_heavy_as_is_advised_is_enough_and_a_lighter_one_is_not(ch
 @pytest.mark.parametrize("check", ["motor_thermal", "motor_peak"])
 def test_a_motor_of_the_slip_or_of_the_power_that_is_advised_is_enough(check: str) -> None:
     keys = example_keys() | HOT[check]
-    slip = advised(check, keys, r"slip of at least ([\d.]+) rpm")
+    slip = advised(check, keys, r"slip of at least ([\d.]+) r/min")
     assert verdicts(consistency(keys, motor_speed=f"{1500 - slip} rpm"))[check] == "pass"
     assert verdicts(consistency(keys, motor_speed=f"{1500 - 0.99 * slip} rpm"))[check] != "pass"
     power = advised(check, keys, r"power of at least ([\d.]+) kW") * 1000 / (1450 * np.pi / 30)

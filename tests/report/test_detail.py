@@ -62,8 +62,9 @@ def _dense(text: str) -> str:
 # what each detail holds
 def test_without_a_word_the_report_is_standard(plain: Data, pages: dict[str, str]) -> None:
     del plain["report"]
-    made, standard = (page.split('<footer class="carried"')[0] for page in (render_html(plain), pages["standard"]))
-    assert made == standard
+    given = (render_html(plain), pages["standard"])
+    made, standard = (re.sub("[0-9a-f]{64}", "", page.split('<footer class="carried"')[0]) for page in given)
+    assert made == standard  # but for the hash of the results, one of which does not say it
 
 
 def test_brief_has_the_verdict_what_fails_and_key_results_but_no_calculation(

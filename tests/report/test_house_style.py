@@ -87,7 +87,7 @@ FAULTS = {
     ),
     "css imports": ({"house__css": '@import "x.css";'}, "house.css:1: @import would be fetched"),
     "css ends": ({"house__css": "p {}\n</style><script>"}, "house.css:2: '</' would end the style sheet"),
-    "picture": ({"mark__png": "GIF89a"}, "mark.png: The file is not a picture of the type image/png"),
+    "picture": ({"mark__png": "GIF89a"}, "mark.png: The file is neither a PNG nor an SVG picture"),
 }
 
 
@@ -196,8 +196,8 @@ def test_pages_set_with_other_templates_are_not_compared() -> None:
     carried: Any = SimpleNamespace(results={"report": {"template_sha256": "ab" * 32}})
     own = ("not compared, since they are set with templates of their own (SHA-256 abababababab); "
            "--template DIR names the templates")  # fmt: skip
-    assert _pages(carried, print, HouseStyle("other"), is_same=True) == (own, True)
+    assert _pages(carried, print, HouseStyle("other"), [], is_same=True) == (own, True)
     for strange in ({}, {"report": []}):
         carried.results = strange
-        words, _ = _pages(carried, print, HouseStyle("other"), is_same=True)
+        words, _ = _pages(carried, print, HouseStyle("other"), [], is_same=True)
         assert "the program's templates alone" in words

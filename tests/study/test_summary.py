@@ -433,6 +433,8 @@ def test_the_pages_are_written_and_say_the_counts(small: Path) -> None:
     paper = " ".join("\n".join(sheet.extract_text() for sheet in document.pages).split())
     assert "3 of 10 variants pass all checks" in paper
     assert "Partial rank correlation" in paper
+    for number, sheet in enumerate(document.pages, 1):
+        assert re.search(rf"\b{number}\s+of\s+{len(document.pages)}\b", sheet.extract_text())
 
 
 def test_links_lead_to_the_reports_that_exist(small_page: str) -> None:

@@ -143,14 +143,14 @@ class Substitution:
         None where it is proved that only rounding keeps printed numbers from showing it: the terms that it is the
         difference of are equal, or nearly so. ``Contradiction`` where the expression gives something else.
         """
-        result_digits = shown_digits(target, display, result_digits)
+        asked, result_digits = result_digits, shown_digits(target, display, result_digits)
         wanted = rounded(target, display, result_digits)
         self.in_degrees = unit(display).text == "deg" and self.is_angle(self.part.formula.tree)
         plain = self._at(DIGITS)
         if self._shows(bounded(plain, self._printed_value).value, display, result_digits, wanted):
             return plain
         whole = bounded(self._at(MOST_DIGITS), self._printed_value)
-        is_rounding = abs(target) * 10.0**-result_digits <= whole.error < math.inf  # no number of digits shows it
+        is_rounding = abs(target) * 10.0**-asked <= whole.error < math.inf  # no number of digits shows it
         for digits in () if is_rounding else range(DIGITS, MOST_DIGITS + 1):
             tree = self._at(digits)
             again, error = bounded(tree, self._printed_value)

@@ -89,8 +89,11 @@ class Diagram:
                 "pad": 0.6,
             }
             place = text.x / self.frame.width, text.y / self.frame.height
+            if text.leader:
+                ends = np.reshape(text.leader, (2, 2)) / (self.frame.width, self.frame.height)
+                axes.plot(*ends.T, color=SOFT, linewidth=0.5, transform=axes.transAxes, zorder=4)
             axes.text(*place, text.text, transform=axes.transAxes, ha="center", va="center", size=text.size,
-                      color=SOFT if text.soft else INK, zorder=6, bbox=halo)  # fmt: skip
+                      color=INK, zorder=6, bbox=halo)  # fmt: skip
 
     def _title(self) -> str:
         """What stands upwards, and its unit; with its symbol where there is one curve."""

@@ -8,12 +8,13 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from diecut_report.report.figures.label_places import around, beside_level, beside_vertical
+from diecut_report.report.figures.label_places import around, beside_level, beside_vertical, within
 from diecut_report.report.figures.panel_data import Frame, Line, PanelData, pieces
-from diecut_report.report.figures.style import Labels, marked, overlap, plain, sampled, text_size
+from diecut_report.report.figures.style import Box, Labels, marked, overlap, plain, sampled, text_size
 
 Array = NDArray[Any]
-SIZE, SMALL = 8.0, 7.0
+SIZE = 8.0
+AWAY = 14.0  # from a mark to its name, for which a thin line leads there, points
 DASHES_DIFFER = 4  # so many lines are told apart by their dashes alone; more are named at the lines
 AIR = 1.0
 WIDE_ENOUGH = 4.0  # between a line's name and the other lines, points
@@ -21,7 +22,7 @@ MARGIN = 8.0  # between a line's name and the frame
 
 
 class LabelText(NamedTuple):
-    """A text with its place; nothing shows through a solid one."""
+    """A text with its place; nothing shows through a solid one, and a thin line leads from what it names to one that stands away."""
 
     x: float
     y: float
@@ -29,6 +30,7 @@ class LabelText(NamedTuple):
     size: float = SIZE
     soft: bool = False
     solid: bool = False
+    leader: Box | None = None
 
 
 class LabelLayout:
@@ -56,25 +58,30 @@ class LabelLayout:
         edges = [frame.points(area.x, area.y) for area in panel.fills]
         return np.concatenate([np.empty((0, 2)), *map(sampled, [*levels, *uprights, *marks, *edges])])
 
-    def _write(self, text: str, places: Iterator[tuple[float, float]]) -> None:
-        x, y = self.labels.place(text_size(text, SIZE), places)
-        self.texts.append(LabelText(x, y, text))
+    def _write(self, text: str, places: Iterator[tuple[float, float]], of: tuple[float, float] | None = None) -> None:
+        """Writes a text at the best of the places; over lines, where all are, so that they do not run through it."""
+        size = text_size(text, SIZE)
+        (x, y), cost = self.labels.best(size, places)
+        self.labels.take((x, y), size)
+        self.texts.append(LabelText(x, y, text, solid=cost > 0, leader=_leader((x, y), size, of) if of else None))
 
     def _spans(self) -> None:
-        """The names of ranges, at the bottom edge."""
+        """The names of ranges, at the edge and the place along it that is clear of the lines."""
         for span in self.panel.spans:
             text = plain(span.text)
-            width, height = text_size(text, SMALL)
-            x = float(self.frame.points((span.start + span.end) / 2, 0)[0])
-            self.labels.take((x, height / 2 + 2), (width, height))
-            self.texts.append(LabelText(x, height / 2 + 2, text, SMALL, soft=True))
+            if text:
+                size = text_size(text, SIZE)
+                start, end = (float(self.frame.points(x, 0)[0]) for x in (span.start, span.end))
+                x, y = self.labels.place(size, within(start, end, self.frame.height, size))
+                self.texts.append(LabelText(x, y, text, soft=True))
 
     def _notes(self) -> None:
         """Marks, levels and vertical lines."""
         frame, panel = self.frame, self.panel
         for note in panel.marks:
             if note.text:
-                self._write(note.text, around(*frame.points(note.x, note.y)))
+                x, y = map(float, frame.points(note.x, note.y))
+                self._write(note.text, around(x, y), (x, y))
         for note in panel.levels:
             if note.text:
                 height = float(frame.points(0, note.y)[1])
@@ -138,6 +145,13 @@ class LabelLayout:
             box = (x - wide - AIR, y - high - AIR, x + wide + AIR, y + high + AIR)
             covered = sum(overlap(box, other) for other in self.labels.taken) + max(-100 * inside, 0)
             yield gap - covered, float(x), float(y)
+
+
+def _leader(center: tuple[float, float], size: tuple[float, float], of: tuple[float, float]) -> Box | None:
+    """A line from a mark to the nearest place of its name's box; None where the name stands at the mark."""
+    x, y = (float(np.clip(mark, at - side / 2, at + side / 2)) for mark, at, side in zip(of, center, size, strict=True))
+    away = float(np.hypot(x - of[0], y - of[1]))
+    return (*of, x, y) if away > AWAY else None
 
 
 def _rooms(edge: Array, zero: float, size: tuple[float, float]) -> Iterator[tuple[float, float, float, float]]:

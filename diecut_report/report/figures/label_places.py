@@ -82,9 +82,17 @@ def beside_vertical(x: float, height: float, size: Size) -> Iterator[Place]:
         yield from ((x + CLEAR + size[0] / 2, y), (x - CLEAR - size[0] / 2, y))
 
 
+def within(start: float, end: float, height: float, size: Size) -> Iterator[Place]:
+    """Within a range across a diagram, at its upper edge and then at its lower one, its middle first."""
+    middle, room = (start + end) / 2, max((end - start - size[0]) / 2 - 2, 0.0)
+    for share in (0.0, -0.5, 0.5, -1.0, 1.0):
+        for y in (height - size[1] / 2 - 2, size[1] / 2 + 2):
+            yield middle + share * room, y
+
+
 def around(x: float, y: float) -> Iterator[Place]:
     """Above and below a marked point of a diagram, near ones first."""
-    for away in (9.0, 16.0, 26.0, 40.0):
+    for away in (9.0, 16.0, 26.0, 34.0, 44.0, 56.0):
         for aside in (0.0, 48.0, -48.0, 75.0, -75.0, 110.0, -110.0):
             yield from ((x + aside, y + away), (x + aside, y - away))
 

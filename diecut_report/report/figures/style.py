@@ -23,6 +23,7 @@ from diecut_report.report.symbols import SYMBOL
 INK, SOFT, PALE, ACCENT = "#1b232c", "#66717d", "#e9edf1", "#0b5c8f"
 MM = 72 / 25.4  # points
 FONT_SIZE = 8.5  # points
+BELOW = 1.2  # what the tails of letters take beyond a text's size, points
 LINE = 1.25  # from line to line of a text, in font sizes
 Box = tuple[float, float, float, float]  # left, bottom, right, top
 
@@ -183,9 +184,9 @@ class Labels:
         return found, lowest
 
     def take(self, center: tuple[float, float], size: tuple[float, float]) -> None:
-        """Keep a box free of further texts."""
-        x, y = center
-        self.taken.append((x - size[0] / 2, y - size[1] / 2, x + size[0] / 2, y + size[1] / 2))
+        """Keep a box free of further texts, with the little air that letters below the line take."""
+        x, y, high = *center, size[1] / 2 + BELOW
+        self.taken.append((x - size[0] / 2, y - high, x + size[0] / 2, y + high))
 
     def _cost(self, box: Box) -> float:
         air = 2.5

@@ -3,6 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from typing import Any
+
+from markupsafe import Markup
 
 from diecut_report.report.document import ReportDocument
 from diecut_report.report.model import Heading, PrintedChapter, QuantityRow
@@ -10,6 +13,7 @@ from diecut_report.report.office.word_body import WordBody
 from diecut_report.report.office.word_front import check_table
 from diecut_report.report.office.wordml import Inline, TableColumn, bold, key, new_line, rich, run, small
 from diecut_report.report.scope import FULL
+from diecut_report.report.symbol_list import SymbolRow
 from diecut_report.report.symbols import prose
 
 HASH = 12  # letters of a hash
@@ -157,10 +161,19 @@ def _rest(body: WordBody, part: PrintedChapter) -> None:
     )
     _head(body, part.parts.get("absent"))
     body.listed(bold(str(each["title"])) + run(": ") + rich(prose(each["text"])) for each in part.absent)
+    _head(body, part.parts.get("symbols"))
+    columns = [body.head("symbol", 1), body.head("quantity", 6), body.head("unit", 1)]
+    body.table(columns, [[rich(row.symbol), _meaning(body, row), run(row.unit)] for row in part.symbols])
 
 
-def closing(body: WordBody, document: ReportDocument) -> None:
-    """Sources, and what calculated."""
+def _meaning(body: WordBody, row: SymbolRow) -> Inline:
+    """What a symbol stands for, and how the source writes it where that is another letter."""
+    told = rich(Markup(f" ({body.words.say('in_source', symbol=row.in_source)})")) if row.in_source else ""
+    return rich(prose(row.meaning)) + told
+
+
+def closing(body: WordBody, document: ReportDocument, digest: str) -> None:
+    """Sources, and what calculated; ``digest`` is that of the results."""
     words, program = document.words, document.program
     body.heading(1, "3", words["sources"], "sources")
     if not document.sources:
@@ -176,8 +189,11 @@ def closing(body: WordBody, document: ReportDocument) -> None:
             run(f"{program['name']} {program['version']}") + _hash(body, program.get("source_sha256")),
         ],
         *([run(words["extension"]), key(name) + _hash(body, digest)] for name, digest in _extensions(program).items()),
+        *([[run(words["libraries"]), run(_versions(program))]] if program.get("libraries") else ()),
         [run(words["config_file"]), run(document.config["file"])],
         [run(words["sha256"]), key(document.config["sha256"])],
+        *([run(file["file"]), key(file["sha256"])] for file in document.config.get("materials", ())),
+        [run(f"{words['carried_results']}, {words['sha256']}"), key(digest)],
     ]
     body.table([TableColumn("", 2), TableColumn("", 6)], rows, headed=False)
     columns = [
@@ -191,6 +207,10 @@ def closing(body: WordBody, document: ReportDocument) -> None:
          run(part.version or "–") + _hash(body, part.source_sha256), body.status(part.face)]
         for part in document.chapters
     ])  # fmt: skip
+
+
+def _versions(program: Mapping[str, Any]) -> str:
+    return ", ".join(f"{name} {version}" for name, version in program["libraries"].items())
 
 
 def _extensions(program: Mapping[str, object]) -> Mapping[str, str]:

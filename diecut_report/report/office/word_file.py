@@ -52,7 +52,7 @@ def _write(body: WordBody, material: Material) -> None:
     chapters.press_data(body, document)
     for part in document.chapters:
         chapters.chapter(body, part, document)
-    chapters.closing(body, document)
+    chapters.closing(body, document, material.carried[1].digest)
     if document.detail == FULL:
         chapters.appendix(body, document)
 

@@ -34,7 +34,7 @@ _MONO = f'<w:rFonts w:ascii="{MONO}" w:hAnsi="{MONO}" w:cs="{MONO}"/>'
 _PARAGRAPHS = {  # style: its name, what it is based on, its paragraph, its letters
     "TableText": ("Table Text", "Normal", '<w:spacing w:before="0" w:after="0"/>', '<w:sz w:val="17"/>'),
     "Formula": ("Formula", "Normal", '<w:keepLines/><w:spacing w:before="40" w:after="60"/><w:ind w:left="454"/>', ""),
-    "FormulaRow": ("Formula Row", "Formula", '<w:spacing w:before="0" w:after="60"/><w:ind w:left="680"/>', ""),
+    "FormulaRow": ("Formula Row", "Formula", '<w:spacing w:before="0" w:after="60"/>', ""),
     "Lead": ("Formula Lead", "Normal", '<w:keepNext/><w:keepLines/><w:spacing w:before="120" w:after="20"/>', ""),
     "Why": ("Formula Note", "Normal", '<w:spacing w:before="0" w:after="60"/><w:ind w:left="454"/>', f'<w:color w:val="{SOFT}"/><w:sz w:val="18"/>'),
     "Listing": ("Listing", "Normal", '<w:spacing w:before="0" w:after="0"/>', f'{_MONO}<w:sz w:val="15"/>'),
@@ -99,9 +99,11 @@ def set_page(made: Document, document: ReportDocument) -> None:
     section.header_distance = section.footer_distance = Mm(10)
     words, project = document.words, document.project
     left = " · ".join(filter(None, (project["organisation"] or document.press["name"], document.title)))
-    right = (
-        f"{words['document']} {project['document_number'] or '–'}   {words['revision']} {project['revision'] or '–'}"
-    )
+    numbered = [
+        f"{words[name]} {project[of] or '–'}"
+        for name, of in (("document", "document_number"), ("revision", "revision"))
+    ]
+    right = "   ".join([*numbered, words["across"] if document.block.is_held else document.block.status])
     _replace(section.header._element, small(left) + _tab() + small(right))
     sheet = (
         small(f"{words['sheet']} ")

@@ -48,7 +48,15 @@ def sheets(made: MachineComparison) -> bytes:
 
 def _filled(made: MachineComparison, kind: str) -> str:
     faces = html._font_faces(tuple(html.FACES.items()))
-    style = "\n".join([faces, *(html._read(f"{name}.css") for name in ("report", kind, "summary", "machines"))])
+    style = "\n".join(
+        [
+            faces,
+            *(
+                html._read(f"{name}.css")
+                for name in ("report", kind, *(["strip"] if kind == "print" else []), "summary", "machines")
+            ),
+        ]
+    )
     return html._environment().get_template("summary_machines.html.j2").render(
         c=made, t=Catalogue("en"), kind=kind, policy=html.policy(""), style=Markup(style), version=__version__, shown=shown,
     )  # fmt: skip

@@ -42,7 +42,10 @@ def _filled(summary: Summary, kind: str) -> str:
     style = "\n".join(
         [
             html._font_faces(tuple(html.FACES.items())),
-            *(html._read(f"{name}.css") for name in ("report", kind, "summary")),
+            *(
+                html._read(f"{name}.css")
+                for name in ("report", kind, *(["strip"] if kind == "print" else []), "summary")
+            ),
         ]
     )
     return html._environment().get_template("summary.html.j2").render(

@@ -1,0 +1,122 @@
+"""The texts of figures, as matplotlib sets them: none over another, none out of the picture."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from itertools import combinations
+from pathlib import Path
+from typing import Any, NamedTuple
+
+import matplotlib as mpl
+import numpy as np
+import pytest
+from matplotlib.backends.backend_agg import FigureCanvasAgg
+from matplotlib.text import Text
+
+from diecut_report.config.discovery import Discovery
+from diecut_report.pipeline import calc
+from diecut_report.report.figures.by_type import DRAW
+from diecut_report.report.figures.label_layout import AWAY, LabelLayout
+from diecut_report.report.figures.panel_data import Across, Line, Note, PanelData, SpanData, framed
+from diecut_report.report.figures.style import load_fonts
+from diecut_report.report.figures.style import style as style_of
+from diecut_report.report.i18n import Catalogue
+from tests.configs import EXAMPLES
+
+TAIL = 2.2  # points of a line of text below its letters: so much two boxes may share without a letter touching another
+EDGE = 0.5
+
+
+class Box(NamedTuple):
+    """A text with the box that it is set in, in points."""
+
+    text: str
+    left: float
+    bottom: float
+    right: float
+    top: float
+
+
+def _boxes(figure: Mapping[str, Any], curves: Mapping[str, Any]) -> tuple[list[Box], float, float]:
+    """The texts that are really drawn (ticks beyond an axis are not), and the size of the picture."""
+    drawn: dict[Text, None] = {}
+    draw = Text.draw
+
+    def noted(self: Text, renderer: Any) -> None:
+        if self.get_visible() and self.get_text().strip():
+            drawn[self] = None
+        draw(self, renderer)
+
+    load_fonts()
+    with mpl.rc_context(style_of("x")), pytest.MonkeyPatch.context() as patch:  # type: ignore[arg-type]
+        sheet = DRAW[figure["type"]](figure, curves, Catalogue("en"))
+        patch.setattr(Text, "draw", noted)
+        renderer = FigureCanvasAgg(sheet).get_renderer()
+        sheet.draw(renderer)
+        points = 72 / sheet.dpi
+        found = [
+            Box(text.get_text(), *(side * points for side in text.get_window_extent(renderer).extents))
+            for text in drawn
+        ]
+    width, height = (side * 72 for side in sheet.get_size_inches())
+    return found, width, height
+
+
+def _faults(figure: Mapping[str, Any], curves: Mapping[str, Any]) -> Iterator[str]:
+    boxes, width, height = _boxes(figure, curves)
+    for box in boxes:
+        if min(box.left, box.bottom) < -EDGE or box.right > width + EDGE or box.top > height + EDGE:
+            yield f"{figure['id']}: {box.text!r} leaves the picture"
+    for one, other in combinations(boxes, 2):
+        wide, high = (
+            min(one.right, other.right) - max(one.left, other.left),
+            min(one.top, other.top) - max(one.bottom, other.bottom),
+        )
+        if wide > EDGE and high > TAIL:
+            yield f"{figure['id']}: {one.text!r} over {other.text!r}"
+
+
+def _every(results: Mapping[str, Any]) -> list[str]:
+    parts = (*results["mechanisms"].values(), *results.get("comparisons", {}).values())
+    drawn = [(figure, part["curves"]) for part in parts for figure in part.get("figures", ()) if "error" not in figure]
+    assert drawn
+    return [fault for figure, curves in drawn for fault in _faults(figure, curves)]
+
+
+def test_texts_of_figures_keep_clear_of_each_other_and_of_the_edge(results: dict[str, Any]) -> None:
+    assert _every(results) == []
+
+
+@pytest.mark.nightly
+@pytest.mark.parametrize("config", EXAMPLES, ids=lambda path: path.stem)
+def test_texts_of_figures_keep_clear_in_every_example(config: Path) -> None:
+    assert _every(calc(config, Discovery([]), lambda _: None)[0].results) == []
+
+
+def _crowded() -> LabelLayout:
+    """Five marks close together, a level through steep curves, and a named range, in a diagram 400 by 90 points large."""
+    x = np.linspace(0.0, 10.0, 400)
+    lines = [Line(x, 5 + 5 * np.sin(8 * x + phase), "") for phase in (0.0, 1.0, 2.0)]
+    marks = [Note(5.0 + 0.2 * n, 5.0, f"place {n} of five 1.234") for n in range(5)]
+    panel = PanelData(title="T", unit="1", across=Across("x", "x", "1", 0.0, 10.0), lines=lines, marks=marks,
+                      levels=[Note(0.0, 5.0, "allowed")], spans=[SpanData(2.0, 8.0, "stroke")])  # fmt: skip
+    return LabelLayout(panel, framed(panel, 400.0, 90.0))
+
+
+@pytest.mark.usefixtures("style")
+def test_a_name_that_stands_away_from_its_mark_has_a_line_to_it() -> None:
+    layout = _crowded()
+    names = [text for text in layout.texts if text.text.startswith("place")]
+    assert len(names) == 5
+    for name, mark in zip(names, layout.panel.marks, strict=True):
+        x, y = layout.frame.points(mark.x, mark.y)
+        if name.leader is None:
+            assert abs(name.y - y) < AWAY + 10 and abs(name.x - x) < AWAY + 60
+        else:
+            assert name.leader[:2] == pytest.approx((x, y))
+    assert any(name.leader for name in names)
+
+
+@pytest.mark.usefixtures("style")
+def test_lines_do_not_run_through_a_name_that_has_no_room_beside_them() -> None:
+    assert next(text for text in _crowded().texts if text.text == "allowed").solid

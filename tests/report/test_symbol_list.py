@@ -1,0 +1,37 @@
+"""The list of symbols of a chapter."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from diecut_report.report.symbol_list import symbol_rows
+
+
+def row(symbol: str, description: str, unit: str = "mm", **more: Any) -> dict[str, Any]:
+    """A quantity of the results."""
+    return {"symbol": symbol, "description": description, "display": {"text": "1", "unit": unit}} | more
+
+
+def mechanism() -> dict[str, Any]:
+    """Results in which ω and b stand in formulas, a of the source's letter is a result, and c is never printed."""
+    formula = {"symbol": "a_c", "equation": ["*", ["sym", "ω"], ["/", ["sym", "b"], ["num", "2"]]]}
+    return {
+        "inputs": {"width": row("b", "Width; without it the length"), "idle": row("c", "Clearance")},
+        "curves": {"speed": {"symbol": "ω", "description": "Speed", "display_unit": "rpm"}},
+        "outputs": {"acceleration": row("a_c", "Acceleration", "m/s**2", source_symbol="W")},
+        "values": {"again": row("b", "Another width")},
+        "sections": [{"items": [formula, {"text": "a note"}]}],
+    }
+
+
+def test_a_symbol_of_a_formula_stands_once_with_meaning_and_unit_by_the_alphabet() -> None:
+    rows = symbol_rows(mechanism())
+    assert [(each.meaning, each.unit) for each in rows] == [
+        ("Acceleration", "m/s²"), ("Width", "mm"), ("Speed", "r/min"),
+    ]  # fmt: skip
+    assert "ω" in rows[2].symbol
+
+
+def test_the_list_tells_the_letter_of_the_source() -> None:
+    first, *others = symbol_rows(mechanism())
+    assert "W" in first.in_source and not any(each.in_source for each in others)
