@@ -467,6 +467,59 @@
     box.append(make("label", { "class": "r-slide" }, [make("span", {}, [across.title + " "].concat(said(across.symbol))), input, output]));
   }
 
+  /* A drawing that moves with the cursor: its shapes between the two nearest places for which the report has them. */
+  function svg(name, attributes) {
+    var node = document.createElementNS("http://www.w3.org/2000/svg", name);
+    Object.keys(attributes).forEach(function (key) { node.setAttribute(key, attributes[key]); });
+    return node;
+  }
+
+  function bounds(moving) {
+    var low = [Infinity, Infinity], high = [-Infinity, -Infinity];
+    moving.shapes.forEach(function (shape) {
+      shape.rows.forEach(function (row) {
+        var numbers = data.rows[row], room = shape.shape === "circle" ? numbers[2] : 0, end = shape.shape === "polyline" ? numbers.length : 2;
+        for (var k = 0; k < end; k += 1) { low[k % 2] = Math.min(low[k % 2], numbers[k] - room); high[k % 2] = Math.max(high[k % 2], numbers[k] + room); }
+      });
+    });
+    var air = 0.03 * Math.max(high[0] - low[0], high[1] - low[1]);
+    return { left: low[0] - air, top: -high[1] - air, width: high[0] - low[0] + 2 * air, height: high[1] - low[1] + 2 * air };
+  }
+
+  function mover(moving, box) {
+    var room = bounds(moving), places = data.rows[moving.places], dot = Math.max(room.width, room.height) / 90;
+    var sheet = svg("svg", { viewBox: [room.left, room.top, room.width, room.height].join(" "), role: "img", "aria-label": moving.title, "class": "moving" });
+    var nodes = moving.shapes.map(function (shape) {
+      var node = svg(shape.shape === "polyline" ? (shape.closed ? "polygon" : "polyline") : "circle", { "class": "m-" + shape.role });
+      sheet.append(node);
+      return node;
+    });
+    box.append(sheet);
+    groups[moving.group].members.push({ at: function (x) {
+      var k = 1;
+      while (k < places.length - 1 && places[k] < x) { k += 1; }
+      var share = Math.max(0, Math.min(1, (x - places[k - 1]) / (places[k] - places[k - 1] || 1)));
+      moving.shapes.forEach(function (shape, index) {
+        var from = data.rows[shape.rows[k - 1]], to = data.rows[shape.rows[k]], node = nodes[index];
+        var now = from.map(function (value, at) { return (value + share * (to[at] - value)) * (shape.shape !== "polyline" && at === 2 || at % 2 === 0 ? 1 : -1); });
+        if (shape.shape === "polyline") { node.setAttribute("points", now.join(" ")); return; }
+        node.setAttribute("cx", now[0]); node.setAttribute("cy", now[1]); node.setAttribute("r", shape.shape === "circle" ? now[2] : dot);
+      });
+    } });
+  }
+
+  function beside(group, box) {
+    data.moving.forEach(function (moving) { if (moving.group === group) { mover(moving, box); } });
+  }
+
+  function movable(moving) {
+    var figure = document.getElementById("fig-" + moving.figure), box = make("div", { "class": "reading large" });
+    figure.querySelector(".fig").after(box);
+    mover(moving, box);
+    slider(moving, box);
+    if (groups[moving.group].place === null) { move(groups[moving.group], moving.across.range[0]); }
+  }
+
   function readable(number) {
     var figure = document.getElementById("fig-" + number), svg = figure.querySelector(".fig"), panels = data.figures[number].panels;
     var box = make("div", { "class": "reading" }), button = make("button", { type: "button", "class": "as-printed", "aria-pressed": "false" }, words.printed);
@@ -474,7 +527,7 @@
     figure.insertBefore(box, svg);
     panels.forEach(function (panel, index) {
       diagram(panel, box, tall);
-      if (!panels[index + 1] || panels[index + 1].group !== panel.group) { slider(panel, box); }
+      if (!panels[index + 1] || panels[index + 1].group !== panel.group) { slider(panel, box); beside(panel.group, box); }
     });
     box.after(button);
     button.addEventListener("click", function () {
@@ -508,6 +561,7 @@
   search();
   filter();
   readings();
+  data.moving.forEach(movable);
   reach();
   window.addEventListener("resize", reach);
 }());

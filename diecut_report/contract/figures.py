@@ -168,12 +168,16 @@ class Drawing(Figure):
 
     ``scaled_by`` names the optional input without which the shapes have relative lengths (``unit`` is then a pure number).
     A ``schematic`` one is not to scale: its coordinates only say what stands beside what.
+    ``moving`` gives polylines, circles and points at a place of the curves' abscissa ``over``, always the same ones in the same
+    order: on a screen they move with the cursor of the curves.
     """
 
     build: Callable[[View], list[Shape]]
     unit: str = "mm"
     scaled_by: str = ""
     schematic: bool = False
+    moving: Callable[[View, float], list[Shape]] | None = None
+    over: str = ""
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)

@@ -19,13 +19,12 @@ from diecut_report.expressions import Array
 class Step:
     """Declare what all steps have: the quantity that it gives, and the inputs without which (or with which) it is left out.
 
-    ``needs`` and ``lacks`` name optional inputs: the step is part of the calculation when all of ``needs`` are given
-    and none of ``lacks``. ``output`` puts the quantity among the outputs of the results file, else among its values.
-    A text input takes part in them by its value: ``needs=("engagement=away",)``.
-    ``exists`` is a condition on numbers: where it does not hold the quantity is absent for that machine. ``source_symbol`` is the
-    letter that the source writes, where that is another one. ``whole`` marks a count, an integer in the results. ``units`` are other units, each with the input beside which it holds: (("mass", "N"),).
-    A row over repeated parts is named ``ID.0``, ``ID.1`` … in the results, or by ``numbered`` (``shaft_{}_speed``) from ``first`` on,
-    or with ``named_by``, the text input of the parts' names (``bearings.name``), after them: ``NAME_ID``.
+    ``needs`` and ``lacks`` name optional inputs: the step is part of the calculation when all of ``needs`` are given and none of ``lacks``.
+    ``output`` puts the quantity among the outputs of the results file, else among its values. A text input takes part in them by its value:
+    ``needs=("engagement=away",)``. ``exists`` is a condition on numbers: where it does not hold the quantity is absent. ``source_symbol`` is the
+    source's letter, where another. ``whole`` marks a count, an integer in the results. ``units`` are other units, each with the input beside which
+    it holds: (("mass", "N"),). A row over repeated parts is named ``ID.0``, ``ID.1`` … in the results, or by ``numbered`` (``shaft_{}_speed``) from
+    ``first`` on, or with ``named_by``, the text input of the parts' names (``bearings.name``), after them: ``NAME_ID``.
     """
 
     id: str

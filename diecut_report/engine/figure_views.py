@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
+from functools import partial
 from typing import Any
 
 import numpy as np
@@ -14,6 +15,9 @@ from diecut_report.engine.drawable import Undrawable, curve_named, guarded
 from diecut_report.engine.printing.substitution import printed
 from diecut_report.engine.steps.rerun import varied, varied_curves
 from diecut_report.expressions import Array
+
+FRAMES = 36  # of a turn that moves on a screen, at most; between them places are interpolated
+MOVABLE = ("polyline", "circle", "point")
 
 
 class MachineView:
@@ -126,10 +130,29 @@ def _made(calc: Calculation, figure: Figure, head: dict[str, Any], view: Machine
         case Drawing(build=build, unit=unit, scaled_by=scale, schematic=schematic):
             relative = schematic or (scale and scale not in calc.given)
             drawn = {"type": "drawing", "unit": "1" if relative else unit, "shapes": _listed(build, view)}
-            return head | drawn | ({"schematic": True} if schematic else {})
+            return head | drawn | ({"schematic": True} if schematic else {}) | _moving(calc, figure)
         case Chart(build=build):
             return head | {"type": "chart", "panels": [axis_range.of_lines(panel) for panel in _listed(build, view)]}
     raise TypeError(f"{figure.id} is not a known figure")
+
+
+def _moving(calc: Calculation, drawing: Drawing) -> dict[str, Any]:
+    """What moves in a drawing at places of its abscissa; what it asks for is told by the drawing itself."""
+    moving, view = drawing.moving, MachineView(calc)
+    if moving is None:
+        return {}
+    curve_named(calc, drawing.over, drawing.over)
+    samples = view.curve(drawing.over)
+    places = [*samples[:: -(-len(samples) // FRAMES)], samples[-1]]
+    frames = [_listed(partial(_at_place, moving, place), view) for place in places]
+    kinds = {tuple((shape["shape"], shape["role"]) for shape in frame) for frame in frames}
+    if len(kinds) > 1 or not all(kind in MOVABLE for kind, _ in next(iter(kinds))):
+        raise Undrawable(f"what moves in {drawing.title!r} must be the same {', '.join(MOVABLE)} at each place")
+    return {"moving": {"over": drawing.over, "places": places, "frames": frames}}
+
+
+def _at_place(moving: Callable[[MachineView, float], Any], place: float, view: MachineView) -> Any:
+    return moving(view, place)
 
 
 def _listed(build: Callable[[MachineView], Any], view: MachineView) -> Any:

@@ -11,6 +11,7 @@ from markupsafe import Markup
 
 from diecut_report.languages.tokens import worded
 from diecut_report.quantities.units import pretty
+from diecut_report.report.alignment import rooms
 from diecut_report.report.equations import Equation
 from diecut_report.report.number_format import joined, number, parts, quantity
 from diecut_report.report.symbol_list import SymbolRow
@@ -123,6 +124,12 @@ class PrintedTable:
     number: str = ""
 
     @property
+    def cells(self) -> list[list[tuple[str, str]]]:
+        """Each text with the class by which its column is aligned on the decimal sign."""
+        aligned = [zip(texts, rooms(texts), strict=True) for texts in zip(*self.rows, strict=True)]
+        return [list(row) for row in zip(*aligned, strict=True)]
+
+    @property
     def is_long(self) -> bool:
         """Whether it may go over to another sheet."""
         return len(self.rows) > LONG
@@ -158,6 +165,14 @@ class PartsTable:
     family: str
     columns: list[PrintedColumn]
     lines: list[tuple[str, list[TableCell]]]
+
+    @property
+    def rooms(self) -> list[list[str]]:
+        """For each line the classes by which its cells are aligned on the decimal sign."""
+        columns = [
+            rooms([cell.text for cell in column]) for column in zip(*(cells for _, cells in self.lines), strict=True)
+        ]
+        return [list(row) for row in zip(*columns, strict=True)]
 
 
 @dataclass(frozen=True)

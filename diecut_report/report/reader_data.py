@@ -4,12 +4,12 @@ from __future__ import annotations
 
 import json
 import math
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from diecut_report.quantities.units import pretty
+from diecut_report.quantities.units import pretty, to_display, unit
 from diecut_report.report.context import Material
 from diecut_report.report.i18n import Catalogue
 from diecut_report.report.number_format import displayed, joined, tidy
@@ -28,7 +28,14 @@ def reader_data(material: Material) -> str:
     """Return all that the page's scripts use as JSON, in which no character opens or closes anything of HTML."""
     pool = _Pool()
     figures = {number: made for number, made in _figures(material, pool) if made}
-    data = {"decimal": material.words["decimal"], "rows": pool.rows, "groups": len(pool.groups), "figures": figures}
+    moving = list(_moving(material, pool))
+    data = {
+        "decimal": material.words["decimal"],
+        "rows": pool.rows,
+        "groups": len(pool.groups),
+        "figures": figures,
+        "moving": moving,
+    }
     return json.dumps(data, ensure_ascii=False, allow_nan=False, separators=(",", ":")).translate(SAFE)
 
 
@@ -68,6 +75,38 @@ def _figures(material: Material, pool: _Pool) -> Iterable[tuple[str, Data | None
         for number, figure in chapter.figures:
             if figure["type"] in ("plot", "chart") and number in material.figures:
                 yield number, _figure(chapter.name, figure, calculated[chapter.name]["curves"], material.words, pool)
+
+
+def _moving(material: Material, pool: _Pool) -> Iterator[Data]:
+    """The drawings that move with the cursor of their curves: their abscissa, and each shape's numbers at each place."""
+    calculated = dict(parts(material.said))
+    for chapter in material.document.chapters:
+        for number, figure in chapter.figures:
+            if "moving" in figure and number in material.figures:
+                moving, curves = figure["moving"], calculated[chapter.name]["curves"]
+                over = curves[moving["over"]]
+                shown, places = over["display_unit"], np.array(moving["places"])
+                yield {
+                    "figure": number, "group": pool.group(chapter.name, over["description"], over["symbol"], shown),
+                    "title": tidy(figure["title"]),
+                    "across": {"title": tidy(over["description"]), "symbol": over["symbol"], "unit": pretty(shown),
+                               "range": [to_display(float(places[0]), shown), to_display(float(places[-1]), shown)]},
+                    "places": pool.row(places / unit(shown).factor, X_DIGITS),
+                    "shapes": [_shape(shapes, pool) for shapes in zip(*moving["frames"], strict=True)],
+                }  # fmt: skip
+
+
+def _shape(at_places: Sequence[Data], pool: _Pool) -> Data:
+    """A shape with the numbers that it has at each place: a polyline's points, a circle's centre and radius, a point."""
+    first = at_places[0]
+    rows = [pool.row(_numbers(shape), Y_DIGITS) for shape in at_places]
+    return {"shape": first["shape"], "role": first["role"], "closed": bool(first.get("closed")), "rows": rows}
+
+
+def _numbers(shape: Data) -> list[float]:
+    if shape["shape"] == "polyline":
+        return [number for point in shape["points"] for number in point]
+    return [*shape["center"], shape["radius"]] if shape["shape"] == "circle" else list(shape["at"])
 
 
 def _figure(name: str, figure: Data, curves: Data, words: Catalogue, pool: _Pool) -> Data | None:

@@ -109,6 +109,25 @@ def linkage(view: View) -> list[Shape]:
     ]
 
 
+def moving(view: View, place: float) -> list[Shape]:
+    """The linkage at a crank angle, with sector and cylinder where they are known."""
+    crank_pivot, pin, joint, rocker_pivot = _joints(view, place)
+    of_sector = [shape for shape in _sector(view, place) if shape["role"] in ("body", "hidden", "outline")]
+    return [
+        *(_coarser(shape) for shape in of_sector),
+        polyline([crank_pivot, pin, joint, rocker_pivot], "link"),
+        *(
+            point(at, "pivot" if at in (crank_pivot, rocker_pivot) else "joint")
+            for at in (crank_pivot, pin, joint, rocker_pivot)
+        ),
+    ]
+
+
+def _coarser(shape: Shape) -> Shape:
+    """A rim with every fifth of its points: it is drawn small, at many places."""
+    return shape | {"points": [shape["points"][0], *shape["points"][1::5]]} if "points" in shape else shape
+
+
 FIGURES = (
     Drawing(
         id="linkage",
@@ -117,6 +136,8 @@ FIGURES = (
         "a pinion also sector, pinion and cylinder (dashed, light: at the ends of its travel). The pinion's shaft stands, and a chain moves "
         "the carriages of the cylinder; the places of the pinion around the sector and of the travel are free and chosen here.",
         build=linkage,
+        moving=moving,
+        over="crank_angle",
         scaled_by="crank_length",
     ),
     Plot(

@@ -40,7 +40,7 @@ def printed(quantity: str, declared: str) -> str:
         ("1.3351 K", "K", "1.34 K"),
         ("3.596e-16", "1", "3.596e-16 1"),  # a residual is not zero
         ("3596 1/h", "1/h", "3596 1/h"),
-        ("5e-324", "1", "5e-324 1"),
+        ("5e-324", "1", "4.941e-324 1"),
     ],
 )
 def test_digits_and_unit_say_what_is_meant(quantity: str, declared: str, text: str) -> None:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
+from io import StringIO
 from itertools import combinations
 from pathlib import Path
 from typing import Any, NamedTuple
@@ -10,7 +11,7 @@ from typing import Any, NamedTuple
 import matplotlib as mpl
 import numpy as np
 import pytest
-from matplotlib.backends.backend_agg import FigureCanvasAgg
+from matplotlib.backends.backend_svg import RendererSVG
 from matplotlib.text import Text
 
 from diecut_report.config.discovery import Discovery
@@ -51,13 +52,10 @@ def _boxes(figure: Mapping[str, Any], curves: Mapping[str, Any]) -> tuple[list[B
     with mpl.rc_context(style_of("x")), pytest.MonkeyPatch.context() as patch:  # type: ignore[arg-type]
         sheet = DRAW[figure["type"]](figure, curves, Catalogue("en"))
         patch.setattr(Text, "draw", noted)
-        renderer = FigureCanvasAgg(sheet).get_renderer()
+        sheet.set_dpi(72)
+        renderer = RendererSVG(*(side * 72 for side in sheet.get_size_inches()), StringIO())
         sheet.draw(renderer)
-        points = 72 / sheet.dpi
-        found = [
-            Box(text.get_text(), *(side * points for side in text.get_window_extent(renderer).extents))
-            for text in drawn
-        ]
+        found = [Box(text.get_text(), *text.get_window_extent(renderer).extents) for text in drawn]
     width, height = (side * 72 for side in sheet.get_size_inches())
     return found, width, height
 

@@ -16,7 +16,7 @@ from diecut_report.report import Rendering
 from diecut_report.report.figures.panel_data import Across, Line, PanelData
 from diecut_report.report.html import folder
 from diecut_report.report.i18n import Catalogue
-from diecut_report.report.reader_data import _is_readable, _line, _panel, _Pool, reader_data
+from diecut_report.report.reader_data import _is_readable, _line, _panel, _Pool, _shape, reader_data
 
 UPLOT = {  # version 1.6.32 as it is published, with its licence
     "uPlot.iife.min.js": "19c8d4c6ad88929a79f4ae49d6f7161566dfd0ba3d15cc495e974f787eb78f1f",
@@ -155,3 +155,18 @@ def test_diagrams_of_a_mechanism_over_the_same_angle_share_their_cursor() -> Non
         for name, sign in (("a", "φ"), ("a", "φ"), ("a", "ψ"), ("b", "φ"))
     ]
     assert [panel["group"] for panel in panels] == [0, 0, 1, 2]
+
+
+def test_a_moving_drawing_has_its_shapes_at_each_place() -> None:
+    """The sample's drive by hand: a crank of 1 m that turns, its pin at (cos φ, sin φ)."""
+    angles = [0.0, math.pi / 2, math.pi]
+    frames = [[{"shape": "polyline", "points": [[0.0, 0.0], [math.cos(a), math.sin(a)]], "closed": False, "role": "link"},
+               {"shape": "point", "at": [math.cos(a), math.sin(a)], "role": "joint"}] for a in angles]  # fmt: skip
+    pool = _Pool()
+    crank, pin = (_shape(shapes, pool) for shapes in zip(*frames, strict=True))
+    assert [pool.rows[row] for row in crank["rows"]] == [
+        [0.0, 0.0, 1.0, 0.0],
+        [0.0, 0.0, 0.0, 1.0],
+        [0.0, 0.0, -1.0, 0.0],
+    ]
+    assert [pool.rows[row] for row in pin["rows"]] == [[1.0, 0.0], [0.0, 1.0], [-1.0, 0.0]]

@@ -182,7 +182,7 @@ def test_the_table_is_in_the_units_that_people_read(folder: Path) -> None:
     text = "".join(variants(folder, "variant = 3", width=160))
     row = next(line for line in text.splitlines() if line.split()[:1] == ["3"])
     assert [row.split()[index] for index in (0, 1, -2, -1)] == ["3", "pass", "40", "65"]
-    assert " rpm" in text and " mm" in text
+    assert " r/min" in text and " mm" in text
     assert "Fulfilling the condition: 1 of 10 variants." in text
 
 
