@@ -11,6 +11,11 @@ from typing import Any
 import pytest
 from hypothesis import HealthCheck, settings
 
+from diecut_report.__main__ import THREADS
+
+# As many threads for linear algebra as the program takes: with more of them sums may differ in their last digit. Read by NumPy when it is loaded.
+os.environ |= dict.fromkeys(THREADS, "1")
+
 from diecut_report import pipeline
 from diecut_report.config.discovery import Discovery
 from tests.configs import EXAMPLE, SMALL, saved

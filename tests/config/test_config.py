@@ -160,7 +160,7 @@ def test_a_default_of_the_press_is_asked_for_in_words(tmp_path: Path) -> None:
     found = problems(tmp_path, LEVER.replace("productivity: 6000 1/h, ", ""))
     assert found == [
         "5:3: mechanisms.a.speed: speed is not given and the press gives no productivity to derive it from; "
-        "give speed (rpm) or press.productivity."
+        "give speed (r/min) or press.productivity."
     ]
 
 

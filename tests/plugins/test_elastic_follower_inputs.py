@@ -86,7 +86,7 @@ REFUSED = [
     (BY_CURVE, {"motion_curve": "${o.response}", "cycles_per_hour": None}, "f.motion_curve: never rests within its period"),
     (BY_CURVE, {"motion_curve": "${k.crank_slider_displacement}", "inertia": None, "mass": 1}, "f.motion_curve: never rests"),
     (BY_CURVE, {"stiffness": 1e-3}, "f.stiffness: leaves 0.001876 natural periods within the rise; at least 0.1"),
-    (TURNING, {"stiffness": stiffness(0.0999)}, "f.stiffness: leaves 0.09990 natural periods within the rise; at least 0.1"),
+    (TURNING, {"stiffness": stiffness(0.0999)}, "f.stiffness: leaves 0.0999 natural periods within the rise; at least 0.1"),
     (TURNING, {"stiffness": stiffness(50.02)}, "f.stiffness: leaves 50.02 natural periods within the rise; with more than 50"),
     (TURNING, {"stiffness": 1e200}, "natural periods within the rise; with more than 50"),
     (TURNING, {"inertia": 1e200}, "natural periods within the rise; at least 0.1"),

@@ -11,6 +11,7 @@ import pytest
 from jinja2 import Environment, FileSystemLoader
 
 from diecut_report.cli.main import main
+from diecut_report.config.discovery import Discovery
 from diecut_report.errors import UserError
 from diecut_report.exchange.verification import _pages
 from diecut_report.house_folder import house_style
@@ -196,8 +197,8 @@ def test_pages_set_with_other_templates_are_not_compared() -> None:
     carried: Any = SimpleNamespace(results={"report": {"template_sha256": "ab" * 32}})
     own = ("not compared, since they are set with templates of their own (SHA-256 abababababab); "
            "--template DIR names the templates")  # fmt: skip
-    assert _pages(carried, print, HouseStyle("other"), [], is_same=True) == (own, True)
+    assert _pages(carried, print, HouseStyle("other"), [], Discovery([]), is_same=True) == (own, True)
     for strange in ({}, {"report": []}):
         carried.results = strange
-        words, _ = _pages(carried, print, HouseStyle("other"), [], is_same=True)
+        words, _ = _pages(carried, print, HouseStyle("other"), [], Discovery([]), is_same=True)
         assert "the program's templates alone" in words

@@ -495,7 +495,7 @@ def test_what_people_read_are_titles_and_units_not_names(small_page: str) -> Non
         "Fails most often: Play of the joints (drive) (in 5 of 9 variants, 55.6 %); the only failing check in 5."
         in " ".join(text.split())
     )
-    assert "Speed of the crank (drive), rpm" in text and "Mass of the cylinder (cylinder), kg" in text
+    assert "Speed of the crank (drive), r/min" in text and "Mass of the cylinder (cylinder), kg" in text
     assert re.search(r"diecut-report report &#34;out#\d&#34;|diecut-report report \"out#\d\"", text)
 
 
