@@ -241,7 +241,7 @@
       var buttons = [];
       all("td.num", table).forEach(function (cell) {
         var unit = cell.nextElementSibling, text = withUnit(shown(cell), unit && unit.classList.contains("unit") ? shown(unit) : "");
-        var button = make("button", { type: "button", "class": "copy", tabindex: buttons.length ? "-1" : "0", "aria-label": words.copy.replace("{text}", text), title: words.copy.replace("{text}", text) }, "⧉");
+        var button = make("button", { type: "button", "class": "copy", tabindex: buttons.length ? "-1" : "0", "aria-label": words.copy.replace("{text}", text), title: words.copy.replace("{text}", text) });
         button.copies = plainNumber(text);
         buttons.push(button);
         cell.append(button);
