@@ -79,6 +79,7 @@ from diecut_report.contract.steps import (
 from diecut_report.contract.varying import Extremes, Varying
 from diecut_report.expressions import GRAVITY, Constant, Formula, arccos, as_angle, as_number, formula
 from diecut_report.languages.phrases import Phrase, joined, named, phrase
+from diecut_report.languages.tokens import worded
 from diecut_report.quantities.formatting import below, outward, si, told
 from diecut_report.standards import (
     StandardFault,
@@ -218,4 +219,5 @@ __all__ = [
     "table_beside",
     "told",
     "vertical",
+    "worded",
 ]  # fmt: skip

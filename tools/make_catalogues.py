@@ -1,4 +1,4 @@
-"""Makes the catalogues of the built-in plugins, keeping what is translated: ``python tools/make_catalogues.py``."""
+"""Makes the catalogues of the built-in plugins, keeping what is translated: ``python -m tools.make_catalogues``."""
 
 from __future__ import annotations
 
@@ -6,13 +6,14 @@ import re
 from collections.abc import Iterator
 from pathlib import Path
 
+from babel.messages.catalog import Catalog
+
 from diecut_report.config.discovery import Discovery
 from diecut_report.contract.mechanism import Mechanism
 from diecut_report.declaration.code_texts import code_texts, fixed_texts
 from diecut_report.declaration.texts import DeclaredText, texts
 from diecut_report.languages import po_files
 from diecut_report.languages.catalogues import file_beside
-from diecut_report.languages.po_files import Catalog
 from tools.program_texts import ProgramText, program_texts
 
 ROOT = Path(__file__).parents[1]

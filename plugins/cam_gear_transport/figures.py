@@ -10,6 +10,7 @@ from diecut_report.api import (
     Level,
     Mark,
     Panel,
+    Phrase,
     Plot,
     Series,
     Shape,
@@ -18,7 +19,9 @@ from diecut_report.api import (
     chart_panel,
     line,
     mark,
+    phrase,
     vertical,
+    worded,
 )
 from diecut_report.mechanics.motion_laws import LAWS, MotionLaw
 from diecut_report.plugins.cam_gear_transport import formulas
@@ -73,9 +76,13 @@ def laws_compared(view: View) -> list[Shape]:
             continue
         x, curves = view.varied_curves({"motion_law": name}, "gear_speed", "gear_acceleration", points=POINTS)
         speed, acceleration = curves["gear_speed"], curves["gear_acceleration"]
-        moving, words = x >= view["dwell_angle"], name.replace("_", " ")
-        speeds.append(line(x[moving], speed[moving] / (2 * np.pi), f"{words}, {ratio:.2f}"))
-        accelerations.append(line(x[moving], acceleration[moving], f"{words}, {top:.0f}"))
+        moving, words = x >= view["dwell_angle"], phrase(worded(name))
+        speeds.append(
+            line(x[moving], speed[moving] / (2 * np.pi), Phrase("{law}, {peak}", law=words, peak=f"{ratio:.2f}"))
+        )
+        accelerations.append(
+            line(x[moving], acceleration[moving], Phrase("{law}, {peak}", law=words, peak=f"{top:.0f}"))
+        )
     across = ("Disc angle from the start of the dwell", "φ", "deg")
     return [
         chart_panel("Speed of the gear to that of the disc", "1", *across, lines=speeds),

@@ -7,12 +7,14 @@ from math import cos, pi, sin
 import numpy as np
 
 from diecut_report.api import (
+    Phrase,
     Point,
     Shape,
     View,
     circle,
     dimension,
     label,
+    phrase,
     point,
     polyline,
     radius_dimension,
@@ -74,14 +76,18 @@ def _board(view: View, offset: float) -> list[Shape]:
     ]  # fmt: skip
 
 
-def _position(view: View, words: str, angle: float, offset: float) -> list[Shape]:
+def _position(view: View, place: Phrase, angle: float, offset: float) -> list[Shape]:
     """Knife, board and counter-knife at a knife angle, with the cutting point."""
     above = 1.6 * view["eccentricity"] + 0.12 * view["edge_radius"]
     return [
         *_board(view, offset),
         *_knife(view, angle, offset),
         point(_moved([crossing(view, angle, view["depth"])], offset)[0], "mark"),
-        label((offset + 0.3 * view["edge_radius"], above), f"{words}: φ = {told(angle, 'deg')}", "center"),
+        label(
+            (offset + 0.3 * view["edge_radius"], above),
+            Phrase("{place}: φ = {angle}", place=place, angle=told(angle, "deg")),
+            "center",
+        ),
     ]
 
 
@@ -96,9 +102,9 @@ def positions(view: View) -> list[Shape]:
     apart = widest - min(*reached, -view["eccentricity"]) + 0.6 * view["eccentricity"]
     below = 0.12 * radius
     return [
-        *_position(view, "start", start, 0.0),
-        *_position(view, "middle", middle, apart),
-        *_position(view, "end", end, 2 * apart),
+        *_position(view, phrase("start"), start, 0.0),
+        *_position(view, phrase("middle"), middle, apart),
+        *_position(view, phrase("end"), end, 2 * apart),
         dimension((0.0, 0.0), (0.0, -depth), -1.5 * view["eccentricity"], view.text("depth")),
         dimension((0.0, -depth - below), (front, -depth - below), -0.12 * radius, view.text("front_distance")),
         radius_dimension((apart + center_at(view, middle)[0], center_at(view, middle)[1]), radius,

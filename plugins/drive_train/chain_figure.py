@@ -64,8 +64,11 @@ def _pair(x: float, top: float, bottom: float, teeth: tuple[float, float], form:
         if form == "bevel"
         else [_wheel(x, top, driver), _wheel(x, bottom, driven)]
     )
-    bevel = "bevel, " if form == "bevel" else ""
-    return [*wheels, label((x - 6, bottom - 4), f"{bevel}z = {teeth[0]:.0f} : {teeth[1]:.0f}", "right")]
+    numbers = f"z = {teeth[0]:.0f} : {teeth[1]:.0f}"
+    return [
+        *wheels,
+        label((x - 6, bottom - 4), Phrase("bevel, {teeth}", teeth=numbers) if form == "bevel" else numbers, "right"),
+    ]
 
 
 def _cones(x: float, top: float, bottom: float, driver: float, driven: float) -> list[Shape]:

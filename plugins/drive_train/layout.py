@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from math import atan2
 
-from diecut_report.api import Point, Shape, arc, arrow, circle, point, polyline
+from diecut_report.api import Phrase, Point, Shape, arc, arrow, circle, point, polyline
 from diecut_report.mechanics import belt_path
 
 
@@ -26,7 +26,7 @@ def layout(
         ends = (meet[i - 1], leave[i]) if side[i] > 0 else (leave[i], meet[i - 1])
         shapes += _pulley(center, radius[i], ends, float(belt.wraps[i]))
         shapes.append(polyline([leave[i], meet[i]], "link"))
-        shapes.append(point(center, "pivot", f"{i + 1}: {wraps[i]}" if wraps else f"{i + 1}"))
+        shapes.append(point(center, "pivot", Phrase("{i}: {wrap}", i=i + 1, wrap=wraps[i]) if wraps else f"{i + 1}"))
     return [*shapes, _direction(leave, meet)]
 
 

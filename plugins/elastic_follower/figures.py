@@ -7,7 +7,21 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from diecut_report.api import Chart, Mark, Panel, Plot, Series, Shape, View, chart_panel, level, line, mark, phrase
+from diecut_report.api import (
+    Chart,
+    Mark,
+    Panel,
+    Plot,
+    Series,
+    Shape,
+    View,
+    chart_panel,
+    level,
+    line,
+    mark,
+    phrase,
+    worded,
+)
 from diecut_report.mechanics.follower_peaks import peaks
 from diecut_report.mechanics.motion_laws import LAWS
 from diecut_report.plugins.elastic_follower.motion import CURVE
@@ -61,7 +75,7 @@ def laws(view: View) -> list[Shape]:
 
 def named(values: list[NDArray[Any]]) -> list[Shape]:
     """A line for each law."""
-    return [line(RATIOS, row, name.replace("_", " ")) for name, row in zip(LAWS, values, strict=True)]
+    return [line(RATIOS, row, phrase(worded(name))) for name, row in zip(LAWS, values, strict=True)]
 
 
 def _own_line(view: View, name: str) -> list[Shape]:

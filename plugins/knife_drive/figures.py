@@ -28,6 +28,7 @@ from diecut_report.plugins.knife_drive.working import ALL, CRANK_ROCKER, CRANK_S
 Values = Any
 CURVES = (("displacement", phrase("Displacement of the edge"), "mm", "S"), ("velocity", phrase("Velocity of the edge"), "m/s", "V"),
           ("acceleration", phrase("Acceleration of the edge"), "m/s**2", "a"))  # fmt: skip
+PLAIN = {"displacement": phrase("displacement"), "velocity": phrase("velocity"), "acceleration": phrase("acceleration")}
 FROM_LOWEST = (phrase("Crank angle from the lowest point"), "ψ", "deg")
 TURN = 2 * np.pi
 AROUND = np.linspace(0, TURN, 721)
@@ -113,7 +114,7 @@ def first_order(view: View) -> list[Shape]:
     lines = [line(phi, exact, "exact"), line(phi, approximate, "first order")]
     return [
         chart_panel("Acceleration of the edge", unit, "Crank angle", "φ", "deg", lines=lines),
-        *(chart_panel(f"Exact {name} less the first-order one", unit, "Crank angle", "φ", "deg",
+        *(chart_panel(Phrase("Exact {name} less the first-order one", name=PLAIN[name]), unit, "Crank angle", "φ", "deg",
                       lines=[line(phi, np.subtract(exact, approximate), f"Δ{symbol}")])
           for name, unit, symbol, exact, approximate in own),
     ]  # fmt: skip

@@ -1,0 +1,1 @@
+"""What makes pages and catalogues of the repository from the declarations."""
