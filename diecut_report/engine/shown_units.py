@@ -31,12 +31,17 @@ def unit_for(calc: Calculation, name: str, declared: str, values: Array | Iterab
     return easy_unit(float(sizes.max()), declared) if len(sizes) else declared
 
 
+def _unit_of(calc: Calculation, name: str, declared: str, value: float) -> str:
+    """The same of one number."""
+    return calc.chosen_units.of(name, declared) or easy_unit(value, declared)
+
+
 def step_shown(calc: Calculation, step: Step, value: float) -> dict[str, str]:
     """Return a number that a step gives as text, in its unit."""
-    return shown(value, unit_for(calc, step.id, step.unit, [value]), step.digits)
+    return shown(value, _unit_of(calc, step.id, step.unit, value), step.digits)
 
 
 def number_unit(calc: Calculation, name: str, declared: Step | Quantity, value: float) -> str:
     """Return the unit of a number inside of a formula: what is typed stands as it was typed."""
     is_typed = name not in calc.values and name not in calc.curves
-    return declared_unit(calc, name, declared.unit) if is_typed else unit_for(calc, name, declared.unit, [value])
+    return declared_unit(calc, name, declared.unit) if is_typed else _unit_of(calc, name, declared.unit, value)

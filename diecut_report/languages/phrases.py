@@ -102,17 +102,17 @@ def wording(text: Phrase) -> Wording:
 def wordings(data: Any) -> dict[str, Wording]:
     """Return how each phrase with values in plain data was made, by its text, in their order."""
     found: dict[str, Wording] = {}
-    _collect(data, found)
+    _collect([data], found)
     return found
 
 
-def _collect(data: Any, found: dict[str, Wording]) -> None:
-    if isinstance(data, Phrase):
-        if data.values:
-            found.setdefault(str.__str__(data), wording(data))
-    elif isinstance(data, dict):
-        for part in data.values():
-            _collect(part, found)
-    elif isinstance(data, list | tuple) and data and not isinstance(data[0], float):
-        for part in data:
+def _collect(parts: Iterable[Any], found: dict[str, Wording]) -> None:
+    for part in parts:
+        kind = type(part)  # results have some 100 000 parts: of their exact types, as most are texts and numbers
+        if kind is Phrase:
+            if part.values:
+                found.setdefault(str.__str__(part), wording(part))
+        elif kind is dict:
+            _collect(part.values(), found)
+        elif (kind is list or kind is tuple) and part and type(part[0]) is not float:
             _collect(part, found)
