@@ -36,6 +36,16 @@ PROJECT = (
 STATUSES = ("fail", "warn", "pass", "not_checked")
 DIGITS = 6  # of a curve's greatest value
 SHARE = "0.0%"
+QUANTITY = (
+    "mechanism",
+    "path",
+    "description",
+    "symbol",
+    "value",
+    "unit",
+    "si_value",
+    "si_unit",
+)  # heads of `_quantity`, its mechanism and key
 
 
 def sheets(material: Material) -> list[WorkSheet]:
@@ -77,20 +87,7 @@ def _summary(material: Material) -> WorkSheet:
 
 
 def _inputs(results: Data, words: Catalogue) -> WorkSheet:
-    heads = (
-        "mechanism",
-        "path",
-        "description",
-        "symbol",
-        "value",
-        "unit",
-        "si_value",
-        "si_unit",
-        "basis",
-        "note",
-        "origin",
-        "typed",
-    )
+    heads = (*QUANTITY, "basis", "note", "origin", "typed")
     rows = [_input("", field["path"], field, words) for field in results["press"]["fields"]]
     rows += [_input(name, key, row, words) for name, data in parts(results) for key, row in _of(data, "inputs")]
     widths = [16, 28, 52, 9, 14, 11, 16, 11, 14, 30, 16, 30]
@@ -120,20 +117,7 @@ def _of(data: Data, what: str) -> Iterator[tuple[str, Data]]:
 
 def _results(results: Data, words: Catalogue) -> WorkSheet:
     """The results; each value has its name: ``drive.crank_torque_peak``."""
-    heads = (
-        "mechanism",
-        "path",
-        "description",
-        "symbol",
-        "value",
-        "unit",
-        "si_value",
-        "si_unit",
-        "place",
-        "unit",
-        "key_result",
-        "source",
-    )
+    heads = (*QUANTITY, "place", "unit", "key_result", "source")
     sheet = WorkSheet(
         words["results"], [[words[head] for head in heads]], [], [16, 30, 52, 9, 14, 11, 16, 11, 14, 11, 10, 40], held=2
     )
