@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import math
 from pathlib import Path
 from typing import Any
 
@@ -14,7 +15,7 @@ from diecut_report.config import yaml_tree
 from diecut_report.config.discovery import Discovery
 from diecut_report.config.loader import load_config
 from diecut_report.quantities import units
-from diecut_report.quantities.formatting import as_given
+from diecut_report.quantities.formatting import as_given, as_typed
 from diecut_report.quantities.units import unit
 from diecut_report.results.document import document
 from diecut_report.results.press_run import compute
@@ -37,10 +38,10 @@ numbers = st.floats(min_value=-1e250, max_value=1e250, allow_subnormal=False)
 @example(value=4.616304968611814e16)  # its shortest text is half-way to the next float
 @example(value=-1e-300)
 def test_a_value_of_any_unit_is_read_back_as_the_same_float(name: str, value: float) -> None:
-    written = as_given(value, name)
-    read = yaml_tree.parse(json.dumps({"key": written}), "test").data["key"]
-    found = units.parse_quantity(read, name)
-    assert found.hex() == value.hex()
+    for written in (as_given(value, name), as_typed(value, name)):
+        read = yaml_tree.parse(json.dumps({"key": written}), "test").data["key"]
+        found = units.parse_quantity(read, name)
+        assert found.hex() == value.hex()
 
 
 @pytest.mark.parametrize("name", [name for name in TABLE["units"] if unit(name).si != "1"])
@@ -53,6 +54,15 @@ def test_pure_numbers_stand_in_the_keys_own_unit() -> None:
     assert as_given(0.125, "%") == "12.5 %"
     assert as_given(1.0, "%") == "100 %"
     assert as_given(0.1 + 0.2, "%") == "30.000000000000004 %"
+
+
+@pytest.mark.parametrize(
+    ("value", "name", "text"),
+    [(0.0553, "mm", "55.3 mm"), (2 * math.pi / 60 * 43.5, "rpm", "43.5 rpm"), (0.125, "%", "12.5 %"),
+     (6000 / 3600, "1/h", "6000 1/h"), (1 / 3, "m", "0.3333333333333333 m"), (3.0, "1", 3.0)],
+)  # fmt: skip
+def test_a_value_is_written_as_a_designer_types_it(value: float, name: str, text: str | float) -> None:
+    assert as_typed(value, name) == text
 
 
 @pytest.mark.parametrize(
