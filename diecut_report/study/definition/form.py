@@ -61,7 +61,9 @@ class StudyDocument(Block):
         dict[str, Any], Text("For each varied path its values: a list, a range or a distribution"),
         Field(default_factory=dict),
     ]  # fmt: skip
-    constraints: Annotated[Texts, Text("What must hold between inputs; variants where it does not are dropped")]
+    constraints: Annotated[
+        Texts, Text("What must hold between inputs, and of outputs; variants where it does not are dropped")
+    ]
     outputs: Annotated[
         list[str] | None, Text("The outputs to keep, such as drive.crank_torque_peak; without it all")
     ] = None

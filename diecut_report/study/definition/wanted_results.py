@@ -60,6 +60,15 @@ class ResultReader:
         self.place, self.bases = place, bases
         self.problems: list[Problem] = []
 
+    def column(self, name: str) -> ResultColumn | None:
+        """Return the column of a single result, also of a check, by its name; None where there is none."""
+        return self._columns.get(name)
+
+    @property
+    def known(self) -> list[str]:
+        """Return the names of all single results."""
+        return list(self._columns)
+
     def outputs(self, given: list[str] | None) -> tuple[str, ...] | None:
         """Return the outputs to keep; None for all."""
         if given is None:
@@ -174,11 +183,16 @@ class ResultReader:
         return None
 
     @cached_property
+    def _columns(self) -> dict[str, ResultColumn]:
+        return {column.name: column for base in self.bases for column in columns_of(base)}
+
+    @cached_property
     def _all(self) -> dict[str, _Known]:
         """What each mechanism gives, by its name."""
-        columns = {column.name: column for base in self.bases for column in columns_of(base)}
         names = [name for name in self.bases[0].instances if name != PRESS]
-        return {name: self._of(name, [c for c in columns.values() if c.name.startswith(f"{name}.")]) for name in names}
+        return {
+            name: self._of(name, [c for c in self._columns.values() if c.name.startswith(f"{name}.")]) for name in names
+        }
 
     def _of(self, name: str, columns: list[ResultColumn]) -> _Known:
         inner = {column.name.removeprefix(f"{name}."): column for column in columns}
