@@ -326,6 +326,8 @@ WHOLE = [  # a whole study with one fault: sample, rest, what is told
     ("{method: grid}", "reports: fails\n", "6:10: reports: is “fails” (did you mean 'failed'?); allowed: none, failed, best N"),
     ("{method: grid}", "reports: best 3\n", "6:10: reports: best needs objectives, such as objectives: [{minimise: cylinder.mass}]."),
     ("{method: grid}", "reports: [0, 1]\n", "6:14: reports.1: there is no variant 1; variants are numbered from 0 to 0."),
+    ("{method: grid}", "reports: [0, 1.5]\n", "6:14: reports.1: is 1.5; a variant has a whole number, as in [0, 17]."),
+    ("{method: grid}", "reports: {a: 1}\n", "6:10: reports: is a block of keys; allowed: none, failed, best N"),
     ("{method: grid}", "reports: [-1]\n", "6:11: reports.0: there is no variant -1; variants are numbered from 0 to 0."),
 ]  # fmt: skip
 

@@ -69,8 +69,8 @@ class StudyDocument(Block):
     ] = None
     curves: Annotated[Texts, Text("The curves to keep; without it none")]
     objectives: Annotated[list[ObjectiveForm], Text("What is to be small or great"), Field(default_factory=list)]
-    reports: Annotated[
-        str | list[int] | None,
+    reports: Annotated[  # judged as a whole where the sample is known: of each kind of value two faults would be told
+        Any,
         Text("The variants that get a full report: none, failed, best N, all, or a list of numbers"),
     ] = None
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from typing import Any, Literal
@@ -87,10 +87,7 @@ class ResultReader:
     def reports(self, given: Any, count: int | None, has_objectives: bool) -> Reports:
         """Return which variants get a full report; ``count`` is that of the sample, None where it is not known."""
         if isinstance(given, list):
-            wrong = [number for number in given if number < 0 or (count is not None and number >= count)]
-            for number in wrong:
-                self._report(("reports", given.index(number)), _no_variant(number, count))
-            return Reports("ids", ids=tuple(dict.fromkeys(given)))
+            return Reports("ids", ids=tuple(dict.fromkeys(self._listed(given, count))))
         match str("none" if given is None else given).split():
             case [("none" | "failed" | "all") as which]:
                 return Reports(which)
@@ -103,6 +100,15 @@ class ResultReader:
         words = f"is {told(given)}{nearest(str(given), ('none', 'failed', 'all'))}; allowed: none, failed, best N (best 10), all, or a list"
         self._report(("reports",), f"{words} of variants' numbers, as in [0, 17].")
         return Reports()
+
+    def _listed(self, given: list[Any], count: int | None) -> Iterator[int]:
+        for index, number in enumerate(given):
+            if not isinstance(number, int) or isinstance(number, bool):
+                self._report(("reports", index), f"is {told(number)}; a variant has a whole number, as in [0, 17].")
+            elif number < 0 or (count is not None and number >= count):
+                self._report(("reports", index), _no_variant(number, count))
+            else:
+                yield number
 
     # --- one name ----------------------------------------------------------------------------------------------------
 
