@@ -167,7 +167,7 @@ def variants(folder: Path, where: str | None, sort: str | None, top: int | None,
     from diecut_report.files import write_all
     from diecut_report.study.analysis.answers import Notation
     from diecut_report.study.analysis.query import answer, answer_workbook, unfinished
-    from diecut_report.study.analysis.question import Asked
+    from diecut_report.study.analysis.question import Request
 
     _refuse_idle(form, file, {"--units": units, "--separator": separator, "--decimal": decimal})
     asked, notation = (

@@ -10,7 +10,7 @@ from pathlib import Path
 from diecut_report.errors import Problem, UserError
 from diecut_report.report.number_format import number
 from diecut_report.study.analysis.answers import SI, Notation, as_csv, as_json, as_workbook, csv_text, side_by_side
-from diecut_report.study.analysis.question import Asked, Question, question
+from diecut_report.study.analysis.question import Request, Question, question
 from diecut_report.study.analysis.stored_variants import Stored, opened
 from diecut_report.study.storage.spreadsheets import workbook
 from diecut_report.study.storage.state import read_state
@@ -32,12 +32,12 @@ def variants(
     ``sort`` names columns, parted by commas, with - for the greatest first; without ``columns`` a table shows the varied
     quantities and what the question names. UserError in words for what cannot be asked.
     """
-    yield from answer(directory, Asked(where, sort, top, columns), format, width=width)
+    yield from answer(directory, Request(where, sort, top, columns), format, width=width)
 
 
 def answer(
     directory: Path,
-    asked: Asked,
+    asked: Request,
     format: str = "table",
     notation: Notation = SI,
     *,
@@ -66,7 +66,7 @@ def answer(
             yield from {"csv": as_csv, "json": as_json}[format](stored, found, notation)
 
 
-def answer_workbook(directory: Path, asked: Asked, notation: Notation = SI, *, transposed: bool = False) -> bytes:
+def answer_workbook(directory: Path, asked: Request, notation: Notation = SI, *, transposed: bool = False) -> bytes:
     """Return the answer as a workbook (XLSX); UserError in words for what cannot be asked."""
     with opened(directory) as stored:
         found = question(stored, asked, is_table=False)
@@ -103,7 +103,7 @@ def _table(stored: Stored, asked: Question, width: int | None) -> Iterator[str]:
         yield f"No room on a line for: {', '.join(column.name for column in without)} (--columns names some, --format csv has them all).\n"
 
 
-def _compared(stored: Stored, found: Question, asked: Asked, width: int | None) -> str:
+def _compared(stored: Stored, found: Question, asked: Request, width: int | None) -> str:
     from diecut_report.study.analysis.variant_table import compared_text
 
     rows = list(found.rows(stored))

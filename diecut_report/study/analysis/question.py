@@ -17,7 +17,7 @@ Row = tuple[Any, ...]
 
 
 @dataclass(frozen=True)
-class Asked:
+class Request:
     """Hold what a user asks, as typed: ``sort`` names columns parted by commas, ``picked`` are variants by their numbers."""
 
     where: str | None = None
@@ -58,7 +58,7 @@ class Question:
             yield from rows
 
 
-def question(stored: Stored, asked: Asked, *, is_table: bool) -> Question:
+def question(stored: Stored, asked: Request, *, is_table: bool) -> Question:
     """Return the question; UserError in words for what cannot be asked.
 
     A table for people shows the varied quantities and what the question names, of at most 20 variants; other answers hold all.
