@@ -171,7 +171,7 @@ def variants(folder: Path, where: str | None, sort: str | None, top: int | None,
 
     _refuse_idle(form, file, {"--units": units, "--separator": separator, "--decimal": decimal})
     asked, notation = (
-        Asked(where, sort, top, columns, pick),
+        Request(where, sort, top, columns, pick),
         Notation(units or "si", separator or "comma", decimal or "point"),
     )
     if not quiet:

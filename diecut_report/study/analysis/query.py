@@ -10,7 +10,7 @@ from pathlib import Path
 from diecut_report.errors import Problem, UserError
 from diecut_report.report.number_format import number
 from diecut_report.study.analysis.answers import SI, Notation, as_csv, as_json, as_workbook, csv_text, side_by_side
-from diecut_report.study.analysis.question import Request, Question, question
+from diecut_report.study.analysis.question import Question, Request, question
 from diecut_report.study.analysis.stored_variants import Stored, opened
 from diecut_report.study.storage.spreadsheets import workbook
 from diecut_report.study.storage.state import read_state
