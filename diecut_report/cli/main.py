@@ -25,6 +25,7 @@ from diecut_report.cli.checking import check, validate
 from diecut_report.cli.exchange import diff, extract, render, verify
 from diecut_report.cli.formats import formats_of
 from diecut_report.cli.language import language_option
+from diecut_report.cli.live import live
 from diecut_report.cli.output import (
     BAD_INPUT,
     FAULT,
@@ -273,6 +274,7 @@ program.add_command(verify)
 program.add_command(render)
 program.add_command(diff)
 program.add_command(sign)
+program.add_command(live)
 
 
 # --- verdict ---------------------------------------------------------------------------------------------------------

@@ -124,6 +124,11 @@ def filled(material: Material, medium: Medium, kind: str, *scripts: str) -> str:
     return made
 
 
+def filled_page(template: str, **given: object) -> str:
+    """Return a page of its own of the program's templates, filled with these values; what they hold stands as text."""
+    return _environment().get_template(template).render(**given)
+
+
 def policy(*scripts: str) -> str:
     """What a browser may load and run for a page: its own styles, fonts and pictures, and of scripts only these."""
     hashes = (base64.b64encode(sha256(script.encode()).digest()).decode() for script in scripts)
