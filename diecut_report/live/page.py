@@ -7,11 +7,13 @@ from typing import NamedTuple
 
 from diecut_report.report.html import filled_page, folder
 
-FILES = {
-    "live.css": "text/css; charset=utf-8",
-    "live.js": "text/javascript; charset=utf-8",
-    "uPlot.min.css": "text/css; charset=utf-8",
-    "uPlot.iife.min.js": "text/javascript; charset=utf-8",
+FONTS = ("report-sans-regular", "report-sans-bold", "report-sans-italic", "report-symbols")
+FILES = {  # place in the folder of the templates: what it is
+    "live/live.css": "text/css; charset=utf-8",
+    "live/live.js": "text/javascript; charset=utf-8",
+    "uplot/uPlot.min.css": "text/css; charset=utf-8",
+    "uplot/uPlot.iife.min.js": "text/javascript; charset=utf-8",
+    **{f"fonts/{name}.woff2": "font/woff2" for name in FONTS},
 }
 
 
@@ -25,9 +27,8 @@ class Asset(NamedTuple):
 @cache
 def assets() -> dict[str, Asset]:
     """Return all that the page may load, by name."""
-    home = folder()
-    places = {name: home / ("uplot" if name.startswith("uPlot") else "live") / name for name in FILES}
-    return {name: Asset(places[name].read_bytes(), media_type) for name, media_type in FILES.items()}
+    places = {folder() / place: media_type for place, media_type in FILES.items()}
+    return {place.name: Asset(place.read_bytes(), media_type) for place, media_type in places.items()}
 
 
 def page(file: str) -> bytes:

@@ -289,8 +289,8 @@
     figure.known = text;
     clear(figure);
     if (found.svg) {
-      var image = make("img", { alt: figure.querySelector("figcaption").textContent, src: "data:image/svg+xml;charset=utf-8," + encodeURIComponent(found.svg) });
-      box.replaceChildren(image);
+      var drawing = document.importNode(new DOMParser().parseFromString(found.svg, "image/svg+xml").documentElement, true);
+      box.replaceChildren(drawing);
     } else if (found.plot) {
       box.replaceChildren();
       figure.charts = found.plot.panels.map(function (panel) { return chart(box, panel, found.plot.rows, figure.dataset.figure); });
@@ -299,17 +299,27 @@
     }
   }
 
+  /* A colour of the style sheet as the drawing surface takes it. */
+  function colour(name) {
+    var probe = make("span", { "class": "c-" + name });
+    document.body.append(probe);
+    var found = getComputedStyle(probe).color;
+    probe.remove();
+    return found;
+  }
+
   var DASHES = [[], [7, 4], [2, 3], [8, 3, 2, 3]];
   function chart(box, panel, rows, group) {
-    var style = getComputedStyle(document.body), ink = style.color, grid = getComputedStyle(document.documentElement).getPropertyValue("--line");
+    var ink = colour("ink"), grid = colour("line"), limit = colour("fail");
     var lines = panel.lines.concat(panel.fills), joined = uPlot.join(lines.map(function (each) { return [rows[each.x], rows[each.y]]; }));
     var levels = panel.levels.map(function (level) { return { y: level.y, text: level.text }; });
     var axis = { stroke: ink, grid: { stroke: grid, width: 1 }, ticks: { stroke: grid }, font: "12px system-ui, sans-serif", labelFont: "12px system-ui, sans-serif", labelSize: 18 };
-    return new uPlot({
+    box.append(make("p", { "class": "panel" }, panel.title + (panel.unit ? ", " + panel.unit : "")));
+    var made = new uPlot({
       width: Math.max(280, box.clientWidth), height: 240, cursor: { sync: { key: group.split("/")[0] + panel.across.title + panel.across.unit } },
       scales: { x: { time: false, range: panel.across.range }, y: { range: panel.range } },
       axes: [Object.assign({ label: panel.across.title + (panel.across.unit ? ", " + panel.across.unit : "") }, axis),
-        Object.assign({ label: panel.title + (panel.unit ? ", " + panel.unit : ""), size: 64 }, axis)],
+        Object.assign({ size: 64 }, axis)],
       series: [{ label: panel.across.symbol || panel.across.title }].concat(lines.map(function (each, index) {
         return { label: each.label || panel.title, stroke: ink, width: 1.5, dash: DASHES[index % DASHES.length], spanGaps: false };
       })),
@@ -317,13 +327,17 @@
         levels.forEach(function (level) {
           var y = u.valToPos(level.y, "y", true);
           u.ctx.save();
-          u.ctx.strokeStyle = u.ctx.fillStyle = getComputedStyle(document.documentElement).getPropertyValue("--fail");
+          u.ctx.strokeStyle = u.ctx.fillStyle = limit;
           u.ctx.beginPath(); u.ctx.moveTo(u.bbox.left, y); u.ctx.lineTo(u.bbox.left + u.bbox.width, y); u.ctx.stroke();
           u.ctx.textAlign = "right"; u.ctx.fillText(level.text, u.bbox.left + u.bbox.width - 4, y - 4);
           u.ctx.restore();
         });
       }] }
     }, joined, box);
+    made.root.querySelectorAll(".u-label").forEach(function (label) {
+      if (/^\p{L}{1,2}(_[\p{L}\p{N},]{1,9})?$/u.test(label.textContent)) { label.replaceChildren.apply(label, sign(label.textContent)); }
+    });
+    return made;
   }
 
   /* ---- all of it ---- */

@@ -158,7 +158,7 @@ def test_the_report_of_what_is_shown(browser: Browser, live: Live) -> None:
 def test_axe_finds_nothing_serious_and_all_fits(browser: Browser, live: Live, options: dict[str, Any]) -> None:
     tab = Tab(browser, live.address, bypass_csp=True, **options)
     tab.page.locator("#figures").scroll_into_view_if_needed()
-    tab.page.wait_for_selector("#figures img, #figures .uplot")
+    tab.page.wait_for_selector("#figures svg, #figures .uplot")
     tab.page.evaluate(Path(os.environ["AXE"]).read_text("utf-8"))
     found = tab.page.evaluate("() => axe.run()")["violations"]
     told = [(each["id"], [node["target"] for node in each["nodes"]]) for each in found if each["impact"] in SERIOUS]
