@@ -123,8 +123,7 @@ class Calculation:
         self.curves, self.domains = dict[str, CurveStep](), dict[str, Domain]()
         self.part_names: dict[str, tuple[str, ...]] = {}  # of the repeated parts that follow from the inputs
         self.row_of: dict[str, str] = {}  # for each number that is called by the name of its part, the row
-        self.series: dict[str, PieceSeries] = {}
-        self.branch: dict[str, Array] = {}  # for each choice, the case taken by each variant
+        self.series, self.branch = dict[str, PieceSeries](), dict[str, Array]()  # the latter: for each choice its case
         self.middle: dict[str, Array] = {}  # for each place of an extreme, the middle of its smooth piece
         self.proof: dict[str, float] = {}  # for each result that is not a closed formula, its greatest residual
         self._kept: dict[tuple[str, str], tuple[Array, CurveSampler]] = {}  # curves already known at often used places
