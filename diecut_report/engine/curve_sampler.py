@@ -58,6 +58,8 @@ class CurveSampler:
     def over(self, name: str) -> Array:
         """Return a curve, or a number, at each of the places."""
         found = self[name]
+        if np.shape(found) == self.x.shape:
+            return found
         return np.broadcast_to(found, np.broadcast_shapes(np.shape(found), np.shape(self.x)))
 
     def _compute(self, name: str) -> Array:
