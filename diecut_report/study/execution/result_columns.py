@@ -206,7 +206,7 @@ def verdicts(calculations: Mapping[str, Calculation], count: int) -> Verdicts:
             names.append(f"{name}.checks.{check.id}")
             codes.append(np.where(there, np.where(held, PASS, np.where(check.is_failure(ratio), FAIL, WARN)), 0))
             ratios.append(np.where(there, ratio, np.nan))
-            sized.append(is_sized(calc.given, check))
+            sized.append(is_sized(calc.given, check) or check.presumed)
     shape = (len(names), count)
     unchecked = [name for name in dict.fromkeys(unchecked) if name not in names]
     return Verdicts(names, np.reshape(codes, shape).astype(int), np.reshape(ratios, shape).astype(float),
@@ -216,7 +216,7 @@ def verdicts(calculations: Mapping[str, Calculation], count: int) -> Verdicts:
 def governing(found: Verdicts) -> Array:
     """Return for each variant the check that governs: fail before warn before pass, then the greatest utilisation; None without checks.
 
-    What was sized to its limit, and holds, does not govern.
+    What was sized to its limit, or what the calculation presumes, does not govern where it holds.
     """
     if not found.names:
         return np.full(found.codes.shape[1], None, dtype=object)
