@@ -42,8 +42,8 @@ CHECKS = (
           "least {equal_inertia:up}."),
     Check(id="clutch_position", check_class="function", title="Clutch and offsets of the lines", demand="lines_out_of_step", limit=0.0,
           unit="1", demand_label="lines that lose step", limit_label="accepted", source="kinematics",
-          consequence="a friction clutch engages at any angle, and its slip turns what it drives back, so that {clutch_lines} lose the offset to the "
-          "other lines; let the clutch drive all lines, or take one that engages at one angle only (single_position: true)."),
+          consequence="a friction clutch engages at any angle, and its slip turns back what it drives; out of step with the other lines: "
+          "{clutch_lines}; let the clutch drive all lines, or take one that engages at one angle only (single_position: true)."),
     Check(id="damper_velocity", check_class="strength", title="Speed at the dampers", demand="contact_speed", limit="damper_velocity",
           unit="m/s", severity="warn", demand_label="speed at contact", limit_label="speed that the dampers are calculated with",
           source="kinematics",

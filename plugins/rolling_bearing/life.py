@@ -57,8 +57,8 @@ value(life, "life", "L_10h", "h", "Basic rating life", bind(f.duration, turns="l
 value(life, "life_modified", "L_nmh", "h", "Modified rating life",
       bind(f.modified, reliability="reliability_factor", a_iso="bearings.a_iso"),
       exists=lambda turned, equivalent_load: (turned > 0) & (equivalent_load > 0), source="ISO 281:2007, 6.3")
-value(life, "lives", "k_L", "1", "Whether a life is calculated (1) or not (0)", lambda equivalent_load: np.where(equivalent_load > 0, 1, 0),
-      source="this method", output=False)
+life.computed("lives", "k_L", "1", "Whether a life is calculated (1) or not (0)", lambda load: (np.nan_to_num(load) > 0) * 1.0, ("equivalent_load",),
+              "1 where the rings turn under load", over="bearings", named_by=NAMES, output=False)
 life.total("any_life", "n_L", "1", "Bearings with a life", "sum", of="lives", source="this method", output=False)
 
 
@@ -78,9 +78,10 @@ life.computed("life_min", "L_min", "h", "Least modified rating life", _least, ("
 life.computed("governing_bearing", "B_L", "1", "Bearing of the least life", _governing, ("all_bearings", "life_modified"),
               "the least of all bearings that turn", is_text=True)
 value(life, "life_share", "s_L", "1", "Share of the least life in this bearing's, to the Weibull slope",
-      lambda lives, life_min, life_modified: np.where(lives > 0, (life_min / life_modified) ** (10 / 9), 0), source="Lundberg and Palmgren",
-      output=False)
-life.total("life_sum", "Σ s_L", "1", "Sum of these shares", "sum", of="life_share", source="Lundberg and Palmgren", output=False)
+      lambda lives, life_min, life_modified: np.where(lives > 0, (life_min / life_modified) ** (10 / 9), 0),
+      exists=lambda any_life: any_life > 0, source="Lundberg and Palmgren", output=False)
+life.total("life_sum", "Σ s_L", "1", "Sum of these shares", "sum", of="life_share",
+           exists=lambda any_life: any_life > 0, source="Lundberg and Palmgren", output=False)
 life.value("system_life", "L_sys", "h", "Life of all bearings together, of the same reliability", lambda life_min,
            life_sum: life_min * life_sum ** (-0.9),
            exists=lambda any_life: any_life > 0, source="Lundberg and Palmgren")

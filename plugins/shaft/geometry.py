@@ -15,6 +15,7 @@ from diecut_report.plugins.shaft.body import PRESS_FIT, body
 
 BODY = ("sections.length", "section_diameter", "sections.bore", "sections.fillet_radius", "notches.position", "notches.type",
         "notches.radius", "notches.k_t", "notches.k_ts", "notches.k_f", "notches.k_fs", "loads.name", "loads.position", "bearing_a", "bearing_b")
+BEARINGS = 2
 GIVEN = "as it is given, or of the type of notch"
 
 sections = Chapter("Sections", text="x counts from the shaft's left end; y and z lie across, turning and torque are positive from y to z.")
@@ -44,7 +45,8 @@ sections.total("shaft_mass", "m", "kg", "Mass of the shaft, without what is moun
 
 places = Chapter("Places", text="Stresses are judged at the shoulders, notches, bearings and loads; at a step on the smaller diameter. Formulas are "
                                 "shown for the place of the least safety against fatigue, all places stand in the table of the chapter on fatigue.")
-places.part_names("places", "Places that are judged", lambda body: list(body.names), ("body",), shown_at="governing_place")
+places.part_names("places", "Places that are judged", lambda body: list(body.names), ("body",), shown_at="governing_place",
+                  count=lambda length: length("sections") - 1 + length("notches") + BEARINGS + length("loads"))
 
 
 def _row(id: str, symbol: str, unit: str, description: str, function, method: str = GIVEN) -> None:  # type: ignore[no-untyped-def]
