@@ -1,0 +1,247 @@
+"""Runs the tests of a plugin or module with a change in it, in as little time as may be; for scripts/mutate.py.
+
+For each plugin or module a server is forked from a process that has the libraries imported. It imports all of the program that does not import
+that plugin or module, and lets the tests pass once without a change: so it knows how long each takes. Each mutant is a fork of the server.
+The tests that noticed other mutants come first, then the quick ones; the first that fails ends it; nothing is shrunk and no trace is written.
+A test that takes more than five times its processor time, and three seconds, is ended and has noticed the mutant.
+"""
+
+from __future__ import annotations
+
+import ast
+import compileall
+import json
+import linecache
+import os
+import resource
+import signal
+import sys
+from collections import Counter
+from collections.abc import Callable, Iterable
+from contextlib import suppress
+from functools import cache
+from importlib import import_module
+from pathlib import Path
+from py_compile import PycInvalidationMode
+from typing import Any, NoReturn
+
+import pytest
+from change_signs import ROOT, Copy, tests_asked, units
+
+LIBRARIES = ("numpy", "scipy.optimize", "scipy.integrate", "scipy.interpolate", "scipy.linalg", "scipy.signal", "scipy.stats", "pydantic",
+             "yaml", "click", "jinja2", "babel", "pyarrow", "duckdb", "matplotlib.figure", "hypothesis.extra.numpy", "filelock")  # fmt: skip
+MEMORY = 6_000_000_000  # bytes of addresses for a mutant that asks for more and more
+COLLECTION = 60.0  # seconds of processor time until the tests are found
+WAITED = 900  # seconds on the clock, for what waits and takes no processor time
+BEGINS = signal.ITIMER_PROF
+KILLED, SURVIVED, TIMEOUT = "killed", "survived", "timeout"
+
+
+class Tests:
+    """What pytest is told, as a plugin of it: which tests, in which order, how long each may take; and what it tells."""
+
+    def __init__(self, words: dict[str, str], seconds: dict[str, float], kills: Counter[str]) -> None:
+        self.words, self.seconds, self.kills = words, seconds, kills
+        self.took: Counter[str] = Counter()
+        self.failed = ""
+
+    def pytest_configure(self) -> None:
+        """Let hypothesis stop at the first example that fails, the same ones each time."""
+        from hypothesis import Phase, settings
+
+        phases = [Phase.explicit, Phase.generate]
+        profile = settings(settings.get_profile("ci"), phases=phases, database=None)
+        settings.register_profile("mutants", profile)
+        settings.load_profile("mutants")
+
+    @pytest.hookimpl(trylast=True)
+    def pytest_collection_modifyitems(self, items: list[pytest.Item]) -> None:
+        """Keep what was asked for, those first that notice most and take least."""
+        asked = [item for item in items if self._is_asked(*item.nodeid.split("::", 1))]
+        items[:] = sorted(asked, key=lambda item: (-self.kills[item.nodeid], self.seconds.get(item.nodeid, 0.0)))
+
+    def _is_asked(self, file: str, name: str) -> bool:
+        return self.words.get(file, "") in name
+
+    @pytest.hookimpl(tryfirst=True)
+    def pytest_runtest_protocol(self, item: pytest.Item) -> None:
+        """Begin the time that a test may take."""
+        if self.seconds:
+            signal.setitimer(BEGINS, 3 + 5 * self.seconds.get(item.nodeid, 1.0))
+
+    def pytest_runtest_logreport(self, report: pytest.TestReport) -> None:
+        """Note what a test took, and which failed."""
+        self.took[report.nodeid] += report.duration
+        if report.failed:
+            self.failed = report.nodeid
+
+    def pytest_collectreport(self, report: pytest.CollectReport) -> None:
+        """Note a file that cannot be imported any more."""
+        if report.failed:
+            self.failed = report.nodeid
+
+
+class Server:
+    """Tells what becomes of the mutants of one plugin or module. Lives in a process of its own."""
+
+    def __init__(self, copy: Copy, unit: str) -> None:
+        self.copy, self.unit = copy, unit
+        self.kills: Counter[str] = Counter()
+        self.seconds: dict[str, float] = {}
+        self.rounds = [merged(asked) for asked in in_rounds(tests_asked(unit))]
+        os.chdir(copy.folder)
+        os.environ |= {"PYTHONPATH": str(copy.program.parent), "HYPOTHESIS_PROFILE": "ci"}
+        sys.path[0:1] = [str(copy.program.parent)]  # before the checkout's, in the place of scripts/
+        for name in unmoved(unit):
+            with suppress(ImportError):
+                import_module(name)
+        if left := [file for file in units()[unit] if module_of(file) in sys.modules]:
+            raise SystemExit(f"{unit}: {left[0]} is imported before it is changed")
+        linecache.clearcache()
+        self._try_unchanged()
+
+    def _try_unchanged(self) -> None:
+        for words in self.rounds:
+            fate, found = self._forked(words)
+            if fate != SURVIVED:
+                raise SystemExit(f"{self.unit}: {found['failed'] or 'the tests'} fails as it is")
+            self.seconds |= found["took"]
+
+    def fate(self, file: Path, text: str) -> tuple[str, str]:
+        """What becomes of a changed file, and the test that noticed it."""
+        place = self.copy.place(file)
+        whole = place.read_bytes()
+        place.write_text(text, "utf-8")
+        try:
+            for words in self.rounds:
+                fate, found = self._forked(words)
+                if fate != SURVIVED:
+                    self.kills[found["failed"]] += 1
+                    return fate, found["failed"]
+        finally:
+            place.write_bytes(whole)
+        return SURVIVED, ""
+
+    def _forked(self, words: dict[str, str]) -> tuple[str, dict[str, Any]]:
+        """Run tests in a fork; how it ended, and what it told."""
+        told = self.copy.folder / "told.json"
+        told.unlink(missing_ok=True)
+        child = os.fork()
+        if child == 0:
+            self._run(words, told)
+        status = os.waitpid(child, 0)[1]
+        with suppress(ProcessLookupError):
+            os.killpg(child, signal.SIGKILL)  # what it may have started
+        found = json.loads(told.read_text("utf-8")) if told.exists() else {"failed": "", "took": {}}
+        if os.WIFSIGNALED(status):
+            is_late = os.WTERMSIG(status) in (signal.SIGPROF, signal.SIGALRM)
+            return TIMEOUT if is_late else KILLED, found
+        return KILLED if os.WEXITSTATUS(status) else SURVIVED, found
+
+    def _run(self, words: dict[str, str], told: Path) -> NoReturn:
+        """Run tests and end this process."""
+        code = 1
+        try:
+            os.setpgid(0, 0)
+            self._limit()
+            tests = Tests(words, self.seconds, self.kills)
+            silent = ["-x", "-q", "--tb=no", "-p", "no:cacheprovider", "-p", "no:xdist"]
+            code = int(pytest.main([*silent, *words], plugins=[tests]))
+            told.write_text(json.dumps({"failed": tests.failed, "took": tests.took}), "utf-8")
+        finally:
+            os._exit(code)
+
+    def _limit(self) -> None:
+        resource.setrlimit(resource.RLIMIT_AS, (MEMORY, MEMORY))
+        if self.seconds:
+            signal.alarm(WAITED)
+            signal.setitimer(BEGINS, COLLECTION)
+        sys.dont_write_bytecode = bool(self.seconds)  # pytest keeps the tests as it rewrote them, of the first run
+        silent = os.open(os.devnull, os.O_RDWR)
+        for stream in (0, 1, 2):
+            os.dup2(silent, stream)
+
+
+def in_rounds(asked: list[list[str]]) -> list[list[list[str]]]:
+    """What is asked of pytest, in rounds: first the plugin's own tests, then the contract of all, whose helpers load every plugin."""
+    own = [some for some in asked if "test_contract" not in some[0]]
+    return [some for some in (own, [one for one in asked if one not in own]) if some]
+
+
+def merged(asked: Iterable[list[str]]) -> dict[str, str]:
+    """The files of a round, with the word that the names of their tests must hold."""
+    found: dict[str, str] = {}
+    for some in asked:
+        files, _, word = some if "-k" not in some else (some[: some.index("-k")], "-k", some[-1])
+        found |= dict.fromkeys(files, word)
+    return found
+
+
+# --- which modules import which ---------------------------------------------------------------------------------------
+
+
+def unmoved(unit: str) -> list[str]:
+    """The modules of the program that do not import a plugin or module, themselves or through others."""
+    changed, known = {module_of(file) for file in units()[unit]}, imports()
+    while more := {name for name, names in known.items() if names & changed} - changed:
+        changed |= more
+    return sorted(name for name in known if name not in changed and not name.endswith("__main__"))
+
+
+@cache
+def imports() -> dict[str, frozenset[str]]:
+    """The modules of the program and its plugins, with what each imports."""
+    files = [*(ROOT / "diecut_report").rglob("*.py"), *(ROOT / "plugins").rglob("*.py")]
+    found = {module_of(file): file for file in files}
+    return {name: frozenset(named(ast.parse(file.read_bytes())) & set(found)) for name, file in found.items()}
+
+
+def named(tree: ast.Module) -> set[str]:
+    """What may be modules among what a file imports, with the packages that they lie in."""
+    found: set[str] = set()
+    for node in ast.walk(tree):
+        if isinstance(node, ast.ImportFrom) and node.module:
+            found |= {node.module, *(f"{node.module}.{alias.name}" for alias in node.names)}
+        elif isinstance(node, ast.Import):
+            found |= {alias.name for alias in node.names}
+    return found | {name[:at] for name in found for at, letter in enumerate(name) if letter == "."}
+
+
+def module_of(file: Path) -> str:
+    """The name by which a file of the checkout is imported."""
+    parts = file.relative_to(ROOT).with_suffix("").parts
+    name = ".".join(parts if parts[0] == "diecut_report" else ("diecut_report", *parts))
+    return name.removesuffix(".__init__")
+
+
+# --- a server for each ------------------------------------------------------------------------------------------------
+
+
+def prepared(work: Path) -> Copy:
+    """A copy of the program, compiled, and the libraries in this process."""
+    for name in LIBRARIES:
+        import_module(name)
+    copy = Copy(work)
+    hashed = PycInvalidationMode.CHECKED_HASH  # a file may change twice within a second
+    compileall.compile_dir(str(copy.folder), quiet=2, invalidation_mode=hashed)
+    sys.dont_write_bytecode = False
+    return copy
+
+
+def in_server(copy: Copy, unit: str, work: Callable[[Server], None]) -> None:
+    """Do some work in a server of its own."""
+    child = os.fork()
+    if child == 0:
+        code = 1
+        try:
+            work(Server(copy, unit))
+            code = 0
+        except SystemExit as end:
+            print(end, file=sys.stderr)
+        except BaseException:
+            sys.excepthook(*sys.exc_info())
+        finally:
+            sys.stdout.flush()
+            os._exit(code)
+    if os.waitpid(child, 0)[1]:
+        raise SystemExit(f"{unit}: see above")
