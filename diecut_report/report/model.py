@@ -63,6 +63,7 @@ class CheckRow:
     check_class: str = ""
     ratio: float | None = None
     is_sized: bool = False
+    is_presumed: bool = False
     missing: tuple[str, ...] = ()
     parts: PartsTable | None = None
     changed: str = ""
@@ -79,9 +80,9 @@ class CheckRow:
 
     @property
     def order(self) -> tuple[int, bool, float]:
-        """By what the checks of a report are sorted: what fails first, then the most utilised, what was sized to its limit last."""
-        unknown = math.inf if self.status != "pass" else -math.inf
-        return ORDER[self.status], self.is_sized, -(unknown if self.ratio is None else self.ratio)
+        """By what the checks of a report are sorted: what fails first, then the most utilised, what shows no reserve last."""
+        known = self.ratio if self.ratio is not None else -math.inf if self.status == "pass" else math.inf
+        return ORDER[self.status], self.is_sized or self.is_presumed, -known
 
 
 @dataclass(frozen=True)
