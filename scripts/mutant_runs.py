@@ -3,7 +3,7 @@
 For each plugin or module a server is forked from a process that has the libraries imported. It imports all of the program that does not import
 that plugin or module. Each mutant is a fork of the server. The tests that noticed other mutants come first, then the quick ones; the first that
 fails ends it; nothing is shrunk and no trace is written. A test that takes more than five times what it took before, and three seconds of
-processor time, is ended and has noticed the mutant. A test that notices one is run without the change, too: it must pass.
+processor time, is ended and has noticed the mutant. What the tests of ``most`` seconds did not notice stays open. A test that notices one is run without the change, too: it must pass.
 """
 
 from __future__ import annotations
@@ -17,6 +17,8 @@ import os
 import resource
 import signal
 import sys
+import time
+import warnings
 from collections import Counter
 from collections.abc import Callable, Iterable
 from contextlib import suppress
@@ -49,14 +51,17 @@ SILENT = [
     IMPORTED,
     *(f"-pno:{name}" for name in ("cacheprovider", "xdist", "unraisableexception")),
 ]
-KILLED, SURVIVED, TIMEOUT = "killed", "survived", "timeout"
+KILLED, SURVIVED, TIMEOUT, OPEN = "killed", "survived", "timeout", "open"
+SPENT = 77  # the exit code of tests that passed for as long as they may
 
 
 class Tests:
     """What pytest is told, as a plugin of it: which tests, in which order, how long each may take; and what it tells."""
 
-    def __init__(self, words: dict[str, str], seconds: dict[str, float], kills: Counter[str], told: Path) -> None:
-        self.words, self.seconds, self.kills, self.told = words, seconds, kills, told
+    def __init__(
+        self, words: dict[str, str], seconds: dict[str, float], kills: Counter[str], told: Path, most: float
+    ) -> None:
+        self.words, self.seconds, self.kills, self.told, self.most = words, seconds, kills, told, most
         self.took: Counter[str] = Counter()
 
     def pytest_configure(self) -> None:
@@ -83,7 +88,10 @@ class Tests:
 
     @pytest.hookimpl(tryfirst=True)
     def pytest_runtest_protocol(self, item: pytest.Item) -> None:
-        """Begin the time that a test may take."""
+        """Begin the time that a test may take, if there is time for another."""
+        if time.process_time() > self.most:
+            self.tell("")
+            os._exit(SPENT)
         signal.setitimer(BEGINS, 3 + 5 * self.seconds.get(item.nodeid, UNKNOWN))
         self.tell(item.nodeid)
 
@@ -111,8 +119,8 @@ class Tests:
 class Server:
     """Tells what becomes of the mutants of one plugin or module. Lives in a process of its own."""
 
-    def __init__(self, copy: Copy, unit: str) -> None:
-        self.copy, self.unit = copy, unit
+    def __init__(self, copy: Copy, unit: str, most: float) -> None:
+        self.copy, self.unit, self.most = copy, unit, most
         self.kills: Counter[str] = Counter()
         self.seconds: dict[str, float] = {}
         self.sound: set[str] = set()  # tests that have been seen to pass without a change
@@ -126,7 +134,9 @@ class Server:
         if left := [file for file in units()[unit] if module_of(file) in sys.modules]:
             raise SystemExit(f"{unit}: {left[0]} is imported before it is changed")
         linecache.clearcache()
-        providers._get_local_constants()  # hypothesis reads the numbers of all modules; what it has read, it keeps
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore")  # it says that this is slow
+            providers._get_local_constants()  # hypothesis reads the numbers of all modules; what it has read, it keeps
         gc.collect()
         gc.freeze()
 
@@ -139,7 +149,7 @@ class Server:
             fate, by = self._first_failure()
         finally:
             place.write_bytes(whole)
-        if fate != SURVIVED:
+        if fate in (KILLED, TIMEOUT):
             self.kills[by] += 1
             self._try_unchanged(by)
         return fate, by
@@ -157,7 +167,7 @@ class Server:
             return
         file, _, name = test.partition("::")
         fate, found = self._forked({file: name} if file else self.rounds[0])
-        if fate != SURVIVED:
+        if fate in (KILLED, TIMEOUT):
             raise SystemExit(f"{self.unit}: {found['failed'] or test} fails as it is")
         self.sound.add(test)
 
@@ -176,14 +186,14 @@ class Server:
         if os.WIFSIGNALED(status):
             is_late = os.WTERMSIG(status) in (signal.SIGPROF, signal.SIGALRM)
             return TIMEOUT if is_late else KILLED, found
-        return KILLED if os.WEXITSTATUS(status) else SURVIVED, found
+        return {0: SURVIVED, SPENT: OPEN}.get(os.WEXITSTATUS(status), KILLED), found
 
     def _run(self, words: dict[str, str], told: Path) -> NoReturn:
         """Run tests and end this process."""
         try:
             os.setpgid(0, 0)
             self._limit()
-            tests = Tests(words, self.seconds, self.kills, told)
+            tests = Tests(words, self.seconds, self.kills, told, time.process_time() + self.most)
             code = pytest.main([*SILENT, *words], plugins=[tests])
             tests.end("" if code == pytest.ExitCode.OK else f"pytest ended with {code}")
         finally:
@@ -272,13 +282,13 @@ def prepared(work: Path) -> Copy:
     return copy
 
 
-def in_server(copy: Copy, unit: str, work: Callable[[Server], None]) -> None:
+def in_server(copy: Copy, unit: str, most: float, work: Callable[[Server], None]) -> None:
     """Do some work in a server of its own."""
     child = os.fork()
     if child == 0:
         code = 1
         try:
-            work(Server(copy, unit))
+            work(Server(copy, unit, most))
             code = 0
         except SystemExit as end:
             print(end, file=sys.stderr)
