@@ -42,6 +42,7 @@ LAYERS = [
     {"pipeline"},
     {"exchange"},
     {"study"},
+    {"design"},
     {"cli"},
     {"__main__"},
 ]

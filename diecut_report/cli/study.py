@@ -4,10 +4,10 @@ from __future__ import annotations
 
 import os
 import sys
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from contextlib import closing, redirect_stdout
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import click
 
@@ -34,7 +34,20 @@ EXPORTS = ("csv", "xlsx")
 RESULTS = "study.json"  # what makes a folder one of a study's results
 
 
+SEPARATORS, DECIMALS, UNITS = ("comma", "semicolon", "tab"), ("point", "comma"), ("si", "display")
+
 path_of = click.Path(path_type=Path)
+
+
+def _names(_context: click.Context, _option: click.Parameter, given: str) -> list[str] | None:
+    return [name for name in (part.strip() for part in given.split(",")) if name] or None
+
+
+def _numbers(_context: click.Context, _option: click.Parameter, given: str) -> list[int]:
+    parts = [part for part in (part.strip() for part in given.split(",")) if part]
+    if strange := [part for part in parts if not part.isdecimal()]:
+        raise click.BadParameter(f"{strange[0]!r} is not the number of a variant.")
+    return list(dict.fromkeys(map(int, parts)))
 
 
 @click.command(cls=HelpfulCommand)
@@ -128,30 +141,62 @@ def _reports(target: Path) -> str:
 )
 @click.option("--sort", metavar="COLUMN", help="Sort by a column, -COLUMN downwards.")
 @click.option("--top", metavar="N", type=click.IntRange(1), help="So many variants (default: 20 in a table, else all).")
+@click.option("--pick", metavar="LIST", callback=_numbers, default="", help="These variants alone, such as 3,17,205.")
+@click.option("--columns", metavar="LIST", callback=_names, default="", help="These columns alone, parted by commas.")
+@click.option("--transpose", is_flag=True, help="A line for each quantity, a column for each variant: a comparison.")
 @click.option(
-    "--format", "form", default="table", type=click.Choice(["table", "csv", "json"]), help="table, csv or json."
+    "--format",
+    "form",
+    default="table",
+    type=click.Choice(["table", "csv", "json", "xlsx"]),
+    help="table, csv, json or xlsx.",
+)
+@click.option("-o", "file", metavar="FILE", type=path_of, help="Where to write (default: standard output).")
+@click.option(
+    "--units", type=click.Choice(UNITS), help="Of csv, json and xlsx: si (default), or display as in a table."
+)
+@click.option("--separator", type=click.Choice(SEPARATORS), help="Between the values of csv.")
+@click.option(
+    "--decimal", type=click.Choice(DECIMALS), help="The decimal sign of csv; comma wants another --separator."
 )
 @common
-def variants(
-    folder: Path,
-    where: str | None,
-    sort: str | None,
-    top: int | None,
-    form: Any,
-    folders: tuple[Path, ...],
-    quiet: bool,
-) -> int:
+def variants(folder: Path, where: str | None, sort: str | None, top: int | None, pick: list[int], columns: list[str] | None,
+             transpose: bool, form: str, file: Path | None, units: str | None, separator: str | None, decimal: str | None,
+             folders: tuple[Path, ...], quiet: bool) -> int:  # fmt: skip
     """Ask the stored variants of a study."""
-    from diecut_report.study.analysis.query import unfinished
-    from diecut_report.study.analysis.query import variants as asked
+    from diecut_report.files import write_all
+    from diecut_report.study.analysis.answers import Notation
+    from diecut_report.study.analysis.query import answer, answer_workbook, unfinished
+    from diecut_report.study.analysis.question import Request
 
+    _refuse_idle(form, file, {"--units": units, "--separator": separator, "--decimal": decimal})
+    asked, notation = (
+        Request(where, sort, top, columns, pick),
+        Notation(units or "si", separator or "comma", decimal or "point"),
+    )
     if not quiet:
         tell(unfinished(folder))
-    with closing(asked(folder, where=where, sort=sort, top=top, format=form)) as pieces:
+    if form == "xlsx":
+        write_all({Path(str(file)): answer_workbook(folder, asked, notation, transposed=transpose)}, folder / RESULTS)
+        return PASSED
+    with closing(answer(folder, asked, form, notation, transposed=transpose)) as pieces:
+        if file is not None:
+            write_all({file: "".join(pieces).encode()}, folder / RESULTS, through=True)
+            return PASSED
         for piece in pieces:
             if not emit(piece):  # the reader has seen enough
                 break
     return PASSED
+
+
+def _refuse_idle(form: str, file: Path | None, given: Mapping[str, str | None]) -> None:
+    """Refuse options that would do nothing: a user who gives one expects something of it."""
+    takes = {"csv": tuple(given), "json": ("--units",), "xlsx": ("--units",), "table": ()}[form]
+    for option, value in given.items():
+        if value is not None and option not in takes:
+            raise click.UsageError(f"{option} says nothing for {form}.")
+    if form == "xlsx" and file is None:
+        raise click.UsageError("A workbook is written to a file; name it with -o FILE.")
 
 
 def source(config: Path, discovery: Discovery) -> Source:

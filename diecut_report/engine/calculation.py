@@ -15,9 +15,9 @@ from diecut_report.contract.inputs import Meta, Quantity, fields, texts_given
 from diecut_report.contract.mechanism import Mechanism
 from diecut_report.contract.steps import Accumulated, Choice, Derivative, FromCurve, Step, Value
 from diecut_report.contract.unit_variants import in_form
-from diecut_report.engine import named_quantity
 from diecut_report.engine.chosen_units import NONE_CHOSEN
 from diecut_report.engine.input_rows import column
+from diecut_report.engine.named_quantity import NamedQuantities
 from diecut_report.engine.numerics.chebyshev import PieceSeries
 from diecut_report.engine.numerics.curve_evaluation import MANY, Curves, several
 from diecut_report.engine.numerics.domain import Domain, Inside
@@ -120,12 +120,11 @@ class Calculation:
         self.inputs: dict[str, Any] = {name: column(value, variants) for name, value in inputs.items()}
         self.steps: dict[str, Step] = {step.id: step for _, step in mechanism.active(self.given)}
         self.axis = mechanism.axes(self.given)
-        self.values: dict[str, Array] = {}
+        self.names, self.values = NamedQuantities(), dict[str, Array]()
         self.curves, self.domains = dict[str, CurveStep](), dict[str, Domain]()
         self.part_names: dict[str, tuple[str, ...]] = {}  # of the repeated parts that follow from the inputs
         self.row_of: dict[str, str] = {}  # for each number that is called by the name of its part, the row
-        self.series: dict[str, PieceSeries] = {}
-        self.branch: dict[str, Array] = {}  # for each choice, the case taken by each variant
+        self.series, self.branch = dict[str, PieceSeries](), dict[str, Array]()  # the latter: for each choice its case
         self.middle: dict[str, Array] = {}  # for each place of an extreme, the middle of its smooth piece
         self.proof: dict[str, float] = {}  # for each result that is not a closed formula, its greatest residual
         self._kept: dict[tuple[str, str], tuple[Array, CurveSampler]] = {}  # curves already known at often used places
@@ -212,7 +211,8 @@ class Calculation:
 
     def step_or_input(self, name: str) -> Step | Quantity:
         """Return what declares a quantity: its symbol, unit and description."""
-        return named_quantity.declared(self.row_of.get(name, name), self.steps, self.axis, self.meta, self.mechanism.at)
+        own = self.row_of.get(name, name)
+        return self.names.declared(own, self.steps, self.axis, self.meta, self.mechanism.at)
 
 
 class CurveSampler:

@@ -5,6 +5,8 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator, Mapping
 from typing import Any, NamedTuple
 
+LEAVES = ("sym", "num", "qty")
+
 
 class Node(NamedTuple):
     """One node of an expression: an operation and its operands (nodes, or the texts of a leaf)."""
@@ -14,25 +16,27 @@ class Node(NamedTuple):
 
     def to_json(self) -> list[Any]:
         """The node as nested lists, the form in which results hold it."""
-        return [self.op, *(a.to_json() if isinstance(a, Node) else list(map(_plain, a)) if isinstance(a, tuple) else a
-                           for a in self.args)]  # fmt: skip
+        return [self.op, *map(_plain, self.args)]
 
 
 def _plain(part: Any) -> Any:
-    return part.to_json() if isinstance(part, Node) else part
+    if type(part) is Node:
+        return part.to_json()
+    return list(map(_plain, part)) if isinstance(part, tuple) else part
 
 
 def transform(node: Node, leaf: Callable[[Node], Node]) -> Node:
     """The tree with each leaf (``sym``, ``num``, ``qty``) replaced by ``leaf(node)``."""
-    if node.op in ("sym", "num", "qty"):
+    op, args = node
+    if op in LEAVES:
         return leaf(node)
-    return Node(node.op, tuple(_inner(a, lambda n: transform(n, leaf)) for a in node.args))
+    return Node(op, tuple([_inner(part, leaf) for part in args]))
 
 
-def _inner(part: Any, apply: Callable[[Node], Any]) -> Any:
-    if isinstance(part, Node):
-        return apply(part)
-    return tuple(apply(p) for p in part) if isinstance(part, tuple) else part
+def _inner(part: Any, leaf: Callable[[Node], Node]) -> Any:
+    if type(part) is Node:
+        return transform(part, leaf)
+    return tuple([transform(each, leaf) for each in part]) if isinstance(part, tuple) else part
 
 
 def substitute(node: Node, values: Mapping[str, Node]) -> Node:

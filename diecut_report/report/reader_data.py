@@ -156,4 +156,4 @@ def _line(line: Line, pool: _Pool) -> Data:
 
 
 def _said(label: str, value: float, unit: str, words: Catalogue) -> str:
-    return f"{tidy(label)} {joined(displayed(value, unit, 4, words['decimal']), pretty(unit))}".strip()
+    return f"{tidy(label)} {joined(displayed(value, unit, words['decimal']), pretty(unit))}".strip()

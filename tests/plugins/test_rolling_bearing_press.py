@@ -17,7 +17,19 @@ from diecut_report.study.definition.base_inputs import find_input
 from diecut_report.study.execution.result_columns import columns_of
 from diecut_report.study.execution.variant_rows import calculate_rows
 from tests.configs import HEAD, loaded, problems
-from tests.plugins.bearings import ANGULAR, BALL, ROLLER, SOUGHT, SWINGING, Over, bearings, checks, one, value
+from tests.plugins.bearings import (
+    ANGULAR,
+    BALL,
+    ROLLER,
+    SOUGHT,
+    SOUGHT_ROLLER,
+    SWINGING,
+    Over,
+    bearings,
+    checks,
+    one,
+    value,
+)
 from tests.plugins.test_shaft_of_a_press import DRIVE, SHAFT
 
 BEARINGS = """
@@ -138,7 +150,12 @@ def test_variants_of_a_press_are_each_press_alone(tmp_path: Path) -> None:
         ([SWINGING | {"radial_force": Over(np.sin, cycle="disc_angle")}], "bearings.0.relative_angle", "another cycle"),
         ([SOUGHT | {"radial_force": 90000}], "bearings.0.series", "heavier series"),
         ([SOUGHT | {"designation": "7209"}], "bearings.0.designation", "not in the table"),
-        ([SOUGHT | {"type": "roller", "axial_force": 0}], "bearings.0.dynamic_rating", "maker's catalogue"),
+        ([SOUGHT | {"type": "ball", "axial_force": 0}], "bearings.0.dynamic_rating", "maker's catalogue"),
+        ([SOUGHT_ROLLER | {"series": "62"}], "bearings.0.series", "NU2, NU22, NU3, NU23"),
+        ([SOUGHT | {"series": "NU3"}], "bearings.0.series", "60, 62, 63"),
+        ([SOUGHT_ROLLER | {"designation": "NU 208"}], "bearings.0.designation", "NU208E if it is that one"),
+        ([SOUGHT_ROLLER | {"designation": "NU 240 E"}], "bearings.0.designation", "NU204E to NU2320E"),
+        ([SOUGHT_ROLLER | {"axial_force": 100}], "bearings.0.axial_force", "bear no axial force"),
     ],
 )
 def test_bearings_that_cannot_be_are_refused_in_words(parts: list[dict[str, Any]], key: str, words: str) -> None:
