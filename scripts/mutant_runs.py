@@ -3,7 +3,8 @@
 For each plugin or module a server is forked from a process that has the libraries imported. It imports all of the program that does not import
 that plugin or module. Each mutant is a fork of the server. The tests that noticed other mutants come first, then the quick ones; the first that
 fails ends it; nothing is shrunk and no trace is written. A test that takes more than five times what it took before, and three seconds of
-processor time, is ended and has noticed the mutant. What the tests of ``most`` seconds did not notice stays open. A test that notices one is run without the change, too: it must pass.
+processor time, is ended and has noticed the mutant. What the tests of ``most`` seconds did not notice stays open. A test that notices one is run
+without the change, too: it must pass.
 """
 
 from __future__ import annotations
