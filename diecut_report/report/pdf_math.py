@@ -9,6 +9,7 @@ from typing import Any
 from fontTools.pens.basePen import BasePen
 from fontTools.svgLib.path import parse_path
 
+from diecut_report.report.pdf_search import unseen
 from diecut_report.report.typeset import Outline
 
 _GLYPH = re.compile(r'<path id="[^"]*?-(g\d+)" d="([^"]*)"/>')
@@ -41,10 +42,10 @@ class OperatorPen(BasePen):  # type: ignore[misc]  # fontTools has no types
 
 
 class Picture:
-    """An image as WeasyPrint wants it (``get_intrinsic_size``, ``draw``) of a formula."""
+    """An image as WeasyPrint wants it (``get_intrinsic_size``, ``draw``) of a formula, with its text under it for searches."""
 
-    def __init__(self, outline: Outline) -> None:
-        self.outline = outline
+    def __init__(self, outline: Outline, text: str) -> None:
+        self.outline, self.lines = outline, text.split("\n")
         self.operators = operators(outline.svg)
 
     def get_intrinsic_size(self, _resolution: float, font_size: float) -> tuple[float, float, float]:
@@ -54,6 +55,7 @@ class Picture:
 
     def draw(self, stream: Any, width: float, height: float, style: Any) -> None:
         """Draw the formula into a box of a page (y downwards)."""
+        stream.stream.append(unseen(self.lines, width))
         across, down = width / self.outline.width, height / self.outline.height
         stream.transform(across, 0, 0, -down, -self.outline.left * across, -self.outline.top * down)
         stream.set_color(style["color"])
