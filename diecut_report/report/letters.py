@@ -11,7 +11,7 @@ from typing import Any, NamedTuple
 from fontTools.pens.transformPen import TransformPen
 from fontTools.ttLib import TTFont
 
-from diecut_report.report.pdf_math import OperatorPen
+from diecut_report.report.operator_pen import OperatorPen
 
 MILLIMETRE = 72 / 25.4  # in points
 LINE = 1.2  # of a line's letters

@@ -17,7 +17,7 @@ from xml.etree import ElementTree
 
 from fontTools.ttLib import TTFont
 
-from diecut_report.report.pdf_math import OperatorPen
+from diecut_report.report.operator_pen import OperatorPen
 from diecut_report.report.pdf_search import unseen
 
 SVG, HREF = "{http://www.w3.org/2000/svg}", "{http://www.w3.org/1999/xlink}href"

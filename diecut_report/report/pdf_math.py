@@ -6,9 +6,9 @@ import re
 from functools import cache
 from typing import Any
 
-from fontTools.pens.basePen import BasePen
 from fontTools.svgLib.path import parse_path
 
+from diecut_report.report.operator_pen import OperatorPen
 from diecut_report.report.pdf_search import unseen
 from diecut_report.report.typeset import Outline
 
@@ -19,26 +19,6 @@ _PLACED = re.compile(
     r'|<rect x="(?P<rx>[-\d.]+)" y="(?P<ry>[-\d.]+)" width="(?P<rw>[-\d.]+)" height="(?P<rh>[-\d.]+)"/>'
 )
 _DRAWN = re.compile(r"<(?:use|rect|path|line|polygon|circle|ellipse|polyline)\b")
-
-
-class OperatorPen(BasePen):  # type: ignore[misc]  # fontTools has no types
-    """Writes a path as PDF operators; quadratic curves come as cubic ones."""
-
-    def __init__(self, glyphs: Any = None) -> None:
-        super().__init__(glyphs)
-        self.operators: list[str] = []
-
-    def _moveTo(self, pt: tuple[float, float]) -> None:  # noqa: N802
-        self.operators.append(f"{_number(*pt)} m")
-
-    def _lineTo(self, pt: tuple[float, float]) -> None:  # noqa: N802
-        self.operators.append(f"{_number(*pt)} l")
-
-    def _curveToOne(self, *points: tuple[float, float]) -> None:  # noqa: N802
-        self.operators.append(f"{_number(*(n for point in points for n in point))} c")
-
-    def _closePath(self) -> None:  # noqa: N802
-        self.operators.append("h")
 
 
 class Picture:
@@ -84,7 +64,3 @@ def _outline(_name: str, path: str) -> str:
     pen = OperatorPen()
     parse_path(path, pen)
     return " ".join(pen.operators)
-
-
-def _number(*values: float) -> str:
-    return " ".join(f"{value:g}" for value in values)

@@ -26,7 +26,9 @@ def unseen(lines: list[str], width: float) -> str:
     longest = max(map(len, lines), default=0) * SIZE * WIDTH / UNITS
     narrower = min(100.0, 100 * width / longest) if longest else 100.0
     shown = " T* ".join(f"<{line.encode('utf-16-be').hex()}> Tj" for line in lines)
-    return f"BT /{NAME} {SIZE:.4g} Tf {INVISIBLE} Tr {narrower:.4g} Tz {SIZE:.4g} TL 1 0 0 -1 0 {SIZE:.4g} Tm {shown} ET"
+    return (
+        f"BT /{NAME} {SIZE:.4g} Tf {INVISIBLE} Tr {narrower:.4g} Tz {SIZE:.4g} TL 1 0 0 -1 0 {SIZE:.4g} Tm {shown} ET"
+    )
 
 
 def add_font(pdf: Any, fonts: Any) -> None:
