@@ -13,9 +13,10 @@ from diecut_report.languages.tokens import worded
 from diecut_report.quantities.units import pretty
 from diecut_report.report.alignment import rooms
 from diecut_report.report.equations import Equation
-from diecut_report.report.number_format import joined, number, parts, quantity
+from diecut_report.report.number_format import is_words, joined, number, quantity
 from diecut_report.report.symbol_list import SymbolRow
 from diecut_report.report.symbols import symbol
+from diecut_report.report.value_rows import ValueRow
 
 Data = Mapping[str, Any]
 LONG = 10  # rows of a table
@@ -112,6 +113,8 @@ class Item:
     title: str = ""
     caption: str = ""
     changed: str = ""
+    rows: tuple[ValueRow, ...] = ()
+    pair: tuple[Item, ...] = ()
 
 
 @dataclass(frozen=True)
@@ -212,6 +215,7 @@ class PrintedChapter:
     warnings: list[str] = field(default_factory=list)
     between: list[PrintedChapter] = field(default_factory=list)
     inputs: list[QuantityRow] = field(default_factory=list)
+    defaults: list[QuantityRow] = field(default_factory=list)  # inputs that a standard report tells in a paragraph
     input_parts: list[PartsTable] = field(default_factory=list)
     key_results: list[QuantityRow] = field(default_factory=list)
     outputs: list[QuantityRow] = field(default_factory=list)
@@ -222,10 +226,12 @@ class PrintedChapter:
     phases: list[PrintedTable] = field(default_factory=list)
     phases_absent: list[str] = field(default_factory=list)
     figures: list[tuple[str, Data]] = field(default_factory=list)
+    halves: frozenset[str] = frozenset()  # the numbers of figures that stand side by side
     loose: list[Item] = field(default_factory=list)
     files: list[File] = field(default_factory=list)
     absent: list[Data] = field(default_factory=list)
     symbols: list[SymbolRow] = field(default_factory=list)
+    told_in: str = ""  # the letter of the earlier chapter of the same kind, whose formulas and texts are not repeated
     errata: list[tuple[str, str, str]] = field(default_factory=list)
     parts: dict[str, Heading] = field(default_factory=dict)
     headings: list[Heading] = field(default_factory=list)
@@ -281,11 +287,6 @@ def rested(shown: QuantityRow, row: Data, words: Mapping[str, str]) -> QuantityR
     basis = words[row["basis"]] if row.get("basis", "given") != "given" else ""
     origin = "" if basis and row.get("origin") == "given" else shown.origin
     return replace(shown, origin=", ".join(filter(None, (origin, basis))), note=row.get("note", ""))
-
-
-def is_words(text: str) -> bool:
-    """Whether the text of a value is not a number."""
-    return parts(text) is None
 
 
 def utilisation(ratio: float | None, status: str, decimal: str) -> str:

@@ -17,11 +17,10 @@ from diecut_report.report.model import (
     PrintedColumn,
     PrintedTable,
     TableCell,
-    is_words,
     rests,
     utilisation,
 )
-from diecut_report.report.number_format import displayed, number
+from diecut_report.report.number_format import displayed, is_words, number
 from diecut_report.report.repeated_parts import Parts
 from diecut_report.report.symbols import symbol
 
