@@ -23,8 +23,8 @@ from diecut_report.report.pdf_figures import FigurePicture, NotDrawn
 from diecut_report.report.pdf_math import Picture
 from diecut_report.report.sheet_frames import SheetBlocks, sheet_blocks
 
-BESIDE_WIDTH = 28.0  # em of a formula that stands beside its description
-BESIDE_LETTERS = 62  # of a description of two lines beside a formula
+BESIDE_WIDTH = 33.0  # em of a formula that stands beside its description
+BESIDE_LETTERS = 60  # of a description of two lines beside a formula
 SMALLER = 0.85  # of the letters of a source
 BACKDROP, FORMULA = "data:backdrop,", "data:formula,"  # addresses of pictures, which WeasyPrint finds in its cache
 
