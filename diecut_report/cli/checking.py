@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING
 import click
 
 from diecut_report.cli.formats import formats_of
+from diecut_report.cli.language import asked_language
 from diecut_report.cli.output import (
     BAD_INPUT,
     CHECK_FAILED,
@@ -28,14 +29,15 @@ from diecut_report.cli.output import (
 from diecut_report.cli.progress import Progress
 from diecut_report.cli.verdict import WORDS
 from diecut_report.config import yaml_tree
+from diecut_report.config.catalogues import catalogues_for, spoken_catalogues
 from diecut_report.config.discovery import Discovery
 from diecut_report.errors import PluginError, Problem, UserError
 from diecut_report.languages.phrases import Counted, Phrase, phrase
-from diecut_report.languages.speech import localised, said
+from diecut_report.languages.speech import localised, said, speaking
 
 if TYPE_CHECKING:
     from diecut_report.study.machines.calculation import CheckedMachine
-    from diecut_report.study.machines.verdicts import MachineComparison, Verdict
+    from diecut_report.study.machines.verdicts import Verdict
 
 FORMATS = ("html", "pdf", "xlsx", "csv", "json")
 COLOURED = {"bad": "error"}  # states with the colour of another one
@@ -105,17 +107,18 @@ def check(given: tuple[Path, ...], folder: Path | None, strict: bool, formats: l
           folders: tuple[Path, ...], quiet: bool) -> int:  # fmt: skip
     """Calculate many machines, side by side, and show a table of their verdicts; folders are searched for configurations."""
     from diecut_report.study.machines.calculation import configurations
-    from diecut_report.study.machines.verdicts import compared
+    from diecut_report.study.machines.verdicts import compared, in_language
 
     files = configurations(given)
+    discovery = Discovery(folders)
     with Progress(quiet) as progress, redirect_stdout(sys.stderr):
         found = _calculated(files, folders, jobs, progress)
-    made = compared(found)
+    made = compared(in_language(found, spoken_catalogues(discovery)))
     for verdict in made.verdicts:
         tell(f"{verdict.machine}: " + phrase(line) if verdict.status == "error" else line for line in verdict.words)
     emit("".join(f"{line}\n" for line in _table(made.verdicts)))
     if folder is not None:
-        _write(made, folder, formats, quiet, files)
+        _write(found, discovery, folder, formats, quiet, files)
     if not quiet:
         tell(_counts(made.verdicts))
     return _code(made.verdicts, strict)
@@ -151,11 +154,18 @@ def _row(verdict: Verdict) -> tuple[str, ...]:
     return verdict.machine, said(WORDS[verdict.status]), verdict.governing, share, *map(str, counts)
 
 
-def _write(made: MachineComparison, folder: Path, formats: list[str], quiet: bool, files: Sequence[Path]) -> None:
+def _write(
+    found: Sequence[CheckedMachine], discovery: Discovery, folder: Path, formats: list[str], quiet: bool, files: Sequence[Path]
+) -> None:  # fmt: skip
+    """Write the summary, in the language that is asked for, else in that of all projects."""
     from diecut_report.files import write_all
     from diecut_report.study.machines import pages
+    from diecut_report.study.machines.verdicts import compared, in_language, language_of
 
-    contents = dict(pages.files(made, folder, formats))
+    language = asked_language() or language_of(found)
+    with speaking(language, catalogues_for(language, (), discovery)):
+        made = compared(in_language(found, spoken_catalogues(discovery)))
+        contents = dict(pages.files(made, folder, formats, compared(found)))
     if kept := set(contents) & set(files):
         words = Phrase("{file} is one of the configurations, and is not overwritten.", file=min(kept))
         raise UserError(Problem(words))

@@ -27,9 +27,11 @@ from diecut_report.cli.output import (
 from diecut_report.cli.progress import Progress
 from diecut_report.cli.study import source
 from diecut_report.cli.template import template_option
+from diecut_report.config.catalogues import spoken_catalogues
 from diecut_report.config.discovery import Discovery
+from diecut_report.languages.catalogues import SOURCE_LANGUAGE
 from diecut_report.languages.phrases import Counted, Phrase, phrase
-from diecut_report.languages.speech import said, say
+from diecut_report.languages.speech import said, say, speaking
 
 if TYPE_CHECKING:
     from diecut_report.exchange.agreement import Agreement, Difference
@@ -37,6 +39,7 @@ if TYPE_CHECKING:
     from diecut_report.exchange.verification import Told, Verification
     from diecut_report.report.house_style import HouseStyle
 
+Data = dict[str, Any]
 SHOWN = 20  # differences that are told
 path_of = click.Path(path_type=Path)
 
@@ -196,7 +199,7 @@ def diff(
         discovery = Discovery(folders)
         sides = [side(source(given, discovery), discovery, progress) for given in (old, new)]
         found = changes(sides[0][0], sides[1][0])
-        text = _changes(found, form, all_rows)
+        text = _changes(found, [results for results, _ in sides], discovery, form, all_rows)
     tell(str(error) for _, broken in sides for error in broken)
     if target is None:
         emit(text)
@@ -208,13 +211,16 @@ def diff(
     return verdict.exit_code(sides[1][0], is_broken=is_broken, is_strict=False)
 
 
-def _changes(found: dict[str, Any], form: str, all_rows: bool) -> str:
+def _changes(found: Data, sides: list[Data], discovery: Discovery, form: str, all_rows: bool) -> str:
+    """The changes in a format: as JSON neutral, as a page in the language that is asked for, else in that of the new project."""
     if form == "json":
         return json.dumps(found, indent=1, ensure_ascii=False, allow_nan=False) + "\n"
+    from diecut_report.exchange.changes_text import lines, said_changes
+
     if form == "html":
         from diecut_report.exchange.changes_page import page
 
-        return page(found)
-    from diecut_report.exchange.changes_text import lines
-
-    return "".join(f"{line}\n" for line in lines(found, all_rows=all_rows))
+        with speaking(asked_language() or sides[1]["project"].get("language") or SOURCE_LANGUAGE):
+            return page(said_changes(found, *sides, spoken_catalogues(discovery)))
+    told = said_changes(found, *sides, spoken_catalogues(discovery))
+    return "".join(f"{line}\n" for line in lines(told, all_rows=all_rows))

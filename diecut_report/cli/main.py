@@ -42,11 +42,12 @@ from diecut_report.cli.output import (
     usage,
 )
 from diecut_report.cli.progress import Progress
+from diecut_report.cli.report_options import detail_given, only_given, report_formats
 from diecut_report.cli.signing import sign
 from diecut_report.cli.study import batch, source, variants
 from diecut_report.cli.template import template_option
 from diecut_report.config.discovery import Discovery, DuplicateKind, UnknownKind
-from diecut_report.errors import PluginError, Problem, Unwritable, UserError, nearest
+from diecut_report.errors import PluginError, Problem, Unwritable, UserError
 from diecut_report.languages.catalogues import SOURCE_LANGUAGE
 from diecut_report.languages.phrases import phrase
 from diecut_report.languages.speech import said, say, speak, speaking
@@ -110,36 +111,6 @@ def _run(arguments: Sequence[str] | None) -> int:
 # --- options ---------------------------------------------------------------------------------------------------------
 
 
-def _report_formats() -> tuple[str, ...]:
-    from diecut_report.pipeline import FORMATS
-
-    return FORMATS
-
-
-def _detail(_: click.Context, __: click.Parameter, given: str | None) -> str | None:
-    from diecut_report.config.model import DETAILS
-
-    if given is None or given in DETAILS:
-        return given
-    raise click.BadParameter(
-        say(
-            "{given} is not a detail{nearest}; known: {known}.",
-            given=repr(given),
-            nearest=nearest(given, DETAILS),
-            known=", ".join(DETAILS),
-        )
-    )
-
-
-def _only(_: click.Context, __: click.Parameter, given: str | None) -> tuple[str, ...]:
-    names = tuple(dict.fromkeys(part.strip() for part in (given or "").split(",") if part.strip()))
-    if given is not None and not names:
-        raise click.BadParameter(
-            say("no mechanism is named; give names of the configuration, with commas: drive,clutch.")
-        )
-    return names
-
-
 def _version(context: click.Context, _: click.Parameter, asked: bool) -> None:
     if asked and not context.resilient_parsing:
         emit(f"diecut-report, version {__version__}\n")
@@ -171,7 +142,7 @@ config_argument = click.argument("config", type=click.Path(path_type=Path))
     "formats",
     metavar="LIST",
     default="html,pdf,json",
-    callback=formats_of(_report_formats),
+    callback=formats_of(report_formats),
     help="html,pdf,json (default), also docx,xlsx.",
 )
 @click.option(
@@ -183,10 +154,10 @@ config_argument = click.argument("config", type=click.Path(path_type=Path))
 @click.option(
     "--detail",
     metavar="DETAIL",
-    callback=_detail,
+    callback=detail_given,
     help="brief, standard or full, in place of the configuration's (standard).",
 )
-@click.option("--only", metavar="NAMES", callback=_only, help="Report these mechanisms alone: drive,clutch.")
+@click.option("--only", metavar="NAMES", callback=only_given, help="Report these mechanisms alone: drive,clutch.")
 @template_option
 @verdict.strict_option
 @common

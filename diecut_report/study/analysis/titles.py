@@ -6,6 +6,7 @@ import re
 from collections import Counter
 from collections.abc import Sequence
 
+from diecut_report.languages.phrases import phrase
 from diecut_report.languages.speech import said, say
 from diecut_report.study.storage.description import ResultColumn
 
@@ -58,6 +59,9 @@ def _with_name(column: ResultColumn) -> str:
 
 def _told(column: ResultColumn) -> str:
     """The description in the language that is spoken; of a check's verdict the check alone."""
+    check = column.description.removesuffix(": utilisation")
+    if column.name.endswith(UTILISATION) and check != column.description:
+        return say("{check}: utilisation", check=phrase(check))
     return said(column.description.removesuffix(": verdict") if _is_verdict(column) else column.description)
 
 

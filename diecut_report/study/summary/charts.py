@@ -9,8 +9,9 @@ from typing import Any, NamedTuple
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
+from matplotlib.ticker import FuncFormatter
 
-from diecut_report.languages.speech import localised, said
+from diecut_report.languages.speech import decimal_sign, localised, said
 from diecut_report.report.figures.diagram import WIDTH
 from diecut_report.report.figures.style import ACCENT, FONT_SIZE, INK, SOFT, Svg, canvas, drawn, text_size
 from diecut_report.report.number_format import number
@@ -35,7 +36,10 @@ def chart(build: Callable[[], Figure], told: str, key: str) -> Svg:
 def panel(sheet: Figure, left: float, bottom: float, wide: float, high: float) -> Axes:
     """Return axes at a place in points."""
     width, height = (float(side) * 72 for side in sheet.get_size_inches())
-    return sheet.add_axes((left / width, bottom / height, wide / width, high / height))
+    axes = sheet.add_axes((left / width, bottom / height, wide / width, high / height))
+    for axis in (axes.xaxis, axes.yaxis):
+        axis.set_major_formatter(FuncFormatter(lambda value, _: number(f"{value:.10g}", decimal_sign())))
+    return axes
 
 
 # --- bars ------------------------------------------------------------------------------------------------------------

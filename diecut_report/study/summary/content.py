@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from typing import Any
 
 from diecut_report.config import yaml_tree
-from diecut_report.languages.phrases import phrase
+from diecut_report.languages.phrases import Phrase, phrase
 from diecut_report.languages.speech import localised, said, say, say_counted
 from diecut_report.report.number_format import number
 from diecut_report.study.analysis.stored_variants import Stored, StoredColumn
@@ -209,5 +209,11 @@ def _margin(stored: Stored) -> list[tuple[str, str]]:
 def _files(stored: Stored) -> list[tuple[str, str]]:
     """The files that the study was made from, and the code that calculated it, with their SHA-256."""
     made = stored.description
-    code = [(say("the source of the {name}", name=phrase(name)), digest) for name, digest in made.sources.items()]
+    code = [(say("the source of the {name}", name=_code(name)), digest) for name, digest in made.sources.items()]
     return [*((source.file, source.sha256) for source in (made.study, made.base, *made.tables)), *code]
+
+
+def _code(name: str) -> Phrase:
+    """What a part of the code is called: ``plugin cylinder_drive``."""
+    kind = name.removeprefix("plugin ")
+    return phrase(name) if kind == name else Phrase("plugin {kind}", kind=kind)

@@ -76,7 +76,7 @@ def _parallel(
 ) -> Figure:
     pitch = (WIDTH - 2 * SIDE) / (len(columns) - 1)
     names = [wrapped(titled(column), min(pitch, 100) - 6, SMALL, 6) for column in columns]
-    foot = 16 + 8.0 * max(name.count("\n") + 1 for name in names)
+    foot = 18 + 8.8 * max(name.count("\n") + 1 for name in names)
     sheet = canvas(WIDTH, HIGH + 14 + foot)
     axes = panel(sheet, SIDE, foot, WIDTH - 2 * SIDE, HIGH)
     scaled = _scaled(sample, columns, ends)

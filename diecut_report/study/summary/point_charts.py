@@ -158,7 +158,7 @@ def _front(axes: Axes, front: Front | None, x: StoredColumn, y: StoredColumn) ->
         color=INK,
         markersize=3.4 if len(values) < 60 else 1.2,
         linewidth=0.9,
-        label="Pareto front",
+        label=say("Pareto front"),
     )
 
 
