@@ -8,10 +8,13 @@ from math import isfinite
 from pathlib import Path
 from typing import Any
 
+import numpy as np
+
 from diecut_report.config.discovery import said
 from diecut_report.engine.calculation import Calculation
 
 Data = dict[str, Any]
+FLOATS = {float, np.float64}
 
 
 class Undrawable(ValueError):
@@ -49,8 +52,8 @@ def _is_plain(part: Any) -> bool:
     if kind is dict:
         return all(type(key) is str for key in part) and all(map(_is_plain, part.values()))
     if kind is list or kind is tuple:
-        return isfinite(sum(part)) if set(map(type, part)) == {float} else all(map(_is_plain, part))
-    return isfinite(part) if kind is float else part is None or kind in (str, bool, int)
+        return isfinite(sum(part)) if part and set(map(type, part)) <= FLOATS else all(map(_is_plain, part))
+    return isfinite(part) if kind in FLOATS else part is None or isinstance(part, str) or kind in (bool, int)
 
 
 def curve_named(calc: Calculation, name: str, abscissa: str | None = None) -> str:
