@@ -172,4 +172,9 @@ _number(critical, "critical_speed_rayleigh", "n_R", "rpm", "Critical speed by Ra
         "ω² = Σ f_i y_i/Σ m_i y_i² with f_i = m_i g, downwards on overhangs", source="Shigley 7-23")
 _number(critical, "critical_speed_dunkerley", "n_D", "rpm", "Critical speed by Dunkerley, from below", "dunkerley", "1/ω² = Σ m_i δ_ii",
         source="Shigley 7-32")
+critical.computed("turns", "k_n", "1", "Whether the shaft turns (1), or stands or swings (0)",
+                  lambda rotation, length: np.full_like(length, isinstance(rotation, str) and rotation == "turning"), ("rotation", "length"),
+                  "by rotation", output=False)
+critical.value("turning_limit", "n_k", "rpm", "Critical speed that a turning shaft is held against", lambda critical_speed: critical_speed,
+               exists=lambda turns: turns > 0, source="Shigley 7-6", output=False)
 critical.value("twice_speed", "2n", "rpm", "Twice the speed", lambda speed: 2 * speed, source="Shigley 7-6", needs=("speed",), output=False)

@@ -296,6 +296,12 @@ def test_only_steps_with_a_fillet_are_held_against_the_charts_of_fillets() -> No
     assert "notch_range" not in checks(plain)
 
 
+def test_a_shaft_that_does_not_turn_is_held_against_no_critical_speed() -> None:
+    """Neither with a speed nor, as one that is not given, without."""
+    assert checks(shaft(CRANKSHAFT, speed=60))["critical_speed"] == "pass"
+    assert "critical_speed" not in checks(shaft(STANDING)) and "critical_speed" not in checks(shaft(STANDING, speed=60))
+
+
 def test_a_fillet_beyond_the_charts_and_a_wide_bore_warn() -> None:
     sections = [SECTIONS[0] | {"fillet_radius": 0.5}, SECTIONS[1] | {"bore": 40}, *SECTIONS[2:]]
     found = checks(shaft(CRANKSHAFT, sections=sections))
