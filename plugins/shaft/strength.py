@@ -90,6 +90,8 @@ _number(bending, "torque_span", "l_T", "mm", "Distance of the outermost torques"
 bending.value("twist_by_length", "ϑ′", "deg/m", "Twist by length between the outermost torques",
               lambda twist, torque_span: twist / torque_span, exists=lambda torque_span: torque_span > 0, source="Saint-Venant",
               output=False)
+bending.computed_curve("stress_along", "σ_vM(x)", "MPa", "Greatest nominal stress over the cycle, along the shaft", curves.nominal_stress,
+                       "under_load", "position", "of bending moment, torque and axial force at each instant, without notches", source="Shigley 7-15")
 bending.computed_curve("deflection", "v(x)", "um", "Deflection at the instant of its greatest value", curves.deflection, "under_load", "position",
                        INTEGRATED, source="Euler–Bernoulli")
 _number(bending, "energy_difference", "ΔU/U", "1", "Energy of the bent shaft less the work of its loads, to the greatest energy",
