@@ -27,12 +27,12 @@ from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 from functools import partial
 from importlib import import_module
-from math import sqrt
+from math import inf, sqrt
 from pathlib import Path
 from typing import Any
 
 from change_signs import ROOT, units
-from mutant_runs import KILLED, SURVIVED, TIMEOUT, Server, in_server, prepared
+from mutant_runs import KILLED, OPEN, SURVIVED, TIMEOUT, Server, in_server, prepared
 
 OTHER_WORK = ("__init__", "inputs", "checks", "sheet", "layout")
 OTHER_ENDINGS = ("figures", "figure", "drawing", "advice", "table")
@@ -53,6 +53,7 @@ OPERATORS = (
     *("AddNot", "ReplaceAndWithOr", "ReplaceOrWithAnd", "ReplaceTrueWithFalse", "ReplaceFalseWithTrue"),
     *("NumberReplacer", "ReplaceBreakWithContinue", "ReplaceContinueWithBreak", "ZeroIterationForLoop"),
 )
+NOTICED = (KILLED, TIMEOUT)
 Place = tuple[int, int]
 
 
@@ -163,14 +164,14 @@ def read(log: Path) -> dict[str, dict[str, str]]:
     return {found["mutant"]: found for found in map(json.loads, lines)}
 
 
-def try_all(some: list[Mutant], log: Path) -> None:
-    """Find what becomes of the mutants, unit by unit; what the log holds is not tried again."""
+def try_all(some: list[Mutant], log: Path, most: float) -> None:
+    """Find what becomes of the mutants, unit by unit; what the log holds is not tried again, unless it stayed open and time is not bounded."""
     known = read(log)
-    left = [mutant for mutant in some if mutant.key not in known]
+    left = [mutant for mutant in some if mutant.key not in known or (known[mutant.key]["fate"] == OPEN and most == inf)]
     with tempfile.TemporaryDirectory() as work:
         copy = prepared(Path(work))
         for unit in sorted({mutant.unit for mutant in left}):
-            in_server(copy, unit, partial(try_those, [mutant for mutant in left if mutant.unit == unit], log))
+            in_server(copy, unit, most, partial(try_those, [mutant for mutant in left if mutant.unit == unit], log))
 
 
 def try_those(some: list[Mutant], log: Path, server: Server) -> None:
@@ -178,7 +179,7 @@ def try_those(some: list[Mutant], log: Path, server: Server) -> None:
     for mutant in some:
         fate, by = server.fate(mutant.file, mutant.text)
         found = {"mutant": mutant.key, "unit": mutant.unit, "fate": fate, "change": mutant.change, "by": by}
-        print(fate, mutant.key, mutant.change if fate == SURVIVED else by, flush=True)
+        print(fate, mutant.key, by or mutant.change, flush=True)
         with log.open("a", encoding="utf-8") as file:
             file.write(json.dumps(found, ensure_ascii=False) + "\n")
 
@@ -187,21 +188,18 @@ def report(found: Iterable[dict[str, str]]) -> None:
     """Print the counts of each plugin and module as a table, and the survivors."""
     rows = list(found)
     counts = Counter((row["unit"], row["fate"]) for row in rows)
-    print("\n| plugin or module | mutants | killed | of them by time | survived |\n|---|---|---|---|---|")
+    print("\n| plugin or module | mutants | killed | of them by time | survived | open |\n|---|---|---|---|---|---|")
     for unit in [*sorted({row["unit"] for row in rows}), "all"]:
         of = {
             fate: sum(n for (u, f), n in counts.items() if f == fate and unit in (u, "all"))
-            for fate in (KILLED, TIMEOUT, SURVIVED)
+            for fate in (KILLED, TIMEOUT, SURVIVED, OPEN)
         }
-        print(f"| {unit} | {sum(of.values())} | {of[KILLED] + of[TIMEOUT]} | {of[TIMEOUT]} | {of[SURVIVED]} |")
-    low, high = interval(len(rows) - counts_of(counts, SURVIVED), len(rows))
+        print(
+            f"| {unit} | {sum(of.values())} | {of[KILLED] + of[TIMEOUT]} | {of[TIMEOUT]} | {of[SURVIVED]} | {of[OPEN]} |"
+        )
+    low, high = interval(sum(row["fate"] in NOTICED for row in rows), len(rows))
     print(f"\n95 % interval of the share that is killed: {low:.1%} to {high:.1%}\n")
-    print(*(f"{row['mutant']}: {row['change']}" for row in rows if row["fate"] == SURVIVED), sep="\n")
-
-
-def counts_of(counts: Counter[tuple[str, str]], fate: str) -> int:
-    """How many had a fate."""
-    return sum(count for (_, found), count in counts.items() if found == fate)
+    print(*(f"{row['mutant']}: {row['change']}" for row in rows if row["fate"] not in NOTICED), sep="\n")
 
 
 def interval(killed: int, count: int) -> tuple[float, float]:
@@ -218,6 +216,12 @@ def main() -> int:
     parser.add_argument("--all", action="store_true", help="every mutant")
     parser.add_argument("--seed", type=int, default=0, help="draws another sample (0)")
     parser.add_argument("--only", nargs="*", metavar="NAME", help="plugins, or modules as mechanics.NAME")
+    parser.add_argument(
+        "--seconds",
+        type=float,
+        default=inf,
+        help="the tests of a mutant may take so long; what they did not notice stays open",
+    )
     parser.add_argument("--log", type=Path, help="a file that keeps what is found, for a run that goes on (JSON lines)")
     parser.add_argument("--list", action="store_true", help="only list the mutants")
     parser.add_argument("--report", action="store_true", help="only count what the log holds")
@@ -231,10 +235,10 @@ def main() -> int:
         return 0
     with tempfile.TemporaryDirectory() as folder:
         log = arguments.log or Path(folder) / "log"
-        try_all(some, log)
+        try_all(some, log, arguments.seconds)
         found = read(log)
     report(found[mutant.key] for mutant in some)
-    return int(any(found[mutant.key]["fate"] == SURVIVED for mutant in some))
+    return int(any(found[mutant.key]["fate"] not in NOTICED for mutant in some))
 
 
 if __name__ == "__main__":

@@ -16,6 +16,7 @@ from diecut_report.report.number_format import is_words, joined, number, quantit
 from diecut_report.report.printed_tables import PartsTable, PrintedTable
 from diecut_report.report.symbol_list import SymbolRow
 from diecut_report.report.symbols import symbol
+from diecut_report.report.value_rows import ValueRow
 
 Data = Mapping[str, Any]
 ORDER = {"fail": 0, "warn": 1, "pass": 2, "not_checked": 3}
@@ -112,6 +113,8 @@ class Item:
     title: str = ""
     caption: str = ""
     changed: str = ""
+    rows: tuple[ValueRow, ...] = ()
+    pair: tuple[Item, ...] = ()
 
 
 @dataclass(frozen=True)
@@ -151,6 +154,7 @@ class PrintedChapter:
     warnings: list[str] = field(default_factory=list)
     between: list[PrintedChapter] = field(default_factory=list)
     inputs: list[QuantityRow] = field(default_factory=list)
+    defaults: list[QuantityRow] = field(default_factory=list)  # inputs that a standard report tells in a paragraph
     input_parts: list[PartsTable] = field(default_factory=list)
     key_results: list[QuantityRow] = field(default_factory=list)
     outputs: list[QuantityRow] = field(default_factory=list)
@@ -161,10 +165,12 @@ class PrintedChapter:
     phases: list[PrintedTable] = field(default_factory=list)
     phases_absent: list[str] = field(default_factory=list)
     figures: list[tuple[str, Data]] = field(default_factory=list)
+    halves: frozenset[str] = frozenset()  # the numbers of figures that stand side by side
     loose: list[Item] = field(default_factory=list)
     files: list[File] = field(default_factory=list)
     absent: list[Data] = field(default_factory=list)
     symbols: list[SymbolRow] = field(default_factory=list)
+    told_in: str = ""  # the letter of the earlier chapter of the same kind, whose formulas and texts are not repeated
     errata: list[tuple[str, str, str]] = field(default_factory=list)
     parts: dict[str, Heading] = field(default_factory=dict)
     headings: list[Heading] = field(default_factory=list)
