@@ -1,4 +1,4 @@
-"""The commands that lead from a question to a machine: solve for one input."""
+"""The commands that lead from a question to a machine: solve for one input, mend what fails."""
 
 from __future__ import annotations
 
@@ -72,6 +72,41 @@ def solve(
     if target is not None and not quiet:
         tell([f"written: {target}" if answer.machine is not None else f"not written: {target}"])
     return PASSED if answer.found else CHECK_FAILED
+
+
+@click.command(cls=HelpfulCommand)
+@click.argument("config", type=path_of)
+@click.option(
+    "--free",
+    metavar="INPUT",
+    multiple=True,
+    help="An input that may be changed; may be given several times (default: sizes, angles and ratios).",
+)
+@click.option("--keep", metavar="INPUT", multiple=True, help="An input that stays as it is.")
+@target_option
+@form_option
+@common
+def advise(
+    config: Path, free: tuple[str, ...], keep: tuple[str, ...], target: Path | None, form: str,
+    folders: tuple[Path, ...], quiet: bool,
+) -> int:  # fmt: skip
+    """Find the smallest changes with which no check fails: the advice of all checks tried together, then less and less.
+
+    Exit codes: 0 a machine that passes was found (or passes already), 1 none was found, 2 bad input, 3 a plugin broke.
+    """
+    from diecut_report.design.advice import data, lines, mended
+
+    with Progress(quiet) as progress, redirect_stdout(sys.stderr):
+        discovery = Discovery(folders)
+        progress("reading the configuration")
+        loaded = _loaded(config, discovery)
+        found = mended(loaded, discovery, free=free, keep=keep, tell=progress)
+        if target is not None and found.machine is not None:
+            _write(loaded, found.machine, target)
+    emit(_json(data(found)) if form == "json" else "".join(f"{line}\n" for line in lines(found)))
+    if target is not None and not quiet:
+        tell([f"written: {target}" if found.machine is not None else f"not written: {target}"])
+    return CHECK_FAILED if found.before.checks("fail") and found.machine is None else PASSED
 
 
 def _loaded(config: Path, discovery: Discovery) -> Config:
