@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING
 import click
 
 from diecut_report.cli.formats import formats_of
+from diecut_report.cli.language import asked_language
 from diecut_report.cli.output import (
     CHECK_FAILED,
     INTERRUPTED,
@@ -19,11 +20,13 @@ from diecut_report.cli.output import (
     PLUGIN_BROKE,
     HelpfulCommand,
     Line,
-    coloured,
     common,
     emit,
     tell,
 )
+from diecut_report.cli.verdict import marked
+from diecut_report.languages.phrases import Counted, Phrase, phrase
+from diecut_report.languages.speech import say
 
 if TYPE_CHECKING:
     from diecut_report.config.discovery import Discovery
@@ -76,14 +79,15 @@ def batch(study: Path | None, folder: Path | None, resume: Path | None, jobs: in
     from diecut_report.study import command
 
     target = _target(study, folder, resume)
-    where = command.Where(jobs, dask, tuple(str(path.absolute()) for path in folders))
+    where = command.Where(jobs, dask, tuple(str(path.absolute()) for path in folders), asked_language())
     try:
         with redirect_stdout(sys.stderr), command.Shown(quiet) as shown:
             outcome = command.run(
                 study, target, where, resume=resume is not None, agreed=yes, formats=formats, shown=shown
             )
     except KeyboardInterrupt:
-        tell([f"stopped; what is finished is kept. Continue with: diecut-report batch --resume {target}"])
+        words = "stopped; what is finished is kept. Continue with: diecut-report batch --resume {folder}"
+        tell([Phrase(words, folder=target)])
         return INTERRUPTED
     if not quiet:
         tell(_told(outcome, target))
@@ -94,9 +98,9 @@ def batch(study: Path | None, folder: Path | None, resume: Path | None, jobs: in
 def _target(study: Path | None, folder: Path | None, resume: Path | None) -> Path:
     """The folder of the results."""
     if resume is not None and folder is not None:
-        raise click.UsageError("--resume names the folder; leave -o out.")
+        raise click.UsageError(say("--resume names the folder; leave -o out."))
     if study is None and resume is None:
-        raise click.UsageError("Name a study file, or a folder to continue with --resume DIR.")
+        raise click.UsageError(say("Name a study file, or a folder to continue with --resume DIR."))
     return resume or folder or Path(Path(str(study)).stem)
 
 
@@ -104,18 +108,20 @@ def _told(outcome: StudyOutcome, target: Path) -> Iterator[Line]:
     from diecut_report.study.conditions.constraints import why_dropped
 
     counts = outcome.counts
-    yield f"written: {target}, with summary.html and summary.pdf" + _reports(target)
+    yield Phrase("written: {path}, with summary.html and summary.pdf", path=target) + _reports(target)
     named = [
         part
         for status in ("pass", "warn", "fail", "error")
         if counts.get(status)
-        for part in (", ", f"{counts[status]} ", coloured(status, status))
+        for part in (", ", f"{counts[status]} ", marked(status))
     ]
-    more = f"; the constraints drop {counts['dropped']} more of the sample{why_dropped(counts)}"
-    dropped = more if counts.get("dropped") else ""
-    yield (f"{counts.get('variants', 0)} variants: ", *(named[1:] or ["none"]), f"{dropped}.")
+    more = "; the constraints drop {n} more of the sample{why}"
+    dropped = Phrase(more, n=counts["dropped"], why=why_dropped(counts)) if counts.get("dropped") else ""
+    count = counts.get("variants", 0)
+    yield (Counted(count, "{n} variant: ", "{n} variants: "), *(named[1:] or [phrase("none")]), dropped, ".")
+    slow = "{kind} cannot take arrays and was calculated variant by variant, which is slow: {why}"
     yield from (
-        f"{kind} cannot take arrays and was calculated variant by variant, which is slow: {why}"
+        Phrase(slow, kind=kind, why=phrase(why))
         for kind, why in outcome.slow.items()
         if not (outcome.is_broken and kind in outcome.broken)
     )
@@ -124,14 +130,17 @@ def _told(outcome: StudyOutcome, target: Path) -> Iterator[Line]:
 
 def _broken(outcome: StudyOutcome) -> Iterator[str]:
     for kind, why in outcome.broken.items():
-        yield f"plugin {kind!r} broke; variants that it broke for are in error, the others are kept: {why}"
+        words = "plugin {kind} broke; variants that it broke for are in error, the others are kept: {why}"
+        yield Phrase(words, kind=repr(kind), why=phrase(why))
     for kind, why in outcome.broken_reports.items():
-        yield f"plugin {kind!r} broke {why}"
+        yield Phrase("plugin {kind} broke {why}", kind=repr(kind), why=phrase(why))
 
 
 def _reports(target: Path) -> str:
     made = len(list((target / "reports").glob("*.pdf")))
-    return f", and {made} full report{'s' if made > 1 else ''} in reports/" if made else ""
+    if not made:
+        return ""
+    return Counted(made, ", and {n} full report in reports/", ", and {n} full reports in reports/")
 
 
 @click.command(cls=HelpfulCommand)
@@ -207,4 +216,10 @@ def source(config: Path, discovery: Discovery) -> Source:
     from diecut_report.study.analysis.variant_config import variant_config
 
     name = f"{Path(folder).resolve().name}-{number}.yaml"
-    return variant_config(Path(folder), int(number), discovery, name, lambda words: tell([f"warning: {words}"]))
+    return variant_config(
+        Path(folder),
+        int(number),
+        discovery,
+        name,
+        lambda words: tell([Phrase("warning: {words}", words=phrase(words))]),
+    )

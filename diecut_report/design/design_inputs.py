@@ -13,11 +13,11 @@ from diecut_report.config.loader import Config
 from diecut_report.config.model import PRESS
 from diecut_report.config.targets import Target
 from diecut_report.config.yaml_tree import KeyPath
-from diecut_report.contract.inputs import POINTS, Quantity
+from diecut_report.contract.inputs import POINTS, SI, Quantity
 from diecut_report.errors import Problem, UserError
-from diecut_report.quantities.formatting import number_text, with_unit
+from diecut_report.quantities.formatting import number_text, outward, with_unit
 from diecut_report.quantities.units import UnitError, number_and_unit, unit
-from diecut_report.study.definition.base_inputs import MECHANISMS, Input, UnknownPath, find_input
+from diecut_report.study.definition.base_inputs import MECHANISMS, Input, UnknownPath, find_input, with_values
 
 MANY_STEPS = 20  # references that are followed to where a value stands; a loop is refused where a file is read
 
@@ -67,9 +67,19 @@ class DesignInput:
 
     def typed(self, value: float, digits: int = 12) -> str:
         """Return a value (SI) as it is typed into the file, with so many digits at most."""
-        number = float(f"{unit(self.unit).from_si(value):.{digits}g}")
+        return self._typed(float(f"{unit(self.unit).from_si(value):.{digits}g}"))
+
+    def typed_inwards(self, value: float, digits: int, *, up: bool) -> str:
+        """Return it rounded upwards, or downwards, to so many digits."""
+        return self._typed(outward(unit(self.unit).from_si(value), up, digits))
+
+    def _typed(self, number: float) -> str:
         text = f"{round(number)}" if number.is_integer() and abs(number) < 1e15 else f"{number!r}"
         return text if self.unit == "1" else f"{text} {self.unit}"
+
+    def read(self, typed: str) -> float:
+        """Return the value (SI) of what was typed; ValueError in words where it is not allowed."""
+        return float(self.meta.validate(typed))
 
 
 def design_input(config: Config, name: str) -> DesignInput:
@@ -79,6 +89,11 @@ def design_input(config: Config, name: str) -> DesignInput:
         return _followed(config, find_input(config, path), name)
     except UnknownPath as fault:
         raise UserError(Problem(f"{name} {fault}", config.tree.file)) from None
+
+
+def with_input(config: Config, design: DesignInput, value: float) -> Config:
+    """Return the configuration with a value of an input, which may bring quantities with it that it has not without."""
+    return with_values(config, {design.asked: SI(value, design.meta.parsed_unit.si, design.name)})[0]
 
 
 def given_numbers(config: Config) -> list[DesignInput]:

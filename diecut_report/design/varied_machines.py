@@ -23,6 +23,7 @@ from diecut_report.study.execution.variant_rows import Given, Rows, calculate_ro
 from diecut_report.study.storage.description import ResultColumn
 
 CHECKS = ".checks."
+AT_LIMIT = 1e-9
 STATUS, UTILISATION, SLACK = ".status", ".utilisation", ".slack"
 
 
@@ -83,10 +84,11 @@ class VariedMachines:
         slack = np.full(self.count, np.inf)
         for name in self.checks:
             fails, own = self.check(name) == "fail", self.check(name, SLACK)
-            is_bound = fails | (self.check(name) == "pass")  # a warning is neither
-            slack = np.where(
-                is_bound & np.isfinite(own), np.minimum(slack, np.where(fails, np.minimum(own, -1e-15), own)), slack
-            )
+            holds = (self.check(name) == "pass") & (
+                own > AT_LIMIT
+            )  # a warning is neither, and what is at its limit was sized to it
+            found = np.where(fails, np.minimum(own, -AT_LIMIT), own)
+            slack = np.where((fails | holds) & np.isfinite(own), np.minimum(slack, found), slack)
         return np.where(self.exists, slack, np.nan)
 
 
@@ -106,8 +108,10 @@ def varied(config: Config, given: Given, count: int, inputs: Iterable[Input] = (
     if rows.broken and all(rows.status == "error"):
         kind, words = next(iter(rows.broken.items()))
         raise PluginError(words, kind)
-    for each in given.keys() & set(asked):
-        rows.columns[each.path] = np.asarray(given[each], dtype=float)
+    wanted = {each.path for each in asked if each.unit}
+    rows.columns |= {
+        each.path: np.asarray(values, dtype=float) for each, values in given.items() if each.path in wanted
+    }
     return VariedMachines(rows)
 
 

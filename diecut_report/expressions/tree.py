@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Mapping
 from typing import Any, NamedTuple
 
 LEAVES = ("sym", "num", "qty")
@@ -57,16 +57,18 @@ def symbols(node: Node) -> list[str]:
     return list(found)
 
 
-def walk(node: Node) -> Iterator[Node]:
-    """Give the node and all nodes in it, in order of appearance."""
-    yield node
-    pending = list(node.args)
+def walk(node: Node) -> list[Node]:
+    """Return the node and all nodes in it, in order of appearance."""
+    found: list[Node] = []
+    pending: list[Any] = [node]
     while pending:
-        part = pending.pop(0)
-        if isinstance(part, Node):
-            yield from walk(part)
+        part = pending.pop()
+        if type(part) is Node:
+            found.append(part)
+            pending += part.args[::-1]
         elif isinstance(part, tuple):
-            pending = [*part, *pending]
+            pending += part[::-1]
+    return found
 
 
 LOOSE = ("+", "-", "cmp", "*", "/", "neg")  # operations that stand in brackets within another one

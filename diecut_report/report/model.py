@@ -16,6 +16,7 @@ from diecut_report.report.number_format import is_words, joined, number, quantit
 from diecut_report.report.printed_tables import PartsTable, PrintedTable
 from diecut_report.report.symbol_list import SymbolRow
 from diecut_report.report.symbols import symbol
+from diecut_report.report.value_rows import ValueRow
 
 Data = Mapping[str, Any]
 ORDER = {"fail": 0, "warn": 1, "pass": 2, "not_checked": 3}
@@ -63,6 +64,7 @@ class CheckRow:
     check_class: str = ""
     ratio: float | None = None
     is_sized: bool = False
+    is_presumed: bool = False
     missing: tuple[str, ...] = ()
     parts: PartsTable | None = None
     changed: str = ""
@@ -79,9 +81,9 @@ class CheckRow:
 
     @property
     def order(self) -> tuple[int, bool, float]:
-        """By what the checks of a report are sorted: what fails first, then the most utilised, what was sized to its limit last."""
-        unknown = math.inf if self.status != "pass" else -math.inf
-        return ORDER[self.status], self.is_sized, -(unknown if self.ratio is None else self.ratio)
+        """By what the checks of a report are sorted: what fails first, then the most utilised, what shows no reserve last."""
+        known = self.ratio if self.ratio is not None else -math.inf if self.status == "pass" else math.inf
+        return ORDER[self.status], self.is_sized or self.is_presumed, -known
 
 
 @dataclass(frozen=True)
@@ -111,6 +113,8 @@ class Item:
     title: str = ""
     caption: str = ""
     changed: str = ""
+    rows: tuple[ValueRow, ...] = ()
+    pair: tuple[Item, ...] = ()
 
 
 @dataclass(frozen=True)
@@ -150,6 +154,7 @@ class PrintedChapter:
     warnings: list[str] = field(default_factory=list)
     between: list[PrintedChapter] = field(default_factory=list)
     inputs: list[QuantityRow] = field(default_factory=list)
+    defaults: list[QuantityRow] = field(default_factory=list)  # inputs that a standard report tells in a paragraph
     input_parts: list[PartsTable] = field(default_factory=list)
     key_results: list[QuantityRow] = field(default_factory=list)
     outputs: list[QuantityRow] = field(default_factory=list)
@@ -160,10 +165,12 @@ class PrintedChapter:
     phases: list[PrintedTable] = field(default_factory=list)
     phases_absent: list[str] = field(default_factory=list)
     figures: list[tuple[str, Data]] = field(default_factory=list)
+    halves: frozenset[str] = frozenset()  # the numbers of figures that stand side by side
     loose: list[Item] = field(default_factory=list)
     files: list[File] = field(default_factory=list)
     absent: list[Data] = field(default_factory=list)
     symbols: list[SymbolRow] = field(default_factory=list)
+    told_in: str = ""  # the letter of the earlier chapter of the same kind, whose formulas and texts are not repeated
     errata: list[tuple[str, str, str]] = field(default_factory=list)
     parts: dict[str, Heading] = field(default_factory=dict)
     headings: list[Heading] = field(default_factory=list)

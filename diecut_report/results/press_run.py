@@ -11,7 +11,7 @@ import numpy as np
 
 from diecut_report.config import report_units
 from diecut_report.config.discovery import said
-from diecut_report.config.instances import Instance, slots
+from diecut_report.config.instances import Instance
 from diecut_report.config.loader import Config, substituted
 from diecut_report.config.model import PRESS
 from diecut_report.config.targets import Node, Target
@@ -283,7 +283,7 @@ class Run:
 
     def _provenance(self, instance: Instance) -> dict[str, Provenance]:
         found, bases = {}, Bases(self.config, self.calculations)
-        for slot in slots(instance.model, instance.data):
+        for slot in instance.slots:
             node = (instance.name, *slot.key)
             origin = origin_of(self.config, instance, slot)
             rests = bases.of(node) if isinstance(slot.meta, Quantity | CurveInput) else ""

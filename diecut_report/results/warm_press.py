@@ -23,7 +23,7 @@ from collections.abc import Callable, Mapping
 from functools import cache, cached_property
 from typing import Any
 
-from diecut_report.config.instances import Instance, slots
+from diecut_report.config.instances import Instance
 from diecut_report.config.loader import Config
 from diecut_report.config.model import PRESS
 from diecut_report.contract.inputs import Block, flatten
@@ -143,10 +143,7 @@ class WarmRun(Run):
         instance = self.config.instances.get(name)
         if instance is None or name not in self.calculations:
             return {}
-        found = {
-            ".".join(map(str, slot.key)): origin_of(self.config, instance, slot)
-            for slot in slots(instance.model, instance.data)
-        }
+        found = {".".join(map(str, slot.key)): origin_of(self.config, instance, slot) for slot in instance.slots}
         return inputs(self.calculations[name], found)
 
     @property

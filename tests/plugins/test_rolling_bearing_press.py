@@ -12,6 +12,7 @@ import pytest
 from diecut_report.engine import Impossible
 from diecut_report.quantities.plausible import Plausible
 from diecut_report.results.document import document
+from diecut_report.results.mechanism import mechanism_results
 from diecut_report.results.press_run import compute
 from diecut_report.study.definition.base_inputs import find_input
 from diecut_report.study.execution.result_columns import columns_of
@@ -189,6 +190,18 @@ def test_a_small_swing_is_told_that_a_rating_life_does_not_apply() -> None:
     assert "does not apply" in found["swinging_dwell"]["message"]
     wide = checks(one(SWINGING, relative_angle=Over(lambda phi: np.radians(40) * np.sin(phi))))
     assert wide["swinging_dwell"]["status"] == wide["swinging_oscillation"]["status"] == "pass"
+
+
+@pytest.mark.parametrize(
+    "parts",
+    [[ROLLER | {"speed": 0}], [BALL | {"speed": 0, "f0": 13.0, "axial_force": 100}, BALL | {"name": "turning"}]],
+)
+def test_bearings_that_stand_are_reported_with_their_static_safety(parts: list[dict[str, Any]]) -> None:
+    """Without a life of any, nothing is printed in the place of lives."""
+    found = mechanism_results(bearings(*parts), {})
+    judged = {check["id"] for check in found["checks"]}
+    assert f"{parts[0]['name']}_static" in judged and f"{parts[0]['name']}_life" not in judged
+    assert ("life_min" in found["outputs"]) is (len(parts) > 1)
 
 
 def test_an_angle_that_goes_on_turns_and_does_not_swing() -> None:

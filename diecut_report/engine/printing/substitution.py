@@ -41,6 +41,7 @@ if TYPE_CHECKING:
 
 MOST_DIGITS = 17
 TRUSTED = 8  # digits up to which a number that is but the rounding of the computer stands as 0
+EXACT = ("num", "qty")
 TRIGONOMETRIC = ("sin", "cos", "tan")
 
 
@@ -217,22 +218,22 @@ class Substitution:
 
     def _with_numbers(self, node: Node, digits: int, *, angle: bool) -> Node:
         """Angles stand in degrees where a trigonometric function takes them or the whole is shown so, else in rad."""
-        if node.op == "sym":
+        op, args = node
+        if op == "sym":
             return self._number(node, digits, angle=angle)
-        if node.op in ("num", "qty"):
+        if op in EXACT:
             return node
-        inside = (
-            node.args[0] in TRIGONOMETRIC
-            if node.op == "call"
-            else angle and (node.op in ("+", "-", "neg") or (node.op in ("*", "/") and self.is_angle(node)))
-        )
+        in_sum = angle and (op in ("+", "-", "neg") or (op in ("*", "/") and self.is_angle(node)))
+        inside = args[0] in TRIGONOMETRIC if op == "call" else in_sum
+        return Node(op, self._parts(args, digits, angle=inside))
 
-        def descend(part: Any) -> Any:
-            if isinstance(part, Node):
-                return self._with_numbers(part, digits, angle=inside)
-            return tuple(map(descend, part)) if isinstance(part, tuple) else part
-
-        return Node(node.op, tuple(map(descend, node.args)))
+    def _parts(self, parts: tuple[Any, ...], digits: int, *, angle: bool) -> tuple[Any, ...]:
+        return tuple([
+            self._with_numbers(part, digits, angle=angle) if type(part) is Node
+            else self._parts(part, digits, angle=angle) if isinstance(part, tuple)
+            else part
+            for part in parts
+        ])  # fmt: skip
 
     def _number(self, leaf: Node, digits: int, *, angle: bool) -> Node:
         name = self.part.names.get(leaf.args[0])

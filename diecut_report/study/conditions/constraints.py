@@ -15,8 +15,9 @@ from diecut_report.conditions.tree import Node as Tree
 from diecut_report.conditions.tree import names
 from diecut_report.conditions.words import ConditionError
 from diecut_report.expressions import Array, Node, evaluate, symbols
+from diecut_report.languages.phrases import Phrase, phrase
 
-WITHOUT_VALUE = "a division by zero, or the root of a number below zero"
+WITHOUT_VALUE = phrase("a division by zero, or the root of a number below zero")
 EXAMPLE = "mechanisms.NAME.KEY <= '90 mm'"
 
 
@@ -75,7 +76,8 @@ class Constraint:
 def why_dropped(counts: Mapping[str, Any]) -> str:
     """Return what to add where the dropped variants are counted: how many of them because a constraint has no value."""
     found = counts.get("without_value")
-    return f", {found} of them because a constraint has no value there ({WITHOUT_VALUE})" if found else ""
+    words = ", {n} of them because a constraint has no value there ({why})"
+    return Phrase(words, n=found, why=WITHOUT_VALUE) if found else ""
 
 
 def _value(leaf: Node, rows: Mapping[str, Any]) -> Any:
