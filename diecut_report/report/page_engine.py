@@ -5,11 +5,24 @@ from typing import Any
 from diecut_report.report.surroundings import no_compiler
 
 with no_compiler():
+    from cssselect2 import ElementWrapper
     from pydyf import PDF, Array, Dictionary, Object, Stream, String
     from weasyprint import HTML, Attachment
+    from weasyprint.html import UA_STYLESHEET
     from weasyprint.urls import URLFetcher
 
-__all__ = ["HTML", "Array", "Attachment", "Dictionary", "Object", "Stream", "String", "URLFetcher"]
+__all__ = [
+    "HTML",
+    "UA_STYLESHEET",
+    "Array",
+    "Attachment",
+    "Dictionary",
+    "ElementWrapper",
+    "Object",
+    "Stream",
+    "String",
+    "URLFetcher",
+]
 
 
 def _references(pdf: Any) -> tuple[bytes, ...]:
