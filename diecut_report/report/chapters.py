@@ -245,6 +245,7 @@ class _Filler:
             check_class=check.get("class", ""),
             ratio=check["utilisation"],
             is_sized=check.get("sized_to_limit", False) and check["status"] == "pass",
+            is_presumed=check.get("presumed", False) and check["status"] == "pass",
             missing=tuple(check.get("missing", ())),
             parts=self.tables.of_check(check) if "parts" in check and self._is_told_by_part(check) else None,
             changed=check.get("changed", ""),

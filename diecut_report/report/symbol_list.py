@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
+from itertools import accumulate
+from math import ceil
 from typing import Any, NamedTuple
 
 from markupsafe import Markup
@@ -12,6 +14,7 @@ from diecut_report.report.symbols import symbol
 
 Data = Mapping[str, Any]
 GROUPS = ("inputs", "curves", "outputs", "values")
+COLUMNS, ROOM = 3, 33  # on paper, and the letters that a line has beside its symbol
 TREES = ("equation", "relation", "condition")
 
 
@@ -41,6 +44,17 @@ def symbol_rows(mechanism: Data) -> list[SymbolRow]:
             if row["symbol"] in used:
                 known.setdefault(row["symbol"], row)
     return [_row(known[name]) for name in sorted(known, key=_order)]
+
+
+def in_columns(rows: list[SymbolRow]) -> list[list[SymbolRow]]:
+    """The rows in columns for paper, of about as many lines each."""
+    lines = [ceil((len(row.meaning) + len(row.unit) + 2) / ROOM) for row in rows]
+    share = sum(lines) / COLUMNS
+    before = [0, *accumulate(lines)]
+    columns: list[list[SymbolRow]] = [[] for _ in range(COLUMNS)]
+    for row, above, height in zip(rows, before, lines, strict=False):
+        columns[min(int((above + height / 2) / share), COLUMNS - 1)].append(row)
+    return columns
 
 
 def placed(rows: list[SymbolRow], steps: Mapping[str, str], inputs: Mapping[str, str]) -> list[SymbolRow]:

@@ -156,6 +156,7 @@ def _check(calc: Calculation, check: Check) -> Data:
         **{key: text for key, text in told.items() if key.endswith(("_label", "_display"))},
         **_further(calc, check, display, found, pair, part),
         **({"sized_to_limit": True} if is_sized(calc.given, check) or _is_at_limit(told) else {}),
+        **({"presumed": True} if check.presumed else {}),
     }
 
 

@@ -289,6 +289,13 @@ def test_without_their_keys_checks_are_not_made() -> None:
     }
 
 
+def test_only_steps_with_a_fillet_are_held_against_the_charts_of_fillets() -> None:
+    made = {check["id"]: check for check in check_results(crankshaft())}["notch_range"]
+    assert [part["status"] for part in made["parts"] if part["status"]] == ["pass"] * 3
+    plain = shaft(CRANKSHAFT, sections=[{"length": 340, "diameter": 50}])
+    assert "notch_range" not in checks(plain)
+
+
 def test_a_fillet_beyond_the_charts_and_a_wide_bore_warn() -> None:
     sections = [SECTIONS[0] | {"fillet_radius": 0.5}, SECTIONS[1] | {"bore": 40}, *SECTIONS[2:]]
     found = checks(shaft(CRANKSHAFT, sections=sections))

@@ -9,12 +9,13 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
+from diecut_report.quantities.formatting import number_text
 from diecut_report.quantities.units import pretty, unit
 from diecut_report.report.figures.panel_data import limits_of
 from diecut_report.report.figures.sizes import WIDTHS, Size
 from diecut_report.report.figures.style import ACCENT, INK, canvas, plain, text_size
 from diecut_report.report.i18n import Catalogue
-from diecut_report.report.number_format import number, significant
+from diecut_report.report.number_format import displayed, number, significant
 
 Data = Mapping[str, Any]
 
@@ -42,12 +43,12 @@ def _group(axes: Axes, width: float, group: Data, shown: str, words: Catalogue) 
     values = [bar["value"] / unit(shown).factor for bar in group["bars"]]
     rows = np.arange(len(values))[::-1]
     last = len(values) - 1
-    for row, value, index in zip(rows, values, range(len(values)), strict=True):
+    for index, (row, value) in enumerate(zip(rows, values, strict=True)):
         colour = "white" if value < 0 else ACCENT if index == last else "#9fb4c4"
         axes.barh(
             row, value, 0.62, edgecolor=INK, linewidth=0.6, facecolor=colour, hatch="/////" if value < 0 else None
         )
-        text = number(significant(value, 4), words["decimal"])
+        text = displayed(group["bars"][index]["value"], shown, words["decimal"])
         axes.annotate(text, (max(value, 0), row), (3, 0), textcoords="offset points", va="center_baseline", size=8)
     _across(axes, width, values, limits_of(group, shown), words)
     axes.set_yticks(rows, [plain(bar["label"]) for bar in group["bars"]], va="center_baseline")
@@ -76,4 +77,4 @@ def _across(
     axes.set_xlim(low - margin, high + room * (high - low) / max(points - room, 1))
     axes.tick_params(axis="x", bottom=limits is not None, labelbottom=limits is not None)
     if limits:
-        axes.set_xticks([low, high], [number(significant(end, 4), words["decimal"]) for end in (low, high)])
+        axes.set_xticks([low, high], [number(number_text(end), words["decimal"]) for end in (low, high)])

@@ -138,4 +138,4 @@ def _level(level: Data, shown: str, words: Catalogue) -> Note:
 
 
 def _value(value: float, shown: str, words: Catalogue) -> str:
-    return plain(joined(displayed(value, shown, 4, words["decimal"]), pretty(shown)))
+    return plain(joined(displayed(value, shown, words["decimal"]), pretty(shown)))

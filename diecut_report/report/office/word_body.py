@@ -9,7 +9,7 @@ from markupsafe import Markup
 
 from diecut_report.report.equations import Equation
 from diecut_report.report.i18n import Catalogue
-from diecut_report.report.model import CheckRow, Item, PartsTable, PrintedTable, QuantityRow
+from diecut_report.report.model import CheckRow, Item, QuantityRow
 from diecut_report.report.office.omml import OfficeMath, office_math
 from diecut_report.report.office.wordml import (
     Inline,
@@ -26,6 +26,7 @@ from diecut_report.report.office.wordml import (
     small,
     table,
 )
+from diecut_report.report.printed_tables import PartsTable, PrintedTable
 from diecut_report.report.symbols import prose
 from diecut_report.report.value_rows import ValueRow
 
@@ -129,10 +130,9 @@ class WordBody:
         """A table of the calculation."""
         self.caption("table", found.number, rich(prose(found.title)), keep=True)
         columns = []
-        for index, (title, symbol, unit) in enumerate(found.columns):
+        for kind, (title, symbol, unit) in zip(found.kinds, found.columns, strict=True):
             head = rich(prose(title)) + (run(" ") + rich(symbol) if symbol else "") + run(f", {unit}" if unit else "")
-            is_number = bool(found.rows) and all(row[index][:1] in "−–0123456789" for row in found.rows)
-            columns.append(TableColumn(head, 1 if is_number else 2, is_number))
+            columns.append(TableColumn(head, 2 if kind in ("named", "words") else 1, not kind))
         self.table(columns, [[run(text) for text in row] for row in found.rows])
 
     def parts_table(self, found: PartsTable) -> None:
