@@ -304,7 +304,7 @@ def test_the_stress_along_the_shaft_is_that_of_each_section_and_has_the_greatest
     bound = np.hypot(32 * moment / (np.pi * size**3), 3**0.5 * 16 * torque / (np.pi * size**3))
     assert (stress <= bound * (1 + 1e-12)).all() and (stress >= 32 * moment / (np.pi * size**3) * (1 - 1e-12)).all()
     peak = np.full((1, 2), number(calc, "nominal_position"))
-    assert calc.sample("stress_along", peak, peak + [[-1e-3, 1e-3]]).max() == pytest.approx(
+    assert calc.sample("stress_along", peak, peak + np.array([[-1e-3, 1e-3]])).max() == pytest.approx(
         number(calc, "von_mises_max"), rel=1e-9
     )
 
