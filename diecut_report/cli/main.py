@@ -46,7 +46,7 @@ from diecut_report.cli.output import (
 from diecut_report.cli.progress import Progress
 from diecut_report.cli.report_options import detail_given, only_given, report_formats
 from diecut_report.cli.signing import sign
-from diecut_report.cli.study import batch, source, variants
+from diecut_report.cli.study import batch, source, take, variants
 from diecut_report.cli.template import template_option
 from diecut_report.config.discovery import Discovery, DuplicateKind, UnknownKind
 from diecut_report.errors import PluginError, Problem, Unwritable, UserError
@@ -269,6 +269,7 @@ program.add_command(validate)
 program.add_command(check)
 program.add_command(batch)
 program.add_command(variants)
+program.add_command(take)
 program.add_command(extract)
 program.add_command(verify)
 program.add_command(render)
