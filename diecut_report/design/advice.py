@@ -19,6 +19,8 @@ from diecut_report.design.typed_changes import fewer, rounded
 from diecut_report.design.varied_machines import VariedMachines, varied
 from diecut_report.errors import UserError
 from diecut_report.expressions import Array
+from diecut_report.quantities.formatting import with_unit
+from diecut_report.quantities.units import UnitError, number_and_unit
 from diecut_report.results.advised_changes import AdvisedChange, advised_changes
 from diecut_report.study.definition.base_inputs import MECHANISMS, Input, UnknownPath, find_input
 
@@ -201,11 +203,20 @@ def lines(found: Mended) -> Iterator[str]:
     width = max(len(each.name) for each in found.changes)
     for each in found.changes:
         share = "" if each.share is None else f"  ({100 * each.share:+.2g} %)"
-        yield f"  {each.name.ljust(width)}  {each.before or 'not given'} → {each.after}{share}"
+        yield f"  {each.name.ljust(width)}  {each.before or 'not given'} → {_said(each.after)}{share}"
     yield f"sum of the changes: {100 * found.size:.3g} % of today's values; governing: {found.machine.governing}"
     warned = [name for name, _ in found.machine.checks("warn")]
     if warned:
         yield f"with a warning: {', '.join(warned)}"
+
+
+def _said(typed: str) -> str:
+    """A value as it is typed, with its unit as one writes it."""
+    try:
+        number, own = number_and_unit(typed)
+    except UnitError:  # a text or a yes/no
+        return typed
+    return with_unit(f"{number}", own or "1")
 
 
 def _without(found: Mended) -> Iterator[str]:
