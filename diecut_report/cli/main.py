@@ -177,6 +177,7 @@ def report(
 ) -> int:
     """Calculate and write NAME.html, NAME.pdf and NAME.json; on demand NAME.docx and NAME.xlsx."""
     from diecut_report import pipeline
+    from diecut_report.design.followed_advice import followed
     from diecut_report.exchange.sides import side
     from diecut_report.study.analysis.assumed import moves
 
@@ -184,7 +185,7 @@ def report(
         discovery = Discovery(folders)
         former = None if previous is None else side(source(previous, discovery), discovery, progress)[0]
         given, asked = source(config, discovery), pipeline.AskedReport(asked_language(), detail, only, house)
-        outcome = pipeline.report(given, discovery, progress, folder, formats, asked, moves, former)
+        outcome = pipeline.report(given, discovery, progress, folder, formats, asked, moves, former, followed)
     if not quiet:
         tell_written(outcome.written)
     return _verdict(outcome, discovery, quiet, strict)
