@@ -38,6 +38,7 @@ THROUGH = {  # what has no test file of its own, or one that tests a part: what 
     "mechanics.gripping": ("geneva_transport",),
     "mechanics.modified_laws": ("mechanics.motion_laws",),
     "mechanics.polynomial_laws": ("mechanics.motion_laws",),
+    "mechanics.shaft_curves": ("cyclogram",),
     "mechanics.triangle": ("drive_train", "mechanics.four_bar"),
     "press_consistency": ("cyclogram",),
 }
