@@ -42,6 +42,8 @@ LAYERS = [
     {"pipeline"},
     {"exchange"},
     {"study"},
+    {"design"},
+    {"live"},
     {"cli"},
     {"__main__"},
 ]
@@ -62,11 +64,14 @@ ONLY_IN = {  # library: the modules of the program that may import it
     "pyhanko_certvalidator": r"diecut_report\.exchange\.(signing|signature_status|signatures)",
     "cryptography": r"diecut_report\.exchange\.(signing|signature_status|signatures|signing_keys)",
     "asn1crypto": r"diecut_report\.exchange\.signing",
+    "starlette": r"diecut_report\.live\.application",
+    "uvicorn": r"diecut_report\.live\.server",
+    "watchfiles": r"diecut_report\.live\.application",
     "weasyprint": r"diecut_report\.report\.page_engine",
     "pydyf": r"diecut_report\.report\.page_engine",
     "ezdxf": r"diecut_report\.report\.profile_files",
     "jinja2": r"diecut_report\.report\.(html|document|house_style)",
-    "scipy.stats": r"diecut_report\.study\..*",  # slow to import, and needed by studies alone
+    "scipy.stats": r"diecut_report\.(study|design)\..*",  # slow to import, and needed by studies and tolerances alone
     "matplotlib.pyplot": r"(?!)",  # keeps global state
 }
 FOR_PLUGINS = {"diecut_report.api", "diecut_report.mechanics", "numpy", "scipy", *sys.stdlib_module_names}

@@ -31,7 +31,7 @@ MAX_VALUES = 200_000
 KeyPath = tuple[str | int, ...]
 Position = tuple[int, int]
 
-_LOADER: Any = getattr(yaml, "CSafeLoader", yaml.SafeLoader)
+LOADER: Any = getattr(yaml, "CSafeLoader", yaml.SafeLoader)
 _WORDS: dict[str, bool | None] = dict.fromkeys(["", "~", "null", "Null", "NULL"])
 _WORDS |= {word: word.lower() == "true" for word in ("true", "True", "TRUE", "false", "False", "FALSE")}
 _INTEGER = re.compile(r"[-+]?[0-9]{1,300}")
@@ -139,7 +139,7 @@ def _parse(text: str, file: str, sha256: str) -> Tree:
         raise UserError(Problem(message, file, *place))
     builder = _Builder(file)
     try:
-        root = builder.build(yaml.parse(text, Loader=_LOADER))
+        root = builder.build(yaml.parse(text, Loader=LOADER))
     except yaml.MarkedYAMLError as error:
         builder.problems.append(_syntax_problem(error, text, file))
     if builder.problems:

@@ -117,12 +117,17 @@ def filled(material: Material, medium: Medium, kind: str, *scripts: str) -> str:
     with in_words(house):
         made = environment.get_template("report.html.j2").render(
         doc=document, t=document.words, kind=kind, style=Markup(style), policy=policy(*scripts),
-        math=medium, figure=medium.figure, failed=material.failed, frame=medium.frame, logo=material.logo,
+        math=medium, figure=medium.figure, failed=material.failed, abreast=material.are_abreast, frame=medium.frame, logo=material.logo,
         carried=material.carried, changes=material.changes,
     )  # fmt: skip
     if house:
         refuse_fetching(made, house, "; ".join(POLICY) if kind == "screen" else "")
     return made
+
+
+def filled_page(template: str, **given: object) -> str:
+    """Return a page of its own of the program's templates, filled with these values; what they hold stands as text."""
+    return _environment().get_template(template).render(**given)
 
 
 def policy(*scripts: str) -> str:

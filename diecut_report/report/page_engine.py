@@ -1,7 +1,10 @@
 """WeasyPrint, imported without a search for its libraries by a compiler, and the objects that it writes a PDF of."""
 
+from collections.abc import Iterator
+from contextlib import contextmanager
 from typing import Any
 
+from diecut_report.errors import Problem, UserError
 from diecut_report.report.surroundings import no_compiler
 
 with no_compiler():
@@ -9,7 +12,7 @@ with no_compiler():
     from pydyf import PDF, Array, Dictionary, Object, Stream, String
     from weasyprint import HTML, Attachment
     from weasyprint.html import UA_STYLESHEET
-    from weasyprint.urls import URLFetcher
+    from weasyprint.urls import FatalURLFetchingError, URLFetcher
 
 __all__ = [
     "HTML",
@@ -22,7 +25,21 @@ __all__ = [
     "Stream",
     "String",
     "URLFetcher",
+    "fetching_refused",
 ]
+
+
+@contextmanager
+def fetching_refused(folder: str) -> Iterator[None]:
+    """Tell in words what a page asks for from elsewhere, which the templates of this folder brought in."""
+    try:
+        yield
+    except FatalURLFetchingError as error:  # no Exception: it would pass by all who tell of faults
+        if not folder:
+            raise RuntimeError(str(error)) from error
+        raise UserError(
+            Problem(f"{error}: a report fetches nothing. Put what it needs into the folder.", folder)
+        ) from error
 
 
 def _references(pdf: Any) -> tuple[bytes, ...]:

@@ -17,15 +17,15 @@ from diecut_report.report.context import Material
 from diecut_report.report.equations import Equation
 from diecut_report.report.html import filled
 from diecut_report.report.model import Item
-from diecut_report.report.page_engine import Attachment, URLFetcher
+from diecut_report.report.page_engine import Attachment, URLFetcher, fetching_refused
 from diecut_report.report.page_reading import read_page
 from diecut_report.report.pdf_archive import Archive
 from diecut_report.report.pdf_figures import FigurePicture, NotDrawn
 from diecut_report.report.pdf_math import Letters, Picture
 from diecut_report.report.sheet_frames import SheetBlocks, sheet_blocks
 
-BESIDE_WIDTH = 28.0  # em of a formula that stands beside its description
-BESIDE_LETTERS = 62  # of a description of two lines beside a formula
+BESIDE_WIDTH = 33.0  # em of a formula that stands beside its description
+BESIDE_LETTERS = 60  # of a description of two lines beside a formula
 SMALLER = 0.85  # of the letters of a source
 BACKDROP, FORMULA = "data:backdrop,", "data:formula,"  # addresses of pictures, which WeasyPrint finds in its cache
 
@@ -90,6 +90,7 @@ def sheets(material: Material) -> bytes:
     cache: dict[str, Any] = dict(paper.pictures)
     with (
         _without_collection(),
+        fetching_refused(material.house.folder if material.house else ""),
         warnings.catch_warnings(action="ignore", category=ResourceWarning),
     ):  # WeasyPrint's own file
         content: bytes = read_page(source, fetcher, is_own=material.house is None).write_pdf(

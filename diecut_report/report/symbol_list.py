@@ -25,6 +25,14 @@ class SymbolRow(NamedTuple):
     meaning: str
     unit: str
     in_source: Markup
+    name: str = ""
+    stands: str = ""  # the number of the step, or of the inputs, where it is explained
+    is_step: bool = False
+
+    @property
+    def anchor(self) -> str:
+        """Where the link to that place leads."""
+        return f"{'eq' if self.is_step else 's'}-{self.stands}"
 
 
 def symbol_rows(mechanism: Data) -> list[SymbolRow]:
@@ -49,6 +57,13 @@ def in_columns(rows: list[SymbolRow]) -> list[list[SymbolRow]]:
     return columns
 
 
+def placed(rows: list[SymbolRow], steps: Mapping[str, str], inputs: Mapping[str, str]) -> list[SymbolRow]:
+    """The rows with the place of each symbol: the step that gives it, else the inputs; by their names."""
+    return [
+        row._replace(stands=steps.get(row.name) or inputs.get(row.name, ""), is_step=row.name in steps) for row in rows
+    ]
+
+
 def _row(row: Data) -> SymbolRow:
     unit = row["display_unit"] if "display_unit" in row else row["display"]["unit"]
     in_source = row.get("source_symbol", "")
@@ -57,6 +72,7 @@ def _row(row: Data) -> SymbolRow:
         row["description"].partition(";")[0],
         pretty(unit),
         symbol(in_source) if in_source else Markup(""),
+        row["symbol"],
     )
 
 

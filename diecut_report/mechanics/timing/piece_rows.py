@@ -139,7 +139,8 @@ class PieceRows:
         above[:, 0] -= self.mean[self.machine]
         inside = legendre.legint(above, lbnd=-1, axis=1) * self.width[:, None] / 2
         whole = above[:, 0] * self.width
-        passed = np.cumsum(whole) - whole  # of the machines before nothing is left
+        known = np.where(np.isfinite(whole), whole, 0.0)  # a machine without values leaves nothing to those behind it
+        passed = np.cumsum(known) - known  # of the machines before nothing is left
         inside[:, 0] += passed
         return replace(self, series=inside)
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import Any
 
@@ -18,6 +18,9 @@ from diecut_report.study.execution.press_batch import CalculatedVariants, Mixed,
 
 TOGETHER = 1024  # variants that are calculated at a time: fewer cost more per variant, more take more memory
 Given = Mapping[Input, Array | list[str]]
+Further = Callable[
+    [CalculatedVariants], dict[str, Array]
+]  # what is kept beside outputs and checks, by column, shape (variants,)
 
 
 @dataclass
@@ -26,6 +29,7 @@ class Rows:
 
     count: int
     curves: Sequence[str] = ()
+    further: Further | None = None
     columns: dict[str, Array] = field(default_factory=dict)
     status: Array = field(init=False)
     governing: Array = field(init=False)
@@ -39,14 +43,18 @@ class Rows:
         self.errors = np.full(self.count, None, dtype=object)
 
 
-def calculate_rows(base: Config, given: Given, count: int, curves: Sequence[str] = ()) -> Rows:
+def calculate_rows(
+    base: Config, given: Given, count: int, curves: Sequence[str] = (), further: Further | None = None
+) -> Rows:
     """Calculate all outputs and checks of the base, and these curves, with other values: arrays of shape (count,), SI, or texts.
+
+    ``further`` gives more columns of variants that are calculated.
 
     A variant that cannot exist has the status ``error`` and its reason. Variants with unlike texts are calculated in groups;
     a plugin that cannot take arrays makes its variants be calculated one by one, which ``slow`` reports. One that breaks for
     a variant alone leaves it in error, and is in ``broken``.
     """
-    rows = Rows(count, curves)
+    rows = Rows(count, curves, further)
     for alike, texts in _groups(given, count):
         for chosen in np.array_split(alike, -(-len(alike) // TOGETHER)):
             numbers = {asked: np.asarray(values)[chosen] for asked, values in given.items() if asked not in texts}
@@ -94,7 +102,8 @@ def _kept(variants: CalculatedVariants, rows: Rows, chosen: Array) -> None:
     variants.reasons = {**found.faults, **variants.reasons}
     bad = np.array(sorted(variants.reasons), dtype=int)
     found.codes[:, bad], found.ratios[:, bad] = 0, np.nan
-    for name, values in _all_columns(variants, found).items():
+    further = rows.further(variants) if rows.further else {}
+    for name, values in {**_all_columns(variants, found), **further}.items():
         column = rows.columns.setdefault(name, _empty(rows.count, values.dtype))
         values = values.copy()
         values[bad] = None if values.dtype == object else np.nan

@@ -1,0 +1,137 @@
+"""Roots, limits and extremes of a function of one number that is calculated for many numbers at once, each call being dear.
+
+Every call asks for a handful of numbers for each bracket: some spread evenly, which shrink any bracket, and some close to
+where a straight line through its ends says, which shrink a smooth one at once.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import numpy as np
+
+from diecut_report.expressions import Array
+
+Function = Callable[[Array], Array]
+"""Of numbers, shape (n,): what is to be zero, above zero where it holds, NaN where there is nothing."""
+
+EVEN, LEAST_EVEN = 12, 3  # numbers that are spread evenly, of all brackets together, and of each at least
+AROUND = np.array([-1e-2, -1e-4, 0.0, 1e-4, 1e-2])
+ROUNDS = 20
+CLOSE = 1e-9  # relative width at which a bracket is closed
+JUMP = 1e-2  # share of a bracket's first difference that is left in one so narrow: the function jumps there
+ZOOM = np.linspace(0, 1, 11)
+ZOOMS = 6
+
+
+@dataclass(frozen=True)
+class Crossing:
+    """Hold a place where a function changes its sign: ``inside`` is on the side where it is not below zero, ``at`` between both.
+
+    ``is_jump``: it does not pass through zero there, but from one value to another (or to none).
+    """
+
+    at: float
+    inside: float
+    is_jump: bool
+
+
+def crossings(
+    function: Function, x: Array, values: Array, close: float = CLOSE, among: Array | None = None
+) -> list[Crossing]:
+    """Return where a function changes its sign, between neighbours of ascending numbers with their values; NaN is below zero.
+
+    ``among`` says of each pair of neighbours whether it is looked at.
+    """
+    holds = values >= 0
+    cells = np.flatnonzero((holds[1:] != holds[:-1]) & (True if among is None else among))
+    if not len(cells):
+        return []
+    low, high = np.array([x[cells], values[cells]]), np.array([x[cells + 1], values[cells + 1]])
+    first = np.abs(high[1] - low[1])
+    for _ in range(ROUNDS):
+        open_ = high[0] - low[0] > close * np.maximum(np.abs(low[0]), np.abs(high[0]))
+        if not open_.any():
+            break
+        low[:, open_], high[:, open_] = _narrower(function, low[:, open_], high[:, open_])
+    return [_crossing(low[:, i], high[:, i], first[i]) for i in range(len(cells))]
+
+
+def _narrower(function: Function, low: Array, high: Array) -> tuple[Array, Array]:
+    """The same brackets, each between the two of the numbers within it where the sign changes first."""
+    share = _shares(low[1], high[1])
+    places = low[0] + share * (high[0] - low[0])
+    found = function(places.ravel()).reshape(places.shape)
+    x = np.concatenate([low[:1], places, high[:1]])
+    values = np.concatenate([low[1:], found, high[1:]])
+    holds = values >= 0
+    cell = np.argmax(holds[1:] != holds[:-1], axis=0)
+    column = np.arange(x.shape[1])
+    return (
+        np.array([x[cell, column], values[cell, column]]),
+        np.array([x[cell + 1, column], values[cell + 1, column]]),
+    )
+
+
+def _shares(low: Array, high: Array) -> Array:
+    """Where to look in each bracket, as ascending shares of its width, shape (places, brackets)."""
+    with np.errstate(all="ignore"):
+        line = low / (low - high)
+    line = np.where(np.isfinite(line), line, 0.5)
+    near = np.clip(line[None] + AROUND[:, None], 1e-6, 1 - 1e-6)
+    count = max(LEAST_EVEN, EVEN // len(low))
+    even = np.broadcast_to(np.arange(1, count + 1)[:, None] / (count + 1), (count, len(low)))
+    return np.sort(np.concatenate([even, near]), axis=0)
+
+
+def _crossing(low: Array, high: Array, first: float) -> Crossing:
+    inside = low if low[1] >= 0 else high
+    left = abs(high[1] - low[1])
+    is_jump = not np.isfinite(left) or (left > JUMP * first and inside[1] != 0)
+    at = inside[0] if is_jump or not left else low[0] - low[1] * (high[0] - low[0]) / (high[1] - low[1])
+    return Crossing(float(at), float(inside[0]), bool(is_jump))
+
+
+def greatest(function: Function, x: Array, values: Array) -> tuple[float, float]:
+    """Return where a function is greatest and its value there, refined from values at ascending numbers, of which some are not NaN."""
+    last = None
+    for _ in range(ZOOMS):
+        best = int(np.nanargmax(values))
+        low, high = x[max(best - 1, 0)], x[min(best + 1, len(x) - 1)]
+        if not high > low or x[best] == last:  # again the same end
+            break
+        last = x[best] if best in (0, len(x) - 1) else None
+        places = np.unique(
+            np.concatenate([low + (high - low) * ZOOM[1:-1], x[[max(best - 1, 0), best, min(best + 1, len(x) - 1)]]])
+        )
+        known = dict(zip(x, values, strict=True))
+        new = np.array([place for place in places if place not in known])
+        known |= dict(zip(new, function(new), strict=True)) if len(new) else {}
+        x, values = places, np.array([known[place] for place in places])
+    best = int(np.nanargmax(values))
+    return float(x[best]), float(values[best])
+
+
+def looked_closer(function: Function, x: Array, values: Array) -> tuple[Array, Array]:
+    """Return ascending numbers and values with more of them where a pair of roots, or the end of what exists, may hide."""
+    exists = np.isfinite(values)
+    edges = np.flatnonzero(exists[1:] != exists[:-1])
+    size = np.abs(values)
+    inner = np.arange(1, len(x) - 1)
+    with np.errstate(invalid="ignore"):
+        alike = (np.sign(values[inner - 1]) == np.sign(values[inner])) & (
+            np.sign(values[inner]) == np.sign(values[inner + 1])
+        )
+        rise = np.maximum(size[inner - 1], size[inner + 1]) - size[inner]
+        is_lowest = (size[inner] <= size[inner - 1]) & (size[inner] <= size[inner + 1])
+        low = inner[
+            alike & is_lowest & (size[inner] <= rise)
+        ]  # else it is too far from zero to reach it between the points
+    cells = np.unique(np.concatenate([edges, low - 1, low])).astype(int)
+    if not len(cells):
+        return x, values
+    more = (x[cells] + np.arange(1, 8)[:, None] / 8 * (x[cells + 1] - x[cells])).ravel()
+    joined, found = np.concatenate([x, more]), np.concatenate([values, function(more)])
+    order = np.argsort(joined)
+    return joined[order], found[order]

@@ -1,0 +1,283 @@
+"""One input solved for what is asked of a machine: all its values in a range, the one nearest to today's first, each proved."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from diecut_report.config.discovery import Discovery
+from diecut_report.config.loader import Config
+from diecut_report.design.answers import Answer, Found, Range, Role
+from diecut_report.design.design_inputs import DesignInput
+from diecut_report.design.line_search import crossings, greatest, looked_closer
+from diecut_report.design.proved_machine import proved
+from diecut_report.design.questions import Question, needed
+from diecut_report.design.typed_answers import typed_answers
+from diecut_report.design.varied_machines import VariedMachines, varied
+from diecut_report.errors import Problem, UserError
+from diecut_report.expressions import Array
+
+POINTS = 33  # of the range, at which a machine is calculated before roots are searched between them
+WIDER = 3.0  # the range reaches from today's value divided by this to so many times it
+MOST_WHOLE = 400  # whole numbers that are all tried
+PASSING_CLOSE = 1e-6  # relative width at which the limit of what passes is known: more is not typed
+SAME_PLACE = 1e-8  # relative: two roots that are no further apart are one
+SAME = 1e-12  # relative: what differs by less does not vary
+
+
+def solved(
+    config: Config, discovery: Discovery, question: Question, design: DesignInput, *, passing: bool = False,
+    low: float | None = None, high: float | None = None,
+) -> Answer:  # fmt: skip
+    """Return the values of an input with which a question is answered; with ``passing`` only those with which no check fails.
+
+    UserError in words where there is no range to search, or what is asked does not vary with the input.
+    """
+    ends = _range(design, low, high)
+    search = _RangeSearch(config, question, design, passing)
+    answer = search.answer(*ends)
+    if not answer.found:
+        return answer
+    return _proved(answer, config, discovery)
+
+
+def _proved(answer: Answer, config: Config, discovery: Discovery) -> Answer:
+    """The answer with the first value that a machine can have, calculated alone; UserError where there is none such."""
+    faults: list[UserError] = []
+    for index, first in enumerate(answer.found):
+        try:
+            machine = proved(config.tree, {answer.design.stands: first.typed}, discovery)
+        except UserError as fault:
+            faults.append(fault)
+            continue
+        reached = machine.outputs.get(answer.question.quantity.column, first.reached)
+        failing = tuple(name for name, _ in machine.checks("fail"))
+        return replace(
+            answer,
+            found=(replace(first, reached=reached, failing=failing), *answer.found[index + 1 :]),
+            machine=machine,
+        )
+    words = (
+        f"{answer.design.name} = {answer.found[0].typed} answers, but the rest of the machine cannot be as it is then: "
+        f"{faults[0].problems[0].message}"
+    )
+    raise UserError(Problem(words, config.tree.file))
+
+
+def _range(design: DesignInput, low: float | None, high: float | None) -> tuple[float, float]:
+    """The range that is searched: given, or around today's value, as far as the input may go."""
+    least, most = design.bounds
+    today = design.today
+    if (low is None or high is None) and not today:
+        words = f"{design.name} has no value today; give the range to search with --from and --to."
+        raise UserError(Problem(words, path="--vary"))
+    around = sorted((today / WIDER, today * WIDER)) if today else (math.nan, math.nan)
+    first = max(around[0], least) if low is None else low
+    last = min(around[1], most) if high is None else high
+    if not first < last:
+        words = f"{design.name}: the range from {design.told(first)} to {design.told(last)} is empty; give --from below --to."
+        raise UserError(Problem(words, path="--from"))
+    return first, last
+
+
+@dataclass
+class _RangeSearch:
+    """Looks along the range of an input; ``at`` calculates many machines of it at once."""
+
+    config: Config
+    question: Question
+    design: DesignInput
+    passing: bool
+
+    def __post_init__(self) -> None:
+        self.part = self.config if self.passing else needed(self.config, self.question.quantity, self.design.asked)
+        asked = self.question.quantity.asked
+        self.inputs = [asked] if asked is not None else []
+        self.known: dict[float, tuple[float, float]] = {}
+
+    def machines(self, x: Array) -> VariedMachines:
+        return varied(self.part, {self.design.asked: x}, len(x), self.inputs)
+
+    def answer(self, low: float, high: float) -> Answer:
+        """Return what is found in the range; nothing of it is proved yet."""
+        x = self._places(low, high)
+        made = self.machines(x)
+        y = made.values(self.question.quantity.column)
+        self._refuse_constant(made, y)
+        self._keep(x, made)
+        answer = Answer(self.question, self.design, float(x[0]), float(x[-1]), self._today(x, y), passing=self.passing)
+        if self.question.kind == "=":
+            roots, jumps = self._roots(x, y)
+            answer = replace(answer, found=tuple(self._nearest_first(roots)), jumps=tuple(jumps))
+        elif self.question.kind in ("max", "min"):
+            answer = replace(answer, found=tuple(self._extreme(x, made, y)))
+        else:
+            ranges = self._ranges(x, self.holds(made, y))
+            answer = replace(answer, found=tuple(self._of_ranges(ranges)), ranges=tuple(ranges))
+        return answer if answer.found else replace(answer, nearest=self._nearest(x, made, y))
+
+    def _places(self, low: float, high: float) -> Array:
+        """Where the range is looked at: at equal ratios where it is wide, today's value among them; whole numbers all."""
+        if self.design.is_whole:
+            whole = np.arange(math.ceil(low), math.floor(high) + 1, dtype=float)
+            return whole if len(whole) <= MOST_WHOLE else np.unique(np.round(np.linspace(low, high, MOST_WHOLE)))
+        is_wide = low > 0 and high / low > 4
+        x = np.geomspace(low, high, POINTS) if is_wide else np.linspace(low, high, POINTS)
+        today = self.design.today
+        if today is not None and low < today < high:
+            x = np.unique(np.append(x, today))
+        return x[self.design.allows(x)] if self.design.allows(x).any() else x
+
+    def _refuse_constant(self, made: VariedMachines, y: Array) -> None:
+        known = y[np.isfinite(y)]
+        name, asked = self.design.name, self.question.quantity.name
+        if not made.exists.any():
+            reason = next(filter(None, made.reasons), "no reason is known")
+            words = f"no machine of the range of {name} can be calculated: {reason}"
+            raise UserError(Problem(words, self.config.tree.file))
+        if not len(known):
+            raise UserError(Problem(f"{asked} has no value in the whole range of {name}.", self.config.tree.file))
+        if np.ptp(known) <= SAME * np.abs(known).max() and len(y) > 1:
+            words = f"{asked} does not vary with {name}: it is {self.question.quantity.told(float(known[0]))} in the whole range."
+            raise UserError(Problem(words, self.config.tree.file))
+
+    def _today(self, x: Array, y: Array) -> float:
+        index = np.flatnonzero(x == (np.nan if self.design.today is None else self.design.today))
+        return float(y[index[0]]) if len(index) else math.nan
+
+    # --- what is looked for ------------------------------------------------------------------------------------------
+
+    def _roots(self, x: Array, y: Array) -> tuple[list[Found], list[float]]:
+        value = self.question.value
+        off = y - value
+        if self.design.is_whole:
+            exact = np.abs(off) <= SAME * max(abs(value), 1e-300)
+            return self._judged([(float(each), "root") for each in x[exact]]), []
+        x, off = looked_closer(self._off, x, off)
+        on = [float(each) for each in x[off == 0]]
+        places: list[float] = []
+        jumps: list[float] = []
+        for run in _existing(off):
+            for each in crossings(self._off, x[run], off[run]):
+                (jumps if each.is_jump else places).append(each.at)
+        found = [each for each in places if all(abs(each - one) > SAME_PLACE * abs(one) for one in on)]
+        judged = self._judged([(each, "root") for each in sorted([*on, *found])])
+        return [each for each in judged if not (self.passing and each.failing)], jumps
+
+    def _off(self, x: Array) -> Array:
+        return self._along(x)[0] - self.question.value
+
+    def _held(self, x: Array) -> Array:
+        return self._along(x)[1]
+
+    def _along(self, x: Array) -> tuple[Array, Array]:
+        """What is asked, and how far it holds, at numbers of which only those are calculated that are new."""
+        new = np.array([each for each in dict.fromkeys(x.tolist()) if each not in self.known])
+        if len(new):
+            self._keep(new, self.machines(new))
+        found = np.array([self.known[each] for each in x.tolist()])
+        return found[:, 0], found[:, 1]
+
+    def _keep(self, x: Array, made: VariedMachines) -> None:
+        y = made.values(self.question.quantity.column)
+        self.known |= dict(zip(x.tolist(), zip(y, self.holds(made, y), strict=True), strict=True))
+
+    def holds(self, made: VariedMachines, y: Array) -> Array:
+        """How far what is asked holds: above or equal to zero where it does, NaN where there is no machine."""
+        if self.question.kind in ("max", "min"):
+            held = np.where(np.isfinite(y), 1.0, np.nan)
+        else:
+            sign = 1.0 if self.question.kind == "<=" else -1.0
+            size = np.maximum(np.maximum(np.abs(y), abs(self.question.value)), 1e-300)
+            held = sign * (self.question.value - y) / size
+        return np.minimum(held, made.least_slack) if self.passing else np.where(made.exists, held, np.nan)
+
+    def _ranges(self, x: Array, held: Array) -> list[Range]:
+        """The ranges of values where it holds."""
+        ends: dict[float, float] = {}
+        if not self.design.is_whole:
+            x, held = looked_closer(self._held, x, held)
+            ends = {each.at: each.inside for each in crossings(self._held, x, held, PASSING_CLOSE)}
+        places = self._ends(x, held >= 0, ends)
+        found = self._judged(places)
+        is_end = [place in (x[0], x[-1]) for place, _ in places]
+        found = [replace(each, at_end=last) for each, last in zip(found, is_end, strict=True)]
+        return list(zip(found[::2], found[1::2], strict=True))
+
+    def _ends(self, x: Array, holds: Array, refined: dict[float, float]) -> list[tuple[float, Role]]:
+        """The lower and the upper end of each range of values that hold; between the points those that were refined."""
+        found: list[tuple[float, Role]] = []
+        edges = np.flatnonzero(np.diff(np.concatenate([[False], holds, [False]]).astype(int)))
+        for first, last in zip(edges[::2], edges[1::2] - 1, strict=True):
+            low = _between(refined, x[first - 1], x[first]) if first else x[0]
+            high = _between(refined, x[last], x[last + 1]) if last + 1 < len(x) else x[-1]
+            found += [(float(low), "lower"), (float(high), "upper")]
+        return found
+
+    def _extreme(self, x: Array, made: VariedMachines, y: Array) -> list[Found]:
+        """Where it is greatest or least among the machines that hold, which may be at the end of those."""
+        sign = 1.0 if self.question.kind == "max" else -1.0
+
+        def heights(places: Array) -> Array:
+            own, holds = self._along(places)
+            return np.where(holds >= 0, sign * own, np.nan)
+
+        places = x[self.holds(made, y) >= 0] if self.design.is_whole else self._holding(x, sign)
+        known = heights(places)
+        if not np.isfinite(known).any():
+            return []
+        top = greatest(heights, places, known)[0] if not self.design.is_whole else float(places[np.nanargmax(known)])
+        return [replace(each, at_end=top in (x[0], x[-1])) for each in self._judged([(top, "extreme")])]
+
+    def _holding(self, x: Array, sign: float) -> Array:
+        """The places that hold, with the ends of what holds where these may be better than all of them."""
+        x, held = looked_closer(self._held, x, self._held(x))
+        height = sign * self._along(x)[0]
+        best = np.where(held >= 0, height, -np.inf).max()
+        rising = ~(np.fmax(height[1:], height[:-1]) < best)
+        ends = crossings(self._held, x, held, PASSING_CLOSE, rising)
+        return np.unique([*x[held >= 0], *(each.inside for each in ends)])
+
+    # --- the answers -------------------------------------------------------------------------------------------------
+
+    def _judged(self, places: list[tuple[float, Role]]) -> list[Found]:
+        """The values as they are typed, calculated as that: with as few digits as answer as well."""
+        return typed_answers(self, places)
+
+    def _nearest_first(self, found: list[Found]) -> list[Found]:
+        today = self.design.today
+        return found if today is None else sorted(found, key=lambda each: abs(each.value - today))
+
+    def _of_ranges(self, ranges: list[Range]) -> list[Found]:
+        """Of each range the value nearest to today's, which may be that itself."""
+        today = self.design.today
+        if today is None:
+            return [low for low, _ in ranges]
+        if any(low.value <= today <= high.value for low, high in ranges):
+            return self._judged([(today, "today")])
+        return self._nearest_first([min(ends, key=lambda each: abs(each.value - today)) for ends in ranges])
+
+    def _nearest(self, x: Array, made: VariedMachines, y: Array) -> Found | None:
+        """The value that comes nearest to what is asked."""
+        away = np.abs(y - self.question.value) if self.question.kind == "=" else -self.holds(made, y)
+        away = np.where(made.exists & np.isfinite(away), away, np.inf)
+        if not np.isfinite(away).any():
+            return None
+        if not self.design.is_whole and self.question.kind == "=":
+            value, _ = greatest(lambda places: -np.abs(self._off(places)), x, -away)
+        else:
+            value = float(x[np.argmin(away)])
+        found = self._judged([(value, "nearest")])
+        return replace(found[0], at_end=value in (x[0], x[-1])) if found else None
+
+
+def _existing(values: Array) -> list[slice]:
+    """The runs of neighbours that all have a value."""
+    edges = np.flatnonzero(np.diff(np.concatenate([[False], np.isfinite(values), [False]]).astype(int)))
+    return [slice(int(first), int(last)) for first, last in zip(edges[::2], edges[1::2], strict=True)]
+
+
+def _between(refined: dict[float, float], low: float, high: float) -> float:
+    return next(inside for at, inside in refined.items() if low <= at <= high)

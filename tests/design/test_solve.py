@@ -1,0 +1,138 @@
+"""The command solve: closed forms of a lever, jumps, ranges, what is out of reach, and what is bad input."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+from typing import Any
+
+import pytest
+from scipy.optimize import brentq
+
+from diecut_report.cli.main import main
+from diecut_report.config.loader import load_config
+from diecut_report.design.design_inputs import design_input
+from diecut_report.design.proved_machine import proved
+from tests.configs import DISCOVERY, EXAMPLE, GOOD, HEAD, saved
+
+KNIFE = EXAMPLE.with_name("circular_knife.yaml")
+Capture = pytest.CaptureFixture[str]
+TEXT = (
+    HEAD
+    + """\
+  a: {kind: lever, force: 2 kN, arm: 100 mm, allowable_moment: 250 N*m}  # the lever
+  b: {kind: lever, force: 1 kN, arm: 200 mm, teeth: 20}
+"""
+)
+
+
+@pytest.fixture
+def press(tmp_path: Path) -> Path:
+    return saved(tmp_path, TEXT)
+
+
+def solve(press: Path, vary: str, asked: str, *more: object) -> int:
+    return main(["solve", str(press), "--vary", vary, "--for", asked, *map(str, more), "--plugins", str(GOOD)])
+
+
+def found(capfd: Capture, code: int) -> dict[str, Any]:
+    assert code in (0, 1)
+    answer: dict[str, Any] = json.loads(capfd.readouterr().out)
+    return answer
+
+
+def test_a_linear_quantity_is_solved_exactly_and_told(press: Path, capfd: Capture) -> None:
+    assert solve(press, "a.arm", "a.moment = 240 N*m") == 0
+    assert capfd.readouterr().out.splitlines() == [
+        "a.moment = 240 N·m, by a.arm (today 100 mm, a.moment 200 N·m)",
+        "  a.arm = 120 mm: a.moment is 240 N·m",
+        "  calculated as a machine of its own: no check fails; governing: a.moment",
+    ]
+
+
+def test_the_configuration_is_written_with_the_value_alone(press: Path, tmp_path: Path, capfd: Capture) -> None:
+    assert solve(press, "mechanisms.a.arm", "a.moment = 0.3 kN*m", "-o", tmp_path / "new.yaml") == 0
+    assert (tmp_path / "new.yaml").read_text() == TEXT.replace("100 mm", "150 mm")
+    out, err = capfd.readouterr()
+    assert "1 check fails: a.moment" in out and err == f"written: {tmp_path / 'new.yaml'}\n"
+
+
+@pytest.mark.parametrize(
+    ("asked", "typed", "role"),
+    [
+        ("a.moment <= 150 N*m", "75 mm", "upper"),
+        ("a.moment >= 260 N*m", "130 mm", "lower"),
+        ("a.moment <= 210 N*m", "100 mm", "today"),
+        ("max a.moment", "300 mm", "extreme"),
+        ("min a.moment", "33.333 mm", "extreme"),
+        ("max a.arm", "300 mm", "extreme"),
+        ("a.checks.moment <= 0.5", "62.5 mm", "upper"),
+    ],
+)
+def test_limits_and_extremes_of_a_lever(press: Path, capfd: Capture, asked: str, typed: str, role: str) -> None:
+    answer = found(capfd, solve(press, "a.arm", asked, "--format", "json"))
+    assert (answer["solutions"][0]["typed"], answer["solutions"][0]["role"]) == (typed, role)
+
+
+def test_the_greatest_with_which_all_passes(press: Path, capfd: Capture) -> None:
+    answer = found(capfd, solve(press, "a.arm", "max a.arm", "--passing", "--format", "json"))
+    first = answer["solutions"][0]
+    assert (first["typed"], first["beyond"]) == ("125 mm", ["a.moment"]) and answer["machine"]["failing"] == []
+
+
+def test_out_of_reach_tells_the_nearest(press: Path, capfd: Capture, tmp_path: Path) -> None:
+    assert solve(press, "a.arm", "a.moment = 700 N*m", "-o", tmp_path / "new.yaml") == 1
+    out, err = capfd.readouterr()
+    assert "no value of a.arm from 33.3333 mm to 300 mm does" in out
+    assert "nearest: a.arm = 300 mm, where a.moment is 600 N·m, at the end of the range" in out
+    assert err == f"not written: {tmp_path / 'new.yaml'}\n" and not (tmp_path / "new.yaml").exists()
+    assert solve(press, "a.arm", "a.moment = 700 N*m", "--to", "0.4 m") == 0
+
+
+def test_whole_numbers_are_all_tried(press: Path, capfd: Capture) -> None:
+    answer = found(capfd, solve(press, "b.teeth", "max b.teeth", "--to", "33.0", "--format", "json"))
+    assert answer["solutions"][0]["typed"] == "33" and answer["vary"]["from"] == 12  # the least that is allowed
+
+
+@pytest.mark.parametrize(
+    ("vary", "asked", "more", "words"),
+    [
+        ("a.arn", "a.moment = 1 N*m", [], "'arn' is not an input of a (did you mean 'arm'?)"),
+        ("a.arm", "a.momemt = 1 N*m", [], "a.momemt is neither a number that a gives nor an input of it (did you mean 'moment'?)"),
+        ("a.arm", "c.moment = 1 N*m", [], "there is no mechanism 'c'"),
+        ("a.arm", "a.moment = 1 kg", [], "a.moment: 1 kg is a mass"),
+        ("a.arm", "a.moment 1", [], "'a.moment 1' is not a question"),
+        ("a.arm", "b.moment = 1 N*m", [], "b.moment does not vary with a.arm: it is 200 N·m in the whole range"),
+        ("a.arm", "a.moment = 1 N*m", ["--from", "2 m"], "2 m is out of range"),
+        ("a.arm", "a.moment = 1 N*m", ["--from", "9 mm", "--to", "8 mm"], "the range from 9 mm to 8 mm is empty"),
+        ("a.width", "a.moment = 1 N*m", [], "a.width has no value today; give the range to search"),
+        ("a.grade", "a.moment = 1 N*m", [], "a.grade is a text, a choice or a yes/no"),
+    ],
+)  # fmt: skip
+def test_bad_input_is_told_and_ends_with_2(
+    press: Path, capfd: Capture, vary: str, asked: str, more: list[str], words: str
+) -> None:
+    assert solve(press, vary, asked, *more) == 2
+    out, err = capfd.readouterr()
+    assert out == "" and words in err
+
+
+def test_an_input_that_is_not_given_is_put_into_the_file(press: Path, tmp_path: Path) -> None:
+    made = tmp_path / "new.yaml"
+    assert solve(press, "a.width", "a.pressure = 0.5 MPa", "--from", "10 mm", "--to", "90 mm", "-o", made) == 0
+    assert made.read_text() == TEXT.replace("kind: lever, force: 2 kN", "kind: lever, width: 40 mm, force: 2 kN")
+
+
+def test_a_knife_is_solved_as_by_machines_calculated_one_by_one(capfd: Capture) -> None:
+    config = load_config(KNIFE, DISCOVERY)
+    radius = design_input(config, "knife.edge_radius")
+
+    def over(value: float) -> float:
+        return (
+            proved(config.tree, {radius.stands: radius.typed(value, 15)}, DISCOVERY).outputs["knife.edge_length"] - 0.04
+        )
+
+    answer = found(capfd, solve(KNIFE, "knife.edge_radius", "knife.edge_length = 40 mm", "--format", "json"))
+    places = [each["value"] for each in answer["solutions"]]
+    assert places == pytest.approx([brentq(over, place * 0.99, place * 1.01, xtol=1e-9) for place in places], rel=1e-6)
+    assert places

@@ -1,0 +1,120 @@
+"""Inputs by their names, many machines in one run, and a chosen one calculated alone."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from diecut_report.config.loader import load_config
+from diecut_report.config.yaml_tree import load
+from diecut_report.design.design_inputs import design_input, given_numbers
+from diecut_report.design.proved_machine import proved, write_config
+from diecut_report.design.varied_machines import SLACK, narrowed, quantities, varied
+from diecut_report.errors import UserError
+from tests.configs import DISCOVERY, HEAD, MECHANISMS, loaded, saved
+
+TWO = (
+    HEAD
+    + """\
+  a: {kind: lever, force: 2 kN, arm: 0.1 m, allowable_moment: {value: 250 N*m, basis: assumed}}  # the first
+  b: {kind: lever, force: "${a.force}", arm: "${a.arm} / 2", width: "${press.sheet.length}", allowable_moment: 150 N*m}
+  c: {kind: lever, force: 1, parts: [{length: 3 mm}]}
+"""
+)
+
+
+def test_names_may_be_short_and_references_are_followed(tmp_path: Path) -> None:
+    config = loaded(tmp_path, TWO)
+    found = {name: design_input(config, name) for name in ("a.force", "mechanisms.a.force", "b.force", "b.width")}
+    assert {name: each.name for name, each in found.items()} == {
+        "a.force": "a.force",
+        "mechanisms.a.force": "a.force",
+        "b.force": "a.force",
+        "b.width": "press.sheet.length",
+    }
+    arm = design_input(config, "a.arm")
+    assert (arm.today, arm.unit, arm.bounds, arm.typed(0.12), arm.told(0.12)) == (
+        0.1,
+        "m",
+        (0.0, 1.0),
+        "0.12 m",
+        "0.12 m",
+    )
+    assert design_input(config, "c.speed").today == pytest.approx(2 * np.pi * 6000 / 3600)
+
+
+@pytest.mark.parametrize(
+    ("name", "words"),
+    [
+        ("b.arm", "b.arm follows from an expression, “${a.arm} / 2”"),
+        ("a.arn", "'arn' is not an input of a (did you mean 'arm'?)"),
+        ("d.arm", "d.arm is not a path of an input"),
+        ("a.grade", "a.grade is a text, a choice or a yes/no"),
+        ("a.moment", "is an output of a; only inputs"),
+    ],
+)
+def test_what_cannot_be_changed_is_told(tmp_path: Path, name: str, words: str) -> None:
+    with pytest.raises(UserError) as error:
+        design_input(loaded(tmp_path, TWO), name)
+    assert words in str(error.value)
+
+
+def test_numbers_of_their_own_are_listed_in_order(tmp_path: Path) -> None:
+    assert [each.name for each in given_numbers(loaded(tmp_path, TWO))] == [
+        "press.productivity", "press.sheet.length", "press.sheet.thickness", "a.force", "a.arm", "a.allowable_moment",
+        "b.allowable_moment", "c.force", "c.parts.0.length",
+    ]  # fmt: skip
+
+
+def test_a_run_gives_outputs_checks_and_slack_of_each_machine(tmp_path: Path) -> None:
+    config = loaded(tmp_path, TWO)
+    arm, force = design_input(config, "a.arm").asked, design_input(config, "a.force").asked
+    arms = np.array([0.05, 0.1, 0.125, 0.2, 2.0])
+    found = varied(config, {arm: arms}, 5, [arm, force])
+    moments = 2000 * arms[:4]
+    assert found.values("a.moment")[:4] == pytest.approx(moments)
+    assert found.values("b.moment")[:4] == pytest.approx(moments / 2)
+    assert found.values("mechanisms.a.arm")[:4] == pytest.approx(arms[:4])
+    assert found.values("mechanisms.a.force")[:4] == pytest.approx(2000)
+    assert list(found.status) == ["pass", "pass", "pass", "fail", "error"]
+    assert "mechanisms.a.arm" in found.reasons[4] and np.isnan(found.values("a.moment")[4])
+    assert found.failing(3) == ["a.moment", "b.moment"]
+    assert found.check("a.moment", SLACK)[:4] == pytest.approx([0.6, 0.2, 0.0, 250 / 400 - 1])
+    assert found.least_slack[:4] == pytest.approx(
+        [0.6, 0.2, 1 - 125 / 150, -0.375]
+    )  # what is at its limit does not count
+
+
+def test_what_is_not_asked_for_is_not_calculated(tmp_path: Path) -> None:
+    config = loaded(tmp_path, TWO)
+    assert set(narrowed(config, ["c"]).instances) == {"press", "c"}
+    assert set(narrowed(config, ["b"]).instances) == {"press", "a", "b"}
+    force = design_input(config, "a.force").asked
+    found = varied(narrowed(config, ["b"]), {force: np.array([1000.0, 3000.0])}, 2)
+    assert found.values("b.moment") == pytest.approx([50, 150]) and np.isnan(found.values("c.moment")).all()
+    assert quantities(config)["b.moment"].unit == "N*m"
+
+
+def test_a_machine_proved_alone_is_the_one_of_the_run() -> None:
+    config = load_config(MECHANISMS, DISCOVERY)
+    bore = design_input(config, "cylinder.bore_radius")
+    many = varied(config, {bore.asked: np.array([0.05, 0.0625])}, 2)
+    alone = proved(config.tree, {bore.stands: bore.typed(0.0625)}, DISCOVERY)
+    for name in ("cylinder.mass", "drive.crank_torque_peak", "train.flywheel_mass"):
+        assert many.values(name)[1] == pytest.approx(alone.outputs[name], rel=1e-12), name
+    assert [name for name, _ in alone.checks("fail")] == many.failing(1)
+    assert alone.governing == many.rows.governing[1].replace(".checks.", ".")
+
+
+def test_a_machine_is_written_whole_or_not_at_all(tmp_path: Path) -> None:
+    tree = load(saved(tmp_path, TWO))
+    machine = proved(tree, {("mechanisms", "a", "arm"): "0.12 m"}, DISCOVERY)
+    write_config(tree, machine, tmp_path / "new" / "made.yaml")
+    assert (tmp_path / "new" / "made.yaml").read_text() == TWO.replace("arm: 0.1 m", "arm: 0.12 m")
+    with pytest.raises(UserError, match="would be written over"):
+        write_config(tree, machine, tmp_path / "press.yaml")
+    with pytest.raises(UserError, match=r"mechanisms\.a\.arm: 2 m is out of range"):
+        proved(tree, {("mechanisms", "a", "arm"): "2 m"}, DISCOVERY)
+    assert sorted(path.name for path in tmp_path.iterdir()) == ["new", "press.yaml"]
