@@ -38,6 +38,7 @@ class Paper:
         words = material.words
         self.frame: SheetBlocks | None = sheet_blocks(block, words, has_logo=bool(material.logo))
         behind = Backdrop(block.frame, words["across"] if block.is_held else "")
+        self.formulas: set[str] = set()
         self.pictures: dict[str, Picture | FigurePicture | Backdrop] = {BACKDROP: behind} if behind else {}
         self.style = RULE.format(BACKDROP) if behind else ""
 
@@ -61,6 +62,7 @@ class Paper:
         outline = self.material.typesetter.outline(equation.latex)
         address = f"{FORMULA}{len(self.pictures)}"
         self.pictures[address] = Picture(outline, equation.text)
+        self.formulas.add(equation.text)
         return Markup('<img src="{}" alt="{}"{}>').format(address, equation.text, Markup(style))
 
     def figure(self, number: str, title: str) -> Markup:
@@ -91,7 +93,7 @@ def sheets(material: Material) -> bytes:
         warnings.catch_warnings(action="ignore", category=ResourceWarning),
     ):  # WeasyPrint's own file
         content: bytes = HTML(string=source, url_fetcher=fetcher).write_pdf(
-            pdf_variant="pdf/a-3a", cache=cache, presentational_hints=False, finisher=Archive(material.words),
+            pdf_variant="pdf/a-3a", cache=cache, presentational_hints=False, finisher=Archive(material.words, paper.formulas),
             attachments=[_attached(file, fetcher) for file in material.carried],
         )  # fmt: skip
     return content

@@ -42,13 +42,15 @@ SHARES = {  # of the largest, at which a drawing is tried, so that its texts fin
     Size.HALF: (0.52, 0.46, 0.58),
     Size.SKETCH: (0.36, 0.3, 0.42, 0.5),
 }
+SCHEMES = (0.6, 0.5)  # of sketches whose boxes hold texts
 WORTH = 25.0  # what stands in the way of texts, for which the drawing is rather made a step smaller
 
 
 def drawing(figure: Mapping[str, Any], _curves: Mapping[str, Any], words: Catalogue, size: Size = Size.LARGE) -> Figure:
     """The shapes of a drawing, as large as their place on the page lets them be, with a scale bar unless it is a schematic."""
     best, least = None, np.inf
-    for step, share in enumerate(SHARES[size]):
+    is_scheme = size is Size.SKETCH and figure.get("schematic")
+    for step, share in enumerate(SCHEMES if is_scheme else SHARES[size]):
         sheet = Shapes(figure, words, LARGEST * share)
         sheet.finish()
         cost = sheet.crowded + step * WORTH
