@@ -228,3 +228,14 @@ def test_what_no_key_can_be_is_refused_in_words(changes: dict[str, Any], name: s
 def test_keys_out_of_their_range_are_refused(changes: dict[str, Any]) -> None:
     with pytest.raises(ValidationError):
         inputs(MECHANISM, KEY | changes)
+
+
+@pytest.mark.parametrize(
+    ("keys", "left_out"),
+    [(KEY, 0), (TURNING, 1), (TURNING | {"load_direction_factor": 0.8}, 0)],
+    ids=["steady", "reversing", "counted"],
+)
+def test_a_reversal_that_nothing_counts_is_told_and_only_that(keys: dict[str, Any], left_out: int) -> None:
+    calc = key(keys)
+    assert number(calc, "reversal_left_out") == left_out
+    assert checks(calc)["reversing"]["status"] == ("warn" if left_out else "pass")
