@@ -40,6 +40,7 @@ class Paper:
         self.frame: SheetBlocks | None = sheet_blocks(block, words, has_logo=bool(material.logo))
         self.letters = Letters()
         behind = Backdrop(block.frame, words["across"] if block.is_held else "")
+        self.formulas: set[str] = set()
         self.pictures: dict[str, Picture | FigurePicture | Backdrop] = {BACKDROP: behind} if behind else {}
         self.style = RULE.format(BACKDROP) if behind else ""
 
@@ -63,6 +64,7 @@ class Paper:
         outline = self.material.typesetter.outline(equation.latex)
         address = f"{FORMULA}{len(self.pictures)}"
         self.pictures[address] = Picture(outline, equation.text, self.letters)
+        self.formulas.add(equation.text)
         told = escape(equation.text).replace("\n", Markup("&#10;"))
         return Markup('<img src="{}" alt="{}"{}>').format(address, told, Markup(style))
 
@@ -94,7 +96,8 @@ def sheets(material: Material) -> bytes:
         warnings.catch_warnings(action="ignore", category=ResourceWarning),
     ):  # WeasyPrint's own file
         content: bytes = read_page(source, fetcher, is_own=material.house is None).write_pdf(
-            pdf_variant="pdf/a-3a", cache=cache, presentational_hints=False, finisher=Archive(material.words, paper.letters),
+            pdf_variant="pdf/a-3a", cache=cache, presentational_hints=False,
+            finisher=Archive(material.words, paper.letters, paper.formulas),
             attachments=[_attached(file, fetcher) for file in material.carried],
         )  # fmt: skip
     return content

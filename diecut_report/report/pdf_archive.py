@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Collection, Mapping
 from typing import Any
 
 from diecut_report.report.page_engine import Array, Dictionary, Stream, String
@@ -33,8 +33,8 @@ ACCESSIBLE = (
 class Archive:
     """Completes a document as it is written (the page engine's ``finisher``)."""
 
-    def __init__(self, words: Mapping[str, str], letters: Letters) -> None:
-        self.words, self.letters = words, letters
+    def __init__(self, words: Mapping[str, str], letters: Letters, formulas: Collection[str] = ()) -> None:
+        self.words, self.letters, self.formulas = words, letters, formulas
 
     def __call__(self, document: Any, pdf: Any) -> None:
         """Complete a document, of which ``pdf`` holds the objects."""
@@ -47,7 +47,15 @@ class Archive:
             for name in SIGNERS:
                 if ANCHOR + name in page.anchors:
                     self._field(pdf, name, number, page)
+        self._name_formulas(pdf)
         say_once(pdf)
+
+    def _name_formulas(self, pdf: Any) -> None:
+        """Tag formulas as such: the page engine knows their pictures as figures, with the formula as their text."""
+        for each in pdf.objects:
+            told = each.get("Alt") if isinstance(each, Dictionary) and each.get("S") == "/Figure" else None
+            if told is not None and told.string in self.formulas:
+                each["S"] = "/Formula"
 
     def _field(self, pdf: Any, name: str, number: int, page: Any) -> None:
         """An empty field for a signature in its box."""

@@ -76,20 +76,21 @@ def test_formulas_are_found_by_search(pdf: Path) -> None:
     assert "R_b > R − h: 70 mm > 105 mm − 40 mm" in text
 
 
-def test_formulas_and_figures_have_alternative_texts(pdf: Path) -> None:
+def test_formulas_and_figures_are_tagged_as_what_they_are_with_alternative_texts(pdf: Path) -> None:
 
     alternatives = set(_alternatives(PdfReader(pdf).trailer["/Root"]["/StructTreeRoot"]))  # type: ignore[index]
-    assert "Cross-section" in alternatives
-    assert any(text.startswith("c = 2·√(2·h·R − h²)") for text in alternatives)
+    assert ("/Figure", "Cross-section") in alternatives
+    assert any(tag == "/Formula" and text.startswith("c = 2·√(2·h·R − h²)") for tag, text in alternatives)
+    assert not any(tag == "/Figure" and " = " in text for tag, text in alternatives)
 
 
-def _alternatives(node: Any) -> list[str]:
+def _alternatives(node: Any) -> list[tuple[str, str]]:
     node = node.get_object() if hasattr(node, "get_object") else node
     if isinstance(node, list):
         return [text for part in node for text in _alternatives(part)]
     if not isinstance(node, dict) or node.get("/Type") == "/OBJR":
         return []
-    return ([str(node["/Alt"])] if "/Alt" in node else []) + _alternatives(node.get("/K", []))
+    return ([(str(node["/S"]), str(node["/Alt"]))] if "/Alt" in node else []) + _alternatives(node.get("/K", []))
 
 
 def test_no_link_leads_outside(pdf: Path) -> None:
