@@ -19,7 +19,7 @@ import pytest
 import tinyhtml5
 from page import validate_pdf
 from pypdf import PdfReader
-from weasyprint.urls import FatalURLFetchingError, URLFetcher
+from weasyprint.urls import URLFetcher
 
 from diecut_report.report import Rendering
 from diecut_report.report.html import filled
@@ -139,7 +139,7 @@ def test_a_picture_from_outside_stops_the_rendering(results: dict[str, Any], mon
     monkeypatch.setattr(
         module, "filled", lambda *_: '<html lang="en"><title>x</title><img alt="" src="http://localhost/x.png">'
     )
-    with pytest.raises(FatalURLFetchingError, match="localhost"):
+    with pytest.raises(RuntimeError, match="localhost"):
         Rendering(results).pdf()
 
 
