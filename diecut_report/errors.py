@@ -6,6 +6,8 @@ import difflib
 from collections.abc import Iterable
 from dataclasses import dataclass
 
+from diecut_report.languages.phrases import Phrase, joined
+
 TOLD = 20  # problems of a file that are told, so that the message itself stays short
 
 
@@ -26,7 +28,7 @@ class Problem:
     def __str__(self) -> str:
         """The one-line form that editors and terminals can follow: `press.yaml:12:5: path: message`."""
         place = ":".join(str(part) for part in (self.file, self.line, self.column) if part not in ("", None))
-        return ": ".join(part for part in (place, self.path, self.message) if part)
+        return "".join(f"{part}: " for part in (place, self.path) if part) + self.message
 
 
 class UserError(Exception):
@@ -56,12 +58,13 @@ class PluginError(Exception):
         self.message, self.kind, self.instance = message, kind, instance
 
     def __str__(self) -> str:
-        where = f"mechanism {self.instance!r}" if self.instance else ""
-        plugin = f"plugin {self.kind!r}" if self.kind else ""
-        return ": ".join(part for part in (" of ".join(p for p in (where, plugin) if p), self.message) if part)
+        where = Phrase("mechanism {name}", name=repr(self.instance)) if self.instance else ""
+        plugin = Phrase("plugin {kind}", kind=repr(self.kind)) if self.kind else ""
+        whose = joined([part for part in (where, plugin) if part], " of ")
+        return joined([part for part in (whose, self.message) if part], ": ")
 
 
 def nearest(given: str, known: Iterable[str]) -> str:
     """A suggestion to append, " (did you mean 'crank_speed'?)", or nothing where none is near."""
     found = difflib.get_close_matches(given[:100], list(known), n=1, cutoff=0.6)
-    return f" (did you mean {found[0]!r}?)" if found else ""
+    return Phrase(" (did you mean {key}?)", key=repr(found[0])) if found else ""

@@ -14,6 +14,7 @@ from diecut_report.config.own_tables import Find
 from diecut_report.config.yaml_tree import Tree
 from diecut_report.errors import PluginError, Problem, UserError, nearest
 from diecut_report.languages.catalogues import SOURCE_LANGUAGE, Catalogues
+from diecut_report.languages.phrases import Phrase, phrase
 from diecut_report.limits import MAX_PRINTED_MECHANISMS
 from diecut_report.results.changes import changes
 from diecut_report.results.results_file import encoded, results_text
@@ -185,17 +186,17 @@ def _calculated(
     only: Sequence[str] = (),
     follow: Follow | None = None,
 ) -> tuple[Data, tuple[PluginError, ...], Places]:
-    tell("reading the configuration")
+    tell(phrase("reading the configuration"))
     config = load_config(source, discovery, find=find)
     _refuse_unknown(config, only)
     _refuse_many_sheets(config, formats)
     from diecut_report.results.document import document  # with the engine, which checking alone does not need
     from diecut_report.results.press_run import compute
 
-    run = compute(config, lambda name: tell(f"calculating {name}"))
+    run = compute(config, lambda name: tell(Phrase("calculating {name}", name=name)))
     results = document(run)
     if weigh is not None and results["summary"]["assumed"] and not run.errors:
-        tell("weighing what is assumed")
+        tell(phrase("weighing what is assumed"))
         results["summary"]["moves"] = weigh(config, results)
     if follow is not None and results["summary"]["fail"] and not run.errors:
         tell("following the advice")
@@ -241,17 +242,17 @@ def rendered(
     undrawn: list[Lost] = []
     contents = {"json": encoded(results_text(results))} if "json" in formats else {}
     if set(DRAWN) & set(formats):
-        tell("drawing the report")
+        tell(phrase("drawing the report"))
         from diecut_report.report import Rendering
 
         rendering = Rendering(results, catalogues, house)
         if "html" in formats:
             contents["html"] = encoded(rendering.html())
         if "pdf" in formats:
-            tell("setting the pages")
+            tell(phrase("setting the pages"))
             contents["pdf"] = _pdf(rendering)
         if "docx" in formats:
-            tell("writing the document")
+            tell(phrase("writing the document"))
             contents["docx"] = rendering.docx()
         if "xlsx" in formats:
             contents["xlsx"] = rendering.xlsx()
@@ -267,7 +268,7 @@ def exported(results: Data, tell: Tell) -> tuple[dict[str, bytes], list[Lost]]:
     calculated = {**results["mechanisms"], **results.get("comparisons", {})}
     if not any(mechanism["exports"] for mechanism in calculated.values()):
         return {}, []
-    tell("drawing the profiles")
+    tell(phrase("drawing the profiles"))
     from diecut_report.report.profile_files import written
 
     files, faults = written(results)

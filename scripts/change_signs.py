@@ -32,6 +32,7 @@ OTHER = {ast.Add: (b"+", b"-"), ast.Sub: (b"-", b"+"), ast.Mult: (b"*", b"/"), a
 SHARED = {"tests.machines", "tests.configs", "tests.plugins.cases"}  # helpers of everything: they tell nothing
 BY_NAME = {"cylinder_drive", "cylinder_sizing"}  # reached through tests.machines: their tests are found by their names
 THROUGH = {  # what has no test file of its own, or one that tests a part: what it is tested through
+    "mechanics.chebyshev_sums": ("mechanics.piece_rows",),
     "mechanics.circular_segment": ("cylinder_sizing", "cylinder_drive", "circular_knife"),
     "mechanics.common": ("cylinder_sizing", "damper", "drive_train", "cylinder_drive", "circular_knife"),
     "mechanics.gripping": ("geneva_transport",),

@@ -9,9 +9,9 @@ opposite, and with the bound taken in or out), numbers, conditions, loops. Not m
 flatters the count. A sample is drawn from all mutants alike and is the same for the same seed and sources, so that its share of killed
 mutants is that of all, but for chance.
 
-Each mutant lives in a copy; the checkout is never touched. It runs in a fork of a process that has the libraries imported, with the tests that
-``change_signs.py`` would run. With ``--log`` a run that was stopped goes on where it was; ``--report`` only counts what the log holds.
-A mutant that takes more than four times the processor time that the tests take without one is killed too, and counted as a timeout.
+Each mutant lives in a copy; the checkout is never touched. It meets the tests that ``change_signs.py`` would run, in a fork that has nearly all
+imported (``mutant_runs.py``), which takes some seconds. With ``--log`` a run that was stopped goes on where it was; ``--report`` only counts
+what the log holds. A mutant whose tests take far longer than without it is killed too, and counted as one by time.
 """
 
 from __future__ import annotations
@@ -19,21 +19,20 @@ from __future__ import annotations
 import argparse
 import ast
 import json
-import os
 import random
-import resource
-import signal
 import sys
 import tempfile
 from collections import Counter
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
-from functools import cache
+from functools import partial
 from importlib import import_module
+from math import inf, sqrt
 from pathlib import Path
 from typing import Any
 
-from change_signs import ROOT, Copy, tests_asked, units
+from change_signs import ROOT, units
+from mutant_runs import KILLED, OPEN, SURVIVED, TIMEOUT, Server, in_server, prepared
 
 OTHER_WORK = ("__init__", "inputs", "checks", "sheet", "layout")
 OTHER_ENDINGS = ("figures", "figure", "drawing", "advice", "table")
@@ -54,10 +53,7 @@ OPERATORS = (
     *("AddNot", "ReplaceAndWithOr", "ReplaceOrWithAnd", "ReplaceTrueWithFalse", "ReplaceFalseWithTrue"),
     *("NumberReplacer", "ReplaceBreakWithContinue", "ReplaceContinueWithBreak", "ZeroIterationForLoop"),
 )
-LIBRARIES = ("numpy", "scipy.optimize", "scipy.integrate", "scipy.interpolate", "scipy.linalg", "scipy.signal", "pydantic", "yaml",
-             "click", "jinja2", "pyarrow", "duckdb", "matplotlib.figure")  # fmt: skip
-MEMORY = 6_000_000_000  # bytes of addresses for a mutant that asks for more and more
-KILLED, SURVIVED, TIMEOUT = "killed", "survived", "timeout"
+NOTICED = (KILLED, TIMEOUT)
 Place = tuple[int, int]
 
 
@@ -155,112 +151,62 @@ def chosen(arguments: argparse.Namespace) -> list[Mutant]:
     found = [mutant for unit, file in files for mutant in mutants(unit, file)]
     print(f"{len(found)} mutants", file=sys.stderr)
     count = len(found) if arguments.all else min(arguments.count, len(found))
-    return random.Random(arguments.seed).sample(found, count)
+    random.Random(arguments.seed).shuffle(found)  # a smaller sample is the beginning of a larger one
+    return found[:count]
 
 
 # --- runs ------------------------------------------------------------------------------------------------------------
 
 
-class Tests:
-    """The tests in a copy of the program, each run of them in a fork of this process."""
-
-    def __init__(self, copy: Copy) -> None:
-        self.copy = copy
-        import compileall
-
-        import_module("pytest")
-        for name in LIBRARIES:
-            import_module(name)
-        hashed = import_module("py_compile").PycInvalidationMode.CHECKED_HASH  # a file may change twice within a second
-        compileall.compile_dir(str(copy.folder), quiet=2, invalidation_mode=hashed)
-
-    def fate(self, mutant: Mutant) -> str:
-        """What becomes of a mutant."""
-        seconds = self._seconds(mutant.unit)
-        place = self.copy.place(mutant.file)
-        whole = place.read_bytes()
-        place.write_text(mutant.text, "utf-8")
-        try:
-            return next((fate for fate, _ in self._runs(mutant.unit, 4 * seconds + 20) if fate != SURVIVED), SURVIVED)
-        finally:
-            place.write_bytes(whole)
-
-    @cache  # noqa: B019 - there is one of it
-    def _seconds(self, unit: str) -> float:
-        """The processor time of the tests without a mutant; they must pass."""
-        found = list(self._runs(unit, 3600))
-        if any(fate != SURVIVED for fate, _ in found):
-            raise SystemExit(f"{unit}: the tests fail as they are")
-        return max(seconds for _, seconds in found)
-
-    def _runs(self, unit: str, seconds: float) -> Iterator[tuple[str, float]]:
-        for arguments in tests_asked(unit):
-            before = resource.getrusage(resource.RUSAGE_CHILDREN)
-            child = os.fork()
-            if child == 0:
-                self._pytest(arguments, int(seconds))
-            status = os.waitpid(child, 0)[1]
-            after = resource.getrusage(resource.RUSAGE_CHILDREN)
-            took = after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime
-            if os.WIFSIGNALED(status):
-                yield (TIMEOUT if os.WTERMSIG(status) == signal.SIGXCPU else KILLED), took
-            else:
-                yield (KILLED if os.WEXITSTATUS(status) else SURVIVED), took
-
-    def _pytest(self, arguments: list[str], seconds: int) -> None:
-        """Run tests and end this process."""
-        code = 1
-        try:
-            resource.setrlimit(resource.RLIMIT_CPU, (seconds, seconds + 5))
-            resource.setrlimit(resource.RLIMIT_AS, (MEMORY, MEMORY))
-            silent = os.open(os.devnull, os.O_RDWR)
-            for stream in (0, 1, 2):
-                os.dup2(silent, stream)
-            os.chdir(self.copy.folder)
-            os.environ |= {"PYTHONPATH": str(self.copy.program.parent), "HYPOTHESIS_PROFILE": "ci"}
-            sys.dont_write_bytecode = True
-            sys.path[0:1] = [str(self.copy.program.parent)]  # before the checkout's, in the place of scripts/
-            pytest = import_module("pytest")
-            code = int(pytest.main(["-x", "-q", "-n", "0", "-p", "no:cacheprovider", *arguments]))
-        finally:
-            os._exit(code)
-
-
-def read(log: Path | None) -> dict[str, dict[str, str]]:
+def read(log: Path) -> dict[str, dict[str, str]]:
     """What an earlier run found, by the mutant."""
-    lines = log.read_text("utf-8").splitlines() if log and log.exists() else []
+    lines = log.read_text("utf-8").splitlines() if log.exists() else []
     return {found["mutant"]: found for found in map(json.loads, lines)}
 
 
-def try_all(some: list[Mutant], log: Path | None) -> dict[str, dict[str, str]]:
-    """What becomes of the mutants; what the log holds is not tried again."""
-    found = read(log)
+def try_all(some: list[Mutant], log: Path, most: float) -> None:
+    """Find what becomes of the mutants, unit by unit; what the log holds is not tried again, unless it stayed open and time is not bounded."""
+    known = read(log)
+    left = [mutant for mutant in some if mutant.key not in known or (known[mutant.key]["fate"] == OPEN and most == inf)]
     with tempfile.TemporaryDirectory() as work:
-        tests = Tests(Copy(Path(work)))
-        for mutant in some:
-            if mutant.key in found:
-                continue
-            fate = tests.fate(mutant)
-            found[mutant.key] = {"mutant": mutant.key, "unit": mutant.unit, "fate": fate, "change": mutant.change}
-            print(fate, mutant.key, mutant.change if fate == SURVIVED else "", flush=True)
-            if log:
-                with log.open("a", encoding="utf-8") as file:
-                    file.write(json.dumps(found[mutant.key], ensure_ascii=False) + "\n")
-    return found
+        copy = prepared(Path(work))
+        for unit in sorted({mutant.unit for mutant in left}):
+            in_server(copy, unit, most, partial(try_those, [mutant for mutant in left if mutant.unit == unit], log))
+
+
+def try_those(some: list[Mutant], log: Path, server: Server) -> None:
+    """Find what becomes of mutants of one plugin or module, and write it into the log."""
+    for mutant in some:
+        fate, by = server.fate(mutant.file, mutant.text)
+        found = {"mutant": mutant.key, "unit": mutant.unit, "fate": fate, "change": mutant.change, "by": by}
+        print(fate, mutant.key, by or mutant.change, flush=True)
+        with log.open("a", encoding="utf-8") as file:
+            file.write(json.dumps(found, ensure_ascii=False) + "\n")
 
 
 def report(found: Iterable[dict[str, str]]) -> None:
     """Print the counts of each plugin and module as a table, and the survivors."""
     rows = list(found)
     counts = Counter((row["unit"], row["fate"]) for row in rows)
-    print("\n| plugin or module | mutants | killed | of them by time | survived |\n|---|---|---|---|---|")
+    print("\n| plugin or module | mutants | killed | of them by time | survived | open |\n|---|---|---|---|---|---|")
     for unit in [*sorted({row["unit"] for row in rows}), "all"]:
         of = {
             fate: sum(n for (u, f), n in counts.items() if f == fate and unit in (u, "all"))
-            for fate in (KILLED, TIMEOUT, SURVIVED)
+            for fate in (KILLED, TIMEOUT, SURVIVED, OPEN)
         }
-        print(f"| {unit} | {sum(of.values())} | {of[KILLED] + of[TIMEOUT]} | {of[TIMEOUT]} | {of[SURVIVED]} |")
-    print(*(f"{row['mutant']}: {row['change']}" for row in rows if row["fate"] == SURVIVED), sep="\n")
+        print(
+            f"| {unit} | {sum(of.values())} | {of[KILLED] + of[TIMEOUT]} | {of[TIMEOUT]} | {of[SURVIVED]} | {of[OPEN]} |"
+        )
+    low, high = interval(sum(row["fate"] in NOTICED for row in rows), len(rows))
+    print(f"\n95 % interval of the share that is killed: {low:.1%} to {high:.1%}\n")
+    print(*(f"{row['mutant']}: {row['change']}" for row in rows if row["fate"] not in NOTICED), sep="\n")
+
+
+def interval(killed: int, count: int) -> tuple[float, float]:
+    """The 95 % interval of a share, by Wilson."""
+    share, z = killed / count, 1.96
+    middle, half = share + z**2 / (2 * count), z * sqrt(share * (1 - share) / count + (z / (2 * count)) ** 2)
+    return (middle - half) / (1 + z**2 / count), (middle + half) / (1 + z**2 / count)
 
 
 def main() -> int:
@@ -270,6 +216,12 @@ def main() -> int:
     parser.add_argument("--all", action="store_true", help="every mutant")
     parser.add_argument("--seed", type=int, default=0, help="draws another sample (0)")
     parser.add_argument("--only", nargs="*", metavar="NAME", help="plugins, or modules as mechanics.NAME")
+    parser.add_argument(
+        "--seconds",
+        type=float,
+        default=inf,
+        help="the tests of a mutant may take so long; what they did not notice stays open",
+    )
     parser.add_argument("--log", type=Path, help="a file that keeps what is found, for a run that goes on (JSON lines)")
     parser.add_argument("--list", action="store_true", help="only list the mutants")
     parser.add_argument("--report", action="store_true", help="only count what the log holds")
@@ -281,9 +233,12 @@ def main() -> int:
     if arguments.list:
         print(*(f"{mutant.key}: {mutant.change}" for mutant in some), sep="\n")
         return 0
-    found = try_all(some, arguments.log)
+    with tempfile.TemporaryDirectory() as folder:
+        log = arguments.log or Path(folder) / "log"
+        try_all(some, log, arguments.seconds)
+        found = read(log)
     report(found[mutant.key] for mutant in some)
-    return int(any(found[mutant.key]["fate"] == SURVIVED for mutant in some))
+    return int(any(found[mutant.key]["fate"] not in NOTICED for mutant in some))
 
 
 if __name__ == "__main__":

@@ -43,6 +43,7 @@ LAYERS = [
     {"exchange"},
     {"study"},
     {"design"},
+    {"live"},
     {"cli"},
     {"__main__"},
 ]
@@ -63,6 +64,9 @@ ONLY_IN = {  # library: the modules of the program that may import it
     "pyhanko_certvalidator": r"diecut_report\.exchange\.(signing|signature_status|signatures)",
     "cryptography": r"diecut_report\.exchange\.(signing|signature_status|signatures|signing_keys)",
     "asn1crypto": r"diecut_report\.exchange\.signing",
+    "starlette": r"diecut_report\.live\.application",
+    "uvicorn": r"diecut_report\.live\.server",
+    "watchfiles": r"diecut_report\.live\.application",
     "weasyprint": r"diecut_report\.report\.page_engine",
     "pydyf": r"diecut_report\.report\.page_engine",
     "ezdxf": r"diecut_report\.report\.profile_files",

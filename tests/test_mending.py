@@ -2,10 +2,13 @@
 
 from __future__ import annotations
 
+import re
+from collections.abc import Callable
 from copy import deepcopy
 from pathlib import Path
 from typing import Any
 
+import numpy as np
 import pytest
 import yaml
 
@@ -62,14 +65,45 @@ def taken_over(press: dict[str, Any], mended: dict[str, Any], path: str) -> None
         press.pop(key, None)
 
 
-def verdicts(folder: Path, data: dict[str, Any]) -> dict[str, set[str]]:
+def calculated(folder: Path, data: dict[str, Any]) -> dict[str, Any]:
+    """The results of a press."""
+    return document(compute(loaded(folder, yaml.safe_dump(data, sort_keys=False)), lambda _: None))
+
+
+def verdicts(results: dict[str, Any]) -> dict[str, set[str]]:
     """The checks of a press by their status."""
-    results = document(compute(loaded(folder, yaml.safe_dump(data, sort_keys=False)), lambda _: None))
     found: dict[str, set[str]] = {}
     for name, mechanism in results["mechanisms"].items():
         for check in mechanism["checks"]:
             found.setdefault(check["status"], set()).add(f"{name}.{check['id']}")
     return found
+
+
+def utilisation(results: dict[str, Any], name: str) -> float:
+    """The utilisation of a check, percent."""
+    home, _, own = name.partition(".")
+    return 100 * next(check["utilisation"] for check in results["mechanisms"][home]["checks"] if check["id"] == own)
+
+
+def output(results: dict[str, Any], name: str, scale: float = 1.0) -> float:
+    """A number of the results."""
+    home, _, own = name.partition(".")
+    return float(results["mechanisms"][home]["outputs"][own]["value"]) * scale
+
+
+SAID: dict[str, tuple[tuple[str, Callable[[dict[str, Any]], float | str]], ...]] = {
+    "transport": (("6.96° beyond", lambda found: output(found, "timing.best_margin", 180 / np.pi)),),
+    "cylinder": (("(105.5 mm)", lambda found: output(found, "cylinder.radius", 1e3)), ("104 kg", lambda found: output(found, "cylinder.mass"))),
+    "gears": (("0.8 % above", lambda found: utilisation(found, "consistency.motor_thermal") - 100),),
+    "motor": (("1.5 kW", lambda found: output(found, "train.motor_power", 1e-3)),),
+    "station": (("24.2 mm", lambda found: output(found, "timing.clearance_least", 1e3)),),
+    "limits": (
+        ("24.9 mm", lambda found: output(found, "timing.clearance_least", 1e3)),
+        ("(91.4 %", lambda found: utilisation(found, "cross.torque")),
+        ("governing check is then `gripper_chain.slack_side`", lambda found: str(found["summary"]["governing"])),
+    ),
+}  # fmt: skip
+"""What the guide says of a step, and what the press of that step has there."""
 
 
 def stepped() -> dict[str, dict[str, Any]]:
@@ -90,13 +124,24 @@ def test_the_last_step_is_the_mended_press() -> None:
 
 @pytest.mark.parametrize("step", few(STEPS, keep=lambda step: step in ("transport", "limits")))
 def test_each_step_leaves_what_the_guide_says(tmp_path: Path, step: str) -> None:
-    found = verdicts(tmp_path, stepped()[step])
+    results = calculated(tmp_path, stepped()[step])
+    found, guide = verdicts(results), GUIDE.read_text(encoding="utf-8")
     left = found.get("fail", set()) | found.get("warn", set())
     assert left == STEPS[step][1]
     if step == "limits":
         assert "not_checked" not in found
     if step == "published":
-        assert f"; {len(found['not_checked'])} are not made" in GUIDE.read_text(encoding="utf-8")
+        assert f"; {len(found['not_checked'])} are not made" in guide
+    for text, value in SAID.get(step, ()):
+        assert text in guide and agrees(text, value(results))
+
+
+def agrees(text: str, value: float | str) -> bool:
+    """Whether the first number of a text, or the name in it, is a value, as it is rounded there."""
+    if isinstance(value, str):
+        return f"`{value}`" in text
+    said = re.search(r"\d+(?:\.(\d+))?", text)
+    return said is not None and float(said[0]) == round(value, len(said[1] or ""))
 
 
 def test_the_guide_names_each_check_that_is_mended() -> None:
@@ -111,4 +156,4 @@ def test_a_station_without_the_height_of_a_carriage_is_refused(tmp_path: Path) -
     del data["mechanisms"]["drive"]["carriage_clearance"]
     del data["mechanisms"]["timing"]["interlocks"][1]
     with pytest.raises(UserError, match="drive, which has no carriage_clearance to hold the room against"):
-        verdicts(tmp_path, data)
+        calculated(tmp_path, data)

@@ -5,9 +5,14 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator
 from functools import cache
+from inspect import cleandoc
 from pathlib import Path
 from typing import NamedTuple
 
+import click
+from jinja2 import Environment, nodes
+
+from diecut_report.cli.main import program
 from diecut_report.config.model import Press
 from diecut_report.declaration.texts import inputs_texts, is_text
 from diecut_report.engine.printing import methods, tables
@@ -25,6 +30,7 @@ CONSTANTS = (*methods.METHODS.values(), methods.EQUAL_TERMS, "True", "False", *t
              "There is no {kinds}, or there are several: name one by {key}.")  # fmt: skip
 """Texts that the program holds outside of the calls that make phrases."""
 JOINING = ("joined", "named")
+COUNTING = ("Counted", "say_counted")
 SOURCES = (*EQUATIONS.values(),
            "eq.", "Fig.", "table", "chart", "charts", "after", "before", "corrected", "solved", "exact", "input", "key", "energy", "statics",
            "geometry", "kinematics", "dynamics", "mechanics", "this method", "closed form", "conservation of energy", "dead centre",
@@ -35,6 +41,9 @@ SOURCES = (*EQUATIONS.values(),
            "for n dampers", "for whole teeth", "the source's unit", "at the dead centre", "first paper", "second", "conclusion", "idlers",
            "method B", "method C", "corrigendum", "series", "catalogue", "Duhamel's integral", "at")  # fmt: skip
 """Words of what is said of sources, beside names of authors and standards."""
+
+
+Assigned = dict[str, list[ast.expr]]
 
 
 class ProgramText(NamedTuple):
@@ -51,7 +60,9 @@ def program_texts() -> Iterator[ProgramText]:
     seen = set()
     for found in (
         *_words(),
-        *map(ProgramText, (*CONSTANTS, *_phrases(), *_press(), *(law.title for law in LAWS.values()))),
+        *map(ProgramText, (*CONSTANTS, *_phrases(), *_help(), *_press(), *(law.title for law in LAWS.values()))),
+        *_counted(),
+        *_templates(),
         *_sources(),
     ):
         if (found.context, found.text) not in seen:
@@ -76,26 +87,77 @@ def _phrases() -> Iterator[str]:
     """The templates of phrases, and the words between what is joined, of the program and of all its plugins."""
     own = sorted((ROOT / "diecut_report").rglob("*.py"))
     for file in own:
-        yield from (text for text in _called(file, ("Phrase", "phrase"), 0) if is_text(text))
+        yield from (text for text in _called(file, ("Phrase", "phrase", "say"), 0) if is_text(text))
     for file in (*own, *sorted((ROOT / "plugins").rglob("*.py"))):
         yield from (f"{{first}}{text}{{next}}" for text in _called(file, JOINING, 1) if any(map(str.isalpha, text)))
 
 
+def _counted() -> Iterator[ProgramText]:
+    """What is said of a number of things, with its form for many."""
+    for file in sorted((ROOT / "diecut_report").rglob("*.py")):
+        for call, known in _calls(file):
+            if isinstance(call.func, ast.Name) and call.func.id in COUNTING:
+                given = [text for argument in call.args[1:] for text in _constants(argument, known)]
+                yield from [ProgramText(*given[:2])] if len(given) > 1 else []
+
+
+def _templates() -> Iterator[ProgramText]:
+    """What templates say beside the words of a report."""
+    environment = Environment()
+    for file in sorted((ROOT / "templates").glob("*.j2")):
+        for call in environment.parse(file.read_text("utf-8")).find_all(nodes.Call):
+            name = call.node.name if isinstance(call.node, nodes.Name) else ""
+            given = [each.value for each in call.args if isinstance(each, nodes.Const)]
+            if name == "say":
+                yield ProgramText(given[0])
+            elif name == "counted":
+                yield ProgramText(*given[:2])
+
+
+def _help() -> Iterator[str]:
+    """What the commands and their options do."""
+    for command in (program, *program.commands.values()):
+        yield cleandoc(command.help or "")
+        yield from (option.help for option in command.params if isinstance(option, click.Option) and option.help)
+    yield from ("Show this message and exit.", "Usage:", "Options", "Commands", "required")
+
+
 def _called(file: Path, names: tuple[str, ...], place: int) -> Iterator[str]:
     """The constant texts that a file hands to functions."""
-    for node in _calls(file):
+    for node, known in _calls(file):
         if isinstance(node.func, ast.Name) and node.func.id in names and len(node.args) > place:
-            yield from _constants(node.args[place])
+            yield from _constants(node.args[place], known)
 
 
 @cache
-def _calls(file: Path) -> list[ast.Call]:
-    return [node for node in ast.walk(ast.parse(file.read_text("utf-8"))) if isinstance(node, ast.Call)]
+def _calls(file: Path) -> list[tuple[ast.Call, Assigned]]:
+    """All calls of a file, each with what the names of its function stand for."""
+    tree = ast.parse(file.read_text("utf-8"))
+    scopes = [tree, *(node for node in ast.walk(tree) if isinstance(node, ast.FunctionDef))]
+    found = {node: _assigned(scope) for scope in scopes for node in ast.walk(scope) if isinstance(node, ast.Call)}
+    return list(found.items())
 
 
-def _constants(argument: ast.expr) -> Iterator[str]:
+def _assigned(scope: ast.AST) -> Assigned:
+    """The values that are given to names in a function."""
+    found: Assigned = {}
+    for node in ast.walk(scope):
+        if isinstance(node, ast.Assign):
+            for target in node.targets:
+                if isinstance(target, ast.Name):
+                    found.setdefault(target.id, []).append(node.value)
+    return found
+
+
+def _constants(argument: ast.expr, known: Assigned) -> Iterator[str]:
     match argument:
         case ast.Constant(value=str() as text):
             yield text
         case ast.IfExp(body=body, orelse=other):
-            yield from (*_constants(body), *_constants(other))
+            yield from (*_constants(body, known), *_constants(other, known))
+        case ast.Name(id=name):
+            yield from (text for value in known.get(name, ()) for text in _constants(value, {}))
+        case ast.Starred(value=inner):
+            yield from _constants(inner, known)
+        case ast.Tuple(elts=parts):
+            yield from (text for part in parts for text in _constants(part, known))

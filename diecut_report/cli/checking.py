@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING
 import click
 
 from diecut_report.cli.formats import formats_of
+from diecut_report.cli.language import asked_language
 from diecut_report.cli.output import (
     BAD_INPUT,
     CHECK_FAILED,
@@ -23,18 +24,32 @@ from diecut_report.cli.output import (
     emit,
     tell,
     tell_problems,
+    tell_written,
 )
 from diecut_report.cli.progress import Progress
+from diecut_report.cli.verdict import WORDS
 from diecut_report.config import yaml_tree
+from diecut_report.config.catalogues import catalogues_for, spoken_catalogues
 from diecut_report.config.discovery import Discovery
 from diecut_report.errors import PluginError, Problem, UserError
+from diecut_report.languages.phrases import Counted, Phrase, phrase
+from diecut_report.languages.speech import localised, said, speaking
 
 if TYPE_CHECKING:
     from diecut_report.study.machines.calculation import CheckedMachine
-    from diecut_report.study.machines.verdicts import MachineComparison, Verdict
+    from diecut_report.study.machines.verdicts import Verdict
 
 FORMATS = ("html", "pdf", "xlsx", "csv", "json")
 COLOURED = {"bad": "error"}  # states with the colour of another one
+HEADS = (
+    phrase("machine"),
+    phrase("verdict"),
+    phrase("governing check"),
+    phrase("utilisation"),
+    phrase("failed"),
+    phrase("not checked"),
+    phrase("warnings"),
+)
 path_of = click.Path(path_type=Path)
 
 
@@ -48,13 +63,13 @@ def validate(files: tuple[Path, ...], folders: tuple[Path, ...], quiet: bool) ->
         try:
             with redirect_stdout(sys.stderr):
                 broken = _broken(file, discovery)
-            tell(str(error) if len(files) == 1 else f"{file}: {error}" for error in broken)
+            tell(str(error) if len(files) == 1 else f"{file}: " + phrase(str(error)) for error in broken)
             codes.append(PLUGIN_BROKE if broken else PASSED)
         except UserError as error:
             tell_problems(error.problems)
             codes.append(BAD_INPUT)
         if codes[-1] == PASSED and not quiet:
-            tell([f"{file}: valid"])
+            tell([Phrase("{file}: valid", file=file)])
     return BAD_INPUT if BAD_INPUT in codes else max(codes)
 
 
@@ -92,17 +107,18 @@ def check(given: tuple[Path, ...], folder: Path | None, strict: bool, formats: l
           folders: tuple[Path, ...], quiet: bool) -> int:  # fmt: skip
     """Calculate many machines, side by side, and show a table of their verdicts; folders are searched for configurations."""
     from diecut_report.study.machines.calculation import configurations
-    from diecut_report.study.machines.verdicts import compared
+    from diecut_report.study.machines.verdicts import compared, in_language
 
     files = configurations(given)
+    discovery = Discovery(folders)
     with Progress(quiet) as progress, redirect_stdout(sys.stderr):
         found = _calculated(files, folders, jobs, progress)
-    made = compared(found)
+    made = compared(in_language(found, spoken_catalogues(discovery)))
     for verdict in made.verdicts:
-        tell(f"{verdict.machine}: {line}" if verdict.status == "error" else line for line in verdict.words)
+        tell(f"{verdict.machine}: " + phrase(line) if verdict.status == "error" else line for line in verdict.words)
     emit("".join(f"{line}\n" for line in _table(made.verdicts)))
     if folder is not None:
-        _write(made, folder, formats, quiet, files)
+        _write(found, discovery, folder, formats, quiet, files)
     if not quiet:
         tell(_counts(made.verdicts))
     return _code(made.verdicts, strict)
@@ -115,19 +131,16 @@ def _calculated(
     from diecut_report.study.machines.calculation import machines
 
     found: dict[int, CheckedMachine] = {}
-    progress(f"calculating {len(files)} machines")
+    progress(Counted(len(files), "calculating {n} machine", "calculating {n} machines"))
     for number, machine in machines(files, [str(path.absolute()) for path in folders], jobs):
         found[number] = machine
-        progress(f"calculated {len(found)} of {len(files)} machines")
+        progress(Phrase("calculated {n} of {total} machines", n=len(found), total=len(files)))
     return [found[number] for number in range(len(files))]
 
 
 def _table(verdicts: Sequence[Verdict]) -> Iterator[str]:
     """The table of verdicts, its columns as wide as they need."""
-    rows: list[tuple[str, ...]] = [
-        ("machine", "verdict", "governing check", "utilisation", "failed", "not checked", "warnings")
-    ]
-    rows += [_row(verdict) for verdict in verdicts]
+    rows: list[tuple[str, ...]] = [tuple(map(said, HEADS)), *map(_row, verdicts)]
     widths = [max(map(len, column)) for column in zip(*rows, strict=True)]
     for row in rows:
         yield "  ".join(cell.ljust(width) for cell, width in zip(row, widths, strict=True)).rstrip()
@@ -135,22 +148,30 @@ def _table(verdicts: Sequence[Verdict]) -> Iterator[str]:
 
 def _row(verdict: Verdict) -> tuple[str, ...]:
     if verdict.status == "bad":
-        return verdict.machine, "bad file", "", "", "", "", ""
-    share = "" if verdict.utilisation is None else f"{100 * verdict.utilisation:.1f} %"
+        return verdict.machine, said(WORDS["bad"]), "", "", "", "", ""
+    share = "" if verdict.utilisation is None else localised(f"{100 * verdict.utilisation:.1f} %")
     counts = (verdict.failed, verdict.not_checked, verdict.warnings)
-    return verdict.machine, verdict.status, verdict.governing, share, *map(str, counts)
+    return verdict.machine, said(WORDS[verdict.status]), verdict.governing, share, *map(str, counts)
 
 
-def _write(made: MachineComparison, folder: Path, formats: list[str], quiet: bool, files: Sequence[Path]) -> None:
+def _write(
+    found: Sequence[CheckedMachine], discovery: Discovery, folder: Path, formats: list[str], quiet: bool, files: Sequence[Path]
+) -> None:  # fmt: skip
+    """Write the summary, in the language that is asked for, else in that of all projects."""
     from diecut_report.files import write_all
     from diecut_report.study.machines import pages
+    from diecut_report.study.machines.verdicts import compared, in_language, language_of
 
-    contents = dict(pages.files(made, folder, formats))
+    language = asked_language() or language_of(found)
+    with speaking(language, catalogues_for(language, (), discovery)):
+        made = compared(in_language(found, spoken_catalogues(discovery)))
+        contents = dict(pages.files(made, folder, formats, compared(found)))
     if kept := set(contents) & set(files):
-        raise UserError(Problem(f"{min(kept)} is one of the configurations, and is not overwritten."))
+        words = Phrase("{file} is one of the configurations, and is not overwritten.", file=min(kept))
+        raise UserError(Problem(words))
     write_all(contents, keep=files[0])
     if not quiet:
-        tell(f"written: {path}" for path in contents)
+        tell_written(contents)
 
 
 def _counts(verdicts: Sequence[Verdict]) -> list[Line]:
@@ -162,10 +183,10 @@ def _counts(verdicts: Sequence[Verdict]) -> list[Line]:
         for part in (
             ", ",
             f"{count} ",
-            coloured("bad file" if status == "bad" else status, COLOURED.get(status, status)),
+            coloured(said(WORDS[status]), COLOURED.get(status, status)),
         )
     ]
-    return [(f"{len(verdicts)} machine{'s' if len(verdicts) > 1 else ''}: ", *named[1:], ".")]
+    return [(Counted(len(verdicts), "{n} machine: ", "{n} machines: "), *named[1:], ".")]
 
 
 def _code(verdicts: Sequence[Verdict], strict: bool) -> int:

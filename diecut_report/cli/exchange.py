@@ -13,7 +13,7 @@ import click
 
 from diecut_report.cli import verdict
 from diecut_report.cli.formats import formats_of
-from diecut_report.cli.language import language_option
+from diecut_report.cli.language import asked_language
 from diecut_report.cli.output import (
     CHECK_FAILED,
     PASSED,
@@ -22,11 +22,16 @@ from diecut_report.cli.output import (
     common,
     emit,
     tell,
+    tell_written,
 )
 from diecut_report.cli.progress import Progress
 from diecut_report.cli.study import source
 from diecut_report.cli.template import template_option
+from diecut_report.config.catalogues import spoken_catalogues
 from diecut_report.config.discovery import Discovery
+from diecut_report.languages.catalogues import SOURCE_LANGUAGE
+from diecut_report.languages.phrases import Counted, Phrase, phrase
+from diecut_report.languages.speech import said, say, speaking
 
 if TYPE_CHECKING:
     from diecut_report.exchange.agreement import Agreement, Difference
@@ -34,6 +39,7 @@ if TYPE_CHECKING:
     from diecut_report.exchange.verification import Told, Verification
     from diecut_report.report.house_style import HouseStyle
 
+Data = dict[str, Any]
 SHOWN = 20  # differences that are told
 path_of = click.Path(path_type=Path)
 
@@ -54,7 +60,7 @@ def extract(report: Path, folder: Path, folders: tuple[Path, ...], quiet: bool) 
 
     files = taken(report, folder)
     if not quiet:
-        tell(f"written: {path}" for path in files)
+        tell_written(files)
     return PASSED
 
 
@@ -90,34 +96,36 @@ def _lines(carried: CarriedResults, found: Verification) -> Iterator[str]:
     project = carried.results["project"]
     named = [str(project.get(key) or "") for key in ("title", "document_number", "revision")]
     yield f"{carried.path}: {', '.join(filter(None, named))}"
-    yield _line("program", found.program)
-    yield from (_line("plugins", told) for told in found.plugins)
-    yield _line("configuration", found.config)
-    yield _line("numbers", (_numbers(found.agreement), not found.agreement.differences))
+    yield _line(say("program"), found.program)
+    yield from (_line(say("plugins"), told) for told in found.plugins)
+    yield _line(say("configuration"), found.config)
+    yield _line(say("numbers"), (_numbers(found.agreement), not found.agreement.differences))
     yield from (f"    {_difference(each)}" for each in found.agreement.differences[:SHOWN])
     if len(found.agreement.differences) > SHOWN:
-        yield f"    and {len(found.agreement.differences) - SHOWN} more"
+        yield say("    and {n} more", n=len(found.agreement.differences) - SHOWN)
     if found.pages:
-        yield _line("pages", found.pages)
-    yield from (_line("signature", (each.words, each.holds)) for each in found.signatures)
+        yield _line(say("pages"), found.pages)
+    yield from (_line(say("signature"), (each.words, each.holds)) for each in found.signatures)
     if carried.form == "pdf" and not found.signatures:
-        yield _line("signature", ("none: the report is not signed", True))
-    yield "Everything agrees." if found.holds else "Not everything agrees."
+        yield _line(say("signature"), (phrase("none: the report is not signed"), True))
+    yield say("Everything agrees.") if found.holds else say("Not everything agrees.")
 
 
 def _line(what: str, told: Told) -> str:
     words, good = told
-    return f"{'✓' if good else '✗'} {what:13}  {words}"
+    return f"{'✓' if good else '✗'} {what:13}  {said(words)}"
 
 
 def _numbers(found: Agreement) -> str:
     agreeing = found.numbers - found.differing
-    exactly = "all of them exactly" if found.exact == found.numbers else f"{found.exact} of them exactly"
+    some = Phrase("{n} of them exactly", n=found.exact)
+    exactly = phrase("all of them exactly") if found.exact == found.numbers else some
     if not found.differences:
-        return f"{found.numbers} of {found.numbers} agree, {exactly}"
+        return Phrase("{n} of {total} agree, {exactly}", n=found.numbers, total=found.numbers, exactly=exactly)
     others = len(found.differences) - found.differing
-    texts = f", and {others} other values differ" if others else ""
-    return f"{max(agreeing, 0)} of {found.numbers} agree{texts}; in the report, and calculated now:"
+    texts = Counted(others, ", and {n} other value differs", ", and {n} other values differ") if others else ""
+    words = "{n} of {total} agree{texts}; in the report, and calculated now:"
+    return Phrase(words, n=max(agreeing, 0), total=found.numbers, texts=texts)
 
 
 def _difference(each: Difference) -> str:
@@ -128,7 +136,7 @@ def _value(value: object) -> str:
     if value is None:
         return "–"
     if isinstance(value, dict | list):
-        return "a block of keys" if isinstance(value, dict) else f"a list of {len(value)}"
+        return say("a block of keys") if isinstance(value, dict) else say("a list of {n}", n=len(value))
     text = str(value).lower() if isinstance(value, bool) else str(value)
     return text if len(text) <= 80 else f"{text[:80]}…"
 
@@ -144,7 +152,6 @@ def _value(value: object) -> str:
     callback=formats_of(_drawn),
     help="html,pdf (default), also docx,xlsx.",
 )
-@language_option
 @template_option
 @verdict.strict_option
 @common
@@ -152,7 +159,6 @@ def render(
     results: Path,
     folder: Path,
     formats: list[str],
-    language: str | None,
     house: HouseStyle | None,
     strict: bool,
     folders: tuple[Path, ...],
@@ -163,11 +169,12 @@ def render(
     from diecut_report.exchange.rendering import told
 
     with Progress(quiet) as progress, redirect_stdout(sys.stderr):
-        outcome, lost = rendered(results, folder, formats, progress, Discovery(folders), language, house)
+        discovery = Discovery(folders)
+        outcome, lost = rendered(results, folder, formats, progress, discovery, asked_language(), house)
     tell((*told(lost), *outcome.warnings))
     if not quiet:
-        tell(f"written: {path}" for path in outcome.written)
-        tell(verdict.told(outcome.results))
+        tell_written(outcome.written)
+        tell(verdict.told(outcome.results, discovery))
     is_broken = bool(lost) or outcome.results["status"] == "error"
     return verdict.exit_code(outcome.results, is_broken=is_broken, is_strict=strict)
 
@@ -195,7 +202,7 @@ def diff(
         discovery = Discovery(folders)
         sides = [side(source(given, discovery), discovery, progress) for given in (old, new)]
         found = changes(sides[0][0], sides[1][0])
-        text = _changes(found, form, all_rows)
+        text = _changes(found, [results for results, _ in sides], discovery, form, all_rows)
     tell(str(error) for _, broken in sides for error in broken)
     if target is None:
         emit(text)
@@ -207,13 +214,16 @@ def diff(
     return verdict.exit_code(sides[1][0], is_broken=is_broken, is_strict=False)
 
 
-def _changes(found: dict[str, Any], form: str, all_rows: bool) -> str:
+def _changes(found: Data, sides: list[Data], discovery: Discovery, form: str, all_rows: bool) -> str:
+    """The changes in a format: as JSON neutral, as a page in the language that is asked for, else in that of the new project."""
     if form == "json":
         return json.dumps(found, indent=1, ensure_ascii=False, allow_nan=False) + "\n"
+    from diecut_report.exchange.changes_text import lines, said_changes
+
     if form == "html":
         from diecut_report.exchange.changes_page import page
 
-        return page(found)
-    from diecut_report.exchange.changes_text import lines
-
-    return "".join(f"{line}\n" for line in lines(found, all_rows=all_rows))
+        with speaking(asked_language() or sides[1]["project"].get("language") or SOURCE_LANGUAGE):
+            return page(said_changes(found, sides[0], sides[1], spoken_catalogues(discovery)))
+    told = said_changes(found, sides[0], sides[1], spoken_catalogues(discovery))
+    return "".join(f"{line}\n" for line in lines(told, all_rows=all_rows))

@@ -7,6 +7,8 @@ from collections.abc import Callable, Sequence
 import click
 
 from diecut_report.errors import nearest
+from diecut_report.languages.phrases import Phrase, phrase
+from diecut_report.languages.speech import say
 
 Taken = Callable[[click.Context, click.Parameter, str], list[str]]
 
@@ -22,8 +24,9 @@ def formats_of(known_formats: Callable[[], Sequence[str]], *, may_be_none: bool 
         known = known_formats()
         unknown = [part for part in asked if part not in known]
         if unknown or not (asked or may_be_none):
-            words = f"{unknown[0]!r} is not a format{nearest(unknown[0], known)}" if unknown else "no format is named"
-            raise click.BadParameter(f"{words}; known: {', '.join(known)}.")
+            named = {"given": repr(unknown[0]), "nearest": nearest(unknown[0], known)} if unknown else {}
+            words = Phrase("{given} is not a format{nearest}", named) if unknown else phrase("no format is named")
+            raise click.BadParameter(say("{words}; known: {known}.", words=words, known=", ".join(known)))
         return asked
 
     return taken

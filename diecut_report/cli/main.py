@@ -25,7 +25,8 @@ from diecut_report.cli.checking import check, validate
 from diecut_report.cli.design import advise, influence, solve
 from diecut_report.cli.exchange import diff, extract, render, verify
 from diecut_report.cli.formats import formats_of
-from diecut_report.cli.language import language_option
+from diecut_report.cli.language import asked_language, language_option, of_environment
+from diecut_report.cli.live import live
 from diecut_report.cli.output import (
     BAD_INPUT,
     FAULT,
@@ -39,14 +40,19 @@ from diecut_report.cli.output import (
     open_streams,
     tell,
     tell_problems,
+    tell_written,
     usage,
 )
 from diecut_report.cli.progress import Progress
+from diecut_report.cli.report_options import detail_given, only_given, report_formats
 from diecut_report.cli.signing import sign
 from diecut_report.cli.study import batch, source, variants
 from diecut_report.cli.template import template_option
 from diecut_report.config.discovery import Discovery, DuplicateKind, UnknownKind
-from diecut_report.errors import PluginError, Problem, Unwritable, UserError, nearest
+from diecut_report.errors import PluginError, Problem, Unwritable, UserError
+from diecut_report.languages.catalogues import SOURCE_LANGUAGE
+from diecut_report.languages.phrases import phrase
+from diecut_report.languages.speech import said, say, speak, speaking
 
 if TYPE_CHECKING:
     from diecut_report.pipeline import ReportOutcome
@@ -73,7 +79,13 @@ def main(arguments: Sequence[str] | None = None) -> int:
     """Run a command; its exit code. What a user can fix is reported on standard error."""
     # starting makes many lasting objects; to look for garbage among them costs a tenth of a run
     gc.set_threshold(1_000_000)
+    with speaking(SOURCE_LANGUAGE):  # what a command chooses holds for it alone
+        return _run(arguments)
+
+
+def _run(arguments: Sequence[str] | None) -> int:
     try:
+        speak(of_environment())
         return int(program.main(arguments, prog_name="diecut-report", standalone_mode=False) or PASSED)
     except click.Abort:
         return INTERRUPTED
@@ -88,32 +100,17 @@ def main(arguments: Sequence[str] | None = None) -> int:
         return PLUGIN_BROKE
     except Exception:
         tell(traceback.format_exc().splitlines())
-        tell(["This is a fault of diecut-report itself. Please report it with the lines above and the configuration."])
+        tell(
+            [
+                phrase(
+                    "This is a fault of diecut-report itself. Please report it with the lines above and the configuration."
+                )
+            ]
+        )
         return FAULT
 
 
 # --- options ---------------------------------------------------------------------------------------------------------
-
-
-def _report_formats() -> tuple[str, ...]:
-    from diecut_report.pipeline import FORMATS
-
-    return FORMATS
-
-
-def _detail(_: click.Context, __: click.Parameter, given: str | None) -> str | None:
-    from diecut_report.config.model import DETAILS
-
-    if given is None or given in DETAILS:
-        return given
-    raise click.BadParameter(f"{given!r} is not a detail{nearest(given, DETAILS)}; known: {', '.join(DETAILS)}.")
-
-
-def _only(_: click.Context, __: click.Parameter, given: str | None) -> tuple[str, ...]:
-    names = tuple(dict.fromkeys(part.strip() for part in (given or "").split(",") if part.strip()))
-    if given is not None and not names:
-        raise click.BadParameter("no mechanism is named; give names of the configuration, with commas: drive,clutch.")
-    return names
 
 
 def _version(context: click.Context, _: click.Parameter, asked: bool) -> None:
@@ -126,6 +123,7 @@ def _version(context: click.Context, _: click.Parameter, asked: bool) -> None:
 @click.option(
     "--version", is_flag=True, is_eager=True, expose_value=False, callback=_version, help="Show the version and exit."
 )
+@language_option
 def program() -> None:
     """Design reports for die-cutting presses, from a YAML description to a checked calculation document."""
 
@@ -146,10 +144,9 @@ config_argument = click.argument("config", type=click.Path(path_type=Path))
     "formats",
     metavar="LIST",
     default="html,pdf,json",
-    callback=formats_of(_report_formats),
+    callback=formats_of(report_formats),
     help="html,pdf,json (default), also docx,xlsx.",
 )
-@language_option
 @click.option(
     "--previous",
     metavar="FILE",
@@ -159,10 +156,10 @@ config_argument = click.argument("config", type=click.Path(path_type=Path))
 @click.option(
     "--detail",
     metavar="DETAIL",
-    callback=_detail,
+    callback=detail_given,
     help="brief, standard or full, in place of the configuration's (standard).",
 )
-@click.option("--only", metavar="NAMES", callback=_only, help="Report these mechanisms alone: drive,clutch.")
+@click.option("--only", metavar="NAMES", callback=only_given, help="Report these mechanisms alone: drive,clutch.")
 @template_option
 @verdict.strict_option
 @common
@@ -170,7 +167,6 @@ def report(
     config: Path,
     folder: Path,
     formats: list[str],
-    language: str | None,
     previous: Path | None,
     detail: str | None,
     only: tuple[str, ...],
@@ -188,11 +184,11 @@ def report(
     with Progress(quiet) as progress, redirect_stdout(sys.stderr):
         discovery = Discovery(folders)
         former = None if previous is None else side(source(previous, discovery), discovery, progress)[0]
-        given, asked = source(config, discovery), pipeline.AskedReport(language, detail, only, house)
+        given, asked = source(config, discovery), pipeline.AskedReport(asked_language(), detail, only, house)
         outcome = pipeline.report(given, discovery, progress, folder, formats, asked, moves, former, followed)
     if not quiet:
-        tell(f"written: {path}" for path in outcome.written)
-    return _verdict(outcome, quiet, strict)
+        tell_written(outcome.written)
+    return _verdict(outcome, discovery, quiet, strict)
 
 
 @program.command()
@@ -213,7 +209,7 @@ def calc(config: Path, target: Path | None, strict: bool, folders: tuple[Path, .
         outcome, text = pipeline.calc(source(config, discovery), discovery, progress, to_file)
     if to_file is None:
         emit(text)
-    return _verdict(outcome, quiet or to_file is None, strict)
+    return _verdict(outcome, discovery, quiet or to_file is None, strict)
 
 
 @program.command()
@@ -225,8 +221,12 @@ def plugins(folders: tuple[Path, ...], quiet: bool) -> int:
         try:
             with redirect_stdout(sys.stderr):
                 mechanism = discovery.mechanism(kind)
-            lines += [f"{kind} {mechanism.version}: {mechanism.title}", f"    from {origins[0].told}"]
-            lines += [f"    source {source.id}: {source.citation}" for source in mechanism.sources]
+            title = said(mechanism.title, kind)
+            lines += [f"{kind} {mechanism.version}: {title}", say("    from {origin}", origin=origins[0].told)]
+            lines += [
+                say("    source {id}: {citation}", id=source.id, citation=phrase(source.citation))
+                for source in mechanism.sources
+            ]
         except DuplicateKind as fault:
             tell([str(fault)])
             codes.append(BAD_INPUT)
@@ -275,6 +275,7 @@ program.add_command(verify)
 program.add_command(render)
 program.add_command(diff)
 program.add_command(sign)
+program.add_command(live)
 program.add_command(solve)
 program.add_command(advise)
 program.add_command(influence)
@@ -283,9 +284,9 @@ program.add_command(influence)
 # --- verdict ---------------------------------------------------------------------------------------------------------
 
 
-def _verdict(outcome: ReportOutcome, quiet: bool, strict: bool) -> int:
+def _verdict(outcome: ReportOutcome, discovery: Discovery, quiet: bool, strict: bool) -> int:
     tell(str(error) for error in outcome.broken)
     tell(outcome.warnings)
     if not quiet:
-        tell(verdict.told(outcome.results))
+        tell(verdict.told(outcome.results, discovery))
     return verdict.exit_code(outcome.results, is_broken=bool(outcome.broken), is_strict=strict)

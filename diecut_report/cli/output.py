@@ -2,18 +2,23 @@
 
 from __future__ import annotations
 
+import inspect
 import io
 import os
 import re
 import sys
 from collections.abc import Callable, Iterable, Sequence
+from copy import copy
 from pathlib import Path
 from typing import Any, TypeVar
 
 import click
 
+from diecut_report.cli.language import language_option
 from diecut_report.cli.progress import is_styled
 from diecut_report.errors import TOLD, Problem, Unwritable
+from diecut_report.languages.phrases import Counted, Phrase
+from diecut_report.languages.speech import said, say, say_counted
 
 PASSED, CHECK_FAILED, BAD_INPUT, PLUGIN_BROKE = 0, 1, 2, 3
 INTERRUPTED, FAULT, UNWRITABLE = (
@@ -40,16 +45,32 @@ Line = str | tuple[str, ...]
 
 
 def tell(lines: Iterable[Line]) -> None:
-    """Messages, on standard error: each in a line of its own, which it cannot leave but for lines that are indented."""
+    """Messages, on standard error, in the language that is spoken: each in a line of its own.
+
+    It cannot leave its line but for lines that are indented.
+    """
     for line in lines:
         click.echo("".join(map(_told, (line,) if isinstance(line, str) else line)), err=True)
+
+
+def tell_written(paths: Iterable[Path]) -> None:
+    """Which files were written."""
+    tell(Phrase("written: {path}", path=path) for path in paths)
 
 
 def tell_problems(problems: Sequence[Problem]) -> None:
     """What is wrong with a file: the first problems, and how many more there are."""
     tell(str(problem) for problem in problems[:TOLD])
     if len(problems) > TOLD:
-        tell([f"{len(problems) - TOLD} more problems of the same run are not shown; fix these first."])
+        tell(
+            [
+                Counted(
+                    len(problems) - TOLD,
+                    "{n} more problem of the same run is not shown; fix these first.",
+                    "{n} more problems of the same run are not shown; fix these first.",
+                )
+            ]
+        )
 
 
 def usage(error: click.ClickException) -> list[str]:
@@ -61,7 +82,7 @@ def usage(error: click.ClickException) -> list[str]:
 
 
 def _told(text: str) -> str:
-    return text if isinstance(text, Coloured) else re.sub(r"\n(?! )", "\n    ", shown(cut(text)))
+    return text if isinstance(text, Coloured) else re.sub(r"\n(?! )", "\n    ", shown(cut(said(text))))
 
 
 def cut(text: str) -> str:
@@ -69,7 +90,8 @@ def cut(text: str) -> str:
     if len(text) <= LETTERS:
         return text
     left_out = len(text) - LETTERS
-    return f"{text[: LETTERS - END]} […{left_out} more letters…] {text[-END:]}"
+    middle = say_counted(left_out, "[…{n} more letter…]", "[…{n} more letters…]")
+    return f"{text[: LETTERS - END]} {middle} {text[-END:]}"
 
 
 def shown(text: str) -> str:
@@ -136,8 +158,48 @@ def open_streams() -> None:
     sys.stderr = Messages(stream, encoding=encoding, errors="backslashreplace", line_buffering=True)
 
 
+class SpokenFormatter(click.HelpFormatter):
+    """Writes help in the language that is spoken."""
+
+    def write_usage(self, prog: str, args: str = "", prefix: str | None = None) -> None:
+        """Write how a command is called."""
+        super().write_usage(prog, args, f"{say('Usage:')} " if prefix is None else prefix)
+
+    def write_heading(self, heading: str) -> None:
+        """Write the head of a block."""
+        super().write_heading(say(heading))
+
+    def write_text(self, text: str) -> None:
+        """Write what a command does."""
+        super().write_text(said(text))
+
+    def write_dl(self, rows: Iterable[tuple[str, str]], col_max: int = 30, col_spacing: int = 2) -> None:
+        """Write options or commands, each beside what it does."""
+        super().write_dl([(name, _described(text)) for name, text in rows], col_max, col_spacing)
+
+
+def _described(text: str) -> str:
+    """What an option does; what click adds in brackets stands behind it."""
+    words, bracket, more = text.partition("  [")
+    return said(words) + bracket + (f"{say('required')}]" if more == "required]" else more)
+
+
+class SpokenContext(click.Context):
+    """Holds what a command is given, and writes its help in the language that is spoken."""
+
+    formatter_class = SpokenFormatter
+
+
 class HelpfulCommand(click.Command):
     """A command whose help goes the way of all that is asked for, and fails as that does."""
+
+    context_class = SpokenContext
+
+    def get_short_help_str(self, limit: int = 45) -> str:
+        """What the command does, in a line of the list of commands."""
+        spoken = copy(self)
+        spoken.help = said(inspect.cleandoc(self.help or ""))
+        return super(HelpfulCommand, spoken).get_short_help_str(limit)
 
     def get_help_option(self, ctx: click.Context) -> click.Option | None:
         """The option --help."""
@@ -171,4 +233,4 @@ def common(command: Command) -> Command:
     quiet = click.option(
         "--quiet", is_flag=True, help="Show neither progress nor a summary; errors are reported all the same."
     )
-    return folders(quiet(command))
+    return folders(quiet(language_option(command)))

@@ -7,6 +7,8 @@ import sys
 from threading import Lock, Timer
 from typing import TYPE_CHECKING
 
+from diecut_report.languages.speech import said
+
 if TYPE_CHECKING:
     from rich.status import Status
 
@@ -30,9 +32,9 @@ class Progress:
     status: Status | None
 
     def __call__(self, doing: str) -> None:
-        self.doing = doing
+        self.doing = said(doing)
         if self.status is not None:
-            self.status.update(doing)
+            self.status.update(self.doing)
 
     def __enter__(self) -> Progress:
         if not self.done:

@@ -4,14 +4,15 @@ from __future__ import annotations
 
 import os
 import sys
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from contextlib import closing, redirect_stdout
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import click
 
 from diecut_report.cli.formats import formats_of
+from diecut_report.cli.language import asked_language
 from diecut_report.cli.output import (
     CHECK_FAILED,
     INTERRUPTED,
@@ -19,11 +20,13 @@ from diecut_report.cli.output import (
     PLUGIN_BROKE,
     HelpfulCommand,
     Line,
-    coloured,
     common,
     emit,
     tell,
 )
+from diecut_report.cli.verdict import marked
+from diecut_report.languages.phrases import Counted, Phrase, phrase
+from diecut_report.languages.speech import say
 
 if TYPE_CHECKING:
     from diecut_report.config.discovery import Discovery
@@ -34,7 +37,20 @@ EXPORTS = ("csv", "xlsx")
 RESULTS = "study.json"  # what makes a folder one of a study's results
 
 
+SEPARATORS, DECIMALS, UNITS = ("comma", "semicolon", "tab"), ("point", "comma"), ("si", "display")
+
 path_of = click.Path(path_type=Path)
+
+
+def _names(_context: click.Context, _option: click.Parameter, given: str) -> list[str] | None:
+    return [name for name in (part.strip() for part in given.split(",")) if name] or None
+
+
+def _numbers(_context: click.Context, _option: click.Parameter, given: str) -> list[int]:
+    parts = [part for part in (part.strip() for part in given.split(",")) if part]
+    if strange := [part for part in parts if not part.isdecimal()]:
+        raise click.BadParameter(f"{strange[0]!r} is not the number of a variant.")
+    return list(dict.fromkeys(map(int, parts)))
 
 
 @click.command(cls=HelpfulCommand)
@@ -63,14 +79,15 @@ def batch(study: Path | None, folder: Path | None, resume: Path | None, jobs: in
     from diecut_report.study import command
 
     target = _target(study, folder, resume)
-    where = command.Where(jobs, dask, tuple(str(path.absolute()) for path in folders))
+    where = command.Where(jobs, dask, tuple(str(path.absolute()) for path in folders), asked_language())
     try:
         with redirect_stdout(sys.stderr), command.Shown(quiet) as shown:
             outcome = command.run(
                 study, target, where, resume=resume is not None, agreed=yes, formats=formats, shown=shown
             )
     except KeyboardInterrupt:
-        tell([f"stopped; what is finished is kept. Continue with: diecut-report batch --resume {target}"])
+        words = "stopped; what is finished is kept. Continue with: diecut-report batch --resume {folder}"
+        tell([Phrase(words, folder=target)])
         return INTERRUPTED
     if not quiet:
         tell(_told(outcome, target))
@@ -81,9 +98,9 @@ def batch(study: Path | None, folder: Path | None, resume: Path | None, jobs: in
 def _target(study: Path | None, folder: Path | None, resume: Path | None) -> Path:
     """The folder of the results."""
     if resume is not None and folder is not None:
-        raise click.UsageError("--resume names the folder; leave -o out.")
+        raise click.UsageError(say("--resume names the folder; leave -o out."))
     if study is None and resume is None:
-        raise click.UsageError("Name a study file, or a folder to continue with --resume DIR.")
+        raise click.UsageError(say("Name a study file, or a folder to continue with --resume DIR."))
     return resume or folder or Path(Path(str(study)).stem)
 
 
@@ -91,18 +108,20 @@ def _told(outcome: StudyOutcome, target: Path) -> Iterator[Line]:
     from diecut_report.study.conditions.constraints import why_dropped
 
     counts = outcome.counts
-    yield f"written: {target}, with summary.html and summary.pdf" + _reports(target)
+    yield Phrase("written: {path}, with summary.html and summary.pdf", path=target) + _reports(target)
     named = [
         part
         for status in ("pass", "warn", "fail", "error")
         if counts.get(status)
-        for part in (", ", f"{counts[status]} ", coloured(status, status))
+        for part in (", ", f"{counts[status]} ", marked(status))
     ]
-    more = f"; the constraints drop {counts['dropped']} more of the sample{why_dropped(counts)}"
-    dropped = more if counts.get("dropped") else ""
-    yield (f"{counts.get('variants', 0)} variants: ", *(named[1:] or ["none"]), f"{dropped}.")
+    more = "; the constraints drop {n} more of the sample{why}"
+    dropped = Phrase(more, n=counts["dropped"], why=why_dropped(counts)) if counts.get("dropped") else ""
+    count = counts.get("variants", 0)
+    yield (Counted(count, "{n} variant: ", "{n} variants: "), *(named[1:] or [phrase("none")]), dropped, ".")
+    slow = "{kind} cannot take arrays and was calculated variant by variant, which is slow: {why}"
     yield from (
-        f"{kind} cannot take arrays and was calculated variant by variant, which is slow: {why}"
+        Phrase(slow, kind=kind, why=phrase(why))
         for kind, why in outcome.slow.items()
         if not (outcome.is_broken and kind in outcome.broken)
     )
@@ -111,14 +130,17 @@ def _told(outcome: StudyOutcome, target: Path) -> Iterator[Line]:
 
 def _broken(outcome: StudyOutcome) -> Iterator[str]:
     for kind, why in outcome.broken.items():
-        yield f"plugin {kind!r} broke; variants that it broke for are in error, the others are kept: {why}"
+        words = "plugin {kind} broke; variants that it broke for are in error, the others are kept: {why}"
+        yield Phrase(words, kind=repr(kind), why=phrase(why))
     for kind, why in outcome.broken_reports.items():
-        yield f"plugin {kind!r} broke {why}"
+        yield Phrase("plugin {kind} broke {why}", kind=repr(kind), why=phrase(why))
 
 
 def _reports(target: Path) -> str:
     made = len(list((target / "reports").glob("*.pdf")))
-    return f", and {made} full report{'s' if made > 1 else ''} in reports/" if made else ""
+    if not made:
+        return ""
+    return Counted(made, ", and {n} full report in reports/", ", and {n} full reports in reports/")
 
 
 @click.command(cls=HelpfulCommand)
@@ -128,30 +150,62 @@ def _reports(target: Path) -> str:
 )
 @click.option("--sort", metavar="COLUMN", help="Sort by a column, -COLUMN downwards.")
 @click.option("--top", metavar="N", type=click.IntRange(1), help="So many variants (default: 20 in a table, else all).")
+@click.option("--pick", metavar="LIST", callback=_numbers, default="", help="These variants alone, such as 3,17,205.")
+@click.option("--columns", metavar="LIST", callback=_names, default="", help="These columns alone, parted by commas.")
+@click.option("--transpose", is_flag=True, help="A line for each quantity, a column for each variant: a comparison.")
 @click.option(
-    "--format", "form", default="table", type=click.Choice(["table", "csv", "json"]), help="table, csv or json."
+    "--format",
+    "form",
+    default="table",
+    type=click.Choice(["table", "csv", "json", "xlsx"]),
+    help="table, csv, json or xlsx.",
+)
+@click.option("-o", "file", metavar="FILE", type=path_of, help="Where to write (default: standard output).")
+@click.option(
+    "--units", type=click.Choice(UNITS), help="Of csv, json and xlsx: si (default), or display as in a table."
+)
+@click.option("--separator", type=click.Choice(SEPARATORS), help="Between the values of csv.")
+@click.option(
+    "--decimal", type=click.Choice(DECIMALS), help="The decimal sign of csv; comma wants another --separator."
 )
 @common
-def variants(
-    folder: Path,
-    where: str | None,
-    sort: str | None,
-    top: int | None,
-    form: Any,
-    folders: tuple[Path, ...],
-    quiet: bool,
-) -> int:
+def variants(folder: Path, where: str | None, sort: str | None, top: int | None, pick: list[int], columns: list[str] | None,
+             transpose: bool, form: str, file: Path | None, units: str | None, separator: str | None, decimal: str | None,
+             folders: tuple[Path, ...], quiet: bool) -> int:  # fmt: skip
     """Ask the stored variants of a study."""
-    from diecut_report.study.analysis.query import unfinished
-    from diecut_report.study.analysis.query import variants as asked
+    from diecut_report.files import write_all
+    from diecut_report.study.analysis.answers import Notation
+    from diecut_report.study.analysis.query import answer, answer_workbook, unfinished
+    from diecut_report.study.analysis.question import Request
 
+    _refuse_idle(form, file, {"--units": units, "--separator": separator, "--decimal": decimal})
+    asked, notation = (
+        Request(where, sort, top, columns, pick),
+        Notation(units or "si", separator or "comma", decimal or "point"),
+    )
     if not quiet:
         tell(unfinished(folder))
-    with closing(asked(folder, where=where, sort=sort, top=top, format=form)) as pieces:
+    if form == "xlsx":
+        write_all({Path(str(file)): answer_workbook(folder, asked, notation, transposed=transpose)}, folder / RESULTS)
+        return PASSED
+    with closing(answer(folder, asked, form, notation, transposed=transpose)) as pieces:
+        if file is not None:
+            write_all({file: "".join(pieces).encode()}, folder / RESULTS, through=True)
+            return PASSED
         for piece in pieces:
             if not emit(piece):  # the reader has seen enough
                 break
     return PASSED
+
+
+def _refuse_idle(form: str, file: Path | None, given: Mapping[str, str | None]) -> None:
+    """Refuse options that would do nothing: a user who gives one expects something of it."""
+    takes = {"csv": tuple(given), "json": ("--units",), "xlsx": ("--units",), "table": ()}[form]
+    for option, value in given.items():
+        if value is not None and option not in takes:
+            raise click.UsageError(f"{option} says nothing for {form}.")
+    if form == "xlsx" and file is None:
+        raise click.UsageError("A workbook is written to a file; name it with -o FILE.")
 
 
 def source(config: Path, discovery: Discovery) -> Source:
@@ -162,4 +216,10 @@ def source(config: Path, discovery: Discovery) -> Source:
     from diecut_report.study.analysis.variant_config import variant_config
 
     name = f"{Path(folder).resolve().name}-{number}.yaml"
-    return variant_config(Path(folder), int(number), discovery, name, lambda words: tell([f"warning: {words}"]))
+    return variant_config(
+        Path(folder),
+        int(number),
+        discovery,
+        name,
+        lambda words: tell([Phrase("warning: {words}", words=phrase(words))]),
+    )

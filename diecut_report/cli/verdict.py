@@ -8,11 +8,24 @@ from typing import Any, TypeVar
 import click
 
 from diecut_report.cli.output import CHECK_FAILED, PASSED, PLUGIN_BROKE, Line, coloured
+from diecut_report.config.catalogues import spoken_catalogues
+from diecut_report.config.discovery import Discovery
+from diecut_report.languages.catalogues import SOURCE_LANGUAGE
+from diecut_report.languages.phrases import phrase
+from diecut_report.languages.speech import said, say, say_counted, spoken_language
 
 Data = Mapping[str, Any]
 Command = TypeVar("Command", bound=Callable[..., Any])
 ORDER = ("fail", "warn", "not_checked")
-WORDS = {"not_checked": "not checked"}
+WORDS = {
+    "pass": phrase("pass"),
+    "warn": phrase("warn"),
+    "fail": phrase("fail"),
+    "error": phrase("error"),
+    "skipped": phrase("skipped"),
+    "not_checked": phrase("not checked"),
+    "bad": phrase("bad file"),
+}
 
 
 def strict_option(command: Command) -> Command:
@@ -31,23 +44,41 @@ def exit_code(results: Data, *, is_broken: bool, is_strict: bool) -> int:
     return PASSED if is_whole and not any(found[status] for status in counted) else CHECK_FAILED
 
 
-def told(results: Data) -> list[Line]:
-    """Return the checks that do not pass, in words, the worst first, and the verdict on all."""
+def told(results: Data, discovery: Discovery | None = None) -> list[Line]:
+    """Return the checks that do not pass, in words, the worst first, and the verdict on all; in the language that is spoken.
+
+    ``discovery`` knows where plugins of others have their words.
+    """
+    results = _translated(results, discovery)
     lines = [*_checks(results, "fail"), *_skipped(results), *_checks(results, "warn"), *_checks(results, "not_checked")]
     note = [results["comparisons_left_out"]["message"]] if "comparisons_left_out" in results else []
     return [*lines, *note, _whole(results)]
+
+
+def _translated(results: Data, discovery: Discovery | None) -> Data:
+    """The results in the language that is spoken."""
+    if spoken_language() == SOURCE_LANGUAGE:
+        return results
+    from diecut_report.report.translated import translated  # with what makes reports, which English does not need
+
+    return translated(results, spoken_catalogues(discovery))
 
 
 def _checks(results: Data, status: str) -> Iterator[Line]:
     for name, data in results["mechanisms"].items():
         for made in data["checks"]:
             if made["status"] == status and made["class"] != "numerical":
-                yield coloured(WORDS.get(status, status), status), f" {name}: {made['title']}. {_message(made)}"
+                yield marked(status), f" {name}: {made['title']}. {_message(made)}"
+
+
+def marked(status: str) -> str:
+    """Return a status in words, in its colour."""
+    return coloured(said(WORDS.get(status, status)), status)
 
 
 def _message(made: Data) -> str:
     """A check's message; the line of one that is not made begins with these words."""
-    message = str(made["message"]).removeprefix("Not checked: ")
+    message = str(made["message"]).removeprefix(say("Not checked: "))
     is_key = made["status"] == "not_checked" and message.startswith(made["missing"][0])
     return message if is_key else message[0].upper() + message[1:]
 
@@ -55,37 +86,40 @@ def _message(made: Data) -> str:
 def _skipped(results: Data) -> Iterator[Line]:
     for name, data in results["mechanisms"].items():
         if data["status"] == "skipped":
-            yield coloured("skipped", "skipped"), f" {name}: {data['error']}"
+            yield marked("skipped"), f" {name}: {data['error']}"
 
 
 def _whole(results: Data) -> Line:
     found = results["summary"]
     count = found["pass"] + found["warn"] + found["fail"]
-    held = found["numerical"]["pass"]
     parts = [_failing(results, found["fail"], count, found["not_checked"])]
     if found["warn"]:
-        parts.append(f" {found['warn']} with a warning.")
+        parts.append(say_counted(found["warn"], "{n} with a warning.", "{n} with a warning."))
     if found["not_checked"] and found["fail"]:
-        parts.append(f" {found['not_checked']} not checked.")
+        parts.append(say_counted(found["not_checked"], "{n} not checked.", "{n} not checked."))
     if found["governing"]:
-        parts.append(f" Governing: {found['governing']}.")
-    if held:
-        parts.append(
-            f" {held} self-{'tests' if held > 1 else 'test'} of the calculation hold{'' if held > 1 else 's'}."
-        )
-    return tuple(parts)
+        parts.append(say("Governing: {check}.", check=found["governing"]))
+    if held := found["numerical"]["pass"]:
+        words = "{n} self-test of the calculation holds.", "{n} self-tests of the calculation hold."
+        parts.append(say_counted(held, *words))
+    return tuple(part for each in parts for part in (" ", each))[1:]
 
 
 def _failing(results: Data, failed: int, count: int, unchecked: int) -> str:
     """Return how many checks fail; that all pass only where nothing is left unchecked."""
     if failed:
-        return f"{failed} of {count} checks fail."
+        return say_counted(failed, "{n} of {total} checks fail.", "{n} of {total} checks fail.", total=count)
     calculated = [*results["mechanisms"].values(), *results.get("comparisons", {}).values()]
-    lost = sum("error" in data for data in calculated)
-    if lost:
-        what = "mechanisms and comparisons" if "comparisons" in results else "mechanisms"
-        return f"{lost} of {len(calculated)} {what} were not calculated."
+    if lost := sum("error" in data for data in calculated):
+        if "comparisons" in results:
+            return say("{n} of {total} mechanisms and comparisons were not calculated.", n=lost, total=len(calculated))
+        return say("{n} of {total} mechanisms were not calculated.", n=lost, total=len(calculated))
+    if unchecked and count:
+        return say_counted(
+            unchecked, "No check fails, but {n} is not checked.", "No check fails, but {n} are not checked."
+        )
     if unchecked:
-        are = "are" if unchecked > 1 else "is"
-        return f"{'No check fails' if count else 'Nothing was checked'}, but {unchecked} {are} not checked."
-    return coloured("No check fails.", "pass") if count else "There are no checks."
+        return say_counted(
+            unchecked, "Nothing was checked, but {n} is not checked.", "Nothing was checked, but {n} are not checked."
+        )
+    return coloured(say("No check fails."), "pass") if count else say("There are no checks.")

@@ -9,6 +9,7 @@ from pathlib import Path
 from diecut_report.config.discovery import Discovery
 from diecut_report.errors import Problem, UserError
 from diecut_report.languages.catalogues import SOURCE_LANGUAGE, Catalogues, UnknownLanguage, built_in
+from diecut_report.languages.speech import spoken_language
 
 TOLD = 3  # texts that are told of an incomplete catalogue
 
@@ -24,6 +25,11 @@ def catalogues_for(language: str, kinds: Iterable[str], discovery: Discovery, fi
         if told := [each for each in problems if each]:
             raise UserError(told)
     return found
+
+
+def spoken_catalogues(discovery: Discovery | None = None) -> Catalogues:
+    """Return the catalogues of the language that is spoken; what plugins of others do not have stays English."""
+    return Catalogues(spoken_language(), partial(_plugin, discovery) if discovery else built_in)
 
 
 def lacking(catalogues: Catalogues, kinds: Iterable[str]) -> list[str]:

@@ -83,14 +83,19 @@ class Instance:
 
     def forget(self) -> None:
         """Forget what follows from the inputs, as they have changed."""
-        for known in ("given", "results"):
+        for known in ("slots", "given", "results", "phases", "rows"):
             self.__dict__.pop(known, None)
+
+    @cached_property
+    def slots(self) -> tuple[Slot, ...]:
+        """All inputs of the blocks and lists that are given in it."""
+        return tuple(slots(self.model, self.data))
 
     @cached_property
     def given(self) -> frozenset[str]:
         """The ids of the inputs that have a value: given, by default, or from the press."""
         found: set[str] = set(self.mechanism.facts) if self.mechanism else set()
-        for slot in slots(self.model, self.data):
+        for slot in self.slots:
             name = ".".join(part for part in slot.key if isinstance(part, str))
             if isinstance(slot.value, Block):
                 found |= set(flatten(slot.value, f"{name}."))
@@ -106,7 +111,7 @@ class Instance:
         """What the calculation gives with these inputs: the SI unit (None for a text), and whether it is a curve or row."""
         if self.mechanism is None:
             return {}
-        found = self.mechanism.results_of(self.given)
+        found = dict(self.mechanism.results_of(self.given))
         for _, step in self.mechanism.active(self.given):
             for name in self.names_of_parts(step.named_by):
                 found[part_result(name, step)] = found[step.id][0], isinstance(step, ComputedCurve)
@@ -149,7 +154,7 @@ class Instance:
 
     def value(self, key: KeyPath) -> Any:
         """The value of an input that is not a reference: an SI number, a text, true or false, values of a curve, or None."""
-        slot = max((s for s in slots(self.model, self.data) if s.key == key[: len(s.key)]), key=lambda s: len(s.key))
+        slot = max((s for s in self.slots if s.key == key[: len(s.key)]), key=lambda s: len(s.key))
         value = slot.value
         for part in key[len(slot.key) :]:  # within a block that is there by default
             value = getattr(value, part) if isinstance(part, str) else value[part]

@@ -14,7 +14,7 @@ from diecut_report.conditions.arithmetic import read_expression
 from diecut_report.conditions.parts import Name
 from diecut_report.conditions.words import ConditionError
 from diecut_report.config.hidden_letters import seeming_latin
-from diecut_report.config.instances import Instance, Slot, default_of, slots
+from diecut_report.config.instances import Instance, Slot, default_of
 from diecut_report.config.model import PRESS
 from diecut_report.config.plain_data import texts
 from diecut_report.config.targets import Node, Target, Unresolved
@@ -53,7 +53,7 @@ class Linker:
     def _not_in_press(self, instance: Instance) -> Iterator[KeyPath]:
         press = self.instances[PRESS]
         known = press.given if press else frozenset()  # a config without a press has been reported already
-        for slot in slots(instance.model, instance.data):
+        for slot in instance.slots:
             default = default_of(slot)
             if default and default.optional and default.path.removeprefix(f"{PRESS}.") not in known:
                 yield slot.key
@@ -125,7 +125,7 @@ class Linker:
         return target
 
     def _from_press(self, instance: Instance) -> None:
-        for slot in slots(instance.model, instance.data):
+        for slot in instance.slots:
             default = default_of(slot)
             if default is None or slot.key in instance.without:
                 continue
@@ -177,7 +177,7 @@ class Linker:
 
     def _named(self, instance: Instance) -> None:
         """What is taken whole by its name."""
-        for slot in slots(instance.model, instance.data):
+        for slot in instance.slots:
             if not isinstance(slot.meta, MechanismInput) or not isinstance(slot.value, str) or "${" in slot.value:
                 continue
             node, known = (instance.name, *slot.key), [name for name in self.instances if name != PRESS]

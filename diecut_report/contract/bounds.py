@@ -17,7 +17,7 @@ def within(shown: Any, limits: Sequence[float | None]) -> Any:
     """Return whether numbers keep the limits, which stand in the order of BOUNDS, each a number or None."""
     shown = as_typed(shown, limits)
     judged = [held(shown, limit) for limit, held in zip(limits, HELD, strict=True) if limit is not None]
-    return np.logical_and.reduce(judged or [shown == shown])
+    return np.logical_and.reduce(judged or [shown == shown]) if isinstance(shown, np.ndarray) else all(judged)
 
 
 def as_typed(shown: Any, limits: Sequence[float | None]) -> Any:

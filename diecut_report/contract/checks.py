@@ -37,7 +37,8 @@ class Check:
     apply at all it is left out: an option of a text, a block or an alternative of its inputs was not chosen, or a key of
     ``only_with`` is not given; a block of ``asks_for`` is missed like a key. ``sized_unless`` names the inputs in place of which
     the program sizes what is compared to its own limit; () where it always does. Such a check shows no reserve while they are
-    not given.
+    not given. ``presumed`` says that it judges what the calculation presumes, such as the range of a method, or that two mechanisms are
+    calculated with the same mass: that it holds is no reserve of the machine, so that it governs only where it does not.
 
     A row whose parts have names is one check for each of them with ``named_by``, the text input of their names
     (``interlocks.name``): ``part_id`` makes the check's id of ``{id}`` and ``{name}``, and ``{part}`` is then the name.
@@ -61,6 +62,7 @@ class Check:
     only_with: tuple[str, ...] = ()
     asks_for: tuple[str, ...] = ()
     sized_unless: tuple[str, ...] | None = None
+    presumed: bool = False
     at_least: str | float | None = None
     at_least_label: str = "at least"
     named_by: str = ""

@@ -35,12 +35,14 @@ class ComputedCurve(Step):
 class PartNames(SilentStep):
     """Declare repeated parts that are no list of the inputs, but follow from them: ``function`` gives their names.
 
-    Rows run over its id. Formulas of them are shown with the numbers of the part ``shown_at`` (the id of its index from 0).
+    Rows run over its id. Formulas of them are shown with the numbers of the part ``shown_at`` (the id of its index from 0). ``count`` says
+    how many parts there are, of a function that tells the length of a list of the inputs; without it rows have no columns in a study.
     """
 
     function: Callable[..., list[str]]
     takes: tuple[str, ...]
     shown_at: str = ""
+    count: Callable[[Callable[[str], int]], int] | None = None
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -104,10 +106,13 @@ class CodeForm:
         self.add(ComputedCurve(id=id, symbol=symbol, unit=unit, description=description, **own, **options))  # type: ignore[arg-type]
 
     def part_names(
-        self: StepHolder, id: str, description: str, function: Callable[..., list[str]], takes: tuple[str, ...], *, shown_at: str = ""
+        self: StepHolder, id: str, description: str, function: Callable[..., list[str]], takes: tuple[str, ...], *, shown_at: str = "",
+        count: Callable[[Callable[[str], int]], int] | None = None,
     ) -> None:  # fmt: skip
         """Declare repeated parts that follow from the inputs: see ``PartNames``."""
-        self.add(PartNames(id=id, description=description, function=function, takes=takes, shown_at=shown_at))
+        self.add(
+            PartNames(id=id, description=description, function=function, takes=takes, shown_at=shown_at, count=count)
+        )
 
     def part_table(self: StepHolder, id: str, description: str, parts: str, columns: tuple[str, ...]) -> None:
         """Declare a table of rows over such parts, printed here: see ``PartTable``."""

@@ -133,7 +133,7 @@ class Quantity:
 
     def _within(self, shown: Any) -> Any:
         """Whether numbers in the display unit keep the bounds."""
-        held = within(shown, [getattr(self, name) for name, _ in BOUNDS])
+        held = within(shown, (self.gt, self.ge, self.lt, self.le))
         return held & np.isin(np.round(shown, 9), self.listed) if self.listed else held
 
     @cached_property

@@ -183,8 +183,17 @@ class Mechanism:
         """Return the facts that steps may need: each counts as given until a machine turns out not to meet it."""
         return frozenset(step.id for _, step in self.steps if isinstance(step, Fact))
 
-    def results_of(self, given: frozenset[str]) -> dict[str, tuple[str | None, bool]]:
+    def results_of(self, given: frozenset[str]) -> Mapping[str, tuple[str | None, bool]]:
         """Return what a reference may name, without calculating: the SI unit (None for a text), and whether it is a curve."""
+        if given not in self._results:
+            self._results[given] = self._named(given)
+        return self._results[given]
+
+    @cached_property
+    def _results(self) -> dict[frozenset[str], dict[str, tuple[str | None, bool]]]:
+        return {}
+
+    def _named(self, given: frozenset[str]) -> dict[str, tuple[str | None, bool]]:
         found: dict[str, tuple[str | None, bool]] = {}
         for _, step in self.active(given):
             if isinstance(step, SILENT):

@@ -8,7 +8,7 @@ pattern ``numbered`` (``shaft_{}_speed``), counted from ``first`` on; or, with `
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Literal
 
@@ -159,21 +159,23 @@ def read(name: str, step: Step) -> ResultName | None:
     return known if index is None else pattern(step).name(step, index)
 
 
-def named(name: str, steps: Mapping[str, Step]) -> ResultName | None:
+def named(name: str, steps: Mapping[str, Step], numbered: Iterable[Step] | None = None) -> ResultName | None:
     """Return which of steps, by their ids, gives a name, and what it is of it; None where none does.
 
-    A part that has a name of its own may also be asked for as part of its row, ``ID.0``.
+    A part that has a name of its own may also be asked for as part of its row, ``ID.0``. ``numbered`` are the steps with such parts,
+    where they are known.
     """
-    found = (read(name, step) for step in _candidates(name, steps))
+    with_parts = (step for step in steps.values() if step.numbered) if numbered is None else numbered
+    found = (read(name, step) for step in _candidates(name, steps, with_parts))
     return next((each for each in found if each is not None), None) or _part_of_row(name, steps)
 
 
-def _candidates(name: str, steps: Mapping[str, Step]) -> Iterator[Step]:
+def _candidates(name: str, steps: Mapping[str, Step], with_parts: Iterable[Step]) -> Iterator[Step]:
     """Yield the steps that may give a name, first the one whose id it is."""
     for known in (name, name.rpartition("_")[0], name.rpartition(".")[0]):
         if known in steps:
             yield steps[known]
-    yield from (step for step in steps.values() if step.numbered)
+    yield from with_parts
 
 
 def _part_of_row(name: str, steps: Mapping[str, Step]) -> ResultName | None:

@@ -81,7 +81,7 @@ def _of_declared(declared: Any, told: str) -> Iterator[DeclaredText]:
     elif isinstance(declared, Mapping):
         for part in declared.values():
             yield from _of_declared(part, told)
-    elif isinstance(declared, tuple | list):
+    elif isinstance(declared, tuple | list) and not hasattr(declared, "_fields"):
         for part in declared:
             yield from _of_declared(part, told)
     else:

@@ -10,14 +10,14 @@ from weakref import proxy
 import numpy as np
 
 from diecut_report.contract.binding import Binding, bound
-from diecut_report.contract.code_steps import ComputedCurve
 from diecut_report.contract.inputs import Meta, Quantity, fields, texts_given
 from diecut_report.contract.mechanism import Mechanism
-from diecut_report.contract.steps import Accumulated, Choice, Derivative, FromCurve, Step, Value
+from diecut_report.contract.steps import Step
 from diecut_report.contract.unit_variants import in_form
-from diecut_report.engine import named_quantity
 from diecut_report.engine.chosen_units import NONE_CHOSEN
+from diecut_report.engine.curve_sampler import CurveSampler, CurveStep
 from diecut_report.engine.input_rows import column
+from diecut_report.engine.named_quantity import NamedQuantities
 from diecut_report.engine.numerics.chebyshev import PieceSeries
 from diecut_report.engine.numerics.curve_evaluation import MANY, Curves, several
 from diecut_report.engine.numerics.domain import Domain, Inside
@@ -28,7 +28,6 @@ from diecut_report.engine.sampled_curve import SampledCurve
 from diecut_report.expressions import Array
 
 Found = tuple[Array, Array, Array]  # of an extreme: value, place, middle of its piece
-CurveStep = Value | Choice | FromCurve | ComputedCurve | Accumulated | Derivative
 
 
 class Impossible(Exception):
@@ -120,12 +119,11 @@ class Calculation:
         self.inputs: dict[str, Any] = {name: column(value, variants) for name, value in inputs.items()}
         self.steps: dict[str, Step] = {step.id: step for _, step in mechanism.active(self.given)}
         self.axis = mechanism.axes(self.given)
-        self.values: dict[str, Array] = {}
+        self.names, self.values = NamedQuantities(), dict[str, Array]()
         self.curves, self.domains = dict[str, CurveStep](), dict[str, Domain]()
         self.part_names: dict[str, tuple[str, ...]] = {}  # of the repeated parts that follow from the inputs
         self.row_of: dict[str, str] = {}  # for each number that is called by the name of its part, the row
-        self.series: dict[str, PieceSeries] = {}
-        self.branch: dict[str, Array] = {}  # for each choice, the case taken by each variant
+        self.series, self.branch = dict[str, PieceSeries](), dict[str, Array]()  # the latter: for each choice its case
         self.middle: dict[str, Array] = {}  # for each place of an extreme, the middle of its smooth piece
         self.proof: dict[str, float] = {}  # for each result that is not a closed formula, its greatest residual
         self._kept: dict[tuple[str, str], tuple[Array, CurveSampler]] = {}  # curves already known at often used places
@@ -212,88 +210,8 @@ class Calculation:
 
     def step_or_input(self, name: str) -> Step | Quantity:
         """Return what declares a quantity: its symbol, unit and description."""
-        return named_quantity.declared(self.row_of.get(name, name), self.steps, self.axis, self.meta, self.mechanism.at)
-
-
-class CurveSampler:
-    """Give curves at given places of their abscissa; each is computed once.
-
-    ``inside`` are the middles of all pieces (rows, pieces) and which of them each place lies in, where there are more places than pieces.
-    """
-
-    def __init__(
-        self,
-        owner: Calculation,
-        axis: str,
-        x: Array,
-        middle: Array,
-        rows: Array | None,
-        inside: Inside | None = None,
-    ) -> None:
-        self.owner, self.axis, self.x, self.mid, self.inside = owner, axis, x, middle, inside
-        self.rows = rows if owner.count > 1 else None  # a single machine's numbers broadcast to all rows
-        self.known: dict[str, Array] = {axis: x}
-
-    def __getitem__(self, name: str) -> Array:
-        if name not in self.known:
-            self.known[name] = self._compute(name)
-        return self.known[name]
-
-    def over(self, name: str) -> Array:
-        """Return a curve, or a number, at each of the places."""
-        found = self[name]
-        return np.broadcast_to(found, np.broadcast_shapes(np.shape(found), np.shape(self.x)))
-
-    def _compute(self, name: str) -> Array:
-        step = self.owner.curves.get(name)
-        if step is None:
-            number = self.owner[name]
-            return number if self.rows is None else number[self.rows]
-        match step:
-            case FromCurve():
-                return self._taken_over(step)
-            case ComputedCurve():
-                found: Array = step.function(self.owner.inputs[step.of], self.x, self.mid, self.rows)
-                return found
-            case Accumulated() | Derivative():
-                return self.owner.series[name].values(self.x, self.mid, self.rows)
-            case Value(per_piece=True) | Choice(per_piece=True) if self.mid is not self.x:
-                return self._of_pieces(name)
-        return self.formula_of(step)
-
-    def _of_pieces(self, name: str) -> Array:
-        """A flag of the pieces, at their middles."""
-        if self.inside is None:
-            return CurveSampler(self.owner, self.axis, self.mid, self.mid, self.rows)[name]
-        middles, piece = self.inside
-        return np.take_along_axis(
-            CurveSampler(self.owner, self.axis, middles, middles, self.rows).over(name), piece, axis=1
-        )
-
-    def formula_of(self, step: Value | Choice) -> Array:
-        """Return what a step's formula gives at x itself, of a flag of the pieces too."""
-        if isinstance(step, Value):
-            return self._apply(step.formula)
-        held = [self._apply(c.condition) for c in step.cases if c.condition is not None]
-        taken = [self._apply(c.value) for c in step.cases if not isinstance(c.value, str)]
-        return np.select(np.broadcast_arrays(*held), np.broadcast_arrays(*taken[:-1]), taken[-1])
-
-    def _taken_over(self, step: FromCurve) -> Array:
-        """A curve input at shares of its period; where it gains, with what it gained in the periods before."""
-        lasts = self[step.lasts] if step.lasts else self.owner.domains[self.axis].period_of(self.rows)
-        start = self[step.start] if step.start else 0.0
-        share, middle = start + self.x / lasts, start + self.mid / lasts
-        passed = np.floor(middle)
-        curve = self.owner.inputs[step.given or step.id]
-        found: Array = curve.values(share - passed, middle - passed, self.rows)
-        return found + passed * curve.gain(self.rows) if step.gains else found
-
-    def _apply(self, part: Binding) -> Array:
-        link = bound(part)
-        known = self.known
-        taken = [n if isinstance(n, float) else known[n] if n in known else self[n] for n in link.takes]
-        found: Array = link.formula.function(*taken)
-        return found
+        own = self.row_of.get(name, name)
+        return self.names.declared(own, self.steps, self.axis, self.meta, self.mechanism.at)
 
 
 __all__ = ["Calculation", "CurveHandle", "CurveSampler", "Impossible", "SampledCurve", "Side", "Unproven"]

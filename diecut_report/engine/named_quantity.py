@@ -13,16 +13,47 @@ from diecut_report.contract.steps import Reduction, Step
 from diecut_report.errors import nearest
 
 
-def declared(
-    name: str, steps: Mapping[str, Step], axis: Mapping[str, str], inputs: Mapping[str, Meta], at: str
-) -> Step | Quantity:
-    """Return the step or input with a quantity's symbol, unit and description.
+class NamedQuantities:
+    """Remember what the names of a calculation's quantities mean, as long as its steps are the same."""
 
-    ``axis`` is the abscissa of each curve, ``at`` the mechanism's place. Misdeclared where there is nothing of this name.
-    """
-    if name in steps:
-        return steps[name]
-    found = named(name, steps)
+    def __init__(self) -> None:
+        self._steps: Mapping[str, Step] = {}
+        self._numbered: tuple[Step, ...] = ()
+        self._names: dict[str, ResultName | None] = {}
+        self._declared: dict[str, Step | Quantity] = {}
+
+    def result(self, name: str, steps: Mapping[str, Step]) -> ResultName | None:
+        """Return which step gives a name, and what it is of it; None where none does."""
+        if steps is not self._steps:
+            self._steps, self._numbered = steps, tuple(step for step in steps.values() if step.numbered)
+            self._names, self._declared = {}, {}
+        if name not in self._names:
+            self._names[name] = named(name, steps, self._numbered)
+        return self._names[name]
+
+    def declared(
+        self, name: str, steps: Mapping[str, Step], axis: Mapping[str, str], inputs: Mapping[str, Meta], at: str
+    ) -> Step | Quantity:
+        """Return the step or input with a quantity's symbol, unit and description.
+
+        ``axis`` is the abscissa of each curve, ``at`` the mechanism's place. Misdeclared where there is nothing of this name.
+        """
+        if name in steps:
+            return steps[name]
+        found = self.result(name, steps)
+        if name not in self._declared:
+            self._declared[name] = _declared(name, found, steps, axis, inputs, at)
+        return self._declared[name]
+
+
+def _declared(
+    name: str,
+    found: ResultName | None,
+    steps: Mapping[str, Step],
+    axis: Mapping[str, str],
+    inputs: Mapping[str, Meta],
+    at: str,
+) -> Step | Quantity:
     if found is not None:
         return _of_step(found, steps, axis)
     path = name.removeprefix("inputs.")

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
+from math import isfinite
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -17,6 +18,9 @@ if TYPE_CHECKING:
     from diecut_report.engine.calculation import Calculation
 
 
+FEW = 20  # values up to which they are looked through one by one
+
+
 def declared_unit(calc: Calculation, name: str, declared: str) -> str:
     """Return the chosen unit of a quantity, else the declared one."""
     return calc.chosen_units.of(name, declared) or declared
@@ -26,9 +30,12 @@ def unit_for(calc: Calculation, name: str, declared: str, values: Array | Iterab
     """Return the one unit in which values of a quantity are shown: the greatest of them is easy to read."""
     if chosen := calc.chosen_units.of(name, declared):
         return chosen
-    sizes = np.abs(np.asarray(values, dtype=float)).ravel()
-    sizes = sizes[np.isfinite(sizes)]
-    return easy_unit(float(sizes.max()), declared) if len(sizes) else declared
+    if isinstance(values, np.ndarray) and values.size > FEW:
+        sizes = np.abs(values.astype(float)).ravel()
+        sizes = sizes[np.isfinite(sizes)]
+        return easy_unit(float(sizes.max()), declared) if len(sizes) else declared
+    few = np.ravel(values).tolist() if isinstance(values, np.ndarray) else map(float, values)
+    return easy_unit(max(known), declared) if (known := [abs(size) for size in few if isfinite(size)]) else declared
 
 
 def _unit_of(calc: Calculation, name: str, declared: str, value: float) -> str:

@@ -12,6 +12,7 @@ from diecut_report.errors import Problem, UserError
 from diecut_report.exchange.carried_results import carried_results
 from diecut_report.files import write_all
 from diecut_report.languages.catalogues import Catalogues
+from diecut_report.languages.phrases import Phrase, phrase
 from diecut_report.limits import MAX_PRINTED_MECHANISMS
 from diecut_report.report.house_style import HouseStyle
 
@@ -69,23 +70,39 @@ def document(
     except UserError:
         raise
     except Exception as cause:  # of any kind: whoever wrote the file may have put anything in any place
-        words = f"The report cannot be made of these results: {_told(cause)}. Give results as the program wrote them."
+        words = Phrase(
+            "The report cannot be made of these results: {told}. Give results as the program wrote them.",
+            told=_told(cause),
+        )
         raise UserError(Problem(words, file)) from cause
 
 
 def told(lost: Iterable[pipeline.Lost]) -> list[str]:
     """Return in words what could not be drawn."""
-    return [f"{each.what} {each.id!r} of mechanism {each.mechanism!r} cannot be drawn: {each.words}" for each in lost]
+    return [
+        Phrase(
+            "{what} {id} of mechanism {mechanism} cannot be drawn: {words}",
+            what=phrase(each.what),
+            id=repr(each.id),
+            mechanism=repr(each.mechanism),
+            words=phrase(each.words),
+        )
+        for each in lost
+    ]
 
 
 def _told(cause: Exception) -> str:
     if isinstance(cause, KeyError):
-        return f"{cause} is missing"
+        return Phrase("{cause} is missing", cause=cause)
     return f"{type(cause).__name__}: {cause}"
 
 
 def _refuse_many_sheets(results: dict[str, Any], formats: Sequence[str], file: str) -> None:
     count = len(results["mechanisms"])
     if "pdf" in formats and count > MAX_PRINTED_MECHANISMS:
-        words = f"There are {count} mechanisms; a PDF has at most {MAX_PRINTED_MECHANISMS}. Leave it out with --format html."
+        words = Phrase(
+            "There are {count} mechanisms; a PDF has at most {most}. Leave it out with --format html.",
+            count=count,
+            most=MAX_PRINTED_MECHANISMS,
+        )
         raise UserError(Problem(words, file))

@@ -10,6 +10,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 from diecut_report.given_files import content
+from diecut_report.languages.phrases import Phrase, phrase
 
 if TYPE_CHECKING:
     from cryptography import x509
@@ -38,17 +39,17 @@ def signatures(whole: bytes, trusted: Path | None = None) -> list[Signature]:
     from diecut_report.exchange.signing_keys import MOST, certificates_in
 
     if found_fault := fault(whole):
-        return [Signature(f"cannot be read: {found_fault}", False)]
-    roots = certificates_in(content(trusted, MOST, "certificates (PEM)"), trusted) if trusted else None
+        return [Signature(Phrase("cannot be read: {found_fault}", found_fault=found_fault), False)]
+    roots = certificates_in(content(trusted, MOST, phrase("certificates (PEM)")), trusted) if trusted else None
     try:
         with _silent():
             found = [_judged(each, whole, roots) for each in PdfFileReader(io.BytesIO(whole)).embedded_signatures]
     except (PdfError, ValidationInfoReadingError, *_FAULTS) as error:
-        return [Signature(f"cannot be read: {error}", False)]
+        return [Signature(Phrase("cannot be read: {error}", error=error), False)]
     if not found:
-        return [Signature("the file holds a part of one, but no field has a signature", False)]
+        return [Signature(phrase("the file holds a part of one, but no field has a signature"), False)]
     if all(each.holds for each in found) and not any(each.is_last for each in found):
-        found.append(Signature("something was added to the file after the last signature", False))
+        found.append(Signature(phrase("something was added to the file after the last signature"), False))
     return found
 
 
@@ -63,15 +64,22 @@ def _judged(signature: Any, whole: bytes, roots: list[x509.Certificate] | None) 
     named = f"{signature.field_name}: {_signer(signature)}"
     if not status.is_whole:
         return Signature(
-            f"{named}: what was signed has been changed since, or the signature is not the signer's", False
+            Phrase(
+                "{named}: what was signed has been changed since, or the signature is not the signer's", named=named
+            ),
+            False,
         )
     if not (status.is_last or status.is_signed_again):
-        return Signature(f"{named}: the document has been changed since", False)
-    since = "nothing changed since" if status.is_last else "since then others have signed"
+        return Signature(Phrase("{named}: the document has been changed since", named=named), False)
+    since = phrase("nothing changed since") if status.is_last else phrase("since then others have signed")
     if roots is None:
-        return Signature(f"{named}, {since}{_fingerprint(signature)}", True, status.is_last)
-    words = "trusted" if status.is_trusted else "but the certificate does not lead to one that you trust"
-    return Signature(f"{named}, {since}, {words}", status.is_trusted, status.is_last)
+        words = Phrase("{named}, {since}", named=named, since=since) + _fingerprint(signature)
+        return Signature(words, True, status.is_last)
+    trust = (
+        phrase("trusted") if status.is_trusted else phrase("but the certificate does not lead to one that you trust")
+    )
+    words = Phrase("{named}, {since}, {trust}", named=named, since=since, trust=trust)
+    return Signature(words, status.is_trusted, status.is_last)
 
 
 def _signer(signature: Any) -> str:
@@ -90,8 +98,13 @@ def _signer(signature: Any) -> str:
 
 def _fingerprint(signature: Any) -> str:
     digest = signature.signer_cert.sha256.hex()[:SHORT]
-    by = "itself" if signature.signer_cert.self_signed != "no" else signature.signer_cert.issuer.human_friendly
-    return f"; certificate {digest} by {by}, whose name anybody may have chosen: compare it, or give --trust"
+    cert = signature.signer_cert
+    by = phrase("itself") if cert.self_signed != "no" else cert.issuer.human_friendly
+    return Phrase(
+        "; certificate {digest} by {by}, whose name anybody may have chosen: compare it, or give --trust",
+        digest=digest,
+        by=by,
+    )
 
 
 @contextmanager

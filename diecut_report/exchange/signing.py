@@ -27,6 +27,7 @@ from diecut_report.exchange.carried_results import MOST, form_of
 from diecut_report.exchange.signing_keys import SigningKey
 from diecut_report.files import write_all
 from diecut_report.given_files import content
+from diecut_report.languages.phrases import Phrase, phrase
 from diecut_report.report.letters import LINE, MILLIMETRE, drawn, fitted
 
 SMALLEST, LARGEST = 2.5, 8.0  # points of the letters in a field
@@ -56,9 +57,11 @@ class Additions(IncrementalPdfFileWriter):
 
 def sign(asked: Signing, key: SigningKey, tell: Callable[[str], None]) -> None:
     """Write a report with a signature; UserError in words where it cannot be signed, and then nothing is written."""
-    whole = content(asked.report, MOST, "a report as PDF")
+    whole = content(asked.report, MOST, phrase("a report as PDF"))
     if form_of(whole) != "pdf":
-        words = "This is not a PDF. Give a report that `diecut-report report` wrote as PDF; other formats hold no signatures."
+        words = phrase(
+            "This is not a PDF. Give a report that `diecut-report report` wrote as PDF; other formats hold no signatures."
+        )
         raise UserError(Problem(words, str(asked.report)))
     try:
         signed, field = _signed(whole, asked, key)
@@ -72,10 +75,10 @@ def sign(asked: Signing, key: SigningKey, tell: Callable[[str], None]) -> None:
         IndexError,
         RecursionError,
     ) as error:
-        words = f"The PDF cannot be signed: {error}. Give the file as the program wrote it."
+        words = Phrase("The PDF cannot be signed: {error}. Give the file as the program wrote it.", error=error)
         raise UserError(Problem(words, str(asked.report))) from error
     write_all({asked.target: signed}, keep=key.file)
-    tell(f"signed by {key.name} in the field {field}")
+    tell(Phrase("signed by {name} in the field {field}", name=key.name, field=field))
 
 
 def _signed(whole: bytes, asked: Signing, key: SigningKey) -> tuple[bytes, str]:
@@ -98,9 +101,16 @@ def _chosen(free: list[str], asked: Signing) -> str:
     if not free:
         raise UserError(Problem(NONE_FREE, file))
     if asked.field is None and len(free) > 1:
-        raise UserError(Problem(f"Several fields are free; name one with --field: {', '.join(free)}.", file))
+        raise UserError(
+            Problem(Phrase("Several fields are free; name one with --field: {free}.", free=", ".join(free)), file)
+        )
     if asked.field is not None and asked.field not in free:
-        words = f"There is no free field {asked.field!r}{nearest(asked.field, free)}; free are: {', '.join(free)}."
+        words = Phrase(
+            "There is no free field {field}{nearest}; free are: {free}.",
+            field=repr(asked.field),
+            nearest=nearest(asked.field, free),
+            free=", ".join(free),
+        )
         raise UserError(Problem(words, file))
     return asked.field or free[0]
 

@@ -15,6 +15,7 @@ from cryptography.x509.oid import NameOID
 
 from diecut_report.errors import Problem, UserError
 from diecut_report.given_files import content
+from diecut_report.languages.phrases import Phrase, phrase
 
 MOST = 1_000_000  # bytes of a key or of certificates
 PEM = b"-----BEGIN"
@@ -41,23 +42,29 @@ class SigningKey:
 
 def signing_key(key: Path, certificates: Path | None, ask: Ask) -> SigningKey:
     """Return the key in a file with its certificate, which may stand in another one; UserError in words where they do not serve."""
-    whole = content(key, MOST, "a key (PKCS #12 or PEM)")
+    whole = content(key, MOST, phrase("a key (PKCS #12 or PEM)"))
     private, found = _pem(whole, key, ask) if PEM in whole else _pkcs12(whole, key, ask)
     if certificates is not None:
-        found = certificates_in(content(certificates, MOST, "a certificate (PEM)"), certificates) + found
+        found = certificates_in(content(certificates, MOST, phrase("a certificate (PEM)")), certificates) + found
     if not found:
-        _refuse(key, "The file holds no certificate. Give that of the key with --cert.")
+        _refuse(key, phrase("The file holds no certificate. Give that of the key with --cert."))
     own = [each for each in found if each.public_key() == private.public_key()]
     if not own:
         _refuse(
             certificates or key,
-            "This is not the certificate of the key: it belongs to another one. Give that of the key with --cert.",
+            phrase(
+                "This is not the certificate of the key: it belongs to another one. Give that of the key with --cert."
+            ),
         )
     now, last = datetime.now(UTC), own[0].not_valid_after_utc
     if not own[0].not_valid_before_utc <= now <= last:
         _refuse(
             certificates or key,
-            f"The certificate is not valid now: from {own[0].not_valid_before_utc:%Y-%m-%d} to {last:%Y-%m-%d}.",
+            Phrase(
+                "The certificate is not valid now: from {not_valid_before_utc} to {last}.",
+                not_valid_before_utc=f"{own[0].not_valid_before_utc:%Y-%m-%d}",
+                last=f"{last:%Y-%m-%d}",
+            ),
         )
     return SigningKey(key, private, own[0], tuple(each for each in found if each != own[0]))
 
@@ -71,7 +78,7 @@ def _pkcs12(whole: bytes, file: Path, ask: Ask) -> tuple[Any, list[x509.Certific
         except ValueError:
             _refuse(file, WRONG)
     if private is None:
-        _refuse(file, "The file holds no private key.")
+        _refuse(file, phrase("The file holds no private key."))
     return private, [*([own] if own else []), *others]
 
 
@@ -91,7 +98,7 @@ def certificates_in(whole: bytes, file: Path) -> list[x509.Certificate]:
     try:
         return x509.load_pem_x509_certificates(whole) if PEM in whole else [x509.load_der_x509_certificate(whole)]
     except ValueError:
-        _refuse(file, "This is not a certificate that can be read. Give one as PEM.")
+        _refuse(file, phrase("This is not a certificate that can be read. Give one as PEM."))
 
 
 def _refuse(file: Path, words: str) -> NoReturn:

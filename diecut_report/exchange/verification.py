@@ -21,6 +21,7 @@ from diecut_report.exchange.carried_results import CarriedResults
 from diecut_report.exchange.rendering import document, template_of
 from diecut_report.exchange.results_form import parsed
 from diecut_report.exchange.signatures import Signature, signatures
+from diecut_report.languages.phrases import Counted, Phrase, joined, phrase
 from diecut_report.report.house_style import HouseStyle
 from diecut_report.results.results_file import encoded
 
@@ -115,23 +116,30 @@ def _program(first: Data, again: Data) -> Told:
     named = f"{first['name']} {first['version']}"
     old, new = (str(each.get("source_sha256", "")) for each in (first, again))
     if (first["version"], old, first.get("extensions")) == (again["version"], new, again.get("extensions")):
-        return f"{named}, source {old[:SHORT]}: the same{_others(first, again)}", True
+        return Phrase(
+            "{named}, source {old}: the same{others}", named=named, old=old[:SHORT], others=_others(first, again)
+        ), True
     if first["version"] != again["version"]:
-        return f"{named} made the report, this is {again['version']}", False
+        return Phrase("{named} made the report, this is {version}", named=named, version=again["version"]), False
     if old != new:
-        return f"{named}, but its source is another one ({old[:SHORT]} then, {new[:SHORT]} now)", False
-    return f"{named}, but its extensions are others", False
+        return Phrase(
+            "{named}, but its source is another one ({old} then, {new} now)",
+            named=named,
+            old=old[:SHORT],
+            new=new[:SHORT],
+        ), False
+    return Phrase("{named}, but its extensions are others", named=named), False
 
 
 def _others(first: Data, again: Data) -> str:
     """Which libraries have another version now, where the report tells theirs: it may explain what differs."""
     old, new = first.get("libraries", {}), again["libraries"]
     told = [
-        f"{name} {version} then, {new.get(name, 'none')} now"
+        Phrase("{name} {old} then, {new} now", name=name, old=version, new=new.get(name) or phrase("none"))
         for name, version in old.items()
         if new.get(name) != version
     ]
-    return f"; {', '.join(told)}" if told else ""
+    return "; " + phrase(joined(told, ", ")) if told else ""
 
 
 def _plugins(first: Data, again: Data) -> Iterator[Told]:
@@ -140,13 +148,16 @@ def _plugins(first: Data, again: Data) -> Iterator[Told]:
     now = {data["kind"]: _code(data) for data in again.values()}
     same = [kind for kind, code in kinds.items() if now.get(kind) == code]
     if same:
-        yield f"{len(same)} of {len(kinds)} kinds: the same versions and sources", True
+        yield Phrase("{n} of {total} kinds: the same versions and sources", n=len(same), total=len(kinds)), True
     for kind, code in kinds.items():
         if kind not in now:
-            yield f"{kind}: not calculated any more", False
+            yield Phrase("{kind}: not calculated any more", kind=kind), False
         elif now[kind] != code:
-            yield f"{kind}: {_told(code)} then, {_told(now[kind])} now", False
-    yield from ((f"{kind}: not in the report", False) for kind in now if kind not in kinds)
+            yield (
+                Phrase("{kind}: {old} then, {new} now", kind=kind, old=_told(code), new=_told(now[kind])),
+                False,
+            )
+    yield from ((Phrase("{kind}: not in the report", kind=kind), False) for kind in now if kind not in kinds)
 
 
 def _code(data: Data) -> tuple[str, str]:
@@ -154,7 +165,7 @@ def _code(data: Data) -> tuple[str, str]:
 
 
 def _told(code: tuple[str, str]) -> str:
-    return f"version {code[0]}, source {code[1][:SHORT]}"
+    return Phrase("version {version}, source {digest}", version=code[0], digest=code[1][:SHORT])
 
 
 def _config(carried: CarriedResults) -> Told:
@@ -165,12 +176,20 @@ def _config(carried: CarriedResults) -> Told:
     for name, content in contents.items():
         found = sha256(content).hexdigest()
         if found != hashes[name]:
-            words = (
-                f"{name} is not the one that the report names (SHA-256 {hashes[name][:SHORT]}, found {found[:SHORT]})"
+            words = Phrase(
+                "{name} is not the one that the report names (SHA-256 {hashes}, found {found})",
+                name=name,
+                hashes=hashes[name][:SHORT],
+                found=found[:SHORT],
             )
             return words, False
-    ones = "the one" if len(contents) == 1 else "the ones"
-    return f"{', '.join(contents)}, SHA-256 {said['sha256'][:SHORT]}: {ones} that the report names", True
+    told = {"files": ", ".join(contents), "digest": said["sha256"][:SHORT]}
+    return Counted(
+        len(contents),
+        "{files}, SHA-256 {digest}: the one that the report names",
+        "{files}, SHA-256 {digest}: the ones that the report names",
+        told,
+    ), True
 
 
 def _logo(said: Data) -> list[Data]:
@@ -204,25 +223,32 @@ def _pages(
 ) -> Told:
     """Whether the document is what this program makes of the results in it; not where these are not its own."""
     if not is_same:
-        return "not compared, since the program or the numbers are others", True
+        return phrase("not compared, since the program or the numbers are others"), True
     asked = template_of(carried.results)
     if asked != (house.sha256 if house else ""):
-        own = f"templates of their own (SHA-256 {asked[:SHORT]})" if asked else "the program's templates alone"
-        return f"not compared, since they are set with {own}; --template DIR names the templates", True
+        own = (
+            Phrase("templates of their own (SHA-256 {asked})", asked=asked[:SHORT])
+            if asked
+            else phrase("the program's templates alone")
+        )
+        return Phrase("not compared, since they are set with {own}; --template DIR names the templates", own=own), True
     catalogues = pipeline.catalogues_of(carried.results, discovery, [carried.form], str(carried.path))
     contents, _ = document(carried.results, [carried.form], tell, str(carried.path), catalogues, house)
     made = contents[carried.form]
     if carried.content == made:
-        return "byte for byte what the program makes of these results", True
+        return phrase("byte for byte what the program makes of these results"), True
     if carried.form == "pdf" and carried.content.startswith(made):
         if signed and all(each.holds for each in signed):
-            return "byte for byte what the program makes of these results, and after it the signatures", True
+            return phrase("byte for byte what the program makes of these results, and after it the signatures"), True
         more = len(carried.content) - len(made)
         return (
-            f"what the program makes of these results, with {more} bytes that were added later (a signature, a note)",
+            Phrase(
+                "what the program makes of these results, with {more} bytes that were added later (a signature, a note)",
+                more=more,
+            ),
             False,
         )
-    words = (
+    words = phrase(
         "not what the program makes of these results: it was changed or saved by another program, or set with other libraries of "
         "the system. The numbers above are those that it carries; what its pages show may be others"
     )

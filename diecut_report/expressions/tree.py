@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Mapping
 from typing import Any, NamedTuple
+
+LEAVES = ("sym", "num", "qty")
 
 
 class Node(NamedTuple):
@@ -14,25 +16,27 @@ class Node(NamedTuple):
 
     def to_json(self) -> list[Any]:
         """The node as nested lists, the form in which results hold it."""
-        return [self.op, *(a.to_json() if isinstance(a, Node) else list(map(_plain, a)) if isinstance(a, tuple) else a
-                           for a in self.args)]  # fmt: skip
+        return [self.op, *map(_plain, self.args)]
 
 
 def _plain(part: Any) -> Any:
-    return part.to_json() if isinstance(part, Node) else part
+    if type(part) is Node:
+        return part.to_json()
+    return list(map(_plain, part)) if isinstance(part, tuple) else part
 
 
 def transform(node: Node, leaf: Callable[[Node], Node]) -> Node:
     """The tree with each leaf (``sym``, ``num``, ``qty``) replaced by ``leaf(node)``."""
-    if node.op in ("sym", "num", "qty"):
+    op, args = node
+    if op in LEAVES:
         return leaf(node)
-    return Node(node.op, tuple(_inner(a, lambda n: transform(n, leaf)) for a in node.args))
+    return Node(op, tuple([_inner(part, leaf) for part in args]))
 
 
-def _inner(part: Any, apply: Callable[[Node], Any]) -> Any:
-    if isinstance(part, Node):
-        return apply(part)
-    return tuple(apply(p) for p in part) if isinstance(part, tuple) else part
+def _inner(part: Any, leaf: Callable[[Node], Node]) -> Any:
+    if type(part) is Node:
+        return transform(part, leaf)
+    return tuple([transform(each, leaf) for each in part]) if isinstance(part, tuple) else part
 
 
 def substitute(node: Node, values: Mapping[str, Node]) -> Node:
@@ -53,16 +57,18 @@ def symbols(node: Node) -> list[str]:
     return list(found)
 
 
-def walk(node: Node) -> Iterator[Node]:
-    """Give the node and all nodes in it, in order of appearance."""
-    yield node
-    pending = list(node.args)
+def walk(node: Node) -> list[Node]:
+    """Return the node and all nodes in it, in order of appearance."""
+    found: list[Node] = []
+    pending: list[Any] = [node]
     while pending:
-        part = pending.pop(0)
-        if isinstance(part, Node):
-            yield from walk(part)
+        part = pending.pop()
+        if type(part) is Node:
+            found.append(part)
+            pending += part.args[::-1]
         elif isinstance(part, tuple):
-            pending = [*part, *pending]
+            pending += part[::-1]
+    return found
 
 
 LOOSE = ("+", "-", "cmp", "*", "/", "neg")  # operations that stand in brackets within another one

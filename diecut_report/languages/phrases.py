@@ -53,6 +53,31 @@ class Phrase(str):
         return Phrase("{first}{next}", first=phrase(other), next=self) if other else self
 
 
+class Counted(Phrase):
+    """Hold a text that goes with a number ``n``: ``Counted(3, "{n} variant", "{n} variants")``; the first is that of one.
+
+    A language has as many forms of it as it has for numbers; catalogues know the text by the form of one.
+    """
+
+    __slots__ = ("many", "number", "one")
+    number: int
+    one: str
+    many: str
+
+    def __new__(
+        cls, count: int, one: str, many: str, filling: Mapping[str, object] = NOTHING, /, **named: object
+    ) -> Counted:
+        """Fill the form that goes with the number; ``n`` is the number, if it is not given in another form."""
+        values = {"n": str(count), **filling, **named}
+        made: Counted = super().__new__(cls, one if count == 1 else many, values)  # type: ignore[assignment]  # it is of ``cls``
+        made.number, made.one, made.many = count, one, many
+        return made
+
+    def __getnewargs__(self) -> tuple[Any, ...]:
+        """Return what a copy is made of."""
+        return self.number, self.one, self.many, dict(self.values)
+
+
 def filled(template: str, values: Mapping[str, str]) -> str:
     """Return a template with its values in; a place without a value stands as it is."""
 
@@ -96,7 +121,8 @@ def named(parts: Sequence[str], between: str) -> str:
 def wording(text: Phrase) -> Wording:
     """Return how a phrase was made, as plain data."""
     values = {name: wording(value) if isinstance(value, Phrase) else value for name, value in text.values.items()}
-    return {"text": text.template} | ({"values": values} if values else {})
+    counted = {"one": text.one, "count": text.number} if isinstance(text, Counted) else {}
+    return {"text": text.template} | ({"values": values} if values else {}) | counted
 
 
 def wordings(data: Any) -> dict[str, Wording]:
@@ -109,7 +135,7 @@ def wordings(data: Any) -> dict[str, Wording]:
 def _collect(parts: Iterable[Any], found: dict[str, Wording]) -> None:
     for part in parts:
         kind = type(part)  # results have some 100 000 parts: of their exact types, as most are texts and numbers
-        if kind is Phrase:
+        if kind is Phrase or kind is Counted:
             if part.values:
                 found.setdefault(str.__str__(part), wording(part))
         elif kind is dict:

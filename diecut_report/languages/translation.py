@@ -8,7 +8,7 @@ from functools import cached_property
 from typing import Any
 
 from diecut_report.languages.catalogues import Catalogues
-from diecut_report.languages.phrases import filled
+from diecut_report.languages.phrases import Phrase, filled, wording
 
 DECIMAL = re.compile(r"(?<![\w.,])(\d+)\.(\d+)(?![\w.]*\.?\d)")
 CITATION = "citation"  # the context of the words about sources
@@ -16,6 +16,11 @@ EQUATIONS = {
     re.compile(r"(?P<paper>\b\d{3}) eq\. (?P<numbers>\d[\w–-]*(?:, \d[\w–-]*)*)"): "{paper} eq. {numbers}",
     re.compile(r"\beq\. (?P<numbers>\d[\w–-]*(?:, \d[\w–-]*)*)"): "eq. {numbers}",
 }
+
+
+def with_decimal(text: str, sign: str) -> str:
+    """Return a text with another sign of decimals in its numbers."""
+    return text if sign == "." else DECIMAL.sub(rf"\1{sign}\2", text)
 
 
 class Translator:
@@ -31,6 +36,8 @@ class Translator:
 
     def said(self, text: str, kind: str = "") -> str:
         """Return a text in the language; one that no catalogue has stands as it is."""
+        if isinstance(text, Phrase):
+            return self._made(wording(text), kind)
         if text in self.wordings:
             return self._made(self.wordings[text], kind)
         return self.known(text, kind) or text
@@ -42,17 +49,23 @@ class Translator:
                 return found
         return None
 
-    def _made(self, wording: Mapping[str, Any], kind: str) -> str:
-        template = wording["text"]
+    def _made(self, parts: Mapping[str, Any], kind: str) -> str:
         values = {
             name: self._made(value, kind) if isinstance(value, Mapping) else self.numbers(value)
-            for name, value in wording.get("values", {}).items()
+            for name, value in parts.get("values", {}).items()
         }
-        return filled(self.known(template, kind) or template, values)
+        return filled(self._form(parts, kind) or parts["text"], values)
+
+    def _form(self, parts: Mapping[str, Any], kind: str) -> str | None:
+        """A template in the language, of what is counted the form that goes with its number."""
+        if "one" not in parts:
+            return self.known(parts["text"], kind)
+        found = (each.plural(parts["one"], parts["count"]) for each in self.catalogues.ahead(kind))
+        return next(filter(None, found), None)
 
     def numbers(self, text: str) -> str:
         """Return a text with the language's sign of decimals in its numbers."""
-        return DECIMAL.sub(rf"\1{self.decimal}\2", text)
+        return with_decimal(text, self.decimal)
 
     def source(self, text: str) -> str:
         """Return where a formula comes from: its words in the language, names of authors and standards as they are."""

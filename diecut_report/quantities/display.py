@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from functools import cache
 
 from diecut_report.quantities.units import unit
 
@@ -32,20 +33,27 @@ NEVER_SMALL = frozenset(
 
 def easy_unit(value: float, declared: str) -> str:
     """Return the unit of the declared one's family in which an SI value is easy to read; the declared one where it is already."""
-    family = next((units for units in FAMILIES if unit(declared).text in units), ())
-    number = abs(value) / unit(declared).factor
+    family, factor = _family(declared)
+    number = abs(value) / factor
     if not family or not math.isfinite(number) or number == 0 or LEAST <= number < MOST or is_nothing(value, declared):
         return declared
     if number < LEAST:
         if _is_short(number):
             return declared
-        smaller = [each for each in family if unit(each).factor < unit(declared).factor]
+        smaller = [each for each in family if unit(each).factor < factor]
         fitting = (each for each in reversed(smaller) if abs(value) / unit(each).factor >= LEAST)
         return next(fitting, smaller[0] if smaller else declared)
-    greater = [each for each in family if unit(each).factor > unit(declared).factor]
+    greater = [each for each in family if unit(each).factor > factor]
     return next(
         (each for each in greater if abs(value) / unit(each).factor < MOST), greater[-1] if greater else declared
     )
+
+
+@cache
+def _family(declared: str) -> tuple[tuple[str, ...], float]:
+    """The family of a unit, and its factor."""
+    own = unit(declared)
+    return next((units for units in FAMILIES if own.text in units), ()), own.factor
 
 
 def _is_short(number: float) -> bool:

@@ -111,6 +111,19 @@ def as_given(value: float, unit_text: str) -> str | float:
     return value if own.text == "1" else f"{_decimal_text(own.exactly(value))} {own.text}"
 
 
+def as_typed(value: float, unit_text: str) -> str | float:
+    """Return an SI value as a designer types it, ``55.3 mm``: with as few digits as are read back as the very same float."""
+    own = unit(unit_text)
+    if own.text == "1":
+        return value
+    short = own.from_si(value)
+    for digits in range(1, 18):
+        number = Decimal(f"{short:.{digits}g}")
+        if own.to_si(number) == value:
+            return f"{_decimal_text(number)} {own.text}"
+    return as_given(value, unit_text)
+
+
 def _decimal_text(number: Decimal) -> str:
     """Return all digits of a number, without an exponent where it is of a usual size."""
     short = number.normalize()

@@ -6,6 +6,7 @@ import re
 from collections.abc import Sequence
 
 _NUMBER = re.compile(r"[−-]?[\d\u202f]+(?:[.,](\d+))?")
+_POWER = re.compile(r"[−-]?\d(?:[.,]\d+)?\u2009×\u200910[⁰¹²³⁴⁵⁶⁷⁸⁹⁻]+")
 MOST = 8  # digits for which there is a class
 
 
@@ -13,6 +14,11 @@ def decimals(text: str) -> int | None:
     """How many digits a printed number has behind its decimal sign; None of words, of a dash, of a power of ten."""
     found = _NUMBER.fullmatch(text)
     return len(found[1] or "") if found else None
+
+
+def is_power(text: str) -> bool:
+    """Whether a text is a printed number with a power of ten."""
+    return _POWER.fullmatch(text) is not None
 
 
 def rooms(texts: Sequence[str]) -> list[str]:

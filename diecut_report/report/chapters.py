@@ -2,22 +2,19 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterator, Mapping
 from dataclasses import replace
 from typing import Any
 
-from diecut_report.languages.tokens import worded
 from diecut_report.report.equations import Equations
-from diecut_report.report.figure_places import BEFORE, Place, figure_item, placed, sketch
+from diecut_report.report.figure_places import placed, row_item, rows_of, sketch
 from diecut_report.report.file_names import suffixes
 from diecut_report.report.i18n import Catalogue
 from diecut_report.report.model import (
     CheckRow,
     File,
     Heading,
-    Item,
     PrintedChapter,
-    PrintedSection,
     QuantityRow,
     quantity_row,
     rested,
@@ -25,20 +22,24 @@ from diecut_report.report.model import (
 )
 from diecut_report.report.number_format import quantity
 from diecut_report.report.repeated_parts import counted, gathered
-from diecut_report.report.said_once import SaidOnce
 from diecut_report.report.scope import BRIEF, FULL
-from diecut_report.report.symbol_list import symbol_rows
+from diecut_report.report.steps import Steps
+from diecut_report.report.symbol_list import SymbolRow, symbol_rows
+from diecut_report.report.symbol_list import placed as symbols_at
 from diecut_report.report.tables import Tables
+from diecut_report.report.told_before import ToldBefore
 
 Data = Mapping[str, Any]
-UNPRINTED_RESIDUAL = "0"
-LONGEST_SOURCE = 80  # letters; a longer one stands below the result
 
 
 def chapter(
-    letter: str, name: str, mechanism: Data, equations: Equations, words: Catalogue, stem: str = "", detail: str = FULL
-) -> PrintedChapter:
-    """The chapter of one mechanism's results; ``stem`` is what the names of the report's files begin with."""
+    letter: str, name: str, mechanism: Data, equations: Equations, words: Catalogue, stem: str = "", detail: str = FULL,
+    told: ToldBefore | None = None,
+) -> PrintedChapter:  # fmt: skip
+    """The chapter of one mechanism's results; ``stem`` is what the names of the report's files begin with.
+
+    What is ``told`` already, a standard report does not repeat.
+    """
     part = PrintedChapter(
         letter=letter,
         name=name,
@@ -52,7 +53,8 @@ def chapter(
         error=mechanism.get("error", ""),
     )
     if not part.lost:
-        filler = _Filler(part, mechanism, equations, words, stem, detail)
+        told = None if detail == FULL else told or ToldBefore()
+        filler = _Filler(part, mechanism, equations, words, stem, told)
         filler.fill_brief() if detail == BRIEF else filler.fill()
     return part
 
@@ -61,15 +63,15 @@ class _Filler:
     """Fills a chapter in the order of the printed page, so that all numbers count up."""
 
     def __init__(
-        self, part: PrintedChapter, mechanism: Data, equations: Equations, words: Catalogue, stem: str, detail: str
-    ) -> None:
-        self.stem, self.is_full = stem, detail == FULL
+        self, part: PrintedChapter, mechanism: Data, equations: Equations, words: Catalogue, stem: str, told: ToldBefore | None,
+    ) -> None:  # fmt: skip
+        self.stem, self.told, self.is_full = stem, told, told is None
         self.placed = placed(part.letter, mechanism)
-        self.part, self.mechanism, self.equations, self.words = part, mechanism, equations, words
+        self.rows = rows_of(self.placed, paired=not self.is_full)
+        self.part, self.mechanism, self.words = part, mechanism, words
         self.decimal = words["decimal"]
         self.tables = Tables(part.letter, words)
-        self.formulas = 0
-        self.said = SaidOnce(equations, words)
+        self.steps = Steps(part.letter, equations, words, self.tables, self.rows, told)
 
     def fill_brief(self) -> None:
         """The purpose, key results, checks and one sketch."""
@@ -82,15 +84,22 @@ class _Filler:
     def fill(self) -> None:
         """All that a chapter holds; what only the appendix shows comes last."""
         part, mechanism = self.part, self.mechanism
-        part.summary, part.assumptions = mechanism["summary"], mechanism["assumptions"]
+        part.told_in = self.told.letter if self.told else ""
+        part.summary, part.assumptions = mechanism["summary"], self._new(mechanism["assumptions"])
         self._head("purpose")
         self._head("inputs")
         single, lists = gathered(mechanism["inputs"])
-        part.inputs = [self._input(key, row) for key, row in single.items()]
+        is_left = {key: not self.is_full and _is_left_alone(row) for key, row in single.items()}
+        part.inputs = [self._input(key, row) for key, row in single.items() if not is_left[key]]
+        part.defaults = [self._input(key, row) for key, row in single.items() if is_left[key]]
         part.input_parts = [table for parts in lists for table in self.tables.of_parts(parts, given=True)]
         part.figures = [(each.number, each.figure) for each in self.placed]
-        part.sections = [self._section(index, section) for index, section in enumerate(mechanism["sections"])]
-        part.loose = [] if part.sections else [figure_item(each) for each in self.placed]
+        part.halves = frozenset(each.number for row in self.rows if len(row.figures) > 1 for each in row.figures)
+        part.sections = [
+            self.steps.section(index, section, self._head("", section["title"]))
+            for index, section in enumerate(mechanism["sections"])
+        ]
+        part.loose = [] if part.sections else [row_item(row) for row in self.rows]
         self._results(mechanism["outputs"])
         self._phases(mechanism.get("phases", {}), mechanism.get("phases_absent", {}))
         if mechanism["checks"] or "between" not in mechanism:
@@ -103,12 +112,24 @@ class _Filler:
         part.absent = mechanism["absent"]
         if part.absent:
             self._head("absent")
-        part.symbols = symbol_rows(mechanism)
+        part.symbols = self._symbols()
         if part.symbols:
             self._head("symbols")
         if self.is_full:
             part.curves = self.tables.of_curves(mechanism["curves"])
             part.errata = [(e["source"], e["text"], self._touched(e)) for e in mechanism["errata"]]
+
+    def _new(self, texts: list[str]) -> list[str]:
+        """Those of the texts that an earlier chapter has not told."""
+        return texts if self.told is None else self.told.new(texts)
+
+    def _symbols(self) -> list[SymbolRow]:
+        """The symbols: of a standard report with the places where each is explained, not with its words once more."""
+        rows = symbol_rows(self.mechanism)
+        if self.told is None:
+            return rows
+        inputs = {row["symbol"]: self.part.parts["inputs"].number for row in self.mechanism["inputs"].values()}
+        return symbols_at(rows, self.steps.given, inputs)
 
     def _head(self, key: str, title: str = "") -> Heading:
         number = f"{self.part.letter}.{len(self.part.headings) + 1}"
@@ -121,7 +142,11 @@ class _Filler:
     def _input(self, key: str, row: Data) -> QuantityRow:
         shown, path = quantity_row(row, self.decimal), row.get("path", "")
         typed = str(row.get("text") or (path if row["origin"] == "reference" else ""))
-        row_of = replace(shown, typed=typed, origin=self._origin(row["origin"], path, typed), key=key)
+        origin = self._origin(row["origin"], path, typed)
+        if not self.is_full and row["origin"] == "given":
+            plain, origin = row["display"]["text"] + row["display"]["unit"], ""
+            typed = "" if typed.replace(" ", "") in (plain, row["display"]["text"]) else typed
+        row_of = replace(shown, typed=typed, origin=origin, key=key)
         return rested(row_of, row, self.words)
 
     def _origin(self, origin: str, path: str, typed: str) -> str:
@@ -132,76 +157,15 @@ class _Filler:
             return self.words["reference"]
         return self.words.say("refers" if origin == "reference" else "from_press", path=path)
 
-    def _section(self, index: int, section: Data) -> PrintedSection:
-        heading = self._head("", section["title"])
-        told: set[str] = set()
-        items = self._figures(Place(index, BEFORE))
-        for step, item in enumerate(section["items"]):
-            items += [self._item(item, told), *self._figures(Place(index, step))]
-        return PrintedSection(heading, section.get("text", ""), items, self._shown(section.get("shown", ())))
-
-    def _figures(self, place: Place) -> list[Item]:
-        """The figures that stand at a place."""
-        return [figure_item(each) for each in self.placed if each.place == place]
-
-    def _shown(self, places: Sequence[Data]) -> str:
-        """Where the curves of a section are shown, in words."""
-        told = [f"{at['symbol']} = {quantity(at['text'], at['unit'], self.decimal)}" for at in places]
-        return self.words.say("shown_at", places=self.words.listed(told)) if told else ""
-
-    def _item(self, item: Data, told: set[str]) -> Item:
-        if item["type"] == "note":
-            return Item("note", text=item["text"])
-        if item["type"] == "table":
-            return Item("table", table=self.tables.of_item(item))
-        self.formulas += 1
-        return Item(
-            item["type"],
-            number=f"{self.part.letter}.{self.formulas}",
-            description=item["description"],
-            source=item["source"] if len(item["source"]) <= LONGEST_SOURCE else "",
-            equation=self.equations.of(item),
-            condition=self.equations.condition(item),
-            definitions=tuple(self.said.definitions(item)),
-            words=item.get("words", ""),
-            text=""
-            if item.get("equation") or item["type"] in ("found", "reduction", "lookup")
-            else item["result"]["text"],
-            notes=tuple(self._notes(item, told)),
-            changed=item.get("changed", ""),
-        )
-
-    def _notes(self, item: Data, told: set[str]) -> Iterator[str]:
-        """The method, where it was not said already in this section, what proves the value, and a note."""
-        method, residual = item.get("method", ""), item.get("residual")
-        if item["type"] == "lookup":
-            yield self._looked_up(item)
-        if item.get("series") and not item.get("note", "").startswith(item["series"]):
-            yield f"{self.words['series']}: {item['series']}"
-        if method and method not in told and self.is_full:
-            told.add(method)
-            yield f"{self.words['method']}: {method}"
-        if residual and residual["text"] != UNPRINTED_RESIDUAL and self.is_full:
-            key = "residual" if item["type"] == "found" else "checked_to"
-            yield self.words.say(key, residual=quantity(residual["text"], residual["unit"], self.decimal))
-        yield from self.said.conversions(item)
-        if item.get("note"):
-            yield item["note"]
-        if len(item["source"]) > LONGEST_SOURCE:
-            yield f"{self.words['source']}: {item['source']}"
-
-    def _looked_up(self, item: Data) -> str:
-        """Where a number was taken from: the table's title, and the text that chose it."""
-        if item["table"]:
-            choice = ", ".join(worded(text) for text in (item["key"], item.get("column")) if text)
-            return self.words.say("looked_up", table=item["table"], choice=choice)
-        return f"{item['by']}: {worded(item['key'])}"
-
     def _results(self, outputs: Data) -> None:
         """Outputs line by line, those of repeated parts as tables: all, or those that no step has printed; the key ones."""
         part, rows = self.part, self._rows(outputs)
-        printed = {} if self.is_full else self._printed()
-        told = {name: row for name, row in outputs.items() if printed.get(name) != row["display"]["text"]}
+        printed = set() if self.is_full else set(self._printed())
+        told = {
+            name: row
+            for name, row in outputs.items()
+            if not {(key, row["display"]["text"]) for key in (name, row["symbol"])} & printed
+        }
         single, lists = gathered(told)
         part.outputs = [rows[name] for name in single]
         part.output_parts = [table for parts in lists for table in self.tables.of_parts(parts, given=False)]
@@ -217,10 +181,14 @@ class _Filler:
     def _key_results(self, rows: dict[str, QuantityRow]) -> list[QuantityRow]:
         return [rows[name] for name, row in self.mechanism["outputs"].items() if row.get("key")] or list(rows.values())
 
-    def _printed(self) -> dict[str, str]:
-        """The results that the steps print, by their ids."""
-        steps = [item for section in self.mechanism["sections"] for item in section["items"] if "result" in item]
-        return {item["id"]: item["result"]["text"] for item in steps if "id" in item}
+    def _printed(self) -> Iterator[tuple[str, str]]:
+        """The results that the steps print, by their ids, and those of repeated parts in tables, by their symbols."""
+        for item in (item for section in self.mechanism["sections"] for item in section["items"]):
+            if "result" in item and "id" in item:
+                yield item["id"], item["result"]["text"]
+            for place, column in enumerate(item.get("columns", ())):
+                if column["symbol"]:
+                    yield from ((column["symbol"], row[place]) for row in item["rows"])
 
     def _phases(self, phases: Data, absent: Data) -> None:
         """When the mechanism does what, a table for each abscissa; and what is not known of it."""
@@ -277,10 +245,15 @@ class _Filler:
             check_class=check.get("class", ""),
             ratio=check["utilisation"],
             is_sized=check.get("sized_to_limit", False) and check["status"] == "pass",
+            is_presumed=check.get("presumed", False) and check["status"] == "pass",
             missing=tuple(check.get("missing", ())),
-            parts=self.tables.of_check(check) if "parts" in check else None,
+            parts=self.tables.of_check(check) if "parts" in check and self._is_told_by_part(check) else None,
             changed=check.get("changed", ""),
         )
+
+    def _is_told_by_part(self, check: Data) -> bool:
+        """Whether it is said how each part fares: in a report with all, and where parts do not pass."""
+        return self.is_full or any(part["status"] not in (None, "pass") for part in check["parts"])
 
     def _side(self, display: Data | None) -> str:
         """One side of a check; a dash where it is not known."""
@@ -296,3 +269,13 @@ class _Filler:
     def _touched(self, erratum: Data) -> str:
         rows = self.mechanism["outputs"] | self.mechanism["values"] | self.mechanism["curves"]
         return ", ".join(rows[key]["description"] if key in rows else key for key in erratum["touches"])
+
+
+def _is_left_alone(row: Data) -> bool:
+    """Whether an input is a default of the program's own, of which nothing is said."""
+    return (
+        row["origin"] == "default"
+        and not row.get("path")
+        and row.get("basis", "given") == "given"
+        and not row.get("note")
+    )

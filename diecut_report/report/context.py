@@ -13,7 +13,8 @@ from diecut_report.report.document import ReportDocument, document
 from diecut_report.report.equations import Equations
 from diecut_report.report.house_style import HouseStyle
 from diecut_report.report.i18n import Catalogue
-from diecut_report.report.scope import BRIEF, parts
+from diecut_report.report.model import Item
+from diecut_report.report.scope import BRIEF, FULL, parts
 from diecut_report.report.translated import translated
 from diecut_report.report.typeset import Typesetter
 
@@ -21,6 +22,7 @@ if TYPE_CHECKING:
     from diecut_report.report.figures.raster import Raster
     from diecut_report.report.figures.style import Svg
 
+Data = Mapping[str, Any]
 Drawing = TypeVar("Drawing")
 
 
@@ -97,13 +99,29 @@ class Material:
             for number, figure in chapter.figures:
                 if "error" in figure:
                     continue
-                curves = calculated[chapter.name]["curves"]
                 try:
-                    found[number] = draw(figure, curves, self.words, number, small=self.document.detail == BRIEF)
+                    found[number] = self._sized(draw, number, figure, calculated[chapter.name]["curves"])
                 except Exception as cause:  # of any kind: what a plugin gives to be drawn is its own
                     if all(fault.number != number for fault in self.faults):
                         self.faults.append(DrawingFault(chapter.name, number, figure, cause))
         return found
+
+    def _sized(self, draw: Callable[..., Drawing], number: str, figure: Data, curves: Data) -> Drawing:
+        """A figure in the size of its place; one whose texts take more than half the width has it alone."""
+        from diecut_report.report.figures.sizes import WIDEST_HALF, Size
+
+        detail = self.document.detail
+        if number in self.document.halves:
+            made: Any = draw(figure, curves, self.words, number, Size.HALF)
+            if made.width <= WIDEST_HALF:
+                return made  # type: ignore[no-any-return]
+        return draw(figure, curves, self.words, number, {BRIEF: Size.SKETCH, FULL: Size.LARGE}.get(detail, Size.LOW))
+
+    def are_abreast(self, pair: tuple[Item, ...]) -> bool:
+        """Whether two figures have room side by side."""
+        from diecut_report.report.figures.sizes import WIDEST_HALF
+
+        return all(item.number not in self.figures or self.figures[item.number].width <= WIDEST_HALF for item in pair)
 
     def failed(self, number: str) -> str:
         """Why a figure could not be drawn; nothing where it could."""

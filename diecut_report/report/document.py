@@ -16,6 +16,7 @@ from diecut_report.report.i18n import Catalogue
 from diecut_report.report.model import CheckRow, PrintedChapter, QuantityRow, quantity_row, rested
 from diecut_report.report.scope import BRIEF, FULL, Scope, parts, scope
 from diecut_report.report.title_block import TitleBlock, title_block
+from diecut_report.report.told_before import ToldBefore
 
 Data = Mapping[str, Any]
 APPENDIX = (
@@ -83,6 +84,11 @@ class ReportDocument:
         return {part.anchor: part.face for part in self.chapters}
 
     @property
+    def halves(self) -> frozenset[str]:
+        """The numbers of the figures that stand side by side."""
+        return frozenset(number for part in self.chapters for number in part.halves)
+
+    @property
     def sized(self) -> list[CheckRow]:
         """The checks of what the program sized to their limits."""
         return [row for row in self.checks if row.is_sized]
@@ -145,9 +151,13 @@ def _verdict(results: Data, checks: list[CheckRow]) -> str:
 def _chapters(whole: Scope, equations: Equations, words: Catalogue) -> list[PrintedChapter]:
     results = whole.results
     stem = PurePath(results["config"]["file"]).stem
-    chapters = [
-        chapter(whole.letters[name], name, data, equations, words, stem, whole.detail) for name, data in parts(results)
-    ]
+    told: dict[str, ToldBefore] = {}
+    chapters = []
+    for name, data in parts(results):
+        letter, kind = whole.letters[name], data["kind"]
+        known = told.setdefault(kind, ToldBefore())
+        chapters.append(chapter(letter, name, data, equations, words, stem, whole.detail, known))
+        told[kind] = known.next(letter)
     mechanisms = {part.name: part for part in chapters[: len(results["mechanisms"])]}
     for part, (_, data) in zip(chapters, parts(results), strict=True):
         part.between = [mechanisms[name] for name in data.get("between", ())]

@@ -12,8 +12,8 @@ from diecut_report.report.latex import Latex, Linear, escaped
 Item = Mapping[str, Any]
 Measure = Callable[[str], float]  # the width of LaTeX in em
 
-WIDTH = 43.0  # of the text column, in em of the formulas' size
-ONE_LINE = 36.0  # an equation no wider stands in one line
+WIDTH = 48.0  # of the text column, in em of the formulas' size
+ONE_LINE = 46.0  # an equation no wider stands in one line
 BLANK: Tree = ["sym", ""]  # what a broken-off rest of a sum is added to
 OPERATORS = {"max": r"\max", "min": r"\min", "sum": r"\sum", "product": r"\prod", "integral": r"\int"}
 SIGNS = {"sum": "∑", "product": "∏", "integral": "∫"}

@@ -3,13 +3,15 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from typing import Any, NamedTuple
 
 from diecut_report.report.model import Item
 
 Data = Mapping[str, Any]
 BEFORE = -1  # the first step of a section
+NEAR = 2  # sections later a figure may stand, beside another one
+LONGEST_LEGEND = 110  # letters in the names of a diagram's lines that have room over half the width
 
 
 class Place(NamedTuple):
@@ -53,9 +55,56 @@ def _place(figure: Data, given: Mapping[str, Place], last: Place) -> Place:
     return max(place for place in places if place.section == section)
 
 
-def figure_item(each: Placed) -> Item:
-    """A figure among the steps."""
-    return Item("figure", number=each.number, title=each.figure["title"], caption=each.figure["caption"])
+class Row(NamedTuple):
+    """A figure, or two side by side, and the place that they follow."""
+
+    place: Place
+    figures: tuple[Placed, ...]
+
+
+def rows_of(figures: list[Placed], *, paired: bool) -> list[Row]:
+    """Return the figures in their order, alone or (``paired``) two by two: the first waits for the second, which stands near."""
+    found: list[Row] = []
+    waiting: Placed | None = None
+    for each in figures:
+        is_narrow = paired and _is_narrow(each.figure)
+        if waiting and is_narrow and _are_near(waiting.place, each.place):
+            found.append(Row(each.place, (waiting, each)))
+            waiting = None
+            continue
+        found += [Row(waiting.place, (waiting,))] if waiting else []
+        waiting = each if is_narrow else None
+        found += [] if waiting else [Row(each.place, (each,))]
+    return found + ([Row(waiting.place, (waiting,))] if waiting else [])
+
+
+def _is_narrow(figure: Data) -> bool:
+    """Whether a figure can be drawn half as wide as a sheet: it has no bars, no scheme of boxes, no long legend."""
+    names = [
+        sum(len(line.get("label", "")) for key in ("lines", "fills", "series") for line in panel.get(key, ()))
+        for panel in figure.get("panels", ())
+    ]
+    return figure["type"] != "bars" and not figure.get("schematic") and max(names, default=0) <= LONGEST_LEGEND
+
+
+def _are_near(one: Place, other: Place) -> bool:
+    return other.section - one.section <= NEAR
+
+
+def figures_at(rows: Sequence[Row], place: Place) -> Iterator[Item]:
+    """The figures that stand at a place."""
+    for row in rows:
+        if row.place == place:
+            yield row_item(row)
+
+
+def row_item(row: Row) -> Item:
+    """A figure, or two, among the steps."""
+    items = tuple(
+        Item("figure", number=each.number, title=each.figure["title"], caption=each.figure["caption"])
+        for each in row.figures
+    )
+    return items[0] if len(items) == 1 else Item("pair", pair=items)
 
 
 def sketch(figures: list[Placed]) -> list[Placed]:

@@ -33,6 +33,7 @@ ENDING, CSS = ".html.j2", "house.css"
 MAIN = "report.html.j2"
 FETCHING = ("src", "srcset", "data", "poster", "background", "xlink:href")
 WITH_HREF = ("link", "image", "use", "base")
+_UNWRITTEN = re.compile("[\0-\x08\x0b\x0c\x0e-\x1f\x7f\ud800-\udfff\ufffe\uffff]")  # letters that no page may hold
 _FETCHED_BY_CSS = re.compile(r"@import|url\(\s*(?!['\"]?(?:data:|#))[^)]{0,60}", re.IGNORECASE)
 OPTIONS: dict[str, Any] = {"autoescape": True, "undefined": StrictUndefined, "trim_blocks": True, "lstrip_blocks": True}
 
@@ -104,10 +105,14 @@ def _judged(house: HouseStyle, name: str, text: str, known: list[str], environme
         yield Problem(words, house.path(name))
     try:
         tree = environment.parse(text)
+        asked_for = list(tree.find_all(nodes.Extends))
     except TemplateSyntaxError as error:
-        yield Problem(f"{error.message}.", house.path(name), error.lineno)
+        yield Problem(f"{(error.message or '').rstrip('.')}.", house.path(name), error.lineno)
         return
-    extended = [each.template.value for each in tree.find_all(nodes.Extends) if isinstance(each.template, nodes.Const)]
+    except (RecursionError, ValueError) as error:  # brackets in brackets, a number of thousands of digits
+        yield Problem(f"The template cannot be read: {error}.", house.path(name))
+        return
+    extended = [each.template.value for each in asked_for if isinstance(each.template, nodes.Const)]
     for asked in extended:
         if str(asked).removeprefix(OWN) not in known:
             yield Problem(
@@ -149,6 +154,10 @@ def in_words(house: HouseStyle | None) -> Iterator[None]:
     except Exception as cause:  # of any kind: a template may call, divide, index whatever it likes
         files = {house.path(name) for name in house.templates} if house else set()
         places = [frame for frame in traceback.extract_tb(cause.__traceback__) if frame.filename in files]
+        if (
+            house and files and isinstance(cause, SyntaxError | RecursionError)
+        ):  # in what Jinja makes of it, whose lines tell nothing
+            places = places or [traceback.FrameSummary(house.folder, None, "")]
         if not places:
             raise
         said = f"{cause}"
@@ -159,7 +168,7 @@ def in_words(house: HouseStyle | None) -> Iterator[None]:
 
 
 def refuse_fetching(page: str, house: HouseStyle, policy: str) -> None:
-    """Refuse a page for which something would be fetched, or that lost what forbids a browser to do so.
+    """Refuse a page for which something would be fetched, that lost what forbids a browser to do so, or that holds letters which none may hold.
 
     ``policy`` is how that begins; a page that is only printed has none.
     """
@@ -170,6 +179,10 @@ def refuse_fetching(page: str, house: HouseStyle, policy: str) -> None:
     if policy and (len(reader.policies) != 1 or not reader.policies[0].startswith(policy)):
         words = f"The page has lost its Content-Security-Policy. Override blocks of {MAIN}, not the whole of it, or keep its head."
         found.append(Problem(words, house.folder))
+    if letter := _UNWRITTEN.search(page):
+        found.append(
+            Problem(f"A template writes U+{ord(letter[0]):04X}, which a page cannot hold. Leave it out.", house.folder)
+        )
     if found:
         raise UserError(found)
 

@@ -19,6 +19,7 @@ from diecut_report.report.house_style import OPTIONS, in_words, refuse_fetching
 from diecut_report.report.model import Item
 from diecut_report.report.number_format import tidy
 from diecut_report.report.reader_data import reader_data
+from diecut_report.report.symbol_list import in_columns
 from diecut_report.report.symbols import prose, symbol
 
 if TYPE_CHECKING:
@@ -37,7 +38,7 @@ POLICY = (
 READER = ("uplot/uPlot.min.css", "reader.css")
 SCRIPTS = ("uplot/uPlot.iife.min.js", "reader.js")
 FORMS = {"screen": "woff2", "print": "truetype"}  # a page engine would unpack the smaller form at each report
-FILTERS: dict[str, Callable[..., Any]] = {"prose": prose, "symbol": symbol, "tidy": tidy}
+FILTERS: dict[str, Callable[..., Any]] = {"prose": prose, "symbol": symbol, "tidy": tidy, "in_columns": in_columns}
 END = "</body>\n</html>"
 MATH = {("Report Math", 400, "normal"): "report-math"}
 
@@ -116,12 +117,17 @@ def filled(material: Material, medium: Medium, kind: str, *scripts: str) -> str:
     with in_words(house):
         made = environment.get_template("report.html.j2").render(
         doc=document, t=document.words, kind=kind, style=Markup(style), policy=policy(*scripts),
-        math=medium, figure=medium.figure, failed=material.failed, frame=medium.frame, logo=material.logo,
+        math=medium, figure=medium.figure, failed=material.failed, abreast=material.are_abreast, frame=medium.frame, logo=material.logo,
         carried=material.carried, changes=material.changes,
     )  # fmt: skip
     if house:
         refuse_fetching(made, house, "; ".join(POLICY) if kind == "screen" else "")
     return made
+
+
+def filled_page(template: str, **given: object) -> str:
+    """Return a page of its own of the program's templates, filled with these values; what they hold stands as text."""
+    return _environment().get_template(template).render(**given)
 
 
 def policy(*scripts: str) -> str:

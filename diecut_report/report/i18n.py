@@ -72,6 +72,9 @@ ENGLISH: dict[str, str] = {
     "since": "Branch taken", "method": "Method", "residual": "relation met to {residual}", "checked_to": "verified to {residual}",
     "of_curve": "of {curve}", "series": "Series", "looked_up": "From “{table}” for {choice}",
     "figure": "Figure", "table": "Table", "formula": "Formula",
+    "as_formula": "as ({number})", "as_formula_with": "as ({number}) with {letters}", "letter_for": "{new} for {old}",
+    "as_chapter": "Formulas and assumptions are those of chapter {letter}: a number in brackets tells where a formula stands.",
+    "defaults": "Left at its default",
     "where": "where", "shown_at": "Curves are shown at {places}.",
     "not_drawn": "This figure could not be drawn.", "not_written": "{title} could not be written: {error}",
     "curves_note": "Some rows of the curves; a place that stands twice is a jump, before and after it. Extremes lie between the rows and "

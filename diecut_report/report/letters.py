@@ -8,11 +8,10 @@ from importlib import import_module
 from pathlib import Path
 from typing import Any, NamedTuple
 
-from fontTools.pens.svgPathPen import SVGPathPen
 from fontTools.pens.transformPen import TransformPen
 from fontTools.ttLib import TTFont
 
-from diecut_report.report.pdf_math import OperatorPen
+from diecut_report.report.operator_pen import OperatorPen
 
 MILLIMETRE = 72 / 25.4  # in points
 LINE = 1.2  # of a line's letters
@@ -47,17 +46,6 @@ def fitted(text: str, width: float, height: float, largest: float, smallest: flo
 def measured(text: str, face: str = REGULAR) -> float:
     """Return the width of a text in em."""
     return float(sum(map(_widths(face), text)))
-
-
-def outline(text: str, face: str = BOLD) -> tuple[str, float]:
-    """Return the path of a text as SVG has it, in em from its baseline's start, y downwards; and its width."""
-    glyphs, x = _font(face).getGlyphSet(), 0.0
-    scale = 1 / _font(face)["head"].unitsPerEm
-    pen = SVGPathPen(glyphs, ntos=lambda value: f"{value:.4g}")
-    for letter in text:
-        glyphs[_named(letter, face)].draw(TransformPen(pen, (scale, 0, 0, -scale, x, 0)))
-        x += _widths(face)(letter)
-    return pen.getCommands(), x
 
 
 def drawn(text: str, face: str = REGULAR) -> str:

@@ -11,14 +11,14 @@ from markupsafe import Markup
 
 from diecut_report.languages.tokens import worded
 from diecut_report.quantities.units import pretty
-from diecut_report.report.alignment import rooms
 from diecut_report.report.equations import Equation
-from diecut_report.report.number_format import joined, number, parts, quantity
+from diecut_report.report.number_format import is_words, joined, number, quantity
+from diecut_report.report.printed_tables import PartsTable, PrintedTable
 from diecut_report.report.symbol_list import SymbolRow
 from diecut_report.report.symbols import symbol
+from diecut_report.report.value_rows import ValueRow
 
 Data = Mapping[str, Any]
-LONG = 10  # rows of a table
 ORDER = {"fail": 0, "warn": 1, "pass": 2, "not_checked": 3}
 
 
@@ -64,6 +64,7 @@ class CheckRow:
     check_class: str = ""
     ratio: float | None = None
     is_sized: bool = False
+    is_presumed: bool = False
     missing: tuple[str, ...] = ()
     parts: PartsTable | None = None
     changed: str = ""
@@ -80,9 +81,9 @@ class CheckRow:
 
     @property
     def order(self) -> tuple[int, bool, float]:
-        """By what the checks of a report are sorted: what fails first, then the most utilised, what was sized to its limit last."""
-        unknown = math.inf if self.status != "pass" else -math.inf
-        return ORDER[self.status], self.is_sized, -(unknown if self.ratio is None else self.ratio)
+        """By what the checks of a report are sorted: what fails first, then the most utilised, what shows no reserve last."""
+        known = self.ratio if self.ratio is not None else -math.inf if self.status == "pass" else math.inf
+        return ORDER[self.status], self.is_sized or self.is_presumed, -known
 
 
 @dataclass(frozen=True)
@@ -112,67 +113,8 @@ class Item:
     title: str = ""
     caption: str = ""
     changed: str = ""
-
-
-@dataclass(frozen=True)
-class PrintedTable:
-    """A table of the calculation, or of curves."""
-
-    title: str
-    columns: list[tuple[str, Markup, str]]  # title, symbol, unit
-    rows: list[list[str]]
-    number: str = ""
-
-    @property
-    def cells(self) -> list[list[tuple[str, str]]]:
-        """Each text with the class by which its column is aligned on the decimal sign."""
-        aligned = [zip(texts, rooms(texts), strict=True) for texts in zip(*self.rows, strict=True)]
-        return [list(row) for row in zip(*aligned, strict=True)]
-
-    @property
-    def is_long(self) -> bool:
-        """Whether it may go over to another sheet."""
-        return len(self.rows) > LONG
-
-
-@dataclass(frozen=True)
-class TableCell:
-    """A value in a table of repeated parts, and what is to be said of it: where it comes from, how it was typed."""
-
-    text: str
-    note: str = ""
-    wordy: bool = False
-    changed: str = ""
-
-
-@dataclass(frozen=True)
-class PrintedColumn:
-    """The head of a column in a table of repeated parts."""
-
-    title: str
-    symbol: Markup
-    unit: str
-    key: str
-    source: str
-
-
-@dataclass(frozen=True)
-class PartsTable:
-    """Quantities of repeated parts: a line for each part, by its number."""
-
-    number: str
-    title: str
-    family: str
-    columns: list[PrintedColumn]
-    lines: list[tuple[str, list[TableCell]]]
-
-    @property
-    def rooms(self) -> list[list[str]]:
-        """For each line the classes by which its cells are aligned on the decimal sign."""
-        columns = [
-            rooms([cell.text for cell in column]) for column in zip(*(cells for _, cells in self.lines), strict=True)
-        ]
-        return [list(row) for row in zip(*columns, strict=True)]
+    rows: tuple[ValueRow, ...] = ()
+    pair: tuple[Item, ...] = ()
 
 
 @dataclass(frozen=True)
@@ -212,6 +154,7 @@ class PrintedChapter:
     warnings: list[str] = field(default_factory=list)
     between: list[PrintedChapter] = field(default_factory=list)
     inputs: list[QuantityRow] = field(default_factory=list)
+    defaults: list[QuantityRow] = field(default_factory=list)  # inputs that a standard report tells in a paragraph
     input_parts: list[PartsTable] = field(default_factory=list)
     key_results: list[QuantityRow] = field(default_factory=list)
     outputs: list[QuantityRow] = field(default_factory=list)
@@ -222,10 +165,12 @@ class PrintedChapter:
     phases: list[PrintedTable] = field(default_factory=list)
     phases_absent: list[str] = field(default_factory=list)
     figures: list[tuple[str, Data]] = field(default_factory=list)
+    halves: frozenset[str] = frozenset()  # the numbers of figures that stand side by side
     loose: list[Item] = field(default_factory=list)
     files: list[File] = field(default_factory=list)
     absent: list[Data] = field(default_factory=list)
     symbols: list[SymbolRow] = field(default_factory=list)
+    told_in: str = ""  # the letter of the earlier chapter of the same kind, whose formulas and texts are not repeated
     errata: list[tuple[str, str, str]] = field(default_factory=list)
     parts: dict[str, Heading] = field(default_factory=dict)
     headings: list[Heading] = field(default_factory=list)
@@ -281,11 +226,6 @@ def rested(shown: QuantityRow, row: Data, words: Mapping[str, str]) -> QuantityR
     basis = words[row["basis"]] if row.get("basis", "given") != "given" else ""
     origin = "" if basis and row.get("origin") == "given" else shown.origin
     return replace(shown, origin=", ".join(filter(None, (origin, basis))), note=row.get("note", ""))
-
-
-def is_words(text: str) -> bool:
-    """Whether the text of a value is not a number."""
-    return parts(text) is None
 
 
 def utilisation(ratio: float | None, status: str, decimal: str) -> str:

@@ -5,7 +5,8 @@ from __future__ import annotations
 import math
 import re
 
-from diecut_report.quantities.units import pretty, to_display
+from diecut_report.quantities.formatting import shown
+from diecut_report.quantities.units import pretty
 
 MINUS = "\u2212"
 THIN = "\u202f"  # narrow, and never broken
@@ -18,6 +19,11 @@ def parts(text: str) -> tuple[str, str, str, int] | None:
     """Sign, whole digits, decimals and power of ten of a number as results hold it ("-1.2e-05"); None of other texts."""
     found = _NUMBER.fullmatch(text)
     return (found[1], found[2], found[3] or "", int(found[4] or 0)) if found else None
+
+
+def is_words(text: str) -> bool:
+    """Whether the text of a value is not a number."""
+    return parts(text) is None
 
 
 def grouped(whole: str, separator: str = THIN) -> str:
@@ -65,9 +71,9 @@ def significant(value: float, digits: int = 4) -> str:
     return f"{value:.{digits - 1}e}"
 
 
-def displayed(value: float, unit: str, digits: int = 4, decimal: str = ".") -> str:
-    """An SI value as it is printed in a display unit, without the unit."""
-    return number(significant(to_display(value, unit), digits), decimal)
+def displayed(value: float, unit: str, decimal: str = ".") -> str:
+    """An SI value as it is printed in a display unit, without the unit: with those of its digits that mean something."""
+    return number(shown(value, unit)["text"], decimal)
 
 
 def tidy(text: str) -> str:

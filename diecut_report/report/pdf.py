@@ -11,22 +11,23 @@ from typing import Any
 
 from markupsafe import Markup, escape
 
-from diecut_report.report.backdrop import page_rule
+from diecut_report.report.backdrop import RULE, Backdrop
 from diecut_report.report.carried import DATE, CarriedFile
 from diecut_report.report.context import Material
 from diecut_report.report.equations import Equation
 from diecut_report.report.html import filled
 from diecut_report.report.model import Item
-from diecut_report.report.page_engine import HTML, Attachment, URLFetcher
+from diecut_report.report.page_engine import Attachment, URLFetcher, fetching_refused
+from diecut_report.report.page_reading import read_page
 from diecut_report.report.pdf_archive import Archive
 from diecut_report.report.pdf_figures import FigurePicture, NotDrawn
 from diecut_report.report.pdf_math import Picture
 from diecut_report.report.sheet_frames import SheetBlocks, sheet_blocks
 
-BESIDE_WIDTH = 28.0  # em of a formula that stands beside its description
-BESIDE_LETTERS = 62  # of a description of two lines beside a formula
+BESIDE_WIDTH = 33.0  # em of a formula that stands beside its description
+BESIDE_LETTERS = 60  # of a description of two lines beside a formula
 SMALLER = 0.85  # of the letters of a source
-FORMULA = "data:formula,"  # addresses of the formulas' pictures, which WeasyPrint finds in its cache
+BACKDROP, FORMULA = "data:backdrop,", "data:formula,"  # addresses of pictures, which WeasyPrint finds in its cache
 
 
 class Paper:
@@ -37,11 +38,12 @@ class Paper:
         block = material.document.block
         words = material.words
         self.frame: SheetBlocks | None = sheet_blocks(block, words, has_logo=bool(material.logo))
-        self.style = page_rule(block.frame, words["across"] if block.is_held else "")
-        self.pictures: dict[str, Picture | FigurePicture] = {}
+        behind = Backdrop(block.frame, words["across"] if block.is_held else "")
+        self.pictures: dict[str, Picture | FigurePicture | Backdrop] = {BACKDROP: behind} if behind else {}
+        self.style = RULE.format(BACKDROP) if behind else ""
 
     def display(self, equation: Equation) -> Markup:
-        """A typeset formula: its picture, and transparent text of it for search."""
+        """A typeset formula: its picture."""
         return self._picture(equation, "")
 
     def beside(self, equation: Equation) -> Markup:
@@ -59,13 +61,12 @@ class Paper:
     def _picture(self, equation: Equation, style: str) -> Markup:
         outline = self.material.typesetter.outline(equation.latex)
         address = f"{FORMULA}{len(self.pictures)}"
-        self.pictures[address] = Picture(outline)
-        text = escape(equation.text)
-        image = Markup('<img src="{}" alt="{}"{}>').format(address, equation.text, Markup(style))
-        return Markup("<span class=lin>{}</span>").format(text) + image
+        self.pictures[address] = Picture(outline, equation.text)
+        told = escape(equation.text).replace("\n", Markup("&#10;"))
+        return Markup('<img src="{}" alt="{}"{}>').format(address, told, Markup(style))
 
     def figure(self, number: str, title: str) -> Markup:
-        """A figure as outlines with searchable text under it; as an image where it holds what cannot be drawn so."""
+        """A figure as outlines; as an image where it holds what cannot be drawn so."""
         drawing = self.material.figures[number]
         try:
             picture = FigurePicture(*drawing)
@@ -73,8 +74,7 @@ class Paper:
             return self._image(number, title)
         address = f"{FORMULA}{len(self.pictures)}"
         self.pictures[address] = picture
-        image = Markup('<img src="{}" alt="{}">').format(address, title)
-        return Markup("<span class=lin>{}</span>").format(" · ".join(picture.texts)) + image
+        return Markup('<img src="{}" alt="{}">').format(address, title)
 
     def _image(self, number: str, title: str) -> Markup:
         data = base64.b64encode(self.material.figures[number].text.encode()).decode()
@@ -89,9 +89,10 @@ def sheets(material: Material) -> bytes:
     cache: dict[str, Any] = dict(paper.pictures)
     with (
         _without_collection(),
+        fetching_refused(material.house.folder if material.house else ""),
         warnings.catch_warnings(action="ignore", category=ResourceWarning),
     ):  # WeasyPrint's own file
-        content: bytes = HTML(string=source, url_fetcher=fetcher).write_pdf(
+        content: bytes = read_page(source, fetcher, is_own=material.house is None).write_pdf(
             pdf_variant="pdf/a-3a", cache=cache, presentational_hints=False, finisher=Archive(material.words),
             attachments=[_attached(file, fetcher) for file in material.carried],
         )  # fmt: skip

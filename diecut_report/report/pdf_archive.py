@@ -6,6 +6,8 @@ from collections.abc import Mapping
 from typing import Any
 
 from diecut_report.report.page_engine import Array, Dictionary, Stream, String
+from diecut_report.report.pdf_objects import say_once
+from diecut_report.report.pdf_search import add_font
 from diecut_report.report.title_block import SIGNERS
 
 POINT = 0.75  # of a pixel
@@ -36,11 +38,13 @@ class Archive:
     def __call__(self, document: Any, pdf: Any) -> None:
         """Complete a document, of which ``pdf`` holds the objects."""
         _declare_accessible(pdf)
+        add_font(pdf, _fonts(pdf))
         pdf.catalog["AF"] = Array(dict.fromkeys(pdf.catalog["AF"]))
         for number, page in enumerate(document.pages):
             for name in SIGNERS:
                 if ANCHOR + name in page.anchors:
                     self._field(pdf, name, number, page)
+        say_once(pdf)
 
     def _field(self, pdf: Any, name: str, number: int, page: Any) -> None:
         """An empty field for a signature in its box."""
@@ -84,6 +88,12 @@ def _tag(pdf: Any, field: Any, sheet: bytes) -> None:
     whole["K"].append(element.reference)
     field["StructParent"] = numbers[-2] + 1
     numbers.extend([field["StructParent"], element.reference])
+
+
+def _fonts(pdf: Any) -> Any:
+    """The fonts of the sheets, which share what they use."""
+    sheet = _object(pdf, pdf.page_references[0])
+    return _object(pdf, _object(pdf, sheet["Resources"])["Font"])
 
 
 def _object(pdf: Any, reference: bytes) -> Any:

@@ -11,15 +11,18 @@ from functools import cache
 from importlib import import_module
 from math import cos, radians, sin
 from pathlib import Path
+from textwrap import wrap
 from typing import Any, NamedTuple
 from xml.etree import ElementTree
 
 from fontTools.ttLib import TTFont
 
-from diecut_report.report.pdf_math import OperatorPen
+from diecut_report.report.operator_pen import OperatorPen
+from diecut_report.report.pdf_search import unseen
 
 SVG, HREF = "{http://www.w3.org/2000/svg}", "{http://www.w3.org/1999/xlink}href"
 PIXELS = 4 / 3  # to a point
+LETTERS = 300  # in a line of a figure's texts as searches find them
 WAYS = {"M": ("m", 2), "L": ("l", 2), "C": ("c", 6), "z": ("h", 0)}  # operator, numbers
 CAPS = {"butt": 0, "round": 1, "square": 2}
 JOINS = {"miter": 0, "round": 1, "bevel": 2}
@@ -38,7 +41,7 @@ class NotDrawn(Exception):
 
 
 class FigurePicture:
-    """An image as WeasyPrint wants it (``get_intrinsic_size``, ``draw``) of a figure."""
+    """An image as WeasyPrint wants it (``get_intrinsic_size``, ``draw``) of a figure, with its texts under it for searches."""
 
     def __init__(self, svg: str, width: float, height: float) -> None:
         self.width, self.height = width, height
@@ -51,6 +54,7 @@ class FigurePicture:
 
     def draw(self, stream: Any, width: float, height: float, _style: Any) -> None:
         """Draw the figure into a box of a page (y downwards)."""
+        stream.stream.append(unseen(wrap(" · ".join(self.texts), LETTERS), width))
         stream.transform(width / self.width, 0, 0, height / self.height)
         for piece in self.pieces:
             if isinstance(piece, str):

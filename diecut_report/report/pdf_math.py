@@ -6,9 +6,10 @@ import re
 from functools import cache
 from typing import Any
 
-from fontTools.pens.basePen import BasePen
 from fontTools.svgLib.path import parse_path
 
+from diecut_report.report.operator_pen import OperatorPen
+from diecut_report.report.pdf_search import unseen
 from diecut_report.report.typeset import Outline
 
 _GLYPH = re.compile(r'<path id="[^"]*?-(g\d+)" d="([^"]*)"/>')
@@ -20,31 +21,11 @@ _PLACED = re.compile(
 _DRAWN = re.compile(r"<(?:use|rect|path|line|polygon|circle|ellipse|polyline)\b")
 
 
-class OperatorPen(BasePen):  # type: ignore[misc]  # fontTools has no types
-    """Writes a path as PDF operators; quadratic curves come as cubic ones."""
-
-    def __init__(self, glyphs: Any = None) -> None:
-        super().__init__(glyphs)
-        self.operators: list[str] = []
-
-    def _moveTo(self, pt: tuple[float, float]) -> None:  # noqa: N802
-        self.operators.append(f"{_number(*pt)} m")
-
-    def _lineTo(self, pt: tuple[float, float]) -> None:  # noqa: N802
-        self.operators.append(f"{_number(*pt)} l")
-
-    def _curveToOne(self, *points: tuple[float, float]) -> None:  # noqa: N802
-        self.operators.append(f"{_number(*(n for point in points for n in point))} c")
-
-    def _closePath(self) -> None:  # noqa: N802
-        self.operators.append("h")
-
-
 class Picture:
-    """An image as WeasyPrint wants it (``get_intrinsic_size``, ``draw``) of a formula."""
+    """An image as WeasyPrint wants it (``get_intrinsic_size``, ``draw``) of a formula, with its text under it for searches."""
 
-    def __init__(self, outline: Outline) -> None:
-        self.outline = outline
+    def __init__(self, outline: Outline, text: str) -> None:
+        self.outline, self.lines = outline, text.split("\n")
         self.operators = operators(outline.svg)
 
     def get_intrinsic_size(self, _resolution: float, font_size: float) -> tuple[float, float, float]:
@@ -54,6 +35,7 @@ class Picture:
 
     def draw(self, stream: Any, width: float, height: float, style: Any) -> None:
         """Draw the formula into a box of a page (y downwards)."""
+        stream.stream.append(unseen(self.lines, width))
         across, down = width / self.outline.width, height / self.outline.height
         stream.transform(across, 0, 0, -down, -self.outline.left * across, -self.outline.top * down)
         stream.set_color(style["color"])
@@ -82,7 +64,3 @@ def _outline(_name: str, path: str) -> str:
     pen = OperatorPen()
     parse_path(path, pen)
     return " ".join(pen.operators)
-
-
-def _number(*values: float) -> str:
-    return " ".join(f"{value:g}" for value in values)

@@ -39,6 +39,13 @@ def reader_data(material: Material) -> str:
     return json.dumps(data, ensure_ascii=False, allow_nan=False, separators=(",", ":")).translate(SAFE)
 
 
+def figure_readings(name: str, figure: Data, curves: Data, words: Catalogue) -> dict[str, Any] | None:
+    """Return what can be read in a figure of curves alone: its panels, and the rows of numbers that they name; None where nothing can."""
+    pool = _Pool()
+    found = _figure(name, figure, curves, words, pool)
+    return None if found is None else {**found, "rows": pool.rows}
+
+
 class _Pool:
     """Rows of numbers, each kept once, and the groups of diagrams that share a cursor."""
 
@@ -156,4 +163,4 @@ def _line(line: Line, pool: _Pool) -> Data:
 
 
 def _said(label: str, value: float, unit: str, words: Catalogue) -> str:
-    return f"{tidy(label)} {joined(displayed(value, unit, 4, words['decimal']), pretty(unit))}".strip()
+    return f"{tidy(label)} {joined(displayed(value, unit, words['decimal']), pretty(unit))}".strip()

@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
+from itertools import accumulate
+from math import ceil
 from typing import Any, NamedTuple
 
 from markupsafe import Markup
@@ -12,6 +14,7 @@ from diecut_report.report.symbols import symbol
 
 Data = Mapping[str, Any]
 GROUPS = ("inputs", "curves", "outputs", "values")
+COLUMNS, ROOM = 3, 33  # on paper, and the letters that a line has beside its symbol
 TREES = ("equation", "relation", "condition")
 
 
@@ -22,6 +25,14 @@ class SymbolRow(NamedTuple):
     meaning: str
     unit: str
     in_source: Markup
+    name: str = ""
+    stands: str = ""  # the number of the step, or of the inputs, where it is explained
+    is_step: bool = False
+
+    @property
+    def anchor(self) -> str:
+        """Where the link to that place leads."""
+        return f"{'eq' if self.is_step else 's'}-{self.stands}"
 
 
 def symbol_rows(mechanism: Data) -> list[SymbolRow]:
@@ -35,6 +46,24 @@ def symbol_rows(mechanism: Data) -> list[SymbolRow]:
     return [_row(known[name]) for name in sorted(known, key=_order)]
 
 
+def in_columns(rows: list[SymbolRow]) -> list[list[SymbolRow]]:
+    """The rows in columns for paper, of about as many lines each."""
+    lines = [ceil((len(row.meaning) + len(row.unit) + 2) / ROOM) for row in rows]
+    share = sum(lines) / COLUMNS
+    before = [0, *accumulate(lines)]
+    columns: list[list[SymbolRow]] = [[] for _ in range(COLUMNS)]
+    for row, above, height in zip(rows, before, lines, strict=False):
+        columns[min(int((above + height / 2) / share), COLUMNS - 1)].append(row)
+    return columns
+
+
+def placed(rows: list[SymbolRow], steps: Mapping[str, str], inputs: Mapping[str, str]) -> list[SymbolRow]:
+    """The rows with the place of each symbol: the step that gives it, else the inputs; by their names."""
+    return [
+        row._replace(stands=steps.get(row.name) or inputs.get(row.name, ""), is_step=row.name in steps) for row in rows
+    ]
+
+
 def _row(row: Data) -> SymbolRow:
     unit = row["display_unit"] if "display_unit" in row else row["display"]["unit"]
     in_source = row.get("source_symbol", "")
@@ -43,6 +72,7 @@ def _row(row: Data) -> SymbolRow:
         row["description"].partition(";")[0],
         pretty(unit),
         symbol(in_source) if in_source else Markup(""),
+        row["symbol"],
     )
 
 

@@ -12,16 +12,9 @@ from diecut_report.languages.tokens import worded
 from diecut_report.quantities.units import pretty, to_display
 from diecut_report.report.curves import CurvePlace, table_places
 from diecut_report.report.i18n import Catalogue
-from diecut_report.report.model import (
-    PartsTable,
-    PrintedColumn,
-    PrintedTable,
-    TableCell,
-    is_words,
-    rests,
-    utilisation,
-)
-from diecut_report.report.number_format import displayed, number
+from diecut_report.report.model import rests, utilisation
+from diecut_report.report.number_format import displayed, is_words, number
+from diecut_report.report.printed_tables import PartsTable, PrintedColumn, PrintedTable, TableCell
 from diecut_report.report.repeated_parts import Parts
 from diecut_report.report.symbols import symbol
 
@@ -91,7 +84,7 @@ class Tables:
     def _sample(self, curve: Data, place: CurvePlace) -> str:
         value = curve[place.values][place.number]
         scale = max(abs(v) for v in curve["values"])
-        return displayed(value if abs(value) > ROUNDING * scale else 0.0, curve["display_unit"], 4, self.decimal)
+        return displayed(value if abs(value) > ROUNDING * scale else 0.0, curve["display_unit"], self.decimal)
 
     def of_parts(self, parts: Parts, *, given: bool) -> list[PartsTable]:
         """Quantities of repeated parts: inputs (``given``) tell their keys and where they come from, results their sources."""

@@ -59,7 +59,7 @@ class _Mechanism:
         own = {
             "inputs": {key: self._row(row) for key, row in data["inputs"].items()},
             "lists": {key: self.text(title) for key, title in data.get("lists", {}).items()},
-            "figures": [self._drawn(figure) for figure in data["figures"]],
+            "figures": [self._drawn(figure) for figure in data.get("figures", ())],
         }
         return {**self.walk({key: part for key, part in data.items() if key not in own}), **own}
 

@@ -6,7 +6,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from typing import NamedTuple
 
 from diecut_report.config.basis import ASSUMED, GIVEN, Basis, weakest
-from diecut_report.config.instances import Instance, slots
+from diecut_report.config.instances import Instance
 from diecut_report.config.loader import Config
 from diecut_report.config.model import PRESS
 from diecut_report.config.targets import Node, Target
@@ -58,7 +58,7 @@ class Bases:
 
     def _slots(self, instance: Instance) -> _Slots:
         if instance.name not in self._slots_of:
-            found = list(slots(instance.model, instance.data))
+            found = instance.slots
             given = frozenset(slot.key for slot in found if slot.is_given)
             names = [(".".join(part for part in slot.key if isinstance(part, str)), slot.key) for slot in found]
             self._slots_of[instance.name] = _Slots(given, names)

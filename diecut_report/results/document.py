@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import base64
 import platform
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator, Sized
 from typing import Any
 
 import numpy as np
@@ -47,10 +47,6 @@ def document(run: Run) -> Data:
     config, tree = run.config, run.config.tree
     mechanisms = with_origins({name: _mechanism_data(run, name) for name in config.instances if name != PRESS})
     comparisons = {case.name: _comparison_data(run, case) for case in run.cases}
-    found = [data["status"] for data in mechanisms.values()]
-    status = worst(
-        "fail" if each == "skipped" else each for each in found
-    )  # without an error: what it needs does not hold
     made: Data = {
         "schema_version": 1,
         "program": {"name": "diecut-report", "version": __version__, **_code(config)},
@@ -64,12 +60,17 @@ def document(run: Run) -> Data:
         "project": _project(config.project.model_dump()),
         "report": config.report.model_dump(exclude_none=True),
         "press": _press(run),
-        "status": "error" if run.errors else status,
+        "status": verdict((data["status"] for data in mechanisms.values()), run.errors),
         "governing": governing(mechanisms),
         "summary": summary(mechanisms) | {"assumed": assumed(config)},
         "mechanisms": mechanisms,
     } | ({"comparisons": comparisons} | _left_out(run) if comparisons else {})
     return made | {"wordings": wordings([made["mechanisms"], comparisons, made.get("comparisons_left_out")])}
+
+
+def verdict(statuses: Iterable[str], errors: Sized) -> str:
+    """Return the verdict on all mechanisms; one that is skipped without an error fails, as what it needs does not hold."""
+    return "error" if errors else worst("fail" if each == "skipped" else each for each in statuses)
 
 
 def _tables(config: Config) -> Data:
@@ -147,7 +148,7 @@ def _project(fields: Data) -> Data:
 
 
 def _press(run: Run) -> Data:
-    press, bases = run.blocks[PRESS], Bases(run.config, run.calculations)
+    press, bases = run.blocks[PRESS], run.bases
     assert isinstance(press, Press)
     found, chosen = [], run.chosen_units(PRESS)
     for name, value in flatten(press).items():
@@ -163,7 +164,7 @@ def _press(run: Run) -> Data:
 
 def resolved(run: Run) -> Data:
     """Return the config with every reference and default put in: SI values as texts that read back exactly, with what they rest on."""
-    config, bases = run.config, Bases(run.config, run.calculations)
+    config, bases = run.config, run.bases
     mechanisms = {}
     for name, kind in config.kinds.items():
         block, instance = run.blocks.get(name), config.instances[name]

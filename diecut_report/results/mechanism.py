@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass
 from typing import Any, Literal
 
@@ -42,6 +42,7 @@ class SelfTestFailed(Exception):
         self.checks = checks
 
 
+Of = Callable[[Callable[[Calculation], Any]], Any]  # what a function makes of a calculation
 Origin = Literal["given", "default", "reference", "expression"]
 
 
@@ -57,12 +58,15 @@ class Provenance:
     note: str = ""
 
 
-def mechanism_results(calc: Calculation, provenance: Mapping[str, Provenance]) -> Data:
-    """Return the results of one machine's mechanism, as the contract names them; SelfTestFailed where they contradict themselves."""
+def mechanism_results(calc: Calculation, provenance: Mapping[str, Provenance], of: Of | None = None) -> Data:
+    """Return the results of one machine's mechanism, as the contract names them; SelfTestFailed where they contradict themselves.
+
+    ``of`` gives what a function makes of the calculation, where that is remembered.
+    """
     mechanism = calc.mechanism
-    checks = check_results(calc)
-    if failed := failed_self_tests(checks):
-        raise SelfTestFailed(failed)
+    made: Of = of or (lambda make: make(calc))
+    checks = made(check_results)
+    require_self_tests(checks)
     return {
         "kind": mechanism.kind,
         "title": mechanism.title,
@@ -74,20 +78,26 @@ def mechanism_results(calc: Calculation, provenance: Mapping[str, Provenance]) -
         "sources": [{"id": s.id, "citation": s.citation} for s in mechanism.sources],
         "inputs": inputs(calc, provenance),
         "lists": list_titles(mechanism.inputs) | {name: calc.steps[name].description for name in calc.part_names},
-        **numbers(calc),
+        **made(numbers),
         **listings.results(calc),
-        "curves": curves(calc),
+        "curves": made(curves),
         "phases": phases(calc),
         "phases_absent": phases_absent(calc),
         "checks": checks,
         "counts": counts(checks),
         "warnings": [c["message"] for c in checks if c["status"] == "warn"],
-        "sections": section_items(calc),
+        "sections": made(section_items),
         "absent": absent(calc, provenance),
-        "figures": figures(calc),
+        "figures": made(figures),
         "exports": exports(calc),
         "errata": list(errata(calc)),
     }
+
+
+def require_self_tests(checks: list[Data]) -> None:
+    """Raise SelfTestFailed where the calculation contradicts itself."""
+    if failed := failed_self_tests(checks):
+        raise SelfTestFailed(failed)
 
 
 def errata(calc: Calculation) -> Iterator[Data]:

@@ -5,13 +5,14 @@ from __future__ import annotations
 import math
 from collections.abc import Callable
 from dataclasses import replace
-from typing import Any
+from functools import cached_property
+from typing import Any, TypeVar
 
 import numpy as np
 
 from diecut_report.config import report_units
 from diecut_report.config.discovery import said
-from diecut_report.config.instances import Instance, Slot, slots
+from diecut_report.config.instances import Instance
 from diecut_report.config.loader import Config, substituted
 from diecut_report.config.model import PRESS
 from diecut_report.config.targets import Node, Target
@@ -25,11 +26,15 @@ from diecut_report.languages.phrases import Phrase, named
 from diecut_report.limits import MAX_COMPARISONS
 from diecut_report.results.bases import Bases
 from diecut_report.results.comparisons import Found, Uncomparable, compared, found
-from diecut_report.results.mechanism import Origin, Provenance, SelfTestFailed, mechanism_results
+from diecut_report.results.mechanism import Provenance, SelfTestFailed, mechanism_results
+from diecut_report.results.origins import origin_of
 from diecut_report.results.taken_over import Absent, Withheld, output
 
 Data = dict[str, Any]
 Tell = Callable[[str], None]
+
+
+R = TypeVar("R", bound="Run")
 
 
 class Unavailable(LookupError):
@@ -45,9 +50,14 @@ def compute(config: Config, tell: Tell) -> Run:
 
     ``tell`` is called with the name of each mechanism before it is calculated.
     """
-    run = Run(config, tell)
+    return require_possible(Run(config, tell))
+
+
+def require_possible(run: R) -> R:
+    """Return a run; UserError with all that is wrong where its machine is impossible."""
     if run.problems:
-        raise UserError([*run.problems, *(Problem(str(error), config.tree.file) for error in run.errors.values())])
+        broken = (Problem(str(error), run.config.tree.file) for error in run.errors.values())
+        raise UserError([*run.problems, *broken])
     return run
 
 
@@ -240,7 +250,9 @@ class Run:
         return ChosenUnits(report_units.by_si(chosen), report_units.by_id(chosen, name))
 
     def _printed(self, instance: Instance, calculation: Calculation) -> None:
-        found = mechanism_results(calculation, self._provenance(instance))
+        self._store(instance, mechanism_results(calculation, self._provenance(instance)))
+
+    def _store(self, instance: Instance, found: Data) -> None:
         own = instance.own.sources if instance.own else {}
         found["sources"] += [{"id": file, "citation": said} for file, said in own.items()]
         self.results[instance.name] = found
@@ -270,19 +282,16 @@ class Run:
         error.__cause__ = cause
         self.errors[instance.name] = error
 
+    @cached_property
+    def bases(self) -> Bases:
+        """Return what the values of the run rest on."""
+        return Bases(self.config, self.calculations)
+
     def _provenance(self, instance: Instance) -> dict[str, Provenance]:
-        found, bases = {}, Bases(self.config, self.calculations)
-        for slot in slots(instance.model, instance.data):
-            typed = instance.place.typed(slot.key) if slot.is_given else None
+        found, bases = {}, self.bases
+        for slot in instance.slots:
             node = (instance.name, *slot.key)
-            origin = _provenance(slot, self.config.links.get(node), typed)
+            origin = origin_of(self.config, instance, slot)
             rests = bases.of(node) if isinstance(slot.meta, Quantity | CurveInput) else ""
             found[".".join(map(str, slot.key))] = replace(origin, basis=rests, note=bases.said(node).note)
         return found
-
-
-def _provenance(slot: Slot, target: Target | None, typed: str | None) -> Provenance:
-    if target is not None and target.expression:
-        return Provenance("expression", "", typed, tuple(term.path for term in target.terms))
-    origin: Origin = "default" if not slot.is_given else "reference" if target else "given"
-    return Provenance(origin, target.path if target else "", typed)

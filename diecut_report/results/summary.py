@@ -37,7 +37,7 @@ def summary(mechanisms: Data) -> Data:
 def governing(mechanisms: Data) -> Data | None:
     """Return the check that governs: fail before warn before pass, then the greatest utilisation; a failing null is the greatest.
 
-    Neither self-tests nor what the program sized to its limit, unless that fails, govern.
+    Self-tests do not govern, nor, unless it fails, what the program sized to its limit or what the calculation presumes.
     """
     checks = [(name, check) for name, data in mechanisms.items() for check in data["checks"] if _may_govern(check)]
     if not checks:
@@ -47,8 +47,8 @@ def governing(mechanisms: Data) -> Data | None:
 
 
 def _may_govern(check: Data) -> bool:
-    is_sized = check["status"] == "pass" and check.get("sized_to_limit", False)
-    return check["status"] in RANK and check["class"] != SELF_TEST and not is_sized
+    shows_reserve = not (check.get("sized_to_limit", False) or check.get("presumed", False))
+    return check["status"] in RANK and check["class"] != SELF_TEST and (shows_reserve or check["status"] != "pass")
 
 
 def weight(check: Data) -> tuple[int, float]:

@@ -4,11 +4,15 @@ from __future__ import annotations
 
 import sys
 from collections.abc import Sequence
+from contextlib import AbstractContextManager
 from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from diecut_report.config.catalogues import catalogues_for
 from diecut_report.config.discovery import Discovery
+from diecut_report.languages.phrases import phrase
+from diecut_report.languages.speech import said, say, speaking
 from diecut_report.study.definition.study_file import Study, load_study
 from diecut_report.study.execution.refusals import refuse_empty, refuse_huge
 from diecut_report.study.execution.study_run import Counts, StudyOutcome, Where, engine_for, run_study
@@ -36,7 +40,7 @@ class Shown:
         if not self.is_quiet:
             self.bar = _bar()
             self.bar.start()
-            self.task = self.bar.add_task("variants", total=None, told="")
+            self.task = self.bar.add_task(say("variants"), total=None, told="")
         return self
 
     def __exit__(self, *_: object) -> None:
@@ -45,18 +49,18 @@ class Shown:
 
     def __call__(self, counts: Counts) -> None:
         if self.bar is not None:
-            told = f"{counts.failed:,} of {counts.variants:,} fail" + (
-                f", {counts.errors:,} in error" if counts.errors else ""
-            )
+            told = say("{n} of {total} fail", n=f"{counts.failed:,}", total=f"{counts.variants:,}")
+            told += say(", {n} in error", n=f"{counts.errors:,}") if counts.errors else ""
             self.bar.update(self.task, total=counts.rows, completed=counts.before + counts.done, told=told)
 
     def doing(self, what: str) -> None:
         """Show what is done after the variants, on a line below."""
         if self.bar is None:
             return
+        words = said(what)
         if self.after is None:
-            self.after = self.bar.add_task(what, total=None, told="")
-        self.bar.update(self.after, description=what)
+            self.after = self.bar.add_task(words, total=None, told="")
+        self.bar.update(self.after, description=words)
 
 
 def _bar() -> Progress:
@@ -102,15 +106,27 @@ def run(
     outcome = run_study(known, directory, where, resume=resume, tell=shown)
     with outcome.store.lock():
         told, broken = write_reports(known, outcome.store, where, agreed=agreed, tell=shown.doing)
-        shown.doing("summary")
+        shown.doing(phrase("summary"))
         told += export(outcome.store, formats)
-        summarise(directory)
+        with _speaking(known, where):
+            summarise(directory)
     return replace(outcome, broken_reports=broken, notes=(*filter(None, [known.sample.note]), *told))
+
+
+def _speaking(study: Study, where: Where) -> AbstractContextManager[None]:
+    """The language of the summary: the one that is asked for, else that of the base's project."""
+    language = where.language or study.base.project.language
+    kinds = dict.fromkeys(study.base.kinds.values())
+    return speaking(language, catalogues_for(language, kinds, _discovery(where)))
+
+
+def _discovery(where: Where) -> Discovery:
+    return Discovery([Path(folder) for folder in where.plugins])
 
 
 def _loaded(study: Path | None, directory: Path, where: Where) -> Study:
     """The study of a file, or as it was when the run of the folder was begun."""
-    discovery = Discovery([Path(folder) for folder in where.plugins])
+    discovery = _discovery(where)
     if study is not None:
         return load_study(study, discovery)
     return load_study(directory / state.STUDY, discovery, state.kept(directory))

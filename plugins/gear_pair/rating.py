@@ -68,7 +68,7 @@ sizes.value("contact_ratio_total", "ε_γ", "1", "Total contact ratio", lambda c
 
 forces = Chapter("Forces", text="Of the greatest torque. F_t acts at the reference circle and rates the teeth; the others act at the mesh.")
 forces.value("tangential_force", "F_t", "N", "Tangential force at the reference circle",
-             lambda torque_peak, pitch_diameter_1: 2 * torque_peak / pitch_diameter_1, source="ISO 6336-1", digits=6)
+             lambda torque_peak, pitch_diameter_1: 2 * torque_peak / pitch_diameter_1, source="ISO 6336-1")
 forces.value("working_force", "F_tw", "N", "Tangential force at the working pitch circle",
              lambda torque_peak, working_diameter_1: 2 * torque_peak / working_diameter_1, source=STATICS)
 forces.value("radial_force", "F_r", "N", "Radial force, which drives the axes apart",
@@ -84,31 +84,31 @@ forces.value("power_peak", "P", "kW", "Power at the greatest torque", lambda tor
 pitting = Chapter("Pitting", text="Load at the pitch point, led over to the inner points of single contact by Z_B and Z_D. Z_E is that of Poisson's "
                                   "ratio 0.3.")
 pitting.value("zone_factor", "Z_H", "1", "Zone factor",
-              bind(f.zone_factor, working_angle="working_pressure_angle", alpha="transverse_angle"), source=f"{PITTING}, 6", digits=6)
-pitting.value("elasticity", "E_Z", "MPa", "Square of the elasticity factor Z_E", f.elasticity, source=f"{PITTING}, 7", output=False, digits=6)
-pitting.value("contact_ratio_factor", "Z_ε", "1", "Contact ratio factor", f.contact_ratio_factor, source=f"{PITTING}, 8", digits=6)
+              bind(f.zone_factor, working_angle="working_pressure_angle", alpha="transverse_angle"), source=f"{PITTING}, 6")
+pitting.value("elasticity", "E_Z", "MPa", "Square of the elasticity factor Z_E", f.elasticity, source=f"{PITTING}, 7", output=False)
+pitting.value("contact_ratio_factor", "Z_ε", "1", "Contact ratio factor", f.contact_ratio_factor, source=f"{PITTING}, 8")
 pitting.value("helix_factor", "Z_β", "1", "Helix angle factor", lambda helix_angle: 1 / np.sqrt(np.cos(helix_angle)),
-              source=f"{PITTING}, 9, corrigendum 2008", output=False, digits=6)
+              source=f"{PITTING}, 9, corrigendum 2008", output=False)
 pitting.value("nominal_contact_stress", "σ_H0", "MPa", "Nominal contact stress at the pitch point",
-              bind(f.nominal_contact_stress, force="tangential_force", diameter="pitch_diameter_1"), source=f"{PITTING}, 5", digits=6)
+              bind(f.nominal_contact_stress, force="tangential_force", diameter="pitch_diameter_1"), source=f"{PITTING}, 5")
 for g, teeth in TEETH.items():
     pitting.require(f"single_contact_exists_{g}",
                     bind(f.touches, tip_angle=f"tip_angle_{g}", teeth=teeth), key="addendum",
-                    message=f"is {{addendum}}, with which the flank {g} ends before its inner point of single contact; take less dedendum and "
-                            "addendum, or more teeth")
+                    message=f"is {{addendum}}, with which the flank {g} ends before its inner point of single contact; take more shift, less "
+                            "dedendum and addendum, or more teeth")
 for g, teeth in TEETH.items():
     mate = 3 - g
     pitting.value(f"single_contact_{g}", f"M_{g}", "1", f"Pressure at the inner point of single contact of the gear {g}, to that at the pitch point",
                   bind(f.single_contact, working_angle="working_pressure_angle", tip_angle=f"tip_angle_{g}", teeth=teeth,
-                       tip_angle_mate=f"tip_angle_{mate}", teeth_mate=TEETH[mate]), source=f"{PITTING}, 6", output=False, digits=6)
+                       tip_angle_mate=f"tip_angle_{mate}", teeth_mate=TEETH[mate]), source=f"{PITTING}, 6", output=False)
     pitting.value(f"contact_factor_{g}", "Z_B" if g == 1 else "Z_D", "1", f"Single pair contact factor of the gear {g}",
-                  bind(f.contact_factor, single_contact=f"single_contact_{g}"), source=f"{PITTING}, 6", digits=6)
+                  bind(f.contact_factor, single_contact=f"single_contact_{g}"), source=f"{PITTING}, 6")
     pitting.value(f"contact_stress_{g}", f"σ_H{g}", "MPa", f"Contact stress of the gear {g}",
                   bind(f.contact_stress, nominal="nominal_contact_stress", contact_factor=f"contact_factor_{g}", face="face_load_factor", **FACTORS),
-                  source=f"{PITTING}, 5", digits=6)
+                  source=f"{PITTING}, 5")
     pitting.value(f"pitting_safety_{g}", f"S_H{g}", "1", f"Safety of the gear {g} against pitting",
                   bind(f.pitting_safety, limit=f"sigma_h_lim_{g}", life=f"life_factor_h_{g}", film="film_factor", stress=f"contact_stress_{g}"),
-                  source=f"{PITTING}, 5", digits=6)
+                  source=f"{PITTING}, 5")
 
 root_stress = Chapter("Tooth root", text="Method B: the load acts at the outer point of single contact, Y_ε does not occur; Y_B = Y_DT = 1.")
 root_stress.value("tooth_height", "h", "mm", "Height of the teeth",
@@ -116,17 +116,17 @@ root_stress.value("tooth_height", "h", "mm", "Height of the teeth",
 root_stress.value("face_to_height", "r", "1", "Face width to the height of the teeth, 3 at least",
                   lambda face_width, tooth_height: np.maximum(face_width / tooth_height, 3), source="ISO 6336-1", output=False)
 root_stress.value("face_load_root", "K_Fβ", "1", "Face load factor of the root",
-                  bind(f.face_factor_root, face_factor="face_load_factor", slenderness="face_to_height"), source="ISO 6336-1, 7", digits=6)
-root_stress.value("helix_factor_root", "Y_β", "1", "Helix angle factor of the root", f.helix_factor_root, source=f"{ROOT}, 8", digits=6)
+                  bind(f.face_factor_root, face_factor="face_load_factor", slenderness="face_to_height"), source="ISO 6336-1, 7")
+root_stress.value("helix_factor_root", "Y_β", "1", "Helix angle factor of the root", f.helix_factor_root, source=f"{ROOT}, 8")
 for g in TEETH:
     root_stress.value(f"nominal_root_stress_{g}", f"σ_F0{g}", "MPa", f"Nominal stress at the root {g}",
                       bind(f.nominal_root_stress, force="tangential_force", form_factor=f"form_factor_{g}", stress_factor=f"stress_factor_{g}",
-                           helix_factor="helix_factor_root"), source=f"{ROOT}, 5", digits=6)
+                           helix_factor="helix_factor_root"), source=f"{ROOT}, 5")
     root_stress.value(f"root_stress_{g}", f"σ_F{g}", "MPa", f"Stress at the root {g}",
-                      bind(f.root_stress, nominal=f"nominal_root_stress_{g}", face="face_load_root", **FACTORS), source=f"{ROOT}, 5", digits=6)
+                      bind(f.root_stress, nominal=f"nominal_root_stress_{g}", face="face_load_root", **FACTORS), source=f"{ROOT}, 5")
     root_stress.value(f"root_safety_{g}", f"S_F{g}", "1", f"Safety of the root {g} against breakage",
                       bind(f.root_safety, limit=f"sigma_f_lim_{g}", life=f"life_factor_f_{g}", notch="notch_size_factor",
-                           alternating="alternating_factor", stress=f"root_stress_{g}"), source=f"{ROOT}, 5", digits=6)
+                           alternating="alternating_factor", stress=f"root_stress_{g}"), source=f"{ROOT}, 5")
 
 over_cycle = Chapter("Forces over the cycle", needs=("torque_curve",))
 over_cycle.value("tangential_force_curve", "F_tφ", "N", "Tangential force at the reference circle, signed as the torque",

@@ -35,24 +35,30 @@ CHECKS = (
     Check(id="driven_inertia", check_class="strength", title="Inertia behind the clutch",
           demand="equal_inertia", limit="clutch_inertia", unit="kg*m**2", tolerance=1e-3,
           demand_label="inertia of equal heat at the crank", limit_label="inertia that the clutch is calculated with",
-          source="energy", consequence="an engagement at {start_angle} makes {slip_heat} of heat in {slip_time}; the crank feels "
+          source="energy",
+          presumed=True,
+          consequence="an engagement at {start_angle} makes {slip_heat} of heat in {slip_time}; the crank feels "
           "{crank_inertia_mean} in the mean and up to {crank_inertia_max} at {crank_inertia_max_at}: give the clutch a driven_inertia of at "
           "least {equal_inertia:up}."),
     Check(id="clutch_position", check_class="function", title="Clutch and offsets of the lines", demand="lines_out_of_step", limit=0.0,
           unit="1", demand_label="lines that lose step", limit_label="accepted", source="kinematics",
-          consequence="a friction clutch engages at any angle, and its slip turns what it drives back, so that {clutch_lines} lose the offset to the "
-          "other lines; let the clutch drive all lines, or take one that engages at one angle only (single_position: true)."),
+          consequence="a friction clutch engages at any angle, and its slip turns back what it drives; out of step with the other lines: "
+          "{clutch_lines}; let the clutch drive all lines, or take one that engages at one angle only (single_position: true)."),
     Check(id="damper_velocity", check_class="strength", title="Speed at the dampers", demand="contact_speed", limit="damper_velocity",
           unit="m/s", severity="warn", demand_label="speed at contact", limit_label="speed that the dampers are calculated with",
-          source="kinematics", consequence="the dampers are met faster than calculated; that speed is reached {way_inner} before the inner and "
+          source="kinematics",
+          presumed=True,
+          consequence="the dampers are met faster than calculated; that speed is reached {way_inner} before the inner and "
           "{way_outer} before the outer end: give the damper a velocity of at least {contact_speed:up}, or let it be met later."),
     Check(id="conveyor_mass", check_class="strength", title="Mass of the conveyor", demand="chain_mass", limit="conveyor_mass", unit="kg",
           only_with=("chain_mass",), demand_label="mass that the chain accelerates", limit_label="mass that the transport is calculated with",
           source="dynamics",
+          presumed=True,
           consequence="torque, contact pressure and motor of the transport are calculated with less than the chain moves: give its conveyor_mass at "
           "least {chain_mass:up}, or take lighter chains and bars."),
     Check(id="conveyor_inertia", check_class="practice", title="Inertia of the conveyor", demand="inertia_error", limit=LARGEST_INERTIA_ERROR,
           unit="%", severity="warn", demand_label="difference", limit_label="accepted", source="energy",
+          presumed=True,
           consequence="the conveyor of {conveyor_mass} has {conveyor_inertia} at the wheel, which is calculated with {wheel_inertia}; one of "
           "both is not that of this press."),
     Check(id="motor_thermal", check_class="strength", title="Heat of the motor", demand="motor_torque_rms", limit="motor_rated_torque",

@@ -26,14 +26,17 @@ MECHANISM = Mechanism(
         "brakes, the other side is tight by the same amount.",
         "Of a torque or an acceleration the size counts: where it changes its sign, the other strand is the tight one.",
         "Strands that run side by side share the load evenly.",
-        "The required safeties 7 and 5 are usual values; no standard confirms them here.",
+        "The safeties that are required without a key, 7 (static) and 6 (dynamic), are rules of makers; no standard gives them.",
         "Tensions take the distance of the axes as it is given; where links are given, the one at which they fit.",
         "Not covered: selection charts and wear life of ISO 10823, attachments and bent lugs, friction of guides in curves, stretch and resonance of "
-        "the strands, elongation by wear. A cranked link loses about a fifth of the breaking load: a warning only.",
+        "the strands, elongation by wear. A cranked link is warned of, and bears less: required_safety_dynamic is then 9.",
     ),
     sources=(
         Source("ISO 606", "ISO 606, Short-pitch transmission precision roller and bush chains, attachments and associated chain sprockets."),
         Source("Shigley", "Budynas R. G., Nisbett J. K. Shigley's Mechanical Engineering Design. McGraw-Hill; section 17-5, roller chain."),
+        Source("iwis", "iwis, Grundlagen der Kettentechnik: Bruchkraft (breaking load): a safety of 7 against it by rule of thumb. iwis.de."),
+        Source("Diamond Chain", "Diamond Chain, What is working load, and what role does it play in selecting roller chain? At most a sixth of the "
+               "breaking load, a ninth with slip-fit or cranked connecting links. diamondchain.com."),
         Source("ANSI B29.1", "ANSI/ASME B29.1, Precision power transmission roller chains, attachments, and sprockets; power ratings as given by "
                "Shigley, eq. 17-32, 17-33."),
     ),

@@ -13,10 +13,10 @@ STRONGER = "take a chain of at least {breaking_load_needed:up} breaking load, mo
 
 CHECKS = (
     Check(id="safety_dynamic", check_class="strength", title="Safety against breaking, dynamic", demand="required_safety_dynamic",
-          limit="safety_dynamic", unit="1", demand_label="required safety", limit_label="safety", tolerance=ROUNDING, source="practice",
+          limit="safety_dynamic", unit="1", demand_label="required safety", limit_label="safety", tolerance=ROUNDING, source="Diamond Chain",
           sized_unless=("chain",), consequence="the plates break by fatigue; " + STRONGER),
     Check(id="safety_static", check_class="strength", title="Safety against breaking, static", demand="required_safety_static",
-          limit="safety_static", unit="1", demand_label="required safety", limit_label="safety", tolerance=ROUNDING, source="practice",
+          limit="safety_static", unit="1", demand_label="required safety", limit_label="safety", tolerance=ROUNDING, source="iwis",
           sized_unless=("chain",), consequence="too little is left for what is not calculated; " + STRONGER),
     Check(id="bearing_pressure", check_class="strength", title="Pressure of the joints", demand="bearing_pressure",
           limit="allowable_bearing_pressure", unit="MPa", demand_label="pressure", limit_label="allowed", tolerance=ROUNDING, source="maker",
@@ -25,7 +25,8 @@ CHECKS = (
           "strands."),
     Check(id="links_even", check_class="practice", title="Even number of links", demand="links_odd", limit=0.0, unit="1", severity="warn",
           demand_label="links beyond an even number", limit_label="allowed", source="practice",
-          consequence="the chain needs a cranked link, which costs about a fifth of its breaking load; set links to {links_next}."),
+          consequence="the chain needs a cranked link, with which a ninth of the breaking load may be used in place of a sixth (Diamond Chain); set "
+          "links to {links_next}, or required_safety_dynamic to 9."),
     Check(id="teeth", check_class="practice", title="Teeth of the smaller sprocket", demand="teeth_usual", limit="teeth_small", unit="1",
           severity="warn", demand_label="usual", limit_label="teeth", source="practice",
           consequence="the chain runs roughly and wears; give it {teeth_usual} teeth or more."),
@@ -48,7 +49,8 @@ CHECKS = (
           limit_label="sag and pretension", source="statics",
           consequence="the returning strand goes slack when the drive brakes; give it a tensioner, or set pretension to at least "
           "{pretension_needed:up}."),
-    Check(id="length_formula", check_class="practice", title="Formula of the length", demand="links_residual", limit=0.01, unit="1", severity="warn",
+    Check(id="length_formula", check_class="practice", presumed=True, title="Formula of the length", demand="links_residual", limit=0.01,
+          unit="1", severity="warn",
           demand_label="links that the exact polygon differs", limit_label="accepted", source="geometry",
           consequence="sprockets so unlike stand so near that the formula of the catalogues is coarse: let the distance of the axes be "
           "adjustable."),

@@ -135,16 +135,17 @@ class RollerChain(Inputs):
     ] = None
     required_safety_static: Annotated[
         float,
-        Quantity(
-            "S_1", "1", "Required safety against breaking, static: usual value, not of a standard; never below 2", ge=1
-        ),
+        Quantity("S_1", "1", "Required safety against breaking, static: rule of thumb of a maker (iwis)", ge=1),
     ] = 7
     required_safety_dynamic: Annotated[
         float,
         Quantity(
-            "S_2", "1", "Required safety against breaking, dynamic: usual value, not of a standard; never below 2", ge=1
+            "S_2",
+            "1",
+            "Required safety against breaking, dynamic, with press-fit connecting links; 9 with slip-fit or cranked ones (Diamond Chain)",
+            ge=1,
         ),
-    ] = 5
+    ] = 6
     power_rating: Annotated[
         Literal["ansi_b29_1"] | None, Text("Rating of a drive: that of ANSI chains of the same pitch")
     ] = None

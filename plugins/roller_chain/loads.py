@@ -69,7 +69,7 @@ motion = Chapter("Motion",
                  text="The chain lies on the sprocket as a polygon: at an even speed of the shaft its velocity rises and falls with each tooth, "
                       "and jumps in its acceleration where a joint meets the sprocket.")
 motion.value("velocity", "v", "m/s", "Mean velocity of the chain",
-             bind(f.mean_velocity, teeth="teeth_1"), source="kinematics", digits=6, **DRIVEN)
+             bind(f.mean_velocity, teeth="teeth_1"), source="kinematics", **DRIVEN)
 motion.value("velocity", "v", "m/s", "Size of the velocity", bind(lambda given: abs(given), given="inputs.velocity"),
              needs=(CONVEYOR, "velocity"), source="input")
 motion.value("velocity", "v", "m/s", "Greatest velocity over the cycle", lambda velocity_size: velocity_size, source="this method", **VELOCITY)
@@ -77,9 +77,9 @@ motion.value("angular_speed", "ω", "rad/s", "Angular speed of the driving sproc
 motion.value("angular_speed", "ω", "rad/s", "Greatest angular speed of the driving sprocket",
              lambda velocity, sprocket_diameter_1: as_angle(velocity / (sprocket_diameter_1 / 2)), source="kinematics", **CONVEYED)
 motion.value("velocity_max", "v_max", "m/s", "Greatest velocity within a tooth", lambda angular_speed, sprocket_diameter_1:
-             angular_speed * sprocket_diameter_1 / 2, source="geometry", digits=6)
+             angular_speed * sprocket_diameter_1 / 2, source="geometry")
 motion.value("velocity_min", "v_min", "m/s", "Least velocity within a tooth", lambda velocity_max, teeth_1: velocity_max * np.cos(np.pi / teeth_1),
-             source="geometry", digits=6)
+             source="geometry")
 motion.value("speed_unevenness", "δ", "%", "Share by which the velocity falls within a tooth", lambda teeth_1: 1 - np.cos(np.pi / teeth_1),
              source="geometry")
 motion.value("chordal_acceleration", "a_ch", "m/s**2", "Step of the acceleration where a joint meets the sprocket", f.chordal_step,
@@ -92,10 +92,10 @@ useful.value("torque_carried", "T_d", "N*m", "Torque of the driving sprocket", l
              needs=(DRIVE, "power"), source="power", output=False)
 useful.reduction("torque_carried", "T_d", "N*m", "Greatest size of the torque over the cycle", "abs_max", of="torque_over", output=False, **TORQUE)
 useful.value("moving_mass_with_chain", "m_h", "kg", "Mass that moves, with the chains; all of it is taken to hang on one side",
-             bind(f.hanging_mass, mass="moving_mass", length="chain_length"), source="this method", output=False, digits=6, **CONVEYED)
+             bind(f.hanging_mass, mass="moving_mass", length="chain_length"), source="this method", output=False, **CONVEYED)
 useful.value("moving_mass_total", "m_tot", "kg", "Mass that is accelerated, with what turns at the driven sprocket",
              bind(f.total_mass, hanging="moving_mass_with_chain", inertia="driven_inertia", diameter="sprocket_diameter_2"), source="dynamics",
-             digits=6, **CONVEYED)
+             **CONVEYED)
 useful.value("resistance", "F_w", "N", "Force against the motion", bind(f.resistance, friction="friction_coefficient", mass="moving_mass_with_chain"),
              source="this method", **CONVEYED)
 useful.value("moving_over", "k_φ", "1", "Whether the chain moves",
@@ -116,16 +116,16 @@ for way, formula in ((TORQUE, bind(f.drive_tension, torque="torque_over", diamet
     useful.value("useful_tension_curve", "F_tφ", "N", "Useful tension", formula, source="statics", **way)
     useful.reduction("useful_tension", "F_t", "N", "Greatest useful tension over the cycle", "max", of="useful_tension_curve", **way)
 useful.value("useful_tension", "F_t", "N", "Useful tension", bind(f.drive_tension, torque="torque_carried", diameter="sprocket_diameter_1"),
-             source="statics", digits=7, **NUMBERS[0])
-useful.value("useful_tension", "F_t", "N", "Useful tension", pulled("acceleration", "moving"), source="statics", digits=7, **NUMBERS[1])
+             source="statics", **NUMBERS[0])
+useful.value("useful_tension", "F_t", "N", "Useful tension", pulled("acceleration", "moving"), source="statics", **NUMBERS[1])
 
 tension = Chapter("Tension of the strands",
                   text="Beside the useful tension a strand bears its weight, what keeps it on its circles, the shocks of the polygon and its "
                        "pretension. The static tension is without application factor and shocks.")
-tension.value("centrifugal_tension", "F_c", "N", "Centrifugal tension, at the greatest velocity", f.centrifugal, source="dynamics", digits=6)
-tension.value("sag_tension", "F_s", "N", "Tension by the sag, at the strand's upper end", bind(f.sag_tension), source="statics (parabola)", digits=6)
+tension.value("centrifugal_tension", "F_c", "N", "Centrifugal tension, at the greatest velocity", f.centrifugal, source="dynamics")
+tension.value("sag_tension", "F_s", "N", "Tension by the sag, at the strand's upper end", bind(f.sag_tension), source="statics (parabola)")
 tension.value("chordal_tension", "F_ch", "N", "Force of the polygon's shocks on the free strand, at the greatest velocity",
-              bind(f.chordal, step="chordal_acceleration"), source="this method", digits=6)
+              bind(f.chordal, step="chordal_acceleration"), source="this method")
 tension.value("centrifugal_over", "F_cφ", "N", "Centrifugal tension", bind(f.centrifugal, velocity="velocity_over"), source="dynamics",
               output=False, **VELOCITY)
 tension.value("angular_speed_over", "ω_φ", "rad/s", "Angular speed of the driving sprocket",
@@ -158,8 +158,8 @@ for way, parts in ((TORQUE, SAME), (VELOCITY, OVER), (ACCELERATION, SAME)):
                   source="this method", **way)
     tension.reduction("tension_static", "F_0", "N", "Greatest static tension over the cycle", "max", of="static_tension_curve", **way)
 for way in NUMBERS:
-    tension.value("tension_peak", "F", "N", "Tension of the tight strand", whole("useful_tension", SAME), source="statics", digits=7, **way)
-    tension.value("tension_static", "F_0", "N", "Static tension of the tight strand", quiet("useful_tension", SAME), source="statics", digits=7,
+    tension.value("tension_peak", "F", "N", "Tension of the tight strand", whole("useful_tension", SAME), source="statics", **way)
+    tension.value("tension_static", "F_0", "N", "Static tension of the tight strand", quiet("useful_tension", SAME), source="statics",
                   **way)
 tension.value("shaft_load", "F_a", "N", "Load of the shaft by all strands",
               lambda strands, application, useful_tension, sag_tension, pretension:

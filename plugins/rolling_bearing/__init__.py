@@ -14,7 +14,7 @@ MECHANISM = Mechanism(
     title="Rolling bearings",
     summary="Bearings that turn or swing under loads that are constant or vary over a cycle. Calculated are the equivalent load over the "
     "cycle, the rating life with reliability and lubrication, the static safety, and the life of all together. Where a deep groove ball "
-    "bearing is left out, the smallest of its series that holds is taken.",
+    "bearing or a cylindrical roller bearing is left out, the smallest of its series that holds is taken.",
     inputs=RollingBearing,
     chapters=(loads.ratings, loads.loads, loads.static, life.motion, life.life, life.limits),
     key_results=("life_min", "governing_bearing", "system_life"),
@@ -28,7 +28,8 @@ MECHANISM = Mechanism(
         "covered; a speed is held against the limiting speed of the maker alone.",
         "A swing counts by its way alone (Harris' first method, without the factors of Houpert or Rumbarger).",
         "The life of all bearings takes the Weibull slope 10/9 for rollers, too.",
-        "Ratings of the table are the lowest of three makers; those of the maker whose bearing is mounted are given in their place.",
+        "Ratings of the tables are the lowest of three makers; those of the maker whose bearing is mounted are given in their place. Series NU are "
+        "of the reinforced design; needle, tapered and other bearings stand in no table.",
     ),
     sources=(
         Source("ISO 281", "ISO 281:2007, Rolling bearings: Dynamic load ratings and rating life."),

@@ -25,12 +25,15 @@ class Bearing(Block):
     ]
     designation: Annotated[
         str | None,
-        Text("Designation; of the table where no ratings are given, else only told"),
+        Text("Designation, such as 6209 or NU2208E; of the tables where no ratings are given, else only told"),
     ] = None
     series: Annotated[
-        Literal["60", "62", "63"],
-        Text("Series in which the smallest is sought that holds, without ratings and designation"),
-    ] = "62"
+        Literal["60", "62", "63", "NU2", "NU22", "NU3", "NU23"] | None,
+        Text(
+            "Series in which the smallest is sought that holds, without ratings and designation; without it 62 of deep groove ball "
+            "bearings, NU2 of rollers"
+        ),
+    ] = None
     bore_min: Annotated[float, Quantity("d_min", "mm", "Least bore of the bearing that is sought", ge=0, le=100)] = 0
     dynamic_rating: Annotated[
         float | None, Quantity("C_g", "kN", "Basic dynamic load rating, of the maker's catalogue", gt=0)

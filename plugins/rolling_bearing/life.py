@@ -29,18 +29,18 @@ row(motion, "cycles", "n_z", "rpm", "Cycles, as a speed: 1 rpm is a cycle a minu
     lambda known: known.row(lambda i: known.cycle_speed[i] * known.is_swinging(i)), "as given", output=False)
 value(motion, "turns_per_cycle", "N_c", "1", "Turns of the rings in a cycle", lambda travel: travel / (2 * np.pi),
       exists=lambda is_angle: is_angle > 0,
-      source="kinematics", digits=6)
+      source="kinematics")
 row(motion, "given_mean", "n_s", "rpm", "Mean size of the speed that is given (0 where an angle is)",
     lambda known: known.row(lambda i: np.zeros((known.variants, 1)) if known.is_swinging(i) else known.duties[i].mean_speed),
     "Gauss–Legendre between the breakpoints and reversals", output=False)
 value(motion, "mean_speed", "n_m", "rpm", "Mean speed of the rings",
-      lambda cycles, travel, given_mean: cycles * travel / (2 * np.pi) + given_mean, source="kinematics", digits=6)
+      lambda cycles, travel, given_mean: cycles * travel / (2 * np.pi) + given_mean, source="kinematics")
 row(motion, "speed_max", "n_max", "rpm", "Greatest speed of the rings over the cycle", lambda known: known.row(known.greatest_speed), SEARCH,
     output=False)
 row(motion, "returns", "r", "1", "Whether the rings only swing (1) or turn (0)", lambda known: known.row(known.oscillates),
     "the relative angle returns, and goes less than a turn in a cycle", output=False)
 row(motion, "swing", "W", "deg", "Width of the swing", lambda known: known.row(known.swing_width),
-    "greatest less least relative angle", exists=lambda returns: returns > 0, digits=6)
+    "greatest less least relative angle", exists=lambda returns: returns > 0)
 row(motion, "elements", "Z", "1", "Rolling elements: as given, else 8", lambda known: known.row(known.elements.__getitem__), "as given, else 8",
     output=False)
 value(motion, "critical_swing", "W_crit", "deg", "Least swing at which neighbouring rolling elements overlap",
@@ -51,14 +51,14 @@ motion.part_table("motion_table", "Motion of all bearings", "bearings", ("turns_
 life = Chapter("Life", text="A bearing that stands has no life by rolling, only a static safety.")
 value(life, "life_revolutions", "L_10", "1", "Basic rating life in revolutions",
       bind(f.revolutions, rating="dynamic_rating", load="equivalent_load", exponent="exponent"),
-      exists=lambda turned, equivalent_load: (turned > 0) & (equivalent_load > 0), source=LIFE, digits=6)
+      exists=lambda turned, equivalent_load: (turned > 0) & (equivalent_load > 0), source=LIFE)
 value(life, "life", "L_10h", "h", "Basic rating life", bind(f.duration, turns="life_revolutions", speed="mean_speed"),
-      exists=lambda turned, equivalent_load: (turned > 0) & (equivalent_load > 0), source=LIFE, digits=6)
+      exists=lambda turned, equivalent_load: (turned > 0) & (equivalent_load > 0), source=LIFE)
 value(life, "life_modified", "L_nmh", "h", "Modified rating life",
       bind(f.modified, reliability="reliability_factor", a_iso="bearings.a_iso"),
-      exists=lambda turned, equivalent_load: (turned > 0) & (equivalent_load > 0), source="ISO 281:2007, 6.3", digits=6)
-value(life, "lives", "k_L", "1", "Whether a life is calculated (1) or not (0)", lambda equivalent_load: np.where(equivalent_load > 0, 1, 0),
-      source="this method", output=False)
+      exists=lambda turned, equivalent_load: (turned > 0) & (equivalent_load > 0), source="ISO 281:2007, 6.3")
+life.computed("lives", "k_L", "1", "Whether a life is calculated (1) or not (0)", lambda load: (np.nan_to_num(load) > 0) * 1.0, ("equivalent_load",),
+              "1 where the rings turn under load", over="bearings", named_by=NAMES, output=False)
 life.total("any_life", "n_L", "1", "Bearings with a life", "sum", of="lives", source="this method", output=False)
 
 
@@ -74,16 +74,17 @@ def _governing(known: Bearings, life: Any) -> list[str]:
 
 
 life.computed("life_min", "L_min", "h", "Least modified rating life", _least, ("life_modified",), "the least of all bearings that turn",
-              exists=lambda any_life: any_life > 0, source=LIFE, digits=6)
+              exists=lambda any_life: any_life > 0, source=LIFE)
 life.computed("governing_bearing", "B_L", "1", "Bearing of the least life", _governing, ("all_bearings", "life_modified"),
               "the least of all bearings that turn", is_text=True)
 value(life, "life_share", "s_L", "1", "Share of the least life in this bearing's, to the Weibull slope",
-      lambda lives, life_min, life_modified: np.where(lives > 0, (life_min / life_modified) ** (10 / 9), 0), source="Lundberg and Palmgren",
-      output=False)
-life.total("life_sum", "Σ s_L", "1", "Sum of these shares", "sum", of="life_share", source="Lundberg and Palmgren", output=False)
+      lambda lives, life_min, life_modified: np.where(lives > 0, (life_min / life_modified) ** (10 / 9), 0),
+      exists=lambda any_life: any_life > 0, source="Lundberg and Palmgren", output=False)
+life.total("life_sum", "Σ s_L", "1", "Sum of these shares", "sum", of="life_share",
+           exists=lambda any_life: any_life > 0, source="Lundberg and Palmgren", output=False)
 life.value("system_life", "L_sys", "h", "Life of all bearings together, of the same reliability", lambda life_min,
            life_sum: life_min * life_sum ** (-0.9),
-           exists=lambda any_life: any_life > 0, source="Lundberg and Palmgren", digits=6)
+           exists=lambda any_life: any_life > 0, source="Lundberg and Palmgren")
 
 life.part_table("life_table", "Life of all bearings", "bearings", ("life_revolutions", "life", "life_modified"))
 

@@ -7,7 +7,6 @@ from typing import Any
 
 from diecut_report.api import Cell, ListedColumn
 from diecut_report.plugins.rolling_bearing.bearings import Bearings
-from diecut_report.plugins.rolling_bearing.part import CATALOGUE, SIZES
 
 CHOICE = (
     ListedColumn("name", "Bearing"), ListedColumn("designation", "Designation"), ListedColumn("taken", "taken"), ListedColumn("bore", "Bore", "d",
@@ -23,9 +22,7 @@ def choice(given: Mapping[str, Any]) -> Iterator[tuple[Cell, ...]]:
     """Yield each bearing of the table that is taken, between the next smaller and the next larger one of its series."""
     known: Bearings = given["all_bearings"]
     for name, taken in zip(known.names, known.taken, strict=True):
-        if taken.is_of_table:
+        if taken.catalogue is not None:
             own = taken.designations[0]
-            place = CATALOGUE.names.index(own)
-            beside = (each for each in CATALOGUE.names[max(place - 1, 0) : place + 2] if each[:2] == own[:2])
-            for each in beside:
-                yield name, each, "yes" if each == own else "no", *(SIZES[key][each] for key in SHOWN)
+            for each in taken.catalogue.beside(own):
+                yield name, each, "yes" if each == own else "no", *(taken.catalogue.size(key, each) for key in SHOWN)

@@ -109,11 +109,11 @@ value(loads, "axial_limit", "e", "1", "Limit of F_a/F_r", lambda by_table, table
       output=False)
 value(loads, "equivalent_load_max", "P_max", "N", "Greatest equivalent load over the cycle",
       bind(f.equivalent_load, radial="radial_at_peak", axial="axial_at_peak", x="radial_factor", y="axial_factor", e="axial_limit"),
-      source="ISO 281, 5.3", digits=6)
+      source="ISO 281, 5.3")
 row(loads, "turned", "G", "1", "Whether the rings turn against each other (1) or stand (0)",
     lambda known: known.row(known.turns), "from the speed or the relative angle", output=False)
 row(loads, "equivalent_load", "P_m", "N", "Equivalent load over the cycle, its mean by the life exponent", lambda known: known.row(known.mean_load),
-    "Gauss–Legendre between the breakpoints, reversals and changes of X and Y", exists=lambda turned: turned > 0, source="linear damage", digits=6)
+    "Gauss–Legendre between the breakpoints, reversals and changes of X and Y", exists=lambda turned: turned > 0, source="linear damage")
 row(loads, "arithmetic_load", "P_a", "N", "Arithmetic mean of the equivalent load by the same weights",
     lambda known: known.row(lambda i: known.mean_load(i, 1.0)), "as P_m, with the exponent 1", exists=lambda turned: turned > 0, output=False)
 value(loads, "load_ratio", "C/P", "1", "Load ratio", lambda dynamic_rating, equivalent_load: dynamic_rating / equivalent_load,
@@ -134,9 +134,9 @@ row(static, "static_radial_factor", "X_0", "1", "Static radial factor", lambda k
 row(static, "static_axial_factor", "Y_0", "1", "Static axial factor", lambda known: known.rating("y0"),
     "as given; 0.5 of a deep groove ball bearing, 0 where no axial force acts", output=False)
 value(static, "static_load", "P_0", "N", "Greatest static equivalent load over the cycle",
-      bind(f.static_load, radial="static_radial", axial="static_axial", x0="static_radial_factor", y0="static_axial_factor"), source=STATIC, digits=6)
+      bind(f.static_load, radial="static_radial", axial="static_axial", x0="static_radial_factor", y0="static_axial_factor"), source=STATIC)
 static.require("loaded", lambda static_load: static_load > 0, key="bearings.{index}.radial_force",
                message="is 0 all over the cycle, and so is the axial force; give the force that the bearing bears, or leave the bearing out")
-value(static, "static_safety", "s_0", "1", "Static safety", lambda static_rating, static_load: static_rating / static_load, source=STATIC, digits=6)
+value(static, "static_safety", "s_0", "1", "Static safety", lambda static_rating, static_load: static_rating / static_load, source=STATIC)
 static.part_table("static_table", "Static safety of all bearings", "bearings",
                   ("static_radial", "static_axial", "static_radial_factor", "static_axial_factor", "static_load", "static_safety"))

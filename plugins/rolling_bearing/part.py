@@ -2,15 +2,16 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
-from diecut_report.api import Phrase, Refusal, si, table_beside
+from diecut_report.api import Phrase, Refusal
 from diecut_report.plugins.rolling_bearing import formulas as f
+from diecut_report.plugins.rolling_bearing.catalogue import CATALOGUES, DEEP_GROOVE, ROLLER, BearingTable, written
 from diecut_report.plugins.rolling_bearing.duty import Duty, is_curve, of_one_cycle
 from diecut_report.plugins.rolling_bearing.factors import RADIAL_FACTOR, STATIC_FACTORS
 from diecut_report.plugins.rolling_bearing.ratings import Ratings
@@ -18,24 +19,18 @@ from diecut_report.plugins.rolling_bearing.ratings import Ratings
 Array = NDArray[Any]
 Known = Mapping[str, Any]
 
-DEEP_GROOVE = "deep_groove"
-EXPONENTS = {DEEP_GROOVE: 3.0, "ball": 3.0, "roller": 10 / 3}
-STATIC_SAFETIES = {DEEP_GROOVE: 1.0, "ball": 1.0, "roller": 1.5}
-CATALOGUE = table_beside(__file__, "ball_bearings.yaml")
-SIZES = {
-    column.name: dict(zip(CATALOGUE.names, (si(value, column.unit) for value in column.values), strict=True))
-    for column in CATALOGUE.columns
-}
+EXPONENTS = {DEEP_GROOVE: 3.0, "ball": 3.0, ROLLER: 10 / 3}
+STATIC_SAFETIES = {DEEP_GROOVE: 1.0, "ball": 1.0, ROLLER: 1.5}
 MARGIN = 1e-6  # by which a bearing must hold that is chosen with fewer places of the cycle
 
 
 class ChosenBearing(NamedTuple):
-    """Hold a bearing: its ratings, its designation for each variant, whether it holds where it was sized, and whether it is of the table."""
+    """Hold a bearing: its ratings, its designation for each variant, whether it holds where it was sized, and the table that it is of."""
 
     ratings: Ratings
     designations: tuple[str, ...]
     holds: Array
-    is_of_table: bool = True
+    catalogue: BearingTable | None = None
 
 
 @dataclass(frozen=True)
@@ -104,26 +99,44 @@ class GivenBearing:
         known = np.ones((self.variants, 1))
         if self.raw("dynamic_rating") is not None:
             own = self._with(self.raw("dynamic_rating"), self.raw("static_rating"), self.raw("f0"))
-            return ChosenBearing(own, (designation or "own",) * self.variants, known, is_of_table=False)
-        if self.text("type") != DEEP_GROOVE:
-            raise Refusal(self.key("dynamic_rating"), "is missing; give dynamic_rating and static_rating of the maker's catalogue: only deep groove "
-                          "ball bearings stand in the table")  # fmt: skip
+            return ChosenBearing(own, (designation or "own",) * self.variants, known)
+        catalogue = self.catalogue()
         if designation is not None:
-            if designation not in CATALOGUE.names:
-                series = Phrase(
-                    "{names} to {names_2}, series 60, 62 and 63", names=CATALOGUE.names[0], names_2=CATALOGUE.names[-1]
-                )
-                raise Refusal(
-                    self.key("designation"),
-                    Phrase(
-                        "is {designation}, which is not in the table ({series}); give dynamic_rating and static_rating "
-                        "of the maker's catalogue beside it",
-                        designation=designation,
-                        series=series,
-                    ),
-                )
-            return ChosenBearing(self.of(designation), (designation,) * self.variants, known)
-        return self._sized(duty)
+            name = self._found(designation, catalogue)
+            return ChosenBearing(self.of(name), (name,) * self.variants, known, catalogue)
+        return self._sized(duty, catalogue)
+
+    def catalogue(self) -> BearingTable:
+        """Return the table of bearings of this kind; Refusal where there is none."""
+        known = CATALOGUES.get(str(self.text("type")))
+        if known is None:
+            raise Refusal(self.key("dynamic_rating"), "is missing; give dynamic_rating and static_rating of the maker's catalogue: only deep groove "
+                          "ball bearings and cylindrical roller bearings stand in the tables")  # fmt: skip
+        return known
+
+    def _found(self, designation: str, catalogue: BearingTable) -> str:
+        """Return the designation as the table has it; Refusal where it is not in it."""
+        name = written(designation)
+        if name in catalogue.names:
+            return name
+        if name + catalogue.suffix in catalogue.names:
+            raise Refusal(self.key("designation"), Phrase(
+                "is {designation}; the table has the reinforced design {names}, which bears more. Write {names} if it is that one, else give "
+                "dynamic_rating and static_rating of the maker's catalogue beside it",
+                designation=designation, names=name + catalogue.suffix))  # fmt: skip
+        series = Phrase(
+            "{names} to {names_2}, series {series}", names=catalogue.names[0], names_2=catalogue.names[-1],
+            series=", ".join(catalogue.series),
+        )  # fmt: skip
+        raise Refusal(
+            self.key("designation"),
+            Phrase(
+                "is {designation}, which is not in the table ({series}); give dynamic_rating and static_rating "
+                "of the maker's catalogue beside it",
+                designation=designation,
+                series=series,
+            ),
+        )
 
     def _with(self, dynamic: Array, static: Array, f0: Array | None) -> Ratings:
         ones, kind = np.ones((self.variants, 1)), self.text("type")
@@ -139,33 +152,41 @@ class GivenBearing:
 
     def of(self, designation: str) -> Ratings:
         """Return the ratings of a bearing of the table."""
-        dynamic, static, f0 = (np.full((self.variants, 1), SIZES[name][designation]) for name in ("C", "C0", "f0"))
+        size = self.catalogue().size
+        dynamic, static, f0 = (np.full((self.variants, 1), size(name, designation)) for name in ("C", "C0", "f0"))
         own = self.raw("f0")
         return self._with(dynamic, static, f0 if own is None else own)
 
-    def candidates(self) -> Iterator[str]:
-        """Yield the bearings of the series, the smallest first."""
-        yield from (name for name in CATALOGUE.names if name.startswith(str(self.text("series"))))
+    def candidates(self, catalogue: BearingTable) -> tuple[str, ...]:
+        """Return the bearings of the series, the smallest first; Refusal of a series of another kind."""
+        series = self.text("series") or catalogue.usual
+        if series not in catalogue.series:
+            raise Refusal(self.key("series"), Phrase(
+                "is {series}, a series of another kind of bearing; bearings of this type are sought in {known}",
+                series=series, known=", ".join(catalogue.series)))  # fmt: skip
+        return catalogue.of_series(series)
 
-    def _sized(self, duty: Duty) -> ChosenBearing:
+    def _sized(self, duty: Duty, catalogue: BearingTable) -> ChosenBearing:
         """The smallest bearing of the series that holds, for each variant; the largest where none does."""
-        names = list(self.candidates())
+        names = self.candidates(catalogue)
         static_forces = duty.greatest(self.of(names[0]).static_load)
         held = np.concatenate([self.holds(duty, name, static_forces) for name in names], axis=1)
         enough = np.asarray(held.any(axis=1))
         taken = tuple(names[index] for index in np.where(enough, np.argmax(held, axis=1), len(names) - 1))
-        dynamic, static, f0 = (np.array([[SIZES[column][name]] for name in taken]) for column in ("C", "C0", "f0"))
+        dynamic, static, f0 = (
+            np.array([[catalogue.size(column, name)] for name in taken]) for column in ("C", "C0", "f0")
+        )
         own = self._with(dynamic, static, f0 if self.raw("f0") is None else self.raw("f0"))
-        return ChosenBearing(own, taken, enough[:, None] * 1.0)
+        return ChosenBearing(own, taken, enough[:, None] * 1.0, catalogue)
 
     def holds(self, duty: Duty, name: str, static_forces: tuple[Array, Array]) -> Array:
         """Return whether a bearing of the table reaches life and static safety, (variants, 1)."""
         own = self.of(name)
         life, safety = self.life(duty, own), own.static / own.static_load(*static_forces)
         wanted = self.given.get("required_static_safety")
-        required = STATIC_SAFETIES[DEEP_GROOVE] if wanted is None else wanted
+        required = STATIC_SAFETIES[str(self.text("type"))] if wanted is None else wanted
         is_long = np.isnan(life) | (life >= self.given["required_life"] * (1 + MARGIN))
-        fits = SIZES["d"][name] >= self.raw("bore_min") * (1 - MARGIN)
+        fits = self.catalogue().size("d", name) >= self.raw("bore_min") * (1 - MARGIN)
         found: Array = is_long & (safety >= required * (1 + MARGIN)) & fits
         return found
 

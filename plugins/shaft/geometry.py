@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 import numpy as np
 
 from diecut_report.api import Chapter, bind, case
@@ -13,6 +15,7 @@ from diecut_report.plugins.shaft.body import PRESS_FIT, body
 
 BODY = ("sections.length", "section_diameter", "sections.bore", "sections.fillet_radius", "notches.position", "notches.type",
         "notches.radius", "notches.k_t", "notches.k_ts", "notches.k_f", "notches.k_fs", "loads.name", "loads.position", "bearing_a", "bearing_b")
+BEARINGS = 2
 GIVEN = "as it is given, or of the type of notch"
 
 sections = Chapter("Sections", text="x counts from the shaft's left end; y and z lie across, turning and torque are positive from y to z.")
@@ -42,7 +45,8 @@ sections.total("shaft_mass", "m", "kg", "Mass of the shaft, without what is moun
 
 places = Chapter("Places", text="Stresses are judged at the shoulders, notches, bearings and loads; at a step on the smaller diameter. Formulas are "
                                 "shown for the place of the least safety against fatigue, all places stand in the table of the chapter on fatigue.")
-places.part_names("places", "Places that are judged", lambda body: list(body.names), ("body",), shown_at="governing_place")
+places.part_names("places", "Places that are judged", lambda body: list(body.names), ("body",), shown_at="governing_place",
+                  count=lambda length: length("sections") - 1 + length("notches") + BEARINGS + length("loads"))
 
 
 def _row(id: str, symbol: str, unit: str, description: str, function, method: str = GIVEN) -> None:  # type: ignore[no-untyped-def]
@@ -77,27 +81,30 @@ notches.value("neuber_bending", "a_N", "mm", "Neuber's length in bending", formu
 notches.value("neuber_torsion", "a_Ns", "mm", "Neuber's length in torsion", formulas.neuber_torsion, source="Shigley 6-35b")
 notches.value("press_fit_factor", "K_fp", "1", "Fatigue notch factor of a press fit", formulas.press_fit_factor, source="DIN 743-2, table 1",
               output=False)
-notches.value("fillet_ratio", "t/r", "1", "Step to fillet radius (1 where there is no fillet)",
-              lambda is_fillet, place_step, place_radius: np.where(is_fillet > 0, place_step / place_radius, 1), source="Peterson", output=False)
-notches.value("fillet_root", "w", "1", "Root of it", lambda fillet_ratio: np.sqrt(fillet_ratio), source="Peterson", output=False)
+AT_FILLETS: dict[str, Any] = {"exists": lambda is_fillet: is_fillet > 0, "output": False}
+notches.value("fillet_ratio", "t/r", "1", "Step to fillet radius", lambda place_step, place_radius: place_step / place_radius, source="Peterson",
+              **AT_FILLETS)
+notches.value("fillet_root", "w", "1", "Root of it", lambda fillet_ratio: np.sqrt(fillet_ratio), source="Peterson", **AT_FILLETS)
 notches.value("fillet_share", "z", "1", "Both steps to the greater diameter", lambda place_step, place_greater: 2 * place_step / place_greater,
-              source="Peterson", output=False)
+              source="Peterson", **AT_FILLETS)
 for number, (low, high) in enumerate(formulas.BENDING, 1):
     names = {f"{term}{end}": value for end, terms in (("", low), ("_above", high)) for term, value in zip("abc", terms, strict=True)}
     notches.value(f"bending_{number}", f"C_{number}", "1", f"Coefficient {number} of the chart for bending",
                   bind(lambda ratio, root, a, b, c, a_above, b_above, c_above:
                            np.where(ratio <= 2, formulas.quadratic(a, b, c, root), formulas.quadratic(a_above, b_above, c_above, root)),
-                       ratio="fillet_ratio", root="fillet_root", **names), source="Peterson, chart 3.10", output=False)
+                       ratio="fillet_ratio", root="fillet_root", **names), source="Peterson, chart 3.10", **AT_FILLETS)
 for number, terms in enumerate(formulas.TORSION, 1):
     names = dict(zip(("constant", "linear", "square"), terms, strict=True))
     notches.value(f"torsion_{number}", f"C_s{number}", "1", f"Coefficient {number} of the chart for torsion",
-                  bind(formulas.quadratic, root="fillet_root", **names), source="Peterson, chart 3.12", output=False)
+                  bind(formulas.quadratic, root="fillet_root", **names), source="Peterson, chart 3.12", **AT_FILLETS)
 for name, symbol, told, chart, chart_name in (("k_t", "K_t", "bending", "bending", "3.10"), ("k_ts", "K_ts", "torsion", "torsion", "3.12")):
-    notches.value(name, symbol, "1", f"Stress concentration in {told}",
-                  bind(lambda is_fillet, first, second, third, fourth, share, of_type:
-                           np.where(is_fillet > 0, formulas.cubic(first, second, third, fourth, share), of_type),
-                       first=f"{chart}_1", second=f"{chart}_2", third=f"{chart}_3", fourth=f"{chart}_4", share="fillet_share",
-                       of_type=f"type_{name}"), source=f"Peterson, chart {chart_name}", output=False)
+    notches.value(f"charted_{name}", f"{symbol}c", "1", f"Stress concentration of the fillet in {told}",
+                  bind(formulas.cubic, first=f"{chart}_1", second=f"{chart}_2", third=f"{chart}_3", fourth=f"{chart}_4", share="fillet_share"),
+                  source=f"Peterson, chart {chart_name}", **AT_FILLETS)
+    notches.computed(name, symbol, "1", f"Stress concentration in {told}",
+                     lambda is_fillet, of_chart, of_type: np.where(is_fillet > 0, of_chart, of_type),
+                     ("is_fillet", f"charted_{name}", f"type_{name}"), "of the chart at a fillet, else of the type of the notch", over="places",
+                     output=False)
 notches.value("sensitivity", "q", "1", "Notch sensitivity in bending",
               bind(formulas.notch_sensitivity, radius="place_radius", neuber="neuber_bending"), source="Shigley 6-34", output=False)
 notches.value("sensitivity_torsion", "q_s", "1", "Notch sensitivity in torsion",

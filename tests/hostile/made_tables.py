@@ -119,7 +119,7 @@ QUICK: dict[str, Made] = {
     "empty.csv": lambda path: path.write_bytes(b"") and None,
     "zeros.csv": lambda path: hole(path, 1_000_000),
     "line.csv": lambda path: hole(path, 150_000_000),
-    "quote.csv": lambda path: path.write_bytes(b'a,b\n"' + b"1,2\n" * 600_000) and None,
+    "quote.csv": lambda path: path.write_bytes(b'a,b\n"' + b"1,2\n" * 600_000 + b'"') and None,
     "columns.csv": lambda path: path.write_bytes(b"," * 900_000 + b"\n1") and None,
     "blank.csv": lambda path: path.write_bytes(b"a,b,c,d,e,f,g,h,i\n" + b"\n" * 5_000_000) and None,
     "ragged.csv": lambda path: path.write_bytes(b"a,b\n" + b"1\n" * 100_000) and None,

@@ -56,6 +56,7 @@ SOUGHT: dict[str, Any] = {
     "axial_force": 500,
     "speed": 300,
 }
+SOUGHT_ROLLER: dict[str, Any] = {"name": "sought_roller", "type": "roller", "radial_force": 9000, "speed": 300}
 SWINGING: dict[str, Any] = {
     "name": "swinging", "type": "roller", "dynamic_rating": 81.5, "static_rating": 75, "rolling_elements": 14, "cycle_speed": 50,
     "radial_force": Over(lambda phi: 9000 * np.cos(phi)), "relative_angle": Over(lambda phi: np.pi / 6 * np.sin(phi)),

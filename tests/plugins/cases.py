@@ -132,7 +132,7 @@ FULL: dict[str, dict[str, dict[str, Any]]] = {
     },
     "rolling_bearing": {
         "numbers": {"bearings": [bearings.BALL | {"axial_force": 900}, bearings.BALL | {"name": "other", "radial_force": -9000}], "n_points": 72},
-        "kinds": {"bearings": [bearings.ANGULAR, bearings.ROLLER, bearings.SOUGHT], "reliability": 95, "n_points": 72},
+        "kinds": {"bearings": [bearings.ANGULAR, bearings.ROLLER, bearings.SOUGHT, bearings.SOUGHT_ROLLER], "reliability": 95, "n_points": 72},
         "curves": {"bearings": [bearings.SWINGING, bearings.WAVING, bearings.JUMPING, bearings.SOUGHT | {
             "axial_force": bearings.WAVING["axial_force"]}], "required_static_safety": 2, "n_points": 72},
     },

@@ -222,7 +222,7 @@ def holds(found: Any) -> bool:
     """Whether the safeties and the joints of a chain hold."""
     allowed = number(found, "allowable_bearing_pressure") if "allowable_bearing_pressure" in found.inputs else np.inf
     return (
-        number(found, "safety_dynamic") >= 5
+        number(found, "safety_dynamic") >= 6
         and number(found, "safety_static") >= 7
         and number(found, "bearing_pressure") <= allowed
     )

@@ -56,6 +56,16 @@ def test_the_grippers_of_the_method_pass_all_but_the_slack_side() -> None:
     assert {name for name, check in found.items() if check["status"] not in ("pass", "not_checked")} == {"slack_side"}
 
 
+@pytest.mark.parametrize(("check", "torque", "safety"), [("safety_static", 285.0, 7), ("safety_dynamic", 285.0, 6)])
+def test_the_safeties_that_are_required_without_a_key_are_those_of_published_guides(
+    check: str, torque: float, safety: int
+) -> None:
+    """iwis takes a seventh of the breaking load by rule of thumb, Diamond Chain a sixth as the greatest working load."""
+    made = checks(chain(DRIVE | {"torque": torque}))[check]
+    assert made["demand"] == safety
+    assert made["source"] in {source.id for source in MECHANISM.sources}
+
+
 def test_checks_of_the_other_use_are_left_out() -> None:
     assert {"slack_side"}.isdisjoint(checks(chain()))
     assert {"center_distance", "power_rating"}.isdisjoint(checks(chain(GRIPPERS)))

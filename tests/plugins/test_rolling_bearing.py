@@ -12,7 +12,8 @@ from hypothesis import given
 from hypothesis import strategies as st
 from scipy.integrate import quad
 
-from diecut_report.plugins.rolling_bearing.part import CATALOGUE
+from diecut_report.engine import listings
+from diecut_report.plugins.rolling_bearing.catalogue import CATALOGUES
 from tests.examples import examples
 from tests.plugins.bearings import (
     ANGULAR,
@@ -20,6 +21,7 @@ from tests.plugins.bearings import (
     JUMPING,
     ROLLER,
     SOUGHT,
+    SOUGHT_ROLLER,
     SWINGING,
     WAVING,
     Over,
@@ -237,26 +239,76 @@ def test_a_bearing_that_stands_has_a_static_safety_alone() -> None:
 # --- the table ---------------------------------------------------------------------------------------------------------------
 
 
+SERIES = {
+    "60": SOUGHT,
+    "62": SOUGHT,
+    "63": SOUGHT,
+    "NU2": SOUGHT_ROLLER,
+    "NU22": SOUGHT_ROLLER,
+    "NU3": SOUGHT_ROLLER,
+    "NU23": SOUGHT_ROLLER,
+}
+USUAL_SAFETY = {"deep_groove": 1, "roller": 1.5}
+
+
+def designations(series: str) -> list[str]:
+    """The bearings of a series by how they are called: 62 of 6209, NU2 of NU209E, where NU2209E is of NU22."""
+    suffix = "E" if series.startswith("NU") else ""
+    table = CATALOGUES[SERIES[series]["type"]].names
+    return [f"{series}{bore:02d}{suffix}" for bore in range(21) if f"{series}{bore:02d}{suffix}" in table]
+
+
 @given(
     radial=st.floats(500, 9000),
     axial=st.floats(0, 4000),
     speed=st.floats(20, 800),
-    series=st.sampled_from(["60", "62", "63"]),
+    series=st.sampled_from([*SERIES]),
 )
 @examples(4)
 def test_the_smallest_bearing_that_holds_is_taken(radial: float, axial: float, speed: float, series: str) -> None:
     """Each of the series, given by its designation, fails if it is smaller and holds if it is the one."""
-    names = [name for name in CATALOGUE.names if name.startswith(series)]
-    keys = {"radial_force": radial, "axial_force": axial, "speed": speed}
+    sought = SERIES[series]
+    is_ball = sought is SOUGHT
+    keys = {"radial_force": radial * (1 if is_ball else 6), "axial_force": axial if is_ball else 0, "speed": speed}
 
     def holds(name: str) -> bool:
-        calc = one(SOUGHT | keys | {"designation": name})
-        return value(calc, "life_modified") >= 20000 * HOUR and value(calc, "static_safety") >= 1
+        calc = one(sought | keys | {"designation": name})
+        return (
+            value(calc, "life_modified") >= 20000 * HOUR
+            and value(calc, "static_safety") >= USUAL_SAFETY[sought["type"]]
+        )
 
-    expected = next((name for name in names if holds(name)), None)
+    expected = next((name for name in designations(series) if holds(name)), None)
     if expected is not None:
-        calc = one(SOUGHT | keys | {"series": series})
-        assert calc["designations"][0, 0] == f"sought {expected}"
+        calc = one(sought | keys | {"series": series})
+        assert calc["designations"][0, 0] == f"{sought['name']} {expected}"
+
+
+def test_a_series_has_all_its_bearings_in_the_order_of_their_bores() -> None:
+    for series, sought in SERIES.items():
+        assert list(CATALOGUES[sought["type"]].of_series(series)) == designations(series)
+
+
+@pytest.mark.parametrize(
+    ("sought", "names"),
+    [("6220", ["6219", "6220"]), ("NU204E", ["NU204E", "NU205E"]), ("NU305E", ["NU304E", "NU305E", "NU306E"])],
+)
+def test_a_bearing_of_the_table_is_shown_between_its_neighbours_of_the_series(sought: str, names: list[str]) -> None:
+    kind = SOUGHT_ROLLER if sought.startswith("NU") else SOUGHT
+    rows = listings.results(one(kind, designation=sought))["listings"]["choice"]["rows"]
+    assert [row[1] for row in rows] == names
+    assert [row[1] for row in rows if row[2] == "yes"] == [sought]
+
+
+def test_without_a_series_balls_are_sought_in_62_and_rollers_in_nu2() -> None:
+    calc = bearings(SOUGHT, SOUGHT_ROLLER)
+    ball, roller = str(calc["designations"][0, 0]).split(", ")
+    assert (
+        ball.startswith("sought 62")
+        and roller.startswith("sought_roller NU2")
+        and not roller.startswith("sought_roller NU22")
+    )
+    assert value(one(SOUGHT_ROLLER, designation="NU 2208 E"), "dynamic_rating") == pytest.approx(72300)
 
 
 def test_the_life_check_advises_a_rating_that_is_enough() -> None:
@@ -282,20 +334,38 @@ SKF_62 = {
 }
 
 
+NSK_ROLLERS = {  # designs EW and ET: bore, outside, width in mm; ratings in kN
+    "NU205E": (25, 52, 15, 29.3, 27.7), "NU2205E": (25, 52, 18, 35.0, 34.5), "NU305E": (25, 62, 17, 41.5, 37.5),
+    "NU2305E": (25, 62, 24, 57.0, 56.0), "NU206E": (30, 62, 16, 39.0, 37.5), "NU2206E": (30, 62, 20, 49.0, 50.0),
+    "NU306E": (30, 72, 19, 53.0, 50.0), "NU2306E": (30, 72, 27, 74.5, 77.5), "NU207E": (35, 72, 17, 50.5, 50.0),
+    "NU2207E": (35, 72, 23, 61.5, 65.5), "NU307E": (35, 80, 21, 66.5, 65.5), "NU2307E": (35, 80, 31, 93.0, 101.0),
+}  # fmt: skip
+
+
+def test_rollers_have_the_dimensions_and_not_more_than_the_ratings_of_a_maker_that_the_table_was_not_made_of() -> None:
+    table = CATALOGUES["roller"].table
+    for name, (*sizes, dynamic, static) in NSK_ROLLERS.items():
+        row = [table.by_name(column.name)[name] for column in table.columns]
+        assert row[:3] == sizes
+        for own, makers in zip(row[3:], (dynamic, static), strict=True):
+            assert makers * 0.95 <= own <= makers * 1.005
+
+
 def test_the_table_has_the_dimensions_and_not_more_than_the_ratings_of_the_makers() -> None:
+    table = CATALOGUES["deep_groove"].table
     for name, (*sizes, dynamic, static, f0) in NSK_62.items():
-        row = [CATALOGUE.by_name(column.name)[name] for column in CATALOGUE.columns]
+        row = [table.by_name(column.name)[name] for column in table.columns]
         assert row[:3] == sizes
         for own, makers in zip(row[3:], (dynamic, static, f0), strict=True):
             assert makers * 0.95 <= own <= makers
     for name, ratings in SKF_62.items():
-        assert all(CATALOGUE.by_name(key)[name] <= rating for key, rating in zip(("C", "C0"), ratings, strict=True))
+        assert all(table.by_name(key)[name] <= rating for key, rating in zip(("C", "C0"), ratings, strict=True))
 
 
 def test_larger_bearings_of_a_series_bear_more() -> None:
     """So that the first of a series that holds is the smallest; the last two of series 60 are alike but for their bore."""
-    for series in ("60", "62", "63"):
-        names = [name for name in CATALOGUE.names if name.startswith(series)]
+    for series, sought in SERIES.items():
+        catalogue = CATALOGUES[sought["type"]]
         for key in ("C", "C0"):
-            ratings = [CATALOGUE.by_name(key)[name] for name in names]
+            ratings = [catalogue.size(key, name) for name in catalogue.of_series(series)]
             assert all(b > a * 0.99 for a, b in pairwise(ratings))

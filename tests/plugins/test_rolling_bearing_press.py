@@ -12,12 +12,25 @@ import pytest
 from diecut_report.engine import Impossible
 from diecut_report.quantities.plausible import Plausible
 from diecut_report.results.document import document
+from diecut_report.results.mechanism import mechanism_results
 from diecut_report.results.press_run import compute
 from diecut_report.study.definition.base_inputs import find_input
 from diecut_report.study.execution.result_columns import columns_of
 from diecut_report.study.execution.variant_rows import calculate_rows
 from tests.configs import HEAD, loaded, problems
-from tests.plugins.bearings import ANGULAR, BALL, ROLLER, SOUGHT, SWINGING, Over, bearings, checks, one, value
+from tests.plugins.bearings import (
+    ANGULAR,
+    BALL,
+    ROLLER,
+    SOUGHT,
+    SOUGHT_ROLLER,
+    SWINGING,
+    Over,
+    bearings,
+    checks,
+    one,
+    value,
+)
 from tests.plugins.test_shaft_of_a_press import DRIVE, SHAFT
 
 BEARINGS = """
@@ -138,7 +151,12 @@ def test_variants_of_a_press_are_each_press_alone(tmp_path: Path) -> None:
         ([SWINGING | {"radial_force": Over(np.sin, cycle="disc_angle")}], "bearings.0.relative_angle", "another cycle"),
         ([SOUGHT | {"radial_force": 90000}], "bearings.0.series", "heavier series"),
         ([SOUGHT | {"designation": "7209"}], "bearings.0.designation", "not in the table"),
-        ([SOUGHT | {"type": "roller", "axial_force": 0}], "bearings.0.dynamic_rating", "maker's catalogue"),
+        ([SOUGHT | {"type": "ball", "axial_force": 0}], "bearings.0.dynamic_rating", "maker's catalogue"),
+        ([SOUGHT_ROLLER | {"series": "62"}], "bearings.0.series", "NU2, NU22, NU3, NU23"),
+        ([SOUGHT | {"series": "NU3"}], "bearings.0.series", "60, 62, 63"),
+        ([SOUGHT_ROLLER | {"designation": "NU 208"}], "bearings.0.designation", "NU208E if it is that one"),
+        ([SOUGHT_ROLLER | {"designation": "NU 240 E"}], "bearings.0.designation", "NU204E to NU2320E"),
+        ([SOUGHT_ROLLER | {"axial_force": 100}], "bearings.0.axial_force", "bear no axial force"),
     ],
 )
 def test_bearings_that_cannot_be_are_refused_in_words(parts: list[dict[str, Any]], key: str, words: str) -> None:
@@ -172,6 +190,18 @@ def test_a_small_swing_is_told_that_a_rating_life_does_not_apply() -> None:
     assert "does not apply" in found["swinging_dwell"]["message"]
     wide = checks(one(SWINGING, relative_angle=Over(lambda phi: np.radians(40) * np.sin(phi))))
     assert wide["swinging_dwell"]["status"] == wide["swinging_oscillation"]["status"] == "pass"
+
+
+@pytest.mark.parametrize(
+    "parts",
+    [[ROLLER | {"speed": 0}], [BALL | {"speed": 0, "f0": 13.0, "axial_force": 100}, BALL | {"name": "turning"}]],
+)
+def test_bearings_that_stand_are_reported_with_their_static_safety(parts: list[dict[str, Any]]) -> None:
+    """Without a life of any, nothing is printed in the place of lives."""
+    found = mechanism_results(bearings(*parts), {})
+    judged = {check["id"] for check in found["checks"]}
+    assert f"{parts[0]['name']}_static" in judged and f"{parts[0]['name']}_life" not in judged
+    assert ("life_min" in found["outputs"]) is (len(parts) > 1)
 
 
 def test_an_angle_that_goes_on_turns_and_does_not_swing() -> None:

@@ -15,6 +15,7 @@ from diecut_report.results.checks import check_results
 from diecut_report.results.document import document
 from diecut_report.results.press_run import compute
 from diecut_report.study.definition.study_file import load_study
+from diecut_report.study.execution.result_columns import columns_of
 from diecut_report.study.execution.worker import Chunk
 from diecut_report.study.execution.worker import calculate as calculated
 from tests.configs import loaded, saved
@@ -142,3 +143,15 @@ def test_variants_under_curves_get_their_own_diameters(tmp_path: Path) -> None:
     study = "schema_version: 1\nbase: press.yaml\nsample: {method: grid}\nvary: {mechanisms.drive.crank_length: [80 mm, 300 mm]}\n"
     columns = calculated(load_study(saved(tmp_path, study, "study.yaml"), Discovery([])), Chunk(0, 0, 2)).columns
     assert list(columns["crankshaft.section_diameter.2"]) == pytest.approx(sizes, rel=1e-12)
+    outputs = [each["mechanisms"]["crankshaft"]["outputs"] for each in alone]
+    places = [name for name in outputs[0] if name.startswith(("place_safety.", "place_yield_safety."))]
+    assert len(places) == 2 * 9
+    for name in places:
+        assert list(columns[f"crankshaft.{name}"]) == pytest.approx([each[name]["value"] for each in outputs], rel=1e-9)
+
+
+def test_the_columns_of_a_study_name_the_safety_at_each_place(tmp_path: Path) -> None:
+    known = {column.name: column.description for column in columns_of(loaded(tmp_path, PRESS))}
+    assert [name for name in known if "place_safety" in name] == [
+        f"crankshaft.place_safety.{index}" for index in range(9)
+    ]

@@ -18,7 +18,7 @@ from diecut_report.house_folder import house_style
 from diecut_report.report.context import Material
 from diecut_report.report.house_style import HouseStyle, blocks, refuse_fetching
 from diecut_report.report.html import POLICY, Screen, filled, folder, page
-from diecut_report.report.pdf import Paper
+from diecut_report.report.pdf import Paper, sheets
 from tests.configs import SMALL, saved
 
 Data = dict[str, Any]
@@ -88,6 +88,11 @@ FAULTS = {
     ),
     "css imports": ({"house__css": '@import "x.css";'}, "house.css:1: @import would be fetched"),
     "css ends": ({"house__css": "p {}\n</style><script>"}, "house.css:2: '</' would end the style sheet"),
+    "brackets": (
+        {"report__html__j2": EXTENDS + "{{ " + 3000 * "(" + "1" + 3000 * ")" + " }}"},
+        "cannot be read: maximum recursion",
+    ),
+    "digits": ({"report__html__j2": EXTENDS + "{{ " + 5000 * "9" + " }}"}, "cannot be read: Exceeds the limit"),
     "picture": ({"mark__png": "GIF89a"}, "mark.png: The file is neither a PNG nor an SVG picture"),
 }
 
@@ -133,6 +138,41 @@ def test_what_goes_wrong_in_a_template_is_told_with_its_line(
         page(Material(brief, house=house))
     assert str(error.value).startswith(f"{tmp_path / 'report.html.j2'}:3: ") and words in str(error.value)
     assert brief["project"]["title"] == "Sample press"
+
+
+@pytest.mark.parametrize("name", ["report.html.j2", "_other.html.j2", "house.css", "mark.png"])
+def test_a_link_out_of_the_folder_is_refused_and_one_within_is_not(tmp_path: Path, name: str) -> None:
+    (tmp_path / "house").mkdir()
+    (tmp_path / "house" / "house.css").write_text("h1 {}", "utf-8")
+    (tmp_path / "house" / "_a.html.j2").symlink_to("house.css")
+    assert house_style(tmp_path / "house").templates == {"_a.html.j2": "h1 {}"}
+    (tmp_path / "house" / name).unlink(missing_ok=True)
+    (tmp_path / "secret").write_text("password", "utf-8")
+    (tmp_path / "house" / name).symlink_to("../secret")
+    with pytest.raises(UserError, match=f"{re.escape(name)}: This is a link out of the folder"):
+        house_style(tmp_path / "house")
+
+
+def test_loops_within_too_many_loops_are_told(brief: Data, tmp_path: Path) -> None:
+    loops = "".join(f"{{% for i{number} in [1] %}}" for number in range(30)) + "{% endfor %}" * 30
+    house = house_style(written(tmp_path, report__html__j2=closing(loops)))
+    with pytest.raises(UserError, match="cannot be filled: too many statically nested blocks"):
+        page(Material(brief, house=house))
+
+
+@pytest.mark.parametrize(
+    "place", ['<a rel="attachment" href="file:///etc/passwd">x</a>', '<p style="background: \\75rl(http://x/y)">']
+)
+def test_what_only_print_would_fetch_is_told(brief: Data, tmp_path: Path, place: str) -> None:
+    house = house_style(written(tmp_path, report__html__j2=f"<!DOCTYPE html><title>x</title>{place}"))
+    with pytest.raises(UserError, match=r"(etc/passwd|x/y).*a report fetches nothing"):
+        sheets(Material(brief, house=house))
+
+
+@pytest.mark.parametrize("letter", ["\0", "\x1b", "\ud800", "\uffff"])
+def test_letters_that_no_page_can_hold_are_refused(letter: str) -> None:
+    with pytest.raises(UserError, match=f"A template writes U\\+{ord(letter):04X}"):
+        refuse_fetching(f"{HEAD}a{letter}b", HouseStyle("house"), POLICY[0])
 
 
 @pytest.mark.parametrize(

@@ -16,9 +16,11 @@ from matplotlib.text import Text
 
 from diecut_report.config.discovery import Discovery
 from diecut_report.pipeline import calc
-from diecut_report.report.figures.by_type import DRAW
+from diecut_report.report.figure_places import placed, rows_of
+from diecut_report.report.figures.by_type import build
 from diecut_report.report.figures.label_layout import AWAY, LabelLayout
 from diecut_report.report.figures.panel_data import Across, Line, Note, PanelData, SpanData, framed
+from diecut_report.report.figures.sizes import Size
 from diecut_report.report.figures.style import load_fonts
 from diecut_report.report.figures.style import style as style_of
 from diecut_report.report.i18n import Catalogue
@@ -38,7 +40,7 @@ class Box(NamedTuple):
     top: float
 
 
-def _boxes(figure: Mapping[str, Any], curves: Mapping[str, Any]) -> tuple[list[Box], float, float]:
+def _boxes(figure: Mapping[str, Any], curves: Mapping[str, Any], size: Size) -> tuple[list[Box], float, float]:
     """The texts that are really drawn (ticks beyond an axis are not), and the size of the picture."""
     drawn: dict[Text, None] = {}
     draw = Text.draw
@@ -50,7 +52,7 @@ def _boxes(figure: Mapping[str, Any], curves: Mapping[str, Any]) -> tuple[list[B
 
     load_fonts()
     with mpl.rc_context(style_of("x")), pytest.MonkeyPatch.context() as patch:  # type: ignore[arg-type]
-        sheet = DRAW[figure["type"]](figure, curves, Catalogue("en"))
+        sheet = build(figure, curves, Catalogue("en"), size)
         patch.setattr(Text, "draw", noted)
         sheet.set_dpi(72)
         renderer = RendererSVG(*(side * 72 for side in sheet.get_size_inches()), StringIO())
@@ -60,8 +62,8 @@ def _boxes(figure: Mapping[str, Any], curves: Mapping[str, Any]) -> tuple[list[B
     return found, width, height
 
 
-def _faults(figure: Mapping[str, Any], curves: Mapping[str, Any]) -> Iterator[str]:
-    boxes, width, height = _boxes(figure, curves)
+def _faults(figure: Mapping[str, Any], curves: Mapping[str, Any], size: Size) -> Iterator[str]:
+    boxes, width, height = _boxes(figure, curves, size)
     for box in boxes:
         if min(box.left, box.bottom) < -EDGE or box.right > width + EDGE or box.top > height + EDGE:
             yield f"{figure['id']}: {box.text!r} leaves the picture"
@@ -74,21 +76,28 @@ def _faults(figure: Mapping[str, Any], curves: Mapping[str, Any]) -> Iterator[st
             yield f"{figure['id']}: {one.text!r} over {other.text!r}"
 
 
-def _every(results: Mapping[str, Any]) -> list[str]:
+def _every(results: Mapping[str, Any], *, paired: bool) -> list[str]:
     parts = (*results["mechanisms"].values(), *results.get("comparisons", {}).values())
-    drawn = [(figure, part["curves"]) for part in parts for figure in part.get("figures", ()) if "error" not in figure]
-    assert drawn
-    return [fault for figure, curves in drawn for fault in _faults(figure, curves)]
+    found = []
+    for part in (part for part in parts if part.get("figures")):
+        for row in rows_of(placed("A", part), paired=paired):
+            size = Size.HALF if len(row.figures) > 1 else Size.LOW if paired else Size.LARGE
+            shown = [each.figure for each in row.figures if "error" not in each.figure]
+            found += [fault for figure in shown for fault in _faults(figure, part["curves"], size)]
+    assert parts
+    return found
 
 
-def test_texts_of_figures_keep_clear_of_each_other_and_of_the_edge(results: dict[str, Any]) -> None:
-    assert _every(results) == []
+@pytest.mark.parametrize("paired", [False, True], ids=["large", "side by side"])
+def test_texts_of_figures_keep_clear_of_each_other_and_of_the_edge(results: dict[str, Any], paired: bool) -> None:
+    assert _every(results, paired=paired) == []
 
 
 @pytest.mark.nightly
+@pytest.mark.parametrize("paired", [False, True], ids=["large", "side by side"])
 @pytest.mark.parametrize("config", EXAMPLES, ids=lambda path: path.stem)
-def test_texts_of_figures_keep_clear_in_every_example(config: Path) -> None:
-    assert _every(calc(config, Discovery([]), lambda _: None)[0].results) == []
+def test_texts_of_figures_keep_clear_in_every_example(config: Path, paired: bool) -> None:
+    assert _every(calc(config, Discovery([]), lambda _: None)[0].results, paired=paired) == []
 
 
 def _crowded() -> LabelLayout:

@@ -66,8 +66,12 @@ def test_significant_digits(value: float, text: str) -> None:
     assert significant(value, 4) == text
 
 
-def test_si_value_in_a_display_unit() -> None:
-    assert displayed(0.105, "mm") == "105.0"
+@pytest.mark.parametrize(
+    ("value", "unit", "text"),
+    [(0.105, "mm", "105"), (0.34906585039886595, "deg", "20"), (2.591e-5, "mm", "0,026"), (0.8550499, "m/s", "0,855")],
+)
+def test_a_value_is_shown_with_the_digits_that_mean_something(value: float, unit: str, text: str) -> None:
+    assert displayed(value, unit, ",") == text
 
 
 @pytest.mark.parametrize(

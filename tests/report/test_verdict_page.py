@@ -56,6 +56,11 @@ def test_the_summary_is_sorted_by_utilisation_what_fails_first_and_what_was_size
     assert found.notes == ["1 self-test of the calculation holds."]
 
 
+def test_what_the_calculation_presumes_is_sorted_behind_what_has_a_reserve() -> None:
+    found = page(judged("range", 0.99, presumed=True), judged("low", 0.2), judged("left", 1.2, "warn", presumed=True))
+    assert [row.id for row in found.checks] == ["left", "low", "range"] and found.governing.id == "left"
+
+
 def test_a_failure_without_a_utilisation_tells_by_how_much_in_words() -> None:
     found = page(judged("missed", None, "fail", margin_display={"text": "-10", "unit": "mm"}))
     assert (found.governing.utilisation, found.governing.used) == ("–", "10\N{NO-BREAK SPACE}mm beyond the limit")

@@ -136,6 +136,16 @@ def test_a_value_that_is_its_limit_does_not_govern() -> None:
     assert governing({"bar": results}) == {"mechanism": "bar", "check": "far"}
 
 
+def test_what_the_calculation_presumes_governs_only_where_it_does_not_hold() -> None:
+    """As the range of a method: that a machine lies well within it is no reserve."""
+    near = check("doubled", 16.5, id="range", presumed=True)
+    results = mechanism_results(calculated(near, check("doubled", 160.0, id="far")), {})
+    assert results["checks"][0]["presumed"] is True and "presumed" not in results["checks"][1]
+    assert governing({"bar": results}) == {"mechanism": "bar", "check": "far"}
+    left = mechanism_results(calculated(near, check("doubled", 160.0, id="far"), force=9), {})
+    assert governing({"bar": left}) == {"mechanism": "bar", "check": "range"}
+
+
 def test_self_tests_are_counted_apart_and_never_govern() -> None:
     own = check("doubled", 16.5, id="own", check_class="numerical")
     results = mechanism_results(calculated(own, check("doubled", 160.0, id="far")), {})

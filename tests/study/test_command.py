@@ -122,6 +122,35 @@ def test_constraints_without_any_value_say_so(tmp_path: Path, capfd: Capture) ->
 
 
 @pytest.mark.usefixtures("without_summary")
+@pytest.mark.parametrize(
+    ("condition", "left"),
+    [("a.moment < '500 N*m'", [0, 1]), ("a.moment > mechanisms.a.force * '0.3 m'", []),
+     ("a.moment - '0.4 kN*m' = 0 or mechanisms.a.force > '2.5 kN'", [1, 2]), ("not a.moment / (a.moment - a.moment) > 1", [])],
+)  # fmt: skip
+def test_constraints_on_outputs_drop_what_was_calculated(tmp_path: Path, condition: str, left: list[int]) -> None:
+    """The arm is 200 mm: forces of 1, 2 and 3 kN give 200, 400 and 600 N*m."""
+    text = varied("[1 kN, 2 kN, 3 kN]", rest=f'constraints: ["{condition}"]\noutputs: [b.moment]\n')
+    assert run("batch", files(tmp_path, text), "-o", tmp_path / "out", "--quiet") == 0
+    assert [row["variant"] for row in rows(tmp_path / "out")] == left
+    counts = json.loads((tmp_path / "out" / "study.json").read_text())["counts"]
+    assert (counts["sample"], counts["dropped"]) == (3, 3 - len(left))
+
+
+@pytest.mark.usefixtures("without_summary")
+def test_a_variant_in_error_keeps_its_reason_whatever_a_constraint_asks_of_outputs(tmp_path: Path) -> None:
+    impossible = varied("[50, 200]", path="mechanisms.a.teeth", rest="constraints: [\"a.moment > '1 N*m'\"]\n")
+    assert run("batch", files(tmp_path, impossible), "-o", tmp_path / "out", "--quiet") == 0
+    assert [row["status"] for row in rows(tmp_path / "out")] == ["pass", "error"]
+
+
+def test_a_study_of_which_the_outputs_leave_nothing_still_tells_so(tmp_path: Path, capfd: Capture) -> None:
+    text = varied("[1 kN, 2 kN]", rest="constraints: [\"a.moment > '5 kN*m'\"]\n")
+    assert run("batch", files(tmp_path, text), "-o", tmp_path / "out") == 0
+    assert "0 variants: none; the constraints drop 2 more of the sample." in capfd.readouterr().err
+    assert "No variant" in (tmp_path / "out" / "summary.html").read_text("utf-8")
+
+
+@pytest.mark.usefixtures("without_summary")
 def test_a_huge_grid_says_its_size_and_asks(tmp_path: Path, capfd: Capture) -> None:
     text = (
         varied("{from: 1 kN, to: 2 kN, count: 1000000}")

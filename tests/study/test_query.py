@@ -13,11 +13,16 @@ from typing import Any
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
+from openpyxl import load_workbook
 
+from diecut_report.cli import study
+from diecut_report.cli.main import main
 from diecut_report.config import yaml_tree
 from diecut_report.config.discovery import Discovery
 from diecut_report.config.yaml_tree import Tree
 from diecut_report.errors import UserError
+from diecut_report.quantities.units import parse_quantity
+from diecut_report.study.analysis import answers
 from diecut_report.study.analysis.query import variants
 from diecut_report.study.analysis.stored_variants import StoredColumn as Read
 from diecut_report.study.analysis.variant_config import variant_config
@@ -191,6 +196,62 @@ def test_a_long_table_says_what_it_leaves_out(tmp_path: Path) -> None:
     assert "300 of 300 variants; 20 are shown" in text
 
 
+def test_chosen_columns_stand_in_the_units_and_signs_of_a_firms_spreadsheet(
+    folder: Path, capfd: pytest.CaptureFixture[str]
+) -> None:
+    options = ["--columns", f"{BORE},drive.slip", "--format", "csv", "--units", "display"]
+    signs = ["--separator", "semicolon", "--decimal", "comma"]
+    assert main(["variants", str(folder), "--pick", "3,1", *options, *signs]) == 0
+    assert capfd.readouterr().out == f"variant;{BORE} [mm];drive.slip\n1;55,0;true\n3;65,0;false\n"
+    assert main(["variants", str(folder), "--pick", "3", *options, "--separator", "tab"]) == 0
+    assert capfd.readouterr().out.splitlines()[1] == "3\t65.0\tfalse"
+
+
+def test_variants_stand_side_by_side(folder: Path, capfd: pytest.CaptureFixture[str]) -> None:
+    compared = ["variants", str(folder), "--pick", "1,3", "--transpose"]
+    assert main(compared) == 0
+    text = capfd.readouterr().out
+    heads, _, *lines = text.strip("\n").splitlines()
+    assert heads.split() == ["quantity", "unit", "1", "3"]
+    assert [BORE, "mm", "55", "65"] in [line.split() for line in lines]
+    assert main([*compared, "--format", "csv"]) == 0
+    rows = {name: values for name, *values in csv.reader(io.StringIO(capfd.readouterr().out))}
+    same = [name for name, (_, one, other) in rows.items() if one == other]
+    assert rows[BORE] == ["m", "0.055", "0.065"] and f"{len(same)} quantities that are the same for all" in text
+    assert not any(line.split()[:1] == [name] for name in same for line in lines)
+
+
+def test_a_workbook_holds_the_chosen_columns(folder: Path, tmp_path: Path) -> None:
+    file = tmp_path / "chosen.xlsx"
+    asked = ["variants", str(folder), "--where", "status = 'pass'", "--columns", f"{BORE},status", "--format", "xlsx"]
+    assert main([*asked, "--units", "display", "-o", str(file)]) == 0
+    rows = list(load_workbook(file)["variants"].iter_rows(values_only=True))
+    assert rows[0] == ("variant", f"{BORE} [mm]", "status")
+    assert [row[0] for row in rows[1:]] == ids(folder, "status = 'pass'") and rows[2] == (3, 65, "pass")
+
+
+@pytest.mark.parametrize(
+    ("options", "words"),
+    [(["--pick", "3,33"], "no variant 33 here"), (["--pick", "3,x"], "'x' is not the number"),
+     (["--units", "si"], "--units says nothing for table"), (["--format", "xlsx"], "-o FILE"),
+     (["--format", "csv", "--decimal", "comma"], "--separator semicolon"),
+     (["--format", "json", "--transpose"], "no rows to transpose"), (["--columns", "cylinder.mas"], "cylinder.mass")],
+)  # fmt: skip
+def test_wrong_options_end_with_words(
+    folder: Path, capfd: pytest.CaptureFixture[str], options: list[str], words: str
+) -> None:
+    assert main(["variants", str(folder), *options]) == 2
+    assert words in capfd.readouterr().err
+
+
+def test_the_command_offers_what_answers_know() -> None:
+    assert (
+        tuple(answers.SEPARATORS),
+        tuple(answers.DECIMALS),
+        answers.UNITS,
+    ) == (study.SEPARATORS, study.DECIMALS, study.UNITS)
+
+
 WRONG = [({"sort": "-drive.pwr"}, "drive.pwr"), ({"top": 0}, "--top"), ({"format": "xml"}, "table, csv, json")]
 
 
@@ -247,8 +308,9 @@ def test_a_variants_configuration_is_the_base_with_its_values(folder: Path) -> N
     base, data = yaml_tree.load(folder / "base.yaml").data, tree.data
     assert tree.text.startswith("# Variant 4 of study.yaml: ")
     assert (tree.name, tree.file) == ("study-4.yaml", str(folder / "base.yaml"))
-    assert data["mechanisms"]["cylinder"].pop("bore_radius") == "0.065 m"
-    assert data["mechanisms"]["drive"].pop("crank_speed") == f"{2 * math.pi / 60 * 50!r} rad/s"
+    assert data["mechanisms"]["cylinder"].pop("bore_radius") == "65 mm"
+    speed = data["mechanisms"]["drive"].pop("crank_speed")
+    assert speed.endswith(" rpm") and parse_quantity(speed, "rpm") == 2 * math.pi / 60 * 50
     del base["mechanisms"]["cylinder"]["bore_radius"], base["mechanisms"]["drive"]["crank_speed"]
     assert data.pop("project") == {"title": "Two mechanisms – variant 4 of study"}
     del base["project"]
@@ -258,7 +320,7 @@ def test_a_variants_configuration_is_the_base_with_its_values(folder: Path) -> N
 def test_problems_of_a_variant_name_the_line_of_the_base(folder: Path) -> None:
     tree, path = taken(folder, 4), ("mechanisms", "cylinder", "bore_radius")
     assert tree.position(path) == (9, 18)
-    assert tree.typed(path) == "0.065 m"
+    assert tree.typed(path) == "65 mm"
     assert tree.position(("mechanisms", "cylinder", "segment_height")) == (10, 21)
 
 
@@ -268,8 +330,8 @@ BASES: dict[str, tuple[str, Kind, Any, Any]] = {
     "a key in %": ("mechanisms.drive.slip", "float", 0.07, "7 %"),
     "a key in %, 100 of them": ("mechanisms.drive.slip", "float", 1.0, "100 %"),
     "a key that the base leaves out": ("mechanisms.drive.n_points", "int", 720, 720),
-    "a field of the press": ("press.sheet.thickness", "float", 0.0008, "0.0008 m"),
-    "a block that the base leaves out": ("press.rollers.first.width", "float", 0.5, "0.5 m"),
+    "a field of the press": ("press.sheet.thickness", "float", 0.0008, "0.8 mm"),
+    "a block that the base leaves out": ("press.rollers.first.width", "float", 0.5, "500 mm"),
     "a text": ("mechanisms.drive.motion_law", "text", "modified_sine", "modified_sine"),
     "a text that looks like a number": ("mechanisms.drive.motion_law", "text", "12", "12"),
 }
@@ -290,7 +352,7 @@ def test_a_value_beside_an_anchor_changes_one_place_only(tmp_path: Path) -> None
     base = "mechanisms:\n  a: &a {bore_radius: 70 mm}\n  cylinder: *a\n"
     out = ten(tmp_path / "out", varied=[BORE], base=base)
     data = taken(out, 3).data
-    assert data["mechanisms"] == {"a": {"bore_radius": "70 mm"}, "cylinder": {"bore_radius": "0.065 m"}}
+    assert data["mechanisms"] == {"a": {"bore_radius": "70 mm"}, "cylinder": {"bore_radius": "65 mm"}}
 
 
 def test_a_variant_that_is_not_stored_is_told(folder: Path) -> None:

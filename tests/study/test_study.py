@@ -305,7 +305,9 @@ WHOLE = [  # a whole study with one fault: sample, rest, what is told
     ("{method: grid}", "constraints: [mechanisms.a.force < 3]\n", "6:15: constraints.0: mechanisms.a.force is a force and 3 is a pure number"),
     ("{method: grid}", "constraints: ['mechanisms.a.forc < 3']\n", "6:15: constraints.0: “mechanisms.a.forc”: 'forc' is not an input of a"),
     ("{method: grid}", "constraints: [\"mechanisms.b.width < '3 mm'\"]\n",
-     "6:15: constraints.0: “mechanisms.b.width” refers to ${a.length}, which is known only after calculating"),
+     "6:15: constraints.0: “mechanisms.b.width” refers to ${a.length}, which is known only after calculating; in a constraint an output is named"),
+    ("{method: grid}", "constraints: [\"a.momnt < '3 N*m'\"]\n", "6:15: constraints.0: “a.momnt” is not an output (did you mean 'a.moment'?)"),
+    ("{method: grid}", "constraints: [\"a.moment < '3 N'\"]\n", "6:15: constraints.0: a.moment is a moment and '3 N' is a force"),
     ("{method: grid}", "constraints: [\"mechanisms.a.width < '3 mm'\"]\n", "6:15: constraints.0: “mechanisms.a.width” has no value in the base"),
     ("{method: grid}", "outputs: [a.momnt]\n", "6:11: outputs.0: a.momnt is not an output (did you mean 'moment'?)."),
     ("{method: grid}", "outputs: [mechanisms.a.moment]\n", "6:11: outputs.0: mechanisms.a.moment: outputs are named without mechanisms."),
@@ -324,6 +326,8 @@ WHOLE = [  # a whole study with one fault: sample, rest, what is told
     ("{method: grid}", "reports: fails\n", "6:10: reports: is “fails” (did you mean 'failed'?); allowed: none, failed, best N"),
     ("{method: grid}", "reports: best 3\n", "6:10: reports: best needs objectives, such as objectives: [{minimise: cylinder.mass}]."),
     ("{method: grid}", "reports: [0, 1]\n", "6:14: reports.1: there is no variant 1; variants are numbered from 0 to 0."),
+    ("{method: grid}", "reports: [0, 1.5]\n", "6:14: reports.1: is 1.5; a variant has a whole number, as in [0, 17]."),
+    ("{method: grid}", "reports: {a: 1}\n", "6:10: reports: is a block of keys; allowed: none, failed, best N"),
     ("{method: grid}", "reports: [-1]\n", "6:11: reports.0: there is no variant -1; variants are numbered from 0 to 0."),
 ]  # fmt: skip
 

@@ -238,6 +238,12 @@ def test_a_missing_column_is_told_with_the_nearest_name(tmp_path: Path) -> None:
     assert "Its columns: drive.crank_sped, press.name" in fault(lambda: table.column("x"))
 
 
+@pytest.mark.parametrize("text", ['a,b\n1,"2\n', 'a,b\n1,2\n3,"4', 'a,"b\n1,2\n', 'a,b\n1,2"\n'])
+def test_a_quotation_that_is_not_closed_is_refused(text: str, tmp_path: Path) -> None:
+    (tmp_path / "table.csv").write_text(text, encoding="utf-8")
+    assert "has 1 quotation marks, so that one is not closed" in fault(lambda: read_table(tmp_path / "table.csv"))
+
+
 def test_rows_of_another_length_are_all_told(tmp_path: Path) -> None:
     path = csv_of(tmp_path, "a,b\n1,2\n\n1,2,3\n4,5\n6\n")
     found = faults(lambda: read_table(path))

@@ -107,6 +107,15 @@ def test_the_table_gives_the_reasons_where_variants_are_in_error(tmp_path: Path)
     assert "leaves no wall" not in "".join(variants(folder, "status = 'pass'"))
 
 
+def test_a_table_shows_all_that_is_varied_whatever_else_is_asked(run: Path) -> None:
+    outputs = [f"drive.{name}" for name in ("crank_torque_peak", "velocity_max", "power_peak", "crank_torque_mean")]
+    text = "".join(variants(run, " and ".join(f"{name} > 0" for name in outputs), "-cylinder.mass", width=2000))
+    shown = "".join(line[3 * len("variant") :].replace(" ", "") for line in text.split("───")[0].splitlines())
+    study = json.loads((run / "study.json").read_text("utf-8"))
+    assert len(study["varied"]) == 7
+    assert all(path.rpartition(".")[2].split("_")[-1] in shown for path in study["varied"])
+
+
 def test_display_units_and_titles_are_those_that_the_mechanisms_declare(run: Path) -> None:
     study = json.loads((run / "study.json").read_text("utf-8"))
     about = (

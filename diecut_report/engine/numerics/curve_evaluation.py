@@ -74,7 +74,7 @@ class Curves:
         middle, variant = self.middle[rows][:, None], self.variant[rows]
         if self.program is None:
             sampler = self.calc.sampler_of(self.axis, x, middle, variant)
-            return [np.array(np.broadcast_to(sampler[name], x.shape), dtype=float) for name in self.wanted]
+            return [_filled(x.shape, sampler[name]) for name in self.wanted]
         chosen = np.arange(len(self.middle))[rows] if self.pieces.tables else variant
         found = [np.empty(x.shape) for _ in self.wanted]
         if 1 < x.shape[1] <= NARROW:
@@ -112,7 +112,14 @@ def several(
     if calc.count >= MANY and middle.shape == (len(own), 1) and len(own) == len(x):
         return Curves(calc, axis, wanted, middle[:, 0], own).at(x)
     found = calc.sampler_of(axis, x, middle, rows, inside)
-    return [np.array(np.broadcast_arrays(found[name], x)[0], dtype=float) for name in wanted]
+    return [_filled(np.broadcast_shapes(np.shape(found[name]), x.shape), found[name]) for name in wanted]
+
+
+def _filled(shape: tuple[int, ...], values: Array) -> Array:
+    """A new array of a shape, filled with values that stand for all of it or for a column."""
+    made = np.empty(shape)
+    made[...] = values
+    return made
 
 
 def flags_of(calc: VariantRows, axis: str, names: tuple[str, ...], middle: Array, variant: Array) -> list[Array]:

@@ -10,7 +10,7 @@ import numpy as np
 
 from diecut_report.engine.calculation import Calculation
 from diecut_report.engine.numerics.bracketing import Function, smooth_minimum
-from diecut_report.engine.numerics.curve_evaluation import Curves
+from diecut_report.engine.numerics.curve_evaluation import MANY, Curves
 from diecut_report.engine.numerics.domain import SMALLEST
 from diecut_report.engine.numerics.polynomial_peaks import Spots, around, vertices
 from diecut_report.engine.numerics.sample_cache import CachedPieces
@@ -190,10 +190,19 @@ def _depths(calc: Calculation, axis: str, wanted: Sequence[Wanted], seen: Candid
             return table.curves(curves, seen.piece)
         return table.curves([curves[curve]], seen.piece[starts[curve] : starts[curve + 1]])
 
+    def together(x: Array, rows: Array) -> Array:
+        if calc.count >= MANY or not len(rows):
+            every: Array = np.stack(of(None).at(x, rows))[curve_of[rows], np.arange(len(x)), 0]
+            return every
+        own, number = np.unique(curve_of[rows], return_inverse=True)  # what is still searched are often few curves
+        values = np.stack(table.curves([curves[i] for i in own], seen.piece).at(x, rows))
+        found: Array = values[number, np.arange(len(x)), 0]
+        return found
+
     def depths(x: Array, rows: Array) -> Array:
         x = pieces.inside(x[:, None], seen.piece[rows])
         if len(rows) < FEW and len(curves) > 1:
-            values = np.stack(of(None).at(x, rows))[curve_of[rows], np.arange(len(x)), 0]
+            values = together(x, rows)
         else:
             values, which = np.empty(len(rows)), curve_of[rows]
             for curve in np.flatnonzero(np.bincount(which)):

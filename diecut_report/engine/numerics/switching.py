@@ -256,7 +256,7 @@ class GridSampler(CurveSampler):
         machines = self.machines
         if not machines.search.is_curve(name):
             return super()._compute(name)
-        found: Array = self.owner.table(self.axis).on_grid([name])[0][machines.own]
+        found: Array = machines.calc.table(self.axis).on_grid([name])[0][machines.own]
         if name in machines.search.ends:
             found[:, [0, -1]] = machines.search.ends[name][machines.own]
         row = machines.varying_rows(name, self)

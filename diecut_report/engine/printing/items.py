@@ -164,7 +164,7 @@ def _formula(calc: Calculation, part: Bound, step: Step, axis: str | None, elsew
     target = value_at(calc, step.id, axis)
     result = step_shown(calc, step, target)
     marked = marks(calc, axis, elsewhere)
-    own = None if axis in calc.domains else shown_part(calc, step.id)
+    own = None if axis is None or axis in calc.domains else shown_part(calc, step.id)
     substitution = _substitution(
         calc, part, step, lambda name: value_at(calc, name, axis, flag=elsewhere, part=own), marked
     )

@@ -12,10 +12,13 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from diecut_report.expressions import APPLY, NUMERIC, FormulaName
+from diecut_report.expressions import APPLY, NUMERIC
 from diecut_report.expressions.tree import Node
 
 LAST_PLACES = 4 * 2.0**-53  # what an operation, or a number read in another unit, may be off by, of its value
+LEAVES = ("num", "sym", "qty")
+OPERATIONS: dict[str, Callable[..., Any]] = {**APPLY, **NUMERIC}
+COMPARISONS = frozenset(("<", "<=", ">", ">=", "==", "!="))
 INTEGERS = 2.0**53  # below which an integer of a formula is exact
 
 
@@ -29,6 +32,7 @@ class Bounded(NamedTuple):
     error: float
 
 
+PI = Bounded(math.pi, LAST_PLACES * math.pi)
 LeafOf = Callable[[Node], Bounded]
 
 
@@ -45,19 +49,18 @@ def bounded(tree: Node, value_of: Callable[[Node], float]) -> Bounded:
 
 
 def _bounded(node: Node, leaf: LeafOf) -> Bounded:
-    match node:
-        case Node("sym", ("π",)):
-            return Bounded(math.pi, LAST_PLACES * math.pi)
-        case Node("num" | "sym" | "qty", _):
-            return leaf(node)
-        case Node("cases", branches):
-            return _branches([[_bounded(part, leaf) for part in branch] for branch in branches])
-        case Node("apply", (FormulaName(formula=called), *args)):
-            known = dict(zip(called.parameters, (_bounded(a, leaf) for a in args), strict=True))
-            return _bounded(called.tree, lambda own: known[own.args[0]] if own.args[0] in known else leaf(own))
-        case Node("call" | "cmp", (name, *args)):
-            return _combined(name, [_bounded(a, leaf) for a in args])
-    return _combined(node.op, [_bounded(a, leaf) for a in node.args])
+    op, args = node  # thousands of nodes are bounded for a document: no patterns are matched one after another
+    if op in LEAVES:
+        return PI if args == ("π",) and op == "sym" else leaf(node)
+    if op in ("call", "cmp"):
+        return _combined(args[0], [_bounded(a, leaf) for a in args[1:]])
+    if op == "cases":
+        return _branches([[_bounded(part, leaf) for part in branch] for branch in args])
+    if op == "apply":
+        called = args[0].formula
+        known = dict(zip(called.parameters, (_bounded(a, leaf) for a in args[1:]), strict=True))
+        return _bounded(called.tree, lambda own: known[own.args[0]] if own.args[0] in known else leaf(own))
+    return _combined(op, [_bounded(a, leaf) for a in args])
 
 
 def _branches(branches: Sequence[Sequence[Bounded]]) -> Bounded:
@@ -74,13 +77,13 @@ def _branches(branches: Sequence[Sequence[Bounded]]) -> Bounded:
 
 
 def _combined(name: str, args: Sequence[Bounded]) -> Bounded:
-    if name in ("<", "<=", ">", ">=", "==", "!="):
+    if name in COMPARISONS:
         (left, left_error), (right, right_error) = args
         return Bounded(APPLY[name](left, right), float(abs(left - right) <= left_error + right_error))
     if name in ("and", "or", "not"):
         return Bounded(APPLY[name](*(part.value for part in args)), max(part.error for part in args))
     try:
-        value = float((NUMERIC if name in NUMERIC else APPLY)[name](*(part.value for part in args)))
+        value = float(OPERATIONS[name](*[part.value for part in args]))
     except ArithmeticError:  # of Python's own numbers: a division by zero, a power that is too great
         return Bounded(math.nan, math.inf)
     error = _error(name, value, args) + LAST_PLACES * abs(value)
@@ -128,7 +131,7 @@ def _over_the_ends(name: str, value: float, args: Sequence[Bounded]) -> float:
     It holds for what rises or falls in each argument on either side of zero. What lies outside of where a function is
     defined does not count, for it has no value there.
     """
-    if any(not math.isfinite(part.error) for part in args):
+    if not all(math.isfinite(part.error) for part in args):
         return math.inf
     low, high = DOMAIN.get(name, (-math.inf, math.inf))
     if name == "^" and args[1].value != round(args[1].value):
@@ -139,12 +142,14 @@ def _over_the_ends(name: str, value: float, args: Sequence[Bounded]) -> float:
 
 
 def _places(part: Bounded, low: float = -math.inf, high: float = math.inf) -> list[float]:
+    if part.error == 0:
+        return [min(max(part.value, low), high)]
     ends = [min(max(part.value + sign * part.error, low), high) for sign in (-1, 1)]
     return [*ends, *([0.0] if ends[0] < 0 < ends[1] else [])]
 
 
 def _value(name: str, place: Sequence[float]) -> float:
     try:
-        return float((NUMERIC if name in NUMERIC else APPLY)[name](*map(np.float64, place)))
+        return float(OPERATIONS[name](*map(np.float64, place)))
     except ArithmeticError:
         return math.inf

@@ -9,7 +9,8 @@ import numpy as np
 from diecut_report.contract.binding import bound
 from diecut_report.contract.code_steps import PartNames
 from diecut_report.contract.steps import Abscissa, Choice, Value
-from diecut_report.engine.calculation import Calculation
+from diecut_report.engine.calculation import Calculation, CurveSampler
+from diecut_report.engine.numerics.domain import Domain
 from diecut_report.engine.printing.substitution import Elsewhere
 from diecut_report.engine.shown_units import declared_unit
 from diecut_report.expressions import Array, Node
@@ -36,12 +37,21 @@ def value_at(calc: Calculation, name: str, axis: str | None, *, flag: bool = Fal
     What goes into a flag of smooth pieces is taken at the middle of the piece.
     """
     if axis in calc.domains and calc.axis.get(name) == axis:
-        place, middle = shown_place(calc, str(axis))
-        sampler = calc.kept(f"shown {flag}", str(axis), lambda _: (middle if flag else place, middle), FIRST)
-        return float(np.ravel(sampler[name])[0])  # a constant is a curve too
+        return float(np.ravel(_sampler(calc, str(axis), elsewhere=flag)[name])[0])  # a constant is a curve too
     row = calc[name]
-    own = shown_part(calc, name) if part is None else part
-    return float(row[0, own if row.shape[1] > 1 else 0])
+    if row.shape[1] == 1:
+        return float(row[0, 0])
+    return float(row[0, shown_part(calc, name) if part is None else part])
+
+
+def _sampler(calc: Calculation, axis: str, *, elsewhere: bool) -> CurveSampler:
+    """The curves at the place where formulas are shown, or in the middle of its smooth piece."""
+
+    def places(_: Domain) -> tuple[Array, Array]:
+        place, middle = shown_place(calc, axis)
+        return middle if elsewhere else place, middle
+
+    return calc.kept(f"shown {elsewhere}", axis, places, FIRST)
 
 
 def shown_part(calc: Calculation, name: str) -> int:
@@ -110,7 +120,7 @@ def marks(calc: Calculation, axis: str | None, elsewhere: bool) -> Elsewhere | N
 
 
 def place_shown(calc: Calculation, axis: str, elsewhere: bool) -> Item:
-    return place_of(calc, axis, float(shown_place(calc, axis)[elsewhere][0, 0]))
+    return place_of(calc, axis, float(_sampler(calc, axis, elsewhere=elsewhere).x[0, 0]))
 
 
 def place_of(calc: Calculation, axis: str, place: float) -> Item:

@@ -8,13 +8,13 @@ from __future__ import annotations
 import math
 import re
 from collections.abc import Callable, Mapping
+from functools import cache
 from types import MappingProxyType
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from diecut_report.contract.binding import Bound
-from diecut_report.contract.result_names import named
 from diecut_report.contract.steps import Words
 from diecut_report.engine.printing.rounding import bounded
 from diecut_report.engine.shown_units import declared_unit, number_unit, unit_for
@@ -41,6 +41,7 @@ if TYPE_CHECKING:
 
 MOST_DIGITS = 17
 TRUSTED = 8  # digits up to which a number that is but the rounding of the computer stands as 0
+EXACT = ("num", "qty")
 TRIGONOMETRIC = ("sin", "cos", "tan")
 
 
@@ -88,6 +89,7 @@ def filled(
     return Phrase(text, {found[0][1:-1]: said(found) for found in NAMED.finditer(text)})
 
 
+@cache
 def formula_unit(display: str) -> str:
     """Return the unit in which a number stands inside a formula: the display unit where it is a power of ten of SI, else SI."""
     own = unit(display)
@@ -112,10 +114,11 @@ class Substitution:
     def __init__(
         self, calc: Calculation, part: Bound, value_of: Callable[[str], float], elsewhere: Elsewhere | None = None
     ) -> None:
-        self.calc, self.part, self.value_of, self.elsewhere = calc, part, value_of, elsewhere
+        self.calc, self.part, self.value_of, self.elsewhere = calc, part, cache(value_of), elsewhere
         self.constants: Mapping[str, Any] = part.formula.constants
         self.is_copy = part.formula.tree.op == "sym"  # whether it takes a quantity over as it is
         self.numbers: dict[str, Node] = {}  # as what each quantity was put in
+        self._displays: dict[str, str] = {}
         self.in_degrees = False  # whether angles stand in degrees in all of it
 
     def symbolic(self) -> Node:
@@ -131,7 +134,7 @@ class Substitution:
     def _marked(self, name: str) -> Node:
         """A quantity's symbol; where it is taken at another place than the chapter's, marked with that place."""
         symbol = Node("sym", (self.calc.step_or_input(name).symbol,))
-        found = named(name, self.calc.steps)
+        found = self.calc.names.result(name, self.calc.steps)
         if found is not None and found.role == "place":
             return Node("at", (symbol, Node("sym", (self.calc.steps[found.id].symbol,))))
         place = self.elsewhere(name) if self.elsewhere else None
@@ -146,14 +149,16 @@ class Substitution:
         asked, result_digits = result_digits, shown_digits(target, display, result_digits)
         wanted = rounded(target, display, result_digits)
         self.in_degrees = unit(display).text == "deg" and self.is_angle(self.part.formula.tree)
-        plain = self._at(DIGITS)
-        if self._shows(bounded(plain, self._printed_value).value, display, result_digits, wanted):
-            return plain
+        tree = self._at(DIGITS)
+        again, error = bounded(tree, self._printed_value)
+        if self._shows(again, display, result_digits, wanted):
+            return tree
         whole = bounded(self._at(MOST_DIGITS), self._printed_value)
         is_rounding = abs(target) * 10.0**-asked <= whole.error < math.inf  # no number of digits shows it
         for digits in () if is_rounding else range(DIGITS, MOST_DIGITS + 1):
-            tree = self._at(digits)
-            again, error = bounded(tree, self._printed_value)
+            if digits > DIGITS:
+                tree = self._at(digits)
+                again, error = bounded(tree, self._printed_value)
             if self._shows(again, display, result_digits, wanted) or abs(again - target) <= error < math.inf:
                 return tree
         if abs(whole.value - target) <= whole.error or whole.error == math.inf:
@@ -213,22 +218,22 @@ class Substitution:
 
     def _with_numbers(self, node: Node, digits: int, *, angle: bool) -> Node:
         """Angles stand in degrees where a trigonometric function takes them or the whole is shown so, else in rad."""
-        if node.op == "sym":
+        op, args = node
+        if op == "sym":
             return self._number(node, digits, angle=angle)
-        if node.op in ("num", "qty"):
+        if op in EXACT:
             return node
-        inside = (
-            node.args[0] in TRIGONOMETRIC
-            if node.op == "call"
-            else angle and (node.op in ("+", "-", "neg") or (node.op in ("*", "/") and self.is_angle(node)))
-        )
+        in_sum = angle and (op in ("+", "-", "neg") or (op in ("*", "/") and self.is_angle(node)))
+        inside = args[0] in TRIGONOMETRIC if op == "call" else in_sum
+        return Node(op, self._parts(args, digits, angle=inside))
 
-        def descend(part: Any) -> Any:
-            if isinstance(part, Node):
-                return self._with_numbers(part, digits, angle=inside)
-            return tuple(map(descend, part)) if isinstance(part, tuple) else part
-
-        return Node(node.op, tuple(map(descend, node.args)))
+    def _parts(self, parts: tuple[Any, ...], digits: int, *, angle: bool) -> tuple[Any, ...]:
+        return tuple([
+            self._with_numbers(part, digits, angle=angle) if type(part) is Node
+            else self._parts(part, digits, angle=angle) if isinstance(part, tuple)
+            else part
+            for part in parts
+        ])  # fmt: skip
 
     def _number(self, leaf: Node, digits: int, *, angle: bool) -> Node:
         name = self.part.names.get(leaf.args[0])
@@ -254,6 +259,11 @@ class Substitution:
 
     def display(self, name: str) -> str:
         """Return the unit in which a quantity is shown where it stands for itself."""
+        if name not in self._displays:
+            self._displays[name] = self._unit(name)
+        return self._displays[name]
+
+    def _unit(self, name: str) -> str:
         return number_unit(self.calc, name, self.calc.step_or_input(name), self.value_of(name))
 
 

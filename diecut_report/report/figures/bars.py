@@ -9,46 +9,48 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
+from diecut_report.quantities.formatting import number_text
 from diecut_report.quantities.units import pretty, unit
-from diecut_report.report.figures.diagram import WIDTH
 from diecut_report.report.figures.panel_data import limits_of
+from diecut_report.report.figures.sizes import WIDTHS, Size
 from diecut_report.report.figures.style import ACCENT, INK, canvas, plain, text_size
 from diecut_report.report.i18n import Catalogue
-from diecut_report.report.number_format import number, significant
+from diecut_report.report.number_format import displayed, number, significant
 
 Data = Mapping[str, Any]
 
 
-def bars(figure: Data, _curves: Data, words: Catalogue) -> Figure:
+def bars(figure: Data, _curves: Data, words: Catalogue, size: Size = Size.LARGE) -> Figure:
     """Horizontal bars in groups side by side, each group with its unit; what is subtracted is hatched."""
     groups = figure["groups"]
     rows = max(len(group["bars"]) for group in groups)
     below = 8 if all("range" not in group for group in groups) else 20
     height = 30 + 17.0 * rows + below
-    sheet = canvas(WIDTH, height)
-    share = WIDTH / len(groups)
+    width = WIDTHS[size]
+    sheet = canvas(width, height)
+    share = width / len(groups)
     for index, group in enumerate(groups):
         names = max(text_size(plain(bar["label"]))[0] for bar in group["bars"]) + 8
         left, tall = index * share + names + 4, 17.0 * len(group["bars"])
         axes = sheet.add_axes(
-            (left / WIDTH, (height - 24 - tall) / height, (share - names - 14) / WIDTH, tall / height)
+            (left / width, (height - 24 - tall) / height, (share - names - 14) / width, tall / height)
         )
-        _group(axes, group, group.get("unit") or figure["unit"], words)
+        _group(axes, width, group, group.get("unit") or figure["unit"], words)
     return sheet
 
 
-def _group(axes: Axes, group: Data, shown: str, words: Catalogue) -> None:
+def _group(axes: Axes, width: float, group: Data, shown: str, words: Catalogue) -> None:
     values = [bar["value"] / unit(shown).factor for bar in group["bars"]]
     rows = np.arange(len(values))[::-1]
     last = len(values) - 1
-    for row, value, index in zip(rows, values, range(len(values)), strict=True):
+    for index, (row, value) in enumerate(zip(rows, values, strict=True)):
         colour = "white" if value < 0 else ACCENT if index == last else "#9fb4c4"
         axes.barh(
             row, value, 0.62, edgecolor=INK, linewidth=0.6, facecolor=colour, hatch="/////" if value < 0 else None
         )
-        text = number(significant(value, 4), words["decimal"])
+        text = displayed(group["bars"][index]["value"], shown, words["decimal"])
         axes.annotate(text, (max(value, 0), row), (3, 0), textcoords="offset points", va="center_baseline", size=8)
-    _across(axes, values, limits_of(group, shown), words)
+    _across(axes, width, values, limits_of(group, shown), words)
     axes.set_yticks(rows, [plain(bar["label"]) for bar in group["bars"]], va="center_baseline")
     axes.set_ylim(-0.6, len(values) - 0.4)
     axes.axvline(0, color=INK, linewidth=0.8)
@@ -60,15 +62,19 @@ def _group(axes: Axes, group: Data, shown: str, words: Catalogue) -> None:
 
 
 def _across(
-    axes: Axes, values: Sequence[float], limits: tuple[float | None, float | None] | None, words: Catalogue
+    axes: Axes,
+    width: float,
+    values: Sequence[float],
+    limits: tuple[float | None, float | None] | None,
+    words: Catalogue,
 ) -> None:
-    """Lay out the axis of the bars, with room for their numbers; where its range is declared its ends are named."""
+    """Lay out the axis of the bars on a sheet of a width, with room for their numbers; where its range is declared its ends are named."""
     room = max(text_size(number(significant(value)))[0] for value in values) + 6
-    points = axes.get_position().width * WIDTH
+    points = axes.get_position().width * width
     own = min([0.0, *values]), max([0.0, *values])
     low, high = (each if end is None else end for each, end in zip(own, limits or (None, None), strict=True))
     margin = 0.0 if limits and limits[0] is not None else 0.02 * (max(map(abs, values)) or 1.0)
     axes.set_xlim(low - margin, high + room * (high - low) / max(points - room, 1))
     axes.tick_params(axis="x", bottom=limits is not None, labelbottom=limits is not None)
     if limits:
-        axes.set_xticks([low, high], [number(significant(end, 4), words["decimal"]) for end in (low, high)])
+        axes.set_xticks([low, high], [number(number_text(end), words["decimal"]) for end in (low, high)])

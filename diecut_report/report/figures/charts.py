@@ -12,8 +12,9 @@ from numpy.typing import NDArray
 
 from diecut_report.quantities.units import pretty, to_display, unit
 from diecut_report.report.curves import continuous, period_of
-from diecut_report.report.figures.diagram import HEAD, WIDTH, Diagram
+from diecut_report.report.figures.diagram import HEAD, Diagram
 from diecut_report.report.figures.panel_data import Across, Line, Note, PanelData, SpanData, limits_of, range_of
+from diecut_report.report.figures.sizes import WIDTHS, Size
 from diecut_report.report.figures.style import canvas, marked, plain
 from diecut_report.report.i18n import Catalogue
 from diecut_report.report.number_format import displayed, joined
@@ -22,18 +23,23 @@ Data = Mapping[str, Any]
 Array = NDArray[Any]
 LEFT, RIGHT, TOP = 46.0, 10.0, 6.0  # points
 FOOT, NAMED_FOOT = 8.0, 34.0  # below a diagram: without and with its numbers and their title
-HEIGHTS = {1: 140.0, 2: 104.0, 3: 86.0}  # of a diagram, by the number of diagrams; more share a page
+HEIGHTS = {  # of a diagram, by the number of diagrams; more share a page
+    Size.LARGE: {1: 140.0, 2: 104.0, 3: 86.0, 4: 68.0},
+    Size.LOW: {1: 96.0, 2: 74.0, 3: 60.0, 4: 52.0},
+    Size.HALF: {1: 96.0, 2: 68.0, 3: 50.0, 4: 46.0},
+}
+MANY = 4
 PAGE = 650.0  # no chart is higher
 
 
-def plot(figure: Data, curves: Data, words: Catalogue) -> Figure:
+def plot(figure: Data, curves: Data, words: Catalogue, size: Size = Size.LARGE) -> Figure:
     """Curves of the results, over a common abscissa."""
-    return _sheet(diagrams(figure, curves, words), words)
+    return _sheet(diagrams(figure, curves, words), words, size)
 
 
-def chart(figure: Data, curves: Data, words: Catalogue) -> Figure:
+def chart(figure: Data, curves: Data, words: Catalogue, size: Size = Size.LARGE) -> Figure:
     """Lines that the figure brings itself, each diagram over what it likes."""
-    return _sheet(diagrams(figure, curves, words), words)
+    return _sheet(diagrams(figure, curves, words), words, size)
 
 
 def diagrams(figure: Data, curves: Data, words: Catalogue) -> list[PanelData]:
@@ -43,21 +49,22 @@ def diagrams(figure: Data, curves: Data, words: Catalogue) -> list[PanelData]:
     return [_of_lines(panel, words) for panel in figure["panels"]]
 
 
-def _sheet(panels: list[PanelData], words: Catalogue) -> Figure:
+def _sheet(panels: list[PanelData], words: Catalogue, size: Size) -> Figure:
     """All diagrams; numbers stand below a diagram where the next one runs over something else."""
     feet = [NAMED_FOOT if one.across != two.across else FOOT for one, two in pairwise(panels)]
     feet.append(NAMED_FOOT)
     room = (PAGE - TOP - sum(feet) - HEAD * len(panels)) / len(panels)
-    height = min(HEIGHTS.get(len(panels), 68.0), room)
-    wide = WIDTH - LEFT - RIGHT
+    height = min(HEIGHTS[size if size in HEIGHTS else Size.LOW][min(len(panels), MANY)], room)
+    width = WIDTHS[size]
+    wide = width - LEFT - RIGHT
     drawn = [Diagram(panel, wide, height) for panel in panels]
     for diagram in drawn[1:]:
         diagram.follow(drawn[0])
     total = TOP + sum(diagram.head for diagram in drawn) + height * len(panels) + sum(feet)
-    sheet, bottom = canvas(WIDTH, total), total - TOP
+    sheet, bottom = canvas(width, total), total - TOP
     for diagram, foot in zip(drawn, feet, strict=True):
         bottom -= diagram.head + height
-        axes = sheet.add_axes((LEFT / WIDTH, bottom / total, wide / WIDTH, height / total))
+        axes = sheet.add_axes((LEFT / width, bottom / total, wide / width, height / total))
         diagram.draw(axes, words, named=foot == NAMED_FOOT)
         bottom -= foot
     return sheet
@@ -131,4 +138,4 @@ def _level(level: Data, shown: str, words: Catalogue) -> Note:
 
 
 def _value(value: float, shown: str, words: Catalogue) -> str:
-    return plain(joined(displayed(value, shown, 4, words["decimal"]), pretty(shown)))
+    return plain(joined(displayed(value, shown, words["decimal"]), pretty(shown)))

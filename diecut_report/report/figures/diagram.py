@@ -12,13 +12,14 @@ from matplotlib.ticker import FuncFormatter, MaxNLocator, MultipleLocator
 
 from diecut_report.quantities.units import pretty
 from diecut_report.report.figures.label_layout import SIZE, LabelLayout
-from diecut_report.report.figures.panel_data import Across, PanelData, framed, pieces
+from diecut_report.report.figures.panel_data import Across, Frame, PanelData, framed, pieces
 from diecut_report.report.figures.shapes import hatching
-from diecut_report.report.figures.style import ACCENT, INK, MM, PALE, SOFT, marked, plain, symbol, text_size
+from diecut_report.report.figures.sizes import WIDTHS, Size
+from diecut_report.report.figures.style import ACCENT, INK, PALE, SOFT, marked, plain, symbol, text_size
 from diecut_report.report.i18n import Catalogue
 from diecut_report.report.number_format import number
 
-WIDTH = 172 * MM
+WIDTH = WIDTHS[Size.LARGE]
 STROKES: tuple[tuple[str, Any, float], ...] = (  # more lines than there are here are named at the lines
     (ACCENT, "-", 1.4),
     (INK, (0, (5, 2)), 1.1),
@@ -38,6 +39,7 @@ HANDLE, BESIDE, BETWEEN = (
     0.8,
     1.6,
 )  # of a legend, in font sizes: its strokes, the room behind them, between columns
+APART, ABOVE = 24.0, 11.0  # the least room for a number at an axis, points
 
 
 class Legend(NamedTuple):
@@ -76,7 +78,7 @@ class Diagram:
         axes.set_ylim(self.frame.upwards)
         handles = [*self._lines(axes), *self._areas(axes)]
         self._notes(axes)
-        _ticks(axes, self.panel.across, words)
+        _ticks(axes, self.panel.across, self.frame, words)
         axes.tick_params(labelbottom=named)
         if named:
             axes.set_xlabel(titled(*self.panel.across[:3]), labelpad=2)
@@ -181,7 +183,7 @@ def titled(words: str, sign: str, shown: str) -> str:
     return " ".join(parts) + (f", {pretty(shown)}" if pretty(shown) else "")
 
 
-def _ticks(axes: Axes, across: Across, words: Catalogue) -> None:
+def _ticks(axes: Axes, across: Across, frame: Frame, words: Catalogue) -> None:
     """Round numbers at both axes: angles in steps that divide a turn."""
     span = across.high - across.low
     if across.unit == "deg" and span > 60:
@@ -189,9 +191,12 @@ def _ticks(axes: Axes, across: Across, words: Catalogue) -> None:
         axes.xaxis.set_minor_locator(MultipleLocator(30 if span > 200 else 10))
     else:
         axes.xaxis.set_major_locator(
-            MaxNLocator(9, steps=[1, 1.5, 3, 5, 10] if across.unit == "deg" else [1, 2, 2.5, 5, 10])
+            MaxNLocator(
+                min(9, int(frame.width / APART)),
+                steps=[1, 1.5, 3, 5, 10] if across.unit == "deg" else [1, 2, 2.5, 5, 10],
+            )
         )
-    axes.yaxis.set_major_locator(MaxNLocator(6, steps=[1, 2, 2.5, 5, 10]))
+    axes.yaxis.set_major_locator(MaxNLocator(min(6, int(frame.height / ABOVE)), steps=[1, 2, 2.5, 5, 10]))
     printed = FuncFormatter(lambda value, _: number(f"{value:.10g}", words["decimal"]))
     axes.xaxis.set_major_formatter(printed)
     axes.yaxis.set_major_formatter(printed)

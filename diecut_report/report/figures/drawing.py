@@ -15,6 +15,7 @@ from diecut_report.report.figures import label_places
 from diecut_report.report.figures.drawing_scale import LARGEST, filled
 from diecut_report.report.figures.drawing_sheet import ARROW, THICK, THIN, THIN_LINE, DrawingSheet
 from diecut_report.report.figures.shapes import beyond, circular, hatching
+from diecut_report.report.figures.sizes import Size
 from diecut_report.report.figures.style import ACCENT, INK, LINE, SOFT, marked, sampled
 from diecut_report.report.i18n import Catalogue
 
@@ -35,15 +36,19 @@ ROLES: dict[str, dict[str, Any]] = {
     "shade": {"color": BODY, "linewidth": 0.0, "zorder": 1.0},
 }
 HEAD, STOUT = 5.5, 0.28  # of arrows, and what its strokes add to the head
-SMALLER = (1.0, 0.87, 0.75, 0.64, 0.5)  # how much smaller a drawing is tried, so that its texts find places
-SKETCH = (0.6, 0.5)
+SHARES = {  # of the largest, at which a drawing is tried, so that its texts find places
+    Size.LARGE: (1.0, 0.87, 0.75, 0.64, 0.5),
+    Size.LOW: (0.66, 0.58, 0.75, 0.87, 0.5),
+    Size.HALF: (0.52, 0.46, 0.58),
+    Size.SKETCH: (0.36, 0.3, 0.42, 0.5),
+}
 WORTH = 25.0  # what stands in the way of texts, for which the drawing is rather made a step smaller
 
 
-def drawing(figure: Mapping[str, Any], _curves: Mapping[str, Any], words: Catalogue, *, small: bool = False) -> Figure:
-    """The shapes of a drawing, as large as the page (a sketch: half of it) lets them be, with a scale bar unless it is a schematic."""
+def drawing(figure: Mapping[str, Any], _curves: Mapping[str, Any], words: Catalogue, size: Size = Size.LARGE) -> Figure:
+    """The shapes of a drawing, as large as their place on the page lets them be, with a scale bar unless it is a schematic."""
     best, least = None, np.inf
-    for step, share in enumerate(SKETCH if small else SMALLER):
+    for step, share in enumerate(SHARES[size]):
         sheet = Shapes(figure, words, LARGEST * share)
         sheet.finish()
         cost = sheet.crowded + step * WORTH

@@ -89,7 +89,7 @@ class LabelLayout:
         for note in panel.verticals:
             if note.text:
                 place = float(frame.points(note.x, 0)[0])
-                self._write(note.text, beside_vertical(place, frame.height, text_size(note.text, SIZE)))
+                self._write(note.text, beside_vertical(place, frame.width, frame.height, text_size(note.text, SIZE)))
 
     # areas
     def _inside(self, area: Line) -> bool:

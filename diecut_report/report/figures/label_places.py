@@ -76,10 +76,12 @@ def beside_level(y: float, width: float, size: Size) -> Iterator[Place]:
         yield from ((x, y + 7.0), (x, y - 7.0))
 
 
-def beside_vertical(x: float, height: float, size: Size) -> Iterator[Place]:
-    """To the right or left of a vertical line across a diagram, from the top to the bottom."""
+def beside_vertical(x: float, width: float, height: float, size: Size) -> Iterator[Place]:
+    """To the right or left of a vertical line across a diagram, from the top to the bottom; within the frame at last."""
+    aside = CLEAR + size[0] / 2
+    inmost = min(max(x, size[0] / 2 + CLEAR), width - size[0] / 2 - CLEAR)
     for y in np.linspace(height - size[1] / 2 - 4, size[1] / 2 + 4, 16):
-        yield from ((x + CLEAR + size[0] / 2, y), (x - CLEAR - size[0] / 2, y))
+        yield from ((x + aside, y), (x - aside, y), (inmost, y))
 
 
 def within(start: float, end: float, height: float, size: Size) -> Iterator[Place]:

@@ -12,23 +12,27 @@ from matplotlib.ticker import FuncFormatter, MaxNLocator
 
 from diecut_report.quantities.units import pretty, unit
 from diecut_report.report.curves import continuous, period_of, through_pole
-from diecut_report.report.figures.diagram import STROKES, WIDTH, titled
+from diecut_report.report.figures.diagram import STROKES, titled
 from diecut_report.report.figures.panel_data import limits_of
+from diecut_report.report.figures.sizes import WIDTHS, Size
 from diecut_report.report.figures.style import MM, canvas, marked
 from diecut_report.report.i18n import Catalogue
 from diecut_report.report.number_format import joined, number
 
 Data = Mapping[str, Any]
 TURN = 360.0
+SIDES = {Size.LARGE: 100 * MM, Size.LOW: 74 * MM, Size.HALF: 74 * MM}  # of the square about the circles
+HEADS = {Size.LARGE: 16.0, Size.HALF: 30.0}  # above it: beside the uppermost angle, or higher
 
 
-def polar(figure: Data, curves: Data, words: Catalogue) -> Figure:
+def polar(figure: Data, curves: Data, words: Catalogue, size: Size = Size.LARGE) -> Figure:
     """Size of curves as distance from the pole over an angle; what is negative has another line."""
     over = curves[figure["abscissa"]]
-    side = 100 * MM
-    sheet = canvas(WIDTH, side + 16)
+    side, width = SIDES.get(size, SIDES[Size.LOW]), WIDTHS[size]
+    total = side + HEADS.get(size, HEADS[Size.HALF])
+    sheet = canvas(width, total)
     axes = sheet.add_axes(
-        ((WIDTH - side + 40) / 2 / WIDTH, 30 / (side + 16), (side - 40) / WIDTH, (side - 30) / (side + 16)),
+        ((width - side + 40) / 2 / width, 30 / total, (side - 40) / width, (side - 30) / total),
         projection="polar",
     )
     for index, series in enumerate(figure["series"]):
@@ -53,7 +57,7 @@ def polar(figure: Data, curves: Data, words: Catalogue) -> Figure:
     axes.set_ylim(low or 0, high)
     greatest = max(tick for tick in axes.get_yticks() if tick <= axes.get_ylim()[1])
     axes.yaxis.set_major_formatter(FuncFormatter(lambda v, _: _radial(v, greatest, figure["unit"], words)))
-    sheet.text(0.02, 1 - 14 / (side + 16), titled(over["description"], over["symbol"], over["display_unit"]))
+    sheet.text(0.02, 1 - 14 / total, titled(over["description"], over["symbol"], over["display_unit"]))
     sheet.legend(*axes.get_legend_handles_labels(), loc="lower center", ncols=2, borderaxespad=0.1)
     return sheet
 

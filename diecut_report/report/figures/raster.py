@@ -9,7 +9,8 @@ from typing import Any, NamedTuple
 import matplotlib as mpl
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 
-from diecut_report.report.figures.by_type import DRAW
+from diecut_report.report.figures.by_type import build
+from diecut_report.report.figures.sizes import Size
 from diecut_report.report.figures.style import load_fonts, style
 from diecut_report.report.i18n import Catalogue
 
@@ -25,13 +26,12 @@ class Raster(NamedTuple):
 
 
 def raster(
-    figure: Mapping[str, Any], curves: Mapping[str, Any], words: Catalogue, key: str, *, small: bool = False
+    figure: Mapping[str, Any], curves: Mapping[str, Any], words: Catalogue, key: str, size: Size = Size.LARGE
 ) -> Raster:
     """A figure of the results, drawn as ``by_type.render`` draws it; the same bytes for the same figure."""
-    sized = {"small": True} if small and figure["type"] == "drawing" else {}
     load_fonts()
     with mpl.rc_context(style(key)):  # type: ignore[arg-type]  # a plain dictionary is one too
-        drawn = DRAW[figure["type"]](figure, curves, words, **sized)
+        drawn = build(figure, curves, words, size)
         FigureCanvasAgg(drawn)
         content = io.BytesIO()
         drawn.savefig(content, format="png", dpi=DENSITY, metadata={"Software": None}, facecolor="white")

@@ -5,9 +5,11 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from typing import TYPE_CHECKING
 
+from markupsafe import Markup
+
 from diecut_report.report.equations import Equation
 from diecut_report.report.i18n import Catalogue
-from diecut_report.report.model import CheckRow, Item, PartsTable, PrintedTable, QuantityRow
+from diecut_report.report.model import CheckRow, Item, QuantityRow
 from diecut_report.report.office.omml import OfficeMath, office_math
 from diecut_report.report.office.wordml import (
     Inline,
@@ -24,7 +26,9 @@ from diecut_report.report.office.wordml import (
     small,
     table,
 )
+from diecut_report.report.printed_tables import PartsTable, PrintedTable
 from diecut_report.report.symbols import prose
+from diecut_report.report.value_rows import ValueRow
 
 if TYPE_CHECKING:
     from diecut_report.report.figures.raster import Raster
@@ -126,10 +130,9 @@ class WordBody:
         """A table of the calculation."""
         self.caption("table", found.number, rich(prose(found.title)), keep=True)
         columns = []
-        for index, (title, symbol, unit) in enumerate(found.columns):
+        for kind, (title, symbol, unit) in zip(found.kinds, found.columns, strict=True):
             head = rich(prose(title)) + (run(" ") + rich(symbol) if symbol else "") + run(f", {unit}" if unit else "")
-            is_number = bool(found.rows) and all(row[index][:1] in "−–0123456789" for row in found.rows)
-            columns.append(TableColumn(head, 1 if is_number else 2, is_number))
+            columns.append(TableColumn(head, 2 if kind in ("named", "words") else 1, not kind))
         self.table(columns, [[run(text) for text in row] for row in found.rows])
 
     def parts_table(self, found: PartsTable) -> None:
@@ -174,10 +177,27 @@ class WordBody:
             self.tell(item.text, "Why")
         elif item.type == "figure":
             self.figure(item.number, item.title, item.caption)
+        elif item.type == "pair":
+            for each in item.pair:
+                self.item(each)
+        elif item.rows:
+            self.values(item.rows)
         elif item.table is not None:
             self.data_table(item.table)
         else:
             self._step(item)
+
+    def values(self, rows: Sequence[ValueRow]) -> None:
+        """Steps without their formulas, a line for each."""
+        columns = [self.head("number", 1.2), self.head("quantity", 7), self.head("symbol", 1.6), self.head("value", 3)]
+        self.table(columns, [self._value(row) for row in rows])
+
+    def _value(self, row: ValueRow) -> list[Inline]:
+        source = row.named_formula(self.words) if row.refers else prose(row.source)
+        told = Markup(" ").join(filter(None, (source, prose(row.note))))
+        value = run(row.value) + (run(f" {self.words['at']} ") + rich(row.at) if row.at else "")
+        what = rich(prose(row.description)) + (run("  ") + small(told) if told else "")
+        return [run(f"({row.number})" if row.number else ""), what, rich(row.symbol), value]
 
     def _step(self, item: Item) -> None:
         result = f": {item.text}" if item.text else ""

@@ -79,6 +79,9 @@ def _given(body: WordBody, part: PrintedChapter) -> None:
         body.listed(rich(prose(text)) for text in part.assumptions)
     _head(body, part.parts.get("inputs"))
     _inputs(body, part.inputs)
+    if part.defaults:
+        told = [f"{row.description} {row.value} {row.unit}".strip() for row in part.defaults]
+        body.say(bold(body.words["defaults"]) + run(": ") + rich(prose(" · ".join(told))), "Why")
     for table in part.input_parts:
         body.parts_table(table)
 
@@ -169,7 +172,7 @@ def _rest(body: WordBody, part: PrintedChapter) -> None:
 def _meaning(body: WordBody, row: SymbolRow) -> Inline:
     """What a symbol stands for, and how the source writes it where that is another letter."""
     told = rich(Markup(f" ({body.words.say('in_source', symbol=row.in_source)})")) if row.in_source else ""
-    return rich(prose(row.meaning)) + told
+    return rich(prose(row.meaning)) + told + (run(f" ({row.stands})") if row.stands else "")
 
 
 def closing(body: WordBody, document: ReportDocument, digest: str) -> None:

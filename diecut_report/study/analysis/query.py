@@ -1,57 +1,21 @@
-"""Questions to the stored variants: which fulfil a condition, the best first, as a table, CSV or JSON."""
+"""Questions to the stored variants: which fulfil a condition, the best first, as a table, CSV, JSON or a workbook."""
 
 from __future__ import annotations
 
-import csv
-import io
-import json
-import math
 import shutil
 import sys
-from collections.abc import Generator, Iterable, Iterator, Sequence
-from dataclasses import dataclass
+from collections.abc import Generator, Iterator, Sequence
 from pathlib import Path
-from typing import Any
 
 from diecut_report.errors import Problem, UserError
 from diecut_report.report.number_format import number
-from diecut_report.study.analysis.stored_variants import (
-    FIXED,
-    Stored,
-    StoredColumn,
-    opened,
-)
-from diecut_report.study.conditions.where import Condition, column_named, condition
+from diecut_report.study.analysis.answers import SI, Notation, as_csv, as_json, as_workbook, csv_text, side_by_side
+from diecut_report.study.analysis.question import Question, Request, question
+from diecut_report.study.analysis.stored_variants import Stored, opened
+from diecut_report.study.storage.spreadsheets import workbook
 from diecut_report.study.storage.state import read_state
 
 FORMATS = ("table", "csv", "json")
-SHOWN, WIDE = 20, 12  # variants and quantities of a table that asks for no number of them
-ROWS = 2_000  # at a time
-
-Row = tuple[Any, ...]
-
-
-@dataclass(frozen=True)
-class Question:
-    """Say what is asked: a condition, the order, how many, and which columns."""
-
-    condition: Condition
-    order: tuple[tuple[StoredColumn, bool], ...]
-    top: int | None
-    columns: tuple[StoredColumn, ...]
-
-    @property
-    def where(self) -> str:
-        """Return the condition as SQL."""
-        return f"WHERE {self.condition.sql}"
-
-    @property
-    def sql(self) -> str:
-        """Return the whole question; variants of equal rank stand in the order of the sample, missing values last."""
-        names = ", ".join(column.sql for column in self.columns)
-        order = [f"{column.sql} {'DESC' if falls else 'ASC'} NULLS LAST" for column, falls in self.order]
-        limit = "" if self.top is None else f" LIMIT {self.top}"
-        return f"SELECT {names} FROM v {self.where} ORDER BY {', '.join([*order, 'variant'])}{limit}"
 
 
 def variants(
@@ -68,9 +32,48 @@ def variants(
     ``sort`` names columns, parted by commas, with - for the greatest first; without ``columns`` a table shows the varied
     quantities and what the question names. UserError in words for what cannot be asked.
     """
+    yield from answer(directory, Request(where, sort, top, columns), format, width=width)
+
+
+def answer(
+    directory: Path,
+    asked: Request,
+    format: str = "table",
+    notation: Notation = SI,
+    *,
+    transposed: bool = False,
+    width: int | None = None,
+) -> Generator[str, None, None]:
+    """Yield the answer in pieces of text; with ``transposed`` a line for each quantity and a column for each variant.
+
+    A table that compares variants leaves out what is the same for all, and says how much that is, unless the columns are named.
+    """
+    if format not in FORMATS:
+        raise UserError(Problem(f"{format!r} is not a format of variants; known: {', '.join(FORMATS)}."))
+    if transposed and format == "json":
+        raise UserError(
+            Problem("JSON names each value, so that it has no rows to transpose; ask for table, csv or xlsx.")
+        )
     with opened(directory) as stored:
-        question = _question(stored, where, sort, top, format, columns)
-        yield from {"table": _table, "csv": _csv, "json": _json}[format](stored, question, width)
+        found = question(stored, asked, is_table=format == "table" and not transposed)
+        if transposed and format == "csv":
+            yield from csv_text(*_rows_of(stored, found, notation), notation)
+        elif transposed:
+            yield _compared(stored, found, asked, width)
+        elif format == "table":
+            yield from _table(stored, found, width)
+        else:
+            yield from {"csv": as_csv, "json": as_json}[format](stored, found, notation)
+
+
+def answer_workbook(directory: Path, asked: Request, notation: Notation = SI, *, transposed: bool = False) -> bytes:
+    """Return the answer as a workbook (XLSX); UserError in words for what cannot be asked."""
+    with opened(directory) as stored:
+        found = question(stored, asked, is_table=False)
+        if not transposed:
+            return as_workbook(stored, found, notation)
+        head, lines = side_by_side(stored, found, notation)
+        return workbook({"variants": [head, *lines]})
 
 
 def unfinished(directory: Path) -> Iterator[str]:
@@ -84,107 +87,29 @@ def unfinished(directory: Path) -> Iterator[str]:
         )
 
 
-def _question(
-    stored: Stored, where: str | None, sort: str | None, top: int | None, format: str, columns: Sequence[str] | None
-) -> Question:
-    if format not in FORMATS:
-        raise UserError(Problem(f"{format!r} is not a format of variants; known: {', '.join(FORMATS)}."))
-    if top is not None and top < 1:
-        raise UserError(Problem(f"--top is {top}; a number of variants from 1 on is needed."))
-    asked = condition(where, stored.columns) if where and where.strip() else Condition("true", [])
-    order = tuple(_order(sort or "", stored))
-    if format == "table" and top is None:
-        top = SHOWN
-    return Question(asked, order, top, tuple(_columns(stored, asked, order, format, columns)))
+def _rows_of(stored: Stored, asked: Question, notation: Notation) -> tuple[list[object], Iterator[list[object]]]:
+    head, lines = side_by_side(stored, asked, notation)
+    return head, iter(lines)
 
 
-def _order(sort: str, stored: Stored) -> Iterator[tuple[StoredColumn, bool]]:
-    for part in filter(None, (part.strip() for part in sort.split(","))):
-        yield column_named(part.removeprefix("-").strip(), stored.columns), part.startswith("-")
-
-
-def _columns(
-    stored: Stored,
-    asked: Condition,
-    order: Iterable[tuple[StoredColumn, bool]],
-    format: str,
-    named: Sequence[str] | None,
-) -> list[StoredColumn]:
-    """The columns to give, each once."""
-    if named is not None:
-        return [stored.columns["variant"], *(column_named(name, stored.columns) for name in named if name != "variant")]
-    if format != "table":
-        return list(stored.columns.values())
-    objectives = [name for each in stored.study.get("objectives") or () for name in each.values()]
-    wanted = ["variant", "status", "governing", *(column.name for column, _ in order), *asked.columns, *objectives]
-    inputs = [column.name for column in stored.varied]
-    reason = ["error"] if _has_errors(stored, asked) else []
-    found = dict.fromkeys([*wanted, *inputs[: max(WIDE - len(wanted), 3)], *reason])
-    return [stored.columns[name] for name in found if name in stored.columns]
-
-
-def _has_errors(stored: Stored, asked: Condition) -> bool:
-    sql = f"SELECT 1 FROM v WHERE error IS NOT NULL AND {asked.sql} LIMIT 1"
-    return bool(stored.rows(sql, asked.parameters))
-
-
-def _fetched(stored: Stored, question: Question) -> Iterator[Row]:
-    cursor = stored.connection.execute(question.sql, question.condition.parameters)
-    while rows := cursor.fetchmany(ROWS):
-        yield from rows
-
-
-# --- formats ---------------------------------------------------------------------------------------------------------
-
-
-def _csv(stored: Stored, question: Question, _width: int | None) -> Iterator[str]:
-    """SI numbers, units in the header, as a study reads its tables."""
-    buffer = io.StringIO()
-    writer = csv.writer(buffer, lineterminator="\n")
-    writer.writerow(c.name + (f" [{c.unit}]" if c.unit != "1" else "") for c in question.columns)
-    for row in _fetched(stored, question):
-        writer.writerow("" if value is None else _plain(value) for value in row)
-        if buffer.tell() > 1 << 16:
-            yield _emptied(buffer)
-    yield _emptied(buffer)
-
-
-def _emptied(buffer: io.StringIO) -> str:
-    text = buffer.getvalue()
-    buffer.seek(0)
-    buffer.truncate()
-    return text
-
-
-def _plain(value: Any) -> Any:
-    return str(value).lower() if isinstance(value, bool) else repr(value) if isinstance(value, float) else value
-
-
-def _json(stored: Stored, question: Question, _width: int | None) -> Iterator[str]:
-    """SI numbers, with the units of the columns; a line for each variant."""
-    names = [column.name for column in question.columns]
-    units = {column.name: column.unit for column in question.columns if column.name not in FIXED and column.is_number}
-    yield f'{{"units": {json.dumps(units, ensure_ascii=False)},\n "variants": ['
-    before = "\n  "
-    for row in _fetched(stored, question):
-        yield before + json.dumps(dict(zip(names, map(_finite, row), strict=True)), ensure_ascii=False, allow_nan=False)
-        before = ",\n  "
-    yield "]}\n"
-
-
-def _finite(value: Any) -> Any:
-    return None if isinstance(value, float) and not math.isfinite(value) else value
-
-
-def _table(stored: Stored, question: Question, width: int | None) -> Iterator[str]:
+def _table(stored: Stored, asked: Question, width: int | None) -> Iterator[str]:
     """A table for people, and how many variants there are."""
     from diecut_report.study.analysis.variant_table import table_text
 
-    rows = list(_fetched(stored, question))
-    found, without = table_text(question.columns, rows, width or _terminal())
-    yield f"{found}\n{_counted(stored, question, len(rows))}\n"
+    rows = list(asked.rows(stored))
+    found, without = table_text(asked.columns, rows, width or _terminal())
+    yield f"{found}\n{_counted(stored, asked, len(rows))}\n"
     if without:
-        yield f"No room on a line for: {', '.join(column.name for column in without)} (--format csv has them all).\n"
+        yield f"No room on a line for: {', '.join(column.name for column in without)} (--columns names some, --format csv has them all).\n"
+
+
+def _compared(stored: Stored, found: Question, asked: Request, width: int | None) -> str:
+    from diecut_report.study.analysis.variant_table import compared_text
+
+    rows = list(found.rows(stored))
+    text, equal = compared_text(found.columns, rows, width or _terminal(), keep_equal=asked.columns is not None)
+    left_out = f"; {equal} quantities that are the same for all are left out (--columns, --format csv)" if equal else ""
+    return f"{text}\n{len(rows)} variants{left_out}.\n"
 
 
 def _terminal() -> int | None:
@@ -192,12 +117,12 @@ def _terminal() -> int | None:
     return shutil.get_terminal_size().columns if sys.stdout.isatty() else None
 
 
-def _counted(stored: Stored, question: Question, given: int) -> str:
-    sql = f"SELECT count(*) FILTER ({question.where}), count(*) FROM v"
-    found, total = stored.rows(sql, question.condition.parameters)[0]
+def _counted(stored: Stored, asked: Question, given: int) -> str:
+    sql = f"SELECT count(*) FILTER ({asked.where}), count(*) FROM v"
+    found, total = stored.rows(sql, asked.condition.parameters)[0]
     of_all = f"{number(str(found))} of {number(str(total))} variants"
-    words = of_all if question.condition.sql == "true" else f"Fulfilling the condition: {of_all}"
+    words = of_all if asked.condition.sql == "true" else f"Fulfilling the condition: {of_all}"
     return words + (f"; {given} are shown (--top, --format csv)." if given < found else ".")
 
 
-__all__ = ["FORMATS", "variants"]
+__all__ = ["FORMATS", "answer", "answer_workbook", "unfinished", "variants"]

@@ -6,6 +6,8 @@ import re
 from collections import Counter
 from collections.abc import Sequence
 
+from diecut_report.languages.phrases import phrase
+from diecut_report.languages.speech import said, say
 from diecut_report.study.storage.description import ResultColumn
 
 MECHANISMS = "mechanisms."
@@ -48,13 +50,19 @@ def _with_name(column: ResultColumn) -> str:
     name = column.name.removeprefix(MECHANISMS).partition(".")[2]
     listed = re.fullmatch(r"(.+)\.(\d+)\.\w+", name)
     if listed:
-        return _placed(column, f"{_told(column)}: no. {int(listed[2]) + 1} of {listed[1]}")
+        return _placed(
+            column,
+            say("{quantity}: no. {nth} of {list}", quantity=_told(column), nth=int(listed[2]) + 1, list=listed[1]),
+        )
     return _placed(column, f"{_told(column)}, {name}")
 
 
 def _told(column: ResultColumn) -> str:
-    """The description; of a check's verdict the check alone."""
-    return column.description.removesuffix(": verdict") if _is_verdict(column) else column.description
+    """The description in the language that is spoken; of a check's verdict the check alone."""
+    check = column.description.removesuffix(": utilisation")
+    if column.name.endswith(UTILISATION) and check != column.description:
+        return say("{check}: utilisation", check=phrase(check))
+    return said(column.description.removesuffix(": verdict") if _is_verdict(column) else column.description)
 
 
 def _is_verdict(column: ResultColumn) -> bool:

@@ -13,7 +13,7 @@ from diecut_report.config.own_tables import KEY as TABLES
 from diecut_report.config.yaml_tree import KeyPath, Tree
 from diecut_report.config.yaml_values import Scalar, with_values
 from diecut_report.errors import PluginError, Problem, UserError
-from diecut_report.quantities.formatting import as_given
+from diecut_report.quantities.formatting import as_typed
 from diecut_report.study.analysis.other_code import other_code
 from diecut_report.study.analysis.stored_variants import Stored, StoredColumn, opened
 from diecut_report.study.definition.base_inputs import MECHANISMS
@@ -128,6 +128,6 @@ def _given(value: Scalar, column: StoredColumn) -> Scalar:
     """Return the value as a configuration gives it; whole pure numbers (teeth) as integers."""
     if not isinstance(value, float):
         return value
-    written = as_given(value, column.display)
+    written = as_typed(value, column.display)
     is_whole = isinstance(written, float) and written.is_integer() and abs(written) < 1e15
     return int(value) if is_whole else written

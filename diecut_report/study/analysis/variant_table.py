@@ -5,12 +5,15 @@ from __future__ import annotations
 import io
 import re
 from collections.abc import Sequence
-from typing import Any, Literal
+from typing import TYPE_CHECKING, Any, Literal
 
 from diecut_report.quantities.formatting import number_text
 from diecut_report.quantities.units import pretty, unit
 from diecut_report.report.number_format import number
 from diecut_report.study.analysis.stored_variants import StoredColumn
+
+if TYPE_CHECKING:
+    from rich.table import Table
 
 FREE = 10_000  # letters of a line that no terminal breaks
 HEAD = 14  # letters of a line of a heading
@@ -27,6 +30,23 @@ def table_text(
     wide = [max(map(len, (*head.split("\n"), *column))) for head, *column in zip(heads, *texts, strict=True)]
     kept = _kept(columns, wide, width or FREE)
     return _drawn(columns, heads, texts, kept, width or FREE), [c for i, c in enumerate(columns) if i not in kept]
+
+
+def compared_text(
+    columns: Sequence[StoredColumn], rows: Sequence[Sequence[Any]], width: int | None, *, keep_equal: bool
+) -> tuple[str, int]:
+    """Return variants side by side, a line for each quantity with its unit, and how many quantities are left out as equal for all."""
+    from rich.text import Text
+
+    table = _empty_table()
+    for head in ("quantity", "unit", *(str(row[0]) for row in rows)):
+        table.add_column(Text(head), justify="left" if head in ("quantity", "unit") else "right", overflow="fold")
+    lines = [(column, [row[index] for row in rows]) for index, column in enumerate(columns) if column.name != "variant"]
+    kept = [(column, values) for column, values in lines if keep_equal or any(value != values[0] for value in values)]
+    for column, values in kept:
+        texts = [column.name, pretty(column.display), *(shown(value, column) for value in values)]
+        table.add_row(*map(Text, texts))
+    return _printed(table, width or FREE), len(lines) - len(kept)
 
 
 def _kept(columns: Sequence[StoredColumn], wide: Sequence[int], room: int) -> list[int]:
@@ -49,17 +69,27 @@ def _drawn(
     kept: Sequence[int],
     width: int,
 ) -> str:
-    from rich import box
-    from rich.console import Console
-    from rich.table import Table
     from rich.text import Text
 
-    table = Table(box=box.SIMPLE_HEAD, pad_edge=False)
+    table = _empty_table()
     for index in kept:
         justify: Literal["left", "right"] = "right" if columns[index].is_number else "left"
         table.add_column(Text(heads[index]), justify=justify, overflow="fold")
     for row in texts:
         table.add_row(*(Text(row[index]) for index in kept))
+    return _printed(table, width)
+
+
+def _empty_table() -> Table:
+    from rich import box
+    from rich.table import Table
+
+    return Table(box=box.SIMPLE_HEAD, pad_edge=False)
+
+
+def _printed(table: Table, width: int) -> str:
+    from rich.console import Console
+
     target = io.StringIO()
     Console(file=target, width=width, color_system=None, soft_wrap=False, legacy_windows=False).print(table)
     return "\n".join(line.rstrip() for line in target.getvalue().splitlines())

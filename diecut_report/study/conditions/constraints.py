@@ -1,4 +1,4 @@
-"""Constraints between inputs: a text such as ``mechanisms.a.bore <= 0.6 * mechanisms.a.height``, read once, held on arrays."""
+"""Constraints between inputs, and on outputs: a text such as ``mechanisms.a.bore <= 0.6 * a.radius_min``, read once, held on arrays."""
 
 from __future__ import annotations
 
@@ -15,8 +15,9 @@ from diecut_report.conditions.tree import Node as Tree
 from diecut_report.conditions.tree import names
 from diecut_report.conditions.words import ConditionError
 from diecut_report.expressions import Array, Node, evaluate, symbols
+from diecut_report.languages.phrases import Phrase, phrase
 
-WITHOUT_VALUE = "a division by zero, or the root of a number below zero"
+WITHOUT_VALUE = phrase("a division by zero, or the root of a number below zero")
 EXAMPLE = "mechanisms.NAME.KEY <= '90 mm'"
 
 
@@ -24,29 +25,35 @@ EXAMPLE = "mechanisms.NAME.KEY <= '90 mm'"
 class Term:
     """Hold what a path stands for in a constraint: its SI unit (None for a text or a yes/no), its value, and the unit that people read.
 
-    The value is ``sym`` of a varied path, ``qty`` of a value that the base fixes, or an expression of these.
+    The value is ``sym`` of a varied path or of an output, ``qty`` of a value that the base fixes, or an expression of these.
     """
 
     unit: str | None
     node: Node
     display: str = ""
+    is_output: bool = False
+    is_truth: bool = False  # an output that is a yes or a no; an input of that sort is a text
 
 
 Find = Callable[[str], Term]
-"""What a path stands for; ConditionError in words where it stands for nothing that is known before calculating."""
+"""What a path stands for; ConditionError in words where it stands for nothing that a constraint may name."""
 
 
 @dataclass(frozen=True)
 class Constraint:
-    """Hold what must hold between the inputs of a variant; ``values`` says what each name in its tree stands for."""
+    """Hold what must hold of a variant; ``values`` says what each name in its tree stands for.
+
+    With ``outputs``, the results that it names, it is judged when the variant is calculated; else before.
+    """
 
     text: str
     tree: Tree
     values: Mapping[str, Node]
+    outputs: tuple[str, ...] = ()
 
     @property
     def paths(self) -> tuple[str, ...]:
-        """Return the varied paths that it names."""
+        """Return the varied paths and the outputs that it names."""
         return tuple(dict.fromkeys(path for name in names(self.tree) for path in symbols(self.values[name])))
 
     def judged(self, rows: Mapping[str, Any]) -> JudgedRows:
@@ -69,7 +76,8 @@ class Constraint:
 def why_dropped(counts: Mapping[str, Any]) -> str:
     """Return what to add where the dropped variants are counted: how many of them because a constraint has no value."""
     found = counts.get("without_value")
-    return f", {found} of them because a constraint has no value there ({WITHOUT_VALUE})" if found else ""
+    words = ", {n} of them because a constraint has no value there ({why})"
+    return Phrase(words, n=found, why=WITHOUT_VALUE) if found else ""
 
 
 def _value(leaf: Node, rows: Mapping[str, Any]) -> Any:
@@ -83,16 +91,21 @@ def parse(text: str, find: Find, known: Collection[str] = ()) -> Constraint:
     ``known``: paths that are taken whole, whatever they are made of.
     """
     found: dict[str, Node] = {}
+    outputs: list[str] = []
 
     def name(path: str) -> Name:
         if "." not in path and path not in known:
-            advice = "write the whole path of an input, such as mechanisms.NAME.KEY, and texts in quotes"
+            advice = "write the whole path of an input, such as mechanisms.NAME.KEY, an output as NAME.OUTPUT, and texts in quotes"
             raise ConditionError(f"“{path}” is not a path of an input; {advice}.")
         term = find(path)
         found[path] = term.node
+        if term.is_output:
+            outputs.append(path)
+        if term.is_truth:
+            return Name(path, "truth")
         return Name(path, "text") if term.unit is None else Name(path, "number", term.unit, term.display)
 
-    made = Constraint(text, read(text, known, name, EXAMPLE), found)
+    made = Constraint(text, read(text, known, name, EXAMPLE), found, tuple(dict.fromkeys(outputs)))
     if not made.paths:
         words = f"“{text}” names no varied path, so it would keep all variants or none; name one of vary."
         raise ConditionError(words)

@@ -50,7 +50,7 @@ def _referred(base: Config, varied: Mapping[str, Input], asked: Input, target: T
     if target.result is not None or target.is_broken:
         raise ConditionError(
             f"“{asked.path}” refers to ${{{target.path}}}, which is known only after calculating; "
-            f"constraints stand between inputs. Sort out such variants by a check, or when asking the results."
+            f"in a constraint an output is named by itself, as in NAME.OUTPUT."
         )
     head = PRESS if target.instance == PRESS else f"{MECHANISMS}.{target.instance}"
     found = term(base, varied, ".".join([head, *map(str, target.key)]))

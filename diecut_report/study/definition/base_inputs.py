@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
+from copy import copy
 from dataclasses import dataclass, replace
 from typing import Annotated, Any, Literal, get_args, get_origin
 
@@ -184,6 +185,8 @@ def with_values(base: Config, values: Mapping[Input, Any]) -> tuple[Config, list
 def _changed(instance: Instance | None, values: Mapping[Input, Any]) -> Instance | None:
     if instance is None:
         return None
+    if all(asked.instance != instance.name for asked in values):
+        return copy(instance)  # with what is known of its inputs; the links are its own
     data = substituted(instance, {}, lambda _, __: None)
     own = {asked.key: value for asked, value in values.items() if asked.instance == instance.name}
     for key, value in own.items():

@@ -61,14 +61,16 @@ class StudyDocument(Block):
         dict[str, Any], Text("For each varied path its values: a list, a range or a distribution"),
         Field(default_factory=dict),
     ]  # fmt: skip
-    constraints: Annotated[Texts, Text("What must hold between inputs; variants where it does not are dropped")]
+    constraints: Annotated[
+        Texts, Text("What must hold between inputs, and of outputs; variants where it does not are dropped")
+    ]
     outputs: Annotated[
         list[str] | None, Text("The outputs to keep, such as drive.crank_torque_peak; without it all")
     ] = None
     curves: Annotated[Texts, Text("The curves to keep; without it none")]
     objectives: Annotated[list[ObjectiveForm], Text("What is to be small or great"), Field(default_factory=list)]
-    reports: Annotated[
-        str | list[int] | None,
+    reports: Annotated[  # judged as a whole where the sample is known: of each kind of value two faults would be told
+        Any,
         Text("The variants that get a full report: none, failed, best N, all, or a list of numbers"),
     ] = None
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
@@ -99,7 +100,9 @@ class SampleReader:
             try:
                 yield path, find_input(self.base, path)
             except UnknownPath as fault:
-                self.problems.append(column.problem(f"the column's name {fault}"))
+                round_ = re.fullmatch(r"([\w.-]+)\s*\(([^()]*)\)", path)
+                unit = f" A unit stands in square brackets: {round_[1]} [{round_[2]}]." if round_ else ""
+                self.problems.append(column.problem(f"the column's name {fault}{unit}"))
 
     # --- the base with stand-ins -------------------------------------------------------------------------------------
 

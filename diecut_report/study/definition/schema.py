@@ -18,7 +18,9 @@ def study_schema() -> Schema:
         "base": _text("The config that is varied, relative to the study."),
         "sample": block_schema(SampleForm, refers=False) | {"description": "How the variants are taken."},
         "vary": _vary(),
-        "constraints": _list({"type": "string"}, "What must hold between inputs; other variants are dropped."),
+        "constraints": _list(
+            {"type": "string"}, "What must hold between inputs, and of outputs; other variants are dropped."
+        ),
         "outputs": _list(_output(), "The outputs to keep, such as drive.crank_torque_peak; without the key all."),
         "curves": _list(_output(), "The curves to keep; without the key none."),
         "objectives": _list(_objective(), "What is to be small or great."),

@@ -11,12 +11,14 @@ from diecut_report.conditions.words import ConditionError
 from diecut_report.config import yaml_tree
 from diecut_report.config.discovery import Discovery
 from diecut_report.config.loader import Config, as_typed, load_config
+from diecut_report.config.model import PRESS
 from diecut_report.config.validation import ConfigPlace, validate
 from diecut_report.config.yaml_tree import Tree
-from diecut_report.errors import Problem, UserError
-from diecut_report.study.conditions.constraints import Constraint, parse
+from diecut_report.errors import Problem, UserError, nearest
+from diecut_report.expressions import Node
+from diecut_report.study.conditions.constraints import Constraint, Term, parse
 from diecut_report.study.conditions.terms import term
-from diecut_report.study.definition.base_inputs import Input
+from diecut_report.study.definition.base_inputs import MECHANISMS, Input
 from diecut_report.study.definition.form import SampleForm, StudyDocument
 from diecut_report.study.definition.sample import Sampled, SampleReader, misused
 from diecut_report.study.definition.wanted_results import Objective, Reports, ResultReader
@@ -97,8 +99,9 @@ class _StudyReader:
         reader = SampleReader(self.place, self._find, base)
         sampled = reader.sampled(form, self.data.get("vary", {}))
         self.problems += reader.problems
-        constraints = tuple(self._constraints(sampled))
-        outputs, curves, objectives, reports = self._results(sampled)
+        results = ResultReader(self.place, sampled.bases)
+        constraints = tuple(self._constraints(sampled, results))
+        outputs, curves, objectives, reports = self._results(sampled, results)
         if sampled.sample is None or self.problems:
             return None
         tables = sampled.tables | {self._beside_base(name): digest for name, digest in base.files.items()}
@@ -143,18 +146,20 @@ class _StudyReader:
             raise next(iter(base.broken.values()))
         return base
 
-    def _constraints(self, sampled: Sampled) -> Iterator[Constraint]:
+    def _constraints(self, sampled: Sampled, results: ResultReader) -> Iterator[Constraint]:
+        def find(path: str) -> Term:
+            return _output(path, results) or term(sampled.bases[0], sampled.inputs, path)
+
         for index, text in enumerate(self.data.get("constraints", [])):
             try:
-                yield parse(text, lambda path: term(sampled.bases[0], sampled.inputs, path), sampled.inputs)
+                yield parse(text, find, sampled.inputs)
             except ConditionError as fault:
                 self.problems.append(self.place.problem(("constraints", index), str(fault)))
 
     def _results(
-        self, sampled: Sampled
+        self, sampled: Sampled, reader: ResultReader
     ) -> tuple[tuple[str, ...] | None, tuple[str, ...], tuple[Objective, ...], Reports]:
         """What is kept of the results; the outputs of objectives are kept in any case."""
-        reader = ResultReader(self.place, sampled.bases)
         outputs, curves = reader.outputs(self.data.get("outputs")), reader.curves(self.data.get("curves", []))
         objectives = reader.objectives(self.data.get("objectives", []))
         count = sampled.sample.count if sampled.sample else None
@@ -162,3 +167,21 @@ class _StudyReader:
         self.problems += reader.problems
         wanted = [made.output for made in objectives if ".checks." not in made.output]
         return None if outputs is None else tuple(dict.fromkeys([*outputs, *wanted])), curves, objectives, reports
+
+
+def _output(path: str, results: ResultReader) -> Term | None:
+    """What a constraint names by NAME.OUTPUT, or by NAME.checks.ID.utilisation; None where that is not a result."""
+    if path.startswith((f"{MECHANISMS}.", f"{PRESS}.")):
+        return None
+    column = results.column(path)
+    if column is None and path.partition(".")[0] in results.bases[0].instances:
+        near = nearest(path, results.known)
+        raise ConditionError(
+            f"“{path}” is not an output{near}; an input is named by its whole path, as in mechanisms.{path}."
+        )
+    if column is None:
+        return None
+    node, is_number = Node("sym", (path,)), column.kind in ("float", "int")
+    return Term(
+        column.unit if is_number else None, node, column.display, is_output=True, is_truth=column.kind == "bool"
+    )

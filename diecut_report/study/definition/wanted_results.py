@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from typing import Any, Literal
@@ -60,6 +60,15 @@ class ResultReader:
         self.place, self.bases = place, bases
         self.problems: list[Problem] = []
 
+    def column(self, name: str) -> ResultColumn | None:
+        """Return the column of a single result, also of a check, by its name; None where there is none."""
+        return self._columns.get(name)
+
+    @property
+    def known(self) -> list[str]:
+        """Return the names of all single results."""
+        return list(self._columns)
+
     def outputs(self, given: list[str] | None) -> tuple[str, ...] | None:
         """Return the outputs to keep; None for all."""
         if given is None:
@@ -78,10 +87,7 @@ class ResultReader:
     def reports(self, given: Any, count: int | None, has_objectives: bool) -> Reports:
         """Return which variants get a full report; ``count`` is that of the sample, None where it is not known."""
         if isinstance(given, list):
-            wrong = [number for number in given if number < 0 or (count is not None and number >= count)]
-            for number in wrong:
-                self._report(("reports", given.index(number)), _no_variant(number, count))
-            return Reports("ids", ids=tuple(dict.fromkeys(given)))
+            return Reports("ids", ids=tuple(dict.fromkeys(self._listed(given, count))))
         match str("none" if given is None else given).split():
             case [("none" | "failed" | "all") as which]:
                 return Reports(which)
@@ -94,6 +100,15 @@ class ResultReader:
         words = f"is {told(given)}{nearest(str(given), ('none', 'failed', 'all'))}; allowed: none, failed, best N (best 10), all, or a list"
         self._report(("reports",), f"{words} of variants' numbers, as in [0, 17].")
         return Reports()
+
+    def _listed(self, given: list[Any], count: int | None) -> Iterator[int]:
+        for index, number in enumerate(given):
+            if not isinstance(number, int) or isinstance(number, bool):
+                self._report(("reports", index), f"is {told(number)}; a variant has a whole number, as in [0, 17].")
+            elif number < 0 or (count is not None and number >= count):
+                self._report(("reports", index), _no_variant(number, count))
+            else:
+                yield number
 
     # --- one name ----------------------------------------------------------------------------------------------------
 
@@ -174,11 +189,16 @@ class ResultReader:
         return None
 
     @cached_property
+    def _columns(self) -> dict[str, ResultColumn]:
+        return {column.name: column for base in self.bases for column in columns_of(base)}
+
+    @cached_property
     def _all(self) -> dict[str, _Known]:
         """What each mechanism gives, by its name."""
-        columns = {column.name: column for base in self.bases for column in columns_of(base)}
         names = [name for name in self.bases[0].instances if name != PRESS]
-        return {name: self._of(name, [c for c in columns.values() if c.name.startswith(f"{name}.")]) for name in names}
+        return {
+            name: self._of(name, [c for c in self._columns.values() if c.name.startswith(f"{name}.")]) for name in names
+        }
 
     def _of(self, name: str, columns: list[ResultColumn]) -> _Known:
         inner = {column.name.removeprefix(f"{name}."): column for column in columns}

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
+from functools import partial
 from typing import Any
 
 import numpy as np
@@ -13,6 +14,7 @@ from diecut_report.config.instances import Instance
 from diecut_report.config.loader import Config
 from diecut_report.config.model import PRESS
 from diecut_report.contract.checks import Check, by_part
+from diecut_report.contract.code_steps import PartNames
 from diecut_report.contract.inputs import list_inputs
 from diecut_report.contract.mechanism import is_text
 from diecut_report.contract.missing_keys import missing_keys
@@ -68,12 +70,12 @@ def _column(name: str, kind: Kind, display: str, step: Step) -> ResultColumn:
 def _outputs(name: str, instance: Instance) -> Iterator[ResultColumn]:
     assert instance.mechanism is not None
     axes = instance.mechanism.axes(instance.given)
-    lists = set(list_inputs(instance.model).values())
+    counts = _counts(instance)
     for _, step in instance.mechanism.active(instance.given):
         home = axes.get(step.id)
-        if not step.output or isinstance(step, SILENT) or (home is not None and home not in lists):
+        if not step.output or isinstance(step, SILENT) or (home is not None and home not in counts):
             continue
-        parts = _names(step, len(_at(instance.data, home)) if home else None, instance.names_of_parts(step.named_by))
+        parts = _names(step, counts[home] if home else None, instance.names_of_parts(step.named_by))
         for part in parts:
             count = part.role == "count"
             kind: Kind = "int" if count else _kind(step)
@@ -81,15 +83,26 @@ def _outputs(name: str, instance: Instance) -> Iterator[ResultColumn]:
             yield one if len(parts) == 1 else replace(one, description=_numbered(step, part))
 
 
+def _counts(instance: Instance) -> dict[str, int]:
+    """Return how many parts rows have, by what they run over: lists that are given, and parts that follow from them."""
+    assert instance.mechanism is not None
+    counts = {path: _length(instance.data, path) for path in list_inputs(instance.model).values()}
+    for _, step in instance.mechanism.active(instance.given):
+        if isinstance(step, PartNames) and step.count is not None:
+            counts[step.id] = step.count(partial(_length, instance.data))
+    return counts
+
+
+def _length(data: Any, path: str) -> int:
+    """Return how many blocks a list has in the config; none where it is not given."""
+    for part in path.split("."):
+        data = data.get(part) if isinstance(data, Mapping) else None
+    return len(data or ())
+
+
 def _numbered(step: Step, part: ResultName) -> str:
     """Return what one of several results of a step is."""
     return f"{step.description}: {'how many in a turn' if part.role == 'count' else f'no. {part.number}'}"
-
-
-def _at(data: Any, path: str) -> Any:
-    for part in path.split("."):
-        data = data[part]
-    return data
 
 
 def _names(step: Step, parts: int | None, parts_names: Sequence[str] | None) -> list[ResultName]:
@@ -136,7 +149,7 @@ def output_values(name: str, calc: Calculation) -> dict[str, Array]:
             not step.output
             or isinstance(step, SILENT)
             or step.id not in calc.values
-            or calc.axis.get(step.id) in calc.part_names
+            or not _is_counted(calc, calc.axis.get(step.id))
         ):
             continue
         values = calc.values[step.id]
@@ -146,6 +159,12 @@ def output_values(name: str, calc: Calculation) -> dict[str, Array]:
         names = _names(step, parts, calc.inputs.get(step.named_by))
         found |= {f"{name}.{part.name}": values[:, index] for index, part in enumerate(names)}
     return found
+
+
+def _is_counted(calc: Calculation, home: str | None) -> bool:
+    """Whether it is known ahead how many parts rows over something have."""
+    step = calc.steps.get(home or "")
+    return not isinstance(step, PartNames) or step.count is not None
 
 
 def curve_values(calculations: Mapping[str, Calculation], names: Iterable[str]) -> dict[str, list[Array]]:
@@ -206,7 +225,7 @@ def verdicts(calculations: Mapping[str, Calculation], count: int) -> Verdicts:
             names.append(f"{name}.checks.{check.id}")
             codes.append(np.where(there, np.where(held, PASS, np.where(check.is_failure(ratio), FAIL, WARN)), 0))
             ratios.append(np.where(there, ratio, np.nan))
-            sized.append(is_sized(calc.given, check))
+            sized.append(is_sized(calc.given, check) or check.presumed)
     shape = (len(names), count)
     unchecked = [name for name in dict.fromkeys(unchecked) if name not in names]
     return Verdicts(names, np.reshape(codes, shape).astype(int), np.reshape(ratios, shape).astype(float),
@@ -216,7 +235,7 @@ def verdicts(calculations: Mapping[str, Calculation], count: int) -> Verdicts:
 def governing(found: Verdicts) -> Array:
     """Return for each variant the check that governs: fail before warn before pass, then the greatest utilisation; None without checks.
 
-    What was sized to its limit, and holds, does not govern.
+    What was sized to its limit, or what the calculation presumes, does not govern where it holds.
     """
     if not found.names:
         return np.full(found.codes.shape[1], None, dtype=object)

@@ -53,11 +53,15 @@ Tell = Callable[[Counts], None]
 
 @dataclass(frozen=True)
 class Where:
-    """Say where a study is calculated: so many processes here, or a Dask scheduler's address."""
+    """Say where a study is calculated: so many processes here, or a Dask scheduler's address.
+
+    ``language``: that of its documents, in place of the project's.
+    """
 
     jobs: int | None = None
     dask: str | None = None
     plugins: Sequence[str] = ()
+    language: str | None = None
 
 
 @dataclass

@@ -13,6 +13,7 @@ import numpy as np
 from diecut_report import pipeline
 from diecut_report.config.discovery import Discovery
 from diecut_report.expressions import Array
+from diecut_report.languages.phrases import Phrase, phrase
 from diecut_report.study.analysis.near_equality import rounded
 from diecut_report.study.analysis.variant_config import variant_config
 from diecut_report.study.definition.study_file import Study
@@ -36,10 +37,11 @@ class Chosen:
 
 @dataclass(frozen=True)
 class ReportPlace:
-    """Hold what a process needs to make reports: the folder of the study, and folders of plugins."""
+    """Hold what a process needs to make reports: the folder of the study, folders of plugins, a language that is asked for."""
 
     directory: Path
     plugins: tuple[str, ...]
+    language: str | None = None
 
 
 @dataclass(frozen=True)
@@ -49,7 +51,11 @@ class VariantReport:
     variant: int
 
     def __str__(self) -> str:
-        return f"the full report of variant {self.variant}"
+        return Phrase("the full report of variant {number}", number=self.variant)
+
+    def fault(self, why: str) -> str:
+        """Say that a plugin broke in it."""
+        return Phrase("in the full report of variant {number}: {why}", number=self.variant, why=phrase(why))
 
 
 def write_reports(
@@ -65,23 +71,24 @@ def write_reports(
     missing = [v for v in chosen.variants if not all((folder / f"{v}.{ending}").exists() for ending in FORMATS)]
     if len(missing) > MANY and not agreed:
         words = (
-            f"{len(missing):,} variants are to get a full report, each of which takes some seconds; none was made. "
-            f"Make them all with: batch --resume {store.directory} --yes; or one: report {store.directory}#{missing[0]}"
+            "{count} variants are to get a full report, each of which takes some seconds; none was made. "
+            "Make them all with: batch --resume {folder} --yes; or one: report {folder}#{first}"
         )
-        return (*chosen.notes, words), {}
+        return (*chosen.notes, Phrase(words, count=f"{len(missing):,}", folder=store.directory, first=missing[0])), {}
     broken: dict[str, str] = {}
     if missing:
         with _engine(store, where, len(missing)) as engine:
-            tell(f"full reports: 0 of {len(missing)}")
+            tell(Phrase("full reports: {n} of {total}", n=0, total=len(missing)))
             for done, (report, faults) in enumerate(results(engine, _write, map(VariantReport, missing)), 1):
-                broken |= {kind: f"in {report}: {why}" for kind, why in faults.items()}
-                tell(f"full reports: {done} of {len(missing)}")
+                broken |= {kind: report.fault(why) for kind, why in faults.items()}
+                tell(Phrase("full reports: {n} of {total}", n=done, total=len(missing)))
     return chosen.notes, broken
 
 
 def _engine(store: Store, where: Where, reports: int) -> Engine:
     plugins = tuple(where.plugins)
-    warm = Warm("\n".join(["reports", str(store.directory), *plugins]), ReportPlace, (store.directory, plugins))
+    key = "\n".join(["reports", str(store.directory), *plugins, where.language or ""])
+    warm = Warm(key, ReportPlace, (store.directory, plugins, where.language))
     jobs = min(where.jobs or os.cpu_count() or 1, reports)
     return Pool(jobs, warm) if jobs > 1 else InProcess(warm)
 
@@ -90,7 +97,8 @@ def _write(place: ReportPlace, report: VariantReport) -> dict[str, str]:
     """Write a report; the plugins that broke in it, and why."""
     discovery = Discovery([Path(plugin) for plugin in place.plugins])
     config = variant_config(place.directory, report.variant, discovery, f"{report.variant}.yaml")
-    outcome = pipeline.report(config, discovery, lambda _: None, place.directory / FOLDER, list(FORMATS))
+    asked = pipeline.AskedReport(place.language)
+    outcome = pipeline.report(config, discovery, lambda _: None, place.directory / FOLDER, list(FORMATS), asked)
     return {error.kind: error.message for error in outcome.broken}
 
 
@@ -114,8 +122,10 @@ def wanted(study: Study, store: Store) -> Chosen:
 def _refused(ids: Sequence[int], possible: set[int], stored: Array) -> Iterator[str]:
     known = set(stored.tolist())
     for number in sorted(set(ids) - possible):
-        why = "it cannot exist; its reason stands in the column error" if number in known else "a constraint drops it"
-        yield f"variant {number} gets no full report: {why}."
+        why = phrase(
+            "it cannot exist; its reason stands in the column error" if number in known else "a constraint drops it"
+        )
+        yield Phrase("variant {number} gets no full report: {why}.", number=number, why=why)
 
 
 def best(columns: dict[str, Array], objectives: Sequence[tuple[str, bool]], count: int) -> Array:

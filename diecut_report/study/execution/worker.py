@@ -14,9 +14,10 @@ from diecut_report.conditions.numpy_emitter import JudgedRows
 from diecut_report.config.discovery import Discovery
 from diecut_report.errors import Problem, UserError
 from diecut_report.expressions import Array
+from diecut_report.study.conditions.constraints import Constraint
 from diecut_report.study.definition.study_file import Study, load_study
 from diecut_report.study.execution.process_settings import settle
-from diecut_report.study.execution.variant_rows import calculate_rows
+from diecut_report.study.execution.variant_rows import Rows, calculate_rows
 
 Values = Array | list[str]
 
@@ -80,15 +81,31 @@ def calculate(study: Study, chunk: Chunk) -> Done:
     columns |= {path: np.asarray(values, dtype=_kind(values)) for path, values in given.items()}
     inputs = {study.inputs[path]: values for path, values in given.items()}
     rows = calculate_rows(study.base, inputs, len(kept), study.curves)
+    left = _left(study, rows, given)
     columns |= {name: values for name, values in rows.columns.items() if _is_kept(study, name)}
-    verdicts = {"status": rows.status, "governing": rows.governing, "error": rows.errors}
-    return Done(columns | verdicts, rows.slow, rows.broken)
+    columns |= {"status": rows.status, "governing": rows.governing, "error": rows.errors}
+    return Done({name: values[left] for name, values in columns.items()}, rows.slow, rows.broken)
+
+
+def _left(study: Study, rows: Rows, given: Mapping[str, Values]) -> Array:
+    """Which calculated variants the constraints on outputs leave; those in error stay with their reason."""
+    late = [constraint for constraint in study.constraints if constraint.outputs]
+    if not late:
+        return np.ones(rows.count, dtype=bool)
+    absent = np.full(rows.count, None, dtype=object)  # no variant of these has this output
+    named = {name: rows.columns.get(name, absent) for constraint in late for name in constraint.outputs}
+    held: Array = _all_hold(late, {**given, **named}, rows.count).holds | (rows.status == "error")
+    return held
 
 
 def judged(study: Study, given: Mapping[str, Values], count: int) -> JudgedRows:
-    """Return which rows keep all constraints, and which break one; the others have a constraint without a value."""
+    """Return which rows keep all constraints between inputs, and which break one; the others have one without a value."""
+    return _all_hold([constraint for constraint in study.constraints if not constraint.outputs], given, count)
+
+
+def _all_hold(constraints: Sequence[Constraint], given: Mapping[str, Values], count: int) -> JudgedRows:
     holds, fails = np.ones(count, dtype=bool), np.zeros(count, dtype=bool)
-    for constraint in study.constraints:
+    for constraint in constraints:
         found = constraint.judged(given)
         holds, fails = holds & found.holds, fails | found.fails
     return JudgedRows(holds, fails)

@@ -12,24 +12,19 @@ from typing import Any
 from markupsafe import Markup
 
 from diecut_report import __version__
+from diecut_report.languages.phrases import phrase
+from diecut_report.languages.speech import localised, said, say, spoken_language
 from diecut_report.report import html, pdf
 from diecut_report.report.i18n import Catalogue
 from diecut_report.report.page_engine import HTML, URLFetcher
-from diecut_report.study.machines.verdicts import MachineComparison, Verdict
+from diecut_report.study.machines.verdicts import STATES, MachineComparison, Verdict
 from diecut_report.study.storage.spreadsheets import workbook
 
 NAME = "machines"
 HEADS = (
-    "machine",
-    "verdict",
-    "governing check",
-    "utilisation",
-    "failed",
-    "not checked",
-    "warnings",
-    "file",
-    "what is wrong",
-)
+    phrase("machine"), phrase("verdict"), phrase("governing check"), phrase("utilisation"), phrase("failed"),
+    phrase("not checked"), phrase("warnings"), phrase("file"), phrase("what is wrong"),
+)  # fmt: skip
 Rows = list[list[Any]]
 
 
@@ -57,8 +52,10 @@ def _filled(made: MachineComparison, kind: str) -> str:
             ),
         ]
     )
+    language = spoken_language()
     return html._environment().get_template("summary_machines.html.j2").render(
-        c=made, t=Catalogue("en"), kind=kind, policy=html.policy(""), style=Markup(style), version=__version__, shown=shown,
+        c=made, t=Catalogue(language), language=language, kind=kind, say=say, said=said, states=STATES, policy=html.policy(""),
+        style=Markup(style), version=__version__, shown=shown, utilised=utilised,
     )  # fmt: skip
 
 
@@ -66,9 +63,12 @@ def shown(cell: dict[str, Any] | None) -> str:
     """Return a check of a machine as a cell: its utilisation in per cent, or its verdict; nothing where it is not made."""
     if cell is None:
         return ""
-    return (
-        str(cell["status"]).replace("_", " ") if cell["utilisation"] is None else f"{100 * cell['utilisation']:.4g} %"
-    )
+    return said(STATES[cell["status"]]) if cell["utilisation"] is None else utilised(cell["utilisation"])
+
+
+def utilised(share: float) -> str:
+    """Return a utilisation in per cent."""
+    return localised(f"{100 * share:.4g} %")
 
 
 def table(made: MachineComparison) -> bytes:
@@ -83,26 +83,26 @@ def table(made: MachineComparison) -> bytes:
 
 def _tables(made: MachineComparison) -> dict[str, Rows]:
     return {
-        "verdicts": [list(HEADS), *map(_verdict, made.verdicts)],
-        "checks": [["check", "title", *made.machines],
+        say("verdicts"): [[*map(said, HEADS)], *map(_verdict, made.verdicts)],
+        say("checks"): [[say("check"), say("title"), *made.machines],
                    *([name, title, *map(_cell, cells)] for name, title, cells in made.checks)],
-        "differing inputs": [["input", "description", *made.machines],
+        say("differing inputs"): [[say("input"), say("description"), *made.machines],
                              *([path, told, *cells] for path, told, cells in made.inputs)],
-        "advice": [["machine", "advice"], *([name, each] for name, told in made.advice for each in told)],
+        say("advice"): [[say("machine"), say("advice")], *([name, each] for name, told in made.advice for each in told)],
     }  # fmt: skip
 
 
 def _verdict(of: Verdict) -> list[Any]:
     return [
         of.machine,
-        of.status,
+        said(STATES[of.status]),
         of.governing,
         of.utilisation,
         of.failed,
         of.not_checked,
         of.warnings,
         of.file,
-        "\n".join(of.words),
+        "\n".join(map(said, of.words)),
     ]
 
 
@@ -110,7 +110,7 @@ def _cell(cell: dict[str, Any] | None) -> str:
     """A check in a table: its verdict with its utilisation."""
     if cell is None:
         return ""
-    return str(cell["status"]) + ("" if cell["utilisation"] is None else f" {cell['utilisation']:.6g}")
+    return said(STATES[cell["status"]]) + ("" if cell["utilisation"] is None else f" {cell['utilisation']:.6g}")
 
 
 def _json(made: MachineComparison) -> bytes:
@@ -122,6 +122,9 @@ FORMATS: dict[str, Callable[[MachineComparison], bytes]] = {
 }  # fmt: skip
 
 
-def files(made: MachineComparison, folder: Path, formats: list[str]) -> Iterator[tuple[Path, bytes]]:
-    """Yield the files of a comparison, all made before any is written."""
-    yield from [(folder / f"{NAME}.{ending}", FORMATS[ending](made)) for ending in formats]
+def files(
+    made: MachineComparison, folder: Path, formats: list[str], neutral: MachineComparison | None = None
+) -> Iterator[tuple[Path, bytes]]:
+    """Yield the files of a comparison, all made before any is written; ``neutral`` is the same in English, for JSON."""
+    sides = {"json": neutral or made}
+    yield from [(folder / f"{NAME}.{ending}", FORMATS[ending](sides.get(ending, made))) for ending in formats]

@@ -3,16 +3,29 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import asdict, dataclass
+from dataclasses import asdict, dataclass, replace
 from pathlib import PurePath
 from typing import Any
 
+from diecut_report.languages.catalogues import SOURCE_LANGUAGE, Catalogues
+from diecut_report.languages.phrases import phrase
+from diecut_report.languages.speech import localised
 from diecut_report.quantities.units import pretty
+from diecut_report.report.translated import translated
 from diecut_report.results.summary import SELF_TEST
-from diecut_report.study.machines.calculation import BAD, CheckedMachine
+from diecut_report.study.machines.calculation import BAD, BROKEN, CheckedMachine
 
 Data = Mapping[str, Any]
 NOT_CHECKED = "not_checked"
+STATES = {
+    "pass": phrase("pass"),
+    "warn": phrase("warn"),
+    "fail": phrase("fail"),
+    BROKEN: phrase("error"),
+    BAD: phrase("bad"),
+    "skipped": phrase("skipped"),
+    NOT_CHECKED: phrase("not checked"),
+}
 
 
 @dataclass(frozen=True)
@@ -90,6 +103,21 @@ def names(files: Sequence[str]) -> list[str]:
     return ["/".join(part[-length:]) for part in parts]
 
 
+def language_of(machines: Sequence[CheckedMachine]) -> str:
+    """Return the language that the projects of all machines share; English where they do not."""
+    found = {machine.results["project"].get("language") or SOURCE_LANGUAGE for machine in machines if machine.results}
+    return found.pop() if len(found) == 1 else SOURCE_LANGUAGE
+
+
+def in_language(machines: Sequence[CheckedMachine], catalogues: Catalogues) -> list[CheckedMachine]:
+    """Return machines with their texts in the language of the catalogues."""
+    if catalogues.language == SOURCE_LANGUAGE:
+        return list(machines)
+    return [
+        replace(each, results=dict(translated(each.results, catalogues))) if each.results else each for each in machines
+    ]
+
+
 def compared(machines: Sequence[CheckedMachine]) -> MachineComparison:
     """Return machines side by side; bad ones have a verdict alone."""
     called = names([machine.file for machine in machines])
@@ -126,7 +154,9 @@ def _inputs(machine: CheckedMachine) -> Iterator[tuple[str, Data]]:
 
 
 def _shown(row: Data | None) -> str:
-    return "" if row is None else f"{row['display']['text']} {pretty(row['display']['unit'])}".rstrip()
+    if row is None:
+        return ""
+    return f"{localised(row['display']['text'])} {pretty(row['display']['unit'])}".rstrip()
 
 
 def _advice(machine: CheckedMachine) -> Iterator[str]:

@@ -5,9 +5,10 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import Any, NamedTuple
 
+from diecut_report.languages.speech import said
 from diecut_report.study.analysis.stored_variants import Stored, StoredColumn
 from diecut_report.study.summary import matrix, pareto
-from diecut_report.study.summary.quantity_names import WORST, display, utilised
+from diecut_report.study.summary.quantity_names import WORST, display, utilised, value_told
 
 INPUTS = 6  # columns of inputs
 
@@ -52,7 +53,7 @@ def _row(stored: Stored, variant: int, row: Sequence[Any], shown: Sequence[Store
         matrix.report_of(stored.folder, variant),
         status,
         "–" if worst is None else utilised(worst),
-        stored.check_told(governing) if governing else "",
+        said(stored.check_told(governing)) if governing else "",
         [_told(value, column) for value, column in zip(values, shown, strict=True)],
     )
 
@@ -60,7 +61,7 @@ def _row(stored: Stored, variant: int, row: Sequence[Any], shown: Sequence[Store
 def _told(value: Any, column: StoredColumn) -> str:
     if value is None:
         return "–"
-    return display(float(value), column) if column.is_number else str(value)
+    return display(float(value), column) if column.is_number else value_told(value)
 
 
 def reports(stored: Stored, variants: Sequence[int]) -> list[ListedReport]:

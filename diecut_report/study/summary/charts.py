@@ -9,14 +9,16 @@ from typing import Any, NamedTuple
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
+from matplotlib.ticker import FuncFormatter
 
+from diecut_report.languages.speech import decimal_sign, localised, said
 from diecut_report.report.figures.diagram import WIDTH
 from diecut_report.report.figures.style import ACCENT, FONT_SIZE, INK, SOFT, Svg, canvas, drawn, text_size
 from diecut_report.report.number_format import number
 from diecut_report.study.analysis.stored_variants import STATUSES, StoredColumn
 from diecut_report.study.summary.data import Histogram
 from diecut_report.study.summary.influence import Influence, Share
-from diecut_report.study.summary.quantity_names import factor, is_utilisation, named, titled, wrapped
+from diecut_report.study.summary.quantity_names import WORDS, factor, is_utilisation, named, titled, wrapped
 
 COLOURS = {"pass": "#6f9fc0", "warn": "#d9a13a", "fail": "#a3161a", "error": "#9aa4ae"}
 ORDER = ("pass", "warn", "fail")  # from the back to the front
@@ -34,7 +36,10 @@ def chart(build: Callable[[], Figure], told: str, key: str) -> Svg:
 def panel(sheet: Figure, left: float, bottom: float, wide: float, high: float) -> Axes:
     """Return axes at a place in points."""
     width, height = (float(side) * 72 for side in sheet.get_size_inches())
-    return sheet.add_axes((left / width, bottom / height, wide / width, high / height))
+    axes = sheet.add_axes((left / width, bottom / height, wide / width, high / height))
+    for axis in (axes.xaxis, axes.yaxis):
+        axis.set_major_formatter(FuncFormatter(lambda value, _: number(f"{value:.10g}", decimal_sign())))
+    return axes
 
 
 # --- bars ------------------------------------------------------------------------------------------------------------
@@ -52,7 +57,7 @@ def _shares(counts: dict[str, int]) -> Figure:
     for status, count in counts.items():
         share = count / total
         axes.barh(0, share, 1, start, color=COLOURS[status], edgecolor="white", linewidth=0.8)
-        words = f"{status} {100 * share:.3g} %"
+        words = localised(f"{said(WORDS[status])} {100 * share:.3g} %")
         if text_size(words)[0] + 8 < share * WIDTH:
             axes.text(
                 start + share / 2,

@@ -6,13 +6,16 @@ from dataclasses import dataclass
 from typing import Any
 
 from diecut_report.config import yaml_tree
+from diecut_report.languages.phrases import Phrase, phrase
+from diecut_report.languages.speech import localised, said, say, say_counted
+from diecut_report.report.number_format import number
 from diecut_report.study.analysis.stored_variants import Stored, StoredColumn
 from diecut_report.study.conditions.constraints import why_dropped
 from diecut_report.study.summary import best, data, influence, matrix, pareto, passing_values, questions, verdict_counts
 from diecut_report.study.summary.data import Reason, Spread, Utilisation
 from diecut_report.study.summary.figures import Figures, SummaryFigure
 from diecut_report.study.summary.influence_table import Ranked, ranked
-from diecut_report.study.summary.quantity_names import WORST, counted, titled, utilised
+from diecut_report.study.summary.quantity_names import WORST, titled, utilised, variants
 from diecut_report.study.summary.verdict_counts import Failure
 
 SAMPLED = 1_500  # variants in the charts of points
@@ -110,7 +113,7 @@ def content(stored: Stored) -> Summary:
     shown = best.columns(stored, goals)
     return Summary(
         title=_title(stored), folder=stored.folder.resolve().name, study=stored.study, files=_files(stored),
-        checks={check: stored.check_told(check) for check in stored.checks},
+        checks={check: said(stored.check_told(check)) for check in stored.checks},
         total=total, statuses=states, facts=_facts(stored, total), asked=questions.asked(stored),
         failures=failures, governing=governing, passing=passing_values.values(stored),
         utilisations=made, unmade=[row.check for row in used if not row.is_made],
@@ -170,13 +173,16 @@ def _choices(stored: Stored, varying: list[StoredColumn], main: list[StoredColum
 def _facts(stored: Stored, total: int) -> list[tuple[str, str]]:
     """The run in a few numbers."""
     study, counts = stored.study, stored.study.get("counts") or {}
-    facts = [("Variants calculated", counted(total, "variant")), ("Varied", counted(len(stored.varied), "input"))]
+    facts = [
+        (say("Variants calculated"), variants(total)),
+        (say("Varied"), say_counted(len(stored.varied), "{n} input", "{n} inputs")),
+    ]
     if counts.get("dropped"):
-        facts.append(("Left out by constraints", counted(int(counts["dropped"]), "variant") + why_dropped(counts)))
+        facts.append((say("Left out by constraints"), variants(int(counts["dropped"])) + said(why_dropped(counts))))
     facts += _margin(stored)
     seconds = float(study.get("seconds") or 0)
     if seconds > 0:
-        facts.append(("Calculated in", f"{seconds:.3g} s"))
+        facts.append((say("Calculated in"), localised(f"{seconds:.3g} s")))
     return facts
 
 
@@ -192,13 +198,22 @@ def _margin(stored: Stored) -> list[tuple[str, str]]:
     found = verdict_counts.margin(stored) if stored.checks else None
     if found is None:
         return []
-    whose = f"utilisation {utilised(found.utilisation)} at most, by “{stored.check_told(found.check)}”"
-    more = f", and {counted(found.shared - 1, 'other variant')} with the same" if found.shared > 1 else ""
-    return [("Most margin", f"variant {found.variant}{more}: {whose}")]
+    others = found.shared - 1
+    words = ", and {n} other variant with the same", ", and {n} other variants with the same"
+    more = say_counted(others, *words, n=number(str(others))) if others else ""
+    check, used = said(stored.check_told(found.check)), utilised(found.utilisation)
+    told = "variant {n}{more}: utilisation {used} at most, by “{check}”"
+    return [(say("Most margin"), say(told, n=found.variant, more=more, used=used, check=check))]
 
 
 def _files(stored: Stored) -> list[tuple[str, str]]:
     """The files that the study was made from, and the code that calculated it, with their SHA-256."""
     made = stored.description
-    code = [(f"the source of the {name}", digest) for name, digest in made.sources.items()]
+    code = [(say("the source of the {name}", name=_code(name)), digest) for name, digest in made.sources.items()]
     return [*((source.file, source.sha256) for source in (made.study, made.base, *made.tables)), *code]
+
+
+def _code(name: str) -> Phrase:
+    """What a part of the code is called: ``plugin cylinder_drive``."""
+    kind = name.removeprefix("plugin ")
+    return phrase(name) if kind == name else Phrase("plugin {kind}", kind=kind)

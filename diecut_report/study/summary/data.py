@@ -11,6 +11,7 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from diecut_report.languages.speech import say
 from diecut_report.study.analysis.stored_variants import STATUSES, Stored, StoredColumn, text
 from diecut_report.study.summary.quantity_names import WORST, is_utilisation
 
@@ -220,7 +221,7 @@ def reasons(stored: Stored) -> list[Reason]:
         f"SELECT arg_min(error, variant), count(*) AS n, min(variant) FROM v WHERE status = 'error' "
         f"GROUP BY {alike} ORDER BY n DESC, 3 LIMIT {REASONS}"
     )
-    return [Reason(told or "no reason was given", count, example) for told, count, example in stored.rows(sql)]
+    return [Reason(told or say("no reason was given"), count, example) for told, count, example in stored.rows(sql)]
 
 
 def sample(stored: Stored, columns: Sequence[StoredColumn], most: int) -> SampledVariants:

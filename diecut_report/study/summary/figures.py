@@ -8,22 +8,25 @@ from typing import NamedTuple
 
 import numpy as np
 
+from diecut_report.languages.phrases import phrase
+from diecut_report.languages.speech import localised, said, say, say_counted
 from diecut_report.report.figures.style import Svg
 from diecut_report.report.number_format import number
-from diecut_report.study.analysis.stored_variants import Stored, StoredColumn
+from diecut_report.study.analysis.stored_variants import STATUSES, Stored, StoredColumn
 from diecut_report.study.summary import charts, data, point_charts
 from diecut_report.study.summary.data import Histogram, SampledVariants, Spread
 from diecut_report.study.summary.influence import Influence, Share
+from diecut_report.study.summary.parallel_chart import DrawnLines, Ends, drawn_lines, parallel
 from diecut_report.study.summary.pareto import Front
 from diecut_report.study.summary.point_charts import near
-from diecut_report.study.summary.quantity_names import counted, named, percent, quantity
+from diecut_report.study.summary.quantity_names import WORDS, named, percent, quantity, variants
 from diecut_report.study.summary.verdict_counts import Failure
 
 DENSE = 5_000  # variants from which a chart counts them in cells
 AXES, GOVERNING, LINES = 8, 15, 400  # upright axes, bars of governing checks, lines between the axes
 
 PALE = "#e0a3a1"  # of failures that another check governs
-FAR = "Values that lie far above the others stand at the edge."
+FAR = phrase("Values that lie far above the others stand at the edge.")
 
 
 class SummaryFigure(NamedTuple):
@@ -62,25 +65,35 @@ class Figures:
     def counts(self) -> SummaryFigure:
         """Return the variants by status."""
         total = sum(self.states.values())
-        told = ", ".join(f"{status} {count} ({percent(count, total)})" for status, count in self.states.items())
-        return SummaryFigure(charts.shares(self.states, f"Variants by status: {told}."), "Variants by status.", told)
+        told = ", ".join(
+            f"{said(WORDS[status])} {count} ({percent(count, total)})" for status, count in self.states.items()
+        )
+        title = say("Variants by status: {told}.", told=told)
+        return SummaryFigure(charts.shares(self.states, title), say("Variants by status."), told)
 
     def failures(self, failures: Sequence[Failure]) -> SummaryFigure:
         """Return in how many variants the checks fail and govern."""
         rows = failures[:GOVERNING]
         told = "; ".join(
-            f"{self.stored.check_told(row.check)} fails in {row.failing}, governs {row.governing} of them, warns in {row.warning}"
+            say(
+                "{check} fails in {failing}, governs {governing} of them, warns in {warning}",
+                check=self._check(row),
+                failing=row.failing,
+                governing=row.governing,
+                warning=row.warning,
+            )
             for row in rows
         )
-        more = f" {len(failures) - GOVERNING} rarer checks are left out." if len(failures) > GOVERNING else ""
-        caption = (
+        caption = say(
             "Variants in which a check fails: those that it governs (dark red) and those in which another check is "
-            f"overloaded more (pale red); those with a warning (yellow).{more}"
+            "overloaded more (pale red); those with a warning (yellow)."
         )
+        if (left := len(failures) - GOVERNING) > 0:
+            caption += " " + say_counted(left, "{n} rarer check is left out.", "{n} rarer checks are left out.")
         colours = [charts.COLOURS["fail"], PALE, charts.COLOURS["warn"]]
         bars = [
             charts.Bar(
-                self.stored.check_told(row.check),
+                self._check(row),
                 (row.governing, row.failing - row.governing, row.warning),
                 _behind(row),
             )
@@ -88,32 +101,41 @@ class Figures:
         ]
         return SummaryFigure(charts.stacked(bars, colours, f"{told}.", "failures"), caption, told)
 
+    def _check(self, row: Failure) -> str:
+        return said(self.stored.check_told(row.check))
+
     def distributions(self, spreads: Sequence[Spread]) -> SummaryFigure:
         """Return the distributions of the quantities that matter."""
         found = [data.histogram(self.stored, spread) for spread in spreads]
         told = "; ".join(_distributed(each, spread) for each, spread in zip(found, spreads, strict=True))
-        caption = (
+        caption = say(
             "Distributions over all variants: pass (blue), warning (yellow), fail (red), each on top of the other; "
             "heights count variants, the number is that of the highest bar."
         )
         if any(each.is_open for each in found):
-            caption += " Where a few variants lie far above the others (≥), the last bar holds them all."
+            caption += " " + say("Where a few variants lie far above the others (≥), the last bar holds them all.")
         return SummaryFigure(charts.distributions(found, f"{told}."), caption, told)
 
     def influence(self, found: Influence) -> SummaryFigure:
         """Return the influence of the inputs on a quantity."""
         if found.is_sobol:
             told = "; ".join(
-                f"{named(share.column)}: first {share.first:.2f}, total {share.total or 0:.2f}"
+                say(
+                    "{quantity}: first {first}, total {total}",
+                    quantity=named(share.column),
+                    first=localised(f"{share.first:.2f}"),
+                    total=localised(f"{share.total or 0:.2f}"),
+                )
                 for share in found.telling
             )
-            caption = (
-                f"Influence on {named(found.target)}. Dark: first index; pale: total index; lines: 95 % intervals."
-            )
+            words = "Influence on {target}. Dark: first index; pale: total index; lines: 95 % intervals."
         else:
-            told = "; ".join(f"{named(share.column)}: {share.first:+.2f}" for share in found.telling)
-            caption = f"Influence on {named(found.target)}: partial rank correlation; to the right, a greater input gives a greater result."
-        told = f"Influence on {named(found.target)}: {told}"
+            told = "; ".join(localised(f"{named(share.column)}: {share.first:+.2f}") for share in found.telling)
+            words = (
+                "Influence on {target}: partial rank correlation; to the right, a greater input gives a greater result."
+            )
+        caption = say(words, target=named(found.target))
+        told = say("Influence on {target}: {told}", target=named(found.target), told=told)
         return SummaryFigure(charts.influence(found, f"{told}.", f"influence of {found.target.name}"), caption, told)
 
     def parallel(self) -> SummaryFigure | None:
@@ -121,24 +143,32 @@ class Figures:
         inputs = [column for column in self.stored.varied if column.name in self.sample.values][: AXES - 2]
         goals = [column for column in self.main if column.name in self.sample.values][: max(2, AXES - len(inputs))]
         columns = [column for column in (*inputs, *goals) if np.isfinite(self.sample.values[column.name]).any()][:AXES]
-        drawn = self.sample.status != 3
-        if len(columns) < 2 or not drawn.any():
+        if len(columns) < 2 or not (self.sample.status != STATUSES.index("error")).any():
             return None
-        some = _thinned(self.sample, LINES)
-        told = (
-            f"{counted(len(some.variants), 'variant')} as lines over {', '.join(named(column) for column in columns)}"
-        )
-        caption = (
-            "Each line is a variant, from input to result: pass blue (in front), warning yellow, fail red. "
-            f"The ends of the axes are those of all variants. {self._drawn(some, columns)}"
-        )
-        return SummaryFigure(
-            point_charts.parallel(some, columns, self._ends(columns), f"Parallel coordinates: {told}."), caption, told
-        )
+        lines = drawn_lines(self.sample)
+        shown = variants(len(lines.sound) + len(lines.failing))
+        told = say("{variants} as lines over {names}", variants=shown, names=", ".join(map(named, columns)))
+        title = say("Parallel coordinates: {told}.", told=told)
+        svg = parallel(self.sample, lines, columns, self._ends(columns), title)
+        return SummaryFigure(svg, self._of_lines(lines, columns), told)
 
-    def _ends(self, columns: Sequence[StoredColumn]) -> dict[str, point_charts.Ends]:
+    def _of_lines(self, lines: DrawnLines, columns: Sequence[StoredColumn]) -> str:
+        """What stands below the lines: what they are, and by which rule they were chosen."""
+        caption = say(
+            "Each line is a variant, from input to result: dark those that pass, in front; dashed those with a warning; pale "
+            "those that fail. The darker a field of an axis, the larger the share of the variants there that pass. "
+            "The ends of the axes are those of all variants."
+        )
+        rule = "Of {variants} so many are drawn, evenly taken from the sample: {sound} of those that pass, {failing} of those that fail."
+        sound, failing = len(lines.sound), len(lines.failing)
+        is_whole = lines.is_whole and sum(self.states.values()) == len(self.sample.status)
+        drawn = say(rule, variants=variants(sum(self.states.values())), sound=sound, failing=failing)
+        told = [caption, say("All variants are drawn.") if is_whole else drawn]
+        return " ".join([*told, *([said(FAR)] if self._reach_far(self.sample, columns) else [])])
+
+    def _ends(self, columns: Sequence[StoredColumn]) -> dict[str, Ends]:
         """The ends of upright axes over all variants."""
-        found: dict[str, point_charts.Ends] = {}
+        found: dict[str, Ends] = {}
         for name in (column.name for column in columns):
             if name in self.spreads:
                 low, _, _, most, high = self.spreads[name].values
@@ -160,22 +190,28 @@ class Figures:
             if self.front and {x.name, y.name} <= {goal.column.name for goal in self.front.objectives}
             else None
         )
-        told = f"{named(y)} over {named(x)}, {self._correlated(x, y)}"
+        told = self._over(x, y)
         if front:
-            told += f"; Pareto front of {counted(len(front.variants), 'variant')}, from variant {front.variants[0]} to {front.variants[-1]}"
-        caption = f"{named(y)} over {named(x)}{', with the Pareto front' if front else ''}."
+            words = "; Pareto front of {variants}, from variant {first} to {last}"
+            first, last = front.variants[0], front.variants[-1]
+            told += say(words, variants=variants(len(front.variants)), first=first, last=last)
+        words = "{y} over {x}, with the Pareto front." if front else "{y} over {x}."
+        caption = say(words, y=named(y), x=named(x))
         if sum(self.states.values()) > DENSE and {x.name, y.name} <= self.spreads.keys():
             return self._cells(x, y, front, caption, told)
         caption = f"{caption} {self._drawn(self.sample, pair)}"
         return SummaryFigure(
-            point_charts.scatter(self.sample, [pair], f"Scatter of {told}.", "pair", front), caption, told
+            point_charts.scatter(self.sample, [pair], say("Scatter of {told}.", told=told), "pair", front),
+            caption,
+            told,
         )
 
     def _cells(self, x: StoredColumn, y: StoredColumn, front: Front | None, caption: str, told: str) -> SummaryFigure:
         found = data.density(self.stored, self.spreads[x.name], self.spreads[y.name])
-        counted_ = counted(int(found.counts.sum()), "variant")
-        caption = f"{caption} Counted in cells are {counted_}: the larger a square, the more variants; its colour is the share that does not fail."
-        return SummaryFigure(point_charts.cells(found, f"Density of {told}.", "pair", front), caption, told)
+        words = "Counted in cells are {variants}: the larger a square, the more variants; its colour is the share that does not fail."
+        caption = f"{caption} {say(words, variants=variants(int(found.counts.sum())))}"
+        title = say("Density of {told}.", told=told)
+        return SummaryFigure(point_charts.cells(found, title, "pair", front), caption, told)
 
     def _goals(self) -> tuple[StoredColumn, StoredColumn] | None:
         known = [column for column in self.main if column.name in self.sample.values]
@@ -188,11 +224,14 @@ class Figures:
         if not pairs:
             return None
         some = _thinned(self.sample, LINES)
-        told = "; ".join(f"{named(y)} over {named(x)}, {self._correlated(x, y)}" for x, y in pairs)
-        caption = (
-            f"Each quantity over the inputs that move it most. {self._drawn(some, [c for pair in pairs for c in pair])}"
-        )
-        return SummaryFigure(point_charts.scatter(some, pairs, f"Scatter: {told}.", "grid"), caption, told)
+        told = "; ".join(self._over(x, y) for x, y in pairs)
+        drawn = self._drawn(some, [column for pair in pairs for column in pair])
+        caption = f"{say('Each quantity over the inputs that move it most.')} {drawn}"
+        title = say("Scatter: {told}.", told=told)
+        return SummaryFigure(point_charts.scatter(some, pairs, title, "grid"), caption, told)
+
+    def _over(self, x: StoredColumn, y: StoredColumn) -> str:
+        return say("{y} over {x}, {told}", y=named(y), x=named(x), told=self._correlated(x, y))
 
     def _drawable(self, found: Influence) -> list[Share]:
         """The inputs that an axis of numbers can carry."""
@@ -202,27 +241,33 @@ class Figures:
         one, two = self.sample.values[x.name], self.sample.values[y.name]
         there = np.isfinite(one) & np.isfinite(two)
         if there.sum() < 3 or not np.ptp(one[there]) > 0 or not np.ptp(two[there]) > 0:
-            return f"{counted(int(there.sum()), 'variant')}"
-        return f"{counted(int(there.sum()), 'variant')}, correlation {np.corrcoef(one[there], two[there])[0, 1]:.2f}"
+            return variants(int(there.sum()))
+        found = localised(f"{np.corrcoef(one[there], two[there])[0, 1]:.2f}")
+        return say("{variants}, correlation {found}", variants=variants(int(there.sum())), found=found)
 
     def _drawn(self, some: SampledVariants, columns: Sequence[StoredColumn]) -> str:
         """How many of the variants a chart has, and whether some of them are out of its reach."""
         total, drawn = sum(self.states.values()), len(some.variants)
-        of_all = f"Of {counted(total, 'variant')}, a sample of {counted(drawn, 'variant')} is drawn."
-        told = "All variants are drawn." if drawn == total else of_all
-        is_far = any((near(values) < values).any() for values in (some.values[column.name] for column in columns))
-        return f"{told} {FAR}" if is_far else told
+        of_all = say("Of {variants}, a sample of {drawn} is drawn.", variants=variants(total), drawn=variants(drawn))
+        told = say("All variants are drawn.") if drawn == total else of_all
+        return f"{told} {said(FAR)}" if self._reach_far(some, columns) else told
+
+    def _reach_far(self, some: SampledVariants, columns: Sequence[StoredColumn]) -> bool:
+        """Whether some variants are out of a chart's reach."""
+        return any((near(values) < values).any() for values in (some.values[column.name] for column in columns))
 
 
 def _behind(row: Failure) -> str:
     """What stands behind the bar of a check."""
-    told = f"{number(str(row.failing))}, governs {number(str(row.governing))}" if row.failing else ""
-    return ", ".join(part for part in (told, counted(row.warning, "warning") if row.warning else "") if part)
+    told = say("{n}, governs {governing}", n=number(str(row.failing)), governing=number(str(row.governing)))
+    warned = say_counted(row.warning, "{n} warning", "{n} warnings", n=number(str(row.warning)))
+    return ", ".join([*([told] if row.failing else []), *([warned] if row.warning else [])])
 
 
 def _distributed(each: Histogram, spread: Spread) -> str:
     low, _, middle, _, high = (quantity(value, spread.column) for value in spread.values)
-    return f"{named(each.column)} from {low} to {high}, half of the variants below {middle}"
+    words = "{quantity} from {low} to {high}, half of the variants below {middle}"
+    return say(words, quantity=named(each.column), low=low, high=high, middle=middle)
 
 
 def _thinned(sample: SampledVariants, most: int) -> SampledVariants:

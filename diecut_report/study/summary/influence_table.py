@@ -5,9 +5,10 @@ from __future__ import annotations
 import re
 from typing import NamedTuple
 
+from diecut_report.languages.speech import localised
 from diecut_report.study.summary.figures import Figures, SummaryFigure
 from diecut_report.study.summary.influence import Influence, Share
-from diecut_report.study.summary.quantity_names import counted, named
+from diecut_report.study.summary.quantity_names import named, variants
 
 CHARTED = 3  # quantities that influence is drawn for
 
@@ -27,9 +28,7 @@ def ranked(found: list[Influence], figures: Figures) -> Ranked:
     inputs = list(dict.fromkeys(column for shares in by_target for column in shares))
     rows = [(named(column), [_share(shares.get(column)) for shares in by_target]) for column in inputs]
     drawn = [figures.influence(each) for each in found if each.is_certain and each.telling][:CHARTED]
-    return Ranked(
-        [named(each.target) for each in found], rows, drawn, counted(max(each.variants for each in found), "variant")
-    )
+    return Ranked([named(each.target) for each in found], rows, drawn, variants(max(each.variants for each in found)))
 
 
 def _share(share: Share | None) -> str:
@@ -39,4 +38,4 @@ def _share(share: Share | None) -> str:
         text = f"{share.first:.2f} ± {share.first_error or 0:.2f} / {share.total:.2f} ± {share.total_error or 0:.2f}"
     else:
         text = f"{share.first:.2f}" if share.column.kind == "text" else f"{share.first:+.2f}"
-    return re.sub(r"[-+](?=0\.00)", "", text).replace("-", "−")
+    return localised(re.sub(r"[-+](?=0\.00)", "", text).replace("-", "−"))

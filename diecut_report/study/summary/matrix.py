@@ -6,9 +6,10 @@ from collections.abc import Iterable, Iterator, Sequence
 from pathlib import Path
 from typing import NamedTuple
 
+from diecut_report.languages.speech import said, say
 from diecut_report.study.analysis.stored_variants import Stored
 from diecut_report.study.summary.data import BANDS, SOUND, Utilisation
-from diecut_report.study.summary.quantity_names import WORST, counted, utilised
+from diecut_report.study.summary.quantity_names import WORST, utilised
 
 ALL, REPORTED, BEST, WORST_ONES = 80, 15, 15, 10  # rows: up to which all variants stand, else of each sort
 ACROSS = 14  # checks in a table
@@ -69,19 +70,21 @@ def reported(folder: Path) -> list[int]:
 def chosen(stored: Stored, total: int, best: Sequence[int]) -> list[Group]:
     """Return the best first, then those with reports, then the most overloaded; of a small study all variants. Each stands once."""
     reports = reported(stored.folder)
-    first = "first by the objective" if len(_goals(stored)) == 1 else "on the Pareto front"
-    groups = [Group(_cut(f"Best: {first}", len(best), BEST), list(best[:BEST]))]
+    first = say("Best: first by the objective") if len(_goals(stored)) == 1 else say("Best: on the Pareto front")
+    groups = [Group(_cut(first, len(best), BEST), list(best[:BEST]))]
     if total <= ALL:
         groups += [
-            Group("Others that pass, with most margin first", _numbers(stored, SOUND, "NULLS LAST")),
-            Group("Those that fail, the least overloaded first", _numbers(stored, "status = 'fail'", "NULLS LAST")),
-            Group("Those that cannot exist", _numbers(stored, "status = 'error'", "")),
+            Group(say("Others that pass, with most margin first"), _numbers(stored, SOUND, "NULLS LAST")),
+            Group(
+                say("Those that fail, the least overloaded first"), _numbers(stored, "status = 'fail'", "NULLS LAST")
+            ),
+            Group(say("Those that cannot exist"), _numbers(stored, "status = 'error'", "")),
         ]
     else:
         groups += [
-            Group(_cut("Others with a full report", len(reports), REPORTED), reports[:REPORTED]),
+            Group(_cut(say("Others with a full report"), len(reports), REPORTED), reports[:REPORTED]),
             Group(
-                f"Fail: the {counted(WORST_ONES, 'most overloaded variant')}",
+                say("Fail: the {n} most overloaded variants", n=WORST_ONES),
                 _numbers(stored, "status = 'fail'", f"DESC NULLS FIRST, variant LIMIT {WORST_ONES}"),
             ),
         ]
@@ -93,7 +96,7 @@ def _goals(stored: Stored) -> Sequence[object]:
 
 
 def _cut(title: str, count: int, most: int) -> str:
-    return f"{title} (the first {most} of {count})" if count > most else title
+    return say("{title} (the first {most} of {n})", title=title, most=most, n=count) if count > most else title
 
 
 def _numbers(stored: Stored, where: str, order: str) -> list[int]:
@@ -119,7 +122,7 @@ def matrices(stored: Stored, groups: Sequence[Group], checks: Sequence[str]) -> 
     """Yield the matrix in parts that fit on paper."""
     for start in range(0, len(checks), ACROSS):
         part = list(checks[start : start + ACROSS])
-        numbers = [(start + index + 1, stored.check_told(name)) for index, name in enumerate(part)]
+        numbers = [(start + index + 1, said(stored.check_told(name))) for index, name in enumerate(part)]
         rows = _rows(stored, [variant for group in groups for variant in group.variants], part)
         found = [(group.title, [rows[one] for one in group.variants if one in rows]) for group in groups]
         yield Matrix(numbers, [(title, some) for title, some in found if some])

@@ -12,6 +12,7 @@ from typing import Any
 from markupsafe import Markup
 
 from diecut_report import __version__
+from diecut_report.languages.speech import decimal_sign, localised, said, say, say_counted, spoken_language
 from diecut_report.quantities.units import pretty, unit
 from diecut_report.report import html, pdf
 from diecut_report.report.i18n import Catalogue
@@ -19,7 +20,7 @@ from diecut_report.report.number_format import number
 from diecut_report.report.page_engine import HTML, URLFetcher
 from diecut_report.study.analysis.stored_variants import StoredColumn
 from diecut_report.study.summary.content import Summary
-from diecut_report.study.summary.quantity_names import counted, display, named, percent, titled, utilised
+from diecut_report.study.summary.quantity_names import WORDS, display, named, percent, titled, utilised, variants
 
 DIGITS = 4  # of the numbers that a browser draws
 
@@ -49,11 +50,16 @@ def _filled(summary: Summary, kind: str) -> str:
         ]
     )
     return html._environment().get_template("summary.html.j2").render(
-        s=summary, t=Catalogue("en"), kind=kind, policy=html.policy(_script()),
+        s=summary, t=Catalogue(spoken_language()), language=spoken_language(), kind=kind, policy=html.policy(_script()),
         style=Markup(style), version=__version__, figure=partial(_figure, summary, kind),
-        points=Markup(_points(summary)) if kind == "screen" else "", named=named, titled=titled, display=display, counted=counted,
-        percent=percent, utilised=utilised, number=number, pretty=pretty,
+        points=Markup(_points(summary)) if kind == "screen" else "", named=named, titled=titled, display=display,
+        counted=_counted, variants=variants, percent=percent, utilised=utilised, number=number, pretty=pretty, say=say, localised=localised,
     )  # fmt: skip
+
+
+def _counted(one: str, many: str, count: int, **named: object) -> str:
+    """What a template says of a number of things."""
+    return say_counted(count, one, many, n=number(str(count)), **named)
 
 
 def _script() -> str:
@@ -87,6 +93,16 @@ def _points(summary: Summary) -> str:
         (index for index, column in enumerate(summary.choices) if column not in summary.varied), len(columns) - 1
     )
     data = {
+        "words": {
+            "decimal": decimal_sign(),
+            "states": [said(WORDS[status]) for status in ("pass", "warn", "fail")],
+            "point": say("variant {n}, {status}"),
+            "over": say("{y} over {x}"),
+            "told": say(
+                "{y} over {x}: {n} of {total} variants are drawn; dots pass, triangles have a warning, crosses fail. "
+                "A point names its variant."
+            ),
+        },
         "upwards": upwards,
         "total": summary.total,
         "variants": sample.variants.tolist(),

@@ -8,8 +8,10 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from diecut_report.languages.speech import say
 from diecut_report.study.analysis.near_equality import rounded
 from diecut_report.study.analysis.stored_variants import Stored, StoredColumn
+from diecut_report.study.summary.quantity_names import named
 
 Array = NDArray[Any]
 BLOCK, MOST = 2_000, 20_000  # variants compared at a time; on a front
@@ -26,7 +28,8 @@ class StoredObjective:
     @property
     def told(self) -> str:
         """Return the objective in words."""
-        return f"{'least' if self.is_less else 'greatest'} {self.column.told}"
+        told = named(self.column)
+        return say("least {quantity}", quantity=told) if self.is_less else say("greatest {quantity}", quantity=told)
 
 
 @dataclass(frozen=True)

@@ -6,7 +6,7 @@ from typing import Any, NamedTuple
 
 from diecut_report.study.analysis.stored_variants import Stored, StoredColumn
 from diecut_report.study.summary.data import SOUND
-from diecut_report.study.summary.quantity_names import display
+from diecut_report.study.summary.quantity_names import display, value_told
 
 CLASSES, FEW, MOST = 5, 8, 12  # of a range; values that stand one by one, of numbers and of words
 INPUTS = 12
@@ -61,12 +61,8 @@ def _counted(stored: Stored, column: StoredColumn, by: str, order: str) -> list[
 
 def _words(stored: Stored, column: StoredColumn) -> PassingValues:
     rows = _counted(stored, column, column.sql, "good / n DESC, n DESC, place")
-    told = [PassingValue(_word(value), count, good) for value, count, good in rows]
+    told = [PassingValue(value_told(value), count, good) for value, count, good in rows]
     return PassingValues(column, told[:MOST], max(0, len(told) - MOST))
-
-
-def _word(value: Any) -> str:
-    return str(value) if isinstance(value, str) else "yes" if value else "no"
 
 
 def _one_by_one(stored: Stored, column: StoredColumn) -> PassingValues:

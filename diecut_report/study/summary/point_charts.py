@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from functools import partial
 from typing import Any
 
@@ -13,17 +13,16 @@ from matplotlib.figure import Figure
 from matplotlib.ticker import MaxNLocator
 from numpy.typing import NDArray
 
+from diecut_report.languages.speech import said, say
 from diecut_report.report.figures.diagram import WIDTH
 from diecut_report.report.figures.style import INK, Svg, canvas, plain
 from diecut_report.study.analysis.stored_variants import STATUSES, StoredColumn
 from diecut_report.study.summary.charts import COLOURS, HEAD, ORDER, chart, panel
 from diecut_report.study.summary.data import Density, SampledVariants, reach
 from diecut_report.study.summary.pareto import Front
-from diecut_report.study.summary.quantity_names import display, factor, titled, wrapped
+from diecut_report.study.summary.quantity_names import WORDS, factor, titled, wrapped
 
-Ends = tuple[float, float, bool]  # of an axis, and whether greater values stand at its upper end
 SHADES = LinearSegmentedColormap.from_list("shares", [COLOURS["fail"], "#c9c2c0", "#2f6f9e"])
-WORDS = 16  # on an upright axis
 LEGEND = 16.0  # points of a legend below a chart
 MARKERS = {"pass": "o", "warn": "^", "fail": "x"}
 
@@ -77,7 +76,7 @@ def _points(axes: Axes, drawn_from: SampledVariants, x: StoredColumn, y: StoredC
                 c=COLOURS[status],
                 marker=MARKERS[status],
                 linewidths=width,
-                label=status,
+                label=said(WORDS[status]),
                 alpha=0.75,
             )
 
@@ -105,7 +104,7 @@ def _cells(found: Density, front: Front | None) -> Figure:
     )
     _front(axes, front, found.x, found.y)
     _titles(axes, found.x, found.y, wide)
-    for told, part in (("none passes", 0.0), ("half pass", 0.5), ("all pass", 1.0)):
+    for told, part in ((say("none passes"), 0.0), (say("half pass"), 0.5), (say("all pass"), 1.0)):
         axes.plot([], [], "s", color=shade(part), markersize=5, label=told)
     _legend(sheet, axes)
     return sheet
@@ -159,7 +158,7 @@ def _front(axes: Axes, front: Front | None, x: StoredColumn, y: StoredColumn) ->
         color=INK,
         markersize=3.4 if len(values) < 60 else 1.2,
         linewidth=0.9,
-        label="Pareto front",
+        label=say("Pareto front"),
     )
 
 
@@ -177,58 +176,3 @@ def _named(axes: Axes, drawn_from: SampledVariants, x: StoredColumn, y: StoredCo
 def _titles(axes: Axes, x: StoredColumn, y: StoredColumn, wide: float) -> None:
     axes.set_title(wrapped(titled(y), wide, 7.5, 2), pad=3, size=7.5, linespacing=1.05)
     axes.set_xlabel(wrapped(titled(x), wide, 7.5, 2), labelpad=1.5, size=7.5, linespacing=1.05)
-
-
-def parallel(drawn_from: SampledVariants, columns: Sequence[StoredColumn], ends: Mapping[str, Ends], told: str) -> Svg:
-    """Return a line for each variant over an upright axis for each quantity; those that fail behind those that pass.
-
-    ``ends`` are the ends of the axes, over all variants.
-    """
-    return chart(partial(_parallel, drawn_from, columns, ends), told, "parallel")
-
-
-def _parallel(drawn_from: SampledVariants, columns: Sequence[StoredColumn], ends: Mapping[str, Ends]) -> Figure:
-    pitch = (WIDTH - 76) / (len(columns) - 1)
-    names = [wrapped(titled(column), min(pitch, 100) - 6, 6.5, 6) for column in columns]
-    foot = 16 + 8.0 * max(name.count("\n") + 1 for name in names)
-    sheet = canvas(WIDTH, 204 + foot)
-    axes = panel(sheet, 38, foot, WIDTH - 76, 190)
-    low, top = (np.array([ends[column.name][side] for column in columns]) for side in (0, 1))
-    raw = np.column_stack([drawn_from.values[column.name] for column in columns])
-    scaled = (np.minimum(raw, top) - low) / np.where(top > low, top - low, 1.0)
-    alpha = float(np.clip(60 / max(len(raw), 1), 0.15, 0.9))
-    for order, status in enumerate(("fail", "warn", "pass")):
-        lines = scaled[drawn_from.status == STATUSES.index(status)]
-        wide, strong = (0.5, alpha) if status == "fail" else (1.0, min(1.0, 3 * alpha))
-        look: dict[str, Any] = {"color": COLOURS[status], "linewidth": wide, "alpha": strong, "zorder": 2 + 0.1 * order}
-        axes.plot(np.arange(len(columns)), lines.T, "-", **look)
-    for place, column in enumerate(columns):
-        axes.axvline(place, color=INK, linewidth=0.8, zorder=3)
-        _scale(axes, place, column, ends[column.name], drawn_from.words.get(column.name))
-        _text(axes, names[place], (place, 0), -13, 6.5)
-    axes.set_ylim(-0.01, 1.01)
-    axes.set_xlim(0, len(columns) - 1)
-    axes.set_axis_off()
-    return sheet
-
-
-def _scale(axes: Axes, place: int, column: StoredColumn, ends: Ends, words: list[str] | None) -> None:
-    """The ends of an upright axis; of words each at its place."""
-    low, top, is_cut = ends
-    if words is None:
-        _text(axes, display(low, column), (place, 0), -3, 7)
-        _text(axes, f"{'≥ ' if is_cut else ''}{display(top, column)}", (place, 1), 3, 7)
-        return
-    last = len(words) - 1
-    for index, word in list(enumerate(words))[:: -(-len(words) // WORDS)]:
-        box = {"facecolor": "white", "edgecolor": "none", "alpha": 0.8, "pad": 0.6}
-        height = index / last if last else 0.0
-        axes.annotate(plain(word), (place, height), ha="center", va="center", size=6.5, bbox=box, zorder=4)
-
-
-def _text(axes: Axes, text: str, place: tuple[float, float], above: float, size: float) -> None:
-    """A text above or below a place, some points away."""
-    side = "bottom" if above > 0 else "top"
-    axes.annotate(
-        text, place, (0, above), textcoords="offset points", ha="center", va=side, size=size, linespacing=1.05
-    )

@@ -5,7 +5,12 @@ from __future__ import annotations
 import math
 import re
 from collections.abc import Iterator
+from typing import Any
 
+from diecut_report.languages.catalogues import SOURCE_LANGUAGE
+from diecut_report.languages.phrases import phrase
+from diecut_report.languages.speech import decimal_sign, localised, said, say, say_counted, spoken_language
+from diecut_report.languages.tokens import worded
 from diecut_report.quantities.formatting import number_text
 from diecut_report.quantities.units import pretty, unit
 from diecut_report.report.figures.style import plain, text_size
@@ -14,12 +19,15 @@ from diecut_report.study.analysis.stored_variants import StoredColumn
 from diecut_report.study.analysis.titles import UTILISATION
 
 DIGITS = 4
-WORST = StoredColumn("greatest utilisation", "float", title="Greatest utilisation of all checks (where each has one)")
+WORST = StoredColumn(
+    "greatest utilisation", "float", title=phrase("Greatest utilisation of all checks (where each has one)")
+)
+WORDS = {"pass": phrase("pass"), "warn": phrase("warning"), "fail": phrase("fail"), "error": phrase("error")}
 
 
 def named(column: StoredColumn) -> str:
     """Return a quantity as people call it: ``Radius of the bore (cylinder)``."""
-    return column.told
+    return said(column.told)
 
 
 def titled(column: StoredColumn) -> str:
@@ -70,12 +78,19 @@ def display(value: float, column: StoredColumn) -> str:
         return "–"
     if is_utilisation(column):
         return utilised(value)
-    return number(number_text(unit(column.display).from_si(value), DIGITS)) if value else "0"
+    return number(number_text(unit(column.display).from_si(value), DIGITS), decimal_sign()) if value else "0"
 
 
 def quantity(value: float, column: StoredColumn) -> str:
     """Return an SI value with the unit that people read."""
     return joined(display(value, column), pretty(column.display))
+
+
+def value_told(value: Any) -> str:
+    """Return a value that is not a number: the words of a choice, yes or no."""
+    if isinstance(value, str):
+        return said(worded(value)) if spoken_language() != SOURCE_LANGUAGE else value
+    return say("yes") if value else say("no")
 
 
 def is_utilisation(column: StoredColumn) -> bool:
@@ -88,18 +103,19 @@ def utilised(value: float) -> str:
     text = f"{value:.2f}"
     if text == "1.00" and value != 1:
         near = f"{value:.4f}"
-        return near if near != "1.0000" else "< 1" if value < 1 else "> 1"
+        return localised(near) if near != "1.0000" else "< 1" if value < 1 else "> 1"
     if value >= 99.995:
-        return number(f"{value:.3g}" if value >= 1e6 else f"{value:.0f}")
-    return "< 0.01" if text == "0.00" and value > 0 else text
+        return number(f"{value:.3g}" if value >= 1e6 else f"{value:.0f}", decimal_sign())
+    return localised("< 0.01" if text == "0.00" and value > 0 else text)
 
 
-def counted(count: int, one: str, many: str = "") -> str:
-    """Return a number with its noun."""
-    return f"{number(str(count))} {one if count == 1 else many or one + 's'}"
+def variants(count: int) -> str:
+    """Return how many variants."""
+    return say_counted(count, "{n} variant", "{n} variants", n=number(str(count)))
 
 
 def percent(part: float, whole: float) -> str:
     """Return a share; a small one that is not none does not print as 0."""
     share = 100.0 * part / whole if whole else 0.0
-    return "< 0.1 %" if 0 < share < 0.1 else f"{share:.3g} %" if share < 99.95 or part == whole else "> 99.9 %"
+    text = "< 0.1 %" if 0 < share < 0.1 else f"{share:.3g} %" if share < 99.95 or part == whole else "> 99.9 %"
+    return localised(text)

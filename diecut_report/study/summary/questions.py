@@ -6,16 +6,18 @@ from collections.abc import Mapping
 from typing import Any, NamedTuple
 
 from diecut_report.config import yaml_tree
+from diecut_report.languages.phrases import phrase
+from diecut_report.languages.speech import said, say
 from diecut_report.study.analysis.stored_variants import Stored
 from diecut_report.study.conditions.constraints import why_dropped
-from diecut_report.study.summary.quantity_names import counted, named
+from diecut_report.study.summary.quantity_names import named, variants
 
 METHODS = {
-    "grid": "grid: each value with each",
-    "zip": "zip: the first values together, the second together, and so on",
-    "latin_hypercube": "Latin hypercube",
-    "sobol": "Sobol sequence",
-    "table": "rows of a table",
+    "grid": phrase("grid: each value with each"),
+    "zip": phrase("zip: the first values together, the second together, and so on"),
+    "latin_hypercube": phrase("Latin hypercube"),
+    "sobol": phrase("Sobol sequence"),
+    "table": phrase("rows of a table"),
 }
 Path = tuple[str | int, ...]
 
@@ -47,21 +49,23 @@ def asked(stored: Stored) -> Asked | None:
 def _facts(stored: Stored, tree: yaml_tree.Tree, data: Mapping[str, Any]) -> list[tuple[str, str]]:
     sample, counts = data.get("sample") or {}, stored.study.get("counts") or {}
     method = str(sample.get("method", ""))
-    facts = [("Base", str(data.get("base", stored.description.base.file)))]
-    facts.append(("Sample", METHODS.get(method, method) + (f": {sample['file']}" if "file" in sample else "")))
-    facts += [(name, written(tree, ("sample", key))) for key, name in (("count", "Count"),) if key in sample]
+    facts = [(say("Base"), str(data.get("base", stored.description.base.file)))]
+    facts.append(
+        (say("Sample"), said(METHODS.get(method, method)) + (f": {sample['file']}" if "file" in sample else ""))
+    )
+    facts += [(name, written(tree, ("sample", key))) for key, name in (("count", say("Count")),) if key in sample]
     if method in ("latin_hypercube", "sobol"):
-        facts.append(("Seed", written(tree, ("sample", "seed")) if "seed" in sample else "0 (none is given)"))
+        facts.append((say("Seed"), written(tree, ("sample", "seed")) if "seed" in sample else say("0 (none is given)")))
     if sample.get("indices"):
-        facts.append(("Sobol indices", "yes: each of the points above is a group of variants"))
+        facts.append((say("Sobol indices"), say("yes: each of the points above is a group of variants")))
     if "sample" in counts and counts["sample"] != sample.get("count"):
-        facts.append(("Variants of the sample", counted(int(counts["sample"]), "variant")))
+        facts.append((say("Variants of the sample"), variants(int(counts["sample"]))))
     if data.get("constraints"):
         facts.append(
-            ("Dropped by the constraints", counted(int(counts.get("dropped") or 0), "variant") + why_dropped(counts))
+            (say("Dropped by the constraints"), variants(int(counts.get("dropped") or 0)) + said(why_dropped(counts)))
         )
     goals = [f"{way} {name}" for each in data.get("objectives") or () for way, name in each.items()]
-    return [*facts, *([("Objectives", "; ".join(goals))] if goals else [])]
+    return [*facts, *([(say("Objectives"), "; ".join(goals))] if goals else [])]
 
 
 def _input(stored: Stored, tree: yaml_tree.Tree, path: str) -> tuple[str, str, str]:
@@ -72,7 +76,7 @@ def _input(stored: Stored, tree: yaml_tree.Tree, path: str) -> tuple[str, str, s
 
 
 def _column(tree: yaml_tree.Tree) -> str:
-    return f"a column of {tree.typed(('sample', 'file')) or 'the table'}"
+    return say("a column of {table}", table=tree.typed(("sample", "file")) or phrase("the table"))
 
 
 def written(tree: yaml_tree.Tree, path: Path) -> str:
@@ -85,14 +89,23 @@ def written(tree: yaml_tree.Tree, path: Path) -> str:
     if not isinstance(value, dict):
         return tree.typed(path) or ""
     parts = {str(key): written(tree, (*path, key)) for key in value}
-    head = [f"from {parts.pop('from')} to {parts.pop('to')}"] if {"from", "to"} <= parts.keys() else []
+    head = (
+        [say("from {least} to {most}", least=parts.pop("from"), most=parts.pop("to"))]
+        if {"from", "to"} <= parts.keys()
+        else []
+    )
     kind = parts.pop("distribution", "")
     head += [kind] if kind else []
     if "table" in parts:
-        column = f"column {parts.pop('column')} of " if "column" in parts else ""
-        head.append(f"{column}the table {parts.pop('table')}")
+        table = parts.pop("table")
+        column = parts.pop("column", "")
+        head.append(
+            say("column {column} of the table {table}", column=column, table=table)
+            if column
+            else say("the table {table}", table=table)
+        )
     return ", ".join([*head, *(f"{key} {text}" for key, text in parts.items())])
 
 
 def _reports(tree: yaml_tree.Tree, given: Any) -> str:
-    return "none" if given is None else written(tree, ("reports",))
+    return say("none") if given is None else written(tree, ("reports",))

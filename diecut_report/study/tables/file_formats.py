@@ -126,17 +126,22 @@ def _csv_header(file: BinaryIO) -> tuple[list[str], str]:
 
 
 def _lines(file: BinaryIO) -> int:
-    """How many rows there may be; the file stands at its beginning again. UnreadableTable where it is not in UTF-8."""
+    """How many rows there may be; the file stands at its beginning again. UnreadableTable where it is no text, or a quotation is open."""
     file.seek(0)
-    feeds = returns = 0
+    feeds = returns = quotes = 0
     decoder = codecs.getincrementaldecoder("utf-8")()
     try:
         while chunk := file.read(CHUNK):
             decoder.decode(chunk)  # Arrow prints a traceback for a row of another length that is not in UTF-8
             feeds, returns = feeds + chunk.count(b"\n"), returns + chunk.count(b"\r")
+            quotes += chunk.count(b'"')
         decoder.decode(b"", final=True)
     except UnicodeDecodeError as error:
         raise UnreadableTable(NOT_UTF8) from error
+    if quotes % 2:  # Arrow takes what follows the last one, whatever it is, for one cell
+        raise UnreadableTable(
+            f"has {quotes} quotation marks, so that one is not closed; within a quoted cell it is doubled"
+        )
     file.seek(0)
     return max(feeds, returns)
 

@@ -1,0 +1,57 @@
+"""The command of the live page."""
+
+from __future__ import annotations
+
+import webbrowser
+from collections.abc import Iterator
+from contextlib import suppress
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import click
+
+from diecut_report.cli.output import PASSED, HelpfulCommand, common, emit, tell
+from diecut_report.config.discovery import Discovery
+from diecut_report.errors import Problem, UserError
+
+if TYPE_CHECKING:
+    from diecut_report.live.session import LiveSession
+
+
+@click.command(cls=HelpfulCommand)
+@click.argument("config", type=click.Path(path_type=Path))
+@click.option("--port", metavar="N", type=click.IntRange(0, 65535), default=0, help="The port (default: a free one).")
+@click.option("--open/--no-open", "is_opened", default=True, help="Whether to open the page in the browser.")
+@common
+def live(config: Path, port: int, is_opened: bool, folders: tuple[Path, ...], quiet: bool) -> int:
+    """Show CONFIG as a page that follows each change of the file, and change its numbers there. Ends with Ctrl-C.
+
+    The page is for this machine alone: its address holds a secret.
+    """
+    if not config.is_file():
+        words = "There is no such file. Give a configuration; `diecut-report new` begins one."
+        raise UserError(Problem(words, str(config)))
+    from diecut_report.live.server import serve
+    from diecut_report.live.session import LiveSession
+
+    if not quiet:
+        tell([f"reading and calculating {config} …"])
+    session = LiveSession(config.absolute(), Discovery(folders))
+
+    def ready(address: str) -> None:
+        emit(f"{address}\n")
+        if not quiet:
+            tell(["The page follows the file; Ctrl-C ends it."])
+        if is_opened and not webbrowser.open(address):
+            tell(["No browser could be started; open the address by hand."])
+
+    with suppress(KeyboardInterrupt):  # how one ends it
+        serve(session, folders, port, ready)
+    tell(_unwritten(session))
+    return PASSED
+
+
+def _unwritten(session: LiveSession) -> Iterator[str]:
+    """Return what was changed on the page and not written, so that nothing is lost."""
+    for name, typed in session.edits.items():
+        yield f"changed on the page and not written: {name}: {typed}"

@@ -1,0 +1,203 @@
+"""What the live page asks for and is told: an application of Starlette around one session, which one thread works on."""
+
+from __future__ import annotations
+
+import asyncio
+import json
+from collections.abc import AsyncIterator, Callable
+from concurrent.futures import ThreadPoolExecutor
+from contextlib import asynccontextmanager, suppress
+from pathlib import Path
+from typing import Any, TypeVar
+
+from starlette.applications import Starlette
+from starlette.requests import ClientDisconnect, Request
+from starlette.responses import JSONResponse, Response, StreamingResponse
+from starlette.routing import Route
+from watchfiles import awatch
+
+from diecut_report.errors import UserError
+from diecut_report.live.effects import effect
+from diecut_report.live.page import assets, page
+from diecut_report.live.page_data import page_data
+from diecut_report.live.pictures_of_run import Pictures
+from diecut_report.live.reports import Reports
+from diecut_report.live.session import LiveSession
+
+Found = TypeVar("Found")
+SETTLED, STEP = 60, 20  # milliseconds: an editor may write a file in several steps
+ALIVE = 15.0  # seconds after which a silent stream says that it is there
+AGAIN = 1.0  # seconds between looks for a folder that is gone
+
+
+class LiveApplication:
+    """Serve a session. ``folders`` are those of foreign plugins, which a report is made with."""
+
+    def __init__(self, session: LiveSession, folders: tuple[Path, ...]) -> None:
+        self.session = session
+        self.pictures, self.reports = Pictures(), Reports(folders)
+        self._worker = ThreadPoolExecutor(1, thread_name_prefix="live")
+        self._changed = asyncio.Condition()
+        self._told = -1, b""
+        self._is_ending = asyncio.Event()
+        routes = [
+            Route("/", self._page), Route("/assets/{name}", self._asset), Route("/events", self._events),
+            Route("/figure/{mechanism}/{index:int}", self._figure), Route("/effect", self._effect),
+            Route("/report/{form}", self._report),
+            Route("/change", self._change, methods=["POST"]), Route("/back", self._back, methods=["POST"]),
+            Route("/write", self._write, methods=["POST"]),
+        ]  # fmt: skip
+        self.starlette = Starlette(routes=routes, lifespan=self._lifespan, exception_handlers={UserError: _refused})
+
+    @asynccontextmanager
+    async def _lifespan(self, _app: Starlette) -> AsyncIterator[None]:
+        watching = asyncio.create_task(self._watch())
+        try:
+            yield
+        finally:
+            self.end()
+            watching.cancel()
+            with suppress(asyncio.CancelledError):
+                await watching
+            self._worker.shutdown(wait=False, cancel_futures=True)
+
+    def end(self) -> None:
+        """End all streams, so that the server can end."""
+        self._is_ending.set()
+
+    async def _done(self, work: Callable[[], Found]) -> Found:
+        """Let the one thread do it: the session and the figures know only one."""
+        return await asyncio.get_running_loop().run_in_executor(self._worker, work)
+
+    # --- what changes ------------------------------------------------------------------------------------------------
+
+    async def _watch(self) -> None:
+        """Read the file again whenever it, or what it names, is another."""
+        before = await self._done(self._marks)
+        while not self._is_ending.is_set():
+            with suppress(OSError):  # the folder is gone, or cannot be watched: it is looked at again below
+                async for _ in awatch(
+                    self.session.file.parent, debounce=SETTLED, step=STEP, stop_event=self._is_ending, recursive=False
+                ):
+                    before = await self._read_where_changed(before)
+            await asyncio.sleep(AGAIN)
+            before = await self._read_where_changed(before)
+
+    async def _read_where_changed(self, before: dict[Path, object]) -> dict[Path, object]:
+        now = await self._done(self._marks)
+        if now != before:
+            await self._done(self.session.read)
+            await self._tell()
+        return await self._done(self._marks)
+
+    def _marks(self) -> dict[Path, object]:
+        """What tells one content of the files from another."""
+        found: dict[Path, object] = {}
+        for file in self.session.files:
+            try:
+                about = file.stat()
+            except OSError as error:
+                found[file] = error.errno
+            else:
+                found[file] = about.st_ino, about.st_mtime_ns, about.st_size
+        return found
+
+    async def _tell(self) -> None:
+        async with self._changed:
+            self._changed.notify_all()
+
+    async def _state(self) -> tuple[int, bytes]:
+        """The state as the page gets it; made once for all pages that look."""
+
+        def made() -> tuple[int, bytes]:
+            if self._told[0] != self.session.serial:
+                text = json.dumps(page_data(self.session), ensure_ascii=False, allow_nan=False, default=str)
+                self._told = self.session.serial, text.encode()
+            return self._told
+
+        return await self._done(made)
+
+    async def _events(self, _request: Request) -> Response:
+        return StreamingResponse(self._stream(), media_type="text/event-stream")
+
+    async def _stream(self) -> AsyncIterator[bytes]:
+        """The state now, and again whenever it changes."""
+        serial = -1
+        while not self._is_ending.is_set():
+            now, text = await self._state()
+            if now != serial:
+                serial = now
+                yield b"data: " + text + b"\n\n"
+                continue
+            async with self._changed:
+                if self.session.serial == serial:
+                    with suppress(TimeoutError):
+                        await asyncio.wait_for(self._changed.wait(), ALIVE)
+            yield b": still here\n\n"
+
+    # --- what is asked -----------------------------------------------------------------------------------------------
+
+    async def _page(self, _request: Request) -> Response:
+        return Response(page(self.session.file.name), media_type="text/html; charset=utf-8")
+
+    async def _asset(self, request: Request) -> Response:
+        found = assets().get(request.path_params["name"])
+        return Response(status_code=404) if found is None else Response(found.content, media_type=found.media_type)
+
+    async def _figure(self, request: Request) -> Response:
+        mechanism, index = request.path_params["mechanism"], request.path_params["index"]
+        return await self._of_machine(lambda machine: self.pictures.figure(machine, mechanism, index))
+
+    async def _effect(self, request: Request) -> Response:
+        name = request.query_params.get("input", "")
+        return await self._of_machine(lambda machine: effect(machine, name))
+
+    async def _of_machine(self, make: Callable[[Any], dict[str, Any]]) -> Response:
+        def made() -> dict[str, Any]:
+            machine = self.session.machine
+            return {"none": True} if machine is None else make(machine)
+
+        return JSONResponse(await self._done(made))
+
+    async def _report(self, request: Request) -> Response:
+        machine = self.session.machine
+        if machine is None:
+            return Response("There is no machine to report of yet; see the faults of the file.", 409)
+        results = await self._done(machine.run.document)
+        made = await self.reports.made(results, request.path_params["form"])
+        return Response(made.content, media_type=made.media_type, headers=made.headers)
+
+    async def _change(self, request: Request) -> Response:
+        given = await _sent(request)
+        changes = given.get("changes")
+        if not isinstance(changes, dict) or not all(isinstance(typed, str) for typed in changes.values()):
+            return Response(status_code=400)
+        return await self._acted(lambda: self.session.change(changes))
+
+    async def _back(self, request: Request) -> Response:
+        names = (await _sent(request)).get("names")
+        if names is not None and not (isinstance(names, list) and all(isinstance(name, str) for name in names)):
+            return Response(status_code=400)
+        return await self._acted(lambda: self.session.take_back(names))
+
+    async def _write(self, _request: Request) -> Response:
+        return await self._acted(self.session.write)
+
+    async def _acted(self, act: Callable[[], None]) -> Response:
+        await self._done(act)
+        await self._tell()
+        return JSONResponse({"serial": self.session.serial})
+
+
+async def _sent(request: Request) -> dict[str, Any]:
+    try:
+        found = json.loads(await request.body())
+    except (ValueError, RecursionError, ClientDisconnect):
+        return {}
+    return found if isinstance(found, dict) else {}
+
+
+async def _refused(_request: Request, error: Exception) -> Response:
+    assert isinstance(error, UserError)
+    problem = error.problems[0]
+    return JSONResponse({"refused": problem.message, "path": problem.path}, status_code=422)

@@ -1,0 +1,42 @@
+"""The figures of a live machine: curves as numbers that the page draws itself, drawings as SVG; each made when it is looked at."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from diecut_report.errors import Problem, UserError
+from diecut_report.live.session import LiveMachine
+from diecut_report.report.i18n import Catalogue
+from diecut_report.report.reader_data import figure_readings
+
+Data = dict[str, Any]
+
+
+class Pictures:
+    """Draw the figures of machines; what was drawn of an unchanged mechanism is kept."""
+
+    def __init__(self) -> None:
+        self._drawn: dict[tuple[str, int], tuple[Any, Data]] = {}
+
+    def figure(self, machine: LiveMachine, mechanism: str, index: int) -> Data:
+        """Return a figure: ``plot`` with its panels and rows of numbers, or ``svg``; UserError where there is none, or it cannot be drawn."""
+        if mechanism not in machine.run.calculations or not 0 <= index < len(machine.run.figures(mechanism)):
+            raise UserError(Problem(f"There is no figure {index} of {mechanism!r}."))
+        figure = machine.run.figures(mechanism)[index]
+        known = self._drawn.get((mechanism, index))
+        if known is None or known[0] is not figure:
+            known = figure, _drawn(figure, machine.run.curves(mechanism), mechanism, index)
+            self._drawn[mechanism, index] = known
+        return known[1]
+
+
+def _drawn(figure: Data, curves: Data, mechanism: str, index: int) -> Data:
+    from diecut_report.report.figures.by_type import render  # with matplotlib, which takes half a second
+
+    words = Catalogue("en")
+    try:
+        if figure["type"] in ("plot", "chart") and (readings := figure_readings(mechanism, figure, curves, words)):
+            return {"plot": readings}
+        return {"svg": render(figure, curves, words, f"{mechanism}-{index}").text}
+    except Exception as cause:  # of any kind: what a plugin gives to be drawn is its own
+        raise UserError(Problem(f"This figure cannot be drawn: {type(cause).__name__}: {cause}")) from cause

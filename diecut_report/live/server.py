@@ -1,0 +1,57 @@
+"""The server of the live page: on the loopback alone, behind an address that nobody else knows."""
+
+from __future__ import annotations
+
+import errno
+import secrets
+import socket
+from collections.abc import Callable
+from pathlib import Path
+
+import uvicorn
+
+from diecut_report.errors import Problem, UserError
+from diecut_report.live.application import LiveApplication
+from diecut_report.live.guard import Guard
+from diecut_report.live.session import LiveSession
+
+HOST = "127.0.0.1"
+ENDING = 2  # seconds that open answers have at the end
+
+
+def serve(session: LiveSession, folders: tuple[Path, ...], port: int, ready: Callable[[str], None]) -> None:
+    """Serve the session until Ctrl-C; ``ready`` is called with the address. UserError where the port cannot be had."""
+    with _bound(port) as listening:
+        own, token = int(listening.getsockname()[1]), secrets.token_urlsafe(24)
+        application = LiveApplication(session, folders)
+        guarded = Guard(application.starlette, own, token)
+        settings = uvicorn.Config(guarded, log_level="critical", access_log=False, server_header=False, date_header=False,
+                                  timeout_graceful_shutdown=ENDING, lifespan="on", ws="none")  # fmt: skip
+        listening.listen()
+        ready(f"http://{HOST}:{own}/{token}/")
+        _Server(settings, application).run(sockets=[listening])
+
+
+class _Server(uvicorn.Server):
+    """A server that lets the streams of its pages end before it waits for them."""
+
+    def __init__(self, settings: uvicorn.Config, application: LiveApplication) -> None:
+        super().__init__(settings)
+        self.application = application
+
+    async def shutdown(self, sockets: list[socket.socket] | None = None) -> None:
+        self.application.end()
+        await super().shutdown(sockets)
+
+
+def _bound(port: int) -> socket.socket:
+    found = socket.socket(socket.AF_INET, socket.SOCK_STREAM)
+    try:
+        found.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
+        found.bind((HOST, port))
+    except OSError as error:
+        found.close()
+        why = "another program has it" if error.errno == errno.EADDRINUSE else (error.strerror or "unknown")
+        words = f"The port {port} of this machine cannot be had: {why}. Leave --port out, and a free one is taken."
+        raise UserError(Problem(words)) from error
+    return found

@@ -1,0 +1,157 @@
+"""What a live page shows and changes: the file as it stands, numbers changed on the page over it, and the last machine that could be calculated."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+from diecut_report.config import yaml_tree
+from diecut_report.config.discovery import Discovery
+from diecut_report.config.loader import Config, load_config
+from diecut_report.config.written_values import as_file, written
+from diecut_report.config.yaml_tree import KeyPath, Tree
+from diecut_report.design.design_inputs import DesignInput, given_numbers
+from diecut_report.errors import PluginError, Problem, UserError
+from diecut_report.files import write
+from diecut_report.quantities.units import UnitError, parse_quantity
+from diecut_report.results.warm_press import WarmPress, WarmRun
+
+Data = dict[str, Any]
+LONGEST = 100  # letters of a number that is typed on the page
+MOST_EDITS = 1_000
+
+
+@dataclass(frozen=True)
+class LiveMachine:
+    """Hold a machine that could be calculated: the text that it follows from, its inputs by name, and its run."""
+
+    tree: Tree
+    config: Config
+    run: WarmRun
+    inputs: Mapping[str, DesignInput]
+
+
+class LiveSession:
+    """Keep a configuration calculated while it is changed. Not for several threads at a time.
+
+    ``faults`` is what is wrong now; ``machine`` is the last machine that could be calculated (None before the first), ``start``
+    the first. ``edits`` are the numbers changed on the page and not written, by the names of their inputs, as typed.
+    """
+
+    def __init__(self, file: Path, discovery: Discovery) -> None:
+        self.file, self.discovery = file, discovery
+        self.tree: Tree | None = None
+        self.machine: LiveMachine | None = None
+        self.start: LiveMachine | None = None
+        self.faults: list[Problem] = []
+        self.edits: dict[str, str] = {}
+        self.serial = 0
+        self._places: dict[str, KeyPath] = {}
+        self._press = WarmPress()
+        self.read()
+
+    @property
+    def files(self) -> set[Path]:
+        """Return the files whose change matters: the configuration, and the tables and the logo that it names."""
+        named = self.machine.config.files if self.machine else ()
+        return {self.file, *(self.file.parent / name for name in named)}
+
+    def read(self) -> None:
+        """Read the file again and calculate; changes of the page stay over it, but those that stand in it now."""
+        try:
+            self.tree = yaml_tree.load(self.file)
+        except UserError as error:
+            self._failed(error.problems)
+            return
+        self.edits = {name: typed for name, typed in self.edits.items() if self.tree.typed(self._places[name]) != typed}
+        self._calculate()
+
+    def change(self, changes: Mapping[str, str]) -> None:
+        """Take numbers of the page, as typed, by the names of their inputs; UserError where one is no number for its input."""
+        machine = self._changeable()
+        taken = {name: self._judged(machine, name, typed.strip()) for name, typed in changes.items()}
+        if len(self.edits.keys() | taken.keys()) > MOST_EDITS:
+            raise UserError(
+                Problem(f"At most {MOST_EDITS} numbers can be changed before they are written to the file.")
+            )
+        for name, typed in taken.items():
+            self._places[name] = machine.inputs[name].stands
+            self.edits[name] = typed
+            if self.tree is not None and self.tree.typed(self._places[name]) == typed:
+                del self.edits[name]
+        self._calculate()
+
+    def take_back(self, names: Iterable[str] | None = None) -> None:
+        """Forget changes of the page: these, or all."""
+        for name in list(self.edits) if names is None else names:
+            self.edits.pop(name, None)
+        self._calculate()
+
+    def write(self) -> None:
+        """Write the changes into the file, all else in it as it stands; UserError where that is not possible, and nothing is lost.
+
+        What cannot be calculated is not written.
+        """
+        self.read()  # as it stands now, whatever the editor has saved meanwhile
+        if self.faults or self.tree is None:
+            words = "Nothing is written, as this cannot be calculated; take a change back, or mend the file first."
+            raise UserError(Problem(words, str(self.file)))
+        tree, text = self.tree, written(self.tree, self._edited())
+        if text != tree.text:
+            write(self.file.resolve(), as_file(tree, text))
+        self.edits = {}
+        self.read()
+
+    def _edited(self) -> dict[KeyPath, str]:
+        return {self._places[name]: typed for name, typed in self.edits.items()}
+
+    def _changeable(self) -> LiveMachine:
+        if self.machine is None:
+            raise UserError(Problem("Nothing can be changed before the file can be calculated.", str(self.file)))
+        return self.machine
+
+    def _judged(self, machine: LiveMachine, name: str, typed: str) -> str:
+        asked = machine.inputs.get(name)
+        if asked is None:
+            raise UserError(Problem(f"{name!r} is not a number that the file gives."))
+        try:
+            if len(typed) > LONGEST:
+                raise UnitError(f"has more than {LONGEST} letters")
+            parse_quantity(typed, asked.meta.unit)
+        except UnitError as fault:
+            raise UserError(Problem(str(fault), str(self.file), path=asked.asked.path)) from None
+        return typed
+
+    def _calculate(self) -> None:
+        """Calculate the file with the changes over it; what is wrong is kept in ``faults``, and the last machine stays."""
+        if self.tree is None:
+            return
+        try:
+            machine = self._made(self.tree)
+        except UserError as error:
+            self._failed(error.problems)
+        except PluginError as error:
+            self._failed([Problem(str(error), str(self.file))])
+        else:
+            self.machine, self.faults = machine, []
+            self.start = self.start or machine
+            self.serial += 1
+
+    def _made(self, tree: Tree) -> LiveMachine:
+        text = written(tree, self._edited())
+        if text != tree.text:
+            changed = yaml_tree.parse(text, tree.file)
+            tree = Tree(changed.root, tree.file, text, changed.sha256, tree.name)
+        config = load_config(tree, self.discovery)
+        for error in config.broken.values():
+            raise error
+        run = self._press.calculate(config)
+        for error in run.errors.values():
+            raise error
+        return LiveMachine(tree, config, run, {found.name: found for found in given_numbers(config)})
+
+    def _failed(self, problems: Iterable[Problem]) -> None:
+        self.faults = list(problems)
+        self.serial += 1

@@ -1,0 +1,167 @@
+"""The steps of a chapter: sections with formulas, values in lines, tables and figures, numbered as they stand on the page."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping, Sequence
+from itertools import groupby
+from typing import Any, NamedTuple
+
+from diecut_report.languages.tokens import worded
+from diecut_report.report.equations import Equations
+from diecut_report.report.figure_places import BEFORE, Place, Row, figures_at
+from diecut_report.report.i18n import Catalogue
+from diecut_report.report.model import Heading, Item, PrintedSection
+from diecut_report.report.number_format import quantity
+from diecut_report.report.said_once import SaidOnce
+from diecut_report.report.section_tables import brought_together
+from diecut_report.report.tables import Tables
+from diecut_report.report.told_before import Reference, ToldBefore
+from diecut_report.report.value_rows import ValueRow, listed_row, value_row
+
+Data = Mapping[str, Any]
+UNPRINTED_RESIDUAL = "0"
+LONGEST_SOURCE = 80  # letters; a longer one stands below the result
+WORDLESS = ("found", "reduction", "lookup")  # their result is always typeset
+
+
+class _Step(NamedTuple):
+    """A printed step; in one line it is ``row``, and has to be where its formula is not printed again."""
+
+    item: Item
+    row: ValueRow | None = None
+    is_told: bool = False
+
+
+class Steps:
+    """Prints sections; where ``told`` is given nothing is printed twice, and what has no formula stands in lines."""
+
+    def __init__(
+        self, letter: str, equations: Equations, words: Catalogue, tables: Tables, figures: Sequence[Row],
+        told: ToldBefore | None,
+    ) -> None:  # fmt: skip
+        self.letter, self.equations, self.words, self.tables = letter, equations, words, tables
+        self.figures, self.told = figures, told
+        self.decimal = words["decimal"]
+        self.formulas = 0
+        self.given: dict[str, str] = {}  # the numbers of the steps by the symbols that they give
+        self.said = SaidOnce(equations, words)
+
+    def section(self, index: int, section: Data, heading: Heading) -> PrintedSection:
+        """A section with its figures."""
+        notes: set[str] = set()
+        steps = [_Step(item) for item in figures_at(self.figures, Place(index, BEFORE))]
+        for place, item in enumerate(section["items"] if self.told is None else brought_together(section)):
+            steps += [] if item is None else list(self._step(item, notes))
+            steps += [_Step(each) for each in figures_at(self.figures, Place(index, place))]
+        return PrintedSection(heading, self._text(section), _gathered(steps), self._shown(section.get("shown", ())))
+
+    def _text(self, section: Data) -> str:
+        text: str = section.get("text", "")
+        return text if self.told is None or not text else "".join(self.told.new([text]))
+
+    def _shown(self, places: Sequence[Data]) -> str:
+        """Where the curves of a section are shown, in words."""
+        told = [f"{at['symbol']} = {quantity(at['text'], at['unit'], self.decimal)}" for at in places]
+        return self.words.say("shown_at", places=self.words.listed(told)) if told else ""
+
+    def _step(self, item: Data, notes: set[str]) -> Iterator[_Step]:
+        if item["type"] == "note":
+            if self.told is None or self.told.new([item["text"]]):
+                yield _Step(Item("note", text=item["text"]))
+        elif item["type"] == "listed":
+            yield _Step(Item("note"), listed_row(item, self.decimal), is_told=True)
+        elif item["type"] == "table":
+            yield _Step(Item("table", table=self.tables.of_item(item)))
+        else:
+            self.formulas += 1
+            number = f"{self.letter}.{self.formulas}"
+            self.given.setdefault(item["symbol"], number)
+            yield self._formula(item, notes, number)
+
+    def _formula(self, item: Data, notes: set[str], number: str) -> _Step:
+        """A step with its formula, unless that stands elsewhere."""
+        told = self.told
+        if told is None:
+            return _Step(self._item(item, notes, number))
+        refers = told.find(item)
+        if refers is None:
+            told.keep(item, number)
+            printed = self._item(item, notes, number)
+            return _Step(printed, self._line(item, number) if _is_bare(item) and not printed.notes else None)
+        return _Step(Item("note"), self._line(item, number, refers, self._new_note(item, notes)), is_told=True)
+
+    def _line(self, item: Data, number: str, refers: Reference | None = None, note: str = "") -> ValueRow:
+        return value_row(item, number, refers, note, self.decimal)
+
+    def _new_note(self, item: Data, notes: set[str]) -> str:
+        """The note of a step, where the section has not said it; a report with all says it at each step."""
+        note: str = item.get("note", "")
+        if self.told is None:
+            return note
+        is_new = note not in notes
+        notes.add(note)
+        return note if is_new else ""
+
+    def _item(self, item: Data, notes: set[str], number: str) -> Item:
+        return Item(
+            item["type"],
+            number=number,
+            description=item["description"],
+            source=item["source"] if len(item["source"]) <= LONGEST_SOURCE else "",
+            equation=self.equations.of(item),
+            condition=self.equations.condition(item),
+            definitions=tuple(self.said.definitions(item)),
+            words=item.get("words", ""),
+            text="" if item.get("equation") or item["type"] in WORDLESS else item["result"]["text"],
+            notes=tuple(self._notes(item, notes)),
+            changed=item.get("changed", ""),
+        )
+
+    def _notes(self, item: Data, notes: set[str]) -> Iterator[str]:
+        """The method, where it was not said already in this section, what proves the value, and a note."""
+        if item["type"] == "lookup":
+            yield self._looked_up(item)
+        if item.get("series") and not item.get("note", "").startswith(item["series"]):
+            yield f"{self.words['series']}: {item['series']}"
+        if self.told is None:
+            yield from self._proof(item, notes)
+        yield from self.said.conversions(item)
+        if note := self._new_note(item, notes):
+            yield note
+        if len(item["source"]) > LONGEST_SOURCE:
+            yield f"{self.words['source']}: {item['source']}"
+
+    def _proof(self, item: Data, notes: set[str]) -> Iterator[str]:
+        method, residual = item.get("method", ""), item.get("residual")
+        if method and method not in notes:
+            notes.add(method)
+            yield f"{self.words['method']}: {method}"
+        if residual and residual["text"] != UNPRINTED_RESIDUAL:
+            key = "residual" if item["type"] == "found" else "checked_to"
+            yield self.words.say(key, residual=quantity(residual["text"], residual["unit"], self.decimal))
+
+    def _looked_up(self, item: Data) -> str:
+        """Where a number was taken from: the table's title, and the text that chose it."""
+        if item["table"]:
+            choice = ", ".join(worded(text) for text in (item["key"], item.get("column")) if text)
+            return self.words.say("looked_up", table=item["table"], choice=choice)
+        return f"{item['by']}: {worded(item['key'])}"
+
+
+def _is_bare(item: Data) -> bool:
+    """Whether a step gives a value and nothing else: it has no formula, branch or table that it comes from."""
+    is_picked = item["type"] == "reduction" and item["operation"] == "pick"
+    is_found = item["type"] == "found" and not item.get("relation") and not item.get("equation")
+    return (is_picked or is_found) and not item.get("words") and len(item["source"]) <= LONGEST_SOURCE
+
+
+def _gathered(steps: list[_Step]) -> list[Item]:
+    """The steps as items, those that stand in one line gathered into lists; a lone value keeps its place among formulas."""
+    found: list[Item] = []
+    for in_line, group in groupby(steps, key=lambda step: step.row is not None):
+        run = list(group)
+        if in_line and (len(run) > 1 or run[0].is_told):
+            found.append(Item("values", rows=tuple(step.row for step in run if step.row)))
+        else:
+            found += [step.item for step in run]
+    return found

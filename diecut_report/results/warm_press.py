@@ -1,0 +1,203 @@
+"""A press calculated again and again, as while somebody changes a number: only what depends on the change is calculated anew.
+
+``WarmPress`` remembers the calculations of the last few machines. A mechanism whose inputs, numbers and what others give it
+alike, are the same as before is not calculated a second time, and nothing is printed before it is asked for:
+
+    press = WarmPress()
+    run = press.calculate(config)       # UserError in words where the machine is impossible, as of any calculation
+    run.summary, run.checks, run.outputs("drive")
+    run.curves("drive"), run.figures("drive"), run.sections("drive")
+    run.document()                      # all results, as ``results.document`` gives them
+
+``config`` is a file loaded again (``config.loader``), or a base with other values (``study.definition.base_inputs.with_values``).
+Whatever is asked for equals what the ordinary way gives for the same configuration, bit for bit; it is shared with later
+runs, and must not be changed. Two things are known when they are asked for, and not before: comparisons, which are in
+``document`` alone, and what only curves or printing refuse (a formula whose numbers contradict its result), which raises
+from ``curves``, ``sections`` or ``outputs``, while ``document`` tells it as the ordinary way does.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Mapping
+from functools import cache, cached_property
+from typing import Any
+
+from diecut_report.config.instances import Instance
+from diecut_report.config.loader import Config
+from diecut_report.config.model import PRESS
+from diecut_report.contract.inputs import Block, flatten
+from diecut_report.contract.mechanism import Mechanism
+from diecut_report.engine import Calculation, calculate
+from diecut_report.engine.chosen_units import ChosenUnits
+from diecut_report.engine.figure_views import figures
+from diecut_report.engine.printing.items import section_items
+from diecut_report.results.checks import check_results
+from diecut_report.results.curves import curves
+from diecut_report.results.document import document, verdict
+from diecut_report.results.mechanism import inputs, mechanism_results, numbers, require_self_tests, worst
+from diecut_report.results.origins import origin_of
+from diecut_report.results.press_run import Run, Tell, require_possible
+from diecut_report.results.reference_origins import told_checks
+from diecut_report.results.summary import governing, summary
+
+Data = dict[str, Any]
+KEPT = 4  # machines of each mechanism that are remembered: the one at the start, to compare with, and the last ones
+
+
+class Remembered:
+    """Hold a calculated mechanism with what it was calculated from, and what was made of it so far."""
+
+    def __init__(self, calculation: Calculation, taken: Mapping[str, Any]) -> None:
+        self.calculation, self.taken = calculation, taken
+        self._made: dict[Callable[[Calculation], Any], Any] = {}
+
+    def is_of(self, mechanism: Mechanism, taken: Mapping[str, Any], chosen: ChosenUnits) -> bool:
+        """Return whether it was calculated from these inputs, and is shown in these units."""
+        known = self.calculation
+        return known.mechanism is mechanism and known.chosen_units == chosen and _same(self.taken, taken)
+
+    def of(self, make: Callable[[Calculation], Any]) -> Any:
+        """Return what a function makes of the calculation; made once."""
+        if make not in self._made:
+            self._made[make] = make(self.calculation)
+        return self._made[make]
+
+
+def _same(one: Any, other: Any) -> bool:
+    """Whether two inputs are the same to the last bit: zero is not the same as minus zero, nor 1 as 1.0 or true."""
+    if type(one) is not type(other):
+        return False
+    if isinstance(one, dict):
+        return one.keys() == other.keys() and all(_same(part, other[key]) for key, part in one.items())
+    if isinstance(one, tuple | list):
+        return len(one) == len(other) and all(map(_same, one, other))
+    if isinstance(one, float):
+        return one == other and math.copysign(1, one) == math.copysign(1, other)
+    return one is other or bool(one == other)
+
+
+class WarmPress:
+    """Remember the calculations of a press from one run to the next; see above."""
+
+    def __init__(self) -> None:
+        self._known: dict[str, list[Remembered]] = {}
+
+    def calculate(self, config: Config, tell: Tell = lambda _: None) -> WarmRun:
+        """Calculate a configuration; UserError where the machine is impossible.
+
+        ``tell`` is called with the name of each mechanism that is calculated anew.
+        """
+        return require_possible(WarmRun(config, self, tell))
+
+    def remembered(
+        self, name: str, mechanism: Mechanism, taken: Mapping[str, Any], chosen: ChosenUnits, tell: Tell
+    ) -> Remembered:
+        """Return a mechanism calculated from these inputs: remembered, or anew."""
+        known = self._known.setdefault(name, [])
+        found = next((each for each in known if each.is_of(mechanism, taken, chosen)), None)
+        if found is None:
+            tell(name)
+            calculation = calculate(mechanism, taken)
+            calculation.chosen_units = chosen
+            found = Remembered(calculation, taken)
+        self._known[name] = [found, *(each for each in known if each is not found)][:KEPT]
+        return found
+
+
+class WarmRun(Run):
+    """Hold one run of a warm press: what is not remembered is calculated at once, what is shown when it is asked for."""
+
+    def __init__(self, config: Config, press: WarmPress, tell: Tell) -> None:
+        self.press, self._tell = press, tell
+        self.remembered: dict[str, Remembered] = {}
+        super().__init__(config, lambda _: None)
+
+    def _made(self, instance: Instance, mechanism: Mechanism, block: Block) -> Calculation:
+        chosen = self.chosen_units(instance.name)
+        found = self.press.remembered(instance.name, mechanism, flatten(block), chosen, self._tell)
+        self.remembered[instance.name] = found
+        return found.calculation
+
+    def _printed(self, instance: Instance, calculation: Calculation) -> None:
+        """Only what tells whether the mechanism may be used at all."""
+        require_self_tests(self.remembered[instance.name].of(check_results))
+
+    def _comparisons(self) -> None:
+        """A comparison has no checks, and nothing depends on it."""
+
+    @cached_property
+    def checks(self) -> dict[str, list[Data]]:
+        """Return the checks of each mechanism in the order of the file, as the results hold them."""
+        names = [name for name in self.config.instances if name != PRESS]
+        return told_checks({name: self._checks(name) for name in names}, cache(self._inputs))
+
+    def _checks(self, name: str) -> list[Data]:
+        if name in self.calculations:
+            found: list[Data] = self.remembered[name].of(check_results)
+            return found
+        return self.self_tests.get(name, [])
+
+    def _inputs(self, name: str) -> Data:
+        """The inputs of a mechanism with where they come from, not what they rest on."""
+        instance = self.config.instances.get(name)
+        if instance is None or name not in self.calculations:
+            return {}
+        found = {".".join(map(str, slot.key)): origin_of(self.config, instance, slot) for slot in instance.slots}
+        return inputs(self.calculations[name], found)
+
+    @property
+    def status(self) -> str:
+        """Return the verdict on the whole: pass, warn, fail or error."""
+        states = {name: worst(check["status"] for check in checks) for name, checks in self.checks.items()}
+        states |= dict.fromkeys(self.skipped, "skipped")
+        return verdict(states.values(), self.errors)
+
+    @property
+    def governing(self) -> Data | None:
+        """Return the check that governs, with its mechanism."""
+        return governing(self._checked())
+
+    @property
+    def summary(self) -> Data:
+        """Return the counts of the checks, and the governing one."""
+        return summary(self._checked())
+
+    def _checked(self) -> Data:
+        return {name: {"checks": checks} for name, checks in self.checks.items()}
+
+    def outputs(self, name: str) -> Data:
+        """Return the outputs of a mechanism; KeyError where it is broken or skipped (``errors``, ``skipped``), as below."""
+        found: Data = self.remembered[name].of(numbers)["outputs"]
+        return found
+
+    def curves(self, name: str) -> Data:
+        """Return the curves of a mechanism."""
+        found: Data = self.remembered[name].of(curves)
+        return found
+
+    def figures(self, name: str) -> list[Data]:
+        """Return the figures of a mechanism."""
+        found: list[Data] = self.remembered[name].of(figures)
+        return found
+
+    def sections(self, name: str) -> list[Data]:
+        """Return the printed calculation of a mechanism."""
+        found: list[Data] = self.remembered[name].of(section_items)
+        return found
+
+    def document(self) -> Data:
+        """Return all results, comparisons too; printed is what has not been asked for yet. UserError as of any calculation."""
+        return document(require_possible(_PrintedRun(self.config, self.press, self._tell)))
+
+
+class _PrintedRun(WarmRun):
+    """A run of which everything is printed at once, in the order of the ordinary way."""
+
+    def _printed(self, instance: Instance, calculation: Calculation) -> None:
+        self._store(
+            instance, mechanism_results(calculation, self._provenance(instance), self.remembered[instance.name].of)
+        )
+
+    def _comparisons(self) -> None:
+        Run._comparisons(self)

@@ -1,0 +1,67 @@
+"""The bearings of the tables: ratings by designation, and the series, in which each next bearing is larger."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property
+
+from diecut_report.api import StandardTable, si, table_beside
+
+BORE = 2  # digits of a designation that tell the bore
+
+
+@dataclass(frozen=True)
+class BearingTable:
+    """Hold the bearings of one kind: their table, what follows the bore in a designation, and the series that is usual."""
+
+    table: StandardTable
+    suffix: str
+    usual: str
+
+    @cached_property
+    def sizes(self) -> dict[str, dict[str, float]]:
+        """Return each column by its name: SI values by designation."""
+        return {
+            column.name: dict(zip(self.table.names, (si(value, column.unit) for value in column.values), strict=True))
+            for column in self.table.columns
+        }
+
+    @property
+    def names(self) -> tuple[str, ...]:
+        """Return all designations, those of a series in ascending size."""
+        return self.table.names
+
+    def size(self, column: str, name: str) -> float:
+        """Return a value of a bearing in SI; 0 of a column that bearings of this kind do not have."""
+        return self.sizes[column][name] if column in self.sizes else 0.0
+
+    def series_of(self, name: str) -> str:
+        """Return the series of a bearing, such as 62 of 6209."""
+        return name.removesuffix(self.suffix)[:-BORE]
+
+    @property
+    def series(self) -> tuple[str, ...]:
+        """Return all series."""
+        return tuple(dict.fromkeys(map(self.series_of, self.names)))
+
+    def of_series(self, series: str) -> tuple[str, ...]:
+        """Return the bearings of a series, the smallest first."""
+        return tuple(name for name in self.names if self.series_of(name) == series)
+
+    def beside(self, name: str) -> tuple[str, ...]:
+        """Return a bearing between the next smaller and the next larger one of its series."""
+        own = self.of_series(self.series_of(name))
+        place = own.index(name)
+        return own[max(place - 1, 0) : place + 2]
+
+
+DEEP_GROOVE, ROLLER = "deep_groove", "roller"
+CATALOGUES = {
+    DEEP_GROOVE: BearingTable(table_beside(__file__, "ball_bearings.yaml"), "", "62"),
+    ROLLER: BearingTable(table_beside(__file__, "roller_bearings.yaml"), "E", "NU2"),
+}
+
+
+def written(designation: str) -> str:
+    """Return a designation as the tables write it, without blanks."""
+    return "".join(designation.split()).upper()

@@ -1,0 +1,369 @@
+/* The live page: what the program tells of the machine is shown, what is changed here is sent. Texts are written as texts, never as markup. */
+(function () {
+  "use strict";
+  var MARKS = { pass: "✓", warn: "!", fail: "✗", error: "✗", skipped: "–", not_checked: "?" };
+  var VERDICTS = { pass: "No check fails", warn: "No check fails, some warn", fail: "Checks fail", error: "Not all mechanisms could be calculated" };
+  var byId = function (id) { return document.getElementById(id); };
+  var state = null, open = null, chosen = null, effect = null, sending = false, waiting = {}, shownFigures = {}, isLost = false;
+
+  function make(name, attributes, children) {
+    var node = document.createElement(name);
+    Object.keys(attributes || {}).forEach(function (key) { node.setAttribute(key, attributes[key]); });
+    [].concat(children === undefined ? [] : children).forEach(function (child) { node.append(child); });
+    return node;
+  }
+
+  function drawn(name, attributes) {
+    var node = document.createElementNS("http://www.w3.org/2000/svg", name);
+    Object.keys(attributes).forEach(function (key) { node.setAttribute(key, attributes[key]); });
+    return node;
+  }
+
+  function sign(symbol) {
+    var parts = symbol.split("_"), base = make("i", { "class": "sy" }, parts[0]);
+    return parts.length > 1 ? [base, make("sub", {}, parts.slice(1).join(" "))] : [base];
+  }
+
+  function say(text) { byId("told").textContent = text || ""; }
+
+  function mark(status) { return make("span", { "class": "mark s-" + status }, MARKS[status] || "·"); }
+
+  function percent(ratio) { return ratio === null || ratio === undefined ? "–" : (100 * ratio).toFixed(ratio < 0.0995 ? 1 : 0) + " %"; }
+
+  /* ---- talking to the program ---- */
+  function post(path, body) {
+    return fetch(path, { method: "POST", headers: { "Content-Type": "application/json" }, body: JSON.stringify(body || {}) }).then(function (answer) {
+      if (answer.status === 422) { return answer.json().then(function (told) { throw told; }); }
+      if (!answer.ok) { throw { refused: "The program does not take this (" + answer.status + ")." }; }
+      say("");
+      return answer.json();
+    });
+  }
+
+  function failed(fault) { say(fault.refused || "The program does not answer; is it still running?"); }
+
+  /* One request at a time: what is moved meanwhile is sent with the next. */
+  function send() {
+    if (sending || !Object.keys(waiting).length) { return; }
+    var changes = waiting;
+    sending = true;
+    waiting = {};
+    post("change", { changes: changes }).then(function () { wrong(changes, ""); }, function (fault) {
+      failed(fault);
+      wrong(changes, fault.refused || "");
+    }).then(function () { sending = false; send(); });
+  }
+
+  function change(name, typed) { waiting[name] = typed; send(); }
+
+  function wrong(changes, text) {
+    Object.keys(changes).forEach(function (name) {
+      var row = document.querySelector('.input[data-name="' + CSS.escape(name) + '"]');
+      if (row) {
+        row.querySelector(".wrong").textContent = text;
+        row.querySelector("input[type=text]").setAttribute("aria-invalid", String(Boolean(text)));
+      }
+    });
+  }
+
+  /* ---- what is told ---- */
+  function verdict() {
+    var machine = state.machine, summary = machine && machine.summary, status = state.faults.length ? "error" : machine.status;
+    var line = byId("verdict"), words = "The file cannot be calculated";
+    line.querySelector(".mark").className = "mark s-" + status;
+    line.querySelector(".mark").textContent = MARKS[status];
+    if (!state.faults.length) {
+      words = VERDICTS[status] + ": " + summary.pass + " pass";
+      if (summary.warn) { words += ", " + summary.warn + " warn"; }
+      if (summary.fail) { words += ", " + summary.fail + " fail"; }
+      if (summary.not_checked) { words += ", " + summary.not_checked + " not checked"; }
+      if (summary.governing) { words += "; governing: " + summary.governing; }
+      if (machine.start.summary.fail !== summary.fail) { words += " (at the start " + machine.start.summary.fail + " failed)"; }
+    }
+    line.querySelector(".words").textContent = words;
+    document.body.classList.toggle("stale-state", state.faults.length > 0);
+    var count = Object.keys(state.edits).length;
+    byId("write").disabled = byId("back").disabled = !count;
+    byId("write").textContent = count ? "Write " + count + " to file" : "Write to file";
+    document.title = (MARKS[status] || "") + " " + state.file;
+    byId("title").textContent = machine ? machine.title : state.file;
+  }
+
+  function faults() {
+    var box = byId("faults"), list = box.querySelector("ol");
+    box.hidden = !state.faults.length;
+    box.querySelector(".stale").hidden = !state.machine;
+    list.replaceChildren.apply(list, state.faults.map(function (fault) {
+      var place = fault.line ? state.file + ":" + fault.line + (fault.column ? ":" + fault.column : "") + " " : "";
+      return make("li", {}, [make("span", { "class": "place" }, place), fault.path ? fault.path + ": " : "", fault.text]);
+    }));
+    if (state.more_faults) { list.append(make("li", {}, "and " + state.more_faults + " more")); }
+  }
+
+  function worst(mechanism) {
+    var order = ["fail", "warn", "pass"];
+    if (mechanism.skipped) { return "skipped"; }
+    return order.find(function (status) { return mechanism.checks.some(function (check) { return check.status === status; }); }) || "not_checked";
+  }
+
+  function mechanisms() {
+    var all = state.machine.mechanisms;
+    if (!all.some(function (each) { return each.name === open; })) {
+      var failing = all.find(function (each) { return each.checks.some(function (check) { return check.status === "fail"; }); });
+      open = (failing || all[1] || all[0]).name;
+    }
+    var held = document.activeElement && document.activeElement.dataset.mechanism;
+    byId("mechanisms").replaceChildren.apply(byId("mechanisms"), all.map(function (each) {
+      var button = make("button", { type: "button", "data-mechanism": each.name, title: each.title }, [each.checks.length ? mark(worst(each)) : make("span", { "class": "mark" }, ""), " " + each.name]);
+      if (each.name === open) { button.setAttribute("aria-current", "true"); }
+      button.addEventListener("click", function () { open = each.name; chosen = effect = null; show(); });
+      return button;
+    }));
+    if (held) { var again = document.querySelector('[data-mechanism="' + CSS.escape(held) + '"]'); if (again) { again.focus(); } }
+  }
+
+  function current() { return state.machine.mechanisms.find(function (each) { return each.name === open; }); }
+
+  /* ---- inputs: rows are kept while a hand is on them ---- */
+  function inputs() {
+    var rows = byId("inputs").querySelector(".rows"), own = current().inputs, names = own.map(function (each) { return each.name; });
+    var there = Array.from(rows.children).map(function (row) { return row.dataset.name; });
+    if (there.join() !== names.join()) {
+      rows.replaceChildren.apply(rows, own.map(inputRow));
+    }
+    own.forEach(function (each, index) { fill(rows.children[index], each); });
+    if (!own.length) { rows.replaceChildren(make("p", { "class": "hint" }, "The file gives no number here that is not taken from elsewhere.")); }
+  }
+
+  function inputRow(each) {
+    var id = "in-" + each.name.replace(/\W/g, "-");
+    var slider = make("input", { type: "range", "aria-label": each.text + ", slider" });
+    var typed = make("input", { type: "text", id: id, autocomplete: "off", spellcheck: "false", maxlength: "100" });
+    var back = make("button", { type: "button", title: "Take back", "aria-label": "Take back " + each.text }, "↺");
+    var row = make("div", { "class": "input", "data-name": each.name }, [
+      make("label", { "for": id }, [each.text + " "].concat(each.symbol ? sign(each.symbol) : [])),
+      make("div", { "class": "line" }, [slider, typed, back]), make("div", { "class": "was" }), make("div", { "class": "wrong", role: "alert" })]);
+    slider.addEventListener("input", function () { typed.value = slider.value + (row.unit ? " " + row.unit : ""); change(each.name, typed.value); });
+    typed.addEventListener("change", function () { change(each.name, typed.value); });
+    typed.addEventListener("keydown", function (event) { if (event.key === "Escape") { typed.value = row.typed; wrong(Object.fromEntries([[each.name, ""]]), ""); } });
+    back.addEventListener("click", function () { post("back", { names: [each.name] }).catch(failed); });
+    [slider, typed].forEach(function (field) { field.addEventListener("focus", function () { choose(each.name); }); });
+    return row;
+  }
+
+  function fill(row, each) {
+    var slider = row.querySelector("input[type=range]"), typed = row.querySelector("input[type=text]"), isEdited = each.name in state.edits;
+    row.unit = each.unit;
+    row.typed = each.typed;
+    if (document.activeElement !== slider) {
+      var low = Math.min(each.low, each.value), high = Math.max(each.high, each.value);
+      var step = each.whole ? 1 : round((high - low) / 200);
+      slider.step = step;
+      slider.min = (Math.ceil(low / step - 1e-9) * step).toPrecision(12);
+      slider.max = (Math.floor(high / step + 1e-9) * step).toPrecision(12);
+      slider.value = each.value;
+    }
+    if (document.activeElement !== typed && !(each.name in waiting) && typed.getAttribute("aria-invalid") !== "true") { typed.value = each.typed; }
+    row.classList.toggle("edited", isEdited);
+    row.classList.toggle("chosen", each.name === chosen);
+    row.querySelector("button").hidden = !isEdited;
+    row.querySelector(".was").textContent = each.start && each.start !== each.typed ? "at the start " + each.start : "";
+  }
+
+  /* 1, 2 or 5 of a power of ten, not above the size. */
+  function round(size) {
+    var power = Math.pow(10, Math.floor(Math.log10(size || 1))), lead = (size || 1) / power;
+    return Number(((lead >= 5 ? 5 : lead >= 2 ? 2 : 1) * power).toPrecision(1));
+  }
+
+  /* ---- what the chosen input does ---- */
+  function choose(name) {
+    if (name === chosen) { return; }
+    chosen = name;
+    effect = null;
+    document.querySelectorAll(".input").forEach(function (row) { row.classList.toggle("chosen", row.dataset.name === name); });
+    asks();
+  }
+
+  var asking = false, isOld = false;
+  function asks() {
+    if (!chosen) { return; }
+    if (asking) { isOld = true; return; }
+    asking = true;
+    isOld = false;
+    fetch("effect?input=" + encodeURIComponent(chosen)).then(function (answer) { return answer.ok ? answer.json() : null; }).then(function (found) {
+      if (found && found.input === chosen) { effect = found; checks(); }
+    }, failed).then(function () { asking = false; if (isOld) { asks(); } });
+  }
+
+  function line(name, value) {
+    var found = effect && effect.checks[name];
+    if (!found) { return ""; }
+    var x0 = effect.places[0], x1 = effect.places[effect.places.length - 1], across = function (x) { return 130 * (x - x0) / (x1 - x0 || 1); };
+    var up = function (y) { return 25 - 24 * Math.min(Math.max(y, 0), 2) / 2; };
+    var known = found.utilisation.filter(function (y) { return y !== null; }), svg = drawn("svg", { "class": "effect", viewBox: "0 0 130 26", role: "img" });
+    var moves = known.length && Math.max.apply(null, known) - Math.min.apply(null, known) > 1e-4 * Math.max(1, Math.abs(known[0]));
+    if (!moves) { return ""; }
+    svg.setAttribute("aria-label", "utilisation from " + percent(found.utilisation[0]) + " to " + percent(found.utilisation[found.utilisation.length - 1]));
+    svg.append(drawn("path", { "class": "limit", d: "M0 " + up(1) + "H130" }));
+    var path = "", isPen = false;
+    found.utilisation.forEach(function (y, index) {
+      if (y === null || !effect.exists[index]) { isPen = false; return; }
+      path += (isPen ? "L" : "M") + across(effect.places[index]).toFixed(1) + " " + up(y).toFixed(1);
+      isPen = true;
+    });
+    svg.append(drawn("path", { d: path }));
+    svg.append(drawn("path", { "class": "now", d: "M" + across(value).toFixed(1) + " 0V26" }));
+    return svg;
+  }
+
+  /* ---- checks and numbers ---- */
+  function checks() {
+    var every = byId("all-checks").checked, rows = [], input = chosen && current().inputs.find(function (each) { return each.name === chosen; });
+    state.machine.mechanisms.forEach(function (each) {
+      if (every || each.name === open) { each.checks.forEach(function (check) { rows.push([each, check]); }); }
+    });
+    var rank = { fail: 0, warn: 1, pass: 2, not_checked: 3 };
+    rows.sort(function (a, b) { return rank[a[1].status] - rank[b[1].status] || (b[1].utilisation || 0) - (a[1].utilisation || 0); });
+    byId("effect-head").textContent = input ? "Effect of " + chosen : "Effect";
+    byId("checks").tBodies[0].replaceChildren.apply(byId("checks").tBodies[0], rows.map(function (row) {
+      var each = row[0], check = row[1], words = [check.message, check.advice].filter(Boolean).join(" ");
+      var title = (every ? each.name + ": " : "") + check.title, was = check.start_status;
+      var told = make("td", {}, words ? make("details", {}, [make("summary", {}, title), make("p", {}, words)]) : title);
+      var isOther = was && (was !== check.status || percent(check.start_utilisation) !== percent(check.utilisation));
+      return make("tr", { "data-check": each.name + "." + check.id }, [
+        make("td", {}, [mark(check.status), " " + check.status.replace("_", " ")]), told,
+        make("td", { "class": "number" }, percent(check.utilisation)),
+        make("td", { "class": "number" + (isOther ? " changed" : "") }, was ? [mark(was), " " + percent(check.start_utilisation)] : "new"),
+        make("td", {}, input ? line(each.name + "." + check.id, input.value) : "")]);
+    }));
+  }
+
+  function outputs() {
+    byId("outputs").tBodies[0].replaceChildren.apply(byId("outputs").tBodies[0], current().outputs.map(function (each) {
+      var change = each.change === null ? "" : (each.change > 0 ? "+" : "−") + Math.abs(100 * each.change).toFixed(Math.abs(each.change) < 0.0995 ? 1 : 0) + " %";
+      return make("tr", { "data-output": open + "." + each.id }, [
+        make("td", {}, [each.text + " "].concat(each.symbol ? sign(each.symbol) : [])), make("td", { "class": "number" }, each.shown),
+        make("td", { "class": "number" }, each.start), make("td", { "class": "number" + (change ? " changed" : "") }, change)]);
+    }));
+    byId("outputs").hidden = byId("outputs-title").hidden = !current().outputs.length;
+  }
+
+  /* ---- figures: made when they come into sight ---- */
+  var sight = new IntersectionObserver(function (entries) {
+    entries.forEach(function (entry) { entry.target.isSeen = entry.isIntersecting; if (entry.isIntersecting) { fetchFigure(entry.target); } });
+  }, { rootMargin: "200px" });
+
+  function figures() {
+    var box = byId("figures"), wanted = current().figures.map(function (each) { return open + "/" + each.index; });
+    var there = Array.from(box.children).map(function (figure) { return figure.dataset.figure; });
+    if (there.join() !== wanted.join()) {
+      Array.from(box.children).forEach(function (figure) { sight.unobserve(figure); clear(figure); });
+      box.replaceChildren.apply(box, current().figures.map(function (each) {
+        var figure = make("figure", { "data-figure": open + "/" + each.index }, [make("figcaption", {}, each.title), make("div", { "class": "picture" }, make("span", { "class": "waiting" }, "drawing …"))]);
+        sight.observe(figure);
+        return figure;
+      }));
+    } else {
+      Array.from(box.children).forEach(function (figure) { if (figure.isSeen) { fetchFigure(figure); } });
+    }
+  }
+
+  function fetchFigure(figure) {
+    if (figure.serial === state.serial || state.faults.length) { return; }
+    if (figure.isAsking) { figure.isOld = true; return; }
+    var serial = state.serial;
+    figure.isAsking = true;
+    figure.isOld = false;
+    fetch("figure/" + figure.dataset.figure.split("/").map(encodeURIComponent).join("/")).then(function (answer) { return answer.json(); }).then(function (found) {
+      figure.serial = serial;
+      put(figure, found);
+    }, failed).then(function () { figure.isAsking = false; if (figure.isOld) { fetchFigure(figure); } });
+  }
+
+  function clear(figure) { (figure.charts || []).forEach(function (chart) { chart.destroy(); }); figure.charts = []; }
+
+  function put(figure, found) {
+    var box = figure.querySelector(".picture"), text = JSON.stringify(found);
+    if (text === figure.known) { return; }
+    figure.known = text;
+    clear(figure);
+    if (found.svg) {
+      var drawing = document.importNode(new DOMParser().parseFromString(found.svg, "image/svg+xml").documentElement, true);
+      box.replaceChildren(drawing);
+    } else if (found.plot) {
+      box.replaceChildren();
+      figure.charts = found.plot.panels.map(function (panel) { return chart(box, panel, found.plot.rows, figure.dataset.figure); });
+    } else {
+      box.textContent = found.refused || "";
+    }
+  }
+
+  /* A colour of the style sheet as the drawing surface takes it. */
+  function colour(name) {
+    var probe = make("span", { "class": "c-" + name });
+    document.body.append(probe);
+    var found = getComputedStyle(probe).color;
+    probe.remove();
+    return found;
+  }
+
+  var DASHES = [[], [7, 4], [2, 3], [8, 3, 2, 3]];
+  function chart(box, panel, rows, group) {
+    var ink = colour("ink"), grid = colour("line"), limit = colour("fail");
+    var lines = panel.lines.concat(panel.fills), joined = uPlot.join(lines.map(function (each) { return [rows[each.x], rows[each.y]]; }));
+    var levels = panel.levels.map(function (level) { return { y: level.y, text: level.text }; });
+    var axis = { stroke: ink, grid: { stroke: grid, width: 1 }, ticks: { stroke: grid }, font: "12px system-ui, sans-serif", labelFont: "12px system-ui, sans-serif", labelSize: 18 };
+    box.append(make("p", { "class": "panel" }, panel.title + (panel.unit ? ", " + panel.unit : "")));
+    var made = new uPlot({
+      width: Math.max(280, box.clientWidth), height: 240, cursor: { sync: { key: group.split("/")[0] + panel.across.title + panel.across.unit } },
+      scales: { x: { time: false, range: panel.across.range }, y: { range: panel.range } },
+      axes: [Object.assign({ label: panel.across.title + (panel.across.unit ? ", " + panel.across.unit : "") }, axis),
+        Object.assign({ size: 64 }, axis)],
+      series: [{ label: panel.across.symbol || panel.across.title }].concat(lines.map(function (each, index) {
+        return { label: each.label || panel.title, stroke: ink, width: 1.5, dash: DASHES[index % DASHES.length], spanGaps: false };
+      })),
+      hooks: { draw: [function (u) {
+        levels.forEach(function (level) {
+          var y = u.valToPos(level.y, "y", true);
+          u.ctx.save();
+          u.ctx.strokeStyle = u.ctx.fillStyle = limit;
+          u.ctx.beginPath(); u.ctx.moveTo(u.bbox.left, y); u.ctx.lineTo(u.bbox.left + u.bbox.width, y); u.ctx.stroke();
+          u.ctx.textAlign = "right"; u.ctx.fillText(level.text, u.bbox.left + u.bbox.width - 4, y - 4);
+          u.ctx.restore();
+        });
+      }] }
+    }, joined, box);
+    made.root.querySelectorAll(".u-label").forEach(function (label) {
+      if (/^\p{L}{1,2}(_[\p{L}\p{N},]{1,9})?$/u.test(label.textContent)) { label.replaceChildren.apply(label, sign(label.textContent)); }
+    });
+    return made;
+  }
+
+  /* ---- all of it ---- */
+  function show() {
+    verdict();
+    faults();
+    byId("results").hidden = byId("inputs").hidden = byId("mechanisms").hidden = !state.machine;
+    if (!state.machine) { return; }
+    mechanisms();
+    inputs();
+    checks();
+    outputs();
+    figures();
+  }
+
+  var source = new EventSource("events");
+  source.onmessage = function (event) {
+    if (isLost) { isLost = false; say(""); }
+    state = JSON.parse(event.data);
+    show();
+    asks();
+    document.body.dataset.serial = state.serial;
+  };
+  source.onerror = function () { isLost = true; say("The program does not answer; the page goes on when it is there again."); };
+
+  byId("write").addEventListener("click", function () { post("write").then(function () { say("Written to " + state.file + "."); }, failed); });
+  byId("back").addEventListener("click", function () { post("back").catch(failed); });
+  byId("all-checks").addEventListener("change", checks);
+})();

@@ -1,0 +1,177 @@
+"""The live page in headless Chromium, as a designer works with it. Run by scripts/browser.sh, which brings the driver and axe-core."""
+
+from __future__ import annotations
+
+import json
+import os
+import re
+import signal
+import subprocess
+import sys
+from collections.abc import Iterator
+from pathlib import Path
+from typing import Any
+
+import pytest
+from playwright.sync_api import Browser, Page, expect, sync_playwright
+
+CONFIG = Path("configs/circular_knife.yaml")
+SECONDS = 60_000  # of patience with a machine that does other things as well, in milliseconds
+SERIOUS = {"serious", "critical"}
+
+
+@pytest.fixture(scope="module")
+def browser() -> Iterator[Browser]:
+    with sync_playwright() as driver:
+        program = os.environ.get("CHROMIUM", "/usr/bin/chromium")
+        made = driver.chromium.launch(executable_path=program, args=["--no-sandbox"])
+        yield made
+        made.close()
+
+
+class Live:
+    """The program with a page of a copy of a configuration."""
+
+    def __init__(self, folder: Path) -> None:
+        self.file = folder / "knife.yaml"
+        self.file.write_bytes(CONFIG.read_bytes())
+        command = [sys.executable, "-m", "diecut_report", "live", str(self.file), "--no-open"]
+        self.process = subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, encoding="utf-8")
+        assert self.process.stdout is not None
+        self.address = self.process.stdout.readline().strip()
+
+    def end(self) -> tuple[int, str]:
+        self.process.send_signal(signal.SIGINT)
+        _, told = self.process.communicate(timeout=30)
+        return self.process.returncode, told
+
+
+@pytest.fixture
+def live(tmp_path: Path) -> Iterator[Live]:
+    made = Live(tmp_path)
+    yield made
+    if made.process.poll() is None:
+        made.process.kill()
+        made.process.communicate()
+
+
+class Tab:
+    """A page with what its console said."""
+
+    def __init__(self, browser: Browser, address: str, **options: Any) -> None:
+        self.page: Page = browser.new_context(**{"viewport": {"width": 1280, "height": 900}, **options}).new_page()
+        self.page.set_default_timeout(SECONDS)
+        self.said: list[str] = []
+        self.page.on("console", lambda message: self.said.append(message.text))
+        self.page.on("pageerror", lambda error: self.said.append(str(error)))
+        self.page.goto(address)
+        self.page.wait_for_selector("body[data-serial]")
+
+    def input(self, name: str) -> Any:
+        return self.page.locator(f'.input[data-name="{name}"]')
+
+    def type(self, name: str, typed: str) -> None:
+        field = self.input(name).locator("input[type=text]")
+        field.fill(typed)
+        field.press("Enter")
+
+    def shown(self, output: str) -> Any:
+        return self.page.locator(f'[data-output="{output}"] td').nth(1)
+
+    def verdict(self) -> Any:
+        return self.page.locator("#verdict")
+
+
+def test_a_number_changed_on_the_page_changes_what_it_shows_and_goes_into_the_file(
+    browser: Browser, live: Live
+) -> None:
+    tab, before = Tab(browser, live.address), live.file.read_text("utf-8")
+    force = tab.shown("knife.force_max").inner_text()
+    tab.type("knife.eccentricity", "22 mm")
+    expect(tab.shown("knife.force_max")).not_to_have_text(force, timeout=SECONDS)
+    expect(tab.page.locator('[data-output="knife.force_max"] td').nth(2)).to_have_text(force)
+    tab.page.wait_for_selector("#checks svg.effect")  # what the chosen input does to a check
+    assert live.file.read_text("utf-8") == before
+    tab.page.get_by_role("button", name="Write 1 to file").click()
+    expect(tab.page.get_by_role("button", name="Write to file")).to_be_disabled(timeout=SECONDS)
+    changed = [
+        pair
+        for pair in zip(before.splitlines(), live.file.read_text("utf-8").splitlines(), strict=True)
+        if len(set(pair)) == 2
+    ]
+    assert changed == [
+        (line, line.replace("20 mm", "22 mm")) for line in before.splitlines() if "eccentricity: {value: 20 mm" in line
+    ]
+    assert tab.said == []
+
+
+def test_a_slider_moves_a_number(browser: Browser, live: Live) -> None:
+    tab = Tab(browser, live.address)
+    force = tab.shown("knife.force_max").inner_text()
+    tab.input("knife.shear_resistance").locator("input[type=range]").press("ArrowRight")
+    expect(tab.shown("knife.force_max")).not_to_have_text(force, timeout=SECONDS)
+    tab.page.get_by_role("button", name="Take back Shear stress").click()
+    expect(tab.shown("knife.force_max")).to_have_text(force, timeout=SECONDS)
+
+
+def test_faults_of_the_file_stand_on_the_page_and_the_last_machine_stays(browser: Browser, live: Live) -> None:
+    tab, right = Tab(browser, live.address), live.file.read_text("utf-8")
+    force = tab.shown("knife.force_max").inner_text()
+    live.file.write_text(right.replace("    friction:", "    frictoin:"), encoding="utf-8")
+    faults = tab.page.locator("#faults")
+    expect(faults).to_contain_text("did you mean 'friction'?", timeout=SECONDS)
+    line = next(number for number, text in enumerate(right.splitlines(), 1) if text.startswith("    friction:"))
+    expect(faults).to_contain_text(f"knife.yaml:{line}:5")
+    expect(tab.shown("knife.force_max")).to_have_text(force)
+    live.file.write_text(right, encoding="utf-8")
+    expect(faults).to_be_hidden(timeout=SECONDS)
+    live.file.unlink()
+    expect(faults).to_be_visible(timeout=SECONDS)
+    live.file.mkdir()
+    expect(faults).to_contain_text("folder", timeout=SECONDS)
+    live.file.rmdir()
+    live.file.write_text(right.replace("42 N/mm**2", "40 N/mm**2"), encoding="utf-8")
+    expect(tab.shown("knife.force_max")).not_to_have_text(force, timeout=SECONDS)
+    expect(faults).to_be_hidden()
+
+
+def test_a_wrong_number_is_told_beside_it_and_changes_nothing(browser: Browser, live: Live) -> None:
+    tab = Tab(browser, live.address)
+    tab.type("knife.eccentricity", "5 kg")
+    expect(tab.input("knife.eccentricity").locator(".wrong")).to_contain_text("mass", timeout=SECONDS)
+    tab.type("knife.eccentricity", "-3 mm")  # a length, but none that the input may have
+    expect(tab.page.locator("#faults")).to_contain_text("eccentricity", timeout=SECONDS)
+    tab.page.get_by_role("button", name="Take all back").click()
+    expect(tab.page.locator("#faults")).to_be_hidden(timeout=SECONDS)
+
+
+def test_two_tabs_show_the_same_and_the_end_tells_what_is_not_written(browser: Browser, live: Live) -> None:
+    one, two = Tab(browser, live.address), Tab(browser, live.address)
+    one.type("knife.speed", "55 rpm")
+    expect(two.input("knife.speed").locator("input[type=text]")).to_have_value("55 rpm", timeout=SECONDS)
+    code, told = live.end()
+    assert code == 0 and "changed on the page and not written: knife.speed: 55 rpm" in told
+    expect(one.page.locator("#told")).to_contain_text("does not answer", timeout=SECONDS)
+    assert "Traceback" not in told
+
+
+def test_the_report_of_what_is_shown(browser: Browser, live: Live) -> None:
+    tab = Tab(browser, live.address)
+    with tab.page.context.expect_page() as opened:
+        tab.page.get_by_role("link", name="Report").click()
+    expect(opened.value.locator("h1").first).to_contain_text("Circular knife", timeout=SECONDS)
+
+
+@pytest.mark.parametrize(
+    "options", [{}, {"color_scheme": "dark"}, {"viewport": {"width": 390, "height": 844}}], ids=str
+)
+def test_axe_finds_nothing_serious_and_all_fits(browser: Browser, live: Live, options: dict[str, Any]) -> None:
+    tab = Tab(browser, live.address, bypass_csp=True, **options)
+    tab.page.locator("#figures").scroll_into_view_if_needed()
+    tab.page.wait_for_selector("#figures svg, #figures .uplot")
+    tab.page.evaluate(Path(os.environ["AXE"]).read_text("utf-8"))
+    found = tab.page.evaluate("() => axe.run()")["violations"]
+    told = [(each["id"], [node["target"] for node in each["nodes"]]) for each in found if each["impact"] in SERIOUS]
+    assert told == [], json.dumps(told, indent=1)
+    assert tab.page.evaluate("() => document.documentElement.scrollWidth <= innerWidth")
+    assert not re.search("undefined|NaN|null", tab.page.locator("body").inner_text())

@@ -1,0 +1,110 @@
+"""What the program writes out as a config is read back as the very same numbers."""
+
+from __future__ import annotations
+
+import json
+import math
+from pathlib import Path
+from typing import Any
+
+import pytest
+from hypothesis import example, given, settings
+from hypothesis import strategies as st
+
+from diecut_report.config import yaml_tree
+from diecut_report.config.discovery import Discovery
+from diecut_report.config.loader import load_config
+from diecut_report.quantities import units
+from diecut_report.quantities.formatting import as_given, as_typed
+from diecut_report.quantities.units import unit
+from diecut_report.results.document import document
+from diecut_report.results.press_run import compute
+from tests.configs import EXAMPLES, PLUGINS, saved
+
+TABLE: dict[str, Any] = json.loads(units.TABLE_FILE.read_text(encoding="utf-8"))
+RARE = ("ppm", "mm/m", "ft/m", "permille", "min/h", "°", "N*s/m", "kg*m**2/s**3", "mile/hour")  # read by pint
+IDLE = next(path for path in EXAMPLES if path.stem == "elastic_transport")  # motion_curve takes the place of a default
+SHARES = Discovery([PLUGINS / "shares"])
+numbers = st.floats(min_value=-1e250, max_value=1e250, allow_subnormal=False)
+
+
+@pytest.mark.parametrize("name", [*TABLE["units"], *RARE])
+@settings(max_examples=6)
+@given(value=numbers)
+@example(value=0.07)
+@example(value=1.0)
+@example(value=0.08333333333333333)
+@example(value=0.1 + 0.2)
+@example(value=4.616304968611814e16)  # its shortest text is half-way to the next float
+@example(value=-1e-300)
+def test_a_value_of_any_unit_is_read_back_as_the_same_float(name: str, value: float) -> None:
+    for written in (as_given(value, name), as_typed(value, name)):
+        read = yaml_tree.parse(json.dumps({"key": written}), "test").data["key"]
+        found = units.parse_quantity(read, name)
+        assert found.hex() == value.hex()
+
+
+@pytest.mark.parametrize("name", [name for name in TABLE["units"] if unit(name).si != "1"])
+def test_a_value_with_a_dimension_stands_in_si_whatever_the_keys_unit(name: str) -> None:
+    assert as_given(0.1, name) == f"0.1 {unit(name).si}"
+
+
+def test_pure_numbers_stand_in_the_keys_own_unit() -> None:
+    assert as_given(0.125, "1") == 0.125
+    assert as_given(0.125, "%") == "12.5 %"
+    assert as_given(1.0, "%") == "100 %"
+    assert as_given(0.1 + 0.2, "%") == "30.000000000000004 %"
+
+
+@pytest.mark.parametrize(
+    ("value", "name", "text"),
+    [(0.0553, "mm", "55.3 mm"), (2 * math.pi / 60 * 43.5, "rpm", "43.5 rpm"), (0.125, "%", "12.5 %"),
+     (6000 / 3600, "1/h", "6000 1/h"), (1 / 3, "m", "0.3333333333333333 m"), (3.0, "1", 3.0)],
+)  # fmt: skip
+def test_a_value_is_written_as_a_designer_types_it(value: float, name: str, text: str | float) -> None:
+    assert as_typed(value, name) == text
+
+
+@pytest.mark.parametrize(
+    "text", ["1e5 kN", "12.5", "0.1 %", "7.3 um", "1e-400 mm", "0e99999999999999999999 mm", "-.5e-3 rad"]
+)
+def test_a_text_means_its_decimal_number_rounded_once(text: str) -> None:
+    number, _, own = text.partition(" ")
+    factor = {"kN": 1e3, "%": 1e-2, "um": 1e-6, "mm": 1e-3}.get(own, 1.0)
+    assert units.parse_quantity(text, own or "1") == pytest.approx(float(number) * factor, rel=1e-15)
+
+
+def test_numbers_that_no_float_holds_are_refused_in_words() -> None:
+    for text in ("1e400 kN", "1e99999999999999999999 kN", "-1e308 t"):
+        with pytest.raises(units.UnitError, match=r"not a finite number|too large"):
+            units.parse_quantity(text, unit(text.split()[1]).text)
+
+
+def calculated(path: Path) -> dict[str, Any]:
+    return document(compute(load_config(path, SHARES), lambda _: None))
+
+
+def numbers_of(results: dict[str, Any]) -> dict[str, Any]:
+    return {name: (data["outputs"], data["checks"], data["curves"]) for name, data in results["mechanisms"].items()}
+
+
+SHARED = """\
+schema_version: 1
+project: {title: Shares}
+press: {name: P}
+mechanisms:
+  a: {kind: shares, share: 7, angle: 30, profile: [1, 2 %, 3.5, 4]}
+  b: {kind: shares, share: 0.123456789012345678 %, count: 7, slope: 3 mm/m, profile: '${a.profile}'}
+  c: {kind: shares, profile: ['${b.share}', '${a.ratio}', 2, 7 %]}
+"""
+
+
+@pytest.mark.parametrize(
+    "text", [SHARED, pytest.param(IDLE.read_text("utf-8"), marks=pytest.mark.nightly)], ids=["shares", "idle default"]
+)
+def test_the_resolved_config_calculates_to_the_same_results(tmp_path: Path, text: str) -> None:
+    first = calculated(saved(tmp_path, text))
+    again = calculated(saved(tmp_path, json.dumps(first["config"]["resolved"]), "again.yaml"))
+    assert numbers_of(again) == numbers_of(first)
+    assert again["config"]["resolved"] == first["config"]["resolved"]
+    assert again["press"] == first["press"]

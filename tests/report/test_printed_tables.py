@@ -1,0 +1,50 @@
+"""Tables say themselves what stands in their columns, whatever their language."""
+
+from __future__ import annotations
+
+import pytest
+from markupsafe import Markup
+
+from diecut_report.report.i18n import Catalogue
+from diecut_report.report.printed_tables import PrintedTable
+from diecut_report.report.tables import Tables
+
+NONE = Markup("")
+PHASE = {
+    "description": "Ніж ріже", "role": "working", "abscissa": "phi",
+    "display": {"unit": "deg", "intervals": [{"from": "1.5", "to": "20", "length": "18.5"}]},
+}  # fmt: skip
+
+
+def kinds(*columns: list[str], symbol: str = "", unit: str = "") -> list[str]:
+    rows = [list(row) for row in zip(*columns, strict=True)]
+    return PrintedTable("", [("", Markup(symbol), unit) for _ in columns], rows).kinds
+
+
+@pytest.mark.parametrize(
+    ("texts", "kind"),
+    [
+        (["1", "2", "3"], "nth"),
+        (["1", "3"], ""),
+        (["барабан", "вал"], "named"),
+        (["A", "–"], "named"),
+        (["12,5", "–", "−3"], ""),
+        (["1,2\u2009×\u200910⁻⁵", "3"], ""),
+    ],
+)
+def test_a_first_column_is_what_its_texts_are(texts: list[str], kind: str) -> None:
+    assert kinds(texts) == [kind]
+
+
+def test_texts_in_another_column_are_words_also_where_they_are_numbers_with_their_units() -> None:
+    assert kinds(["1", "2"], ["26 µm", "1,5 mm"], ["1", "2"]) == ["nth", "words", ""]
+
+
+def test_values_of_a_quantity_do_not_number_lines() -> None:
+    assert kinds(["1", "2"], symbol="φ") == [""] and kinds(["1", "2"], unit="mm") == [""]
+
+
+@pytest.mark.parametrize("language", ["en", "uk"])
+def test_phases_are_named_in_every_language(language: str) -> None:
+    (table,) = Tables("A", Catalogue(language)).of_phases({"cuts": PHASE})
+    assert table.kinds == ["named", "words", "", "", ""]

@@ -1,0 +1,146 @@
+"""What a standard report prints once: formulas of a chapter and of an earlier one of its kind, tables of the same parts."""
+
+from __future__ import annotations
+
+import copy
+from typing import Any
+
+from diecut_report.report import Rendering
+from diecut_report.report.figure_places import Place, Placed, rows_of
+from diecut_report.report.model import Item, PrintedChapter
+from diecut_report.report.section_tables import brought_together
+from diecut_report.report.told_before import Reference, ToldBefore
+
+Data = dict[str, Any]
+
+
+def tree(*letters: str) -> list[Any]:
+    """The square root of a sum of two squares, less a product."""
+    a, b = (["sym", letter] for letter in letters)
+    return ["-", ["call", "sqrt", ["+", ["^", a, ["num", "2"]], ["^", b, ["num", "2"]]]], ["*", a, b]]
+
+
+def step(name: str, symbol: str, equation: Any, **more: Any) -> Data:
+    """A formula of the results."""
+    return {"id": name, "type": "formula", "symbol": symbol, "description": name, "source": "", "equation": equation,
+            "result": {"text": "1", "unit": "mm"}} | more  # fmt: skip
+
+
+def told(*steps: Data) -> ToldBefore:
+    """What is known after steps with the numbers A.1, A.2 …"""
+    known = ToldBefore()
+    for number, each in enumerate(steps, 1):
+        known.keep(each, f"A.{number}")
+    return known
+
+
+def test_a_formula_with_other_letters_is_named_with_those_that_differ() -> None:
+    known = told(step("one", "c", tree("a", "b")))
+    assert known.find(step("two", "f", tree("d", "b"))) == Reference("A.1", (("d", "a"),))
+
+
+def test_letters_that_change_places_are_printed_not_named() -> None:
+    assert told(step("one", "c", tree("a", "b"))).find(step("two", "f", tree("b", "a"))) is None
+
+
+def test_another_number_in_it_makes_another_formula() -> None:
+    other = copy.deepcopy(tree("d", "b"))
+    other[1][2][1][2] = ["num", "3"]
+    assert told(step("one", "c", tree("a", "b"))).find(step("two", "f", other)) is None
+
+
+def test_a_short_formula_is_printed_again() -> None:
+    short = ["*", ["sym", "a"], ["sym", "b"]]
+    assert told(step("one", "c", short)).find(step("two", "f", ["*", ["sym", "d"], ["sym", "b"]])) is None
+
+
+def test_the_next_chapter_of_a_kind_knows_the_steps_of_the_first_but_not_those_with_another_branch() -> None:
+    short = ["*", ["sym", "a"], ["sym", "b"]]
+    known = told(step("one", "c", short), step("branch", "x", short, words="a ≤ b")).next("A")
+    assert known.letter == "A"
+    assert known.find(step("one", "c", short, result={"text": "7", "unit": "mm"})) == Reference("A.1")
+    assert known.find(step("branch", "x", short, words="a > b")) is None
+
+
+def test_a_chapter_of_a_kind_that_stood_before_has_values_with_the_places_of_their_formulas(plain: Data) -> None:
+    plain["report"] = {"detail": "standard"}
+    twin = copy.deepcopy(plain["mechanisms"]["cylinder"])
+    plain["mechanisms"]["second"] = twin
+    chapters = {part.name: part for part in Rendering(plain).material.document.chapters}
+    first, second = chapters["cylinder"], chapters["second"]
+    numbers = [number for item in _items(first) for number in _numbers(item)]
+    again = [row for item in _items(second) for row in item.rows]
+    assert second.told_in == first.letter and not any(item.equation for item in _items(second))
+    assert again and all(row.refers in numbers for row in again if row.number)
+    assert len([row for row in again if row.number]) == len(numbers)
+    assert {row.value for row in again if row.number} and not second.assumptions
+
+
+def test_a_full_report_prints_every_formula(plain: Data) -> None:
+    plain["report"] = {"detail": "full"}
+    plain["mechanisms"]["second"] = copy.deepcopy(plain["mechanisms"]["cylinder"])
+    chapters = {part.name: part for part in Rendering(plain).material.document.chapters}
+    one, two = ([item.equation for item in _items(chapters[name])] for name in ("cylinder", "second"))
+    assert one == two and not any(item.rows or item.pair for item in _items(chapters["second"]))
+
+
+def _items(part: PrintedChapter) -> list[Item]:
+    return [item for section in part.sections for item in section.items]
+
+
+def _numbers(item: Item) -> list[str]:
+    if item.rows:
+        return [row.number for row in item.rows if row.number]
+    return [item.number] if item.number and item.type not in ("figure", "table") else []
+
+
+# tables
+def table(title: str, rows: list[list[str]], *symbols: str) -> Data:
+    """A table of parts with a column for each symbol."""
+    columns = [
+        {"title": "No.", "symbol": "", "unit": "1"},
+        *({"title": title, "symbol": s, "unit": "mm"} for s in symbols),
+    ]
+    return {"type": "table", "title": title, "columns": columns, "rows": rows}
+
+
+def test_tables_of_the_same_parts_are_one_where_the_last_of_them_stood() -> None:
+    length = step("length", "l", ["*", ["sym", "a"], ["sym", "b"]])
+    items = [table("Width", [["1", "5"], ["2", "6"]], "b"), length, table("Length", [["1", "7"], ["2", "8"]], "l")]
+    found = brought_together({"title": "Sizes", "items": items})
+    assert found[0] is None and found[1] is length and found[2] is not None
+    assert found[2]["rows"] == [["1", "5", "7"], ["2", "6", "8"]] and found[2]["title"] == "Sizes"
+
+
+def test_tables_of_other_parts_stay_apart() -> None:
+    items = [table("Width", [["a", "5"]], "b"), table("Length", [["b", "7"]], "l")]
+    assert brought_together({"title": "Sizes", "items": items}) == items
+
+
+def test_a_table_of_the_one_part_that_the_formula_shows_is_left_out() -> None:
+    length = step("Length", "l", ["*", ["sym", "a"], ["sym", "b"]])
+    assert brought_together({"title": "", "items": [length, table("Length", [["1", "7"]], "l")]}) == [length, None]
+
+
+def test_one_quantity_of_numbered_parts_stands_in_a_line() -> None:
+    [found] = brought_together({"title": "", "items": [table("Length", [["1", "7"], ["2", "8"]], "l")]})
+    assert found is not None and found["type"] == "listed"
+
+
+# figures
+def placed(section: int, **more: Any) -> Placed:
+    """A figure of a section."""
+    return Placed(Place(section, 0), f"A.{section}", {"type": "plot", "title": "T", "caption": "", "panels": []} | more)
+
+
+def test_two_figures_near_each_other_stand_side_by_side_at_the_second() -> None:
+    one, two, far = placed(0), placed(1), placed(9)
+    rows = rows_of([one, two, far], paired=True)
+    assert [(row.place.section, len(row.figures)) for row in rows] == [(1, 2), (9, 1)]
+    assert [len(row.figures) for row in rows_of([one, two], paired=False)] == [1, 1]
+
+
+def test_bars_schemes_and_long_legends_have_the_whole_width() -> None:
+    wide = (placed(1, type="bars"), placed(1, schematic=True), placed(1, panels=[{"lines": [{"label": "x" * 200}]}]))
+    for each in wide:
+        assert [len(row.figures) for row in rows_of([placed(0), each], paired=True)] == [1, 1]

@@ -1,0 +1,212 @@
+"""A press that is calculated again gives what the ordinary way gives, bit for bit, and calculates only what depends on the change."""
+
+from __future__ import annotations
+
+import random
+from collections.abc import Iterator
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from diecut_report.config.discovery import Discovery
+from diecut_report.config.loader import Config, load_config
+from diecut_report.contract.inputs import SI, Quantity
+from diecut_report.errors import UserError
+from diecut_report.results.document import document
+from diecut_report.results.press_run import compute
+from diecut_report.results.results_file import results_text
+from diecut_report.results.warm_press import Remembered, WarmPress
+from diecut_report.study.definition.base_inputs import Input, find_input, known_paths, with_values
+from tests.configs import BROKEN, DISCOVERY, EXAMPLES, GOOD, HEAD, LEVER, loaded
+from tests.examples import few
+
+TWO = HEAD + (
+    "  a: {kind: lever, force: 2 kN, arm: 100 mm, allowable_moment: 150}\n"
+    "  b: {kind: lever, force: 3 kN, arm: 100 mm}\n"
+    '  c: {kind: lever, force: 4 kN, arm: "${a.arm}"}\n'
+)
+ALL = Discovery([GOOD, BROKEN])
+
+
+def changed(config: Config, path: str, value: float) -> Config:
+    """The config with another SI value of an input."""
+    asked = find_input(config, path)
+    found, problems = with_values(config, {asked: SI(value, str(asked.unit), path)})
+    assert not problems
+    return found
+
+
+def anew(config: Config) -> dict[str, Any]:
+    """The results of the ordinary way."""
+    return document(compute(config, lambda _: None))
+
+
+def assert_same(press: WarmPress, config: Config) -> None:
+    """The press gives the results of the ordinary way; or the same words, where there are none."""
+    try:
+        wanted = anew(config)
+    except UserError as fault:
+        with pytest.raises(UserError) as caught:
+            press.calculate(config)
+        assert caught.value.problems == fault.problems
+        return
+    run = press.calculate(config)
+    assert_parts(run, wanted)
+    assert results_text(run.document()) == results_text(wanted)
+
+
+def assert_parts(run: Any, wanted: dict[str, Any]) -> None:
+    """What a page shows is what stands in the results."""
+    mechanisms = wanted["mechanisms"]
+    assert run.checks == {name: data["checks"] for name, data in mechanisms.items()}
+    assert (run.status, run.governing) == (wanted["status"], wanted["governing"])
+    assert run.summary == {key: part for key, part in wanted["summary"].items() if key != "assumed"}
+    assert run.errors.keys() == {name for name, data in mechanisms.items() if data["status"] == "error"}
+    for name in run.calculations:
+        data = mechanisms[name]
+        shown = run.outputs(name), run.curves(name), run.figures(name), run.sections(name)
+        assert results_text({"": shown}) == results_text(
+            {"": [data[key] for key in ("outputs", "curves", "figures", "sections")]}
+        )
+
+
+def asked_anew(press: WarmPress, config: Config) -> list[str]:
+    """Which mechanisms are calculated for a config."""
+    names: list[str] = []
+    press.calculate(config, names.append)
+    return names
+
+
+# --- what is calculated ----------------------------------------------------------------------------------------------
+
+
+def test_only_what_depends_on_a_change_is_calculated(tmp_path: Path) -> None:
+    press, config = WarmPress(), loaded(tmp_path, TWO)
+    assert asked_anew(press, config) == ["a", "b", "c"]
+    assert asked_anew(press, config) == []
+    assert asked_anew(press, loaded(tmp_path, TWO)) == []  # the same file, read again
+    assert asked_anew(press, changed(config, "mechanisms.b.force", 2500)) == ["b"]
+    assert asked_anew(press, changed(config, "mechanisms.a.arm", 0.2)) == ["a", "c"]
+    assert asked_anew(press, config) == []  # the start is remembered
+
+
+def test_other_units_are_shown_anew(tmp_path: Path) -> None:
+    press = WarmPress()
+    press.calculate(loaded(tmp_path, LEVER))
+    other = loaded(tmp_path, "report: {units: {a.moment: kN*m}}\n" + LEVER)
+    assert asked_anew(press, other) == ["a"]
+    assert_same(press, other)
+
+
+@pytest.mark.parametrize(
+    ("one", "other"),
+    [(0.0, -0.0), (1, 1.0), (1, True), ((1.0, None), (1.0,)), ((1.0, 0.0), (1.0, -0.0)), ({"a": 1.0}, {"b": 1.0})],
+)
+def test_inputs_that_are_only_nearly_the_same_are_others(tmp_path: Path, one: Any, other: Any) -> None:
+    calculation = WarmPress().calculate(loaded(tmp_path, LEVER)).calculations["a"]
+    known = Remembered(calculation, {"x": one})
+    shown = calculation.mechanism, calculation.chosen_units
+    assert known.is_of(shown[0], {"x": one}, shown[1])
+    assert not known.is_of(shown[0], {"x": other}, shown[1])
+
+
+def test_an_impossible_machine_is_told_and_the_last_good_one_is_kept(tmp_path: Path) -> None:
+    press, config = WarmPress(), loaded(tmp_path, TWO)
+    good = press.calculate(config)
+    assert_same(press, changed(config, "mechanisms.a.arm", -1.0))
+    assert good.status == "fail"
+    assert asked_anew(press, config) == []
+
+
+# --- the same as the ordinary way ------------------------------------------------------------------------------------
+
+
+def of_one_key(config: Config) -> Iterator[Input]:
+    """The numbers that may be changed."""
+    for name in config.instances:
+        for path in known_paths(config, name):
+            try:
+                asked = find_input(config, path)
+            except LookupError:  # of a part that a list does not have here
+                continue
+            if isinstance(asked.meta, Quantity):
+                yield asked
+
+
+def edits(config: Config, count: int, seed: int) -> Iterator[Config]:
+    """Random changes of one number each, from the last one or from the start."""
+    chance, asked, last = random.Random(seed), list(of_one_key(config)), config
+    for _ in range(count):
+        key = chance.choice(asked)
+        value = given(config, key)
+        if value is None:
+            continue
+        value = round(value) + chance.choice((-1, 1)) if key.is_integer else value * chance.uniform(0.9, 1.1)
+        start = chance.choice((config, last))
+        found, problems = with_values(start, {key: SI(value, str(key.unit), key.path)})
+        if not problems:
+            last = found
+            yield found
+
+
+def given(config: Config, key: Input) -> float | None:
+    """The number that stands in the file, SI; nothing of a reference."""
+    instance = config.instances[key.instance]
+    assert instance is not None
+    if (key.instance, *key.key) in config.links:
+        return None
+    value = instance.value(key.key)
+    return float(value.value) if isinstance(value, SI) else value if isinstance(value, float | int) else None
+
+
+@pytest.mark.parametrize("path", few(EXAMPLES, lambda path: path.stem == "folding_knife"), ids=lambda path: path.stem)
+def test_an_example_and_edits_of_it_give_what_the_ordinary_way_gives(path: Path) -> None:
+    press, config = WarmPress(), load_config(path, DISCOVERY)
+    assert_same(press, config)
+    few_edits = 1 if path.stem == "folding_knife" else 12
+    for edited in edits(config, few_edits, seed=len(path.stem)):
+        assert_same(press, edited)
+    assert_same(press, config)
+
+
+BREAKS = TWO + (
+    "  x: {kind: breaks_in_calculation}\n"
+    "  y: {kind: lever, force: 1, arm: '${x.result}'}\n"
+)  # fmt: skip
+COMPARED = LEVER + "  x: {kind: breaks_in_comparison}\n"
+
+
+def test_a_broken_mechanism_is_told_as_it_is_in_the_results(tmp_path: Path) -> None:
+    press, config = WarmPress(), loaded(tmp_path, BREAKS, ALL)
+    for _ in range(2):
+        assert_same(press, config)
+    run = press.calculate(config)
+    assert (run.errors.keys(), run.skipped.keys(), run.status) == ({"x"}, {"y"}, "error")
+    with pytest.raises(KeyError):
+        run.outputs("x")
+
+
+def test_a_broken_comparison_is_in_the_document(tmp_path: Path) -> None:
+    config = loaded(tmp_path, COMPARED, ALL)
+    run = WarmPress().calculate(config)
+    assert run.status == "pass"
+    assert results_text(run.document()) == results_text(anew(config))
+    assert run.document()["status"] == "error"
+
+
+def test_what_contradicts_itself_gives_no_results(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    config = loaded(tmp_path, TWO)
+    (check, *_) = (c for c in mechanism(config, "a").checks)
+    monkeypatch.setitem(vars(check), "check_class", "numerical")
+    press = WarmPress()
+    assert_same(press, config)
+    assert press.calculate(config).errors.keys() == {"a"}
+    assert press.calculate(config).skipped.keys() == {"c"}
+
+
+def mechanism(config: Config, name: str) -> Any:
+    """What a mechanism of a config declares."""
+    instance = config.instances[name]
+    assert instance is not None
+    return instance.mechanism
