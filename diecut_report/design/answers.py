@@ -9,13 +9,13 @@ from typing import Any, Literal
 
 from diecut_report.design.design_inputs import DesignInput
 from diecut_report.design.proved_machine import ProvedMachine
-from diecut_report.design.questions import Question
+from diecut_report.design.questions import DesignQuestion
 
 Role = Literal["root", "lower", "upper", "extreme", "today", "nearest"]
 
 
 @dataclass(frozen=True)
-class Found:
+class FoundValue:
     """Hold a value that answers: of the input (SI and as typed), of what is asked, and the checks that fail there.
 
     ``role``: a root; the lower or upper end of a range of values where it holds; an extreme; today's value, which holds already;
@@ -32,7 +32,7 @@ class Found:
     at_end: bool = False
 
 
-Range = tuple[Found, Found]
+Range = tuple[FoundValue, FoundValue]
 
 
 @dataclass(frozen=True)
@@ -43,15 +43,15 @@ class Answer:
     Without an answer ``nearest`` is the value that comes nearest. ``reached`` is what is asked for today (NaN where that is nothing).
     """
 
-    question: Question
+    question: DesignQuestion
     design: DesignInput
     low: float
     high: float
     reached: float
-    found: tuple[Found, ...] = ()
+    found: tuple[FoundValue, ...] = ()
     ranges: tuple[Range, ...] = ()
     jumps: tuple[float, ...] = ()
-    nearest: Found | None = None
+    nearest: FoundValue | None = None
     machine: ProvedMachine | None = None
     passing: bool = False
 
@@ -84,11 +84,11 @@ def _found(answer: Answer) -> Iterator[str]:
             yield f"also {design.name} = {each.typed}: {asked.name} is {asked.told(each.reached)}"
 
 
-def _end(found: Found) -> str:
+def _end(found: FoundValue) -> str:
     return ", at the end of the range that was searched" if found.at_end else ""
 
 
-def _verdict(machine: ProvedMachine, found: Found) -> str:
+def _verdict(machine: ProvedMachine, found: FoundValue) -> str:
     """The machine that was calculated alone."""
     if not found.failing:
         return f"calculated as a machine of its own: no check fails; governing: {machine.governing or 'none'}"
@@ -104,7 +104,7 @@ def _nearest(answer: Answer) -> Iterator[str]:
         yield "give another range with --from and --to, or change another input"
 
 
-def _fails(found: Found) -> str:
+def _fails(found: FoundValue) -> str:
     return f", and these checks fail: {', '.join(found.failing)}" if found.failing else ""
 
 
@@ -126,7 +126,7 @@ def data(answer: Answer) -> dict[str, Any]:
     }  # fmt: skip
 
 
-def _data(found: Found) -> dict[str, Any]:
+def _data(found: FoundValue) -> dict[str, Any]:
     reached = None if math.isnan(found.reached) else found.reached
     return {"value": found.value, "typed": found.typed, "reached": reached, "role": found.role, "at_end": found.at_end,
             "beyond": list(found.beyond)}  # fmt: skip

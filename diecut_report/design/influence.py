@@ -23,7 +23,7 @@ STILL = 1e-9  # share of its size by which a number is moved by rounding alone
 
 
 @dataclass(frozen=True)
-class Bar:
+class InputEffect:
     """Hold what an input does to a number: the number with the input lowered and raised, NaN where there is no machine."""
 
     design: DesignInput
@@ -44,7 +44,7 @@ class Tornado:
 
     asked: AskedNumber
     today: float
-    bars: tuple[Bar, ...]
+    bars: tuple[InputEffect, ...]
     still: int
 
 
@@ -129,7 +129,7 @@ def _tornado(
     values = made.values(asked.column)
     today = float(values[0])
     bars = [
-        Bar(
+        InputEffect(
             each,
             (each.today or 0.0) - step,
             (each.today or 0.0) + step,

@@ -8,7 +8,7 @@ from collections.abc import Iterator, Sequence
 from typing import Any
 
 from diecut_report import __version__
-from diecut_report.design.influence import IN_TOLERANCE, Bar, Chance, Tolerances, Tornado
+from diecut_report.design.influence import IN_TOLERANCE, Chance, InputEffect, Tolerances, Tornado
 from diecut_report.quantities.units import pretty, unit
 
 SHOWN = 10  # inputs of a tornado
@@ -83,7 +83,7 @@ def data(found: Sequence[Tornado], tolerances: Tolerances | None) -> dict[str, A
     }  # fmt: skip
 
 
-def _bar(bar: Bar) -> dict[str, Any]:
+def _bar(bar: InputEffect) -> dict[str, Any]:
     numbers = {"low": bar.low, "high": bar.high}
     ends = {
         "path": bar.design.asked.path,

@@ -46,7 +46,7 @@ class AskedNumber:
 
 
 @dataclass(frozen=True)
-class Question:
+class DesignQuestion:
     """Hold what is asked: a quantity, what it is to be, and the value (SI) where that is one."""
 
     quantity: AskedNumber
@@ -64,10 +64,10 @@ class Question:
         )
 
 
-def question(config: Config, text: str) -> Question:
+def question(config: Config, text: str) -> DesignQuestion:
     """Read what is asked, such as ``drive.crank_torque_peak = 400 N*m`` or ``max press.productivity``; UserError in words."""
     if extreme := EXTREME.fullmatch(text):
-        return Question(quantity(config, extreme["name"]), "max" if extreme["way"].startswith("max") else "min")
+        return DesignQuestion(quantity(config, extreme["name"]), "max" if extreme["way"].startswith("max") else "min")
     compared = COMPARED.fullmatch(text)
     if compared is None:
         words = (
@@ -77,7 +77,7 @@ def question(config: Config, text: str) -> Question:
         raise UserError(Problem(words, path="--for"))
     asked = quantity(config, compared["name"])
     try:
-        return Question(asked, SIGNS[compared["sign"]], parse_quantity(compared["value"], asked.unit))
+        return DesignQuestion(asked, SIGNS[compared["sign"]], parse_quantity(compared["value"], asked.unit))
     except UnitError as fault:
         raise UserError(Problem(f"{asked.name}: {fault}", path="--for")) from None
 

@@ -9,11 +9,11 @@ import numpy as np
 
 from diecut_report.config.discovery import Discovery
 from diecut_report.config.loader import Config
-from diecut_report.design.answers import Answer, Found, Range, Role
+from diecut_report.design.answers import Answer, FoundValue, Range, Role
 from diecut_report.design.design_inputs import DesignInput
 from diecut_report.design.line_search import crossings, greatest, looked_closer
 from diecut_report.design.proved_machine import proved
-from diecut_report.design.questions import Question, needed
+from diecut_report.design.questions import DesignQuestion, needed
 from diecut_report.design.typed_answers import typed_answers
 from diecut_report.design.varied_machines import VariedMachines, varied
 from diecut_report.errors import Problem, UserError
@@ -28,7 +28,7 @@ SAME = 1e-12  # relative: what differs by less does not vary
 
 
 def solved(
-    config: Config, discovery: Discovery, question: Question, design: DesignInput, *, passing: bool = False,
+    config: Config, discovery: Discovery, question: DesignQuestion, design: DesignInput, *, passing: bool = False,
     low: float | None = None, high: float | None = None,
 ) -> Answer:  # fmt: skip
     """Return the values of an input with which a question is answered; with ``passing`` only those with which no check fails.
@@ -87,7 +87,7 @@ class _RangeSearch:
     """Looks along the range of an input; ``at`` calculates many machines of it at once."""
 
     config: Config
-    question: Question
+    question: DesignQuestion
     design: DesignInput
     passing: bool
 
@@ -149,7 +149,7 @@ class _RangeSearch:
 
     # --- what is looked for ------------------------------------------------------------------------------------------
 
-    def _roots(self, x: Array, y: Array) -> tuple[list[Found], list[float]]:
+    def _roots(self, x: Array, y: Array) -> tuple[list[FoundValue], list[float]]:
         value = self.question.value
         off = y - value
         if self.design.is_whole:
@@ -216,7 +216,7 @@ class _RangeSearch:
             found += [(float(low), "lower"), (float(high), "upper")]
         return found
 
-    def _extreme(self, x: Array, made: VariedMachines, y: Array) -> list[Found]:
+    def _extreme(self, x: Array, made: VariedMachines, y: Array) -> list[FoundValue]:
         """Where it is greatest or least among the machines that hold, which may be at the end of those."""
         sign = 1.0 if self.question.kind == "max" else -1.0
 
@@ -242,15 +242,15 @@ class _RangeSearch:
 
     # --- the answers -------------------------------------------------------------------------------------------------
 
-    def _judged(self, places: list[tuple[float, Role]]) -> list[Found]:
+    def _judged(self, places: list[tuple[float, Role]]) -> list[FoundValue]:
         """The values as they are typed, calculated as that: with as few digits as answer as well."""
         return typed_answers(self, places)
 
-    def _nearest_first(self, found: list[Found]) -> list[Found]:
+    def _nearest_first(self, found: list[FoundValue]) -> list[FoundValue]:
         today = self.design.today
         return found if today is None else sorted(found, key=lambda each: abs(each.value - today))
 
-    def _of_ranges(self, ranges: list[Range]) -> list[Found]:
+    def _of_ranges(self, ranges: list[Range]) -> list[FoundValue]:
         """Of each range the value nearest to today's, which may be that itself."""
         today = self.design.today
         if today is None:
@@ -259,7 +259,7 @@ class _RangeSearch:
             return self._judged([(today, "today")])
         return self._nearest_first([min(ends, key=lambda each: abs(each.value - today)) for ends in ranges])
 
-    def _nearest(self, x: Array, made: VariedMachines, y: Array) -> Found | None:
+    def _nearest(self, x: Array, made: VariedMachines, y: Array) -> FoundValue | None:
         """The value that comes nearest to what is asked."""
         away = np.abs(y - self.question.value) if self.question.kind == "=" else -self.holds(made, y)
         away = np.where(made.exists & np.isfinite(away), away, np.inf)

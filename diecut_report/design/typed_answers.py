@@ -6,9 +6,9 @@ from typing import Protocol
 
 import numpy as np
 
-from diecut_report.design.answers import Found, Role
+from diecut_report.design.answers import FoundValue, Role
 from diecut_report.design.design_inputs import DesignInput
-from diecut_report.design.questions import Question
+from diecut_report.design.questions import DesignQuestion
 from diecut_report.design.varied_machines import VariedMachines
 from diecut_report.expressions import Array
 
@@ -23,7 +23,7 @@ class Searched(Protocol):
     """What typed values are calculated by."""
 
     design: DesignInput
-    question: Question
+    question: DesignQuestion
     passing: bool
 
     def machines(self, x: Array) -> VariedMachines:
@@ -33,7 +33,7 @@ class Searched(Protocol):
         """Return how far what is asked holds, not below zero where it does."""
 
 
-def typed_answers(search: Searched, places: list[tuple[float, Role]]) -> list[Found]:
+def typed_answers(search: Searched, places: list[tuple[float, Role]]) -> list[FoundValue]:
     """Return for each place what is typed there, all calculated in one run."""
     texts = [_candidates(search.design, value, role) for value, role in places]
     rows = [(number, search.design.read(text)) for number, each in enumerate(texts) for text in each]
@@ -53,7 +53,7 @@ def typed_answers(search: Searched, places: list[tuple[float, Role]]) -> list[Fo
         outside = np.flatnonzero(owner[len(rows) :] == number) + len(rows)
         failing = tuple(made.failing(int(best))) if search.passing else ()
         limits = tuple(dict.fromkeys(name for row in outside for name in made.failing(int(row)) if name not in failing))
-        found.append(Found(float(x[best]), text, float(y[best]), role, failing, limits))
+        found.append(FoundValue(float(x[best]), text, float(y[best]), role, failing, limits))
     return found
 
 
