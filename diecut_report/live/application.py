@@ -21,7 +21,7 @@ from diecut_report.live.effects import effect
 from diecut_report.live.page import assets, page
 from diecut_report.live.page_data import page_data
 from diecut_report.live.pictures_of_run import Pictures
-from diecut_report.live.reports import Reports
+from diecut_report.live.reports import LiveReports
 from diecut_report.live.session import LiveSession
 
 Found = TypeVar("Found")
@@ -35,7 +35,7 @@ class LiveApplication:
 
     def __init__(self, session: LiveSession, folders: tuple[Path, ...]) -> None:
         self.session = session
-        self.pictures, self.reports = Pictures(), Reports(folders)
+        self.pictures, self.reports = Pictures(), LiveReports(folders)
         self._worker = ThreadPoolExecutor(1, thread_name_prefix="live")
         self._changed = asyncio.Condition()
         self._told = -1, b""

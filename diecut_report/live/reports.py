@@ -1,4 +1,4 @@
-"""Reports of a live machine, made by a process of their own, so that the page goes on while the sheets are set."""
+"""LiveReports of a live machine, made by a process of their own, so that the page goes on while the sheets are set."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ class MadeReport(NamedTuple):
     headers: dict[str, str]
 
 
-class Reports:
+class LiveReports:
     """Make reports, one at a time; ``folders`` are those of foreign plugins."""
 
     def __init__(self, folders: tuple[Path, ...]) -> None:
