@@ -17,7 +17,7 @@ def code_of(module: Path) -> Iterator[tuple[str, str]]:
         return
     yield "module", str(module)
     text = module.read_text("utf-8", "replace")
-    tables = (path for path in module.parent.iterdir() if path.suffix in DATA and path.name in text)
+    tables = (path for path in module.parent.iterdir() if path.suffix in DATA and path.name in text and path.is_file())
     yield from ((path.name, str(path)) for path in tables)
 
 
@@ -27,7 +27,7 @@ def code_below(folder: str, name: str = "", without: Sequence[str] = ()) -> Iter
         for entry in entries:
             if entry.name.startswith("."):
                 continue
-            if entry.name.endswith(CODE):
+            if entry.name.endswith(CODE) and entry.is_file():  # a pipe would be waited for
                 yield name + entry.name, entry.path
             elif entry.is_dir(follow_symlinks=False) and entry.name not in ("__pycache__", *without):
                 yield from code_below(entry.path, f"{name}{entry.name}/")

@@ -22,6 +22,9 @@ def house_style(folder: Path) -> HouseStyle:
     files = sorted(path for path in folder.iterdir() if not path.name.startswith("."))
     if len(files) > MOST_FILES:
         raise UserError(Problem(f"The folder has {len(files)} files; at most {MOST_FILES} are allowed.", str(folder)))
+    if outside := [path for path in files if not path.resolve().is_relative_to(folder.resolve())]:
+        words = "This is a link out of the folder: what lies elsewhere would go into the report. Put the file itself into the folder."
+        raise UserError([Problem(words, str(path)) for path in outside])
     templates = {path.name: _text(path) for path in files if path.name.endswith(ENDING)}
     css = "".join(_text(path) for path in files if path.name == CSS)
     pictures = {path.name: _picture(path) for path in files if path.suffix.lower() in PICTURES}

@@ -71,7 +71,7 @@ ONLY_IN = {  # library: the modules of the program that may import it
     "pydyf": r"diecut_report\.report\.page_engine",
     "ezdxf": r"diecut_report\.report\.profile_files",
     "jinja2": r"diecut_report\.report\.(html|document|house_style)",
-    "scipy.stats": r"diecut_report\.study\..*",  # slow to import, and needed by studies alone
+    "scipy.stats": r"diecut_report\.(study|design)\..*",  # slow to import, and needed by studies and tolerances alone
     "matplotlib.pyplot": r"(?!)",  # keeps global state
 }
 FOR_PLUGINS = {"diecut_report.api", "diecut_report.mechanics", "numpy", "scipy", *sys.stdlib_module_names}

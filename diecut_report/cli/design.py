@@ -1,4 +1,4 @@
-"""The commands that lead from a question to a machine: solve for one input."""
+"""The commands that lead from a question to a machine: solve for one input, mend what fails, see what matters."""
 
 from __future__ import annotations
 
@@ -72,6 +72,147 @@ def solve(
     if target is not None and not quiet:
         tell([f"written: {target}" if answer.machine is not None else f"not written: {target}"])
     return PASSED if answer.found else CHECK_FAILED
+
+
+@click.command(cls=HelpfulCommand)
+@click.argument("config", type=path_of)
+@click.option(
+    "--free",
+    metavar="INPUT",
+    multiple=True,
+    help="An input that may be changed; may be given several times (default: sizes, angles and ratios).",
+)
+@click.option("--keep", metavar="INPUT", multiple=True, help="An input that stays as it is.")
+@target_option
+@form_option
+@common
+def advise(
+    config: Path, free: tuple[str, ...], keep: tuple[str, ...], target: Path | None, form: str,
+    folders: tuple[Path, ...], quiet: bool,
+) -> int:  # fmt: skip
+    """Find the smallest changes with which no check fails: the advice of all checks tried together, then less and less.
+
+    Exit codes: 0 a machine that passes was found (or passes already), 1 none was found, 2 bad input, 3 a plugin broke.
+    """
+    from diecut_report.design.advice import data, lines, mended
+
+    with Progress(quiet) as progress, redirect_stdout(sys.stderr):
+        discovery = Discovery(folders)
+        progress("reading the configuration")
+        loaded = _loaded(config, discovery)
+        found = mended(loaded, discovery, free=free, keep=keep, tell=progress)
+        if target is not None and found.machine is not None:
+            _write(loaded, found.machine, target)
+    emit(_json(data(found)) if form == "json" else "".join(f"{line}\n" for line in lines(found)))
+    if target is not None and not quiet:
+        tell([f"written: {target}" if found.machine is not None else f"not written: {target}"])
+    return CHECK_FAILED if found.before.checks("fail") and found.machine is None else PASSED
+
+
+@click.command(cls=HelpfulCommand)
+@click.argument("config", type=path_of)
+@click.option(
+    "--of",
+    "names",
+    metavar="NUMBER",
+    multiple=True,
+    help="An output or a check, such as drive.crank_torque_peak (default: the checks that govern).",
+)
+@click.option(
+    "--by",
+    "percent",
+    metavar="PERCENT",
+    type=click.FloatRange(0, 100, min_open=True),
+    default=10.0,
+    help="By how much each input is lowered and raised (default: 10).",
+)
+@click.option(
+    "--tolerance",
+    "tolerances",
+    metavar="INPUT=SIZE",
+    multiple=True,
+    help="drive.crank_length=0.1 mm: an input that scatters by as much to both sides; may be given several times.",
+)
+@click.option(
+    "--distribution",
+    type=click.Choice(["normal", "uniform"]),
+    default="normal",
+    help="Of what scatters: normal (the tolerance is three standard deviations) or uniform.",
+)
+@click.option(
+    "--count",
+    metavar="N",
+    type=click.IntRange(10, 1_000_000),
+    default=1000,
+    help="Machines that are drawn (default: 1000).",
+)
+@click.option(
+    "--seed", metavar="N", type=click.IntRange(0), default=1, help="Equal seeds draw equal machines (default: 1)."
+)
+@click.option("-o", "target", metavar="FILE", type=path_of, help="Write to a file, not to standard output.")
+@click.option(
+    "--format",
+    "form",
+    default="text",
+    type=click.Choice(["text", "json", "html"]),
+    help="text (default), json or html with figures.",
+)
+@common
+def influence(
+    config: Path, names: tuple[str, ...], percent: float, tolerances: tuple[str, ...], distribution: Any, count: int, seed: int,
+    target: Path | None, form: str, folders: tuple[Path, ...], quiet: bool,
+) -> int:  # fmt: skip
+    """Tell what matters: how far each input moves the governing checks, and how probable it is that checks hold within tolerances.
+
+    Exit codes: 0 told, 2 bad input, 3 a plugin broke.
+    """
+    from diecut_report.design.influence import tornados, within_tolerances
+    from diecut_report.design.influence_text import data, lines, page
+
+    with Progress(quiet) as progress, redirect_stdout(sys.stderr):
+        discovery = Discovery(folders)
+        progress("reading the configuration")
+        loaded = _loaded(config, discovery)
+        sizes = dict(_tolerance(loaded, each) for each in tolerances)
+        progress("changing one input after the other")
+        found = tornados(loaded, names, percent / 100, sizes)
+        progress("drawing machines within tolerances")
+        drawn = within_tolerances(loaded, sizes, distribution, count, seed) if sizes else None
+    told = {"text": lambda: "".join(f"{line}\n" for line in lines(found, drawn)), "json": lambda: _json(data(found, drawn)),
+            "html": lambda: page(found, drawn, config.name)}[form]()  # fmt: skip
+    if target is None:
+        emit(told)
+    else:
+        _save(target, told, config, quiet)
+    return PASSED
+
+
+def _tolerance(config: Config, given: str) -> tuple[DesignInput, float]:
+    """An input and how far it scatters."""
+    from diecut_report.design.design_inputs import design_input
+    from diecut_report.quantities.units import UnitError, parse_quantity
+
+    name, _, size = given.partition("=")
+    if not size.strip():
+        raise click.BadParameter(
+            f"{given!r} is not INPUT=SIZE, such as drive.crank_length=0.1 mm", param_hint="--tolerance"
+        )
+    design = design_input(config, name.strip())
+    try:
+        value = parse_quantity(size, design.meta.unit)
+    except UnitError as fault:
+        raise click.BadParameter(f"{name}: {fault}", param_hint="--tolerance") from None
+    if value <= 0:
+        raise click.BadParameter(f"{name}: {size} is not above zero", param_hint="--tolerance")
+    return design, value
+
+
+def _save(target: Path, text: str, config: Path, quiet: bool) -> None:
+    from diecut_report.files import write_all
+
+    write_all({target: text.encode()}, keep=config, through=True)
+    if not quiet:
+        tell([f"written: {target}"])
 
 
 def _loaded(config: Path, discovery: Discovery) -> Config:

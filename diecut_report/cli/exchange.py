@@ -221,6 +221,6 @@ def _changes(found: Data, sides: list[Data], discovery: Discovery, form: str, al
         from diecut_report.exchange.changes_page import page
 
         with speaking(asked_language() or sides[1]["project"].get("language") or SOURCE_LANGUAGE):
-            return page(said_changes(found, *sides, spoken_catalogues(discovery)))
-    told = said_changes(found, *sides, spoken_catalogues(discovery))
+            return page(said_changes(found, sides[0], sides[1], spoken_catalogues(discovery)))
+    told = said_changes(found, sides[0], sides[1], spoken_catalogues(discovery))
     return "".join(f"{line}\n" for line in lines(told, all_rows=all_rows))

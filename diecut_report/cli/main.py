@@ -22,7 +22,7 @@ import click
 from diecut_report import __version__
 from diecut_report.cli import verdict
 from diecut_report.cli.checking import check, validate
-from diecut_report.cli.design import solve
+from diecut_report.cli.design import advise, influence, solve
 from diecut_report.cli.exchange import diff, extract, render, verify
 from diecut_report.cli.formats import formats_of
 from diecut_report.cli.language import asked_language, language_option, of_environment
@@ -276,6 +276,8 @@ program.add_command(diff)
 program.add_command(sign)
 program.add_command(live)
 program.add_command(solve)
+program.add_command(advise)
+program.add_command(influence)
 
 
 # --- verdict ---------------------------------------------------------------------------------------------------------

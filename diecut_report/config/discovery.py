@@ -208,7 +208,7 @@ def _local(folder: Path) -> Iterator[Origin]:
 
 
 def _names_in(folder: Path) -> list[str]:
-    files = [path for path in folder.iterdir() if path.suffix == ".py" or (path / "__init__.py").is_file()]
+    files = [path for path in folder.iterdir() if (path if path.suffix == ".py" else path / "__init__.py").is_file()]
     return sorted(path.stem for path in files if not path.name.startswith(("_", ".", EXTENSION)))
 
 
@@ -233,6 +233,8 @@ def _file_of(folder: Path, name: str) -> Path:
 def _module_of(file: Path) -> ModuleType:
     """The module of a local file; it stands in sys.modules while it runs, or postponed annotations would not resolve."""
     digest = hashlib.sha256(str(file.resolve()).encode()).hexdigest()[:16]
+    if file.exists() and not file.is_file():
+        raise OSError("it is not a regular file")  # a pipe would be waited for
     name = f"diecut_report_local_{digest}_{re.sub(r'[^A-Za-z0-9]', '_', file.stem)}"
     if name in sys.modules:
         return sys.modules[name]

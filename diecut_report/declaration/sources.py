@@ -38,7 +38,7 @@ def files_around(mechanism: Mechanism) -> list[Path]:
 
 
 def _in_folder(folder: Path) -> list[Path]:
-    return sorted(folder.rglob("*.py"))
+    return sorted(file for file in folder.rglob("*.py") if file.is_file())
 
 
 def _is_test(file: Path) -> bool:

@@ -24,7 +24,7 @@ from diecut_report.study.storage.description import ResultColumn
 
 CHECKS = ".checks."
 AT_LIMIT = 1e-9
-STATUS, UTILISATION, SLACK = ".status", ".utilisation", ".slack"
+STATUS, UTILISATION, SLACK, MARGIN, SIZE = ".status", ".utilisation", ".slack", ".margin", ".size"
 
 
 @dataclass(frozen=True)
@@ -65,7 +65,7 @@ class VariedMachines:
         return np.full(self.count, np.nan) if found is None else found.astype(float)
 
     def check(self, name: str, what: str = STATUS) -> Array:
-        """Return of a check its status, utilisation, or slack: how far it is from its limit, as a share, below zero where it fails."""
+        """Return of a check its status, utilisation, margin, the size of its greater side, or its slack: margin by size."""
         home, _, own = name.partition(".")
         found = self.rows.columns.get(f"{home}{CHECKS}{own}{what}")
         return (
@@ -150,7 +150,9 @@ def _slack(made: CalculatedVariants) -> dict[str, Array]:
             size = np.maximum(np.abs(demand), np.abs(limit))
             with np.errstate(all="ignore"):
                 share = np.where(size > 0, (limit - demand) / size, 0.0)
-            found[f"{name}{CHECKS}{check.id}{SLACK}"] = np.broadcast_to(np.where(there, share, np.nan), (made.count,))
+            for what, values in ((SLACK, share), (MARGIN, limit - demand), (SIZE, size)):
+                column = np.where(there, values, np.nan)
+                found[f"{name}{CHECKS}{check.id}{what}"] = np.broadcast_to(column, (made.count,))
     return found
 
 

@@ -4,13 +4,17 @@ from __future__ import annotations
 
 import json
 from collections.abc import Callable, Mapping
+from math import isfinite
 from pathlib import Path
 from typing import Any
+
+import numpy as np
 
 from diecut_report.config.discovery import said
 from diecut_report.engine.calculation import Calculation
 
 Data = dict[str, Any]
+FLOATS = {float, np.float64}
 
 
 class Undrawable(ValueError):
@@ -32,12 +36,24 @@ def guarded(make: Callable[[], Data], lost: Data, place: str) -> Data:
 
 def _plain(made: Data) -> None:
     """Check that it can stand in a results file."""
+    if _is_plain(made):
+        return
     try:
         json.dumps(made, allow_nan=False)
     except (TypeError, ValueError) as fault:
         raise Undrawable(
             f"it gives something that is not a finite number, text or list of these ({fault}); an absent number in a line is None"
         ) from None
+
+
+def _is_plain(part: Any) -> bool:
+    """Whether a part is seen at once to be text, finite numbers, or lists of these; others are asked of the writer itself."""
+    kind = type(part)
+    if kind is dict:
+        return all(type(key) is str for key in part) and all(map(_is_plain, part.values()))
+    if kind is list or kind is tuple:
+        return isfinite(sum(part)) if part and set(map(type, part)) <= FLOATS else all(map(_is_plain, part))
+    return isfinite(part) if kind in FLOATS else part is None or isinstance(part, str) or kind in (bool, int)
 
 
 def curve_named(calc: Calculation, name: str, abscissa: str | None = None) -> str:

@@ -11,6 +11,7 @@ import numpy as np
 from diecut_report.contract.figures import BarGroup, Bars, Chart, Drawing, Figure, Panel, Plot, Polar, plain
 from diecut_report.engine import axis_range
 from diecut_report.engine.calculation import Calculation
+from diecut_report.engine.curve_sampler import CurveSampler
 from diecut_report.engine.drawable import Undrawable, curve_named, guarded
 from diecut_report.engine.printing.substitution import printed
 from diecut_report.engine.steps.rerun import varied, varied_curves
@@ -26,6 +27,7 @@ class MachineView:
     def __init__(self, calc: Calculation) -> None:
         self.calc = calc
         self.asked: dict[str, None] = {}
+        self._last: CurveSampler | None = None  # the place that was asked for last, mostly by several curves
 
     def __getitem__(self, name: str) -> float:
         """A number by its id, SI."""
@@ -46,10 +48,11 @@ class MachineView:
     def at(self, curve: str, place: float) -> float:
         """Return a curve's value at a place of its abscissa, SI."""
         self.asked[curve] = None
-        x = np.array([[place]])
-        rows = np.zeros(1, dtype=int)
-        middle = self.calc.domains[self.calc.axis[curve]].middle_of(x, rows)
-        return float(self.calc.sample(curve, x, middle, rows)[0, 0])
+        axis = self.calc.axis[curve]
+        if self._last is None or self._last.axis != axis or self._last.x[0, 0] != place:
+            x, rows = np.array([[place]]), np.zeros(1, dtype=int)
+            self._last = self.calc.sampler_of(axis, x, self.calc.domains[axis].middle_of(x, rows), rows)
+        return float(self._last.over(curve)[0, 0])
 
     def text(self, name: str) -> str:
         """Return a quantity as it is printed: ``h = 40 mm``."""

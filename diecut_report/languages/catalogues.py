@@ -8,6 +8,8 @@ from gettext import c2py
 from importlib import import_module
 from pathlib import Path
 
+from diecut_report.errors import Problem, UserError
+
 SOURCE_LANGUAGE = "en"
 OWN = Path(__file__).parents[1] / "__init__.py"
 PLUGINS = "diecut_report.plugins"
@@ -29,10 +31,17 @@ class TextCatalogue:
     """The texts of one file in another language, by their English form; what is not translated, or only guessed, is not in it."""
 
     def __init__(self, file: Path, language: str) -> None:
-        from diecut_report.languages.po_files import read  # with Babel, which English reports do not need
+        from diecut_report.languages.po_files import judge, read  # with Babel, which English reports do not need
 
-        found = read(file, language)
-        self._plural = c2py(found.plural_expr)
+        try:
+            found = read(file, language)
+            self._plural = c2py(found.plural_expr)
+            judge(found, self._plural)
+        except Exception as error:  # of any kind: that of a plugin may hold anything
+            words = (
+                f"This catalogue of texts cannot be read: {error}. Mend it, or remove it: its texts are English then."
+            )
+            raise UserError(Problem(words, str(file))) from error
         self._texts: dict[tuple[str | None, str], tuple[str, ...]] = {}
         self.missing: list[str] = []
         for message in found:

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import re
+from collections.abc import Callable
 from datetime import UTC, datetime
 from io import BytesIO
 from pathlib import Path
@@ -11,6 +13,9 @@ from babel.messages.pofile import read_po, write_po
 
 NEVER = datetime(2026, 1, 1, tzinfo=UTC)  # equal texts give equal files
 WIDTH = 140
+MOST_FORMS = 10  # Arabic has six
+_FORMS = re.compile(rb"nplurals\s*=\s*(\d+)")
+_HIDDEN = re.compile("[\0-\x08\x0b-\x1f\x7f-\x9f\u2028-\u202e\u2066-\u2069\ufffe\uffff]")
 UNSAID = (b'"Generated-By', b'"Report-Msgid-Bugs-To', b'"Last-Translator', b'"Language-Team')  # lines of the head
 
 
@@ -21,9 +26,22 @@ def empty(language: str, project: str) -> Catalog:
 
 
 def read(file: Path, language: str) -> Catalog:
-    """Return the catalogue of a file."""
-    with file.open("rb") as stream:
-        return read_po(stream, locale=language, charset="utf-8", abort_invalid=True)
+    """Return the catalogue of a file; ValueError, or another exception of Babel's, where it is none."""
+    content = file.read_bytes()
+    if any(int(count[:9]) > MOST_FORMS for count in _FORMS.findall(content)):  # Babel makes a list of so many
+        raise ValueError(f"a language has at most {MOST_FORMS} forms of a word for a number")
+    return read_po(BytesIO(content), locale=language, charset="utf-8", abort_invalid=True)
+
+
+def judge(catalogue: Catalog, plural: Callable[[int], int]) -> None:
+    """Raise ValueError where texts hold letters that act on a page or a terminal, or a number has no form of a word."""
+    for message in catalogue:
+        said = (message.string or "",) if isinstance(message.string, str | None) else message.string
+        if letter := next(filter(None, map(_HIDDEN.search, said)), None):
+            raise ValueError(f"the translation of {message.id!r} holds U+{ord(letter[0]):04X}")
+    for count in range(200):
+        if not 0 <= plural(count) < catalogue.num_plurals:
+            raise ValueError(f"its plural forms have none for {count}")
 
 
 def written(catalogue: Catalog) -> bytes:

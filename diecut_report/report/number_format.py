@@ -80,8 +80,3 @@ def tidy(text: str) -> str:
     """A sentence with real minus signs, powers of ten written out, and degrees close to their number."""
     powers = re.sub(r"(?<=\d)[eE]([+-]?\d+)(?!\w)", lambda found: power_of_ten(int(found[1])), text.replace(" °", "°"))
     return re.sub(r"(?<![\w.)])-(?=\d)", MINUS, powers)
-
-
-def is_words(text: str) -> bool:
-    """Whether the text of a value is not a number."""
-    return parts(text) is None

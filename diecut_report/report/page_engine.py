@@ -8,11 +8,25 @@ from diecut_report.errors import Problem, UserError
 from diecut_report.report.surroundings import no_compiler
 
 with no_compiler():
+    from cssselect2 import ElementWrapper
     from pydyf import PDF, Array, Dictionary, Object, Stream, String
     from weasyprint import HTML, Attachment
+    from weasyprint.html import UA_STYLESHEET
     from weasyprint.urls import FatalURLFetchingError, URLFetcher
 
-__all__ = ["HTML", "Array", "Attachment", "Dictionary", "Object", "Stream", "String", "URLFetcher", "fetching_refused"]
+__all__ = [
+    "HTML",
+    "UA_STYLESHEET",
+    "Array",
+    "Attachment",
+    "Dictionary",
+    "ElementWrapper",
+    "Object",
+    "Stream",
+    "String",
+    "URLFetcher",
+    "fetching_refused",
+]
 
 
 @contextmanager

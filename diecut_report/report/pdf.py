@@ -9,7 +9,7 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from typing import Any
 
-from markupsafe import Markup
+from markupsafe import Markup, escape
 
 from diecut_report.report.backdrop import RULE, Backdrop
 from diecut_report.report.carried import DATE, CarriedFile
@@ -17,7 +17,8 @@ from diecut_report.report.context import Material
 from diecut_report.report.equations import Equation
 from diecut_report.report.html import filled
 from diecut_report.report.model import Item
-from diecut_report.report.page_engine import HTML, Attachment, URLFetcher, fetching_refused
+from diecut_report.report.page_engine import Attachment, URLFetcher, fetching_refused
+from diecut_report.report.page_reading import read_page
 from diecut_report.report.pdf_archive import Archive
 from diecut_report.report.pdf_figures import FigurePicture, NotDrawn
 from diecut_report.report.pdf_math import Picture
@@ -61,7 +62,8 @@ class Paper:
         outline = self.material.typesetter.outline(equation.latex)
         address = f"{FORMULA}{len(self.pictures)}"
         self.pictures[address] = Picture(outline, equation.text)
-        return Markup('<img src="{}" alt="{}"{}>').format(address, equation.text, Markup(style))
+        told = escape(equation.text).replace("\n", Markup("&#10;"))
+        return Markup('<img src="{}" alt="{}"{}>').format(address, told, Markup(style))
 
     def figure(self, number: str, title: str) -> Markup:
         """A figure as outlines; as an image where it holds what cannot be drawn so."""
@@ -90,7 +92,7 @@ def sheets(material: Material) -> bytes:
         fetching_refused(material.house.folder if material.house else ""),
         warnings.catch_warnings(action="ignore", category=ResourceWarning),
     ):  # WeasyPrint's own file
-        content: bytes = HTML(string=source, url_fetcher=fetcher).write_pdf(
+        content: bytes = read_page(source, fetcher, is_own=material.house is None).write_pdf(
             pdf_variant="pdf/a-3a", cache=cache, presentational_hints=False, finisher=Archive(material.words),
             attachments=[_attached(file, fetcher) for file in material.carried],
         )  # fmt: skip

@@ -49,11 +49,11 @@ class JudgedCheck(NamedTuple):
 
 def check_results(calc: Calculation) -> list[Data]:
     """Return each check with demand, limit, margin, utilisation and verdict; one that needs more keys as not checked."""
-    checks = checks_of(calc)
-    ids = {check.id for check in checks if applies(calc, check)}
+    checks = [(check, applies(calc, check)) for check in checks_of(calc)]
+    ids = {check.id for check, is_there in checks if is_there}
     found = []
-    for check in checks:
-        if applies(calc, check):
+    for check, is_there in checks:
+        if is_there:
             found.append(_check(calc, check))
         elif check.id not in ids and (missing := unchecked.missing(calc, check)):
             ids.add(check.id)

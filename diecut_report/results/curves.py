@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -10,7 +10,9 @@ from diecut_report.contract.spectra import Spectrum, SpectrumLine
 from diecut_report.contract.steps import Step
 from diecut_report.engine import Calculation
 from diecut_report.engine.calculation import Unproven
+from diecut_report.engine.numerics.domain import Domain
 from diecut_report.engine.shown_units import declared_unit, unit_for
+from diecut_report.expressions import Array
 from diecut_report.quantities.units import unit
 
 Data = dict[str, Any]
@@ -25,10 +27,12 @@ def curves(calc: Calculation) -> Data:
         edges = np.unique(domain.joints[0])[1:-1]
         if len(edges):
             found[name]["breakpoints"] = edges.tolist()
+    pieces = {axis: _edges(domain) for axis, domain in calc.domains.items()}
     for name, curve in calc.curves.items():
         if curve.output:
             values = calc.curve_samples(name)[0]
-            found[name] = _curve(curve, values, unit_for(calc, name, curve.unit, values)) | _limits(calc, name)
+            shown = _curve(curve, values, unit_for(calc, name, curve.unit, values))
+            found[name] = shown | _limits(calc, name, pieces[calc.axis[name]])
     for spectrum in calc.mechanism.spectra:
         found |= _spectrum(spectrum)
     return found
@@ -50,19 +54,31 @@ def _curve(step: Step | SpectrumLine, values: Any, display: str) -> Data:
             **({"source_symbol": step.source_symbol} if isinstance(step, Step) and step.source_symbol else {})}  # fmt: skip
 
 
-def _limits(calc: Calculation, name: str) -> Data:
-    axis = calc.axis[name]
-    domain = calc.domains[axis]
+class _Edges(NamedTuple):
+    """Hold the smooth pieces of an abscissa: their ends and middles, each (1, pieces), and at which of those between them a curve may jump."""
+
+    starts: Array
+    ends: Array
+    middles: Array
+    joint: Array
+
+
+def _edges(domain: Domain) -> _Edges:
     wide = domain.widths[0] > 1e-12 * domain.period[0, 0]
-    starts, ends, middles = domain.edges[:1, :-1][:, wide], domain.edges[:1, 1:][:, wide], domain.middles[:1, wide]
-    first = np.zeros(1, dtype=int)
-    after = calc.kept("starts", axis, lambda _: (starts, middles), first)[name]
-    before = calc.kept("ends", axis, lambda _: (ends, middles), first)[name]
-    after, before = (np.broadcast_to(limits, starts.shape)[0] for limits in (after, before))
+    starts, ends = domain.edges[:1, :-1][:, wide], domain.edges[:1, 1:][:, wide]
     joint = (domain.is_joint(starts[:, 1:]) | domain.is_joint(ends[:, :-1]))[0]
+    return _Edges(starts, ends, domain.middles[:1, wide], joint)
+
+
+def _limits(calc: Calculation, name: str, edges: _Edges) -> Data:
+    axis = calc.axis[name]
+    first = np.zeros(1, dtype=int)
+    after = calc.kept("starts", axis, lambda _: (edges.starts, edges.middles), first)[name]
+    before = calc.kept("ends", axis, lambda _: (edges.ends, edges.middles), first)[name]
+    after, before = (np.broadcast_to(limits, edges.starts.shape)[0] for limits in (after, before))
     return {
-        "abscissa": calc.axis[name],
-        "breakpoints": starts[0, 1:][joint].tolist(),
-        "left": before[:-1][joint].tolist(),
-        "right": after[1:][joint].tolist(),
+        "abscissa": axis,
+        "breakpoints": edges.starts[0, 1:][edges.joint].tolist(),
+        "left": before[:-1][edges.joint].tolist(),
+        "right": after[1:][edges.joint].tolist(),
     }

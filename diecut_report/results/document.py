@@ -148,7 +148,7 @@ def _project(fields: Data) -> Data:
 
 
 def _press(run: Run) -> Data:
-    press, bases = run.blocks[PRESS], Bases(run.config, run.calculations)
+    press, bases = run.blocks[PRESS], run.bases
     assert isinstance(press, Press)
     found, chosen = [], run.chosen_units(PRESS)
     for name, value in flatten(press).items():
@@ -164,7 +164,7 @@ def _press(run: Run) -> Data:
 
 def resolved(run: Run) -> Data:
     """Return the config with every reference and default put in: SI values as texts that read back exactly, with what they rest on."""
-    config, bases = run.config, Bases(run.config, run.calculations)
+    config, bases = run.config, run.bases
     mechanisms = {}
     for name, kind in config.kinds.items():
         block, instance = run.blocks.get(name), config.instances[name]

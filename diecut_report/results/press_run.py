@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable
 from dataclasses import replace
+from functools import cached_property
 from typing import Any, TypeVar
 
 import numpy as np
@@ -281,8 +282,13 @@ class Run:
         error.__cause__ = cause
         self.errors[instance.name] = error
 
+    @cached_property
+    def bases(self) -> Bases:
+        """Return what the values of the run rest on."""
+        return Bases(self.config, self.calculations)
+
     def _provenance(self, instance: Instance) -> dict[str, Provenance]:
-        found, bases = {}, Bases(self.config, self.calculations)
+        found, bases = {}, self.bases
         for slot in instance.slots:
             node = (instance.name, *slot.key)
             origin = origin_of(self.config, instance, slot)

@@ -94,8 +94,8 @@ pitting.value("nominal_contact_stress", "σ_H0", "MPa", "Nominal contact stress 
 for g, teeth in TEETH.items():
     pitting.require(f"single_contact_exists_{g}",
                     bind(f.touches, tip_angle=f"tip_angle_{g}", teeth=teeth), key="addendum",
-                    message=f"is {{addendum}}, with which the flank {g} ends before its inner point of single contact; take less dedendum and "
-                            "addendum, or more teeth")
+                    message=f"is {{addendum}}, with which the flank {g} ends before its inner point of single contact; take more shift, less "
+                            "dedendum and addendum, or more teeth")
 for g, teeth in TEETH.items():
     mate = 3 - g
     pitting.value(f"single_contact_{g}", f"M_{g}", "1", f"Pressure at the inner point of single contact of the gear {g}, to that at the pitch point",

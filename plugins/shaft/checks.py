@@ -20,7 +20,7 @@ CHECKS = (
           unit="mrad", severity="warn", demand_label="greatest slope", limit_label="accepted", tolerance=ROUNDING, source="Shigley table 7-2",
           consequence="rollers and balls are loaded unevenly (deep groove balls bear 1 to 3 mrad, cylindrical rollers 0.8 to 1.2 mrad); "
                       "{slope_growth}"),
-    Check(id="critical_speed", check_class="practice", title="Critical speed", demand="twice_speed", limit="critical_speed", unit="rpm",
+    Check(id="critical_speed", check_class="practice", title="Critical speed", demand="twice_speed", limit="turning_limit", unit="rpm",
           severity="warn", needs=("speed",), demand_label="twice the speed", limit_label="critical speed", tolerance=ROUNDING, source="Shigley 7-6",
           consequence="the shaft runs too near to its critical speed; take a speed of at most {half_critical:down}, or a thicker or shorter shaft."),
     Check(id="deflection", check_class="function", title="Deflection", demand="deflection_max", limit="allowable_deflection", unit="um",

@@ -1,4 +1,4 @@
-"""Curves of the shaft: reactions over the cycle; moments, torque and deflection along it."""
+"""Curves of the shaft: reactions over the cycle; moments, torque, stress and deflection along it."""
 
 from __future__ import annotations
 
@@ -8,6 +8,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from diecut_report.mechanics import beams
+from diecut_report.plugins.shaft import formulas
 from diecut_report.plugins.shaft.statics import Statics, greatest_size, resultant
 from diecut_report.plugins.shaft.under_load import UnderLoad
 
@@ -84,9 +86,28 @@ def deflection(statics: Statics, places: Array, _: Array) -> Array:
     return found
 
 
+def _of_section(values: Array, statics: Statics, places: Array, side: Array) -> Array:
+    """What the section has in which each place is, (places,); at a step on its side."""
+    sections = [statics.body.section_of(places, behind=each)[:, 0] for each in (False, True)]
+    found: Array = values[np.where(side, sections[1], sections[0]), 0]
+    return found
+
+
 @along
 def diameter(statics: Statics, places: Array, side: Array) -> Array:
     """The shaft's diameter."""
-    sections = [statics.body.section_of(places, behind=each)[:, 0] for each in (False, True)]
-    found: Array = statics.body.diameter[np.where(side, sections[1], sections[0]), 0]
+    return _of_section(statics.body.diameter, statics, places, side)
+
+
+@along
+def nominal_stress(statics: Statics, places: Array, side: Array) -> Array:
+    """The greatest nominal stress over the cycle."""
+    size, bore = (
+        _of_section(each, statics, places, side)[:, None] for each in (statics.body.diameter, statics.body.bore)
+    )
+    sides = statics.sides(places)
+    forces = (_on_side(each, side) for each in (sides.axial_size, sides.bending, sides.torque_size))
+    modulus = 2 * beams.second_moment(size, bore) / size
+    stress = formulas.yield_stress(*forces, beams.circle_area(size, bore), modulus, 1.0, 1.0)
+    found: Array = np.max(stress, axis=1)
     return found

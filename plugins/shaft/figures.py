@@ -9,9 +9,9 @@ from diecut_report.plugins.shaft.drawing import shaft
 
 ALONG = Plot(
     id="along",
-    title="Moments, torque and deflection along the shaft",
+    title="Moments, torque, stress and deflection along the shaft",
     caption="The bending moment in both planes at the instant of its greatest value; the greatest bending moment and the greatest size of the "
-    "torque over the cycle at each place; the deflection at the instant of its greatest value.",
+    "torque over the cycle at each place; the greatest stress without notches; the deflection at the instant of its greatest value.",
     abscissa="position",
     panels=(
         Panel(
@@ -24,6 +24,9 @@ ALONG = Plot(
             ),
         ),
         Panel(title="Torque", unit="N*m", series=(Series(curve="torque", label="greatest over the cycle"),)),
+        Panel(
+            title="Nominal stress", unit="MPa", series=(Series(curve="stress_along", label="greatest over the cycle"),)
+        ),
         Panel(title="Deflection", unit="um", series=(Series(curve="deflection", label="at its greatest"),)),
     ),
 )

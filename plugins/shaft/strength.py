@@ -90,6 +90,8 @@ _number(bending, "torque_span", "l_T", "mm", "Distance of the outermost torques"
 bending.value("twist_by_length", "ϑ′", "deg/m", "Twist by length between the outermost torques",
               lambda twist, torque_span: twist / torque_span, exists=lambda torque_span: torque_span > 0, source="Saint-Venant",
               output=False)
+bending.computed_curve("stress_along", "σ_vM(x)", "MPa", "Greatest nominal stress over the cycle, along the shaft", curves.nominal_stress,
+                       "under_load", "position", "of bending moment, torque and axial force at each instant, without notches", source="Shigley 7-15")
 bending.computed_curve("deflection", "v(x)", "um", "Deflection at the instant of its greatest value", curves.deflection, "under_load", "position",
                        INTEGRATED, source="Euler–Bernoulli")
 _number(bending, "energy_difference", "ΔU/U", "1", "Energy of the bent shaft less the work of its loads, to the greatest energy",
@@ -172,4 +174,9 @@ _number(critical, "critical_speed_rayleigh", "n_R", "rpm", "Critical speed by Ra
         "ω² = Σ f_i y_i/Σ m_i y_i² with f_i = m_i g, downwards on overhangs", source="Shigley 7-23")
 _number(critical, "critical_speed_dunkerley", "n_D", "rpm", "Critical speed by Dunkerley, from below", "dunkerley", "1/ω² = Σ m_i δ_ii",
         source="Shigley 7-32")
+critical.computed("turns", "k_n", "1", "Whether the shaft turns (1), or stands or swings (0)",
+                  lambda rotation, length: np.full_like(length, isinstance(rotation, str) and rotation == "turning"), ("rotation", "length"),
+                  "by rotation", output=False)
+critical.value("turning_limit", "n_k", "rpm", "Critical speed that a turning shaft is held against", lambda critical_speed: critical_speed,
+               exists=lambda turns: turns > 0, source="Shigley 7-6", output=False)
 critical.value("twice_speed", "2n", "rpm", "Twice the speed", lambda speed: 2 * speed, source="Shigley 7-6", needs=("speed",), output=False)

@@ -82,7 +82,9 @@ class Tab:
         return self.page.locator("#verdict")
 
 
-def test_a_number_changed_on_the_page_changes_what_it_shows_and_goes_into_the_file(browser: Browser, live: Live) -> None:
+def test_a_number_changed_on_the_page_changes_what_it_shows_and_goes_into_the_file(
+    browser: Browser, live: Live
+) -> None:
     tab, before = Tab(browser, live.address), live.file.read_text("utf-8")
     force = tab.shown("knife.force_max").inner_text()
     tab.type("knife.eccentricity", "18 mm")
@@ -92,8 +94,14 @@ def test_a_number_changed_on_the_page_changes_what_it_shows_and_goes_into_the_fi
     assert live.file.read_text("utf-8") == before
     tab.page.get_by_role("button", name="Write 1 to file").click()
     expect(tab.page.get_by_role("button", name="Write to file")).to_be_disabled(timeout=SECONDS)
-    changed = [pair for pair in zip(before.splitlines(), live.file.read_text("utf-8").splitlines(), strict=True) if len(set(pair)) == 2]
-    assert changed == [(line, line.replace("20 mm", "18 mm")) for line in before.splitlines() if "eccentricity: {value: 20 mm" in line]
+    changed = [
+        pair
+        for pair in zip(before.splitlines(), live.file.read_text("utf-8").splitlines(), strict=True)
+        if len(set(pair)) == 2
+    ]
+    assert changed == [
+        (line, line.replace("20 mm", "18 mm")) for line in before.splitlines() if "eccentricity: {value: 20 mm" in line
+    ]
     assert tab.said == []
 
 
@@ -154,7 +162,9 @@ def test_the_report_of_what_is_shown(browser: Browser, live: Live) -> None:
     expect(opened.value.locator("h1").first).to_contain_text("Circular knife", timeout=SECONDS)
 
 
-@pytest.mark.parametrize("options", [{}, {"color_scheme": "dark"}, {"viewport": {"width": 390, "height": 844}}], ids=str)
+@pytest.mark.parametrize(
+    "options", [{}, {"color_scheme": "dark"}, {"viewport": {"width": 390, "height": 844}}], ids=str
+)
 def test_axe_finds_nothing_serious_and_all_fits(browser: Browser, live: Live, options: dict[str, Any]) -> None:
     tab = Tab(browser, live.address, bypass_csp=True, **options)
     tab.page.locator("#figures").scroll_into_view_if_needed()

@@ -29,6 +29,11 @@ def sizes(calc: Calculation) -> tuple[float, ...]:
     return tuple(number(calc, name) for name in ("depth", "face_depth", "shear_resistance"))
 
 
+def test_a_distance_is_below_another_by_more_than_a_millionth_of_the_radius_or_where_there_is_no_other() -> None:
+    others = np.array([1 + 2e-6, 1 + 5e-7, 0.5, 0.01, np.nan])
+    assert f.is_clear_of(1.0, others, 1.0).tolist() == [True, False, False, False, True]
+
+
 # --- geometry and motion ---------------------------------------------------------------------------------------------
 
 

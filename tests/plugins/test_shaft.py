@@ -300,6 +300,25 @@ def test_only_steps_with_a_fillet_are_held_against_the_charts_of_fillets() -> No
     assert "notch_range" not in checks(plain)
 
 
+def test_the_stress_along_the_shaft_is_that_of_each_section_and_has_the_greatest_as_its_peak() -> None:
+    calc = crankshaft()
+    x = np.array([[0.125, 0.215, 0.27, 0.30]])
+    moment, torque, stress = (calc.sample(name, x, x)[0] for name in ("bending_moment", "torque", "stress_along"))
+    size = np.array([0.055, 0.055, 0.060, 0.050])
+    bound = np.hypot(32 * moment / (np.pi * size**3), 3**0.5 * 16 * torque / (np.pi * size**3))
+    assert (stress <= bound * (1 + 1e-12)).all() and (stress >= 32 * moment / (np.pi * size**3) * (1 - 1e-12)).all()
+    peak = np.full((1, 2), number(calc, "nominal_position"))
+    assert calc.sample("stress_along", peak, peak + np.array([[-1e-3, 1e-3]])).max() == pytest.approx(
+        number(calc, "von_mises_max"), rel=1e-9
+    )
+
+
+def test_a_shaft_that_does_not_turn_is_held_against_no_critical_speed() -> None:
+    """Neither with a speed nor, as one that is not given, without."""
+    assert checks(shaft(CRANKSHAFT, speed=60))["critical_speed"] == "pass"
+    assert "critical_speed" not in checks(shaft(STANDING)) and "critical_speed" not in checks(shaft(STANDING, speed=60))
+
+
 def test_a_fillet_beyond_the_charts_and_a_wide_bore_warn() -> None:
     sections = [SECTIONS[0] | {"fillet_radius": 0.5}, SECTIONS[1] | {"bore": 40}, *SECTIONS[2:]]
     found = checks(shaft(CRANKSHAFT, sections=sections))

@@ -140,6 +140,19 @@ def test_what_goes_wrong_in_a_template_is_told_with_its_line(
     assert brief["project"]["title"] == "Sample press"
 
 
+@pytest.mark.parametrize("name", ["report.html.j2", "_other.html.j2", "house.css", "mark.png"])
+def test_a_link_out_of_the_folder_is_refused_and_one_within_is_not(tmp_path: Path, name: str) -> None:
+    (tmp_path / "house").mkdir()
+    (tmp_path / "house" / "house.css").write_text("h1 {}", "utf-8")
+    (tmp_path / "house" / "_a.html.j2").symlink_to("house.css")
+    assert house_style(tmp_path / "house").templates == {"_a.html.j2": "h1 {}"}
+    (tmp_path / "house" / name).unlink(missing_ok=True)
+    (tmp_path / "secret").write_text("password", "utf-8")
+    (tmp_path / "house" / name).symlink_to("../secret")
+    with pytest.raises(UserError, match=f"{re.escape(name)}: This is a link out of the folder"):
+        house_style(tmp_path / "house")
+
+
 def test_loops_within_too_many_loops_are_told(brief: Data, tmp_path: Path) -> None:
     loops = "".join(f"{{% for i{number} in [1] %}}" for number in range(30)) + "{% endfor %}" * 30
     house = house_style(written(tmp_path, report__html__j2=closing(loops)))

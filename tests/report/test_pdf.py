@@ -13,13 +13,18 @@ from hashlib import sha256
 from itertools import pairwise
 from pathlib import Path
 from typing import Any
+from xml.etree.ElementTree import fromstring
 
 import pytest
+import tinyhtml5
 from page import validate_pdf
 from pypdf import PdfReader
-from weasyprint.urls import FatalURLFetchingError
+from weasyprint.urls import FatalURLFetchingError, URLFetcher
 
 from diecut_report.report import Rendering
+from diecut_report.report.html import filled
+from diecut_report.report.page_reading import read_page, well_formed
+from diecut_report.report.pdf import Paper
 from diecut_report.report.pdf_math import operators
 from diecut_report.report.typeset import Typesetter
 from tests.report.conftest import Printed
@@ -191,3 +196,26 @@ def test_same_letter_has_the_same_outline() -> None:
 def test_unknown_shapes_are_refused() -> None:
     with pytest.raises(ValueError, match="cannot be drawn"):
         operators('<svg><defs></defs><g><circle r="3"/></g></svg>')
+
+
+# reading the print page
+def _same(one: Any, other: Any) -> bool:
+    """Whether elements say the same; a table of the rules of HTML has a body, and blanks at the ends of the page count for nothing."""
+    children = list(other)
+    if [child.tag for child in children] == ["tbody"] and [child.tag for child in one][:1] == ["tr"]:
+        children = list(children[0])
+    alike = one.tag == other.tag and one.attrib == other.attrib and len(one) == len(children)
+    alike = alike and (one.tag == "html" or (one.text or "") == (other.text or ""))
+    alike = alike and (one.tag in ("body", "main") or (one.tail or "") == (other.tail or ""))
+    return alike and all(map(_same, one, children))
+
+
+def test_the_print_page_reads_the_same_as_xml_and_as_html(results: dict[str, Any]) -> None:
+    rendering = Rendering(results | {"report": {"detail": "full"}})
+    source = filled(rendering.material, Paper(rendering.material), "print")
+    assert _same(fromstring(well_formed(source)), tinyhtml5.parse(source, namespace_html_elements=False))
+
+
+def test_a_page_that_is_not_xml_is_read_as_html() -> None:
+    page = read_page("<html><p>a<p>b \x01", URLFetcher(), is_own=True)
+    assert [node.tag for node in page.etree_element.iter("p")] == ["p", "p"]

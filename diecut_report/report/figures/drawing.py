@@ -40,7 +40,7 @@ SHARES = {  # of the largest, at which a drawing is tried, so that its texts fin
     Size.LARGE: (1.0, 0.87, 0.75, 0.64, 0.5),
     Size.LOW: (0.66, 0.58, 0.75, 0.87, 0.5),
     Size.HALF: (0.52, 0.46, 0.58),
-    Size.SKETCH: (0.6, 0.5),
+    Size.SKETCH: (0.36, 0.3, 0.42, 0.5),
 }
 WORTH = 25.0  # what stands in the way of texts, for which the drawing is rather made a step smaller
 

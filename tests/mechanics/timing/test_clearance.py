@@ -124,3 +124,10 @@ def test_the_least_heights_of_many_stations_are_those_of_each() -> None:
     for index in (0, 17, 39):
         alone = least(station(float(stops[index, 0])), "geneva", 48.0)
         assert found.height[index] == pytest.approx(alone.height[0], rel=1e-9)
+
+
+def test_of_some_machines_come_their_own_numbers_and_those_that_all_share() -> None:
+    column = np.array([[0.3], [0.4], [0.5]])
+    some = clearance.Station(column, np.array([[0.7]]), 0.2, True, 0.1, column / 2, 0.02).of(np.array([2, 0]))
+    assert some.radius.tolist() == [[0.5], [0.3]] and some.step.tolist() == [[0.25], [0.15]]
+    assert (some.half_angle.tolist(), some.stroke, some.with_feed) == ([[0.7]], 0.2, True)

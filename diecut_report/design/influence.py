@@ -1,0 +1,184 @@
+"""What matters: how far each input moves the governing checks, and how probable it is that the checks hold within tolerances."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from typing import Literal
+
+import numpy as np
+
+from diecut_report.config.loader import Config
+from diecut_report.design.design_inputs import DesignInput, given_numbers
+from diecut_report.design.questions import AskedNumber, quantity
+from diecut_report.design.varied_machines import CHECKS, UTILISATION, VariedMachines, varied
+from diecut_report.errors import Problem, UserError
+from diecut_report.expressions import Array
+
+Distribution = Literal["normal", "uniform"]
+MOST_CHECKS = 5  # governing checks that are looked at where nothing is asked
+IN_TOLERANCE = 3.0  # standard deviations that a tolerance is of a normal distribution
+SURE = 0.95  # that the probability lies within its interval
+STILL = 1e-9  # share of its size by which a number is moved by rounding alone
+
+
+@dataclass(frozen=True)
+class Bar:
+    """Hold what an input does to a number: the number with the input lowered and raised, NaN where there is no machine."""
+
+    design: DesignInput
+    lowered: float
+    raised: float
+    low: float
+    high: float
+
+    def reach(self, today: float) -> float:
+        """Return how far the number moves at most; infinite where a machine cannot be."""
+        moved = np.abs(np.array([self.low, self.high]) - today)
+        return float("inf") if np.isnan(moved).any() else float(moved.max())
+
+
+@dataclass(frozen=True)
+class Tornado:
+    """Hold the inputs by what they do to a number, the greatest first; those that do nothing are counted."""
+
+    asked: AskedNumber
+    today: float
+    bars: tuple[Bar, ...]
+    still: int
+
+
+@dataclass(frozen=True)
+class Chance:
+    """Hold how probable it is that a check holds, with its interval (Clopper and Pearson), and how many of how many machines hold."""
+
+    check: str
+    held: int
+    count: int
+    probability: float
+    low: float
+    high: float
+
+
+@dataclass(frozen=True)
+class Tolerances:
+    """Hold what was drawn: tolerances (SI) by input, their distribution, the seed, and what came out for each check and for all."""
+
+    by_input: Mapping[DesignInput, float]
+    distribution: Distribution
+    seed: int
+    count: int
+    whole: Chance
+    chances: tuple[Chance, ...]
+
+
+def tornados(
+    config: Config, names: Sequence[str], share: float, tolerances: Mapping[DesignInput, float]
+) -> list[Tornado]:
+    """Return for each number that is asked for what each input does to it: changed by its tolerance, else by a share of its value.
+
+    Without names these are the utilisations of the checks that govern. UserError where there is nothing to look at.
+    """
+    own = {each.asked.path for each in tolerances}
+    inputs = [*tolerances, *(each for each in given_numbers(config) if each.today and each.asked.path not in own)]
+    if not inputs:
+        raise UserError(
+            Problem("nothing is given as a number that is not zero, so nothing has an influence.", config.tree.file)
+        )
+    steps = [tolerances.get(each) or _step(each, share) for each in inputs]
+    asked = [quantity(config, name) for name in names]
+    made = _beside(config, inputs, steps, asked)
+    if not made.exists[0]:
+        raise UserError(Problem(str(made.reasons[0]), config.tree.file))
+    asked = asked or [quantity(config, name) for name in _governing(made)]
+    return [_tornado(made, each, inputs, steps) for each in asked]
+
+
+def _step(design: DesignInput, share: float) -> float:
+    size = abs(design.today or 0.0) * share
+    return max(1.0, float(round(size))) if design.is_whole else size
+
+
+def _beside(
+    config: Config, inputs: Sequence[DesignInput], steps: Sequence[float], asked: Sequence[AskedNumber]
+) -> VariedMachines:
+    """Today's machine, then for each input the one with less and the one with more of it."""
+    count = 1 + 2 * len(inputs)
+    given = {}
+    for index, (design, step) in enumerate(zip(inputs, steps, strict=True)):
+        column = np.full(count, design.today)
+        column[1 + 2 * index : 3 + 2 * index] += (-step, step)
+        given[design.asked] = column
+    return varied(config, given, count, [each.asked for each in asked if each.asked is not None])
+
+
+def _governing(made: VariedMachines) -> list[str]:
+    """The check of each mechanism that is used most today, the most used of all first."""
+    used: dict[str, tuple[float, str]] = {}
+    for name in made.checks:
+        home, _, own = name.partition(".")
+        ratio = float(made.check(name, UTILISATION)[0])
+        if np.isfinite(ratio) and ratio > used.get(home, (-1.0, ""))[0]:
+            used[home] = ratio, f"{home}{CHECKS}{own}"
+    return [name for _, name in sorted(used.values(), reverse=True)[:MOST_CHECKS]]
+
+
+def _tornado(
+    made: VariedMachines, asked: AskedNumber, inputs: Sequence[DesignInput], steps: Sequence[float]
+) -> Tornado:
+    values = made.values(asked.column)
+    today = float(values[0])
+    bars = [
+        Bar(
+            each,
+            (each.today or 0.0) - step,
+            (each.today or 0.0) + step,
+            float(values[1 + 2 * i]),
+            float(values[2 + 2 * i]),
+        )
+        for i, (each, step) in enumerate(zip(inputs, steps, strict=True))
+    ]
+    moving = [each for each in bars if each.reach(today) > STILL * abs(today)]
+    return Tornado(asked, today, tuple(sorted(moving, key=lambda each: -each.reach(today))), len(bars) - len(moving))
+
+
+def within_tolerances(
+    config: Config, tolerances: Mapping[DesignInput, float], distribution: Distribution, count: int, seed: int
+) -> Tolerances:
+    """Return how probable it is that each check holds where the inputs scatter within their tolerances, drawn with a fixed seed.
+
+    A tolerance is half the width of a uniform distribution, or three standard deviations of a normal one. A machine that cannot be
+    holds no check.
+    """
+    draws = np.random.default_rng(seed)
+    given = {}
+    for design, tolerance in tolerances.items():
+        if design.is_whole or design.today is None:
+            words = f"{design.name} is a whole number or has no value today, so that it has no tolerance."
+            raise UserError(Problem(words, path="--tolerance"))
+        off = (
+            draws.normal(0.0, tolerance / IN_TOLERANCE, count)
+            if distribution == "normal"
+            else draws.uniform(-tolerance, tolerance, count)
+        )
+        given[design.asked] = design.today + off
+    made = varied(config, given, count)
+    chances = [_chance(name, made.check(name) == "pass", _judged(made, name)) for name in made.checks]
+    whole = _chance("all checks", np.isin(made.status.astype(str), ["pass", "warn"]), np.ones(count, dtype=bool))
+    found = sorted((each for each in chances if each.count), key=lambda each: (each.probability, each.check))
+    return Tolerances(tolerances, distribution, seed, count, whole, tuple(found))
+
+
+def _judged(made: VariedMachines, name: str) -> Array:
+    """The machines for which a check is made, or that cannot be."""
+    return np.asarray(~made.exists | np.array([status is not None for status in made.check(name)]))
+
+
+def _chance(name: str, held: Array, judged: Array) -> Chance:
+    from scipy.stats import binomtest
+
+    count, good = int(judged.sum()), int((held & judged).sum())
+    if not count:
+        return Chance(name, 0, 0, 0.0, 0.0, 1.0)
+    interval = binomtest(good, count).proportion_ci(SURE, method="exact")
+    return Chance(name, good, count, good / count, float(interval.low), float(interval.high))

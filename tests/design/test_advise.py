@@ -1,0 +1,131 @@
+"""The command advise: the smallest changes of levers by closed forms, what is advised by a plugin, and what cannot be mended."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+
+from diecut_report.cli.main import main
+from diecut_report.config.discovery import Discovery
+from diecut_report.config.loader import load_config
+from diecut_report.design.advice import mended
+from diecut_report.design.design_inputs import design_input
+from diecut_report.design.varied_machines import varied
+from diecut_report.results.advised_changes import AdvisedChange, advised_changes
+from tests.configs import DISCOVERY, EXAMPLE, GOOD, HEAD, saved
+from tests.examples import few
+
+Capture = pytest.CaptureFixture[str]
+TEXT = (
+    HEAD
+    + """\
+  a: {kind: lever, force: 3 kN, arm: 100 mm, allowable_moment: 250 N*m}  # too strong
+  b: {kind: lever, force: "${a.force}", arm: "${a.arm} + 20 mm", allowable_moment: 320 N*m}
+"""
+)
+CLUTCH = (
+    HEAD
+    + """\
+  clutch: {kind: clutch, torque: 300 N*m, shoe_radius: 120 mm, wedge_angle: 10 deg, shoe_width: 30 mm, allowable_pressure: 0.2 MPa}
+"""
+)
+
+
+@pytest.fixture
+def press(tmp_path: Path) -> Path:
+    return saved(tmp_path, TEXT)
+
+
+def advise(press: Path, *more: object) -> int:
+    return main(["advise", str(press), *map(str, more), "--plugins", str(GOOD)])
+
+
+def found(capfd: Capture) -> dict[str, Any]:
+    answer: dict[str, Any] = json.loads(capfd.readouterr().out)
+    return answer
+
+
+def test_the_smallest_change_is_found_and_typed_shortly(press: Path, capfd: Capture, tmp_path: Path) -> None:
+    assert advise(press, "-o", tmp_path / "new.yaml") == 0
+    # a: 3 kN · arm ≤ 250 N·m gives 83.3 mm; b: 3 kN · (arm + 20 mm) ≤ 320 N·m gives 86.7 mm
+    assert (tmp_path / "new.yaml").read_text() == TEXT.replace("arm: 100 mm", "arm: 83 mm")
+    out, err = capfd.readouterr()
+    assert out.splitlines()[:3] == [
+        "2 checks fail today: a.moment, b.moment",
+        "with 1 change none fails, calculated as a machine of its own:",
+        "  a.arm  100 mm → 83 mm  (-17 %)",
+    ]
+    assert err == f"written: {tmp_path / 'new.yaml'}\n"
+
+
+def test_two_free_inputs_are_changed_as_little_as_a_grid_of_all_tells(press: Path, capfd: Capture) -> None:
+    assert advise(press, "--free", "a.arm", "--free", "a.force", "--format", "json") == 0
+    answer = found(capfd)
+    config = load_config(press, DISCOVERY)
+    arm, force = design_input(config, "a.arm").asked, design_input(config, "a.force").asked
+    shares = np.array(np.meshgrid(np.linspace(-0.25, 0, 60), np.linspace(-0.25, 0, 60))).reshape(2, -1)
+    made = varied(config, {arm: 0.1 * (1 + shares[0]), force: 3000 * (1 + shares[1])}, shares.shape[1])
+    best = np.abs(shares).sum(axis=0)[made.status == "pass"].min()
+    assert answer["size"] <= best + 0.01 and len(answer["changes"]) == 1
+
+
+def test_what_a_plugin_advises_is_where_the_search_begins(tmp_path: Path, capfd: Capture) -> None:
+    assert advise(saved(tmp_path, CLUTCH), "--format", "json") == 0
+    answer = found(capfd)
+    assert answer["failing"] == ["clutch.pressure"] and answer["machine"]["status"] in ("pass", "warn")
+    assert [each["name"] for each in answer["changes"]] in (["clutch.shoe_radius"], ["clutch.shoe_width"])
+
+
+def test_what_passes_is_left_alone(tmp_path: Path, capfd: Capture) -> None:
+    assert advise(saved(tmp_path, TEXT.replace("3 kN", "2 kN")), "-o", tmp_path / "new.yaml") == 0
+    assert "no check fails: nothing is to be mended (governing: a.moment)" in capfd.readouterr().out
+    assert not (tmp_path / "new.yaml").exists()
+
+
+def test_what_cannot_be_mended_names_the_checks(press: Path, capfd: Capture, tmp_path: Path) -> None:
+    text = TEXT.replace('arm: "${a.arm} + 20 mm", allowable_moment: 320 N*m', "arm: 100 mm, allowable_moment: 400 N*m")
+    assert advise(saved(tmp_path, text), "--free", "b.arm", "-o", tmp_path / "new.yaml") == 1
+    out, err = capfd.readouterr()
+    assert "of the best of them 1 check fails: a.moment" in out
+    assert "these cannot hold together: a.moment" in out
+    assert err.endswith(f"not written: {tmp_path / 'new.yaml'}\n") and not (tmp_path / "new.yaml").exists()
+
+
+@pytest.mark.parametrize(
+    ("more", "words"),
+    [
+        (["--free", "a.arm", "--keep", "a.arm"], "nothing is free to be changed"),
+        (["--free", "a.arn"], "did you mean 'arm'?"),
+        (["--free", "b.arm"], "b.arm follows from an expression"),
+    ],
+)
+def test_bad_input_is_told_and_ends_with_2(press: Path, capfd: Capture, more: list[str], words: str) -> None:
+    assert advise(press, *more) == 2
+    out, err = capfd.readouterr()
+    assert out == "" and words in err
+
+
+@pytest.mark.parametrize(
+    ("message", "changes"),
+    [
+        ("the bore breaks; set bore to at most 60.1 mm, with a radius of at least 105 mm.",
+         [AdvisedChange("bore", "at most", "60.1 mm"), AdvisedChange("radius", "at least", "105 mm")]),
+        ("short; set radius to at least 105.2 mm, or leave it out; or set bore to at most 3 mm.", [AdvisedChange("radius", "at least", "105.2 mm")]),
+        ("set angle to 30°, which asks for more.", [AdvisedChange("angle", "to", "30°")]),
+        ("take one that engages at one angle only (single: true).", [AdvisedChange("single", "to", "true")]),
+        ("set unknown to at least 5 mm.", []),
+        ("make it stiffer.", []),
+    ],
+)  # fmt: skip
+def test_advice_is_read_where_it_names_a_key_and_a_value(message: str, changes: list[AdvisedChange]) -> None:
+    assert advised_changes(message, {"bore", "radius", "angle", "single"}) == changes
+
+
+@pytest.mark.parametrize("config", few([EXAMPLE], lambda _: False))
+def test_the_published_press_is_mended_by_advice_alone(config: Path) -> None:
+    made = mended(load_config(config, Discovery([])), Discovery([]), tell=lambda _: None)
+    assert made.machine is not None and made.machine.checks("fail") == [] and len(made.changes) <= 20

@@ -1,0 +1,97 @@
+"""The command influence: closed forms of a lever, probabilities against distribution functions, and what is bad input."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+from typing import Any
+
+import pytest
+from scipy.stats import beta, norm
+
+from diecut_report.cli.main import main
+from tests.configs import GOOD, HEAD, saved
+
+Capture = pytest.CaptureFixture[str]
+TEXT = HEAD + "  a: {kind: lever, force: 2 kN, arm: 100 mm, teeth: 20, allowable_moment: 210 N*m}\n"
+
+
+@pytest.fixture
+def press(tmp_path: Path) -> Path:
+    return saved(tmp_path, TEXT)
+
+
+def influence(press: Path, *more: object) -> int:
+    return main(["influence", str(press), *map(str, more), "--plugins", str(GOOD)])
+
+
+def found(capfd: Capture) -> dict[str, Any]:
+    answer: dict[str, Any] = json.loads(capfd.readouterr().out)
+    return answer
+
+
+def test_each_input_moves_a_product_by_its_share(press: Path, capfd: Capture) -> None:
+    assert influence(press, "--of", "a.moment", "--by", "5", "--tolerance", "a.arm=1 mm", "--count", "10") == 0
+    out = capfd.readouterr().out.splitlines()
+    assert out[:4] == [
+        "a.moment, today 200 N·m",
+        "  a.force  1.9 kN … 2.1 kN: 190 N·m … 210 N·m",
+        "  a.arm    99 mm … 101 mm: 198 N·m … 202 N·m",
+        "  5 do not move it",
+    ]
+
+
+def test_the_governing_checks_are_looked_at_by_themselves(press: Path, capfd: Capture) -> None:
+    assert influence(press, "--format", "json") == 0
+    (tornado,) = found(capfd)["tornados"]
+    assert tornado["name"] == "a.checks.moment.utilisation" and tornado["today"] == pytest.approx(200 / 210)
+    bars = {bar["path"]: (bar["low"], bar["high"]) for bar in tornado["bars"]}
+    assert bars["mechanisms.a.arm"] == pytest.approx((180 / 210, 220 / 210))
+    assert bars["mechanisms.a.allowable_moment"] == pytest.approx((200 / 189, 200 / 231))
+
+
+@pytest.mark.parametrize(
+    ("distribution", "probability"),
+    [("uniform", (105 - 80) / (120 - 80)), ("normal", norm.cdf((105 - 100) / (20 / 3)))],
+)
+def test_the_probability_is_that_of_the_distribution(
+    press: Path, capfd: Capture, distribution: str, probability: float
+) -> None:
+    more = ("--tolerance", "a.arm=20 mm", "--distribution", distribution, "--count", 4000, "--format", "json")
+    assert influence(press, *more) == 0
+    told = capfd.readouterr().out
+    (chance,) = json.loads(told)["tolerances"]["checks"]
+    low, high = chance["interval"]
+    assert low < probability < high and high - low < 0.04
+    held, count = chance["held"], chance["count"]
+    # Clopper and Pearson by the beta distribution
+    assert (low, high) == pytest.approx(
+        (beta.ppf(0.025, held, count - held + 1), beta.ppf(0.975, held + 1, count - held))
+    )
+    assert influence(press, *more) == 0 and capfd.readouterr().out == told  # the seed is fixed
+
+
+def test_the_page_has_figures_and_no_scripts(press: Path, tmp_path: Path, capfd: Capture) -> None:
+    first, second = tmp_path / "1.html", tmp_path / "2.html"
+    for page in (first, second):
+        assert influence(press, "--format", "html", "-o", page, "--tolerance", "a.arm=2 mm", "--count", 20) == 0
+    text = first.read_text()
+    assert "<svg" in text and "<script" not in text and "no check fails: 100 %" in text
+    assert first.read_bytes() == second.read_bytes()
+
+
+@pytest.mark.parametrize(
+    ("more", "words"),
+    [
+        (["--of", "a.momemt"], "did you mean 'moment'?"),
+        (["--tolerance", "a.arm"], "'a.arm' is not INPUT=SIZE"),
+        (["--tolerance", "a.arm=1 kg"], "a.arm: 1 kg is a mass"),
+        (["--tolerance", "a.arm=-1 mm"], "-1 mm is not above zero"),
+        (["--tolerance", "a.teeth=1"], "a.teeth is a whole number"),
+        (["--by", "0"], "--by"),
+    ],
+)
+def test_bad_input_is_told_and_ends_with_2(press: Path, capfd: Capture, more: list[str], words: str) -> None:
+    assert influence(press, *more) == 2
+    out, err = capfd.readouterr()
+    assert out == "" and words in err
