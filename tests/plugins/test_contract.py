@@ -2,9 +2,9 @@
 alone, each quantity has a symbol of its own, and its report can be set.
 
 CI takes the machines that have all that the examples leave out, of the laws of motion the one with most joints: what a law
-changes is in no formula of a plugin. Sixteen machines at once go the way of hundreds: they are compiled
-from eight on. A comparison is the same between the mechanisms of one press as of another. The examples' machines, a few of which tests/study/test_chain.py holds against each
-machine alone, are tried at night.
+changes is in no formula of a plugin. Sixteen machines at once go the way of hundreds: they are compiled from eight on.
+A comparison is the same between the mechanisms of one press as of another. The examples' machines, a few of which
+tests/study/test_chain.py holds against each machine alone, are tried at night.
 """
 
 from __future__ import annotations
