@@ -29,6 +29,7 @@ DRAWN = FORMATS[:-1]  # of a report that can be made again from its results
 Data = dict[str, Any]
 Tell = Callable[[str], None]
 Weigh = Callable[[Config, Data], list[Data]]  # which assumed values move a governing check
+Follow = Callable[[Config, Data], Data | None]  # what comes of the advice of all failing checks together
 Source = Path | Tree  # a configuration: its file, or what was read and changed
 
 NO_PANGO = (
@@ -95,13 +96,13 @@ def validate(config: Source, discovery: Discovery) -> tuple[PluginError, ...]:
 
 def calc(
     config: Source, discovery: Discovery, tell: Tell, target: Path | None = None, weigh: Weigh | None = None,
-    find: Find | None = None,
+    find: Find | None = None, follow: Follow | None = None,
 ) -> tuple[ReportOutcome, str]:  # fmt: skip
     """The results document and its text; written to ``target`` if there is one.
 
     ``weigh`` is as for a report; ``find`` says where tables are that the configuration names, where they are not beside it.
     """
-    results, broken, _ = _calculated(config, discovery, tell, weigh=weigh, find=find)
+    results, broken, _ = _calculated(config, discovery, tell, weigh=weigh, find=find, follow=follow)
     text = results_text(results)
     if target is not None:
         _write({target: encoded(text)}, config, through=True)
@@ -110,14 +111,14 @@ def calc(
 
 def report(
     config: Source, discovery: Discovery, tell: Tell, folder: Path, formats: Sequence[str], asked: AskedReport = AS_CONFIGURED,
-    weigh: Weigh | None = None, former: Data | None = None,
+    weigh: Weigh | None = None, former: Data | None = None, follow: Follow | None = None,
 ) -> ReportOutcome:  # fmt: skip
     """The report in the asked formats, as ``NAME.html``, ``NAME.pdf`` … in the folder, and the exports beside it.
 
     ``weigh`` tells which of the assumed values move a governing check; ``former`` are the results of a former revision, since which
-    changes are told and marked.
+    changes are told and marked. ``follow`` tells what comes of the advice of all failing checks together.
     """
-    results, broken, places = _calculated(config, discovery, tell, formats, weigh, only=asked.only)
+    results, broken, places = _calculated(config, discovery, tell, formats, weigh, only=asked.only, follow=follow)
     asked.told(results)
     if former is not None:
         results["changes"] = changes(former, results)
@@ -183,6 +184,7 @@ def _calculated(
     *,
     find: Find | None = None,
     only: Sequence[str] = (),
+    follow: Follow | None = None,
 ) -> tuple[Data, tuple[PluginError, ...], Places]:
     tell(phrase("reading the configuration"))
     config = load_config(source, discovery, find=find)
@@ -196,6 +198,10 @@ def _calculated(
     if weigh is not None and results["summary"]["assumed"] and not run.errors:
         tell(phrase("weighing what is assumed"))
         results["summary"]["moves"] = weigh(config, results)
+    if follow is not None and results["summary"]["fail"] and not run.errors:
+        tell("following the advice")
+        found = follow(config, results)
+        results["summary"] |= {"advice": found} if found else {}
     return results, (*run.errors.values(), *_failed(results)), _places(run)
 
 

@@ -44,7 +44,9 @@ THROUGH = {  # what has no test file of its own, or one that tests a part: what 
     "mechanics.gripping": ("geneva_transport",),
     "mechanics.modified_laws": ("mechanics.motion_laws",),
     "mechanics.polynomial_laws": ("mechanics.motion_laws",),
+    "mechanics.shaft_curves": ("cyclogram",),
     "mechanics.triangle": ("drive_train", "mechanics.four_bar"),
+    "mechanics.turn_samples": ("cyclogram",),
     "press_consistency": ("cyclogram",),
 }
 OF_ALL = {"test_contract", "test_rows", "test_page"}  # of every plugin

@@ -37,7 +37,7 @@ LIBRARIES = ("numpy", "scipy.optimize", "scipy.integrate", "scipy.interpolate", 
              "yaml", "click", "jinja2", "babel", "pyarrow", "duckdb", "matplotlib.figure", "_hypothesis_pytestplugin", "filelock")  # fmt: skip
 MEMORY = 6_000_000_000  # bytes of addresses for a mutant that asks for more and more
 COLLECTION = 60.0  # seconds of processor time until the tests are found
-UNKNOWN = 30.0  # seconds of a test that was not run yet
+UNKNOWN = 5.0  # seconds of a test that was not run yet
 WAITED = 900  # seconds on the clock, for what waits and takes no processor time
 BEGINS = signal.ITIMER_PROF
 IMPORTED = (

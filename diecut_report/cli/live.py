@@ -13,6 +13,7 @@ import click
 from diecut_report.cli.output import PASSED, HelpfulCommand, common, emit, tell
 from diecut_report.config.discovery import Discovery
 from diecut_report.errors import Problem, UserError
+from diecut_report.languages.speech import say
 
 if TYPE_CHECKING:
     from diecut_report.live.session import LiveSession
@@ -35,15 +36,15 @@ def live(config: Path, port: int, is_opened: bool, folders: tuple[Path, ...], qu
     from diecut_report.live.session import LiveSession
 
     if not quiet:
-        tell([f"reading and calculating {config} …"])
+        tell([say("reading and calculating {config} …", config=config)])
     session = LiveSession(config.absolute(), Discovery(folders))
 
     def ready(address: str) -> None:
         emit(f"{address}\n")
         if not quiet:
-            tell(["The page follows the file; Ctrl-C ends it."])
+            tell([say("The page follows the file; Ctrl-C ends it.")])
         if is_opened and not webbrowser.open(address):
-            tell(["No browser could be started; open the address by hand."])
+            tell([say("No browser could be started; open the address by hand.")])
 
     with suppress(KeyboardInterrupt):  # how one ends it
         serve(session, folders, port, ready)
@@ -54,4 +55,4 @@ def live(config: Path, port: int, is_opened: bool, folders: tuple[Path, ...], qu
 def _unwritten(session: LiveSession) -> Iterator[str]:
     """Return what was changed on the page and not written, so that nothing is lost."""
     for name, typed in session.edits.items():
-        yield f"changed on the page and not written: {name}: {typed}"
+        yield say("changed on the page and not written: {name}: {typed}", name=name, typed=typed)

@@ -46,7 +46,7 @@ from diecut_report.cli.output import (
 from diecut_report.cli.progress import Progress
 from diecut_report.cli.report_options import detail_given, only_given, report_formats
 from diecut_report.cli.signing import sign
-from diecut_report.cli.study import batch, source, variants
+from diecut_report.cli.study import batch, source, take, variants
 from diecut_report.cli.template import template_option
 from diecut_report.config.discovery import Discovery, DuplicateKind, UnknownKind
 from diecut_report.errors import PluginError, Problem, Unwritable, UserError
@@ -177,6 +177,7 @@ def report(
 ) -> int:
     """Calculate and write NAME.html, NAME.pdf and NAME.json; on demand NAME.docx and NAME.xlsx."""
     from diecut_report import pipeline
+    from diecut_report.design.followed_advice import followed
     from diecut_report.exchange.sides import side
     from diecut_report.study.analysis.assumed import moves
 
@@ -184,7 +185,7 @@ def report(
         discovery = Discovery(folders)
         former = None if previous is None else side(source(previous, discovery), discovery, progress)[0]
         given, asked = source(config, discovery), pipeline.AskedReport(asked_language(), detail, only, house)
-        outcome = pipeline.report(given, discovery, progress, folder, formats, asked, moves, former)
+        outcome = pipeline.report(given, discovery, progress, folder, formats, asked, moves, former, followed)
     if not quiet:
         tell_written(outcome.written)
     return _verdict(outcome, discovery, quiet, strict)
@@ -269,6 +270,7 @@ program.add_command(validate)
 program.add_command(check)
 program.add_command(batch)
 program.add_command(variants)
+program.add_command(take)
 program.add_command(extract)
 program.add_command(verify)
 program.add_command(render)

@@ -24,7 +24,7 @@ from diecut_report.cli.output import (
     emit,
     tell,
 )
-from diecut_report.cli.verdict import marked
+from diecut_report.cli.verdict import WORDS, marked
 from diecut_report.languages.phrases import Counted, Phrase, phrase
 from diecut_report.languages.speech import say
 
@@ -206,6 +206,33 @@ def _refuse_idle(form: str, file: Path | None, given: Mapping[str, str | None]) 
             raise click.UsageError(f"{option} says nothing for {form}.")
     if form == "xlsx" and file is None:
         raise click.UsageError("A workbook is written to a file; name it with -o FILE.")
+
+
+@click.command(cls=HelpfulCommand)
+@click.argument("variant", metavar="DIR#N")
+@click.option("-o", "file", metavar="FILE", type=path_of, required=True, help="Where to write the configuration.")
+@click.option("--digits", metavar="N", type=click.IntRange(1, 15), help="Round its values to so many digits.")
+@common
+def take(variant: str, file: Path, digits: int | None, folders: tuple[Path, ...], quiet: bool) -> int:
+    """Take a variant of a study for a configuration of its own: the study's base with that variant's values, comments kept."""
+    from diecut_report.config.discovery import Discovery
+    from diecut_report.files import write_all
+    from diecut_report.study.analysis.taken_config import taken_config
+
+    folder, _, number = variant.rpartition("#")
+    if not folder or not number.isdecimal():
+        raise click.UsageError(
+            f"{variant!r} names no variant; give the folder of a study and a number, as in build/study#17."
+        )
+    found = taken_config(Path(folder), int(number), Discovery(folders), digits)
+    write_all({file: found.content}, Path(folder) / RESULTS, through=True)
+    if not quiet:
+        judged = {"file": file, "status": phrase(WORDS[found.status]), "check": found.governing or "–"}
+        tell([say("written: {file}; in the study: {status}, governed by {check}", **judged)])
+        missing = {name: copy for name, copy in found.beside.items() if not (file.parent / name).exists()}
+        words = "it names {name}, which is sought beside it; the study keeps a copy: {copy}"
+        tell(say(words, name=name, copy=copy) for name, copy in missing.items())
+    return PASSED
 
 
 def source(config: Path, discovery: Discovery) -> Source:

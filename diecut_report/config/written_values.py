@@ -12,7 +12,7 @@ from typing import Any
 
 import yaml
 
-from diecut_report.config.yaml_tree import LOADER, KeyPath, Tree, parse, resolved
+from diecut_report.config.yaml_tree import LOADER, KeyPath, Tree, parse
 from diecut_report.errors import Problem, UserError
 
 ANCHOR = re.compile(r"&\S+\s+")
@@ -31,15 +31,16 @@ class _Span:
     in_flow: bool
 
 
-def written(tree: Tree, values: Mapping[KeyPath, str]) -> str:
+def written(tree: Tree, values: Mapping[KeyPath, str], *, over_references: bool = False) -> str:
     """Return the text of the file with these scalars, as they are to be typed; a key that is not there is put into its block.
 
-    UserError in words where a value cannot be written: it is an expression, or shared by an anchor.
+    UserError in words where a value cannot be written: it is shared by an anchor, or an expression stands there which is not
+    to be written over.
     """
     spans, edits = _spans(tree.text), []
     for path, value in values.items():
         typed = tree.typed(path)
-        if typed is not None and "${" in typed:
+        if typed is not None and "${" in typed and not over_references:
             raise UserError(_problem(tree, path, EXPRESSION))
         edits.append(_new_key(tree, spans, path, value) if typed is None else _other(tree, spans, path, value))
     text = tree.text
@@ -123,7 +124,7 @@ def _require_same(tree: Tree, values: Mapping[KeyPath, str], text: str) -> None:
         home = expected
         for key in path[:-1]:
             home = home[key]
-        home[path[-1]] = resolved(value)
+        home[path[-1]] = parse(f"value: {value}\n", tree.file).data["value"]
     if parse(text, tree.file).data != expected:
         raise UserError(_problem(tree, next(iter(values)), SHARED))
 

@@ -10,17 +10,17 @@ import numpy as np
 
 from diecut_report.config.discovery import Discovery
 from diecut_report.config.loader import Config
-from diecut_report.contract.inputs import Quantity
+from diecut_report.design.advised import Advised, advised
 from diecut_report.design.changeable import changeable
 from diecut_report.design.design_inputs import DesignInput, design_input
 from diecut_report.design.mending import MendingPath, conflict
 from diecut_report.design.proved_machine import ProvedMachine, proved
 from diecut_report.design.typed_changes import fewer, rounded
 from diecut_report.design.varied_machines import VariedMachines, varied
-from diecut_report.errors import UserError
 from diecut_report.expressions import Array
-from diecut_report.results.advised_changes import AdvisedChange, advised_changes
-from diecut_report.study.definition.base_inputs import MECHANISMS, Input, UnknownPath, find_input
+from diecut_report.quantities.formatting import with_unit
+from diecut_report.quantities.units import UnitError, number_and_unit
+from diecut_report.study.definition.base_inputs import MECHANISMS, Input
 
 Tell = Callable[[str], None]
 
@@ -58,14 +58,6 @@ class Mended:
         return float(sum(abs(each.share) for each in self.changes if each.share is not None))
 
 
-@dataclass
-class _Advised:
-    """What the failing checks advise: numbers by their inputs, texts and yes/no by theirs."""
-
-    numbers: dict[str, tuple[DesignInput, float]]
-    choices: dict[str, tuple[Input, str]]
-
-
 class _Machines:
     """Calculates machines by the shares of their inputs that are changed; counts them."""
 
@@ -92,7 +84,9 @@ def mended(
     if not before.checks("fail"):
         return Mended(before)
     kept = {design_input(config, name).asked.path for name in keep}
-    advice = _advised(config, before, free=tuple(free), kept=kept)
+    only = {design_input(config, name).asked.path for name in free}
+    advice = advised(config, before.checks("fail"))
+    advice.leave_out(lambda path: path in kept or bool(only and path not in only))
     inputs = changeable(config, free, keep, [each.name for each, _ in advice.numbers.values()])
     run = _Machines(config, inputs, list(advice.choices.values()))
     path = MendingPath(run, inputs, _start(run, inputs, advice))
@@ -113,7 +107,7 @@ def _unmended(before: ProvedMachine, path: MendingPath, inputs: list[DesignInput
     return Mended(before, (), None, left, tuple(against), len(inputs), run.count)
 
 
-def _start(run: _Machines, inputs: list[DesignInput], advice: _Advised) -> Array:
+def _start(run: _Machines, inputs: list[DesignInput], advice: Advised) -> Array:
     """Where the search begins: at what is advised, where that machine is better than today's."""
     today = np.zeros(len(inputs))
     shares = [
@@ -126,40 +120,6 @@ def _start(run: _Machines, inputs: list[DesignInput], advice: _Advised) -> Array
     made = run(np.array([today, advised]))
     worse = len(made.failing(1)) > len(made.failing(0)) or not made.exists[1]
     return today if worse else advised
-
-
-def _advised(config: Config, machine: ProvedMachine, *, free: tuple[str, ...], kept: set[str]) -> _Advised:
-    """What all failing checks advise by their first ways; of several bounds of one input the furthest."""
-    found = _Advised({}, {})
-    only = {design_input(config, name).asked.path for name in free}
-    for name, check in machine.checks("fail"):
-        home = name.split(".")[0]
-        instance = config.instances[home]
-        assert instance is not None
-        for change in advised_changes(str(check["message"]), instance.model.model_fields):
-            _take(config, found, f"{MECHANISMS}.{home}.{change.key}", change)
-    for each in [path for path in found.numbers if path in kept or (only and path not in only)]:
-        del found.numbers[each]
-    return found
-
-
-def _take(config: Config, found: _Advised, path: str, change: AdvisedChange) -> None:
-    """Note a change that can be made: of a number the value that is furthest from today's."""
-    try:
-        asked = find_input(config, path)
-        if not isinstance(asked.meta, Quantity):
-            found.choices.setdefault(path, (asked, change.value))
-            return
-        design = design_input(config, path)
-        value = design.read(change.value)
-    except (UnknownPath, UserError, ValueError):  # of another mechanism, calculated, or not a value of this key
-        return
-    if design.today:
-        other = found.numbers.get(design.asked.path, (design, design.today))[1]
-        found.numbers[design.asked.path] = (
-            design,
-            max((value, other), key=lambda each: abs(each - (design.today or 0.0))),
-        )
 
 
 def _numbers(inputs: list[DesignInput], share: Array, typed: dict[int, str]) -> list[InputChange]:
@@ -175,7 +135,7 @@ def _numbers(inputs: list[DesignInput], share: Array, typed: dict[int, str]) -> 
     ]
 
 
-def _choices(config: Config, advice: _Advised) -> list[InputChange]:
+def _choices(config: Config, advice: Advised) -> list[InputChange]:
     found = []
     for asked, text in advice.choices.values():
         instance = config.instances[asked.instance]
@@ -201,11 +161,20 @@ def lines(found: Mended) -> Iterator[str]:
     width = max(len(each.name) for each in found.changes)
     for each in found.changes:
         share = "" if each.share is None else f"  ({100 * each.share:+.2g} %)"
-        yield f"  {each.name.ljust(width)}  {each.before or 'not given'} → {each.after}{share}"
+        yield f"  {each.name.ljust(width)}  {each.before or 'not given'} → {_said(each.after)}{share}"
     yield f"sum of the changes: {100 * found.size:.3g} % of today's values; governing: {found.machine.governing}"
     warned = [name for name, _ in found.machine.checks("warn")]
     if warned:
         yield f"with a warning: {', '.join(warned)}"
+
+
+def _said(typed: str) -> str:
+    """A value as it is typed, with its unit as one writes it."""
+    try:
+        number, own = number_and_unit(typed)
+    except UnitError:  # a text or a yes/no
+        return typed
+    return with_unit(f"{number}", own or "1")
 
 
 def _without(found: Mended) -> Iterator[str]:

@@ -9,13 +9,15 @@ from typing import Any
 
 from diecut_report import __version__
 from diecut_report.design.influence import IN_TOLERANCE, Bar, Chance, Tolerances, Tornado
-from diecut_report.quantities.units import unit
+from diecut_report.quantities.units import pretty, unit
 
 SHOWN = 10  # inputs of a tornado
+CAPTION = "In {unit}; blue: with the input raised, brown: lowered; ×: there is no such machine; the line: today."
 PAGE = """<!doctype html>
 <html lang="en"><head><meta charset="utf-8"><title>{title}</title>
-<meta http-equiv="Content-Security-Policy" content="default-src 'none'; style-src 'unsafe-inline'">
-<style>body{{font:15px/1.5 sans-serif;max-width:52rem;margin:2rem auto;padding:0 1rem;color:#1d252c}}svg{{max-width:100%;height:auto}}
+<meta http-equiv="Content-Security-Policy" content="default-src 'none'; style-src 'unsafe-inline'; font-src data:">
+<style>{faces}
+body{{font:15px/1.5 sans-serif;max-width:52rem;margin:2rem auto;padding:0 1rem;color:#1d252c}}svg{{max-width:100%;height:auto}}
 pre{{white-space:pre-wrap;background:#f3f5f7;padding:.7rem}}footer{{color:#5a6771;font-size:.85em}}</style></head><body>
 <h1>{title}</h1>
 {body}
@@ -104,8 +106,10 @@ def _plain(found: Chance) -> dict[str, Any]:
 
 def page(found: Sequence[Tornado], tolerances: Tolerances | None, name: str) -> str:
     """Return the same as one HTML file without scripts or network, with a figure for each number."""
+    from diecut_report.report import html as report_html
     from diecut_report.report.figures.tornado import tornado
 
+    faces = report_html._font_faces(tuple(report_html.FACES.items()))
     parts = []
     for index, each in enumerate(found):
         factor = unit(each.asked.unit).factor
@@ -123,8 +127,10 @@ def page(found: Sequence[Tornado], tolerances: Tolerances | None, name: str) -> 
             if bars
             else ""
         )
-        parts.append(f"<h2>{html.escape(each.asked.name)}</h2>\n{figure}\n<pre>{html.escape(text)}</pre>")
+        caption = CAPTION.format(unit=pretty(each.asked.unit) or "a share")
+        words = f"<p>{caption}</p>\n<pre>{html.escape(text)}</pre>"
+        parts.append(f"<h2>{html.escape(each.asked.name)}</h2>\n{figure}\n{words}")
     if tolerances is not None:
         parts.append("<h2>Tolerances</h2>\n<pre>" + html.escape("\n".join(_tolerances(tolerances))) + "</pre>")
     title = f"What matters: {html.escape(name)}"
-    return PAGE.format(title=title, body="\n".join(parts), version=__version__)
+    return PAGE.format(title=title, body="\n".join(parts), faces=faces, version=__version__)

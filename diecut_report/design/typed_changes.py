@@ -12,6 +12,7 @@ from diecut_report.expressions import Array
 
 NOTHING = 1e-6  # share of a value that is no change
 DIGITS = (2, 3, 4, 5, 6)
+DEARER, EACH = 1.05, 0.005  # what rounding may make of the size of all changes, and add for each of them
 EXACT = 12
 
 Run = Callable[[Array], VariedMachines]
@@ -40,13 +41,16 @@ def rounded(run: Run, inputs: Sequence[DesignInput], share: Array) -> tuple[Arra
     if not changed:
         return share, {}
     ways = range(len(next(iter(start.values()))))
+    most = DEARER * float(np.abs(share).sum()) + EACH * len(changed)
     tried = [{each: start[each][way] for each in changed} for way in ways]
-    good = passes(run(np.array([_shares(inputs, share, typed) for typed in tried])))
+    good = _good(run, inputs, share, tried, most)
     if not good.any():
         return share, {each: inputs[each].typed(_value(inputs[each], share[each]), EXACT) for each in changed}
     typed = tried[int(np.argmax(good))]
     for each in changed:
-        typed = _shorter(run, inputs, share, typed, (each, start[each]))
+        shorter = [typed | {each: text} for text in start[each] if len(text) < len(typed[each])]
+        good = _good(run, inputs, share, shorter, most)
+        typed = shorter[int(np.argmax(good))] if good.any() else typed
     return _shares(inputs, share, typed), typed
 
 
@@ -55,16 +59,12 @@ def passes(made: VariedMachines) -> Array:
     return np.isin(made.status.astype(str), ["pass", "warn"])
 
 
-def _shorter(
-    run: Run, inputs: Sequence[DesignInput], share: Array, typed: dict[int, str], own: tuple[int, Texts]
-) -> dict[int, str]:
-    """The same with one of them as short as still passes."""
-    each, texts = own
-    tried = [typed | {each: text} for text in texts if len(text) < len(typed[each])]
+def _good(run: Run, inputs: Sequence[DesignInput], share: Array, tried: Sequence[dict[int, str]], most: float) -> Array:
+    """Which of these pass, with changes that are no greater than that."""
     if not tried:
-        return typed
-    good = passes(run(np.array([_shares(inputs, share, one) for one in tried])))
-    return tried[int(np.argmax(good))] if good.any() else typed
+        return np.zeros(0, dtype=bool)
+    shares = np.array([_shares(inputs, share, typed) for typed in tried])
+    return np.asarray(passes(run(shares)) & (np.abs(shares).sum(axis=1) <= most))
 
 
 def _texts(design: DesignInput, share: float) -> Texts:

@@ -121,6 +121,21 @@ class ProgramForm(_PartOfResults):
     libraries: dict[str, str] = {}
 
 
+class AdvisedForm(_PartOfResults):
+    """A change that is advised."""
+
+    path: str
+    value: str
+
+
+class AdviceForm(_PartOfResults):
+    """What comes of the advice of all failing checks together."""
+
+    changes: list[AdvisedForm]
+    failing: list[str]
+    error: str | None
+
+
 class CountsForm(_PartOfResults):
     """How many checks there are of each status."""
 
@@ -128,6 +143,7 @@ class CountsForm(_PartOfResults):
     warn: int
     fail: int
     not_checked: int
+    advice: AdviceForm | None = None
 
 
 class ResultsForm(_PartOfResults):

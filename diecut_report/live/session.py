@@ -90,9 +90,15 @@ class LiveSession:
         self._calculate()
 
     def write(self) -> None:
-        """Write the changes into the file, all else in it as it stands; UserError where that is not possible, and nothing is lost."""
-        tree = yaml_tree.load(self.file)  # as it stands now, whatever the editor has saved meanwhile
-        text = written(tree, self._edited())
+        """Write the changes into the file, all else in it as it stands; UserError where that is not possible, and nothing is lost.
+
+        What cannot be calculated is not written.
+        """
+        self.read()  # as it stands now, whatever the editor has saved meanwhile
+        if self.faults or self.tree is None:
+            words = "Nothing is written, as this cannot be calculated; take a change back, or mend the file first."
+            raise UserError(Problem(words, str(self.file)))
+        tree, text = self.tree, written(self.tree, self._edited())
         if text != tree.text:
             write(self.file.resolve(), as_file(tree, text))
         self.edits = {}

@@ -8,6 +8,7 @@ from dataclasses import dataclass, field
 from pathlib import PurePath
 from typing import Any
 
+from diecut_report.report.advice import followed_line
 from diecut_report.report.assumed import AssumedGroup, AssumedLine, assumed_groups, assumed_line
 from diecut_report.report.chapters import chapter
 from diecut_report.report.equations import Equations
@@ -120,7 +121,7 @@ def document(results: Data, equations: Equations, words: Catalogue) -> ReportDoc
         governing=_governing(results, checks),
         checks=checks,
         unchecked=[row for row in every if row.status == "not_checked"],
-        notes=[*_shown(whole, words), *_notes(every, words)],
+        notes=[*_shown(whole, words), *_notes(every, words), *followed_line(results, words)],
         failures=_failures(checks),
         press_rows=[rested(quantity_row(row, decimal), row, words) for row in results["press"]["fields"]],
         chapters=chapters,

@@ -21,7 +21,7 @@ from diecut_report.report.page_engine import Attachment, URLFetcher, fetching_re
 from diecut_report.report.page_reading import read_page
 from diecut_report.report.pdf_archive import Archive
 from diecut_report.report.pdf_figures import FigurePicture, NotDrawn
-from diecut_report.report.pdf_math import Picture
+from diecut_report.report.pdf_math import Letters, Picture
 from diecut_report.report.sheet_frames import SheetBlocks, sheet_blocks
 
 BESIDE_WIDTH = 33.0  # em of a formula that stands beside its description
@@ -38,7 +38,9 @@ class Paper:
         block = material.document.block
         words = material.words
         self.frame: SheetBlocks | None = sheet_blocks(block, words, has_logo=bool(material.logo))
+        self.letters = Letters()
         behind = Backdrop(block.frame, words["across"] if block.is_held else "")
+        self.formulas: set[str] = set()
         self.pictures: dict[str, Picture | FigurePicture | Backdrop] = {BACKDROP: behind} if behind else {}
         self.style = RULE.format(BACKDROP) if behind else ""
 
@@ -61,7 +63,8 @@ class Paper:
     def _picture(self, equation: Equation, style: str) -> Markup:
         outline = self.material.typesetter.outline(equation.latex)
         address = f"{FORMULA}{len(self.pictures)}"
-        self.pictures[address] = Picture(outline, equation.text)
+        self.pictures[address] = Picture(outline, equation.text, self.letters)
+        self.formulas.add(equation.text)
         told = escape(equation.text).replace("\n", Markup("&#10;"))
         return Markup('<img src="{}" alt="{}"{}>').format(address, told, Markup(style))
 
@@ -93,7 +96,8 @@ def sheets(material: Material) -> bytes:
         warnings.catch_warnings(action="ignore", category=ResourceWarning),
     ):  # WeasyPrint's own file
         content: bytes = read_page(source, fetcher, is_own=material.house is None).write_pdf(
-            pdf_variant="pdf/a-3a", cache=cache, presentational_hints=False, finisher=Archive(material.words),
+            pdf_variant="pdf/a-3a", cache=cache, presentational_hints=False,
+            finisher=Archive(material.words, paper.letters, paper.formulas),
             attachments=[_attached(file, fetcher) for file in material.carried],
         )  # fmt: skip
     return content

@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Collection, Mapping
 from typing import Any
 
 from diecut_report.report.page_engine import Array, Dictionary, Stream, String
+from diecut_report.report.pdf_math import Letters
 from diecut_report.report.pdf_objects import say_once
 from diecut_report.report.pdf_search import add_font
 from diecut_report.report.title_block import SIGNERS
@@ -32,19 +33,29 @@ ACCESSIBLE = (
 class Archive:
     """Completes a document as it is written (the page engine's ``finisher``)."""
 
-    def __init__(self, words: Mapping[str, str]) -> None:
-        self.words = words
+    def __init__(self, words: Mapping[str, str], letters: Letters, formulas: Collection[str] = ()) -> None:
+        self.words, self.letters, self.formulas = words, letters, formulas
 
     def __call__(self, document: Any, pdf: Any) -> None:
         """Complete a document, of which ``pdf`` holds the objects."""
         _declare_accessible(pdf)
-        add_font(pdf, _fonts(pdf))
+        shared = _shared(pdf)
+        add_font(pdf, _object(pdf, shared["Font"]))
+        self.letters.add_forms(pdf, shared["XObject"])
         pdf.catalog["AF"] = Array(dict.fromkeys(pdf.catalog["AF"]))
         for number, page in enumerate(document.pages):
             for name in SIGNERS:
                 if ANCHOR + name in page.anchors:
                     self._field(pdf, name, number, page)
+        self._name_formulas(pdf)
         say_once(pdf)
+
+    def _name_formulas(self, pdf: Any) -> None:
+        """Tag formulas as such: the page engine knows their pictures as figures, with the formula as their text."""
+        for each in pdf.objects:
+            told = each.get("Alt") if isinstance(each, Dictionary) and each.get("S") == "/Figure" else None
+            if told is not None and told.string in self.formulas:
+                each["S"] = "/Formula"
 
     def _field(self, pdf: Any, name: str, number: int, page: Any) -> None:
         """An empty field for a signature in its box."""
@@ -90,10 +101,9 @@ def _tag(pdf: Any, field: Any, sheet: bytes) -> None:
     numbers.extend([field["StructParent"], element.reference])
 
 
-def _fonts(pdf: Any) -> Any:
-    """The fonts of the sheets, which share what they use."""
-    sheet = _object(pdf, pdf.page_references[0])
-    return _object(pdf, _object(pdf, sheet["Resources"])["Font"])
+def _shared(pdf: Any) -> Any:
+    """What the sheets use, one and the same for all."""
+    return _object(pdf, _object(pdf, pdf.page_references[0])["Resources"])
 
 
 def _object(pdf: Any, reference: bytes) -> Any:

@@ -80,8 +80,8 @@ life.computed("governing_bearing", "B_L", "1", "Bearing of the least life", _gov
 value(life, "life_share", "s_L", "1", "Share of the least life in this bearing's, to the Weibull slope",
       lambda lives, life_min, life_modified: np.where(lives > 0, (life_min / life_modified) ** (10 / 9), 0),
       exists=lambda any_life: any_life > 0, source="Lundberg and Palmgren", output=False)
-life.total("life_sum", "Σ s_L", "1", "Sum of these shares", "sum", of="life_share",
-           exists=lambda any_life: any_life > 0, source="Lundberg and Palmgren", output=False)
+life.computed("life_sum", "Σ s_L", "1", "Sum of these shares", lambda share: np.sum(share, axis=1, keepdims=True), ("life_share",),
+              "of all bearings", exists=lambda any_life: any_life > 0, output=False, source="Lundberg and Palmgren")
 life.value("system_life", "L_sys", "h", "Life of all bearings together, of the same reliability", lambda life_min,
            life_sum: life_min * life_sum ** (-0.9),
            exists=lambda any_life: any_life > 0, source="Lundberg and Palmgren")

@@ -87,7 +87,7 @@ def test_a_number_changed_on_the_page_changes_what_it_shows_and_goes_into_the_fi
 ) -> None:
     tab, before = Tab(browser, live.address), live.file.read_text("utf-8")
     force = tab.shown("knife.force_max").inner_text()
-    tab.type("knife.eccentricity", "18 mm")
+    tab.type("knife.eccentricity", "22 mm")
     expect(tab.shown("knife.force_max")).not_to_have_text(force, timeout=SECONDS)
     expect(tab.page.locator('[data-output="knife.force_max"] td').nth(2)).to_have_text(force)
     tab.page.wait_for_selector("#checks svg.effect")  # what the chosen input does to a check
@@ -100,7 +100,7 @@ def test_a_number_changed_on_the_page_changes_what_it_shows_and_goes_into_the_fi
         if len(set(pair)) == 2
     ]
     assert changed == [
-        (line, line.replace("20 mm", "18 mm")) for line in before.splitlines() if "eccentricity: {value: 20 mm" in line
+        (line, line.replace("20 mm", "22 mm")) for line in before.splitlines() if "eccentricity: {value: 20 mm" in line
     ]
     assert tab.said == []
 

@@ -118,3 +118,10 @@ def test_the_page_tells_each_cap() -> None:
     page = re.sub(r"(?<=\d) (?=\d{3})", "", PAGE.read_text("utf-8"))
     for name, value in vars(limits).items():
         assert not name.startswith("MAX_") or re.search(rf"\| {value} \|", page), name
+
+
+@pytest.mark.parametrize("ratio", ["20000", "1e9"])
+def test_a_sector_that_turns_its_gear_for_ever_is_refused_before_it_is_calculated(ratio: str, tmp_path: Path) -> None:
+    drive = f"  d: {{kind: cylinder_drive, crank_speed: 100 rpm, cylinder_radius: 105 mm, sector_ratio: {ratio}}}\n"
+    (found,) = [line for line in problems(tmp_path, HEAD + drive) if "sector_ratio" in line]
+    assert "plausible" in found

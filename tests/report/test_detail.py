@@ -255,8 +255,8 @@ def press_sheets(tmp_path_factory: pytest.TempPathFactory) -> Path:
 def test_the_press_is_short_in_brief_and_much_shorter_in_standard_than_in_full(press_sheets: Path) -> None:
     count = {detail: len(PdfReader(press_sheets / f"{detail}.pdf").pages) for detail in DETAILS}
     assert count["brief"] <= 4  # 18 mechanisms
-    assert count["standard"] <= 160
-    assert count["standard"] < 0.75 * count["full"]
+    assert count["standard"] <= 118
+    assert count["standard"] < 0.65 * count["full"]
 
 
 @pytest.mark.nightly

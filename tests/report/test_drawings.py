@@ -14,6 +14,7 @@ from diecut_report.report.figures.by_type import render
 from diecut_report.report.figures.drawing import Shapes
 from diecut_report.report.figures.drawing_scale import LARGEST, PAD, PAGE, SIZES, content, filled, folded
 from diecut_report.report.figures.shapes import beyond, hatching
+from diecut_report.report.figures.sizes import Size
 from diecut_report.report.figures.style import MM, marked, overlap, text_size
 from diecut_report.report.i18n import Catalogue
 from tests.examples import few
@@ -202,6 +203,18 @@ def test_drawing_is_made_smaller_until_its_texts_have_places() -> None:
     assert outline is not None
     reach = [float(x) for x in re.findall(r"[ML] ([\d.]+)", outline[1])]
     assert 60 * MM < max(reach) - min(reach) < 0.95 * LARGEST[0]
+
+
+@pytest.mark.parametrize(("texts", "is_lower"), [(4, True), (30, False)])
+def test_a_drawing_with_many_texts_is_not_made_lower(texts: int, is_lower: bool) -> None:
+    points = [[0.0, 0.0], [0.3, 0.0], [0.3, 0.2], [0.0, 0.2]]
+    labels = [
+        {"shape": "label", "at": [0.15, 0.2 * k / texts], "text": f"row {k}", "anchor": "left"} for k in range(texts)
+    ]
+    outline = {"shape": "polyline", "points": points, "closed": True, "role": "outline"}
+    figure = drawing("d", "Rows", [outline, *labels])
+    low, large = (render(figure, {}, Catalogue("en"), "d", size).height for size in (Size.LOW, Size.LARGE))
+    assert (low < large) is is_lower
 
 
 def test_a_point_in_the_midst_gets_a_leader_to_its_name() -> None:

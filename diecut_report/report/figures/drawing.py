@@ -42,13 +42,15 @@ SHARES = {  # of the largest, at which a drawing is tried, so that its texts fin
     Size.HALF: (0.52, 0.46, 0.58),
     Size.SKETCH: (0.36, 0.3, 0.42, 0.5),
 }
+MANY_TEXTS = 20
+SCHEMES = (0.6, 0.5)  # of sketches whose boxes hold texts
 WORTH = 25.0  # what stands in the way of texts, for which the drawing is rather made a step smaller
 
 
 def drawing(figure: Mapping[str, Any], _curves: Mapping[str, Any], words: Catalogue, size: Size = Size.LARGE) -> Figure:
     """The shapes of a drawing, as large as their place on the page lets them be, with a scale bar unless it is a schematic."""
     best, least = None, np.inf
-    for step, share in enumerate(SHARES[size]):
+    for step, share in enumerate(_shares(figure, size)):
         sheet = Shapes(figure, words, LARGEST * share)
         sheet.finish()
         cost = sheet.crowded + step * WORTH
@@ -58,6 +60,14 @@ def drawing(figure: Mapping[str, Any], _curves: Mapping[str, Any], words: Catalo
             break
     assert best is not None
     return best
+
+
+def _shares(figure: Mapping[str, Any], size: Size) -> tuple[float, ...]:
+    """How large a drawing is tried: one with many texts is not made lower, nor is a scheme's sketch so small as others."""
+    if size is Size.SKETCH and figure.get("schematic"):
+        return SCHEMES
+    texts = sum(bool(shape.get("text") or shape.get("label")) for shape in figure["shapes"])
+    return SHARES[Size.LARGE if size is Size.LOW and texts > MANY_TEXTS else size]
 
 
 def _look(shape: Shape) -> dict[str, Any]:

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Mapping
+from dataclasses import dataclass
 from pathlib import Path, PurePath
 from typing import Any
 
@@ -20,6 +21,19 @@ from diecut_report.study.definition.base_inputs import MECHANISMS
 from diecut_report.study.storage.state import kept
 
 
+@dataclass(frozen=True)
+class StoredVariant:
+    """Hold a stored variant: the study's base and its file, the study's, the values by their places in the base, the verdict, the code."""
+
+    base: Tree
+    file: str
+    study: str
+    values: Mapping[KeyPath, tuple[StoredColumn, Any]]
+    status: str
+    governing: str
+    sources: Mapping[str, str]
+
+
 def variant_config(
     directory: Path, variant: int, discovery: Discovery, name: str, warn: Callable[[str], None] | None = None
 ) -> Tree:
@@ -29,23 +43,34 @@ def variant_config(
     study was calculated by is told to ``warn``, and stands above the configuration. UserError in words where the variant is not
     stored, and with its reason where it cannot be calculated.
     """
-    with opened(directory) as stored:
-        _refuse_error(stored, variant)
-        row = _row(stored, variant)
-        description = stored.description
-    base = yaml_tree.load(kept(directory)[description.base.file])
-    values = {
-        _value(base, _place(base, tuple(_keys(column.name)), discovery)): _given(value, column) for column, value in row
-    }
-    values |= dict(_named(base, variant, description.study.file))
-    values |= dict(_tables(base, directory, description.base.file))
-    heading = f"Variant {variant} of {description.study.file}: its values are exactly those that were calculated."
+    found = stored_variant(directory, variant, discovery)
+    base = found.base
+    values = {place: as_config_value(value, column) for place, (column, value) in found.values.items()}
+    values |= dict(_named(base, variant, found.study))
+    values |= dict(_tables(base, directory, found.file))
+    heading = f"Variant {variant} of {found.study}: its values are exactly those that were calculated."
     kinds = (str(data.get("kind")) for data in (base.data.get(MECHANISMS) or {}).values())
-    warnings = other_code(description.sources, kinds, discovery)
+    warnings = other_code(found.sources, kinds, discovery)
     if warn is not None:
         for words in warnings:
             warn(words)
     return with_values(base, values, name, "\n# ".join([heading, *warnings]))
+
+
+def stored_variant(directory: Path, variant: int, discovery: Discovery) -> StoredVariant:
+    """Return a variant with the base that its study keeps; UserError in words where it is not stored, or is in error."""
+    with opened(directory) as stored:
+        _refuse_error(stored, variant)
+        row = _row(stored, variant)
+        ((status, governing),) = stored.rows("SELECT status, governing FROM v WHERE variant = ?", [variant])
+        description = stored.description
+    base = yaml_tree.load(kept(directory)[description.base.file])
+    values = {
+        _value(base, _place(base, tuple(_keys(column.name)), discovery)): (column, value) for column, value in row
+    }
+    return StoredVariant(
+        base, description.base.file, description.study.file, values, status, governing or "", description.sources
+    )
 
 
 def _place(base: Tree, path: KeyPath, discovery: Discovery) -> KeyPath:
@@ -124,7 +149,7 @@ def _row(stored: Stored, variant: int) -> list[tuple[StoredColumn, Any]]:
     return [(column, value) for column, value in zip(stored.varied, rows[0], strict=False) if value is not None]
 
 
-def _given(value: Scalar, column: StoredColumn) -> Scalar:
+def as_config_value(value: Scalar, column: StoredColumn) -> Scalar:
     """Return the value as a configuration gives it; whole pure numbers (teeth) as integers."""
     if not isinstance(value, float):
         return value

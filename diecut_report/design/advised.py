@@ -1,0 +1,63 @@
+"""The advice of several failing checks put together, where it names keys and values."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable
+from dataclasses import dataclass
+from typing import Any
+
+from diecut_report.config.loader import Config
+from diecut_report.contract.inputs import Quantity
+from diecut_report.design.design_inputs import DesignInput, design_input
+from diecut_report.errors import UserError
+from diecut_report.results.advised_changes import AdvisedChange, advised_changes
+from diecut_report.study.definition.base_inputs import MECHANISMS, Input, UnknownPath, find_input
+
+Data = dict[str, Any]
+
+
+@dataclass
+class Advised:
+    """Hold what the failing checks advise: numbers by their inputs, texts and yes/no by theirs."""
+
+    numbers: dict[str, tuple[DesignInput, float]]
+    choices: dict[str, tuple[Input, str]]
+
+    def leave_out(self, is_out: Callable[[str], bool]) -> None:
+        """Forget what is advised of inputs with such a path."""
+        self.numbers = {path: each for path, each in self.numbers.items() if not is_out(path)}
+        self.choices = {path: each for path, each in self.choices.items() if not is_out(path)}
+
+    @property
+    def is_empty(self) -> bool:
+        return not self.numbers and not self.choices
+
+
+def advised(config: Config, failing: Iterable[tuple[str, Data]]) -> Advised:
+    """Return what failing checks, each with its name, advise by their first ways; of several bounds of one input the furthest."""
+    found = Advised({}, {})
+    for name, check in failing:
+        home = name.split(".")[0]
+        instance = config.instances.get(home)
+        for change in advised_changes(str(check["message"]), instance.model.model_fields) if instance else ():
+            _take(config, found, f"{MECHANISMS}.{home}.{change.key}", change)
+    return found
+
+
+def _take(config: Config, found: Advised, path: str, change: AdvisedChange) -> None:
+    """Note a change that can be made: of a number the value that is furthest from today's."""
+    try:
+        asked = find_input(config, path)
+        if not isinstance(asked.meta, Quantity):
+            found.choices.setdefault(path, (asked, change.value))
+            return
+        design = design_input(config, path)
+        value = design.read(change.value)
+    except (UnknownPath, UserError, ValueError):  # of another mechanism, calculated, or not a value of this key
+        return
+    if design.today:
+        other = found.numbers.get(design.asked.path, (design, design.today))[1]
+        found.numbers[design.asked.path] = (
+            design,
+            max((value, other), key=lambda each: abs(each - (design.today or 0.0))),
+        )

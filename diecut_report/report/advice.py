@@ -1,0 +1,22 @@
+"""The line of page 1 on what comes of the advice of all failing checks together."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from typing import Any
+
+from diecut_report.report.i18n import Catalogue
+
+
+def followed_line(results: Mapping[str, Any], words: Catalogue) -> Iterator[str]:
+    """Yield the line; nothing where that was not calculated."""
+    advice = results.get("summary", {}).get("advice")
+    if not advice:
+        return
+    changes = ", ".join(f"{each['path']} {each['value']}" for each in advice["changes"])
+    if advice["error"]:
+        yield words.say("advice_impossible", changes=changes)
+    elif advice["failing"]:
+        yield words.say("advice_leaves", changes=changes, checks=", ".join(advice["failing"]))
+    else:
+        yield words.say("advice_passes", changes=changes)

@@ -1,0 +1,132 @@
+"""The server of the live page: who is let in, what is told when the file changes, and how it ends."""
+
+from __future__ import annotations
+
+import json
+import signal
+import socket
+import subprocess
+import sys
+from collections.abc import Generator, Iterator
+from contextlib import closing
+from http.client import HTTPConnection
+from pathlib import Path
+from urllib.parse import urlsplit
+
+import pytest
+
+from diecut_report.cli.main import main
+from tests.configs import EXAMPLES
+
+KNIFE = next(path for path in EXAMPLES if path.stem == "circular_knife")
+SECONDS = 120
+
+
+class Server:
+    """The command as a process, with its address."""
+
+    def __init__(self, file: Path) -> None:
+        self.file = file
+        command = [sys.executable, "-m", "diecut_report", "live", str(file), "--no-open", "--quiet"]
+        self.process = subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, encoding="utf-8")
+        assert self.process.stdout is not None
+        address = urlsplit(self.process.stdout.readline().strip())
+        self.host, self.path = address.netloc, address.path
+
+    def asked(self, method: str, path: str, body: object = None, **headers: str) -> tuple[int, str]:
+        connection = HTTPConnection(self.host, timeout=SECONDS)
+        own = {"Host": self.host} | ({"Origin": f"http://{self.host}"} if method == "POST" else {})
+        given = {name.replace("_", "-").title(): value for name, value in headers.items()}
+        connection.request(method, path, None if body is None else json.dumps(body), {**own, **given})
+        answer = connection.getresponse()
+        found = answer.status, answer.read().decode()
+        connection.close()
+        return found
+
+    def events(self) -> Generator[dict[str, object], None, None]:
+        with closing(HTTPConnection(self.host, timeout=SECONDS)) as connection:
+            connection.request("GET", f"{self.path}events")
+            with connection.getresponse() as answer:
+                for line in answer:
+                    if line.startswith(b"data: "):
+                        yield json.loads(line[6:])
+
+
+@pytest.fixture(scope="module")
+def server(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Server]:
+    file = tmp_path_factory.mktemp("live") / "knife.yaml"
+    file.write_bytes(KNIFE.read_bytes())
+    made = Server(file)
+    yield made
+    made.process.kill()
+    made.process.communicate()
+
+
+def test_only_pages_of_its_own_with_the_secret_are_let_in(server: Server) -> None:
+    own = server.path
+    assert server.asked("GET", own)[0] == 200
+    assert server.asked("GET", "/")[0] == server.asked("GET", f"/{'x' * 32}/")[0] == 404
+    assert server.asked("GET", own, host="evil.example")[0] == 421  # a name that leads here from elsewhere
+    assert server.asked("GET", f"{own}events", origin="http://evil.example")[0] == 403
+    assert server.asked("GET", own, sec_fetch_site="cross-site")[0] == 403
+    assert server.asked("POST", f"{own}write", origin="http://evil.example")[0] == 403
+    assert server.asked("POST", f"{own}write", origin="null")[0] == 403
+    assert server.asked("POST", f"{own}change", {"changes": {"a": "b" * 300_000}})[0] == 413
+
+
+def test_no_path_of_the_page_is_opened(server: Server) -> None:
+    for name in ("../live/live.js", "..%2f..%2fpyproject.toml", "%2Fetc%2Fpasswd", "live.html.j2"):
+        assert server.asked("GET", f"{server.path}assets/{name}")[0] == 404
+    assert server.asked("GET", f"{server.path}assets/live.js")[0] == 200
+    assert server.asked("GET", f"{server.path}figure/..%2f..%2fetc/0")[0] in (404, 422)
+    assert server.asked("GET", f"{server.path}report/..%2fjson")[0] in (404, 422)
+
+
+def test_what_is_not_asked_in_the_right_form_is_refused(server: Server) -> None:
+    for body in ([], {"changes": []}, {"changes": {"knife.depth": 5}}, "x", None):
+        assert server.asked("POST", f"{server.path}change", body)[0] == 400
+    status, told = server.asked("POST", f"{server.path}change", {"changes": {"knife.depth": "5 kg"}})
+    assert status == 422 and "mass" in json.loads(told)["refused"]
+
+
+def test_each_change_is_told_to_whoever_looks(server: Server) -> None:
+    with closing(server.events()) as events:
+        _follow(server, events)
+
+
+def _follow(server: Server, events: Iterator[dict[str, object]]) -> None:
+    assert next(events)["faults"] == []
+    text = server.file.read_text("utf-8")
+    server.file.write_text(text.replace("friction:", "frictoin:"), encoding="utf-8")
+    assert "friction" in json.dumps(next(events)["faults"])
+    server.file.write_text(text, encoding="utf-8")
+    assert next(events)["faults"] == []
+    server.asked("POST", f"{server.path}change", {"changes": {"knife.depth": "111 mm"}})
+    assert next(events)["edits"] == {"knife.depth": "111 mm"}
+    server.asked("POST", f"{server.path}write")
+    assert next(events)["edits"] == {} and "111 mm" in server.file.read_text("utf-8")
+
+
+def test_ctrl_c_ends_it_and_tells_what_is_not_written(tmp_path: Path) -> None:
+    file = tmp_path / "knife.yaml"
+    file.write_bytes(KNIFE.read_bytes())
+    server = Server(file)
+    with closing(server.events()) as events:
+        next(events)
+        server.asked("POST", f"{server.path}change", {"changes": {"knife.depth": "111 mm"}})
+        server.process.send_signal(signal.SIGINT)
+        _, told = server.process.communicate(timeout=SECONDS)
+    assert (server.process.returncode, told) == (0, "changed on the page and not written: knife.depth: 111 mm\n")
+
+
+def test_a_port_in_use_and_a_file_that_is_none_end_with_words(
+    tmp_path: Path, capfd: pytest.CaptureFixture[str]
+) -> None:
+    with socket.socket() as other:
+        other.bind(("127.0.0.1", 0))
+        other.listen()
+        port = other.getsockname()[1]
+        assert main(["live", str(KNIFE), "--port", str(port), "--no-open"]) == 2
+    assert f"The port {port} of this machine cannot be had: another program has it" in capfd.readouterr().err
+    assert main(["live", str(tmp_path), "--no-open"]) == 2
+    assert "There is no such file" in capfd.readouterr().err

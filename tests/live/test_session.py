@@ -1,0 +1,156 @@
+"""A session of the live page: what it shows of a file that is changed on disk and on the page, and what it never loses."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+
+from diecut_report.config.discovery import Discovery
+from diecut_report.config.loader import load_config
+from diecut_report.errors import UserError
+from diecut_report.live.effects import effect
+from diecut_report.live.page_data import page_data
+from diecut_report.live.pictures_of_run import Pictures
+from diecut_report.live.session import LiveSession
+from diecut_report.results.document import document
+from diecut_report.results.press_run import compute
+from tests.configs import EXAMPLES
+
+KNIFE = next(path for path in EXAMPLES if path.stem == "circular_knife")
+
+
+@pytest.fixture
+def session(tmp_path: Path) -> LiveSession:
+    file = tmp_path / "knife.yaml"
+    file.write_bytes(KNIFE.read_bytes())
+    return LiveSession(file, Discovery([]))
+
+
+def force(session: LiveSession) -> float:
+    assert session.machine is not None
+    return float(session.machine.run.outputs("knife")["force_max"]["value"])
+
+
+def replaced(session: LiveSession, old: str, new: str) -> None:
+    session.file.write_text(session.file.read_text("utf-8").replace(old, new), encoding="utf-8")
+    session.read()
+
+
+def test_it_shows_what_the_file_gives_when_it_is_calculated_by_itself(session: LiveSession) -> None:
+    session.change({"knife.eccentricity": "22 mm", "press.sheet.thickness": "0.6 mm"})
+    shown = page_data(session)["machine"]
+    session.write()
+    results = document(compute(load_config(session.file, Discovery([])), lambda _: None))
+    assert (shown["status"], shown["summary"]["fail"]) == (results["status"], results["summary"]["fail"])
+    (knife,) = (each for each in shown["mechanisms"] if each["name"] == "knife")
+    checks = {check["id"]: check for check in results["mechanisms"]["knife"]["checks"]}
+    assert {check["id"]: check["utilisation"] for check in knife["checks"]} == {
+        name: check["utilisation"] for name, check in checks.items() if check["class"] != "numerical"
+    }
+    assert force(session) == results["mechanisms"]["knife"]["outputs"]["force_max"]["value"]
+
+
+def test_a_number_of_the_page_stands_over_the_file_until_it_is_written_into_it(session: LiveSession) -> None:
+    before, text = force(session), session.file.read_text("utf-8")
+    session.change({"knife.shear_resistance": "84 N/mm**2"})  # the force is in proportion
+    assert force(session) == pytest.approx(2 * before, rel=1e-9)
+    assert session.file.read_text("utf-8") == text and session.edits == {"knife.shear_resistance": "84 N/mm**2"}
+    replaced(session, "thickness: 0.5 mm", "thickness: 0.55 mm")  # saved in the editor meanwhile
+    assert session.edits and force(session) != pytest.approx(2 * before, rel=1e-3)
+    session.write()
+    new = text.replace("{value: 42 N/mm**2", "{value: 84 N/mm**2").replace("thickness: 0.5 mm", "thickness: 0.55 mm")
+    assert session.file.read_text("utf-8") == new and session.edits == {}
+
+
+def test_what_is_typed_as_the_file_has_it_is_no_change(session: LiveSession) -> None:
+    session.change({"knife.eccentricity": "22 mm"})
+    session.change({"knife.eccentricity": "20 mm"})
+    assert session.edits == {}
+    session.change({"knife.eccentricity": "22 mm"})
+    replaced(session, "20 mm, basis", "22 mm, basis")
+    assert session.edits == {} and session.faults == []
+
+
+@pytest.mark.parametrize("spoil", ["a fault", "no file", "a folder", "not YAML"])
+def test_the_last_machine_stays_while_the_file_is_at_fault(session: LiveSession, spoil: str) -> None:
+    right, before = session.file.read_bytes(), force(session)
+    session.change({"knife.eccentricity": "22 mm"})
+    changed = force(session)
+    session.file.unlink()
+    if spoil == "a folder":
+        session.file.mkdir()
+    elif spoil != "no file":
+        session.file.write_text("mechanisms: [" if spoil == "not YAML" else "schema_version: 1\n", encoding="utf-8")
+    session.read()
+    data = page_data(session)
+    assert data["faults"] and data["faults"][0]["text"] and force(session) == changed != before
+    assert data["edits"] == {"knife.eccentricity": "22 mm"}
+    with pytest.raises(UserError):
+        session.write()
+    if spoil == "a folder":
+        session.file.rmdir()
+    session.file.write_bytes(right)
+    session.read()
+    assert session.faults == [] and force(session) == changed
+
+
+def test_a_file_that_is_at_fault_from_the_start_is_shown_when_it_is_mended(tmp_path: Path) -> None:
+    file = tmp_path / "knife.yaml"
+    file.write_text("schema_version: 1\n", encoding="utf-8")
+    session = LiveSession(file, Discovery([]))
+    assert page_data(session)["machine"] is None and session.faults
+    with pytest.raises(UserError, match="before the file can be calculated"):
+        session.change({"knife.eccentricity": "22 mm"})
+    file.write_bytes(KNIFE.read_bytes())
+    session.read()
+    assert session.faults == [] and session.start is session.machine is not None
+
+
+@pytest.mark.parametrize(
+    ("name", "typed", "words"),
+    [("knife.eccentricity", "5 kg", "mass"), ("knife.eccentricity", "", "number"), ("knife.none", "5 mm", "not a number"),
+     ("knife.thickness", "1 mm", "not a number"), ("knife.eccentricity", "5 mm # a remark", "mm"),
+     ("knife.eccentricity", "1" * 200, "letters"), ("knife.eccentricity", "5 mm\n  depth: 3", "mm")],
+)  # fmt: skip
+def test_what_is_no_number_for_an_input_is_refused_and_changes_nothing(
+    session: LiveSession, name: str, typed: str, words: str
+) -> None:
+    before = session.serial
+    with pytest.raises(UserError, match=words):
+        session.change({name: typed})
+    assert session.edits == {} and session.serial == before
+
+
+def test_a_number_out_of_bounds_is_told_with_its_place_and_can_be_taken_back(session: LiveSession) -> None:
+    before = force(session)
+    session.change({"knife.eccentricity": "-3 mm"})
+    (fault,) = page_data(session)["faults"]
+    line = next(n for n, text in enumerate(session.file.read_text("utf-8").splitlines(), 1) if "eccentricity:" in text)
+    assert (fault["path"].removesuffix(".value"), fault["line"]) == ("mechanisms.knife.eccentricity", line)
+    assert force(session) == before
+    with pytest.raises(UserError, match="Nothing is written"):
+        session.write()
+    session.take_back(["knife.eccentricity"])
+    assert session.faults == [] and session.edits == {}
+
+
+def test_the_effect_of_an_input_is_that_of_machines_calculated_one_by_one(session: LiveSession) -> None:
+    assert session.machine is not None
+    found = effect(session.machine, "knife.shear_resistance")
+    lines = {name: line["utilisation"] for name, line in found["checks"].items()}
+    for place in (0, 7, len(found["places"]) - 1):
+        session.change({"knife.shear_resistance": f"{found['places'][place]} N/mm**2"})
+        for check in session.machine.run.checks["knife"]:
+            if (name := f"knife.{check['id']}") in lines and check["status"] != "not_checked":
+                assert lines[name][place] == pytest.approx(check["utilisation"], rel=1e-3), name
+
+
+def test_figures_are_curves_or_drawings_and_drawn_once_for_a_machine(session: LiveSession) -> None:
+    assert session.machine is not None
+    pictures, machine = Pictures(), session.machine
+    drawing, chart = pictures.figure(machine, "knife", 0), pictures.figure(machine, "knife", 2)
+    assert drawing["svg"].startswith("<svg") and len(chart["plot"]["panels"]) == 4
+    assert pictures.figure(machine, "knife", 0) is drawing
+    with pytest.raises(UserError, match="no figure 99"):
+        pictures.figure(machine, "knife", 99)

@@ -1,0 +1,58 @@
+"""A variant of a study taken for a configuration of its own: the base's text with that variant's values, and nothing else changed."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+
+import pytest
+
+from diecut_report.cli.main import main
+from diecut_report.config import yaml_tree
+from diecut_report.config.discovery import Discovery
+from diecut_report.quantities.units import parse_quantity
+from diecut_report.study.analysis.query import variants
+from diecut_report.study.analysis.taken_config import taken_config
+from tests.study.stored_study import BORE, SPEED, ten
+
+
+@pytest.fixture(scope="module")
+def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    return ten(tmp_path_factory.mktemp("taken") / "out")
+
+
+def test_its_values_are_read_back_as_those_that_were_calculated_and_all_else_stays(folder: Path) -> None:
+    text = taken_config(folder, 4, Discovery([])).content.decode()
+    (row,) = json.loads("".join(variants(folder, "variant = 4", format="json")))["variants"]
+    data = yaml_tree.parse(text, "taken").data["mechanisms"]
+    assert parse_quantity(data["cylinder"]["bore_radius"], "mm") == row[BORE]
+    assert parse_quantity(data["drive"]["crank_speed"], "rpm") == row[SPEED]  # a reference stood there
+    base = (folder / "base.yaml").read_text("utf-8").splitlines()
+    heading, *lines = text.splitlines()
+    changed = [(old, new) for old, new in zip(base, lines, strict=True) if old != new]
+    assert heading == "# Variant 4 of study.yaml" and len(changed) == 2
+    assert all(old.partition("#")[2] == new.partition("#")[2] for old, new in changed)
+
+
+def test_its_values_may_be_rounded(folder: Path) -> None:
+    text = taken_config(folder, 4, Discovery([]), digits=2).content.decode()
+    data = yaml_tree.parse(text, "taken").data["mechanisms"]
+    assert (data["cylinder"]["bore_radius"], data["drive"]["crank_speed"]) == ("65 mm", "50 rpm")
+
+
+def test_the_command_writes_it_and_tells_how_the_study_judged_it(
+    folder: Path, tmp_path: Path, capfd: pytest.CaptureFixture[str]
+) -> None:
+    assert main(["take", f"{folder}#4", "-o", str(tmp_path / "mine.yaml")]) == 0
+    assert "in the study: fail, governed by drive.checks.play" in capfd.readouterr().err
+    assert (tmp_path / "mine.yaml").read_bytes() == taken_config(folder, 4, Discovery([])).content
+
+
+@pytest.mark.parametrize(
+    ("number", "words"), [("#99", "no variant 99"), ("#9", "leaves no wall"), ("", "names no variant")]
+)
+def test_what_cannot_be_taken_is_told(
+    folder: Path, tmp_path: Path, capfd: pytest.CaptureFixture[str], number: str, words: str
+) -> None:
+    assert main(["take", f"{folder}{number}", "-o", str(tmp_path / "never.yaml")]) == 2
+    assert words in capfd.readouterr().err and not (tmp_path / "never.yaml").exists()
