@@ -1,10 +1,12 @@
 """Changes one sign in a formula, runs the tests of that plugin, and demands that one fails: what shows that tests are strong.
 
-    .venv/bin/python scripts/change_signs.py [--per-plugin N | --all] [--seed S] [--only NAME …] [--jobs N] [--list]
+    .venv/bin/python scripts/change_signs.py [--per-plugin N | --all] [--seed S] [--only NAME …] [--jobs N] [--log FILE] [--list]
 
 A formula is the body of a function under ``@formula``, or a lambda, in ``plugins/`` and in ``diecut_report/mechanics/``. One
 ``+`` becomes ``-``, ``-`` becomes ``+``, ``*`` becomes ``/`` or ``/`` becomes ``*``; a leading minus becomes a plus. Each mutant
-lives in a copy; the checkout is never touched. Ends with 1 where a mutant survives, and with 2 where the tests fail without one.
+lives in a copy; the checkout is never touched. With ``--log`` a run that was stopped goes on where it was: what was noticed in the
+same file is not tried again, what survived is, as it may have a test now. A test that fails with a change must pass without it.
+Ends with 1 where a mutant survives, or where a test fails as it is.
 """
 
 from __future__ import annotations
@@ -12,6 +14,7 @@ from __future__ import annotations
 import argparse
 import ast
 import compileall
+import json
 import os
 import random
 import re
@@ -23,8 +26,11 @@ from collections.abc import Iterator
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
 from functools import cache, partial
+from hashlib import sha256
 from pathlib import Path
 from py_compile import PycInvalidationMode
+from queue import SimpleQueue
+from threading import Lock
 
 ROOT = Path(__file__).parents[1]
 PLUGINS, MECHANICS = ROOT / "plugins", ROOT / "diecut_report" / "mechanics"
@@ -63,6 +69,12 @@ class Mutant:
         """The file with the change."""
         source = self.file.read_bytes()
         return source[: self.start] + self.new + source[self.start + len(self.old) :]
+
+    @property
+    def key(self) -> list[str | int]:
+        """What names it in the log: another file, or a place that has moved, is another mutant."""
+        digest = sha256(self.file.read_bytes()).hexdigest()[:16]
+        return [str(self.file.relative_to(ROOT)), digest, self.start, self.new.decode()]
 
     def __str__(self) -> str:
         line = self.file.read_text("utf-8").splitlines()[self.line - 1].strip()
@@ -205,55 +217,83 @@ class Copy:
         path = file.relative_to(ROOT)
         return self.folder / "program" / path if path.parts[0] == "diecut_report" else self.program / path
 
-    def fails(self, unit: str) -> bool:
-        """Whether a test of the plugin or module fails; those of printed numbers come first."""
-        return any(self._pytest(arguments) for arguments in tests_asked(unit))
+    def failing(self, unit: str) -> str:
+        """The first test of the plugin or module that fails, or nothing; those of printed numbers come first."""
+        return next(filter(None, map(self._failing, tests_asked(unit))), "")
 
-    def _pytest(self, arguments: list[str]) -> bool:
-        command = [sys.executable, "-B", "-m", "pytest", "-x", "-q", "-n", "0", "-p", "no:cacheprovider", *arguments]
+    def _failing(self, arguments: list[str]) -> str:
+        command = [sys.executable, "-m", "pytest", "-x", "-q", "-n", "0", "-p", "no:cacheprovider", *arguments]
         path = {"PYTHONPATH": str(self.folder / "program"), "HYPOTHESIS_PROFILE": "ci"}
-        done = subprocess.run(
-            command, cwd=self.folder, env=os.environ | path, capture_output=True, text=True, check=False
-        )
+        clean = {name: value for name, value in os.environ.items() if name != "PYTHONDONTWRITEBYTECODE"}
+        done = subprocess.run(command, cwd=self.folder, env=clean | path, capture_output=True, text=True, check=False)
         if done.returncode > 2:  # neither passed nor failed, nor an import that a formula does not survive
             raise SystemExit(f"pytest ended with {done.returncode}:\n{done.stdout}{done.stderr}")
-        return done.returncode != 0
+        told = re.search(r"^(?:FAILED|ERROR) (.+?)(?: - |$)", done.stdout, re.MULTILINE)
+        return told[1] if told else arguments[0] if done.returncode else ""
 
     def kills(self, mutant: Mutant) -> bool:
-        """Whether a test notices the change."""
+        """Whether a test notices the change: it fails with it, and not without."""
         place = self.place(mutant.file)
         whole = place.read_bytes()
         place.write_bytes(mutant.text)
         try:
-            return self.fails(mutant.unit)
+            test = self.failing(mutant.unit)
         finally:
             place.write_bytes(whole)
+        if test and self._failing([test]):
+            raise SystemExit(f"{test} fails as it is")
+        return bool(test)
+
+
+class Log:
+    """What was noticed, a line of JSON each, in a file or nowhere."""
+
+    def __init__(self, file: Path | None) -> None:
+        self.file, self.lock = file, Lock()
+        lines = file.read_text("utf-8").splitlines() if file and file.exists() else []
+        self.noticed = [entry["mutant"] for entry in map(json.loads, lines) if entry["noticed"]]
+
+    def add(self, mutant: Mutant, is_noticed: bool) -> None:
+        """Keep and tell what became of a mutant."""
+        with self.lock:
+            print("killed  " if is_noticed else "SURVIVES", mutant, flush=True)
+            if self.file:
+                with self.file.open("a", encoding="utf-8") as file:
+                    entry = {"mutant": mutant.key, "unit": mutant.unit, "noticed": is_noticed, "told": str(mutant)}
+                    file.write(json.dumps(entry, ensure_ascii=False) + "\n")
 
 
 def chosen(arguments: argparse.Namespace) -> dict[str, list[Mutant]]:
-    """The mutants to try, by plugin or module."""
-    draw, found = random.Random(arguments.seed), {}
+    """The mutants to try, by plugin or module; fewer of each are some of more."""
+    found = {}
     for unit, files in units().items():
         if not arguments.only or unit in arguments.only:
             everything = [mutant for file in files for mutant in mutants(unit, file)]
-            count = len(everything) if arguments.all else min(arguments.per_plugin, len(everything))
-            found[unit] = draw.sample(everything, count)
+            random.Random(f"{arguments.seed} {unit}").shuffle(everything)
+            found[unit] = everything if arguments.all else everything[: arguments.per_plugin]
     return {unit: some for unit, some in found.items() if some}
 
 
-def tried(work: Path, job: tuple[int, tuple[str, list[Mutant]]]) -> list[Mutant]:
-    """The survivors of one plugin or module."""
-    number, (unit, some) = job
-    copy = Copy(work / str(number))
-    if copy.fails(unit):
-        print(f"{unit}: the tests fail as they are", file=sys.stderr)
-        raise SystemExit(2)
-    left = []
-    for mutant in some:
-        is_killed = copy.kills(mutant)
-        print("killed  " if is_killed else "SURVIVES", mutant, flush=True)
-        left += [] if is_killed else [mutant]
-    return left
+def tried(copies: SimpleQueue[Copy], log: Log, mutant: Mutant) -> bool:
+    """Whether a mutant is noticed, by the tests of a copy that no other thread uses."""
+    copy = copies.get()
+    try:
+        is_noticed = mutant.key in log.noticed or copy.kills(mutant)
+    finally:
+        copies.put(copy)
+    if mutant.key not in log.noticed:
+        log.add(mutant, is_noticed)
+    return is_noticed
+
+
+def survivors(some: list[Mutant], jobs: int, log: Log) -> list[Mutant]:
+    """The mutants that no test notices."""
+    with tempfile.TemporaryDirectory() as work, ThreadPoolExecutor(jobs) as pool:
+        copies: SimpleQueue[Copy] = SimpleQueue()
+        for number in range(jobs):
+            copies.put(Copy(Path(work) / str(number)))
+        noticed = pool.map(partial(tried, copies, log), some)
+        return [mutant for mutant, is_noticed in zip(some, noticed, strict=True) if not is_noticed]
 
 
 def main() -> int:
@@ -264,6 +304,7 @@ def main() -> int:
     parser.add_argument("--seed", type=int, default=0, help="draws other mutants (0)")
     parser.add_argument("--only", nargs="*", metavar="NAME", help="plugins, or modules as mechanics.NAME")
     parser.add_argument("--jobs", type=int, default=2, metavar="N", help="plugins at a time (2)")
+    parser.add_argument("--log", type=Path, help="a file that keeps what is found, for a run that goes on (JSON lines)")
     parser.add_argument("--list", action="store_true", help="list the mutants, and the tests of each plugin")
     arguments = parser.parse_args()
     asked = chosen(arguments)
@@ -274,9 +315,8 @@ def main() -> int:
             )
         )
         return 0
-    with tempfile.TemporaryDirectory() as work, ThreadPoolExecutor(arguments.jobs) as pool:
-        left = [mutant for some in pool.map(partial(tried, Path(work)), enumerate(asked.items())) for mutant in some]
-    total = sum(map(len, asked.values()))
+    wanted = [mutant for some in asked.values() for mutant in some]
+    left, total = survivors(wanted, arguments.jobs, Log(arguments.log)), len(wanted)
     print(f"{total - len(left)} of {total} changes of a sign are noticed.")
     return 1 if left else 0
 

@@ -19,5 +19,5 @@ for entry in diecut_report/*; do
     ln -s "$PWD/$entry" "$types/"
 done
 ln -s "$PWD/plugins" "$PWD/templates" "$PWD/configs" "$types/"
-"$tools/mypy" --strict -p diecut_report
-"$tools/mypy" --strict tools
+ln -sfn "$PWD/tools" build/types/tools
+"$tools/mypy" --strict -p diecut_report -p tools

@@ -111,8 +111,9 @@ stamp() {
 is_current() { [ -x "$venv/bin/python" ] && [ "$(cat "$venv/$1.stamp" 2>/dev/null)" = "$(stamp "$1")" ]; }
 
 # Python compiles a module when it is first imported: compiling all that is installed would take as long as the rest.
+# Nothing is resolved either: a lock holds all that is needed.
 pip_install() {
-    "$venv/bin/python" -m pip --disable-pip-version-check --no-input install -qq --no-compile "$@" >&2 </dev/null ||
+    "$venv/bin/python" -m pip --disable-pip-version-check --no-input install -qq --no-compile --no-deps "$@" >&2 </dev/null ||
         stop "pip could not install (its message is above). The first set-up needs the network; run this again, it begins anew."
 }
 
@@ -128,7 +129,7 @@ install_dependencies() {
 
 install_program() {
     say "installing the program"
-    pip_install --no-build-isolation --no-deps -e "$root"
+    pip_install --no-build-isolation -e "$root"
     stamp program >"$venv/program.stamp"
 }
 

@@ -352,15 +352,7 @@ def test_colours_and_what_it_does_are_shown_only_on_a_terminal_that_wants_them(t
     """What it does is shown when that takes longer than a second."""
     saved(tmp_path, SLOW, "slow.py")
     kinds = ["--plugins", GOOD, "--plugins", tmp_path]
-    call = [
-        "report",
-        saved(tmp_path, FAILS + "  x: {kind: slow}\n"),
-        "-o",
-        tmp_path / "out",
-        "--format",
-        "json",
-        *kinds,
-    ]
+    call = ["calc", saved(tmp_path, FAILS + "  x: {kind: slow}\n"), "-o", tmp_path / "out.json", *kinds]
     unwanted = ({"NO_COLOR": "1"}, {"TERM": "dumb"})
     with ThreadPoolExecutor() as together:  # each waits most of its time
         wanted, piped = together.submit(on_terminal, *call), together.submit(program, *call)

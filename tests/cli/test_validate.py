@@ -36,7 +36,7 @@ def test_what_cannot_be_and_what_is_wrong_is_told_at_once(tmp_path: Path, capfd:
 def test_the_examples_are_valid(
     capfd: pytest.CaptureFixture[str],
 ) -> None:  # among them one that takes mechanisms whole
-    files = [str(path) for path in YAML if path.stem.startswith("flat_cylinder")]
+    files = [str(path) for path in YAML if path.stem in ("flat_cylinder_press", "flat_cylinder_study")]
     assert main(["validate", *files]) == 0
     assert capfd.readouterr().err.splitlines() == [f"{file}: valid" for file in files]
 

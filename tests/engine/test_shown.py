@@ -17,7 +17,7 @@ from diecut_report.report.latex import Linear
 from diecut_report.report.typeset import Typesetter
 from diecut_report.results.mechanism import mechanism_results
 from diecut_report.results.press_run import compute
-from tests.configs import EXAMPLE
+from tests.configs import MECHANISMS
 from tests.machines import UNBALANCED, drive
 
 
@@ -33,7 +33,7 @@ def places(chapter: dict[str, Any]) -> set[str]:
 
 @pytest.fixture(scope="module")
 def run() -> Any:
-    return compute(load_config(EXAMPLE, Discovery()), lambda _: None)
+    return compute(load_config(MECHANISMS, Discovery()), lambda _: None)
 
 
 def test_every_chapter_of_an_example_shows_one_place_and_says_which(run: Any) -> None:

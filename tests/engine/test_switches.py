@@ -34,10 +34,23 @@ FORMULAS: dict[str, Any] = {
     "a staircase": lambda angle, moment, start: moment * (1 + np.floor(angle / start)),
     "a condition on a curve": lambda lift, moment: moment * np.where(lift > 0.9999, 3, 1),
 }  # fmt: skip
+NARROW: dict[str, Any] = {  # each holds within about 1e-8 rad of the start, the end standing for that width
+    "a bell": lambda angle, moment, start, end: moment * np.where(np.exp(-(((angle - start) / end) ** 2)) > 0.5, 3, 1),
+    "a resonance": lambda angle, moment, start, end: moment * np.where(1 / (1 + ((angle - start) / end) ** 2) > 0.5, 3, 1),
+    "a pole": lambda angle, moment, start, end: moment * np.where(end**2 / (angle - start) ** 2 > 1, 3, 1),
+    "a power": lambda angle, moment, start, end: moment * np.where(np.cos(angle - start) ** (1 / end**2) > 0.5, 3, 1),
+    "two steps": lambda angle, moment, start, end: moment * np.where(np.tanh((angle - start) / end) > 0.5 + np.tanh((angle - start) / end - 1), 3, 1),
+    "what is left of a width": lambda angle, moment, start, end: moment * np.where(np.maximum(0, end - abs(angle - start)) > 0, 3, 1),
+    "a distance up to a limit": lambda angle, moment, start, end: moment * np.where(np.minimum(abs(angle - start), 0.001) < end, 3, 1),
+    "a curve in a bell": lambda lift, moment, start, end: moment * np.where(np.exp(-(((lift - start / 9) / end) ** 2)) > 0.5, 3, 1),
+}  # fmt: skip
 CONTINUOUS: dict[str, Any] = {
     "the greater": lambda angle, moment, start: moment * np.maximum(angle, start),
     "two branches that meet": lambda angle, moment, start: moment * np.where(angle < start, start, angle),
     "a condition on numbers": lambda angle, moment, start, end: np.where(start < end, moment, 0) * np.sin(angle),
+    "a bell that stays below": lambda angle, moment, start: (
+        moment * np.where(np.exp(-(((angle - start) / 1e-8) ** 2)) > 2, 3, 1)
+    ),
     "a condition that never changes": lambda angle, moment: moment * np.where(angle < 7, 1, 3),
 }
 
@@ -71,6 +84,15 @@ def test_a_jump_without_a_breakpoint_is_refused(name: str) -> None:
         and "declare that place among the breakpoints of angle" in words
     )
     assert "changes in the formula inner of inner (test_switches.py:" in words
+
+
+@pytest.mark.parametrize("name", NARROW)
+def test_a_window_that_the_condition_shows_at_its_place_alone_is_refused(name: str) -> None:
+    narrow = {"start": 117.3 * DEGREE, "end": 1e-8}
+    with pytest.raises(Unproven, match="jumps inside a smooth piece, at φ = "):
+        run(wheel(NARROW[name]), **narrow)
+    many = {key: np.full(9, value) for key, value in narrow.items()}
+    assert set(run(wheel(NARROW[name]), 9, **many).flaws) == set(range(9))
 
 
 def test_the_place_and_the_condition_are_told() -> None:

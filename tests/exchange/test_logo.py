@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import base64
 import json
+import shutil
 from pathlib import Path
 from typing import Any
 
@@ -11,6 +12,7 @@ import pytest
 
 from tests.configs import HEAD, SMALL, problems, saved
 from tests.exchange.reports import changed, run
+from tests.shared import once
 from tests.test_pictures import png, svg
 
 LOGO = svg('<circle cx="2" cy="2" r="2" fill="#0b5c8f"/>')
@@ -22,13 +24,16 @@ def with_logo(name: str) -> str:
 
 
 @pytest.fixture
-def reported(tmp_path: Path) -> Path:
-    """The folder with a report that has a logo."""
-    (tmp_path / "pictures").mkdir()
-    (tmp_path / "pictures" / "a.svg").write_bytes(LOGO)
-    config = saved(tmp_path, with_logo("pictures/a.svg"))
-    assert run("report", config, "-o", tmp_path, "--format", "html,json", "--quiet") == 0
-    return tmp_path
+def reported(tmp_path_factory: pytest.TempPathFactory, tmp_path: Path) -> Path:
+    """A copy of the folder with a report that has a logo."""
+
+    def make(folder: Path) -> None:
+        (folder / "pictures").mkdir()
+        (folder / "pictures" / "a.svg").write_bytes(LOGO)
+        config = saved(folder, with_logo("pictures/a.svg"))
+        assert run("report", config, "-o", folder, "--format", "html,json", "--quiet") == 0
+
+    return shutil.copytree(once(tmp_path_factory, "report_with_a_logo", make), tmp_path, dirs_exist_ok=True)
 
 
 def test_a_logo_is_in_the_page_goes_with_the_report_and_comes_back(reported: Path, capfd: Capture) -> None:

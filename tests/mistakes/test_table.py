@@ -38,6 +38,7 @@ def elevator(**changes: Any) -> Calculation:
 THIRD = {mistake.what for mistake in TABLE[::3]}
 
 
+@pytest.mark.usefixtures("without_summary")
 @pytest.mark.parametrize(
     "mistake",
     few(TABLE, keep=lambda mistake: mistake.what in THIRD),

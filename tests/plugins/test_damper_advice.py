@@ -14,6 +14,7 @@ from diecut_report.engine import calculate
 from diecut_report.expressions import Array
 from diecut_report.plugins.damper import MECHANISM
 from diecut_report.quantities.formatting import outward
+from tests.examples import examples
 from tests.machines import inputs
 from tests.plugins.dampers import calculated, checks, passing, told
 from tests.validation.rows_damper import damper
@@ -76,6 +77,7 @@ RUBBERS = st.one_of(
 LENGTHS = np.geomspace(1e-3, 3, 800)
 
 
+@examples(50)
 @given(block=BLOCKS, rubber=RUBBERS)
 def test_every_advice_makes_all_checks_pass_and_what_does_not_help_does_not(
     block: dict[str, Any], rubber: dict[str, Any]

@@ -11,6 +11,7 @@ import pytest
 import yaml
 
 from diecut_report.engine import Calculation, Impossible
+from diecut_report.plugins.drive_train.layout import layout
 from diecut_report.results.mechanism import mechanism_results
 from tests.configs import EXAMPLES
 from tests.machines import number
@@ -168,3 +169,11 @@ def test_the_example_wraps_its_pulley_on_the_side_away_from_the_die() -> None:
     assert calc["wraps"][0, 0] == pytest.approx(
         pi, abs=1e-9
     )  # level runs: the carriage's place does not change the length
+
+
+def test_the_arrow_of_a_belt_stands_outside_its_longest_run() -> None:
+    """Three like pulleys, counter-clockwise; the belt comes down from the third to the first, upright and longest."""
+    shapes = layout([0, 0.3, 0], [0, 0.5, 1], [0.05] * 3, [1, 1, 1])
+    start, end = next((shape["from"], shape["to"]) for shape in shapes if shape["shape"] == "arrow")
+    assert (start[0], end[0]) == pytest.approx((-0.05 - 0.06,) * 2)
+    assert (start[1], end[1]) == pytest.approx((0.6, 0.4))

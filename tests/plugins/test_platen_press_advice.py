@@ -40,7 +40,7 @@ def advised(message: str) -> dict[str, str]:
 
 
 @given(keys=KEYS, stretch=STRETCH, guides=st.sampled_from([{}, GUIDED, GUIDED | {"offset_weight": "300 mm"}]))
-@examples(60)
+@examples(30)
 def test_what_is_advised_makes_the_check_pass_and_breaks_no_other(
     keys: dict[str, Any], stretch: dict[str, Any], guides: dict[str, Any]
 ) -> None:

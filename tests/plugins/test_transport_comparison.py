@@ -121,6 +121,18 @@ def test_both_drives_make_one_step_a_cycle_about_the_same_middle(slots: int, dwe
                                kicked[5:-5][abs(np.gradient(kicked))[5:-5] < 0.5], atol=0.02 * kicked.max())  # fmt: skip
 
 
+@pytest.mark.parametrize("slots", [3, 6, 12])
+def test_the_jump_at_entry_is_how_the_wheel_sets_off(slots: int) -> None:
+    """The wheel's angle by the drawing: the roller goes round a center beside it, and begins at a right angle to the slot."""
+    arm = np.sin(np.pi / slots)  # to the distance of the centers
+    entry, step = np.pi / 2 - np.pi / slots, 1e-4
+    crank = step * np.arange(3) - entry
+    wheel = np.arctan2(arm * np.sin(crank), 1 - arm * np.cos(crank))
+    share = wheel * slots / (2 * np.pi)  # of the sheet's step
+    jump = np.diff(share, 2)[0] / (step / (2 * np.pi)) ** 2
+    assert outputs(cam(), geneva(slots=slots, roller_radius="3 mm"))["geneva_jump"] == pytest.approx(jump, rel=2e-3)
+
+
 def dwelling(**changes: Any) -> Calculation:
     """A cam-gear stepper that dwells as long as the Geneva drive with six slots."""
     return cam(dwell_angle="240 deg", **changes)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 from collections.abc import Iterator, Mapping
 from io import StringIO
 from itertools import combinations
@@ -76,20 +77,36 @@ def _faults(figure: Mapping[str, Any], curves: Mapping[str, Any], size: Size) ->
             yield f"{figure['id']}: {one.text!r} over {other.text!r}"
 
 
-def _every(results: Mapping[str, Any], *, paired: bool) -> list[str]:
+Drawn = tuple[Mapping[str, Any], Mapping[str, Any], Size]  # a figure, the curves that it shows, and how large it stands
+
+
+def _drawn(results: Mapping[str, Any], *, paired: bool) -> Iterator[Drawn]:
     parts = (*results["mechanisms"].values(), *results.get("comparisons", {}).values())
-    found = []
     for part in (part for part in parts if part.get("figures")):
         for row in rows_of(placed("A", part), paired=paired):
             size = Size.HALF if len(row.figures) > 1 else Size.LOW if paired else Size.LARGE
-            shown = [each.figure for each in row.figures if "error" not in each.figure]
-            found += [fault for figure in shown for fault in _faults(figure, part["curves"], size)]
-    assert parts
-    return found
+            yield from ((e.figure, part["curves"], size) for e in row.figures if "error" not in e.figure)
+
+
+def _every(results: Mapping[str, Any], *, paired: bool) -> list[str]:
+    drawn = list(_drawn(results, paired=paired))
+    assert drawn
+    return [fault for each in drawn for fault in _faults(*each)]
 
 
 @pytest.mark.parametrize("paired", [False, True], ids=["large", "side by side"])
 def test_texts_of_figures_keep_clear_of_each_other_and_of_the_edge(results: dict[str, Any], paired: bool) -> None:
+    """Of each type and size of figure the one with most in it; all of them, and those of the examples, at night."""
+    fullest: dict[Any, Drawn] = {}
+    for each in sorted(_drawn(results, paired=paired), key=lambda each: len(json.dumps(each[0]))):
+        fullest[each[0]["type"], each[2]] = each
+    assert len(fullest) > 2
+    assert [fault for each in fullest.values() for fault in _faults(*each)] == []
+
+
+@pytest.mark.nightly
+@pytest.mark.parametrize("paired", [False, True], ids=["large", "side by side"])
+def test_texts_of_all_figures_keep_clear(results: dict[str, Any], paired: bool) -> None:
     assert _every(results, paired=paired) == []
 
 

@@ -121,7 +121,7 @@ def test_killed_run_is_continued_without_its_study(tmp_path: Path, finished: Run
     (tmp_path / "study.yaml").unlink()
     (tmp_path / "press.yaml").unlink()
     assert 3 <= len(before) < PARTS
-    code, told, said = finished("--resume", out, "--jobs", "2")
+    code, told, said = finished("--resume", out, "--jobs", "1")
     after = stored(out)
     assert (code, told) == (0, "") and f"{ROWS} variants: {ROWS} pass" in said
     assert {name for name in before if after[name] != before[name]} == {damaged}

@@ -154,15 +154,16 @@ def _leaf(decision: Decision, sampler: CurveSampler, leaf: Node) -> Any:
 def decided(decision: Decision, sampler: CurveSampler) -> tuple[Array, Array]:
     """Return what is decided at places, and how far the decision is from changing there."""
     node = decision.node
-
-    def side(part: Node) -> Array:
-        return over(evaluate(part, partial(_leaf, decision, sampler)), sampler.x)
-
     if node.op == "cmp":
-        left, right = side(node.args[1]), side(node.args[2])
+        left, right = (side(decision, part, sampler) for part in node.args[1:])
         return APPLY[node.args[0]](left, right), left - right
-    inner = side(node.args[1])
-    return side(node), STEPS.get(node.args[0], _whole)(inner)
+    inner = side(decision, node.args[1], sampler)
+    return side(decision, node, sampler), STEPS.get(node.args[0], _whole)(inner)
+
+
+def side(decision: Decision, part: Node, sampler: CurveSampler) -> Array:
+    """Return a part of a decision at places."""
+    return over(evaluate(part, partial(_leaf, decision, sampler)), sampler.x)
 
 
 def _whole(inner: Array) -> Array:

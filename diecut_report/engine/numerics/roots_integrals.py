@@ -4,8 +4,6 @@ from __future__ import annotations
 
 import numpy as np
 from numpy.polynomial import chebyshev
-from scipy.fft import dct
-from scipy.optimize import elementwise
 
 from diecut_report.contract.binding import bound
 from diecut_report.contract.sections import taken
@@ -40,6 +38,8 @@ def root(calc: Calculation, step: Root) -> tuple[Array, Array]:
         return result
 
     rows = np.arange(calc.count, dtype=float)
+    from scipy.optimize import elementwise  # slow to import, and not needed where nothing is sought
+
     found = elementwise.find_root(
         residual, (calc.apply(step.low)[:, 0], calc.apply(step.high)[:, 0]), args=(rows,), tolerances={"xrtol": 4e-16}
     )
@@ -207,6 +207,8 @@ def _series(calc: Calculation, curve: str) -> tuple[Array, Array]:
     """
     wide = calc.domains[calc.axis[curve]].widths > 0
     values = np.where(wide[:, :, None], calc.on_search_grid(curve), 0)
+    from scipy.fft import dct  # slow to import, as above
+
     series = np.moveaxis(dct(values[:, :, ::-1], type=1, axis=2), 2, 0) / (values.shape[2] - 1)
     series[[0, -1]] /= 2
     return values, series

@@ -10,11 +10,12 @@ import numpy as np
 
 from diecut_report.engine.calculation import Calculation, CurveSampler
 from diecut_report.engine.numerics.curve_evaluation import MANY, Curves
-from diecut_report.engine.numerics.decisions import Deciding, Decision, decided, is_decided, key, over, value
+from diecut_report.engine.numerics.decisions import Deciding, Decision, decided, is_decided, key, over, side, value
 from diecut_report.engine.numerics.domain import shares
 from diecut_report.engine.numerics.gaps import NEAR, SOME, lowest, may_reach, nonzero, rises, some
+from diecut_report.engine.numerics.narrow import arguments, places
 from diecut_report.engine.numerics.sample_cache import CachedPieces
-from diecut_report.expressions import Array
+from diecut_report.expressions import Array, symbols
 
 APART = 1e-6  # share of the period within which a place is the end of its piece: what only touches there is decided by the root of rounding
 JUMP = 1e-9  # share of a curve's greatest value by which it moves at a jump
@@ -178,6 +179,7 @@ class SearchedMachines:
             row, k = nonzero(is_change)
             found = [(row, self.x[row, k], self.x[row, k + 1])]
             found += self._dips(decision, gap, is_change, on_grid)
+            found += self._narrow(decision, truth, on_grid)
             row, low, high = (np.concatenate(columns) for columns in zip(*found, strict=True))
             low, high = self._halved(decision, row, low, high, on_grid)
             inner = (high - self.left[row] > self.near[row]) & (self.right[row] - low > self.near[row])
@@ -224,6 +226,25 @@ class SearchedMachines:
             seen, places, least = seen[still], places[still], least[still]
             low = places[np.arange(len(seen)), np.maximum(least - 1, 0)]
             high = places[np.arange(len(seen)), np.minimum(least + 1, PARTS)]
+
+    def _narrow(self, decision: Decision, truth: Array, on_grid: GridSampler) -> Iterator[Brackets]:
+        """Where it changes and changes back without a dip: it is asked where what goes into its functions is least, greatest or nothing."""
+        names = decision.link.names
+        varying = (
+            each
+            for each in symbols(decision.node)
+            if names.get(each) == self.axis or self.search.is_curve(str(names.get(each)))
+        )
+        if not (taken := arguments(decision.node, frozenset(varying))):
+            return
+        at = self._looker(decision, self.row, on_grid)
+        last = self.x.shape[1] - 1
+        for row, k, place in places(taken, self.x, lambda node, x, own: side(decision, node, at(x, own))):
+            here = decided(decision, at(place[:, None], row))[0][:, 0]
+            for beside in (np.maximum(k - 1, 0), np.minimum(k + 1, last)):
+                other = np.flatnonzero(here != truth[row, beside])
+                ends = np.sort([place[other], self.x[row[other], beside[other]]], axis=0)
+                yield row[other], ends[0], ends[1]
 
     def sampler(self, x: Array, row: Array) -> CurveSampler:
         """Return all curves at places (rows, points) of these pieces."""

@@ -10,7 +10,6 @@ from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
-from scipy.optimize import elementwise
 
 from diecut_report.expressions import Array, formula
 from diecut_report.mechanics.timing.piece_rows import NODES, WEIGHTS, vertices
@@ -124,6 +123,8 @@ def _driven_angles(inertia: Inertia, dead_centers: Array, clutch: SlippingClutch
         row = row.astype(int)
         felt = inertia((start + driven)[:, None], row)[:, 0]
         return np.asarray(clutch.net[row] * driven - felt * clutch.speed[row] ** 2 / 2)
+
+    from scipy.optimize import elementwise  # slow to import, and asked for by presses alone
 
     found = elementwise.find_root(missing, (low.ravel(), high.ravel()), args=(machine, begins), tolerances=CLOSE)
     ended = np.where(np.isfinite(found.x), found.x, high.ravel()).reshape(starts.shape)
