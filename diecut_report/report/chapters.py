@@ -23,7 +23,7 @@ from diecut_report.report.model import (
 from diecut_report.report.number_format import quantity
 from diecut_report.report.repeated_parts import counted, gathered
 from diecut_report.report.scope import BRIEF, FULL
-from diecut_report.report.steps import Steps
+from diecut_report.report.steps import PrintedSteps
 from diecut_report.report.symbol_list import SymbolRow, symbol_rows
 from diecut_report.report.symbol_list import placed as symbols_at
 from diecut_report.report.tables import Tables
@@ -71,7 +71,7 @@ class _Filler:
         self.part, self.mechanism, self.words = part, mechanism, words
         self.decimal = words["decimal"]
         self.tables = Tables(part.letter, words)
-        self.steps = Steps(part.letter, equations, words, self.tables, self.rows, told)
+        self.steps = PrintedSteps(part.letter, equations, words, self.tables, self.rows, told)
 
     def fill_brief(self) -> None:
         """The purpose, key results, checks and one sketch."""

@@ -24,7 +24,7 @@ LONGEST_SOURCE = 80  # letters; a longer one stands below the result
 WORDLESS = ("found", "reduction", "lookup")  # their result is always typeset
 
 
-class _Step(NamedTuple):
+class _PrintedStep(NamedTuple):
     """A printed step; in one line it is ``row``, and has to be where its formula is not printed again."""
 
     item: Item
@@ -32,7 +32,7 @@ class _Step(NamedTuple):
     is_told: bool = False
 
 
-class Steps:
+class PrintedSteps:
     """Prints sections; where ``told`` is given nothing is printed twice, and what has no formula stands in lines."""
 
     def __init__(
@@ -49,10 +49,10 @@ class Steps:
     def section(self, index: int, section: Data, heading: Heading) -> PrintedSection:
         """A section with its figures."""
         notes: set[str] = set()
-        steps = [_Step(item) for item in figures_at(self.figures, Place(index, BEFORE))]
+        steps = [_PrintedStep(item) for item in figures_at(self.figures, Place(index, BEFORE))]
         for place, item in enumerate(section["items"] if self.told is None else brought_together(section)):
             steps += [] if item is None else list(self._step(item, notes))
-            steps += [_Step(each) for each in figures_at(self.figures, Place(index, place))]
+            steps += [_PrintedStep(each) for each in figures_at(self.figures, Place(index, place))]
         return PrintedSection(heading, self._text(section), _gathered(steps), self._shown(section.get("shown", ())))
 
     def _text(self, section: Data) -> str:
@@ -64,31 +64,31 @@ class Steps:
         told = [f"{at['symbol']} = {quantity(at['text'], at['unit'], self.decimal)}" for at in places]
         return self.words.say("shown_at", places=self.words.listed(told)) if told else ""
 
-    def _step(self, item: Data, notes: set[str]) -> Iterator[_Step]:
+    def _step(self, item: Data, notes: set[str]) -> Iterator[_PrintedStep]:
         if item["type"] == "note":
             if self.told is None or self.told.new([item["text"]]):
-                yield _Step(Item("note", text=item["text"]))
+                yield _PrintedStep(Item("note", text=item["text"]))
         elif item["type"] == "listed":
-            yield _Step(Item("note"), listed_row(item, self.decimal), is_told=True)
+            yield _PrintedStep(Item("note"), listed_row(item, self.decimal), is_told=True)
         elif item["type"] == "table":
-            yield _Step(Item("table", table=self.tables.of_item(item)))
+            yield _PrintedStep(Item("table", table=self.tables.of_item(item)))
         else:
             self.formulas += 1
             number = f"{self.letter}.{self.formulas}"
             self.given.setdefault(item["symbol"], number)
             yield self._formula(item, notes, number)
 
-    def _formula(self, item: Data, notes: set[str], number: str) -> _Step:
+    def _formula(self, item: Data, notes: set[str], number: str) -> _PrintedStep:
         """A step with its formula, unless that stands elsewhere."""
         told = self.told
         if told is None:
-            return _Step(self._item(item, notes, number))
+            return _PrintedStep(self._item(item, notes, number))
         refers = told.find(item)
         if refers is None:
             told.keep(item, number)
             printed = self._item(item, notes, number)
-            return _Step(printed, self._line(item, number) if _is_bare(item) and not printed.notes else None)
-        return _Step(Item("note"), self._line(item, number, refers, self._new_note(item, notes)), is_told=True)
+            return _PrintedStep(printed, self._line(item, number) if _is_bare(item) and not printed.notes else None)
+        return _PrintedStep(Item("note"), self._line(item, number, refers, self._new_note(item, notes)), is_told=True)
 
     def _line(self, item: Data, number: str, refers: Reference | None = None, note: str = "") -> ValueRow:
         return value_row(item, number, refers, note, self.decimal)
@@ -155,7 +155,7 @@ def _is_bare(item: Data) -> bool:
     return (is_picked or is_found) and not item.get("words") and len(item["source"]) <= LONGEST_SOURCE
 
 
-def _gathered(steps: list[_Step]) -> list[Item]:
+def _gathered(steps: list[_PrintedStep]) -> list[Item]:
     """The steps as items, those that stand in one line gathered into lists; a lone value keeps its place among formulas."""
     found: list[Item] = []
     for in_line, group in groupby(steps, key=lambda step: step.row is not None):

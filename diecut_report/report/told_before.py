@@ -35,7 +35,7 @@ class Reference(NamedTuple):
     letters: tuple[tuple[str, str], ...] = ()
 
 
-class _Formula(NamedTuple):
+class _KnownFormula(NamedTuple):
     number: str
     item: Data
     letters: tuple[str, ...]  # of its tree, each once, in their order
@@ -46,9 +46,9 @@ class ToldBefore:
     """Remembers the formulas, texts and symbols of a chapter; ``letter`` is that of the earlier chapter of the same kind."""
 
     letter: str = ""
-    steps: dict[str, _Formula] = field(default_factory=dict)
+    steps: dict[str, _KnownFormula] = field(default_factory=dict)
     texts: set[str] = field(default_factory=set)
-    shapes: dict[str, _Formula] = field(default_factory=dict)
+    shapes: dict[str, _KnownFormula] = field(default_factory=dict)
 
     def next(self, letter: str) -> ToldBefore:
         """What is known when another chapter of this kind begins; ``letter`` is this one's."""
@@ -70,7 +70,7 @@ class ToldBefore:
     def keep(self, item: Data, number: str) -> None:
         """Remember a step that is printed."""
         shape, letters = _shape(item)
-        formula = _Formula(number, item, letters)
+        formula = _KnownFormula(number, item, letters)
         if "id" in item:
             self.steps.setdefault(item["id"], formula)
         if shape:
