@@ -278,8 +278,8 @@ def _bare(
     kinds = f"{_unlike(left, right)}; " if left.kind != right.kind else ""
     if bare.exact:
         own = pretty(other.name.display) if other.name and other.name.display else phrase("its unit")
-        told = "{kinds}the number {shown} beside {other} needs {unit}."
-        words = Phrase(told, kinds=kinds, shown=bare.shown, other=other.shown, unit=own)
+        words = Phrase("{kinds}the number {shown} beside {other} needs {unit}.", kinds=kinds, shown=bare.shown, other=other.shown,
+            unit=own)  # fmt: skip
         return ConditionError(words, bare.place)
     if other.name is None or not other.name.display:
         words = Phrase("{kinds}{sign} needs the same kind on both sides. Put the quantity with its unit in quotes.", kinds=kinds,
@@ -292,8 +292,9 @@ def _bare(
 
 
 def _unlike(left: ConditionPart, right: ConditionPart) -> str:
-    parts = [Phrase("{shown} is {kind}", shown=part.shown, kind=_kind(part)) for part in (left, right)]
-    return joined_phrases(parts, " and ")
+    return joined_phrases(
+        [Phrase("{shown} is {kind}", shown=each.shown, kind=_kind(each)) for each in (left, right)], " and "
+    )
 
 
 def _kind(part: ConditionPart) -> str:
