@@ -16,6 +16,7 @@ from contextlib import ExitStack, contextmanager
 from pathlib import Path
 
 from diecut_report.errors import Problem, Unwritable, UserError
+from diecut_report.languages.phrases import Phrase, phrase
 
 _OPEN = re.compile(r"/proc/(self|thread-self|\d+)(/task/\d+)?/fd")
 TEMPORARY = ".*.part"  # what a killed run may leave behind
@@ -74,7 +75,7 @@ def _steps(place: Path) -> Iterator[Path]:
 
 def _refuse_config(path: Path, keep: Path) -> None:
     if path.exists() and keep.exists() and path.samefile(keep):
-        words = "This is the configuration itself; it would be written over. Choose another place with -o."
+        words = phrase("This is the configuration itself; it would be written over. Choose another place with -o.")
         raise UserError(Problem(words, str(path)))
 
 
@@ -89,7 +90,7 @@ def _beside(place: Path, content: bytes, through: bool) -> Iterator[Path]:
     try:
         _make_folder(place.parent, made)
         if place.is_dir():
-            raise IsADirectoryError(errno.EISDIR, "a folder has this name")
+            raise IsADirectoryError(errno.EISDIR, phrase("a folder has this name"))
         if not (through and _is_stream(place)):
             temporary = _temporary(place)
             temporary.write_bytes(content)
@@ -121,22 +122,24 @@ def in_words(path: Path, after: str = KEPT) -> Iterator[None]:
         yield
     except OSError as error:
         kind = UserError if error.errno in MISNAMED else Unwritable
-        raise kind(Problem(f"This cannot be written: {reason(error, after)}", str(path))) from error
+        raise kind(
+            Problem(Phrase("This cannot be written: {reason}", reason=reason(error, after)), str(path))
+        ) from error
 
 
 def reason(error: OSError, after: str = NOTHING) -> str:
     """Return why a file cannot be written, and what to do; ``after`` is that on a full disk."""
-    elsewhere = "Choose another place with -o."
+    elsewhere = phrase("Choose another place with -o.")
     reasons = {
-        errno.ENOSPC: f"the disk is full. {after}",
-        errno.EDQUOT: f"the quota of the disk is used up. {after}",
-        errno.EACCES: f"writing is not permitted there. {elsewhere}",
-        errno.EPERM: f"writing is not permitted there. {elsewhere}",
-        errno.EROFS: f"the disk can only be read. {elsewhere}",
-        errno.ENOTDIR: f"a part of the path is a file, not a folder. {elsewhere}",
-        errno.EEXIST: f"a part of the path is a file, not a folder. {elsewhere}",
-        errno.EISDIR: f"a folder has this name. {elsewhere}",
-        errno.ENAMETOOLONG: "the name is too long. Choose a shorter one.",
+        errno.ENOSPC: Phrase("the disk is full. {after}", after=after),
+        errno.EDQUOT: Phrase("the quota of the disk is used up. {after}", after=after),
+        errno.EACCES: Phrase("writing is not permitted there. {elsewhere}", elsewhere=elsewhere),
+        errno.EPERM: Phrase("writing is not permitted there. {elsewhere}", elsewhere=elsewhere),
+        errno.EROFS: Phrase("the disk can only be read. {elsewhere}", elsewhere=elsewhere),
+        errno.ENOTDIR: Phrase("a part of the path is a file, not a folder. {elsewhere}", elsewhere=elsewhere),
+        errno.EEXIST: Phrase("a part of the path is a file, not a folder. {elsewhere}", elsewhere=elsewhere),
+        errno.EISDIR: Phrase("a folder has this name. {elsewhere}", elsewhere=elsewhere),
+        errno.ENAMETOOLONG: phrase("the name is too long. Choose a shorter one."),
     }
     return reasons.get(error.errno or 0, f"{error.strerror or error}. {elsewhere}")
 

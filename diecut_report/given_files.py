@@ -14,6 +14,7 @@ from pathlib import Path
 from typing import NoReturn
 
 from diecut_report.errors import Problem, UserError
+from diecut_report.languages.phrases import Phrase, phrase
 
 KINDS = {
     stat.S_IFREG: "a file",
@@ -60,7 +61,7 @@ def refuse_special(paths: Iterable[Path], words: str, *, folders: bool = False) 
         with _in_words(path):
             mode = path.lstat().st_mode
         if stat.S_IFMT(mode) != wanted:
-            problems.append(Problem(f"This is {_kind(mode)}. {words}", str(path)))
+            problems.append(Problem(Phrase("This is {kind}. {words}", kind=_kind(mode), words=words), str(path)))
     if problems:
         raise UserError(problems)
 
@@ -70,23 +71,29 @@ def refuse_unreadable_name(folder: Path) -> None:
     try:
         str(folder.absolute()).encode()
     except UnicodeEncodeError as error:
-        words = "The name of this folder, or of one above it, is not UTF-8. Choose another one."
+        words = phrase("The name of this folder, or of one above it, is not UTF-8. Choose another one.")
         raise UserError(Problem(words, str(folder))) from error
 
 
 def _judge(path: Path, status: os.stat_result, most: int, wanted: str) -> None:
     if not stat.S_ISREG(status.st_mode):
-        raise UserError(Problem(f"This is {_kind(status.st_mode)}. Give {wanted}.", str(path)))
+        raise UserError(
+            Problem(Phrase("This is {kind}. Give {wanted}.", kind=_kind(status.st_mode), wanted=wanted), str(path))
+        )
     if status.st_size > most:
         _refuse_size(path, status.st_size, most)
 
 
 def _kind(mode: int) -> str:
-    return KINDS.get(stat.S_IFMT(mode), "no regular file")
+    return KINDS.get(stat.S_IFMT(mode), phrase("no regular file"))
 
 
 def _refuse_size(path: Path, size: int, most: int) -> NoReturn:
-    words = f"The file is too large: {size / 1e6:.1f} MB; at most {most / 1e6:g} MB are allowed."
+    words = Phrase(
+        "The file is too large: {size} MB; at most {most} MB are allowed.",
+        size=f"{size / 1e6:.1f}",
+        most=f"{most / 1e6:g}",
+    )
     raise UserError(Problem(words, str(path)))
 
 
@@ -95,8 +102,8 @@ def _in_words(path: Path) -> Iterator[None]:
     try:
         yield
     except FileNotFoundError as error:
-        raise UserError(Problem("There is no such file. Check the name and the folder.", str(path))) from error
+        raise UserError(Problem(phrase("There is no such file. Check the name and the folder."), str(path))) from error
     except (OSError, ValueError) as error:  # a name with a zero byte is a ValueError
         told = getattr(error, "strerror", None) or error
-        words = f"The file cannot be read: {told}. Check its name and its permissions."
+        words = Phrase("The file cannot be read: {told}. Check its name and its permissions.", told=told)
         raise UserError(Problem(words, str(path))) from error

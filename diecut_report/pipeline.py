@@ -154,9 +154,9 @@ def _refuse_many_sheets(config: Config, formats: Sequence[str]) -> None:
     count = len(config.kinds)
     if "pdf" in formats and count > MAX_PRINTED_MECHANISMS:
         words = (
-            f"There are {count} mechanisms; the PDF of a report has at most {MAX_PRINTED_MECHANISMS}. "
-            "Leave the PDF out with --format html,json, or split the configuration."
-        )
+            Phrase("There are {count} mechanisms; the PDF of a report has at most {max_printed_mechanisms}. Leave the PDF out with "
+                "--format html,json, or split the configuration.", count=count, max_printed_mechanisms=MAX_PRINTED_MECHANISMS)
+        )  # fmt: skip
         raise UserError(Problem(words, config.tree.file))
 
 
@@ -165,12 +165,13 @@ def _refuse_unknown(config: Config, only: Sequence[str]) -> None:
     known = list(config.kinds)
     problems = [
         Problem(
-            f"--only {name!r} is not a mechanism{nearest(name, known)}; the mechanisms: {', '.join(known)}.",
+            Phrase("--only {name} is not a mechanism{nearest}; the mechanisms: {known}.", name=repr(name), nearest=nearest(name, known),
+                known=', '.join(known)),
             config.tree.file,
         )
         for name in only
         if name not in known
-    ]
+    ]  # fmt: skip
     if problems:
         raise UserError(problems)
 
@@ -227,7 +228,8 @@ def _failed(results: Data) -> Iterator[PluginError]:
 def _broken(results: Data, places: Places, lost: Lost) -> PluginError:
     """What showed only in drawing that it cannot be drawn."""
     mechanism = {**results["mechanisms"], **results.get("comparisons", {})}[lost.mechanism]
-    words = f"{lost.what} {lost.id!r} cannot be drawn: {lost.words} ({places[lost.mechanism, lost.id]})"
+    words = Phrase("{what} {id} cannot be drawn: {words} ({places})", what=lost.what, id=repr(lost.id), words=lost.words,
+        places=places[lost.mechanism, lost.id])  # fmt: skip
     return PluginError(words, mechanism["kind"], lost.mechanism)
 
 

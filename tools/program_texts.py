@@ -18,6 +18,7 @@ from diecut_report.declaration.texts import inputs_texts, is_text
 from diecut_report.engine.printing import methods, tables
 from diecut_report.languages.translation import CITATION, EQUATIONS
 from diecut_report.mechanics.motion_laws import LAWS
+from diecut_report.quantities.units import _table
 from diecut_report.report.i18n import COUNTED, ENGLISH, one
 from diecut_report.results import document, mechanism, reference_origins, unchecked
 
@@ -60,7 +61,17 @@ def program_texts() -> Iterator[ProgramText]:
     seen = set()
     for found in (
         *_words(),
-        *map(ProgramText, (*CONSTANTS, *_phrases(), *_help(), *_press(), *(law.title for law in LAWS.values()))),
+        *map(
+            ProgramText,
+            (
+                *CONSTANTS,
+                *_phrases(),
+                *_help(),
+                *_kinds_of_quantity(),
+                *_press(),
+                *(law.title for law in LAWS.values()),
+            ),
+        ),
         *_counted(),
         *_templates(),
         *_sources(),
@@ -120,6 +131,11 @@ def _help() -> Iterator[str]:
         yield cleandoc(command.help or "")
         yield from (option.help for option in command.params if isinstance(option, click.Option) and option.help)
     yield from ("Show this message and exit.", "Usage:", "Options", "Commands", "required")
+
+
+def _kinds_of_quantity() -> Iterator[str]:
+    """What messages call lengths, forces and so on."""
+    yield from (family["name"] for family in _table()["families"])
 
 
 def _called(file: Path, names: tuple[str, ...], place: int) -> Iterator[str]:

@@ -216,6 +216,7 @@ def diff(
 
 def _changes(found: Data, sides: list[Data], discovery: Discovery, form: str, all_rows: bool) -> str:
     """The changes in a format: as JSON neutral, as a page in the language that is asked for, else in that of the new project."""
+    old, new = sides
     if form == "json":
         return json.dumps(found, indent=1, ensure_ascii=False, allow_nan=False) + "\n"
     from diecut_report.exchange.changes_text import lines, said_changes
@@ -223,7 +224,7 @@ def _changes(found: Data, sides: list[Data], discovery: Discovery, form: str, al
     if form == "html":
         from diecut_report.exchange.changes_page import page
 
-        with speaking(asked_language() or sides[1]["project"].get("language") or SOURCE_LANGUAGE):
-            return page(said_changes(found, sides[0], sides[1], spoken_catalogues(discovery)))
-    told = said_changes(found, sides[0], sides[1], spoken_catalogues(discovery))
+        with speaking(asked_language() or new["project"].get("language") or SOURCE_LANGUAGE):
+            return page(said_changes(found, old, new, spoken_catalogues(discovery)))
+    told = said_changes(found, old, new, spoken_catalogues(discovery))
     return "".join(f"{line}\n" for line in lines(told, all_rows=all_rows))

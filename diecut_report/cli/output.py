@@ -17,8 +17,9 @@ import click
 from diecut_report.cli.language import language_option
 from diecut_report.cli.progress import is_styled
 from diecut_report.errors import TOLD, Problem, Unwritable
-from diecut_report.languages.phrases import Counted, Phrase
-from diecut_report.languages.speech import said, say, say_counted
+from diecut_report.languages.catalogues import SOURCE_LANGUAGE, of_all_plugins
+from diecut_report.languages.phrases import Counted, Phrase, phrase
+from diecut_report.languages.speech import said, say, say_counted, speak, spoken_language
 
 PASSED, CHECK_FAILED, BAD_INPUT, PLUGIN_BROKE = 0, 1, 2, 3
 INTERRUPTED, FAULT, UNWRITABLE = (
@@ -60,6 +61,8 @@ def tell_written(paths: Iterable[Path]) -> None:
 
 def tell_problems(problems: Sequence[Problem]) -> None:
     """What is wrong with a file: the first problems, and how many more there are."""
+    if (language := spoken_language()) != SOURCE_LANGUAGE:
+        speak(language, of_all_plugins(language))  # of whose inputs the problems tell
     tell(str(problem) for problem in problems[:TOLD])
     if len(problems) > TOLD:
         tell(
@@ -78,7 +81,10 @@ def usage(error: click.ClickException) -> list[str]:
     said = io.StringIO()
     error.show(said)
     head, found, _ = f"\n{said.getvalue()}".partition("\nError: ")
-    return [*head[1:].splitlines(), *([f"Error: {error.format_message()}"] if found else [])]
+    return [
+        *head[1:].splitlines(),
+        *([f"Error: {error.format_message()}"] if found else []),
+    ]
 
 
 def _told(text: str) -> str:
@@ -102,7 +108,7 @@ def shown(text: str) -> str:
 def emit(text: str) -> bool:
     """What was asked for, on standard output; always UTF-8. Says whether the reader is still there."""
     if sys.stdout is None:
-        raise Unwritable(Problem("Standard output is closed; name a file with -o."))
+        raise Unwritable(Problem(phrase("Standard output is closed; name a file with -o.")))
     left = memoryview((shown(text) if sys.stdout.isatty() else text).encode(errors="backslashreplace"))
     try:
         while left:  # an unbuffered output may take less than all
@@ -115,7 +121,9 @@ def emit(text: str) -> bool:
         from diecut_report.files import reason
 
         _close_output()
-        raise Unwritable(Problem(f"Standard output cannot be written: {reason(error)}")) from error
+        raise Unwritable(
+            Problem(Phrase("Standard output cannot be written: {reason}", reason=reason(error)))
+        ) from error
     return True
 
 

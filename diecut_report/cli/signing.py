@@ -10,6 +10,8 @@ import click
 
 from diecut_report.cli.output import PASSED, HelpfulCommand, common, tell
 from diecut_report.errors import Problem, UserError
+from diecut_report.languages.phrases import Phrase, phrase
+from diecut_report.languages.speech import say
 
 PASSWORD = "DIECUT_REPORT_KEY_PASSWORD"  # the name of a variable of the environment
 path_of = click.Path(path_type=Path)
@@ -42,10 +44,12 @@ def sign(
     out = target or report
     for given in filter(None, (key, cert)):
         if out.exists() and given.exists() and out.samefile(given):
-            words = "This is the key or its certificate; it would be written over. Choose another file with -o."
+            words = phrase("This is the key or its certificate; it would be written over. Choose another file with -o.")
             raise UserError(Problem(words, str(out)))
     found = signing_key(key, cert, _password)
-    signed(Signing(report, out, field, reason), found, lambda words: None if quiet else tell([f"{out}: {words}"]))
+    signed(
+        Signing(report, out, field, reason), found, lambda words: None if quiet else tell([f"{out}: " + phrase(words)])
+    )
     return PASSED
 
 
@@ -54,9 +58,10 @@ def _password() -> bytes:
     if given is not None:
         return given.encode()
     if not sys.stdin or not sys.stdin.isatty():
-        words = (
-            f"The key has a password. Set the variable {PASSWORD}, or run the command on a terminal, which asks for it."
+        words = Phrase(
+            "The key has a password. Set the variable {password}, or run the command on a terminal, which asks for it.",
+            password=PASSWORD,
         )
         raise UserError(Problem(words))
-    asked: str = click.prompt("Password of the key", hide_input=True, err=True)
+    asked: str = click.prompt(say("Password of the key"), hide_input=True, err=True)
     return asked.encode()

@@ -15,6 +15,7 @@ from diecut_report.conditions.numpy_emitter import numbers
 from diecut_report.conditions.reading import ConditionReader, Find
 from diecut_report.conditions.tree import Call, Chain, Negative, Node, Power, names
 from diecut_report.conditions.words import ConditionError, calculation
+from diecut_report.languages.phrases import Phrase, phrase
 from diecut_report.quantities.units import Kind, unit
 
 WITHOUT_VALUE = "a division by zero, the root of a number below zero, or a number too large to calculate with"
@@ -48,15 +49,19 @@ class Expression:
     def fault(self, value_of: Callable[[str], Any]) -> str:
         """Return why a single machine gives it no value, in words."""
         with np.errstate(all="ignore"):
-            return next(_faults(self.tree, value_of), "gives a number that is too large to calculate with")
+            return next(_faults(self.tree, value_of), phrase("gives a number that is too large to calculate with"))
 
     def refused(self, wanted: str) -> str:
         """Return why it cannot stand where a quantity in the unit ``wanted`` is needed; nothing where it can."""
         needed = unit(wanted)
         if alike(self.kind, needed.kind):
             return ""
-        return (
-            f"“{self.text}” gives {told_kind(self.kind)}; {told_kind(needed.kind, wanted)} in {wanted} is needed here"
+        return Phrase(
+            "“{text}” gives {told_kind}; {told_kind_2} in {wanted} is needed here",
+            text=self.text,
+            told_kind=told_kind(self.kind),
+            told_kind_2=told_kind(needed.kind, wanted),
+            wanted=wanted,
         )
 
 
@@ -68,7 +73,7 @@ def read_expression(text: str, find: Find) -> Expression:
     except ConditionError as fault:
         raise ConditionError(_of_expression(fault.words), fault.place) from None
     if not names(made.node):
-        raise ConditionError("the expression refers to nothing; write the value itself.", 0)
+        raise ConditionError(phrase("the expression refers to nothing; write the value itself."), 0)
     return Expression(text.strip(), made.node, made.kind)
 
 
@@ -86,11 +91,11 @@ def _faults(node: Node, value_of: Callable[[str], Any]) -> Iterator[str]:
     match node:
         case Chain(_, rest):
             if any(sign == "/" and numbers(part, value_of) == 0.0 for sign, part in rest):
-                yield "divides by zero"
+                yield phrase("divides by zero")
         case Power(base, exponent) if numbers(base, value_of) == 0.0 and numbers(exponent, value_of) < 0.0:
-            yield "divides by zero"
+            yield phrase("divides by zero")
         case Call("sqrt", (of,)) if numbers(of, value_of) < 0.0:
-            yield "takes the root of a number below zero"
+            yield phrase("takes the root of a number below zero")
 
 
 def _inner(node: Node) -> Iterator[Node]:

@@ -27,6 +27,7 @@ from diecut_report.conditions.words import (
     Token,
     tokens,
 )
+from diecut_report.languages.phrases import Phrase, phrase
 
 OPERAND = "a name, a number or a quantity"
 _SIGNS = {"=": "==", "<>": "!=", "≠": "!=", "≤": "<=", "≥": ">=", "^": "**", "−": "-"}
@@ -88,7 +89,7 @@ class _GrammarWriter:
     def pieces(self) -> list[str]:
         """The Python text of each word; the end has an empty one."""
         if self.next.sort == "end":
-            raise ConditionError("the condition is empty; write a comparison.", 0)
+            raise ConditionError(phrase("the condition is empty; write a comparison."), 0)
         is_operand_next = True
         while self.next.sort != "end":
             is_operand_next = self._before_value() if is_operand_next else self._after_value()
@@ -102,10 +103,12 @@ class _GrammarWriter:
         self.at += 1
 
     def _lack(self) -> NoReturn:
-        raise ConditionError(f"{OPERAND} is missing before {self.next.shown}.", self.next.place)
+        raise ConditionError(
+            Phrase("{operand} is missing before {shown}.", operand=OPERAND, shown=self.next.shown), self.next.place
+        )
 
     def _unexpected(self) -> ConditionError:
-        return ConditionError(f"{self.next.shown} is not expected here.", self.next.place)
+        return ConditionError(Phrase("{shown} is not expected here.", shown=self.next.shown), self.next.place)
 
     def _is(self, *wanted: str) -> bool:
         return self.next.sort in ("keyword", "sign") and self.next.text in wanted
@@ -132,7 +135,9 @@ class _GrammarWriter:
     def _opened(self, sort: str, bracket: str) -> bool:
         self.open.append(_Bracket(sort))
         if len(self.open) > DEEPEST + 1:
-            raise ConditionError("brackets stand too deep in each other. Write several conditions.", self.next.place)
+            raise ConditionError(
+                phrase("brackets stand too deep in each other. Write several conditions."), self.next.place
+            )
         self._write(bracket)
         return True
 
@@ -164,7 +169,7 @@ class _GrammarWriter:
             self.written.append("")
             self.at += 1
             if not self._is("in", "between", "like"):
-                raise ConditionError("'in', 'between' or 'like' is missing after 'not'.", self.next.place)
+                raise ConditionError(phrase("'in', 'between' or 'like' is missing after 'not'."), self.next.place)
         if self._is("between"):
             self.open[-1].waiting += 1
             self._write("is " + negated)
@@ -188,7 +193,10 @@ class _GrammarWriter:
 
     def _need(self, wanted: str) -> None:
         if not self._is(wanted):
-            raise ConditionError(f"{wanted!r} is missing before {self.next.shown}.", self.next.place)
+            raise ConditionError(
+                Phrase("{wanted} is missing before {shown}.", wanted=repr(wanted), shown=self.next.shown),
+                self.next.place,
+            )
 
     def _comma(self) -> None:
         self._decided()
@@ -200,7 +208,7 @@ class _GrammarWriter:
         self._decided()
         closed = self.open.pop()
         if by == "end" and closed.sort != "whole":
-            raise ConditionError(f"')' is missing before {self.next.shown}.", self.next.place)
+            raise ConditionError(Phrase("')' is missing before {shown}.", shown=self.next.shown), self.next.place)
         if by == ")" and closed.sort == "whole":
             raise self._unexpected()
         if by == ")":
@@ -208,4 +216,7 @@ class _GrammarWriter:
 
     def _decided(self) -> None:
         if self.open[-1].waiting:
-            raise ConditionError(f"'and' is missing before {self.next.shown}: write between … and ….", self.next.place)
+            raise ConditionError(
+                Phrase("'and' is missing before {shown}: write between … and ….", shown=self.next.shown),
+                self.next.place,
+            )

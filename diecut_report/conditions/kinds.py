@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from diecut_report.languages.phrases import phrase
 from diecut_report.quantities.units import DIMENSIONS, Kind, Unit, kind_name, si_text, unit
 
 NUMBER: Kind = (0.0,) * len(DIMENSIONS)
@@ -21,6 +22,6 @@ def without_angle(kind: Kind) -> Kind:
 def told_kind(kind: Kind, own: str = "") -> str:
     """Return what a kind is, in words; the unit ``own`` names it best where it is of that kind."""
     if kind == NUMBER:
-        return "a pure number"
+        return phrase("a pure number")
     named = unit(own) if own else None
     return kind_name(named if named and named.kind == kind else Unit("", 1.0, si_text(kind), kind))

@@ -27,6 +27,8 @@ from diecut_report.conditions.tree import (
     names,
 )
 from diecut_report.conditions.words import ConditionError
+from diecut_report.languages.phrases import Phrase, phrase
+from diecut_report.languages.phrases import joined as joined_phrases
 from diecut_report.quantities.units import (
     Kind,
     UnitError,
@@ -76,13 +78,13 @@ class ConditionPart:
     @property
     def shown(self) -> str:
         """Return what messages call it."""
-        return self.typed or ("what is calculated" if self.exact else "the calculated side")
+        return self.typed or (phrase("what is calculated") if self.exact else phrase("the calculated side"))
 
 
 def number(value: float, place: int) -> ConditionPart:
     """Return a plain number as a part."""
     if not np.isfinite(value):
-        raise ConditionError("the condition holds a number that is too large to calculate with.", place)
+        raise ConditionError(phrase("the condition holds a number that is too large to calculate with."), place)
     return ConditionPart(Number(value), "quantity", place, bare=True, typed=f"{value:g}")
 
 
@@ -99,7 +101,8 @@ def quantity(part: ConditionPart, beside: ConditionPart | None = None) -> Condit
     if part.what == "quantity":
         return part
     if not isinstance(part.node, TextLiteral):
-        words = f"{part.shown} is a {part.what}; a quantity is needed to calculate with or to compare by size."
+        words = Phrase("{shown} is a {what}; a quantity is needed to calculate with or to compare by size.", shown=part.shown,
+            what=part.what)  # fmt: skip
         raise ConditionError(words, part.place)
     name = beside.name if beside else None
     wanted = unit(name.display or name.unit) if name else None
@@ -115,9 +118,9 @@ def quantity(part: ConditionPart, beside: ConditionPart | None = None) -> Condit
 def condition(part: ConditionPart, needed_by: str) -> Node:
     """Return the node of a part that is to be a condition; ``needed_by`` says why."""
     if part.what == "text":
-        raise ConditionError(f"{part.shown} stands alone; compare it with a text in quotes.", part.place)
+        raise ConditionError(Phrase("{shown} stands alone; compare it with a text in quotes.", shown=part.shown), part.place)  # fmt: skip
     if part.what != "condition":
-        raise ConditionError(f"{part.shown} is not a condition; {needed_by}.", part.place)
+        raise ConditionError(Phrase("{shown} is not a condition; {needed_by}.", shown=part.shown, needed_by=needed_by), part.place)  # fmt: skip
     return part.node
 
 
@@ -146,7 +149,8 @@ def _pair(sign: str, left: ConditionPart, right: ConditionPart) -> Node:
         return Compared(sign, left.node, right.node)
     if "text" in whats:
         other = next(part.what for part in (left, right) if part.what not in ("text", "quoted"))
-        words = f"{left.shown} and {right.shown} are a text and a {other}; put texts in quotes."
+        words = Phrase("{shown} and {shown_2} are a text and a {other}; put texts in quotes.", shown=left.shown, shown_2=right.shown,
+            other=other)  # fmt: skip
         raise ConditionError(words, right.place)
     left, right = quantity(left, right), quantity(right, left)
     _alike(left, right, sign)
@@ -156,7 +160,7 @@ def _pair(sign: str, left: ConditionPart, right: ConditionPart) -> Node:
 def like(text: ConditionPart, pattern: ConditionPart) -> ConditionPart:
     """Return whether a text is like a pattern in quotes."""
     if text.what != "text" or not isinstance(pattern.node, TextLiteral) or not isinstance(text.node, ColumnName):
-        words = "'like' compares a column of words with a pattern in quotes, such as 'drive.%'."
+        words = phrase("'like' compares a column of words with a pattern in quotes, such as 'drive.%'.")
         raise ConditionError(words, pattern.place)
     return ConditionPart(Like(text.node, pattern.node.value), "condition", text.place)
 
@@ -201,18 +205,19 @@ def raised(base: ConditionPart, power: ConditionPart) -> ConditionPart:
     """Return a power; its exponent must be known where the base has a unit."""
     base, power = quantity(base), quantity(power)
     if power.kind != NUMBER:
-        words = f"the exponent {power.shown} is {_kind(power)}; a number is needed."
+        words = Phrase("the exponent {shown} is {kind}; a number is needed.", shown=power.shown, kind=_kind(power))
         raise ConditionError(words, power.place)
     constant = _constant(power.node)
     if base.exact and (constant is None or not constant.is_integer()):
-        words = f"the exponent {power.shown} is not a whole number that is written here; take sqrt(…) for a root."
+        words = Phrase("the exponent {shown} is not a whole number that is written here; take sqrt(…) for a root.", shown=power.shown)  # fmt: skip
         raise ConditionError(words, power.place)
     node = Power(base.node, power.node)
     if base.kind == NUMBER:
         return ConditionPart(node, "quantity", base.place, bare=base.bare and power.bare, loose=True)
     exponent = _constant(power.node)
     if exponent is None or not abs(exponent) <= MAX_EXPONENT:
-        words = f"the exponent of {base.shown} must be a number between -{MAX_EXPONENT} and {MAX_EXPONENT}."
+        words = Phrase("the exponent of {shown} must be a number between -{max_exponent} and {max_exponent}.", shown=base.shown,
+            max_exponent=MAX_EXPONENT)  # fmt: skip
         raise ConditionError(words, power.place)
     return ConditionPart(
         node, "quantity", base.place, tuple(round(exponent * share, 9) for share in base.kind), loose=True
@@ -231,8 +236,8 @@ def called(name: str, given: Sequence[ConditionPart], place: int) -> ConditionPa
     """Return a function of quantities."""
     parts = [quantity(part) for part in given]
     if not parts or (len(parts) > 1 and name in ("abs", "sqrt")):
-        wanted = "one quantity" if name in ("abs", "sqrt") else "one quantity or more"
-        raise ConditionError(f"{name} takes {wanted}; {len(parts)} given.", place)
+        wanted = phrase("one quantity") if name in ("abs", "sqrt") else phrase("one quantity or more")
+        raise ConditionError(Phrase("{name} takes {wanted}; {count} given.", name=name, wanted=wanted, count=len(parts)), place)  # fmt: skip
     whole = reduce(lambda one, two: _alike(one, two, name), parts)
     bare, loose = all(part.bare for part in parts), any(part.loose for part in parts)
     made = replace(
@@ -257,11 +262,13 @@ def _alike(left: ConditionPart, right: ConditionPart, sign: str) -> ConditionPar
         if alike(left.kind, right.kind):
             common = right if left.bare else left
             return common if left.kind == right.kind else replace(common, kind=without_angle(common.kind))
-        raise ConditionError(f"{_unlike(left, right)}; {sign} needs the same kind on both sides.", right.place)
+        raise ConditionError(Phrase("{unlike}; {sign} needs the same kind on both sides.", unlike=_unlike(left, right), sign=sign),
+            right.place)  # fmt: skip
     is_loose = left.loose or right.loose
     if left.kind == right.kind or (is_loose and without_angle(left.kind) == without_angle(right.kind)):
         return right if left.bare else left
-    raise ConditionError(f"{_unlike(left, right)}; {sign} needs the same kind on both sides.", right.place)
+    raise ConditionError(Phrase("{unlike}; {sign} needs the same kind on both sides.", unlike=_unlike(left, right), sign=sign),
+        right.place)  # fmt: skip
 
 
 def _bare(
@@ -270,19 +277,24 @@ def _bare(
     """Return what is wrong with a number beside a quantity that needs its unit."""
     kinds = f"{_unlike(left, right)}; " if left.kind != right.kind else ""
     if bare.exact:
-        unit_text = pretty(other.name.display) if other.name and other.name.display else "its unit"
-        words = f"{kinds}the number {bare.shown} beside {other.shown} needs {unit_text}."
+        own = pretty(other.name.display) if other.name and other.name.display else phrase("its unit")
+        words = Phrase("{kinds}the number {shown} beside {other} needs {unit}.", kinds=kinds, shown=bare.shown, other=other.shown,
+            unit=own)  # fmt: skip
         return ConditionError(words, bare.place)
     if other.name is None or not other.name.display:
-        words = f"{kinds}{sign} needs the same kind on both sides. Put the quantity with its unit in quotes."
+        words = Phrase("{kinds}{sign} needs the same kind on both sides. Put the quantity with its unit in quotes.", kinds=kinds,
+            sign=sign)  # fmt: skip
         return ConditionError(words, bare.place)
     example = f"'{bare.typed or 5} {other.name.display}'"
-    words = f"{kinds}a number beside {other.name.name} needs {pretty(other.name.display)}, for example {example}."
+    words = Phrase("{kinds}a number beside {name} needs {pretty}, for example {example}.", kinds=kinds, name=other.name.name, pretty=pretty(
+        other.name.display), example=example)  # fmt: skip
     return ConditionError(words, bare.place)
 
 
 def _unlike(left: ConditionPart, right: ConditionPart) -> str:
-    return " and ".join(f"{part.shown} is {_kind(part)}" for part in (left, right))
+    return joined_phrases(
+        [Phrase("{shown} is {kind}", shown=each.shown, kind=_kind(each)) for each in (left, right)], " and "
+    )
 
 
 def _kind(part: ConditionPart) -> str:

@@ -18,6 +18,7 @@ from diecut_report.conditions.tree import (
 )
 from diecut_report.conditions.words import ALLOWED, FUNCTIONS, ConditionError
 from diecut_report.errors import nearest
+from diecut_report.languages.phrases import Phrase, phrase
 
 DEEPEST = 100  # levels of a tree
 Find = Callable[[str], Name]
@@ -35,7 +36,7 @@ def read(given: str, known: Collection[str], find: Find, example: str) -> Node:
     """
     whole = parsed(given, known)
     part = ConditionReader(whole, find).part(whole.body, 0)
-    return parts.condition(part, f"a comparison is needed, such as {example}")
+    return parts.condition(part, Phrase("a comparison is needed, such as {example}", example=example))
 
 
 class ConditionReader:
@@ -51,7 +52,9 @@ class ConditionReader:
 
     def _part(self, at: ast.expr, depth: int) -> ConditionPart:
         if depth > DEEPEST:
-            words = f"the condition is nested deeper than {DEEPEST} levels. Write several conditions."
+            words = Phrase(
+                "the condition is nested deeper than {deepest} levels. Write several conditions.", deepest=DEEPEST
+            )
             raise ConditionError(words, self._place(at))
         match at:
             case ast.Name():
@@ -78,7 +81,10 @@ class ConditionReader:
 
     def _unfit(self, at: ast.expr) -> ConditionError:
         word = self.whole.word(at)
-        return ConditionError(f"{word.shown} does not fit here; use brackets. Allowed: {ALLOWED}.", word.place)
+        return ConditionError(
+            Phrase("{shown} does not fit here; use brackets. Allowed: {allowed}.", shown=word.shown, allowed=ALLOWED),
+            word.place,
+        )
 
     # --- names, numbers, texts ---
 
@@ -100,7 +106,12 @@ class ConditionReader:
         word = self.whole.word(at)
         if word.text not in FUNCTIONS:
             near = nearest(word.text, FUNCTIONS)
-            words = f"there is no function {word.text!r}{near}; known: {', '.join(FUNCTIONS)}."
+            words = Phrase(
+                "there is no function {text}{near}; known: {functions}.",
+                text=repr(word.text),
+                near=near,
+                functions=", ".join(FUNCTIONS),
+            )
             raise ConditionError(words, word.place)
         return word.text
 
@@ -120,7 +131,7 @@ class ConditionReader:
         part = self.part(inner, depth + 1)
         if not is_not:
             return parts.negative(part) if is_turned else parts.quantity(part)
-        node = parts.condition(part, "'not' stands before a condition; compare it with something")
+        node = parts.condition(part, phrase("'not' stands before a condition; compare it with something"))
         return parts.contrary(node, self._place(at)) if is_turned else part
 
     def _calculated(self, at: ast.BinOp, depth: int) -> ConditionPart:
@@ -166,4 +177,4 @@ class ConditionReader:
 
 
 def _between(word: str) -> str:
-    return f"{word!r} stands between conditions; compare both sides with something"
+    return Phrase("{word} stands between conditions; compare both sides with something", word=repr(word))

@@ -6,6 +6,8 @@ import re
 from collections.abc import Collection
 from dataclasses import dataclass
 
+from diecut_report.languages.phrases import Phrase, phrase
+
 MOST_LETTERS, MOST_WORDS, DEEPEST = 20_000, 400, 40  # of a condition; brackets in each other
 KEYWORDS = ("and", "or", "not", "in", "is", "null", "between", "like", "true", "false")
 FUNCTIONS = ("abs", "min", "max", "sqrt")
@@ -48,7 +50,7 @@ class ConditionError(ValueError):
         self.words, self.place = words, place
 
     def __str__(self) -> str:
-        where = "" if self.place is None else f" (At character {self.place + 1}.)"
+        where = "" if self.place is None else Phrase(" (At character {place}.)", place=self.place + 1)
         return self.words + where
 
 
@@ -76,17 +78,30 @@ def calculation(given: str) -> list[Token]:
         token, end = _calculated(given, place)
         found.append(token)
         if len(found) > MOST_WORDS:
-            raise ConditionError(f"the expression has more than {MOST_WORDS} words. Write it shorter.", place)
+            raise ConditionError(
+                Phrase("the expression has more than {most_words} words. Write it shorter.", most_words=MOST_WORDS),
+                place,
+            )
         place = _past_blanks(given, end)
-    return [*found, Token("end", "the end", len(given))]
+    return [*found, Token("end", phrase("the end"), len(given))]
 
 
 def _calculated(given: str, place: int) -> tuple[Token, int]:
     match = _CALCULATED.match(given, place)
     if match is None:
-        raise ConditionError(f"{given[place : place + 10]!r} is not allowed here; allowed: {CALCULATED}.", place)
+        raise ConditionError(
+            Phrase(
+                "{given} is not allowed here; allowed: {calculated}.",
+                given=repr(given[place : place + 10]),
+                calculated=CALCULATED,
+            ),
+            place,
+        )
     if match["comma"]:
-        words = f"“{match[0]}” holds a comma; write a decimal point, or a blank after a comma that parts two values."
+        words = Phrase(
+            "“{match}” holds a comma; write a decimal point, or a blank after a comma that parts two values.",
+            match=match[0],
+        )
         raise ConditionError(words, place)
     if match["word"]:
         return _function(match, given)
@@ -98,8 +113,10 @@ def _calculated(given: str, place: int) -> tuple[Token, int]:
 def _function(match: re.Match[str], given: str) -> tuple[Token, int]:
     """Return a word, which is a function or a fault."""
     if not given[match.end() :].lstrip().startswith("("):
-        advice = "a value of the configuration stands as ${NAME.KEY}, a unit behind its number"
-        raise ConditionError(f"{match[0]!r} is not expected here; {advice}.", match.start())
+        advice = phrase("a value of the configuration stands as ${NAME.KEY}, a unit behind its number")
+        raise ConditionError(
+            Phrase("{match} is not expected here; {advice}.", match=repr(match[0]), advice=advice), match.start()
+        )
     return Token(
         "function", match[0].lower() if match[0].lower() in FUNCTIONS else match[0], match.start()
     ), match.end()
@@ -108,8 +125,10 @@ def _function(match: re.Match[str], given: str) -> tuple[Token, int]:
 def tokens(given: str, known: Collection[str]) -> list[Token]:
     """Split a condition into its words, the end among them; known names are taken whole, whatever they are made of."""
     if len(given) > MOST_LETTERS:
-        words = (
-            f"the condition has {len(given)} characters; at most {MOST_LETTERS} are allowed. Write several conditions."
+        words = Phrase(
+            "the condition has {count} characters; at most {most_letters} are allowed. Write several conditions.",
+            count=len(given),
+            most_letters=MOST_LETTERS,
         )
         raise ConditionError(words)
     whole = re.compile("(" + "|".join(map(re.escape, sorted(known, key=len, reverse=True))) + r")(?![\w.])")
@@ -119,10 +138,12 @@ def tokens(given: str, known: Collection[str]) -> list[Token]:
         token, end = (_known(name), name.end()) if name else _token(given, place, known)
         found.append(token)
         if len(found) > MOST_WORDS:
-            words = f"the condition has more than {MOST_WORDS} words. Write several conditions."
+            words = Phrase(
+                "the condition has more than {most_words} words. Write several conditions.", most_words=MOST_WORDS
+            )
             raise ConditionError(words, place)
         place = _past_blanks(given, end)
-    return [*found, Token("end", "the end", len(given))]
+    return [*found, Token("end", phrase("the end"), len(given))]
 
 
 def _past_blanks(given: str, place: int) -> int:
@@ -137,9 +158,21 @@ def _known(match: re.Match[str]) -> Token:
 def _token(given: str, place: int, known: Collection[str]) -> tuple[Token, int]:
     match = _TOKEN.match(given, place)
     if match is None:
-        raise ConditionError(f"{given[place : place + 10]!r} is not allowed here; allowed: {ALLOWED}.", place)
+        raise ConditionError(
+            Phrase(
+                "{given} is not allowed here; allowed: {allowed}.",
+                given=repr(given[place : place + 10]),
+                allowed=ALLOWED,
+            ),
+            place,
+        )
     if match["quantity"]:
-        words = f"“{match['quantity']}”: put a quantity in quotes: '{match['value']} {match['unit']}'."
+        words = Phrase(
+            "“{quantity}”: put a quantity in quotes: '{value} {unit}'.",
+            quantity=match["quantity"],
+            value=match["value"],
+            unit=match["unit"],
+        )
         raise ConditionError(words, place)
     return _sorted(match, given, known), match.end()
 

@@ -11,6 +11,7 @@ from diecut_report.config.yaml_tree import KeyPath
 from diecut_report.contract.inputs import Block, CurveInput, Quantity
 from diecut_report.contract.varying import Varying
 from diecut_report.errors import Problem, nearest
+from diecut_report.languages.phrases import Phrase
 
 ASSUMED, GIVEN = "assumed", "given"
 BASES = (ASSUMED, GIVEN, "catalogue", "drawing", "standard", "measured")
@@ -87,19 +88,27 @@ class BasisReader:
 
     def _faults(self, meta: Quantity | CurveInput, given: dict[str, Any], key: KeyPath) -> Iterator[Problem]:
         if "value" not in given:
-            words = f"is a block without a value; write {{value: 10 {meta.unit}, basis: assumed}}, or the value alone"
+            words = Phrase(
+                "is a block without a value; write {value: 10 {unit}, basis: assumed}, or the value alone",
+                unit=meta.unit,
+            )
             yield self.place.problem(key, words.replace("10 1,", "10,"))
         for name in given:
             if name not in KEYS:
-                words = (
-                    f"is an unknown key{nearest(name, KEYS)}. A quantity that stands as a block has {', '.join(KEYS)}."
+                words = Phrase(
+                    "is an unknown key{nearest}. A quantity that stands as a block has {keys}.",
+                    nearest=nearest(name, KEYS),
+                    keys=", ".join(KEYS),
                 )
                 yield self.place.problem((*key, name), words, at_key=True)
         basis, note = given.get("basis"), given.get("note")
         if basis is not None and basis not in BASES:
             near = nearest(basis, BASES) if isinstance(basis, str) else ""
-            yield self.place.problem((*key, "basis"), f"is {told(basis)}{near}; allowed: {', '.join(BASES)}")
+            yield self.place.problem(
+                (*key, "basis"),
+                Phrase("is {basis}{near}; allowed: {bases}", basis=told(basis), near=near, bases=", ".join(BASES)),
+            )
         if note is not None and not isinstance(note, str):
             yield self.place.problem(
-                (*key, "note"), f"is {told(note)}; a text is needed, in quotes where it is a number"
+                (*key, "note"), Phrase("is {note}; a text is needed, in quotes where it is a number", note=told(note))
             )

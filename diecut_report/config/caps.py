@@ -7,6 +7,7 @@ from typing import Any
 
 from diecut_report.config.yaml_tree import KeyPath, Tree
 from diecut_report.errors import TOLD, Problem
+from diecut_report.languages.phrases import Phrase
 from diecut_report.limits import MAX_CURVE_VALUES, MAX_MECHANISMS, MAX_PARTS, MAX_TEXT
 
 
@@ -24,26 +25,44 @@ def too_much(tree: Tree) -> list[Problem]:
 def _excess(data: Any, path: KeyPath) -> Iterator[tuple[KeyPath, str]]:
     match data:
         case str() if len(data) > MAX_TEXT:
-            yield path, f"has {len(data)} characters; at most {MAX_TEXT} are allowed. Shorten it."
+            yield (
+                path,
+                Phrase(
+                    "has {count} characters; at most {max_text} are allowed. Shorten it.",
+                    count=len(data),
+                    max_text=MAX_TEXT,
+                ),
+            )
         case dict():
             if path == ("mechanisms",) and len(data) > MAX_MECHANISMS:
                 yield (
                     path,
-                    f"has {len(data)} mechanisms; at most {MAX_MECHANISMS} are allowed. Split the configuration.",
+                    Phrase(
+                        "has {count} mechanisms; at most {max_mechanisms} are allowed. Split the configuration.",
+                        count=len(data),
+                        max_mechanisms=MAX_MECHANISMS,
+                    ),
                 )
                 return
             for key, part in data.items():
                 if len(key) > MAX_TEXT:
                     yield (
                         (*path, key),
-                        f"is a key of {len(key)} characters; at most {MAX_TEXT} are allowed. Shorten it.",
+                        Phrase(
+                            "is a key of {count} characters; at most {max_text} are allowed. Shorten it.",
+                            count=len(key),
+                            max_text=MAX_TEXT,
+                        ),
                     )
                 else:
                     yield from _excess(part, (*path, key))
         case list():
             most = MAX_PARTS if any(isinstance(part, dict | list) for part in data) else MAX_CURVE_VALUES
             if len(data) > most:
-                yield path, f"has {len(data)} entries; at most {most} are allowed. Give fewer."
+                yield (
+                    path,
+                    Phrase("has {count} entries; at most {most} are allowed. Give fewer.", count=len(data), most=most),
+                )
                 return
             for index, part in enumerate(data):
                 yield from _excess(part, (*path, index))

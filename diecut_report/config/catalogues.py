@@ -9,6 +9,7 @@ from pathlib import Path
 from diecut_report.config.discovery import Discovery
 from diecut_report.errors import Problem, UserError
 from diecut_report.languages.catalogues import SOURCE_LANGUAGE, Catalogues, UnknownLanguage, built_in
+from diecut_report.languages.phrases import Phrase
 from diecut_report.languages.speech import spoken_language
 
 TOLD = 3  # texts that are told of an incomplete catalogue
@@ -19,7 +20,7 @@ def catalogues_for(language: str, kinds: Iterable[str], discovery: Discovery, fi
     try:
         found = Catalogues(language, partial(_plugin, discovery))
     except UnknownLanguage as error:
-        raise UserError(Problem(f"The language {error}.", file, path="project.language")) from None
+        raise UserError(Problem(Phrase("The language {error}.", error=error), file, path="project.language")) from None
     if language != SOURCE_LANGUAGE:
         problems = [_incomplete(kind, found, file) for kind in dict.fromkeys(kinds) if built_in(kind)]
         if told := [each for each in problems if each]:
@@ -42,10 +43,21 @@ def lacking(catalogues: Catalogues, kinds: Iterable[str]) -> list[str]:
 def _lacking(kind: str, catalogues: Catalogues) -> str:
     own, language = catalogues.of(kind), catalogues.language
     if own is None:
-        return f"The plugin of {kind!r} has no catalogue locale/{language}.po; its words stay English."
+        return Phrase(
+            "The plugin of {kind} has no catalogue locale/{language}.po; its words stay English.",
+            kind=repr(kind),
+            language=language,
+        )
     count = len(own.missing)
     return (
-        f"The catalogue {language} of the plugin of {kind!r} lacks {count} texts, which stay English." if count else ""
+        Phrase(
+            "The catalogue {language} of the plugin of {kind} lacks {count} texts, which stay English.",
+            language=language,
+            kind=repr(kind),
+            count=count,
+        )
+        if count
+        else ""
     )
 
 
@@ -55,8 +67,18 @@ def _incomplete(kind: str, catalogues: Catalogues, file: str) -> Problem | None:
         return None
     texts = [] if own is None else own.missing
     told = "; ".join(f"“{text}”" for text in texts[:TOLD])
-    words = f"Reports in {catalogues.language} wait for the words of {kind}: {len(texts)} texts are not translated ({told} …). "
-    return Problem(f"{words}Give language: {SOURCE_LANGUAGE}.", file, path="project.language")
+    words = Phrase(
+        "Reports in {language} wait for the words of {kind}: {count} texts are not translated ({told} …). ",
+        language=catalogues.language,
+        kind=kind,
+        count=len(texts),
+        told=told,
+    )
+    return Problem(
+        Phrase("{words}Give language: {source_language}.", words=words, source_language=SOURCE_LANGUAGE),
+        file,
+        path="project.language",
+    )
 
 
 def _plugin(discovery: Discovery, kind: str) -> Path | None:

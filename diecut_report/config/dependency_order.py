@@ -8,6 +8,7 @@ from graphlib import CycleError, TopologicalSorter
 from diecut_report.config.instances import Instance
 from diecut_report.config.targets import Node, Target
 from diecut_report.errors import Problem
+from diecut_report.languages.phrases import Phrase
 
 
 def ordered(instances: Mapping[str, Instance | None], links: Mapping[Node, Target]) -> tuple[list[Node], list[Problem]]:
@@ -34,7 +35,10 @@ def _loop_problem(instances: Mapping[str, Instance | None], links: Mapping[Node,
     instance = instances[str(loop[0][0])]
     assert instance is not None, "a mechanism without a model has no links"
     told = [text for before, text in zip(["", *shown], [*shown, shown[0]], strict=True) if text != before]
-    message = f"refers to itself: {' → '.join(told if len(told) > 1 else 2 * told)}. Give one of these inputs a value of its own."
+    message = Phrase(
+        "refers to itself: {told}. Give one of these inputs a value of its own.",
+        told=" → ".join(told if len(told) > 1 else 2 * told),
+    )
     return instance.place.problem(loop[0][1:], message)
 
 

@@ -30,6 +30,7 @@ from diecut_report.contract.mechanism import Mechanism
 from diecut_report.contract.place import Misdeclared
 from diecut_report.errors import PluginError, Problem, UserError, nearest
 from diecut_report.expressions.source import FormulaError
+from diecut_report.languages.phrases import Phrase, phrase
 
 GROUP = "diecut_report.plugins"
 EXTENSIONS = "diecut_report.extensions"
@@ -85,7 +86,9 @@ class Discovery:
                 origin.load()
                 self.extended[origin.kind] = module_hash(origin.file())
             except (Exception, SystemExit) as cause:
-                raise UserError(Problem(f"This extension cannot be loaded: {said(cause)}.", origin.told)) from cause
+                raise UserError(
+                    Problem(Phrase("This extension cannot be loaded: {said}.", said=said(cause)), origin.told)
+                ) from cause
 
     def mechanism(self, kind: str) -> Mechanism:
         """The mechanism of a kind.
@@ -103,9 +106,9 @@ class Discovery:
     def _only_origin(self, kind: str) -> Origin:
         origins = self.origins.get(kind)
         if not origins:
-            raise UnknownKind(
-                f"{kind!r} is not a known kind{nearest(kind, self.origins)}. Known: {', '.join(self.origins)}."
-            )
+            near = nearest(kind, self.origins)
+            words = "{kind} is not a known kind{nearest}. Known: {known}."
+            raise UnknownKind(Phrase(words, kind=repr(kind), nearest=near, known=", ".join(self.origins)))
         if len(origins) > 1:
             places = " and from ".join(origin.told for origin in origins)
             raise DuplicateKind(f"The kind {kind!r} comes from {places}. Remove or rename one of them.")
@@ -199,7 +202,7 @@ def _extensions(folder: Path) -> Iterator[Origin]:
 def _local(folder: Path) -> Iterator[Origin]:
     if not folder.is_dir():
         raise UserError(
-            Problem("There is no such folder of plugins. Check the name given with --plugins.", str(folder))
+            Problem(phrase("There is no such folder of plugins. Check the name given with --plugins."), str(folder))
         )
     listed = _listed(folder) if (folder / LIST).is_file() else {name: (name, ATTRIBUTE) for name in _names_in(folder)}
     for kind, (name, attribute) in listed.items():
@@ -216,7 +219,7 @@ def _listed(folder: Path) -> dict[str, tuple[str, str]]:
     tree = yaml_tree.load(folder / LIST)
     if not isinstance(tree.data, dict) or not all(isinstance(value, str) for value in tree.data.values()):
         raise UserError(
-            Problem("A list of kinds is needed, each as KIND: FILE.py or KIND: FILE.py:ATTRIBUTE.", tree.file)
+            Problem(phrase("A list of kinds is needed, each as KIND: FILE.py or KIND: FILE.py:ATTRIBUTE."), tree.file)
         )
     found = {}
     for kind, place in tree.data.items():

@@ -5,6 +5,8 @@ from __future__ import annotations
 import re
 import unicodedata
 
+from diecut_report.languages.phrases import Phrase
+
 _BIDI = "\u202a-\u202e\u2066-\u2069"  # they turn the letters after them around
 
 CONTROL = re.compile(f"[^\t\n\r\x20-\x7e\x85\xa0-\ud7ff\ue000-\ufffd\U00010000-\U0010ffff]|[{_BIDI}]")
@@ -27,7 +29,12 @@ def seeming_latin(name: str) -> str:
     if not strange or not meant.isascii():
         return ""
     told = ", ".join(f"“{letter}” ({unicodedata.name(letter).lower()})" for letter in dict.fromkeys(strange))
-    return f"“{name}” holds letters that only look Latin: {told}. Write it in Latin letters: {meant}."
+    return Phrase(
+        "“{name}” holds letters that only look Latin: {told}. Write it in Latin letters: {meant}.",
+        name=name,
+        told=told,
+        meant=meant,
+    )
 
 
 def hidden(text: str) -> str:

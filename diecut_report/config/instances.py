@@ -30,6 +30,7 @@ from diecut_report.contract.phases import PREFIX
 from diecut_report.contract.result_names import part_result
 from diecut_report.contract.steps import Step
 from diecut_report.errors import nearest
+from diecut_report.languages.phrases import Phrase, phrase
 
 
 @dataclass(frozen=True)
@@ -135,11 +136,19 @@ class Instance:
         if phase in self.declared_steps:
             chapter, step = self.declared_steps[phase]
             missing = [key for key in (*chapter.needs, *step.needs) if key not in self.given]
-            return f"is there only if {' and '.join(missing)} is given in {self.name}."
+            return Phrase(
+                "is there only if {missing} is given in {name}.", missing=" and ".join(missing), name=self.name
+            )
         name, known = phase.removeprefix(PREFIX), [each.removeprefix(PREFIX) for each in self.phases]
         near = nearest(name, known)
-        told = f" Known: {', '.join(known)}." if known else " Its kind has none."
-        return f"names no phase: {self.name} has no phase {name!r}{near}.{'' if near else told}"
+        told = Phrase(" Known: {known}.", known=", ".join(known)) if known else phrase(" Its kind has none.")
+        return Phrase(
+            "names no phase: {name} has no phase {name_2}{near}.{told}",
+            name=self.name,
+            name_2=repr(name),
+            near=near,
+            told=("" if near else told),
+        )
 
     @cached_property
     def rows(self) -> dict[str, str]:

@@ -28,6 +28,7 @@ from diecut_report.config.yaml_tree import KeyPath, Tree
 from diecut_report.contract.inputs import SI, Block, CurveInput, Pending, Text
 from diecut_report.contract.unit_variants import in_form
 from diecut_report.errors import PluginError, Problem, UserError
+from diecut_report.languages.phrases import Phrase
 
 NAME = re.compile(r"[A-Za-z][A-Za-z0-9_-]*")
 RESERVED = (PRESS, "project")
@@ -114,7 +115,9 @@ def in_order(problems: Iterable[Problem]) -> list[Problem]:
 
 def _refuse_study(tree: Tree) -> None:
     if isinstance(tree.data, dict) and {"base", "sample"} <= tree.data.keys() and "mechanisms" not in tree.data:
-        raise UserError(Problem(f"This is a study: calculate it with diecut-report batch {tree.file}", tree.file))
+        raise UserError(
+            Problem(Phrase("This is a study: calculate it with diecut-report batch {file}", file=tree.file), tree.file)
+        )
 
 
 @dataclass
@@ -183,10 +186,12 @@ class _ConfigReader:
         if fault:
             self.problems.append(place.problem((), fault, at_key=True))
         elif not isinstance(body, dict):
-            self.problems.append(place.problem((), f"is {told(body)}; a block of keys with its kind is needed"))
+            self.problems.append(
+                place.problem((), Phrase("is {body}; a block of keys with its kind is needed", body=told(body)))
+            )
         elif not isinstance(body.get("kind"), str):
-            words = f"is missing. Give one of: {', '.join(self.discovery.origins)}."
-            given = f"is {told(body.get('kind'))}; the name of a kind is needed"
+            words = Phrase("is missing. Give one of: {origins}.", origins=", ".join(self.discovery.origins))
+            given = Phrase("is {kind}; the name of a kind is needed", kind=told(body.get("kind")))
             self.problems.append(place.problem(("kind",), given) if "kind" in body else place.absent(("kind",), words))
         else:
             self._of_kind(name, body["kind"], {key: value for key, value in body.items() if key != "kind"}, place)
@@ -213,7 +218,7 @@ class _ConfigReader:
             assert instance is not None
             _ = instance.given, instance.results
         except Exception as cause:
-            raise PluginError(f"it declares what cannot be: {said(cause)}", kind) from cause
+            raise PluginError(Phrase("it declares what cannot be: {said}", said=said(cause)), kind) from cause
 
 
 def _of_instance(error: PluginError, name: str) -> PluginError:
@@ -226,9 +231,9 @@ def _name_fault(name: str) -> str:
     if seeming := seeming_latin(name):
         return seeming
     if name in RESERVED:
-        return f"the name {name!r} is reserved. Choose another one."
+        return Phrase("the name {name} is reserved. Choose another one.", name=repr(name))
     if not NAME.fullmatch(name):
-        return f"{told(name)} is not a name: a letter, then letters, digits, _ and - are allowed."
+        return Phrase("{name} is not a name: a letter, then letters, digits, _ and - are allowed.", name=told(name))
     return ""
 
 

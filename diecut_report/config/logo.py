@@ -11,6 +11,7 @@ from diecut_report.config.validation import ConfigPlace, told
 from diecut_report.config.yaml_tree import Tree
 from diecut_report.errors import Problem, UserError
 from diecut_report.given_files import content
+from diecut_report.languages.phrases import Phrase, phrase
 from diecut_report.pictures import MOST, PictureFault, media_type
 
 KEY = ("report", "logo")
@@ -40,19 +41,21 @@ def logo_of(config: Tree, find: Find | None) -> tuple[Logo | None, list[Problem]
         return None, [place.problem(KEY, fault)]
     path = find(name) if find else Path(config.file).parent / name
     if not path.exists():
-        words = f"there is no file {path}. A logo is sought from the configuration's folder; check the name."
+        words = Phrase(
+            "there is no file {path}. A logo is sought from the configuration's folder; check the name.", path=path
+        )
         return None, [place.problem(KEY, words)]
     try:
-        found = content(path, MOST, "a PNG or SVG picture")
+        found = content(path, MOST, phrase("a PNG or SVG picture"))
         return Logo(name, found, media_type(found)), []
     except UserError as error:
         return None, list(error.problems)
     except PictureFault as fault:
-        return None, [place.problem(KEY, f"{told(name)} {fault}")]
+        return None, [place.problem(KEY, Phrase("{name} {fault}", name=told(name), fault=fault))]
 
 
 def logo_fault(name: object) -> str:
     """Return what is wrong with the name of a logo; "" where it leads to a file beside the configuration or below."""
     if not isinstance(name, str) or not name.strip():
-        return f"is {told(name)}; the name of a PNG or SVG file is needed, such as logo.svg"
-    return place_fault(name, "a logo lies")
+        return Phrase("is {name}; the name of a PNG or SVG file is needed, such as logo.svg", name=told(name))
+    return place_fault(name, phrase("a logo lies"))

@@ -23,6 +23,7 @@ from diecut_report.config.plain_data import texts
 from diecut_report.config.validation import ConfigPlace, told
 from diecut_report.config.yaml_tree import KeyPath, Tree
 from diecut_report.errors import Problem, UserError
+from diecut_report.languages.phrases import Phrase, phrase
 
 KEY = "materials"
 SOURCE, VERSION = "source", "schema_version"
@@ -67,7 +68,11 @@ class OwnTables:
         given = config.data.get(KEY) if isinstance(config.data, dict) else None
         names = given if isinstance(given, list) else [] if given is None else [given]
         if len(names) > MOST:
-            words = f"names {len(names)} files; at most {MOST} are allowed. Put several tables into one file."
+            words = Phrase(
+                "names {count} files; at most {most} are allowed. Put several tables into one file.",
+                count=len(names),
+                most=MOST,
+            )
             tables.problems.append(place.problem((KEY,), words))
             return tables
         beside = find or (lambda name: Path(config.file).parent / name)
@@ -82,7 +87,9 @@ class OwnTables:
             return
         path = find(name)
         if not path.exists():
-            words = f"there is no file {path}. Tables are sought from the configuration's folder; check the name."
+            words = Phrase(
+                "there is no file {path}. Tables are sought from the configuration's folder; check the name.", path=path
+            )
             self.problems.append(place.problem(key, words))
             return
         try:
@@ -96,7 +103,7 @@ class OwnTables:
         for entry in () if excess else _Reader(tree, self.problems).entries():
             known = self.entries.setdefault(str(entry.path[0]), {})
             if entry.name in known:
-                words = f"stands in {known[entry.name].file} too; leave one of them out"
+                words = Phrase("stands in {file} too; leave one of them out", file=known[entry.name].file)
                 self.problems.append(ConfigPlace(tree).problem(entry.path, words, at_key=True))
             known.setdefault(entry.name, entry)
 
@@ -118,19 +125,26 @@ class _Reader:
     def entries(self) -> Iterator[Entry]:
         data = self.tree.data
         if not isinstance(data, dict):
-            words = f"The file holds {told(data)}; it needs a source and tables, as in steels: {{NAME: {{…}}}}."
+            words = Phrase(
+                "The file holds {data}; it needs a source and tables, as in steels: {NAME: {…}}.", data=told(data)
+            )
             self.problems.append(Problem(words, self.tree.file))
             return
         self._references(data)
         if data.get(VERSION, 1) != 1:
-            self._wrong((VERSION,), f"is {told(data[VERSION])}; the number 1 is needed")
+            self._wrong((VERSION,), Phrase("is {data}; the number 1 is needed", data=told(data[VERSION])))
         common = self._source(data, ())
         for table, rows in data.items():
             if table in (SOURCE, VERSION):
                 continue
             if not isinstance(rows, dict):
                 self._wrong(
-                    (table,), f"is {told(rows)}; entries by their names are needed, as in {table}: {{NAME: {{…}}}}"
+                    (table,),
+                    Phrase(
+                        "is {rows}; entries by their names are needed, as in {table}: {NAME: {…}}",
+                        rows=told(rows),
+                        table=table,
+                    ),
                 )
                 continue
             for name, keys in rows.items():
@@ -138,12 +152,16 @@ class _Reader:
 
     def _entry(self, path: KeyPath, keys: Any, common: str | None) -> Iterator[Entry]:
         if not isinstance(keys, dict):
-            self._wrong(path, f"is {told(keys)}; a block of keys is needed")
+            self._wrong(path, Phrase("is {keys}; a block of keys is needed", keys=told(keys)))
             return
         source = self._source(keys, path) or common
         if not source:
             self._wrong(
-                path, f"has no source; say in {SOURCE}: … where its numbers are from, here or at the top of the file"
+                path,
+                Phrase(
+                    "has no source; say in {source}: … where its numbers are from, here or at the top of the file",
+                    source=SOURCE,
+                ),
             )
             return
         yield Entry(str(path[1]), {key: each for key, each in keys.items() if key != SOURCE}, source, self.tree, path)
@@ -151,14 +169,17 @@ class _Reader:
     def _source(self, data: Mapping[str, Any], path: KeyPath) -> str | None:
         given = data.get(SOURCE)
         if SOURCE in data and (not isinstance(given, str) or not given.strip()):
-            self._wrong((*path, SOURCE), f"is {told(given)}; a text is needed that says where the numbers are from")
+            self._wrong(
+                (*path, SOURCE),
+                Phrase("is {given}; a text is needed that says where the numbers are from", given=told(given)),
+            )
             return None
         return given
 
     def _references(self, data: Any) -> None:
         for key, text in texts(data):
             if "${" in text:
-                self._wrong(key, f"is {told(text)}; a table holds values, and no references")
+                self._wrong(key, Phrase("is {text}; a table holds values, and no references", text=told(text)))
 
     def _wrong(self, key: KeyPath, words: str) -> None:
         self.problems.append(self.place.problem(key, words))
@@ -167,11 +188,14 @@ class _Reader:
 def name_fault(name: Any) -> str:
     """Return what is wrong with the name of a file of tables; "" where it leads to a YAML file beside the configuration or below."""
     if not isinstance(name, str):
-        return f"is {told(name)}; the name of a YAML file is needed, such as my_steels.yaml, or a list of such names"
-    if fault := place_fault(name, "tables lie"):
+        return Phrase(
+            "is {name}; the name of a YAML file is needed, such as my_steels.yaml, or a list of such names",
+            name=told(name),
+        )
+    if fault := place_fault(name, phrase("tables lie")):
         return fault
     if PurePosixPath(name).suffix not in (".yaml", ".yml"):
-        return f"is {told(name)}; a YAML file is needed, such as my_steels.yaml"
+        return Phrase("is {name}; a YAML file is needed, such as my_steels.yaml", name=told(name))
     return ""
 
 
@@ -179,5 +203,9 @@ def place_fault(name: str, lie: str) -> str:
     """Return that a name leads elsewhere than beside the configuration or below; ``lie`` names what: "tables lie"."""
     windows = PureWindowsPath(name)
     if windows.is_absolute() or windows.drive or PurePosixPath(name).is_absolute() or ".." in windows.parts:
-        return f"is {told(name)}; {lie} beside the configuration or in a folder below it: give a name without a folder above"
+        return Phrase(
+            "is {name}; {lie} beside the configuration or in a folder below it: give a name without a folder above",
+            name=told(name),
+            lie=lie,
+        )
     return ""

@@ -9,6 +9,7 @@ from diecut_report.config.instances import Instance
 from diecut_report.config.validation import told
 from diecut_report.contract.mechanism import Mechanism, Partner
 from diecut_report.errors import nearest
+from diecut_report.languages.phrases import Phrase
 
 BY_THEMSELVES = ("press_consistency",)  # known by name: to ask every plugin, all would have to be loaded
 FEWEST = 2  # partners that a kind needs to run by itself: a single mechanism cannot contradict another
@@ -39,9 +40,20 @@ def fault(partner: Partner, name: Any, kinds: Kinds) -> str:
     wanted = " or ".join(partner.kinds)
     if not isinstance(name, str) or name not in kinds:
         near = nearest(name, kinds) if isinstance(name, str) else ""
-        return f"is {told(name)}; the name of a mechanism of kind {wanted} is needed{near}. Known: {', '.join(kinds)}."
+        return Phrase(
+            "is {name}; the name of a mechanism of kind {wanted} is needed{near}. Known: {kinds}.",
+            name=told(name),
+            wanted=wanted,
+            near=near,
+            kinds=", ".join(kinds),
+        )
     if kinds[name] not in partner.kinds:
-        return f"is {name}, of kind {kinds[name]}; the name of a mechanism of kind {wanted} is needed."
+        return Phrase(
+            "is {name}, of kind {kinds}; the name of a mechanism of kind {wanted} is needed.",
+            name=name,
+            kinds=kinds[name],
+            wanted=wanted,
+        )
     return ""
 
 

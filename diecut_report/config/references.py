@@ -24,6 +24,7 @@ from diecut_report.contract.inputs import Block, CurveInput, FromPress, Mechanis
 from diecut_report.contract.result_names import count_name, has_own_names, named, names_ahead
 from diecut_report.contract.varying import Varying
 from diecut_report.errors import Problem, nearest
+from diecut_report.languages.phrases import Phrase
 from diecut_report.quantities.units import pretty, unit
 
 PHASES = "phases"
@@ -82,7 +83,8 @@ class Linker:
         ):
             return None
         if isinstance(meta, CurveInput) and declared(instance.model, key):
-            raise Unresolved(f"“{text.strip()}” calculates a number; a curve is needed here, and is referred to whole")
+            raise Unresolved(Phrase("“{strip}” calculates a number; a curve is needed here, and is referred to whole",
+                strip=text.strip()))  # fmt: skip
         terms: dict[str, Target] = {}
         try:
             found = read_expression(text, lambda name: self._term(name, terms))
@@ -102,9 +104,9 @@ class Linker:
         if target.is_broken:
             raise _BrokenTerm
         if target.is_curve:
-            raise ConditionError(f"{name} is a curve; single numbers are needed to calculate with.")
+            raise ConditionError(Phrase("{name} is a curve; single numbers are needed to calculate with.", name=name))
         if target.unit is None:
-            raise ConditionError(f"{name} is not a number; numbers and quantities are needed to calculate with.")
+            raise ConditionError(Phrase("{name} is not a number; numbers and quantities are needed to calculate with.", name=name))  # fmt: skip
         meta = declared(self._of(target).model, target.key) if target.key else None
         return Name(name, "number", target.unit, meta.unit if isinstance(meta, Quantity) else "")
 
@@ -120,8 +122,9 @@ class Linker:
             single = target.unit is not None and not target.is_curve
             if not single or unit(str(target.unit)).kind != unit(meta.unit).kind:
                 raise Unresolved(
-                    f"${{{target.path}}} is not a single quantity in {pretty(meta.unit)}, as the other values are"
-                )
+                    Phrase("${{path}} is not a single quantity in {pretty}, as the other values are", path=target.path, pretty=pretty(
+                        meta.unit))
+                )  # fmt: skip
         return target
 
     def _from_press(self, instance: Instance) -> None:
@@ -140,8 +143,8 @@ class Linker:
     def _no_default(self, instance: Instance, slot: Slot, default: FromPress) -> Problem:
         assert isinstance(slot.meta, Quantity)
         field, key = default.path.removeprefix(f"{PRESS}."), slot.key[-1]
-        message = (f"{key} is not given and the press gives no {field} to derive it from; "
-                   f"give {key} ({pretty(slot.meta.unit) or 'a number'}) or {default.path}.")  # fmt: skip
+        message = (Phrase("{key} is not given and the press gives no {field} to derive it from; give {key} ({text}) or {path}.", key=key,
+            field=field, text=pretty(slot.meta.unit) or 'a number', path=default.path))  # fmt: skip
         return instance.place.absent(slot.key, message)
 
     # --- what a path stands for --------------------------------------------------------------------------------------
@@ -151,21 +154,23 @@ class Linker:
         match = WHOLE.fullmatch(text.strip())
         if match is None:
             raise Unresolved(
-                f"“{text}” mixes a reference with text; a reference stands for a whole value, as in ${{press.name}}."
-            )
+                Phrase("“{text}” mixes a reference with text; a reference stands for a whole value, as in ${press.name}.", text=text)
+            )  # fmt: skip
         path = match[1].strip()
         name, *rest = path.split(".")
         if name not in self.instances:
             if seeming := seeming_latin(name):
                 raise Unresolved(f"${{{path}}}: {seeming}")
             near = nearest(name, self.instances)
-            raise Unresolved(f"${{{path}}}: there is no mechanism {name!r}{near}. Known: {', '.join(self.instances)}.")
+            raise Unresolved(Phrase("${{path}}: there is no mechanism {name}{near}. Known: {instances}.", path=path, name=repr(name),
+                near=near, instances=', '.join(self.instances)))  # fmt: skip
         instance = self.instances[name]
         if instance is None:
             return Target(path, name, is_broken=True)
         if not rest or not all(rest):
             example = next(iter(_known(instance)), "output")
-            raise Unresolved(f"${{{path}}} names no value; add an output or input, as in ${{{name}.{example}}}.")
+            raise Unresolved(Phrase("${{path}} names no value; add an output or input, as in ${{name}.{example}}.", path=path, name=name,
+                example=example))  # fmt: skip
         if rest[0] == PHASES and len(rest) > 1:
             return self._phase(path, instance, ".".join(rest))
         return self._result(path, instance, ".".join(rest)) or self._input(path, instance, rest)
@@ -186,7 +191,8 @@ class Linker:
                 self.links[node] = Target(slot.value, slot.value, result="", is_broken=is_broken, is_mechanism=True)
             else:
                 self.unresolved.add(node)
-                words = f"there is no mechanism {slot.value!r}{nearest(slot.value, known)}. Known: {', '.join(known)}."
+                words = Phrase("there is no mechanism {value}{nearest}. Known: {known}.", value=repr(slot.value), nearest=nearest(
+                    slot.value, known), known=', '.join(known))  # fmt: skip
                 self.problems.append(instance.place.problem(slot.key, words))
 
     def _result(self, path: str, instance: Instance, result: str) -> Target | None:
@@ -194,7 +200,8 @@ class Linker:
             si, many = instance.results[result]
             home = instance.rows.get(result)
             if home:
-                raise Unresolved(f"${{{path}}} has a value for each of {home}; refer to one, as in ${{{path}.0}}.")
+                raise Unresolved(Phrase("${{path}} has a value for each of {home}; refer to one, as in ${{path}.0}.", path=path,
+                    home=home))  # fmt: skip
             return Target(path, instance.name, result=result, unit=si, is_curve=many)
         part = named(result, instance.declared)
         if part and part.role == "part" and part.id in instance.results and instance.results[part.id][1]:
@@ -207,46 +214,48 @@ class Linker:
         name = ".".join(part for part in key if isinstance(part, str))
         if isinstance(meta, type):
             inner = ", ".join(meta.model_fields)
-            raise Unresolved(f"${{{path}}} is a block or a list; refer to one of its values ({inner}).")
+            raise Unresolved(Phrase("${{path}} is a block or a list; refer to one of its values ({inner}).", path=path, inner=inner))  # fmt: skip
         if meta is None:
             raise Unresolved(self._unknown(path, instance, ".".join(parts)))
         _check_index(path, instance.data, key)
         if name in instance.model.spread and name not in instance.data:
             single = ", ".join(instance.model.spread[name])
-            raise Unresolved(f"${{{path}}} is a list; refer to one of its values ({single}).")
+            raise Unresolved(Phrase("${{path}} is a list; refer to one of its values ({single}).", path=path, single=single))  # fmt: skip
         if name not in instance.given:
-            raise Unresolved(f"${{{path}}} is not given; it is optional. Give {path}, or write the value itself here.")
+            raise Unresolved(Phrase("${{path}} is not given; it is optional. Give {path}, or write the value itself here.", path=path))  # fmt: skip
         held = (
             [text for _, text in texts(instance.data.get(name)) if "${" in text] if isinstance(meta, CurveInput) else []
         )
         if held and isinstance(instance.data[name], list):
             raise Unresolved(
-                f"${{{path}}} is a list that holds references itself ({held[0]}), and cannot be referred to; write its values here."
-            )
+                Phrase("${{path}} is a list that holds references itself ({held}), and cannot be referred to; write its values here.",
+                    path=path, held=held[0])
+            )  # fmt: skip
         if isinstance(meta, Varying) and _varies(instance.data, key):
             raise Unresolved(
-                f"${{{path}}} is not a single number, but may vary over a cycle; write here what it is given as."
-            )
+                Phrase("${{path}} is not a single number, but may vary over a cycle; write here what it is given as.", path=path)
+            )  # fmt: skip
         si = unit(meta.unit).si if isinstance(meta, Quantity | CurveInput) else None
         return Target(path, instance.name, key, unit=si, is_curve=isinstance(meta, CurveInput))
 
     def _unknown(self, path: str, instance: Instance, name: str) -> str:
         if count_name(name) in instance.results:
-            return f"${{{path}}} has several values; refer to one of them, as in ${{{path}_1}}."
+            return Phrase("${{path}} has several values; refer to one of them, as in ${{path}_1}.", path=path)
         left_out = named(name, instance.declared)
         if left_out and left_out.role in ("value", "place"):
             section, step = instance.declared_steps[left_out.id]
             missing = [n for n in (*section.needs, *step.needs) if n not in instance.given]
             excess = [n for n in step.lacks if n in instance.given]
             words = (
-                f"calculated only if {' and '.join(missing)} is given"
+                Phrase("calculated only if {missing} is given", missing=" and ".join(missing))
                 if missing
-                else f"not calculated, as {', '.join(excess)} is given"
+                else Phrase("not calculated, as {excess} is given", excess=", ".join(excess))
             )
-            return f"${{{path}}} is {words} in {instance.name}."
+            return Phrase("${{path}} is {words} in {name}.", path=path, words=words, name=instance.name)
         known = _known(instance)
         near = nearest(name, known)
-        return f"${{{path}}}: {instance.name} has no {name!r}{near}." + ("" if near else f" Known: {', '.join(known)}.")
+        return Phrase("${{path}}: {name} has no {name_2}{near}.", path=path, name=instance.name, name_2=repr(name), near=near) + (""
+             if near else Phrase(" Known: {known}.", known=', '.join(known)))  # fmt: skip
 
 
 def _wanted(instance: Instance, key: KeyPath) -> Meta | type[Block] | None:
@@ -274,6 +283,8 @@ def _varies(data: Any, key: KeyPath) -> bool:
 def _check_index(path: str, data: Any, key: KeyPath) -> None:
     for part in key:
         if isinstance(part, int) and isinstance(data, list) and part >= len(data):
-            raise Unresolved(f"${{{path}}}: the list has {len(data)} entries, counted from 0.")
+            raise Unresolved(
+                Phrase("${{path}}: the list has {count} entries, counted from 0.", path=path, count=len(data))
+            )
         known = part in data if isinstance(data, dict) else isinstance(data, list) and isinstance(part, int)
         data = data[part] if known else None

@@ -10,6 +10,7 @@ from diecut_report.config.validation import ConfigPlace
 from diecut_report.contract.inputs import Quantity, fields
 from diecut_report.contract.steps import Step
 from diecut_report.errors import Problem, nearest
+from diecut_report.languages.phrases import Phrase
 from diecut_report.quantities.units import UnitError, kind_name, unit
 
 DIMENSIONS = {
@@ -28,7 +29,10 @@ def faults(given: Any, instances: Mapping[str, Instance | None], place: ConfigPl
     if given is None:
         return
     if not isinstance(given, dict):
-        words = f"is {given!r}; keys with units are needed, as in units: {{length: mm, rotational_speed: rad/s}}"
+        words = Phrase(
+            "is {given}; keys with units are needed, as in units: {length: mm, rotational_speed: rad/s}",
+            given=repr(given),
+        )
         yield place.problem((UNITS,), words)
         return
     for key, chosen in given.items():
@@ -46,14 +50,28 @@ def wanted_units(key: Any, instances: Mapping[str, Instance | None]) -> tuple[st
     name, dot, quantity = str(key).partition(".")
     if not dot:
         near = nearest(name, DIMENSIONS)
-        return f"is not a dimension{near}; give MECHANISM.QUANTITY, or one of: {', '.join(DIMENSIONS)}"
+        return Phrase(
+            "is not a dimension{near}; give MECHANISM.QUANTITY, or one of: {dimensions}",
+            near=near,
+            dimensions=", ".join(DIMENSIONS),
+        )
     instance = instances.get(name)
     if instance is None:
         known = [each for each, found in instances.items() if found is not None]
-        return f"names {name}, which is not there{nearest(name, known)}; known: {', '.join(known)}"
+        return Phrase(
+            "names {name}, which is not there{nearest}; known: {known}",
+            name=name,
+            nearest=nearest(name, known),
+            known=", ".join(known),
+        )
     units = _units(instance)
     if quantity not in units:
-        return f"names {quantity}, which is not a quantity of {name} with a number{nearest(quantity, units)}"
+        return Phrase(
+            "names {quantity}, which is not a quantity of {name} with a number{nearest}",
+            quantity=quantity,
+            name=name,
+            nearest=nearest(quantity, units),
+        )
     return units[quantity]
 
 
@@ -71,13 +89,23 @@ def _units(instance: Instance) -> dict[str, tuple[str, ...]]:
 def _unit_fault(chosen: Any, wanted: tuple[str, ...]) -> str:
     """Why a unit cannot be that of a quantity; nothing where it can."""
     if not isinstance(chosen, str):
-        return f"is {chosen!r}; a unit is needed, such as {wanted[0]}"
+        return Phrase("is {chosen}; a unit is needed, such as {wanted}", chosen=repr(chosen), wanted=wanted[0])
     try:
         found = unit(chosen)
     except UnitError as error:
-        return f"{error} Give a unit of {kind_name(unit(wanted[0]))}, such as {wanted[0]}."
+        return Phrase(
+            "{error} Give a unit of {kind_name}, such as {wanted}.",
+            error=error,
+            kind_name=kind_name(unit(wanted[0])),
+            wanted=wanted[0],
+        )
     if found.si not in {unit(each).si for each in wanted}:
-        return f"is a unit of {kind_name(found)}; one of {kind_name(unit(wanted[0]))} is needed, such as {wanted[0]}"
+        return Phrase(
+            "is a unit of {kind_name}; one of {kind_name_2} is needed, such as {wanted}",
+            kind_name=kind_name(found),
+            kind_name_2=kind_name(unit(wanted[0])),
+            wanted=wanted[0],
+        )
     return ""
 
 

@@ -15,6 +15,7 @@ from diecut_report.config.yaml_tree import KeyPath
 from diecut_report.contract.from_tables import FromTable
 from diecut_report.contract.inputs import Block, Quantity
 from diecut_report.errors import Problem, nearest
+from diecut_report.languages.phrases import Phrase, phrase
 
 CATALOGUE = "catalogue"
 
@@ -127,9 +128,21 @@ class _Taker:
     def _unknown(self, table: str, name: str) -> str:
         known = self.tables.names(table)
         if not known:
-            file = "in a file that materials: names"
-            return f"is {told(name)}, but there is no table {table} of your own: put {table}: {{{name}: {{…}}}} {file}"
-        return f"is {told(name)}{nearest(name, known)}; {table} has {', '.join(known[:NAMED])}"
+            file = phrase("in a file that materials: names")
+            return Phrase(
+                "is {name}, but there is no table {table} of your own: put {table}: {{name_2}: {…}} {file}",
+                name=told(name),
+                table=table,
+                name_2=name,
+                file=file,
+            )
+        return Phrase(
+            "is {name}{nearest}; {table} has {known}",
+            name=told(name),
+            nearest=nearest(name, known),
+            table=table,
+            known=", ".join(known[:NAMED]),
+        )
 
     def _judge(self, model: type[Block], rule: FromTable) -> None:
         """Judge all entries of a table by the block that may take them, whether it does or not."""
@@ -154,8 +167,11 @@ def _faults(model: type[Block], rule: FromTable, entry: Entry) -> Iterator[Probl
     place, known = ConfigPlace(entry.tree, entry.path), list(rule.gives.values())
     for key in entry.keys:
         if key not in known:
-            words = (
-                f"is an unknown key{nearest(key, known)}. An entry of {rule.table} has {', '.join([SOURCE, *known])}."
+            words = Phrase(
+                "is an unknown key{nearest}. An entry of {table} has {text}.",
+                nearest=nearest(key, known),
+                table=rule.table,
+                text=", ".join([SOURCE, *known]),
             )
             yield place.problem((key,), words, at_key=True)
     for own, theirs in rule.gives.items():

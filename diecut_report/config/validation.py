@@ -15,6 +15,7 @@ from diecut_report.config.discovery import said
 from diecut_report.config.yaml_tree import KeyPath, Tree
 from diecut_report.contract.inputs import Block, CurveInput, Meta, Pending, Quantity, Text, meta_of, nested
 from diecut_report.errors import PluginError, Problem, nearest
+from diecut_report.languages.phrases import Phrase, phrase
 from diecut_report.quantities.units import pretty
 
 SHOWN = 60  # characters of a given text that a message repeats
@@ -81,12 +82,23 @@ def spread_out(
         del found[key]
         again = [name for name in single if found.get(name) is not None]
         if len(values) != len(single):
-            count = {0: "no values", 1: "1 value"}.get(len(values), f"{len(values)} values")
+            count = {0: phrase("no values"), 1: "1 value"}.get(len(values), f"{len(values)} values")
             problems.append(
-                place.problem((key,), f"has {count}; give one for all, or {len(single)}: for {', '.join(single)}")
+                place.problem(
+                    (key,),
+                    Phrase(
+                        "has {given}; give one for all, or {count}: for {single}",
+                        given=count,
+                        count=len(single),
+                        single=", ".join(single),
+                    ),
+                )
             )
         elif again:
-            words = f"is a list for all of them, but {' and '.join(again)} is given beside it; give the list, or single keys"
+            words = Phrase(
+                "is a list for all of them, but {again} is given beside it; give the list, or single keys",
+                again=" and ".join(again),
+            )
             problems.append(place.problem((key,), words))
         else:
             found |= dict(zip(single, values, strict=True))
@@ -107,7 +119,8 @@ def validate(
         return None, chosen + [fault.problem() for fault in faults if fault.key not in open_keys]
     except Exception as cause:  # of a validator of the plugin's own
         raise PluginError(
-            f"its inputs {model.__name__} cannot be validated: {said(cause)}", instance=str(place.root[-1])
+            Phrase("its inputs {name__} cannot be validated: {said}", name__=model.__name__, said=said(cause)),
+            instance=str(place.root[-1]),
         ) from cause
 
 
@@ -180,13 +193,17 @@ class _Fault:
             "value_error": lambda: str(self.context["error"]),
             "literal_error": self._choice,
             "enum": self._choice,
-            "too_short": lambda: (
-                f"has {self.context['actual_length']} entries; at least {self.context['min_length']} needed"
+            "too_short": lambda: Phrase(
+                "has {actual_length} entries; at least {min_length} needed",
+                actual_length=self.context["actual_length"],
+                min_length=self.context["min_length"],
             ),
-            "too_long": lambda: (
-                f"has {self.context['actual_length']} entries; at most {self.context['max_length']} allowed"
+            "too_long": lambda: Phrase(
+                "has {actual_length} entries; at most {max_length} allowed",
+                actual_length=self.context["actual_length"],
+                max_length=self.context["max_length"],
             ),
-            "string_too_short": lambda: "is empty; give a text",
+            "string_too_short": lambda: phrase("is empty; give a text"),
         }
         return words.get(self.type, self._other)()
 
@@ -194,44 +211,66 @@ class _Fault:
         meta = declared(self.model, self.key)
         if isinstance(meta, Quantity | CurveInput):
             allowed = f" ({meta.allowed})" if isinstance(meta, Quantity) and meta.allowed else ""
-            return f"is missing. Give it in {pretty(meta.unit) or 'plain numbers'}{allowed}: {meta.description}."
-        described = f": {meta.description}" if isinstance(meta, Text) else ""
-        return f"is missing; it is required{described}."
+            return Phrase(
+                "is missing. Give it in {text}{allowed}: {description}.",
+                text=pretty(meta.unit) or "plain numbers",
+                allowed=allowed,
+                description=phrase(meta.description),
+            )
+        described = ": " + phrase(meta.description) if isinstance(meta, Text) else ""
+        return Phrase("is missing; it is required{described}.", described=described)
 
     def _unknown_key(self) -> str:
         home = declared(self.model, self.key[:-1]) if len(self.key) > 1 else self.model
         known = list(home.model_fields) if isinstance(home, type) else []
         if self.given is None and re.match(r"\d", str(self.key[-1])):
-            words = "YAML parts entries within braces at each comma; write a decimal point, as in {gap: 0.5 mm}"
-            return f"is what a decimal comma leaves behind it: {words}."
+            words = phrase("YAML parts entries within braces at each comma; write a decimal point, as in {gap: 0.5 mm}")
+            return Phrase("is what a decimal comma leaves behind it: {words}.", words=words)
         own = ["kind"] if self.place.root[:1] == ("mechanisms",) and len(self.key) == 1 else []
-        return f"is an unknown key{nearest(str(self.key[-1]), known)}. Known keys: {', '.join(own + known)}."
+        return Phrase(
+            "is an unknown key{nearest}. Known keys: {own}.",
+            nearest=nearest(str(self.key[-1]), known),
+            own=", ".join(own + known),
+        )
 
     def _choice(self) -> str:
         expected = str(self.context["expected"]).replace(" or ", ", ")
         choices = [choice.strip("'") for choice in expected.split(", ")]
         choices += self.place.named.get(self.key, ())[:NAMED]
         near = nearest(self.given, choices) if isinstance(self.given, str) and self.given not in choices else ""
-        return f"is {told(self.given)}{near}; allowed: {', '.join(choices)}"
+        return Phrase(
+            "is {given}{near}; allowed: {choices}", given=told(self.given), near=near, choices=", ".join(choices)
+        )
 
     def _other(self) -> str:
         if isinstance(self.given, Pending):
-            number = f"is a {'curve' if self.given.is_curve else 'number'} in {self.given.unit}"
-            return (
-                f"${{{self.given.path}}} {number if self.given.unit else 'is a text'}; {self._needed()} is needed here"
+            number = Phrase(
+                "is a {text} in {unit}",
+                text=(phrase("curve") if self.given.is_curve else phrase("number")),
+                unit=self.given.unit,
+            )
+            return Phrase(
+                "${{path}} {number}; {needed} is needed here",
+                path=self.given.path,
+                number=(number if self.given.unit else phrase("is a text")),
+                needed=self._needed(),
             )
         if self.given is None:
-            return f"has no value; {self._needed()} is needed, or remove the key"
-        return f"is {told(self.given)}; {self._needed()} is needed"
+            return Phrase("has no value; {needed} is needed, or remove the key", needed=self._needed())
+        return Phrase("is {given}; {needed} is needed", given=told(self.given), needed=self._needed())
 
     def _needed(self) -> str:
-        kinds = {"bool": "true or false", "int": "a whole number", "float": "a number", "string": "a text", "list": "a list",
-                 "dict": "a block of keys", "model": "a block of keys"}  # fmt: skip
+        kinds = {"bool": phrase("true or false"), "int": phrase("a whole number"), "float": "a number", "string": "a text", "list": "a list",
+                 "dict": phrase("a block of keys"), "model": phrase("a block of keys")}  # fmt: skip
         known = kinds.get(self.type.split("_")[0])
         if known:
             return known
         meta = declared(self.model, self.key) if self.key else None
-        return f"another value ({meta.description})" if isinstance(meta, Text) else "another value"
+        return (
+            Phrase("another value ({description})", description=phrase(meta.description))
+            if isinstance(meta, Text)
+            else phrase("another value")
+        )
 
 
 def told(given: Any) -> str:
@@ -246,5 +285,5 @@ def told(given: Any) -> str:
         case list():
             return "a list"
         case dict():
-            return "a block of keys"
+            return phrase("a block of keys")
     return f"{given}"

@@ -23,6 +23,7 @@ import yaml
 from diecut_report.config.hidden_letters import CONTROL, HIDDEN, HIDDEN_IN_KEY
 from diecut_report.errors import Problem, UserError
 from diecut_report.given_files import content
+from diecut_report.languages.phrases import Phrase, phrase
 
 MAX_BYTES = 5_000_000
 MAX_DEPTH = 50
@@ -115,12 +116,12 @@ class Tree:
 
 def load(path: Path) -> Tree:
     """Read a YAML file. UserError with all that is wrong with it, or the reason why it cannot be read."""
-    raw = content(path, MAX_BYTES, "a YAML file")
+    raw = content(path, MAX_BYTES, phrase("a YAML file"))
     try:
         text = raw.decode("utf-8-sig")
     except UnicodeDecodeError as error:
         line = raw.count(b"\n", 0, error.start) + 1
-        words = "The file is not UTF-8 text. Give a YAML file, saved as UTF-8."
+        words = phrase("The file is not UTF-8 text. Give a YAML file, saved as UTF-8.")
         raise UserError(Problem(words, str(path), line)) from error
     return _parse(text, str(path), hashlib.sha256(raw).hexdigest())
 
@@ -134,8 +135,8 @@ def _parse(text: str, file: str, sha256: str) -> Tree:
     if control := CONTROL.search(text):
         before = text[: control.start()]
         place = before.count("\n") + 1, len(before) - before.rfind("\n")
-        advice = "Write it without." if control[0] > " " else "This is not YAML text. Give a text file."
-        message = f"The control character U+{ord(control[0]):04X} stands here. {advice}"
+        advice = phrase("Write it without.") if control[0] > " " else phrase("This is not YAML text. Give a text file.")
+        message = Phrase("The control character U+{ord} stands here. {advice}", ord=f"{ord(control[0]):04X}", advice=advice)  # fmt: skip
         raise UserError(Problem(message, file, *place))
     builder = _Builder(file)
     try:
@@ -153,19 +154,19 @@ def _syntax_problem(error: Any, text: str, file: str) -> Problem:
     indentation = len(line) - len(line.lstrip())
     tab = line.find("\t", 0, max(indentation, mark.column + 1))
     if tab in range(indentation) or tab == mark.column:
-        return Problem("A tab stands here; YAML is indented with spaces. Put spaces.", file, mark.line + 1, tab + 1)
-    return Problem(f"This is not valid YAML: {_explained(error, line)}", file, mark.line + 1, mark.column + 1)
+        return Problem(phrase("A tab stands here; YAML is indented with spaces. Put spaces."), file, mark.line + 1, tab + 1)  # fmt: skip
+    return Problem(Phrase("This is not valid YAML: {explained}", explained=_explained(error, line)), file, mark.line + 1,
+        mark.column + 1)  # fmt: skip
 
 
 def _explained(error: Any, line: str) -> str:
     if "mapping values are not allowed" in error.problem:
-        return "a second colon or a wrong indentation. Align keys of one block; put text that holds ': ' in quotes."
+        return phrase("a second colon or a wrong indentation. Align keys of one block; put text that holds ': ' in quotes.")  # fmt: skip
     begin = f" that begins in line {error.context_mark.line + 1}" if error.context_mark else ""
     said = f"{error.problem} {error.context}{begin}" if error.context else error.problem
     if "${" in line and "flow" in (error.context or ""):
-        why = "a reference stands within braces or brackets without quotes, and YAML reads its brace as a map"
-        return f'{why}. Put it in quotes: "${{…}}".'
-    return f"{said}. Check quotes, brackets and indentation here and just above."
+        return phrase('a reference stands in braces or brackets without quotes, and YAML reads its brace as a map. Quote it: "${…}".')  # fmt: skip
+    return Phrase("{said}. Check quotes, brackets and indentation here and just above.", said=said)
 
 
 class _Builder:
@@ -182,13 +183,13 @@ class _Builder:
         self._events = events
         next(events)
         if isinstance(next(events), yaml.StreamEndEvent):
-            self._stop("The file is empty. Write a YAML document.", (None, None))
+            self._stop(phrase("The file is empty. Write a YAML document."), (None, None))
         root = self._node(next(events), ())
         next(events)
         if isinstance(second := next(events), yaml.DocumentStartEvent):
-            self._report("A second YAML document begins here. Keep one document in a file.", _position(second), ())
+            self._report(phrase("A second YAML document begins here. Keep one document in a file."), _position(second), ())  # fmt: skip
         if root.typed == "" and not self.problems:
-            self._stop("The file is empty. Write a YAML document.", (None, None))
+            self._stop(phrase("The file is empty. Write a YAML document."), (None, None))
         return root
 
     def _report(self, message: str, place: tuple[int | None, int | None], path: KeyPath) -> None:
@@ -218,28 +219,30 @@ class _Builder:
     def _count(self, more: int, event: Any, path: KeyPath) -> None:
         self._values += more
         if self._values > MAX_VALUES:
-            message = f"More than {MAX_VALUES} values, with those that aliases (*name) repeat. Write fewer."
+            message = Phrase("More than {max_values} values, with those that aliases (*name) repeat. Write fewer.",
+                max_values=MAX_VALUES)  # fmt: skip
             self._stop(message, _position(event), path)
 
     def _refuse_tag(self, event: Any, path: KeyPath) -> None:
         if event.tag is not None:
             tag = event.tag.replace("tag:yaml.org,2002:", "!!")
-            advice = "Remove it; put the value in quotes where text is meant."
-            self._report(f"The tag {tag} is not allowed. {advice}", _position(event), path)
+            advice = phrase("Remove it; put the value in quotes where text is meant.")
+            self._report(Phrase("The tag {tag} is not allowed. {advice}", tag=tag, advice=advice), _position(event), path)  # fmt: skip
 
     def _refuse_hidden(self, what: str, found: re.Match[str] | None, event: Any, path: KeyPath) -> None:
         """Report what a text holds when it is decoded: escapes within quotes bring what the file itself may not hold."""
         if found:
-            message = f"This {what} holds the control character U+{ord(found[0]):04X}. Write it without."
+            message = Phrase("This {what} holds the control character U+{ord}. Write it without.", what=what, ord=f"{ord(found[0]):04X}")  # fmt: skip
             self._report(message, _position(event), path)
 
     def _alias(self, event: Any, path: KeyPath) -> YamlNode:
         name, place = event.anchor, _position(event)
         anchored = self._anchors.get(name)
         if anchored is None:
-            fault = "stands in its own anchor, a loop" if name in self._anchors else f"has no anchor &{name} above it"
-            advice = "Write the value itself, or put text that begins with * in quotes."
-            self._report(f"The alias *{name} {fault}. {advice}", place, path)
+            fault = Phrase("has no anchor &{name} above it", name=name)
+            fault = phrase("stands in its own anchor, a loop") if name in self._anchors else fault
+            advice = phrase("Write the value itself, or put text that begins with * in quotes.")
+            self._report(Phrase("The alias *{name} {fault}. {advice}", name=name, fault=fault, advice=advice), place, path)  # fmt: skip
             return YamlNode(place)
         self._count(anchored.size, event, path)
         self._check_depth(anchored, event, path)
@@ -259,7 +262,7 @@ class _Builder:
 
     def _check_depth(self, node: YamlNode, event: Any, path: KeyPath) -> None:
         if len(path) + node.depth > MAX_DEPTH:
-            message = f"The nesting is deeper than {MAX_DEPTH} levels, aliases included. Flatten it."
+            message = Phrase("The nesting is deeper than {max_depth} levels, aliases included. Flatten it.", max_depth=MAX_DEPTH)  # fmt: skip
             self._stop(message, _position(event), path[:3])
 
     def _key(self, event: Any, node: YamlNode, path: KeyPath) -> str:
@@ -269,12 +272,13 @@ class _Builder:
         self._refuse_hidden("key", HIDDEN_IN_KEY.search(text), event, path)
         text = HIDDEN_IN_KEY.sub("\N{REPLACEMENT CHARACTER}", text)  # in what is told of values below it
         if not isinstance(key.scalar, str):
-            self._report(f"The key {text or '(empty)'} is not text. Put it in quotes, or rename it.", place, path)
+            self._report(Phrase("The key {text} is not text. Put it in quotes, or rename it.", text=text or '(empty)'), place, path)  # fmt: skip
         elif text == "<<" and isinstance(event, yaml.ScalarEvent) and event.implicit[0]:
-            self._report("Merge keys (<<) are not supported. Write the keys out, or alias whole values.", place, path)
+            self._report(phrase("Merge keys (<<) are not supported. Write the keys out, or alias whole values."), place, path)  # fmt: skip
         elif text in node.key_positions:
             first = node.key_positions[text][0]
-            message = f"The key {text!r} stands here again; it is first in line {first}. Remove one of the two."
+            words = "The key {text} stands here again; it is first in line {first}. Remove one of the two."
+            message = Phrase(words, text=repr(text), first=first)
             self._report(message, place, (*path, text))
         node.size += key.size
         node.key_positions.setdefault(text, place)

@@ -18,6 +18,7 @@ from diecut_report.config.yaml_tree import (
     resolved,
 )
 from diecut_report.errors import Problem, UserError
+from diecut_report.languages.phrases import Phrase
 
 Scalar = str | int | float
 
@@ -30,7 +31,9 @@ def with_values(tree: Tree, values: Mapping[KeyPath, Scalar], name: str, heading
     root = tree.root
     for path, value in values.items():
         if isinstance(value, str) and (found := hidden(value)):
-            words = f"The value that is to stand here holds the control character {found}; it is not taken."
+            words = Phrase(
+                "The value that is to stand here holds the control character {found}; it is not taken.", found=found
+            )
             raise UserError(Problem(words, tree.file, path=".".join(map(str, path))))
         root = _with_value(root, path, value)
     text = f"# {heading}\n{as_text(root)}"

@@ -11,6 +11,7 @@ from pydantic_core import CoreSchema, core_schema
 
 from diecut_report.contract.place import placed
 from diecut_report.contract.placeholders import SI, Pending
+from diecut_report.languages.phrases import Phrase, phrase
 from diecut_report.limits import MAX_CURVE_VALUES
 from diecut_report.quantities.plausible import plausible
 from diecut_report.quantities.units import parse_quantity, pretty, to_display, unit
@@ -41,29 +42,56 @@ class CurveInput:
         """Return what the engine makes a curve of; ValueError in words where it cannot."""
         if isinstance(given, Pending):
             if given.unit is None or unit(given.unit).kind != unit(self.unit).kind or not given.is_curve:
-                raise ValueError(f"${{{given.path}}} is not a curve in {self.unit}")
+                raise ValueError(Phrase("${{path}} is not a curve in {unit}", path=given.path, unit=self.unit))
             return given
         if isinstance(given, list) and not self.referred:
             if len(given) < 4:
-                raise ValueError(f"has {len(given)} values; a curve over one turn needs at least 4")
+                raise ValueError(Phrase("has {count} values; a curve over one turn needs at least 4", count=len(given)))
             if len(given) > MAX_CURVE_VALUES:
-                raise ValueError(f"has {len(given)} values; at most {MAX_CURVE_VALUES} are allowed for a curve")
+                raise ValueError(
+                    Phrase(
+                        "has {count} values; at most {max_curve_values} are allowed for a curve",
+                        count=len(given),
+                        max_curve_values=MAX_CURVE_VALUES,
+                    )
+                )
             return tuple(self._listed(value) for value in given)
         if hasattr(given, "curve_id"):
             return given
-        or_list = "" if self.referred else " or a list of values"
-        raise ValueError(f"is {given!r}; a reference to a curve{or_list} in {self.unit} is needed")
+        or_list = "" if self.referred else phrase(" or a list of values")
+        raise ValueError(
+            Phrase(
+                "is {given}; a reference to a curve{or_list} in {unit} is needed",
+                given=repr(given),
+                or_list=or_list,
+                unit=self.unit,
+            )
+        )
 
     def _listed(self, given: Any) -> float:
         """Return one value of a list in SI; one that is referred to is in SI already."""
         if isinstance(given, SI) and unit(given.unit).kind != unit(self.unit).kind:
-            raise ValueError(f"{given.told} is in {given.unit}; a quantity in {self.unit} is needed here")
+            raise ValueError(
+                Phrase(
+                    "{told} is in {unit}; a quantity in {unit_2} is needed here",
+                    told=given.told,
+                    unit=given.unit,
+                    unit_2=self.unit,
+                )
+            )
         value = float(given.value) if isinstance(given, SI) else parse_quantity(given, self.unit)
         sizes = plausible(self.unit)
         if not sizes.holds(value):
             shown = f"{to_display(value, self.unit):.6g} {pretty(self.unit)}".rstrip()
-            source = f" (from {given.told})" if isinstance(given, SI) else ""
-            raise ValueError(f"holds {shown}{source}, which is not plausible; plausible: {sizes.told}, or 0")
+            source = Phrase(" (from {told})", told=given.told) if isinstance(given, SI) else ""
+            raise ValueError(
+                Phrase(
+                    "holds {shown}{source}, which is not plausible; plausible: {told}, or 0",
+                    shown=shown,
+                    source=source,
+                    told=sizes.told,
+                )
+            )
         return value
 
     def __get_pydantic_core_schema__(self, source: Any, handler: GetCoreSchemaHandler) -> CoreSchema:

@@ -23,6 +23,7 @@ from diecut_report.contract.phase_inputs import MechanismInput, PhaseInput, Take
 from diecut_report.contract.place import placed
 from diecut_report.contract.placeholders import SI, FromPress, OneOf, Pending
 from diecut_report.contract.texts import Text
+from diecut_report.languages.phrases import Phrase, phrase
 from diecut_report.quantities.plausible import Plausible, plausible
 from diecut_report.quantities.units import Unit, parse_quantity, pretty, to_display, unit
 
@@ -79,12 +80,12 @@ class Quantity:
                 return InOtherUnit(other.validate(given), self.or_unit)
             case None:
                 raise ValueError(
-                    f"has no value; give a number in {pretty(self.unit) or 'plain form'} or remove the key"
-                )
+                    Phrase("has no value; give a number in {text} or remove the key", text=pretty(self.unit) or 'plain form')
+                )  # fmt: skip
             case Pending(unit=None):
-                raise ValueError(f"${{{given.path}}} is not a number; a quantity in {self.unit} is needed")
+                raise ValueError(Phrase("${{path}} is not a number; a quantity in {unit} is needed", path=given.path, unit=self.unit))  # fmt: skip
             case Pending(is_curve=True):
-                raise ValueError(f"${{{given.path}}} is a curve; a single number is needed here")
+                raise ValueError(Phrase("${{path}} is a curve; a single number is needed here", path=given.path))
             case Pending(unit=str() as other):
                 self._same_kind(other, f"${{{given.path}}}")
                 return given
@@ -92,18 +93,20 @@ class Quantity:
                 self._same_kind(other, told)
                 if isinstance(value, np.ndarray):  # of many machines: each is judged on its own
                     return value
-                return self._bounded(value, f"{to_display(value, self.unit):.6g} {pretty(self.unit)} (from {told})")
+                return self._bounded(value, Phrase("{to_display} {pretty} (from {told})", to_display=f"{to_display(value, self.unit):.6g}",
+                    pretty=pretty(self.unit), told=told))  # fmt: skip
             case bool() | list() | dict():
                 kind = (
                     "a list"
                     if isinstance(given, list)
-                    else "a block of keys"
+                    else phrase("a block of keys")
                     if isinstance(given, dict)
                     else str(given).lower()
                 )
                 raise ValueError(
-                    f"is {kind}; a number or a text such as “{f'10 {pretty(self.unit)}'.rstrip()}” is needed"
-                )
+                    Phrase("is {kind}; a number or a text such as “{rstrip}” is needed", kind=kind, rstrip=f'10 {pretty(self.unit)}'.rstrip(
+                        ))
+                )  # fmt: skip
         value = self._parsed(given)
         return self._bounded(value, f"{given}" if isinstance(given, str) else f"{given} {pretty(self.unit)}")
 
@@ -113,22 +116,24 @@ class Quantity:
         except ValueError as fault:
             if not self.words:
                 raise
-            raise ValueError(f"{str(fault).removesuffix('.')}; or {', '.join(self.words)}.") from None
+            raise ValueError(Phrase("{removesuffix}; or {words}.", removesuffix=str(fault).removesuffix('.'), words=', '.join(
+                self.words))) from None  # fmt: skip
 
     def _same_kind(self, other: str, told: str) -> None:
         if unit(other).kind != self.parsed_unit.kind:
-            raise ValueError(f"{told} is in {other}; a quantity in {self.unit} is needed here")
+            raise ValueError(Phrase("{told} is in {other}; a quantity in {unit} is needed here", told=told, other=other, unit=self.unit))  # fmt: skip
 
     def _bounded(self, value: float, told: str) -> float | int:
         shown = value / self.parsed_unit.factor
         if not math.isfinite(shown):
-            raise ValueError(f"{told.strip()} is not a finite number")
+            raise ValueError(Phrase("{strip} is not a finite number", strip=told.strip()))
         if not self._within(shown):
-            raise ValueError(f"{told.strip()} is out of range; allowed: {self.allowed}")
+            raise ValueError(Phrase("{strip} is out of range; allowed: {allowed}", strip=told.strip(), allowed=self.allowed))  # fmt: skip
         if not self.sizes.holds(value):
-            raise ValueError(f"{told.strip()} is not plausible; {self.plausible_sizes}")
+            raise ValueError(Phrase("{strip} is not plausible; {plausible_sizes}", strip=told.strip(),
+                plausible_sizes=self.plausible_sizes))  # fmt: skip
         if self.integer and not float(shown).is_integer():
-            raise ValueError(f"{told.strip()} is not a whole number")
+            raise ValueError(Phrase("{strip} is not a whole number", strip=told.strip()))
         return int(shown) if self.integer else value + 0.0  # no minus zero
 
     def _within(self, shown: Any) -> Any:
@@ -145,7 +150,7 @@ class Quantity:
     @property
     def plausible_sizes(self) -> str:
         """Return the plausible sizes in words, with the zero where the bounds allow it."""
-        return f"plausible: {self.sizes.told}" + (", or 0" if self._within(0.0) else "")
+        return Phrase("plausible: {told}", told=self.sizes.told) + (phrase(", or 0") if self._within(0.0) else "")
 
     def holds(self, values: Any) -> Any:
         """Return which numbers (an array, SI) are allowed."""

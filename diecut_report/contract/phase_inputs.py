@@ -12,6 +12,7 @@ from diecut_report.contract.curve_inputs import optional
 from diecut_report.contract.place import placed
 from diecut_report.contract.placeholders import Curve, Pending
 from diecut_report.expressions import Array
+from diecut_report.languages.phrases import Phrase, phrase
 from diecut_report.quantities.units import pretty, unit
 
 
@@ -53,17 +54,21 @@ class PhaseInput:
         other = getattr(given, "phase_unit", None)
         if other is None:
             named = f"${{{given.path}}}" if isinstance(given, Pending) else f"{given!r}"
-            raise ValueError(f"{named} is not a phase; {self.needed}")
+            raise ValueError(Phrase("{named} is not a phase; {needed}", named=named, needed=self.needed))
         if unit(other).kind != unit(self.unit).kind:
             raise ValueError(
-                f"is a phase over an abscissa in {pretty(other)}; one in {pretty(self.unit)} is needed here"
+                Phrase(
+                    "is a phase over an abscissa in {pretty}; one in {pretty_2} is needed here",
+                    pretty=pretty(other),
+                    pretty_2=pretty(self.unit),
+                )
             )
         return given
 
     @property
     def needed(self) -> str:
         """Return in words what is to be given."""
-        return "a reference to a phase is needed, as in ${drive.phases.cutting}"
+        return phrase("a reference to a phase is needed, as in ${drive.phases.cutting}")
 
     def __get_pydantic_core_schema__(self, source: Any, handler: GetCoreSchemaHandler) -> CoreSchema:
         return core_schema.no_info_plain_validator_function(optional(source, self.validate))
@@ -85,7 +90,9 @@ class MechanismInput:
         if getattr(given, "is_mechanism", False):
             return given
         named = f"${{{given.path}}}" if isinstance(given, Pending) else f"{given!r}"
-        raise ValueError(f"{named} is not a mechanism; the name of one is needed, as in mechanism: drive")
+        raise ValueError(
+            Phrase("{named} is not a mechanism; the name of one is needed, as in mechanism: drive", named=named)
+        )
 
     def __get_pydantic_core_schema__(self, source: Any, handler: GetCoreSchemaHandler) -> CoreSchema:
         return core_schema.no_info_plain_validator_function(optional(source, self.validate))

@@ -9,6 +9,7 @@ from importlib import import_module
 from pathlib import Path
 
 from diecut_report.errors import Problem, UserError
+from diecut_report.languages.phrases import Phrase
 
 SOURCE_LANGUAGE = "en"
 OWN = Path(__file__).parents[1] / "__init__.py"
@@ -89,7 +90,11 @@ def known(language: str) -> str:
     """Return the language, if the program has its words; UnknownLanguage if not."""
     if language not in languages():
         raise UnknownLanguage(
-            f"is {language!r}, of which the program has no catalogue; allowed: {', '.join(languages())}"
+            Phrase(
+                "is {language}, of which the program has no catalogue; allowed: {languages}",
+                language=repr(language),
+                languages=", ".join(languages()),
+            )
         )
     return language
 
@@ -98,6 +103,14 @@ def built_in(kind: str) -> Path | None:
     """Return the file of a plugin of the program; None for other kinds."""
     file = Path(import_module(PLUGINS).__path__[0]) / kind / "__init__.py"
     return file if kind.isidentifier() and file.is_file() else None
+
+
+def of_all_plugins(language: str) -> Catalogues:
+    """Return the catalogues of the program and of all its plugins."""
+    found = Catalogues(language)
+    for folder in sorted(Path(import_module(PLUGINS).__path__[0]).iterdir()):
+        found.of(folder.name)
+    return found
 
 
 class Catalogues:

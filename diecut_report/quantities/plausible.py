@@ -12,6 +12,7 @@ from typing import Any
 
 import numpy as np
 
+from diecut_report.languages.phrases import Phrase
 from diecut_report.quantities.units import Kind, UnitError, number_and_unit, parse_quantity, pretty, unit
 
 SIZES: dict[str, tuple[str, str]] = {
@@ -69,7 +70,11 @@ class Plausible:
         given: tuple[object, ...] = (self.least, self.most)  # by an author, who may have written numbers
         if not all(isinstance(text, str) for text in given):
             raise UnitError(
-                f"{self.least!r} and {self.most!r} are not plausible sizes; give two texts, such as 1 mm and 10 m."
+                Phrase(
+                    "{least} and {most} are not plausible sizes; give two texts, such as 1 mm and 10 m.",
+                    least=repr(self.least),
+                    most=repr(self.most),
+                )
             )
 
     @cached_property
@@ -77,7 +82,9 @@ class Plausible:
         """The kind of quantity that both ends are of; UnitError where they differ."""
         least, most = (unit(number_and_unit(text)[1] or "1").kind for text in (self.least, self.most))
         if least != most:
-            raise UnitError(f"{self.least} and {self.most} are different kinds of quantity.")
+            raise UnitError(
+                Phrase("{least} and {most} are different kinds of quantity.", least=self.least, most=self.most)
+            )
         return least
 
     @cached_property
@@ -87,7 +94,11 @@ class Plausible:
         least, most = (parse_quantity(text, own) for text, own in zip((self.least, self.most), wanted, strict=True))
         if not 0 < least < most:
             raise UnitError(
-                f"{self.least} to {self.most} is not a range of sizes; give two above zero, the lesser first."
+                Phrase(
+                    "{least} to {most} is not a range of sizes; give two above zero, the lesser first.",
+                    least=self.least,
+                    most=self.most,
+                )
             )
         return least, most
 
@@ -100,7 +111,7 @@ class Plausible:
     @property
     def told(self) -> str:
         """The range in words: ``1 µm to 100 m``."""
-        return f"{_told(self.least)} to {_told(self.most)}"
+        return Phrase("{told} to {told_2}", told=_told(self.least), told_2=_told(self.most))
 
 
 def without_rounding(values: Any, unit_text: str) -> Any:

@@ -17,6 +17,7 @@ from functools import cache, lru_cache
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from diecut_report.languages.phrases import Phrase, phrase
 from diecut_report.limits import MAX_QUANTITY
 from diecut_report.quantities.unit_spelling import normalised
 
@@ -81,8 +82,6 @@ def _table() -> dict[str, Any]:
     return table
 
 
-# --- reading units ---------------------------------------------------------------------------------------------------
-
 _FACTOR = r"\(*(?:[^\W\d]\w*|%)(?:\*\*-?\d\d?)?\)*"
 _GRAMMAR = re.compile(rf"(?:1/)?{_FACTOR}(?:[*/]{_FACTOR})*")
 
@@ -116,7 +115,8 @@ def _read_with_pint(canonical: str, typed: str) -> Unit:
     readable = len(canonical) <= MAX_UNIT_LENGTH and _GRAMMAR.fullmatch(canonical)
     measured = measure_with_pint(canonical) if readable else None
     if measured is None:
-        raise UnitError(f"{_shortened(typed)} is not a known unit.{_suggestion(canonical)}")
+        words = "{text} is not a known unit.{suggestion}"
+        raise UnitError(Phrase(words, text=_shortened(typed), suggestion=_suggestion(canonical)))
     factor, kind = measured
     return Unit(canonical, factor, si_text(kind), kind)
 
@@ -128,7 +128,7 @@ def _suggestion(text: str) -> str:
         import difflib
 
         same_letters = difflib.get_close_matches(text[:MAX_UNIT_LENGTH], names, n=1, cutoff=0.6)
-    return f" Did you mean {same_letters[0]}?" if same_letters else ""
+    return Phrase(" Did you mean {same_letters}?", same_letters=same_letters[0]) if same_letters else ""
 
 
 def _shortened(text: str) -> str:
@@ -158,9 +158,6 @@ def _power(base: str, exponent: float) -> str:
     return base if exponent == 1 else f"{base}**{exponent:g}"
 
 
-# --- pint ------------------------------------------------------------------------------------------------------------
-
-
 @cache
 def pint_registry() -> pint.UnitRegistry[Any]:
     """Pint's own definitions with the radian as a base unit, in exact fractions."""
@@ -183,7 +180,7 @@ def measure_with_pint(text: str) -> tuple[float, Kind] | None:
     except Exception:  # pint raises a dozen unrelated types (AssertionError, TokenError, …) for what it cannot read
         return None
     if two != 2 * one:
-        raise UnitError(f"{text} has no fixed zero; give a temperature difference in K.")
+        raise UnitError(Phrase("{text} has no fixed zero; give a temperature difference in K.", text=text))
     exponents = {str(name).strip("[]"): float(power) for name, power in units.dimensionality.items()}
     if not exponents.keys() <= set(DIMENSIONS):
         return None
@@ -193,8 +190,6 @@ def measure_with_pint(text: str) -> tuple[float, Kind] | None:
         return None
     return (factor, tuple(exponents.get(name, 0.0) for name in DIMENSIONS)) if factor else None
 
-
-# --- reading quantities ----------------------------------------------------------------------------------------------
 
 _QUANTITY = re.compile(r"([+-]?(?:[0-9]+\.?[0-9]*|\.[0-9]+)(?:[eE][+-]?[0-9]+)?)(?!_)(.*)", re.DOTALL)
 
@@ -207,11 +202,11 @@ def parse_quantity(value: int | float | str, unit_text: str) -> float:
     if isinstance(value, str):
         return _parse_text(value, unit_text)
     if isinstance(value, bool):
-        raise UnitError(f"{str(value).lower()} is not a quantity; {_needed(unit(unit_text))}.")
+        raise _unfit(str(value).lower(), phrase("is not a quantity"), unit(unit_text))
     try:
-        return _finite(unit(unit_text).to_si(float(value)), f"{value:g}" if isinstance(value, float) else "The number")
+        return _finite(unit(unit_text).to_si(float(value)), f"{value:g}" if isinstance(value, float) else phrase("The number"))  # fmt: skip
     except OverflowError:
-        raise UnitError("The number is too large to calculate with.") from None
+        raise UnitError(phrase("The number is too large to calculate with.")) from None
 
 
 @lru_cache(maxsize=4096)
@@ -220,7 +215,7 @@ def _parse_text(text: str, unit_text: str) -> float:
     number, own = number_and_unit(text, wanted)
     given = wanted if own in ("", wanted.text) else _own_unit(own, wanted)
     if given.kind != wanted.kind:
-        raise UnitError(f"{text.strip()} is {kind_name(given)}; {_needed(wanted)}.")
+        raise _unfit(text.strip(), Phrase("is {kind}", kind=phrase(kind_name(given))), wanted)
     return _finite(given.to_si(number), _shortened(text))
 
 
@@ -228,8 +223,15 @@ def _own_unit(text: str, wanted: Unit) -> Unit:
     try:
         return unit(text)
     except UnitError as error:
-        needed = _needed(wanted)
-        raise UnitError(f"{error} {needed[0].upper()}{needed[1:]}.") from None
+        raise UnitError(_and_needed(error, wanted)) from None
+
+
+def _unfit(text: str, fault: str, wanted: Unit | None) -> UnitError:
+    return UnitError(Phrase("{text} {fault}; {needed}.", text=text, fault=fault, needed=_needed(wanted)))
+
+
+def _and_needed(fault: object, wanted: Unit | None) -> str:
+    return Phrase("{fault} {needed:capital}.", {"fault": fault, "needed:capital": _needed(wanted)})
 
 
 def number_and_unit(text: str, wanted: Unit | None = None) -> tuple[Decimal, str]:
@@ -238,17 +240,18 @@ def number_and_unit(text: str, wanted: Unit | None = None) -> tuple[Decimal, str
     Raises UnitError, which names the `wanted` unit, for a text that does not begin with one finite number.
     """
     if len(text) > MAX_QUANTITY:
-        given = f"{_shortened(text)} has {len(text)} characters; a number with a unit has at most {MAX_QUANTITY}"
-        raise UnitError(f"{given}. {_needed(wanted)[0].upper()}{_needed(wanted)[1:]}.")
+        words = "{text} has {count} characters; a number with a unit has at most {most}."
+        raise UnitError(_and_needed(Phrase(words, text=_shortened(text), count=len(text), most=MAX_QUANTITY), wanted))
     text = text.strip().replace("−", "-")
     match = _QUANTITY.fullmatch(text)
     if re.match(r"[+-]?[0-9]*,[0-9]", text) or (match and re.match(r",\s*[0-9]", match[2])):
-        raise UnitError(f"{_shortened(text)} holds a comma; write a decimal point and no thousands separator.")
+        words = "{text} holds a comma; write a decimal point and no thousands separator."
+        raise UnitError(Phrase(words, text=_shortened(text)))
     if match is None:
-        raise UnitError(f"{_shortened(text)} does not begin with a finite number; {_needed(wanted)}.")
+        raise _unfit(_shortened(text), phrase("does not begin with a finite number"), wanted)
     own = match[2].strip().removeprefix("*").strip()
     if re.match(r"[0-9.+-]", own) and not own.startswith("1/"):
-        raise UnitError(f"{_shortened(text)} is not one number and a unit; {_needed(wanted)}.")
+        raise _unfit(_shortened(text), phrase("is not one number and a unit"), wanted)
     number = float(match[1])
     # all digits count: a share written in percent may need more of them than a float has
     return Decimal(match[1] if number and math.isfinite(number) else repr(number)), own
@@ -256,26 +259,23 @@ def number_and_unit(text: str, wanted: Unit | None = None) -> tuple[Decimal, str
 
 def _finite(value: float, typed: str) -> float:
     if not math.isfinite(value):
-        raise UnitError(f"{typed} is not a finite number, or too large to calculate with.")
+        raise UnitError(Phrase("{typed} is not a finite number, or too large to calculate with.", typed=typed))
     return value
 
 
 def kind_name(of: Unit) -> str:
     """What a unit measures, with its article: "an angular speed"; "a quantity in kg/s**3" where it has no name."""
     family = _family(of.kind, of.si)
-    return str(family["name"]) if family else f"a quantity in {of.si}"
+    return str(family["name"]) if family else Phrase("a quantity in {si}", si=of.si)
 
 
 def _needed(wanted: Unit | None) -> str:
     if wanted is None:
-        return "a number with a unit is needed, for example 90 mm"
+        return phrase("a number with a unit is needed, for example 90 mm")
     family = _family(wanted.kind, wanted.si)
     typical = float(f"{wanted.from_si(family['example'] if family else wanted.factor):.1g}")
     example = f"{typical:.15g}" + ("" if wanted.text == "1" else f" {wanted.text}")
-    return f"{kind_name(wanted)} is needed, for example {example}"
-
-
-# --- writing ---------------------------------------------------------------------------------------------------------
+    return Phrase("{kind_name} is needed, for example {example}", kind_name=phrase(kind_name(wanted)), example=example)
 
 
 def to_display(value_si: float, unit_text: str) -> float:

@@ -14,6 +14,7 @@ from diecut_report.contract.steps import Clash, Require
 from diecut_report.engine import Calculation, Impossible, calculate
 from diecut_report.engine.steps.rerun import needed
 from diecut_report.errors import PluginError, Problem
+from diecut_report.languages.phrases import phrase
 from diecut_report.results.press_run import Run
 
 
@@ -35,7 +36,7 @@ class _FeasibilityRun(Run):
 
     def _mechanism(self, name: str) -> None:
         if name in self.wrong:
-            self.skipped[name] = "It has problems of its own."
+            self.skipped[name] = phrase("It has problems of its own.")
         else:
             super()._mechanism(name)
 

@@ -22,7 +22,7 @@ from diecut_report.contract.mechanism import Mechanism
 from diecut_report.engine import Calculation, Impossible, calculate
 from diecut_report.engine.chosen_units import ChosenUnits
 from diecut_report.errors import PluginError, Problem, UserError
-from diecut_report.languages.phrases import Phrase, named
+from diecut_report.languages.phrases import Phrase, named, phrase
 from diecut_report.limits import MAX_COMPARISONS
 from diecut_report.results.bases import Bases
 from diecut_report.results.comparisons import Found, Uncomparable, compared, found
@@ -118,7 +118,7 @@ class Run:
         try:
             return self._referred(target)
         except Absent as absent:
-            raise Absent(f"{target.told} {absent}") from None
+            raise Absent(Phrase("{path} {absent}", path=target.told, absent=absent)) from None
 
     def _computed(self, target: Target, values: list[SI]) -> SI:
         """What an expression gives; Valueless in words where that is nothing."""
@@ -127,8 +127,19 @@ class Run:
         known = {name: given.value for name, given in zip(expression.names, values, strict=True)}
         value = expression.value(known.__getitem__)
         if isinstance(value, float) and math.isnan(value):
-            told = ", ".join(f"{name} is {given:.6g}" for name, given in known.items() if np.ndim(given) == 0)
-            raise Valueless(f"{target.told} {expression.fault(known.__getitem__)}, where (in SI) {told}.")
+            told = ", ".join(
+                Phrase("{name} is {given}", name=name, given=f"{given:.6g}")
+                for name, given in known.items()
+                if np.ndim(given) == 0
+            )
+            raise Valueless(
+                Phrase(
+                    "{told} {fault}, where (in SI) {told_2}.",
+                    told=target.told,
+                    fault=expression.fault(known.__getitem__),
+                    told_2=told,
+                )
+            )
         return SI(value, str(target.unit), expression.text)
 
     def _derived(self, instance: Instance, node: Node, target: Target, value: SI) -> SI:
@@ -165,7 +176,7 @@ class Run:
         if isinstance(value, tuple):
             return [SI(part, str(target.unit), target.path) for part in value]
         if value is None:
-            raise Absent("is not given there.")
+            raise Absent(phrase("is not given there."))
         return value if target.unit is None or target.is_curve else SI(value, target.unit, target.path)
 
     # --- mechanisms --------------------------------------------------------------------------------------------------
@@ -194,7 +205,7 @@ class Run:
         if told:
             return Phrase("It refers to {result}.", result=told)
         if not unusable:
-            return "It refers to what is not there, which gives no results."
+            return phrase("It refers to what is not there, which gives no results.")
         return Phrase("It refers to {names}, which gives no results.", names=named(sorted(set(unusable)), " and "))
 
     def _press(self, instance: Instance, own: dict[Node, Target], missing: list[Node]) -> None:

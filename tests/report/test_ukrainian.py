@@ -17,7 +17,9 @@ from diecut_report.report import Rendering
 from tests.examples import few
 
 CONFIGS = Path(__file__).parents[2] / "configs"
-LATIN = re.compile(r"(?<![\w.])[A-Za-z][a-z]{2,}(?![a-z]*_)")  # symbols and units are shorter, or have other signs
+LATIN = re.compile(
+    r"(?<![\w.])[A-Za-z][a-z]{2,}[A-Za-z]*(?![a-z]*_)"
+)  # symbols and units are shorter, or have other signs
 VERBATIM = (
     "citation",
     "id",
@@ -32,6 +34,7 @@ VERBATIM = (
     "name",
     "sha256",
     "source",
+    "missing",
 )
 OWN = {
     "Num",
@@ -51,6 +54,8 @@ OWN = {
     "min",
     "max",
     "PDF",
+    "tan",
+    "steels",  # a table of one's own
 }
 MARKUP = (r"<(style|script|math|pre)\b.*?</\1>", r"<a [^>]*download.*?</a>", r'<(\w+) class="?(?:key|sy)\b.*?</\1>')
 
