@@ -278,12 +278,10 @@ def _bare(
     kinds = f"{_unlike(left, right)}; " if left.kind != right.kind else ""
     if bare.exact:
         own = pretty(other.name.display) if other.name and other.name.display else phrase("its unit")
-        words = Phrase("{kinds}the number {shown} beside {other} needs {unit}.", kinds=kinds, shown=bare.shown, other=other.shown,
-            unit=own)  # fmt: skip
-        return ConditionError(words, bare.place)
+        words = "{kinds}the number {shown} beside {other} needs {unit}."
+        return ConditionError(Phrase(words, kinds=kinds, shown=bare.shown, other=other.shown, unit=own), bare.place)
     if other.name is None or not other.name.display:
-        words = Phrase("{kinds}{sign} needs the same kind on both sides. Put the quantity with its unit in quotes.", kinds=kinds,
-            sign=sign)  # fmt: skip
+        words = Phrase("{kinds}{sign} needs the same kind on both sides. Quote the quantity with its unit.", kinds=kinds, sign=sign)  # fmt: skip
         return ConditionError(words, bare.place)
     example = f"'{bare.typed or 5} {other.name.display}'"
     words = Phrase("{kinds}a number beside {name} needs {pretty}, for example {example}.", kinds=kinds, name=other.name.name, pretty=pretty(

@@ -28,21 +28,11 @@ from diecut_report.results.bases import Bases
 from diecut_report.results.comparisons import Found, Uncomparable, compared, found
 from diecut_report.results.mechanism import Provenance, SelfTestFailed, mechanism_results
 from diecut_report.results.origins import origin_of
-from diecut_report.results.taken_over import Absent, Withheld, output
+from diecut_report.results.taken_over import Absent, Unavailable, Valueless, Withheld, output
 
 Data = dict[str, Any]
 Tell = Callable[[str], None]
-
-
 R = TypeVar("R", bound="Run")
-
-
-class Unavailable(LookupError):
-    """Stand for a value that a broken or skipped mechanism would have given."""
-
-
-class Valueless(ValueError):
-    """Stand for an expression without a value; the text says why."""
 
 
 def compute(config: Config, tell: Tell) -> Run:

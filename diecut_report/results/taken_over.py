@@ -18,6 +18,14 @@ from diecut_report.languages.phrases import Phrase, phrase
 from diecut_report.quantities.plausible import without_rounding
 
 
+class Unavailable(LookupError):
+    """Stand for a value that a broken or skipped mechanism would have given."""
+
+
+class Valueless(ValueError):
+    """Stand for an expression without a value; the text says why."""
+
+
 class Absent(LookupError):
     """Stand for a value that this machine does not have; the text says so."""
 

@@ -103,7 +103,7 @@ WRONG = [
     ("bore < 90 mm", "“90 mm”: put a quantity in quotes: '90 mm'."),
     ("bore < 1.5e-3m", "“1.5e-3m”: put a quantity in quotes: '1.5e-3 m'."),
     ("bore < 90", "mechanisms.a.bore is a length and 90 is a pure number; < needs the same kind on both sides. "
-     "Put the quantity with its unit in quotes."),
+     "Quote the quantity with its unit."),
     ("speed < '50 1/min'", "mechanisms.a.speed is an angular speed and '50 1/min' is a frequency; < needs the same kind"),
     ("2 * speed < '50 1/min'", "the calculated side is an angular speed and '50 1/min' is a frequency"),
     ("bore + speed < '1 m'", "mechanisms.a.bore is a length and mechanisms.a.speed is an angular speed; + needs"),
