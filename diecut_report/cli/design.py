@@ -14,6 +14,7 @@ from diecut_report.cli.output import CHECK_FAILED, PASSED, HelpfulCommand, commo
 from diecut_report.cli.progress import Progress
 from diecut_report.cli.study import source
 from diecut_report.config.discovery import Discovery
+from diecut_report.languages.speech import say
 
 if TYPE_CHECKING:
     from diecut_report.config.loader import Config
@@ -35,7 +36,7 @@ target_option = click.option(
 @click.option("--vary", required=True, metavar="INPUT", help="The input to solve for, such as drive.crank_length.")
 @click.option(
     "--for", "asked", required=True, metavar="QUESTION",
-    help='"drive.crank_torque_peak = 400 N*m", with = <= or >=; or "max press.productivity", "min cylinder.mass".',
+    help='`drive.crank_torque_peak = 400 N*m`, with = <= or >=; or `max press.productivity`, `min cylinder.mass`.',
 )  # fmt: skip
 @click.option("--from", "low", metavar="VALUE", help="Where the range begins (default: a third of today's value).")
 @click.option("--to", "high", metavar="VALUE", help="Where it ends (default: three times today's value).")
@@ -194,16 +195,17 @@ def _tolerance(config: Config, given: str) -> tuple[DesignInput, float]:
 
     name, _, size = given.partition("=")
     if not size.strip():
-        raise click.BadParameter(
-            f"{given!r} is not INPUT=SIZE, such as drive.crank_length=0.1 mm", param_hint="--tolerance"
-        )
+        words = say("{given} is not INPUT=SIZE, such as drive.crank_length=0.1 mm", given=repr(given))
+        raise click.BadParameter(words, param_hint="--tolerance")
     design = design_input(config, name.strip())
     try:
         value = parse_quantity(size, design.meta.unit)
     except UnitError as fault:
         raise click.BadParameter(f"{name}: {fault}", param_hint="--tolerance") from None
     if value <= 0:
-        raise click.BadParameter(f"{name}: {size} is not above zero", param_hint="--tolerance")
+        raise click.BadParameter(
+            say("{name}: {size} is not above zero", name=name, size=size), param_hint="--tolerance"
+        )
     return design, value
 
 

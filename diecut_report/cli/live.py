@@ -13,6 +13,7 @@ import click
 from diecut_report.cli.output import PASSED, HelpfulCommand, common, emit, tell
 from diecut_report.config.discovery import Discovery
 from diecut_report.errors import Problem, UserError
+from diecut_report.languages.phrases import phrase
 from diecut_report.languages.speech import say
 
 if TYPE_CHECKING:
@@ -30,7 +31,7 @@ def live(config: Path, port: int, is_opened: bool, folders: tuple[Path, ...], qu
     The page is for this machine alone: its address holds a secret.
     """
     if not config.is_file():
-        words = "There is no such file. Give a configuration; `diecut-report new` begins one."
+        words = phrase("There is no such file. Check the name and the folder.")
         raise UserError(Problem(words, str(config)))
     from diecut_report.live.server import serve
     from diecut_report.live.session import LiveSession

@@ -49,7 +49,7 @@ def _names(_context: click.Context, _option: click.Parameter, given: str) -> lis
 def _numbers(_context: click.Context, _option: click.Parameter, given: str) -> list[int]:
     parts = [part for part in (part.strip() for part in given.split(",")) if part]
     if strange := [part for part in parts if not part.isdecimal()]:
-        raise click.BadParameter(f"{strange[0]!r} is not the number of a variant.")
+        raise click.BadParameter(say("{given} is not the number of a variant.", given=repr(strange[0])))
     return list(dict.fromkeys(map(int, parts)))
 
 
@@ -150,7 +150,7 @@ def _reports(target: Path) -> str:
 )
 @click.option("--sort", metavar="COLUMN", help="Sort by a column, -COLUMN downwards.")
 @click.option("--top", metavar="N", type=click.IntRange(1), help="So many variants (default: 20 in a table, else all).")
-@click.option("--pick", metavar="LIST", callback=_numbers, default="", help="These variants alone, such as 3,17,205.")
+@click.option("--pick", metavar="LIST", callback=_numbers, default="", help="These variants alone, such as 3, 17, 205.")
 @click.option("--columns", metavar="LIST", callback=_names, default="", help="These columns alone, parted by commas.")
 @click.option("--transpose", is_flag=True, help="A line for each quantity, a column for each variant: a comparison.")
 @click.option(
@@ -203,9 +203,9 @@ def _refuse_idle(form: str, file: Path | None, given: Mapping[str, str | None]) 
     takes = {"csv": tuple(given), "json": ("--units",), "xlsx": ("--units",), "table": ()}[form]
     for option, value in given.items():
         if value is not None and option not in takes:
-            raise click.UsageError(f"{option} says nothing for {form}.")
+            raise click.UsageError(say("{option} says nothing for {form}.", option=option, form=form))
     if form == "xlsx" and file is None:
-        raise click.UsageError("A workbook is written to a file; name it with -o FILE.")
+        raise click.UsageError(say("A workbook is written to a file; name it with -o FILE."))
 
 
 @click.command(cls=HelpfulCommand)
@@ -221,9 +221,8 @@ def take(variant: str, file: Path, digits: int | None, folders: tuple[Path, ...]
 
     folder, _, number = variant.rpartition("#")
     if not folder or not number.isdecimal():
-        raise click.UsageError(
-            f"{variant!r} names no variant; give the folder of a study and a number, as in build/study#17."
-        )
+        words = "{variant} names no variant; give the folder of a study and a number, as in build/study#17."
+        raise click.UsageError(say(words, variant=repr(variant)))
     found = taken_config(Path(folder), int(number), Discovery(folders), digits)
     write_all({file: found.content}, Path(folder) / RESULTS, through=True)
     if not quiet:
