@@ -150,7 +150,10 @@ def _calls(file: Path) -> list[tuple[ast.Call, Assigned]]:
     """All calls of a file, each with what the names of its function stand for."""
     tree = ast.parse(file.read_text("utf-8"))
     scopes = [tree, *(node for node in ast.walk(tree) if isinstance(node, ast.FunctionDef))]
-    found = {node: _assigned(scope) for scope in scopes for node in ast.walk(scope) if isinstance(node, ast.Call)}
+    found: dict[ast.Call, Assigned] = {}
+    for scope in scopes:
+        known = _assigned(scope)
+        found |= {node: known for node in ast.walk(scope) if isinstance(node, ast.Call)}
     return list(found.items())
 
 

@@ -150,4 +150,4 @@ def test_a_reference_alone_keeps_its_type(tmp_path: Path) -> None:
 
 def test_a_reference_without_quotes_within_braces_is_told(tmp_path: Path) -> None:
     found = problems(tmp_path, LEVER + "  b: {kind: lever, force: ${a.force}}\n")
-    assert "YAML reads its brace as a map. Put it in quotes" in found[0]
+    assert "YAML reads its brace as a map. Quote it" in found[0]

@@ -22,7 +22,7 @@ LOADERS = [yaml.SafeLoader, *([yaml.CSafeLoader] if yaml.__with_libyaml__ else [
 @pytest.fixture(autouse=True, params=LOADERS, ids=lambda loader: str(loader.__name__))
 def loader(request: pytest.FixtureRequest, monkeypatch: pytest.MonkeyPatch) -> None:
     """Each test runs on the C loader and on the pure one."""
-    monkeypatch.setattr(yaml_tree, "_LOADER", request.param)
+    monkeypatch.setattr(yaml_tree, "LOADER", request.param)
 
 
 def problems(text: str) -> tuple[Problem, ...]:
@@ -195,7 +195,7 @@ def test_a_second_colon_is_explained() -> None:
 def test_a_bare_reference_within_braces_is_explained() -> None:
     problem = only_problem("gears: {radius: ${cylinder.radius}}\n")
     assert (problem.line, problem.column) == (1, 18)
-    assert 'YAML reads its brace as a map. Put it in quotes: "${…}"' in problem.message
+    assert 'YAML reads its brace as a map. Quote it: "${…}"' in problem.message
 
 
 def test_problems_found_before_a_syntax_error_are_kept() -> None:

@@ -67,7 +67,7 @@ TAMPERED: list[tuple[Callable[[Data], None], list[str]]] = [
     (set_version, ["✗ program", "0.0.1 made the report"]),
     (set_program, ["✗ program", "000000000000 then"]),
     (set_plugin, ["✗ plugins", "clutch: version", "source 000000000000 then"]),
-    (set_verdict, ["✗ numbers", "status: warn → pass", "1 other values differ"]),
+    (set_verdict, ["✗ numbers", "status: warn → pass", "1 other value differs"]),
 ]
 
 

@@ -44,8 +44,8 @@ def _names(figure: Data, index: int = 0) -> LabelLayout:
 # what is written
 def test_marks_and_levels_tell_their_values_verticals_their_names() -> None:
     written = [text.text for text in _names(wedge()).texts]
-    assert "chosen 2.009\u00a0kN (10.00°)" in written
-    assert "greatest force of the cylinder 4.500\u00a0kN" in written
+    assert "chosen 2.009\u00a0kN (10°)" in written
+    assert "greatest force of the cylinder 4.5\u00a0kN" in written
     assert "self-locking below this angle" in written
 
 
@@ -171,7 +171,7 @@ def test_lone_point_is_drawn() -> None:
         "x",
         [panel("y", "N", TURN, lines=[line([1.0], [1.0], "F")], marks=[{"x": 1.0, "y": 1.0, "label": "here"}])],
     )
-    assert any("here1.000" in text for text in _texts(figure))
+    assert any("here1" in text for text in _texts(figure))
 
 
 # axes
