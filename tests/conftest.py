@@ -58,6 +58,11 @@ def pytest_collection_finish() -> None:
     gc.enable()
 
 
+def pytest_unconfigure() -> None:
+    """Let all be collected at the end, or libraries that count their objects tell of leaks."""
+    gc.unfreeze()
+
+
 @pytest.fixture(scope="session")
 def small_report(tmp_path_factory: pytest.TempPathFactory) -> Path:
     """Give the folder with the report of a small press (HTML, PDF and results), made once for all workers of a run."""
