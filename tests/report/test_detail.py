@@ -22,7 +22,7 @@ from diecut_report.report.figure_places import BEFORE, Place, placed, sketch
 from diecut_report.report.model import worded
 from diecut_report.report.number_format import number
 from diecut_report.report.scope import scope
-from tests.configs import EXAMPLE, LEVER, SMALL, problems, saved
+from tests.configs import EXAMPLE, EXAMPLES, LEVER, SMALL, problems, saved
 from tests.shared import once
 
 Data = dict[str, Any]
@@ -229,6 +229,14 @@ def test_calculated_figures_tell_what_they_show(small_report: Path) -> None:
     results = json.loads((small_report / "small.json").read_text("utf-8"))
     for figure in results["mechanisms"]["clutch"]["figures"]:
         assert figure["shows"], figure["id"]
+
+
+def test_a_machine_that_is_drawn_to_scale_has_a_brief_report_too(tmp_path: Path) -> None:
+    knife = next(path for path in EXAMPLES if path.stem == "circular_knife")
+    asked = pipeline.AskedReport(detail="brief")
+    pipeline.report(knife, Discovery([]), lambda _: None, tmp_path, ("html",), asked)
+    page = (tmp_path / "circular_knife.html").read_text("utf-8")
+    assert "Knife, board and counter-knife" in page and "<svg" in page
 
 
 # sheets

@@ -55,6 +55,7 @@ OWN = {
     "max",
     "PDF",
     "tan",
+    "sin",
     "steels",  # a table of one's own
 }
 MARKUP = (r"<(style|script|math|pre)\b.*?</\1>", r"<a [^>]*download.*?</a>", r'<(\w+) class="?(?:key|sy)\b.*?</\1>')
