@@ -16,7 +16,7 @@ from starlette.responses import JSONResponse, Response, StreamingResponse
 from starlette.routing import Route
 from watchfiles import awatch
 
-from diecut_report.errors import UserError
+from diecut_report.errors import PluginError, UserError
 from diecut_report.live.effects import effect
 from diecut_report.live.page import assets, page
 from diecut_report.live.page_data import page_data
@@ -47,7 +47,9 @@ class LiveApplication:
             Route("/change", self._change, methods=["POST"]), Route("/back", self._back, methods=["POST"]),
             Route("/write", self._write, methods=["POST"]),
         ]  # fmt: skip
-        self.starlette = Starlette(routes=routes, lifespan=self._lifespan, exception_handlers={UserError: _refused})
+        self.starlette = Starlette(
+            routes=routes, lifespan=self._lifespan, exception_handlers={UserError: _refused, PluginError: _refused}
+        )
 
     @asynccontextmanager
     async def _lifespan(self, _app: Starlette) -> AsyncIterator[None]:
@@ -198,6 +200,7 @@ async def _sent(request: Request) -> dict[str, Any]:
 
 
 async def _refused(_request: Request, error: Exception) -> Response:
-    assert isinstance(error, UserError)
-    problem = error.problems[0]
-    return JSONResponse({"refused": problem.message, "path": problem.path}, status_code=422)
+    """Tell in words what a user can mend, or which plugin broke."""
+    problem = error.problems[0] if isinstance(error, UserError) else None
+    told = {"refused": problem.message if problem else str(error), "path": problem.path if problem else ""}
+    return JSONResponse(told, status_code=422)

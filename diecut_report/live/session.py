@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import Any
 
 from diecut_report.config import yaml_tree
-from diecut_report.config.discovery import Discovery
+from diecut_report.config.discovery import Discovery, said
 from diecut_report.config.loader import Config, load_config
 from diecut_report.config.written_values import as_file, written
 from diecut_report.config.yaml_tree import KeyPath, Tree
@@ -150,8 +150,18 @@ class LiveSession:
         run = self._press.calculate(config)
         for error in run.errors.values():
             raise error
+        _require_shown(run)
         return LiveMachine(tree, config, run, {found.name: found for found in given_numbers(config)})
 
     def _failed(self, problems: Iterable[Problem]) -> None:
         self.faults = list(problems)
         self.serial += 1
+
+
+def _require_shown(run: WarmRun) -> None:
+    """Raise PluginError for what is refused only where results are shown: here it is told, a page that looks would get nothing."""
+    for name, calculation in run.calculations.items():
+        try:
+            run.outputs(name)
+        except Exception as cause:  # of any kind: the plugin's own, as wherever it is calculated
+            raise PluginError(said(cause), calculation.mechanism.kind, name) from cause

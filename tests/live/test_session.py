@@ -15,6 +15,7 @@ from diecut_report.live.pictures_of_run import Pictures
 from diecut_report.live.session import LiveSession
 from diecut_report.results.document import document
 from diecut_report.results.press_run import compute
+from diecut_report.results.warm_press import WarmRun
 from tests.configs import EXAMPLES
 
 KNIFE = next(path for path in EXAMPLES if path.stem == "circular_knife")
@@ -154,3 +155,19 @@ def test_figures_are_curves_or_drawings_and_drawn_once_for_a_machine(session: Li
     assert pictures.figure(machine, "knife", 0) is drawing
     with pytest.raises(UserError, match="no figure 99"):
         pictures.figure(machine, "knife", 99)
+
+
+def test_what_breaks_only_where_results_are_shown_is_a_fault_and_the_last_machine_stays(
+    session: LiveSession, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    machine, outputs = session.machine, WarmRun.outputs
+
+    def broken(run: WarmRun, name: str) -> dict[str, object]:
+        raise ArithmeticError("the numbers contradict the result")
+
+    monkeypatch.setattr(WarmRun, "outputs", broken)
+    session.change({"knife.eccentricity": "22 mm"})
+    assert "the numbers contradict the result" in session.faults[0].message and session.machine is machine
+    monkeypatch.setattr(WarmRun, "outputs", outputs)
+    session.read()
+    assert session.faults == [] and session.machine is not machine
