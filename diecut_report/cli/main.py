@@ -27,6 +27,7 @@ from diecut_report.cli.exchange import diff, extract, render, verify
 from diecut_report.cli.formats import formats_of
 from diecut_report.cli.language import asked_language, language_option, of_environment
 from diecut_report.cli.live import live
+from diecut_report.cli.optimise import optimise
 from diecut_report.cli.output import (
     BAD_INPUT,
     FAULT,
@@ -280,6 +281,7 @@ program.add_command(live)
 program.add_command(solve)
 program.add_command(advise)
 program.add_command(influence)
+program.add_command(optimise)
 
 
 # --- verdict ---------------------------------------------------------------------------------------------------------
