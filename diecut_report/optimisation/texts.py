@@ -167,9 +167,9 @@ def recheck_lines(found: OptimisationResult) -> Iterator[str]:
     count, differing = len(found.rechecks), found.differing
     if not differing:
         most = max((each.share for each in found.rechecks), default=0.0)
-        words = "calculated again by itself: {n} agrees{most}", "calculated again one by one: all {n} agree{most}"
+        agreed = "calculated again by itself: {n} agrees{most}", "calculated again one by one: all {n} agree{most}"
         share = Phrase(" (numbers differ by {share} at most)", share=f"{most:.1g}") if most else ""
-        yield Counted(count, *words, most=share)
+        yield Counted(count, *agreed, most=share)
         return
     words = "calculated again one by one: {n} of {all} differs", "calculated again one by one: {n} of {all} differ"
     yield Counted(len(differing), *words, all=count)

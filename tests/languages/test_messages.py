@@ -16,6 +16,7 @@ DONE = (
     "conditions",
     "exchange/signing*",
     "exchange/verification*",
+    "optimisation",
     "quantities",
     "given_files*",
     "pipeline*",
