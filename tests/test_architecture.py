@@ -43,6 +43,7 @@ LAYERS = [
     {"exchange"},
     {"study"},
     {"design"},
+    {"drafting"},
     {"live"},
     {"cli"},
     {"__main__"},

@@ -23,6 +23,7 @@ from diecut_report import __version__
 from diecut_report.cli import verdict
 from diecut_report.cli.checking import check, validate
 from diecut_report.cli.design import advise, influence, solve
+from diecut_report.cli.drafting import new
 from diecut_report.cli.exchange import diff, extract, render, verify
 from diecut_report.cli.formats import formats_of
 from diecut_report.cli.language import asked_language, language_option, of_environment
@@ -266,6 +267,7 @@ def schema(kind: str | None, folders: tuple[Path, ...], quiet: bool) -> int:
     return PLUGIN_BROKE if broken else PASSED
 
 
+program.add_command(new)
 program.add_command(validate)
 program.add_command(check)
 program.add_command(batch)

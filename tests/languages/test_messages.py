@@ -14,6 +14,7 @@ DONE = (
     "cli",
     "config",
     "conditions",
+    "drafting",
     "exchange/signing*",
     "exchange/verification*",
     "quantities",
