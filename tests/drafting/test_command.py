@@ -91,8 +91,25 @@ def test_a_designer_begins_changes_a_number_and_has_a_report(tmp_path: Path, cap
     text = file.read_text("utf-8")
     assert "velocity: {value: 0.6 m/s, basis: assumed}" in text
     file.write_text(text.replace("velocity: {value: 0.6 m/s, basis: assumed}", "velocity: 0.9 m/s"), "utf-8")
-    assert main(["report", str(file), "-o", str(out), "--format", "html,json", "--detail", "brief"]) == 0
+    assert (
+        main(
+            [
+                "report",
+                "-o",
+                str(tmp_path / "no"),
+                str(file),
+                "-o",
+                str(out),
+                "--format",
+                "html,json",
+                "--detail",
+                "brief",
+            ]
+        )
+        == 0
+    )
     results = json.loads((out / "my_press.json").read_text("utf-8"))
+    assert not (tmp_path / "no").exists()  # the last folder that is named holds: ./make-report names one first
     assert results["mechanisms"]["damper"]["inputs"]["velocity"]["value"] == pytest.approx(0.9)
     assert "mechanisms.damper.velocity" not in results["summary"]["assumed"]
     assert "mechanisms.damper.ring_width" in results["summary"]["assumed"]
