@@ -19,6 +19,7 @@ DONE = (
     "quantities",
     "given_files*",
     "pipeline*",
+    "scripting",
 )
 ERRORS = {"Problem", "UnitError", "ConditionError", "BadParameter", "UsageError", "Unresolved"}
 WORDS = re.compile(r"[A-Za-z]{2,}[,;:]? [a-z]{2,}")
