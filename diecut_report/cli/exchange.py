@@ -13,6 +13,7 @@ import click
 
 from diecut_report.cli import verdict
 from diecut_report.cli.formats import formats_of
+from diecut_report.cli.given import source
 from diecut_report.cli.language import asked_language
 from diecut_report.cli.output import (
     CHECK_FAILED,
@@ -25,7 +26,6 @@ from diecut_report.cli.output import (
     tell_written,
 )
 from diecut_report.cli.progress import Progress
-from diecut_report.cli.study import source
 from diecut_report.cli.template import template_option
 from diecut_report.config.catalogues import spoken_catalogues
 from diecut_report.config.discovery import Discovery

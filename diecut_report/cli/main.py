@@ -26,6 +26,7 @@ from diecut_report.cli.design import advise, influence, solve
 from diecut_report.cli.drafting import new
 from diecut_report.cli.exchange import diff, extract, render, verify
 from diecut_report.cli.formats import formats_of
+from diecut_report.cli.given import source
 from diecut_report.cli.language import asked_language, language_option, of_environment
 from diecut_report.cli.live import live
 from diecut_report.cli.output import (
@@ -47,7 +48,7 @@ from diecut_report.cli.output import (
 from diecut_report.cli.progress import Progress
 from diecut_report.cli.report_options import detail_given, only_given, report_formats
 from diecut_report.cli.signing import sign
-from diecut_report.cli.study import batch, source, take, variants
+from diecut_report.cli.study import batch, take, variants
 from diecut_report.cli.template import template_option
 from diecut_report.config.discovery import Discovery, DuplicateKind, UnknownKind
 from diecut_report.errors import PluginError, Problem, Unwritable, UserError
