@@ -27,6 +27,7 @@ from diecut_report.cli.drafting import new
 from diecut_report.cli.exchange import diff, extract, render, verify
 from diecut_report.cli.formats import formats_of
 from diecut_report.cli.given import source
+from diecut_report.cli.kit import check_plugin, new_plugin
 from diecut_report.cli.language import asked_language, language_option, of_environment
 from diecut_report.cli.live import live
 from diecut_report.cli.output import (
@@ -283,6 +284,8 @@ program.add_command(live)
 program.add_command(solve)
 program.add_command(advise)
 program.add_command(influence)
+program.add_command(new_plugin)
+program.add_command(check_plugin)
 
 
 # --- verdict ---------------------------------------------------------------------------------------------------------

@@ -19,7 +19,9 @@ DONE = (
     "exchange/verification*",
     "quantities",
     "given_files*",
+    "kit",
     "pipeline*",
+    "scripting",
 )
 ERRORS = {"Problem", "UnitError", "ConditionError", "BadParameter", "UsageError", "Unresolved"}
 WORDS = re.compile(r"[A-Za-z]{2,}[,;:]? [a-z]{2,}")
