@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING
 
 import click
 
+from diecut_report.cli import exit_codes
 from diecut_report.cli.formats import formats_of
 from diecut_report.cli.given import DASH, from_standard_input
 from diecut_report.cli.language import asked_language
@@ -56,7 +57,7 @@ HEADS = (
 path_of = click.Path(path_type=Path)
 
 
-@click.command(cls=HelpfulCommand)
+@click.command(cls=HelpfulCommand, epilog=exit_codes.OF_FILES)
 @click.argument("files", metavar="FILE…", nargs=-1, required=True, type=path_of)
 @common
 def validate(files: tuple[Path, ...], folders: tuple[Path, ...], quiet: bool) -> int:
@@ -92,7 +93,7 @@ def _broken(file: Path, discovery: Discovery) -> tuple[PluginError, ...]:
     return ()
 
 
-@click.command(cls=HelpfulCommand)
+@click.command(cls=HelpfulCommand, epilog=exit_codes.OF_CHECKS)
 @click.argument("given", metavar="CONFIG|FOLDER…", nargs=-1, required=True, type=path_of)
 @click.option("-o", "folder", metavar="DIR", type=path_of, help="Also write a summary of all machines there.")
 @click.option("--strict", is_flag=True, help="Warnings and checks without a limit count as failed.")

@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING
 
 import click
 
+from diecut_report.cli import exit_codes
 from diecut_report.cli.formats import formats_of
 from diecut_report.cli.given import DASH, RESULTS
 from diecut_report.cli.language import asked_language
@@ -50,7 +51,7 @@ def _numbers(_context: click.Context, _option: click.Parameter, given: str) -> l
     return list(dict.fromkeys(map(int, parts)))
 
 
-@click.command(cls=HelpfulCommand)
+@click.command(cls=HelpfulCommand, epilog=exit_codes.OF_STUDY)
 @click.argument("study", required=False, type=path_of)
 @click.option("-o", "folder", metavar="DIR", type=path_of, help="Where to write (default: the study's name, here).")
 @click.option(
