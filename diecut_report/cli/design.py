@@ -10,9 +10,9 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
+from diecut_report.cli.given import source
 from diecut_report.cli.output import CHECK_FAILED, PASSED, HelpfulCommand, common, emit, tell
 from diecut_report.cli.progress import Progress
-from diecut_report.cli.study import source
 from diecut_report.config.discovery import Discovery
 from diecut_report.languages.speech import say
 
@@ -180,7 +180,7 @@ def influence(
         progress("drawing machines within tolerances")
         drawn = within_tolerances(loaded, sizes, distribution, count, seed) if sizes else None
     told = {"text": lambda: "".join(f"{line}\n" for line in lines(found, drawn)), "json": lambda: _json(data(found, drawn)),
-            "html": lambda: page(found, drawn, config.name)}[form]()  # fmt: skip
+            "html": lambda: page(found, drawn, Path(loaded.tree.name).name)}[form]()  # fmt: skip
     if target is None:
         emit(told)
     else:
