@@ -23,8 +23,10 @@ from diecut_report import __version__
 from diecut_report.cli import verdict
 from diecut_report.cli.checking import check, validate
 from diecut_report.cli.design import advise, influence, solve
+from diecut_report.cli.drafting import new
 from diecut_report.cli.exchange import diff, extract, render, verify
 from diecut_report.cli.formats import formats_of
+from diecut_report.cli.kit import check_plugin, new_plugin
 from diecut_report.cli.language import asked_language, language_option, of_environment
 from diecut_report.cli.live import live
 from diecut_report.cli.output import (
@@ -266,6 +268,7 @@ def schema(kind: str | None, folders: tuple[Path, ...], quiet: bool) -> int:
     return PLUGIN_BROKE if broken else PASSED
 
 
+program.add_command(new)
 program.add_command(validate)
 program.add_command(check)
 program.add_command(batch)
@@ -280,6 +283,8 @@ program.add_command(live)
 program.add_command(solve)
 program.add_command(advise)
 program.add_command(influence)
+program.add_command(new_plugin)
+program.add_command(check_plugin)
 
 
 # --- verdict ---------------------------------------------------------------------------------------------------------

@@ -66,6 +66,15 @@ def load_study(path: Path, discovery: Discovery, places: Mapping[str, Path] | No
     return study
 
 
+def study_of(tree: Tree, base: Config, discovery: Discovery) -> Study:
+    """Return the study of a text, of a base that is read already; UserError with all problems of it."""
+    reader = _StudyReader(Path(tree.file), tree, discovery, {}, base)
+    study = reader.study()
+    if study is None or reader.problems:
+        raise UserError(_in_order(reader.problems, tree.file))
+    return study
+
+
 def _in_order(problems: list[Problem], file: str) -> list[Problem]:
     """Those of the study first, then those of its base and its tables."""
     return sorted(dict.fromkeys(problems), key=lambda p: (p.file != file, p.file, p.line or 0, p.column or 0))
@@ -79,6 +88,7 @@ class _StudyReader:
     tree: Tree
     discovery: Discovery
     places: Mapping[str, Path]
+    given: Config | None = None
     problems: list[Problem] = field(default_factory=list)
 
     def __post_init__(self) -> None:
@@ -129,8 +139,8 @@ class _StudyReader:
 
     def _base(self) -> Config | None:
         """The base, or None with its problems; these name its own file."""
-        if "base" not in self.data:
-            return None
+        if self.given is not None or "base" not in self.data:
+            return self.given
         path = self._find(self.data["base"])
         if not path.exists():
             words = f"there is no file {path}. The base is sought from the study's folder; check its name."
