@@ -106,7 +106,7 @@ def calc(
     text = results_text(results)
     if target is not None:
         _write({target: encoded(text)}, config, through=True)
-    return ReportOutcome(results, (target,) if target else (), broken), text
+    return ReportOutcome(results, (target,) if target else (), broken, tuple(doubtful(results))), text
 
 
 def report(
@@ -130,7 +130,7 @@ def report(
     files = {folder / f"{stem}.{ending}": content for ending, content in contents.items()}
     _write(files, config)
     faults = (*broken, *(_broken(results, places, lost) for lost in (*undrawn, *unwritten)))
-    return ReportOutcome(results, tuple(files), faults, tuple(untranslated(results, catalogues)))
+    return ReportOutcome(results, tuple(files), faults, (*untranslated(results, catalogues), *doubtful(results)))
 
 
 def catalogues_of(results: Data, discovery: Discovery, formats: Sequence[str], file: str = "") -> Catalogues:
@@ -143,6 +143,14 @@ def catalogues_of(results: Data, discovery: Discovery, formats: Sequence[str], f
 def untranslated(results: Data, catalogues: Catalogues) -> list[str]:
     """Return in words which foreign plugins of a report have words that stay English."""
     return lacking(catalogues, _kinds(results))
+
+
+def doubtful(results: Data) -> list[str]:
+    """Return in words which foreign plugins of a report have faults in their formulas, and what tells them."""
+    mechanisms = results["mechanisms"].values()
+    kinds = dict.fromkeys(each["kind"] for each in mechanisms if each.get("plugin_check") == "failed")
+    words = "The formulas of the plugin of {kind} have faults, which `diecut-report check-plugin {name}` tells."
+    return [Phrase(words, kind=repr(kind), name=kind) for kind in kinds]
 
 
 def _kinds(results: Data) -> list[str]:

@@ -25,6 +25,7 @@ from diecut_report.cli.checking import check, validate
 from diecut_report.cli.design import advise, influence, solve
 from diecut_report.cli.exchange import diff, extract, render, verify
 from diecut_report.cli.formats import formats_of
+from diecut_report.cli.kit import check_plugin, new_plugin
 from diecut_report.cli.language import asked_language, language_option, of_environment
 from diecut_report.cli.live import live
 from diecut_report.cli.output import (
@@ -280,6 +281,8 @@ program.add_command(live)
 program.add_command(solve)
 program.add_command(advise)
 program.add_command(influence)
+program.add_command(new_plugin)
+program.add_command(check_plugin)
 
 
 # --- verdict ---------------------------------------------------------------------------------------------------------

@@ -1,12 +1,14 @@
 """What an author of a plugin tests it with.
 
-``check_mechanism(MECHANISM)`` judges what is declared; ``calculate(MECHANISM, {"teeth": 30})`` gives the numbers of one machine;
-``compare(calculated, {"force": "189 N"})`` holds them against printed ones; ``load("hook", "my_plugins")`` finds a mechanism.
+``check_mechanism(MECHANISM)`` judges what is declared, ``check_contract(MECHANISM, {…})`` a machine of it too.
+``calculate(MECHANISM, {"teeth": 30})`` gives the numbers of one machine, ``compare(calculated, {"force": "189 N"})`` holds them
+against printed ones. ``load("hook", "my_plugins")`` finds a mechanism.
 """
 
 from __future__ import annotations
 
 from diecut_report.formula_checks import check_mechanism
+from diecut_report.testing.contract import ContractTest, check_contract
 from diecut_report.testing.found_values import (
     CheckFound,
     CurveFound,
@@ -22,6 +24,7 @@ __all__ = [
     "CheckFound",
     "ComparedValue",
     "ComparedValues",
+    "ContractTest",
     "CurveFound",
     "MechanismFound",
     "NotGiven",
@@ -30,6 +33,7 @@ __all__ = [
     "QuantityFound",
     "Refused",
     "calculate",
+    "check_contract",
     "check_mechanism",
     "compare",
     "load",

@@ -101,7 +101,10 @@ class MechanismFound:
 
     @cached_property
     def quantities(self) -> dict[str, QuantityFound]:
-        """Return the results, the places of extremes (``ID_at``) and the inputs by their ids; where a result has the id of an input, it is ``inputs.ID``."""
+        """Return the results, the places of extremes (``ID_at``) and the inputs by their ids.
+
+        Where a result has the id of an input, that is ``inputs.ID``.
+        """
         outputs = {**self.data["values"], **self.data["outputs"]}
         places = {f"{name}_at": _place(row) for name, row in outputs.items() if "at" in row}
         inputs = {f"inputs.{name}" if name in outputs else name: row for name, row in self.data["inputs"].items()}

@@ -18,6 +18,7 @@ DONE = (
     "exchange/verification*",
     "quantities",
     "given_files*",
+    "kit",
     "pipeline*",
 )
 ERRORS = {"Problem", "UnitError", "ConditionError", "BadParameter", "UsageError", "Unresolved"}
