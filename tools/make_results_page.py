@@ -95,7 +95,7 @@ def _type(about: dict[str, Any]) -> str:
         "boolean": "true or false",
         "integer": "whole number",
     }
-    return plain.get(about["type"], about["type"])
+    return plain.get(about["type"], str(about["type"]))
 
 
 if __name__ == "__main__":
