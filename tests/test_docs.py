@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import runpy
 import sys
+from collections.abc import Callable
 from math import pi
 from pathlib import Path
 from types import ModuleType
@@ -74,3 +75,14 @@ def test_the_third_plugin_of_the_guide_takes_from_its_tables(tmp_path: Path) -> 
     assert [calc[name][0, 0] for name in ("bore", "rating", "form_factor")] == pytest.approx([0.025, 14800, 0.308])
     plain = calculate(pinion, flatten(pinion.inputs.model_validate({"bore_given": "30 mm", "teeth": 18})))
     assert plain["bore"][0, 0] == pytest.approx(0.03)
+
+
+def test_the_tests_of_the_guide_pass(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    guide = (ROOT / "docs" / "plugins.md").read_text(encoding="utf-8").split("```python\n")
+    (tmp_path / "my_plugins").mkdir()
+    (tmp_path / "my_plugins" / "hook.py").write_text(guide[1].partition("```")[0], encoding="utf-8")
+    monkeypatch.chdir(tmp_path)
+    found: dict[str, Callable[[], None]] = {}
+    exec(guide[4].partition("```")[0], found)
+    found["test_the_declaration"]()
+    found["test_the_numbers_of_a_book"]()

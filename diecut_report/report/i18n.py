@@ -99,6 +99,7 @@ ENGLISH: dict[str, str] = {
     # programme
     "calculated_by": "Calculated by", "version": "version", "plugin": "Mechanism", "plugin_version": "Version", "kind": "Kind",
     "source_hash": "source", "libraries": "With", "extension": "Extension",
+    "plugin_passed": "declarations and formulas checked", "plugin_failed": "declarations checked, formulas with faults",
     "carried": "Carried with this report", "carried_results": "Results", "attached": "attached to this PDF",
     "verified": "diecut-report verify calculates it again and tells what differs.",
     "config_file": "Configuration file", "sha256": "SHA-256",

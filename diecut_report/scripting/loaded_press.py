@@ -140,7 +140,9 @@ class LoadedPress:
         """
         from diecut_report.scripting.sweeps import AskedSweep, swept
 
-        asked = AskedSweep(dict(vary), None if outputs is None else list(outputs), list(constraints), method, count, seed)
+        asked = AskedSweep(
+            dict(vary), None if outputs is None else list(outputs), list(constraints), method, count, seed
+        )
         with told_in(self.language, without_places=True), one_thread():
             return swept(self.config, self.discovery, self.language, asked)
 

@@ -14,10 +14,12 @@ DONE = (
     "cli",
     "config",
     "conditions",
+    "drafting",
     "exchange/signing*",
     "exchange/verification*",
     "quantities",
     "given_files*",
+    "kit",
     "pipeline*",
     "scripting",
 )

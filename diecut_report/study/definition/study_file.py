@@ -52,17 +52,18 @@ class Study:
     files: Mapping[str, Path]
 
 
-def load_study(path: Path, discovery: Discovery, places: Mapping[str, Path] | None = None) -> Study:
-    """Read a study and its base; UserError with all problems of both, each with its file, line, column and key.
+def load_study(given: Path | Tree, discovery: Discovery, places: Mapping[str, Path] | None = None) -> Study:
+    """Read a study (or take what was read of it) and its base; UserError with all problems of both, each with file, line, column and key.
 
     PluginError where a plugin of the base is broken.
 
     ``places``: where the files are that the study names, where they are not sought from its folder.
     """
-    reader = _StudyReader(path, yaml_tree.load(path), discovery, places or {})
+    tree = given if isinstance(given, Tree) else yaml_tree.load(given)
+    reader = _StudyReader(Path(tree.file), tree, discovery, places or {})
     study = reader.study()
     if study is None or reader.problems:
-        raise UserError(_in_order(reader.problems, str(path)))
+        raise UserError(_in_order(reader.problems, tree.file))
     return study
 
 

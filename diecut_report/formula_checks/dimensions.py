@@ -24,8 +24,7 @@ from diecut_report.contract.steps import (
     Step,
     Value,
 )
-from diecut_report.quantities.units import Kind, unit
-from diecut_report.testing.kinds import (
+from diecut_report.formula_checks.kinds import (
     NUMBER,
     Found,
     KindError,
@@ -34,6 +33,7 @@ from diecut_report.testing.kinds import (
     kind_text,
     times,
 )
+from diecut_report.quantities.units import Kind, unit
 
 
 def formulas(mechanism: Mechanism) -> Iterator[tuple[Step, str, Bound]]:

@@ -42,11 +42,9 @@ from diecut_report.contract.between import Between
 from diecut_report.contract.binding import Bound
 from diecut_report.engine import calculate
 from diecut_report.expressions import Node
-from diecut_report.mechanics import common
-from diecut_report.quantities.units import DIMENSIONS, unit
-from diecut_report.testing import check_mechanism, forms
-from diecut_report.testing.dimensions import dimensions, formulas, units_of
-from diecut_report.testing.kinds import (
+from diecut_report.formula_checks import check_mechanism, forms
+from diecut_report.formula_checks.dimensions import dimensions, formulas, units_of
+from diecut_report.formula_checks.kinds import (
     ANGLE,
     ANGLE_AT,
     NUMBER,
@@ -54,6 +52,8 @@ from diecut_report.testing.kinds import (
     KindError,
     kind_given,
 )
+from diecut_report.mechanics import common
+from diecut_report.quantities.units import DIMENSIONS, unit
 
 
 class Wheel(Inputs):
