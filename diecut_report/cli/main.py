@@ -25,6 +25,7 @@ from diecut_report.cli.checking import check, validate
 from diecut_report.cli.design import advise, influence, solve
 from diecut_report.cli.drafting import new
 from diecut_report.cli.exchange import diff, extract, render, verify
+from diecut_report.cli.file_schemas import OF_FILES, schema_of_file
 from diecut_report.cli.formats import formats_of
 from diecut_report.cli.given import source
 from diecut_report.cli.kit import check_plugin, new_plugin
@@ -244,13 +245,11 @@ def plugins(folders: tuple[Path, ...], quiet: bool) -> int:
 @click.argument("kind", required=False)
 @common
 def schema(kind: str | None, folders: tuple[Path, ...], quiet: bool) -> int:
-    """JSON Schema of the config, of one KIND's block, or of a study file (KIND study), for editors."""
+    """JSON Schema of the config, of one KIND's block, of a study file (KIND study), or of the results file (KIND results)."""
     from diecut_report.config.schema import config_schema, kind_schema
 
-    if kind == "study":
-        from diecut_report.study.definition.schema import study_schema
-
-        emit(json.dumps(study_schema(), indent=2, ensure_ascii=False) + "\n")
+    if kind in OF_FILES:
+        emit(json.dumps(schema_of_file(kind), indent=2, ensure_ascii=False) + "\n")
         return PASSED
     discovery = Discovery(folders)
     found, broken = {}, {}
