@@ -7,6 +7,7 @@ from diecut_report.contract.chapters import Chapter, Steps
 from diecut_report.contract.charts import chart_panel, fill, level, line, mark, vertical
 from diecut_report.contract.checks import Check
 from diecut_report.contract.code_steps import ComputedCurve, Fact, PartCurves, PartNames, PartTable
+from diecut_report.contract.example import ExampleBlock, ForEach, Wired
 from diecut_report.contract.figures import (
     BarGroup,
     Bars,
@@ -127,8 +128,10 @@ __all__ = [
     "Derivative",
     "Drawing",
     "Erratum",
+    "ExampleBlock",
     "Extremes",
     "Fact",
+    "ForEach",
     "Formula",
     "FromCurve",
     "FromPress",
@@ -184,6 +187,7 @@ __all__ = [
     "Value",
     "Varying",
     "View",
+    "Wired",
     "Words",
     "arc",
     "arccos",

@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING
 
 import click
 
+from diecut_report.cli import exit_codes
 from diecut_report.cli.language import asked_language
 from diecut_report.cli.output import (
     CHECK_FAILED,
@@ -58,7 +59,7 @@ def new_plugin(name: str, as_package: bool, folder: Path | None, folders: tuple[
     return PASSED
 
 
-@click.command("check-plugin", cls=HelpfulCommand)
+@click.command("check-plugin", cls=HelpfulCommand, epilog=exit_codes.OF_PLUGIN)
 @click.argument("plugin", metavar="NAME|DIR")
 @click.option("--config", "configs", metavar="FILE", multiple=True, type=path_of,
               help="A configuration with a machine to try it on (default: one that lies beside the plugin).")  # fmt: skip

@@ -20,11 +20,13 @@ from typing import TYPE_CHECKING, NoReturn
 import click
 
 from diecut_report import __version__
-from diecut_report.cli import verdict
+from diecut_report.cli import exit_codes, verdict
 from diecut_report.cli.checking import check, validate
 from diecut_report.cli.design import advise, influence, solve
+from diecut_report.cli.drafting import new
 from diecut_report.cli.exchange import diff, extract, render, verify
 from diecut_report.cli.formats import formats_of
+from diecut_report.cli.given import source
 from diecut_report.cli.kit import check_plugin, new_plugin
 from diecut_report.cli.language import asked_language, language_option, of_environment
 from diecut_report.cli.live import live
@@ -48,7 +50,7 @@ from diecut_report.cli.output import (
 from diecut_report.cli.progress import Progress
 from diecut_report.cli.report_options import detail_given, only_given, report_formats
 from diecut_report.cli.signing import sign
-from diecut_report.cli.study import batch, source, take, variants
+from diecut_report.cli.study import batch, take, variants
 from diecut_report.cli.template import template_option
 from diecut_report.config.discovery import Discovery, DuplicateKind, UnknownKind
 from diecut_report.errors import PluginError, Problem, Unwritable, UserError
@@ -121,7 +123,7 @@ def _version(context: click.Context, _: click.Parameter, asked: bool) -> None:
         context.exit()
 
 
-@click.group(cls=HelpfulGroup, context_settings={"help_option_names": ["-h", "--help"]})
+@click.group(cls=HelpfulGroup, context_settings={"help_option_names": ["-h", "--help"]}, epilog=exit_codes.OF_PROGRAM)
 @click.option(
     "--version", is_flag=True, is_eager=True, expose_value=False, callback=_version, help="Show the version and exit."
 )
@@ -136,7 +138,7 @@ config_argument = click.argument("config", type=click.Path(path_type=Path))
 # --- commands --------------------------------------------------------------------------------------------------------
 
 
-@program.command()
+@program.command(epilog=exit_codes.OF_CHECKS)
 @config_argument
 @click.option(
     "-o", "folder", metavar="DIR", default=".", type=click.Path(path_type=Path), help="Where to write (default: here)."
@@ -193,7 +195,7 @@ def report(
     return _verdict(outcome, discovery, quiet, strict)
 
 
-@program.command()
+@program.command(epilog=exit_codes.OF_CHECKS)
 @config_argument
 @click.option(
     "-o", "target", metavar="FILE", type=click.Path(path_type=Path), help="Write to a file, not to standard output."
@@ -268,6 +270,7 @@ def schema(kind: str | None, folders: tuple[Path, ...], quiet: bool) -> int:
     return PLUGIN_BROKE if broken else PASSED
 
 
+program.add_command(new)
 program.add_command(validate)
 program.add_command(check)
 program.add_command(batch)

@@ -16,6 +16,7 @@ from typing import Any, TypeVar
 
 import click
 
+from diecut_report.cli.exit_codes import DONE, HEAD
 from diecut_report.cli.language import language_option
 from diecut_report.cli.progress import is_styled
 from diecut_report.errors import TOLD, Problem, Unwritable
@@ -230,6 +231,12 @@ class HelpfulCommand(click.Command):
         spoken = copy(self)
         spoken.help = said(inspect.cleandoc(self.help or ""))
         return super(HelpfulCommand, spoken).get_short_help_str(limit)
+
+    def format_epilog(self, ctx: click.Context, formatter: click.HelpFormatter) -> None:
+        """Write with which codes it ends, where what it does has not told that."""
+        if HEAD not in (self.help or ""):
+            formatter.write_paragraph()
+            formatter.write_text(self.epilog or DONE)
 
     def get_help_option(self, ctx: click.Context) -> click.Option | None:
         """The option --help."""

@@ -106,7 +106,7 @@ ENGLISH: dict[str, str] = {
     "failed_text": "This mechanism could not be calculated.", "failed_comparison": "This comparison could not be calculated.",
     "skipped_text": "This mechanism was not calculated, since what it refers to was not.",
     # office files
-    "si_value": "Value, SI", "si_unit": "Unit, SI", "basis": "Basis", "note": "Note", "class": "Class", "message": "Message",
+    "si_value": "Value, SI", "si_unit": "Unit, SI", "basis": "Basis", "note": "Note", "allowed": "Allowed", "class": "Class", "message": "Message",
     "key_result": "Key result", "yes": "yes", "time_ms": "Time, ms",
 }  # fmt: skip
 COUNTED = {  # what is said of a number ``n`` of things, with its form for one where English has another
