@@ -46,6 +46,7 @@ from diecut_report.cli.output import (
     tell_problems,
     tell_written,
     usage,
+    without_output,
 )
 from diecut_report.cli.progress import Progress
 from diecut_report.cli.report_options import detail_given, only_given, report_formats
@@ -208,7 +209,7 @@ def calc(config: Path, target: Path | None, strict: bool, folders: tuple[Path, .
 
     to_file = None if target == Path("-") else target
     # a plugin that prints does not spoil the JSON
-    with Progress(quiet) as progress, redirect_stdout(sys.stderr):
+    with Progress(quiet) as progress, without_output() if to_file is None else redirect_stdout(sys.stderr):
         discovery = Discovery(folders)
         outcome, text = pipeline.calc(source(config, discovery), discovery, progress, to_file)
     if to_file is None:
@@ -223,7 +224,7 @@ def plugins(folders: tuple[Path, ...], quiet: bool) -> int:
     discovery, codes, lines = Discovery(folders), [PASSED], []
     for kind, origins in discovery.origins.items():
         try:
-            with redirect_stdout(sys.stderr):
+            with without_output():
                 mechanism = discovery.mechanism(kind)
             title = said(mechanism.title, kind)
             lines += [f"{kind} {mechanism.version}: {title}", say("    from {origin}", origin=origins[0].told)]
@@ -233,12 +234,12 @@ def plugins(folders: tuple[Path, ...], quiet: bool) -> int:
             ]
         except DuplicateKind as fault:
             tell([str(fault)])
-            codes.append(BAD_INPUT)
+            codes.append(PLUGIN_BROKE)
         except PluginError as error:
             tell([str(error)])
             codes.append(PLUGIN_BROKE)
     emit("".join(f"{line}\n" for line in lines))
-    return BAD_INPUT if BAD_INPUT in codes else max(codes)
+    return max(codes)
 
 
 @program.command()
@@ -255,7 +256,7 @@ def schema(kind: str | None, folders: tuple[Path, ...], quiet: bool) -> int:
     found, broken = {}, {}
     for name in [kind] if kind else discovery.origins:
         try:
-            with redirect_stdout(sys.stderr):
+            with without_output():
                 found[name] = discovery.mechanism(name)
         except (UnknownKind, DuplicateKind) as fault:
             raise UserError(Problem(str(fault))) from None
