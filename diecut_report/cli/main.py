@@ -21,7 +21,7 @@ import click
 
 from diecut_report import __version__
 from diecut_report.cli import exit_codes, verdict
-from diecut_report.cli.checking import check, validate
+from diecut_report.cli.checking import check
 from diecut_report.cli.design import advise, influence, solve
 from diecut_report.cli.drafting import new
 from diecut_report.cli.exchange import diff, extract, render, verify
@@ -51,6 +51,7 @@ from diecut_report.cli.report_options import detail_given, only_given, report_fo
 from diecut_report.cli.signing import sign
 from diecut_report.cli.study import batch, take, variants
 from diecut_report.cli.template import template_option
+from diecut_report.cli.validating import validate
 from diecut_report.config.discovery import Discovery, DuplicateKind, UnknownKind
 from diecut_report.errors import PluginError, Problem, Unwritable, UserError
 from diecut_report.languages.catalogues import SOURCE_LANGUAGE
