@@ -17,6 +17,7 @@ from diecut_report.languages.catalogues import SOURCE_LANGUAGE, Catalogues
 from diecut_report.languages.phrases import Phrase, phrase
 from diecut_report.limits import MAX_PRINTED_MECHANISMS
 from diecut_report.results.changes import changes
+from diecut_report.results.doubtful_plugins import doubtful
 from diecut_report.results.results_file import encoded, results_text
 
 if TYPE_CHECKING:
@@ -143,14 +144,6 @@ def catalogues_of(results: Data, discovery: Discovery, formats: Sequence[str], f
 def untranslated(results: Data, catalogues: Catalogues) -> list[str]:
     """Return in words which foreign plugins of a report have words that stay English."""
     return lacking(catalogues, _kinds(results))
-
-
-def doubtful(results: Data) -> list[str]:
-    """Return in words which foreign plugins of a report have faults in their formulas, and what tells them."""
-    mechanisms = results["mechanisms"].values()
-    kinds = dict.fromkeys(each["kind"] for each in mechanisms if each.get("plugin_check") == "failed")
-    words = "The formulas of the plugin of {kind} have faults, which `diecut-report check-plugin {name}` tells."
-    return [Phrase(words, kind=repr(kind), name=kind) for kind in kinds]
 
 
 def _kinds(results: Data) -> list[str]:

@@ -122,7 +122,9 @@ def within(module: str, package: str) -> bool:
 
 
 def own_imports(name: str) -> set[str]:
-    if name == "diecut_report":  # what it offers to scripts is loaded when it is asked for (tests/scripting/test_offered.py)
+    if (
+        name == "diecut_report"
+    ):  # what it offers to scripts is loaded when it is asked for (tests/scripting/test_offered.py)
         return set()
     return {module for module in imports(name) if module in PROGRAM} - {name}
 

@@ -69,15 +69,22 @@ def _numbers(_context: click.Context, _option: click.Parameter, given: str) -> l
     callback=formats_of(lambda: EXPORTS, may_be_none=True),
     help="Also write all variants as csv,xlsx.",
 )
+@click.option(
+    "--chunk-limit",
+    "chunk_limit",
+    metavar="SECONDS",
+    type=click.FloatRange(0),
+    help="How long a part of the study may take before it is ended as in error; 0 for any time (default: many times as long as others).",
+)
 @click.option("--yes", is_flag=True, help="Calculate also a very large sample without being asked.")
 @common
 def batch(study: Path | None, folder: Path | None, resume: Path | None, jobs: int | None, dask: str | None, formats: list[str],
-          yes: bool, folders: tuple[Path, ...], quiet: bool) -> int:  # fmt: skip
+          chunk_limit: float | None, yes: bool, folders: tuple[Path, ...], quiet: bool) -> int:  # fmt: skip
     """Calculate all variants of a STUDY, and write them with a summary and full reports of some."""
     from diecut_report.study import command
 
     target = _target(study, folder, resume)
-    where = command.Where(jobs, dask, tuple(str(path.absolute()) for path in folders), asked_language())
+    where = command.Where(jobs, dask, tuple(str(path.absolute()) for path in folders), asked_language(), chunk_limit)
     try:
         with redirect_stdout(sys.stderr), command.Shown(quiet) as shown:
             outcome = command.run(

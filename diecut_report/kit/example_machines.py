@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterable, Iterator
+from importlib.resources import as_file, files
 from pathlib import Path
 
-from diecut_report import configs
 from diecut_report.config.discovery import Discovery, Origin
 from diecut_report.config.loader import Config, load_config
 from diecut_report.errors import UserError
@@ -50,7 +50,8 @@ def _files(origin: Origin) -> Iterator[Path]:
 
 def _folders(origin: Origin) -> Iterator[Path]:
     if origin.is_own:
-        yield from map(Path, configs.__path__)
+        with as_file(files("diecut_report.configs")) as examples:
+            yield examples
         return
     for level, home in enumerate(origin.file().resolve().parents):
         if level >= LEVELS or home.name == INSTALLED:

@@ -26,7 +26,7 @@ if TYPE_CHECKING:
     from diecut_report.study.storage.description import ResultColumn
 
 
-class PrintedValue(Protocol):
+class DisplayedValue(Protocol):
     """Declare what is shown of a quantity."""
 
     @property
@@ -87,7 +87,7 @@ class ShownInput(Protocol):
     @property
     def symbol(self) -> str: ...
     @property
-    def value(self) -> PrintedValue | None: ...
+    def value(self) -> DisplayedValue | None: ...
     @property
     def typed(self) -> str: ...
     @property

@@ -138,9 +138,11 @@ class LoadedPress:
         ``constraints`` are those of a study. A machine that cannot exist has the status ``error`` and says why. ConfigError for all
         that is wrong with the question.
         """
-        from diecut_report.scripting.sweeps import Asked, swept
+        from diecut_report.scripting.sweeps import AskedSweep, swept
 
-        asked = Asked(dict(vary), None if outputs is None else list(outputs), list(constraints), method, count, seed)
+        asked = AskedSweep(
+            dict(vary), None if outputs is None else list(outputs), list(constraints), method, count, seed
+        )
         with told_in(self.language, without_places=True), one_thread():
             return swept(self.config, self.discovery, self.language, asked)
 

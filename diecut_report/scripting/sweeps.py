@@ -30,7 +30,7 @@ FILE = "sweep"
 
 
 @dataclass(frozen=True)
-class Asked:
+class AskedSweep:
     """Hold what is asked: what varies, by path, and as a study has it outputs, constraints and sample."""
 
     vary: Mapping[str, Any]
@@ -119,7 +119,7 @@ def _plain(column: Any, about: ResultColumn) -> NDArray[Any]:
     return np.asarray(column.cast("float64").to_numpy(zero_copy_only=False))
 
 
-def swept(config: Config, discovery: Discovery, language: str | None, asked: Asked) -> SweepTable:
+def swept(config: Config, discovery: Discovery, language: str | None, asked: AskedSweep) -> SweepTable:
     """Return the table of what is asked; UserError in words where that cannot be, PluginError where a plugin breaks on all machines."""
     for error in config.broken.values():
         raise error
