@@ -270,23 +270,10 @@ def schema(kind: str | None, folders: tuple[Path, ...], quiet: bool) -> int:
     return PLUGIN_BROKE if broken else PASSED
 
 
-program.add_command(new)
-program.add_command(validate)
-program.add_command(check)
-program.add_command(batch)
-program.add_command(variants)
-program.add_command(take)
-program.add_command(extract)
-program.add_command(verify)
-program.add_command(render)
-program.add_command(diff)
-program.add_command(sign)
-program.add_command(live)
-program.add_command(solve)
-program.add_command(advise)
-program.add_command(influence)
-program.add_command(new_plugin)
-program.add_command(check_plugin)
+OTHERS = (new, validate, check, batch, variants, take, extract, verify, render, diff, sign, live, solve, advise, influence, new_plugin,
+          check_plugin)  # fmt: skip
+for _command in OTHERS:
+    program.add_command(_command)
 
 
 # --- verdict ---------------------------------------------------------------------------------------------------------

@@ -79,7 +79,9 @@ def _with_unit(text: str, each: VariedColumn) -> str:
 
 
 def _taken(found: DryRun, measured: Measured) -> Iterator[str]:
-    counts = [say(words, n=measured.statuses[status]) for status, words in VERDICTS.items() if measured.statuses.get(status)]
+    counts = [
+        say(words, n=measured.statuses[status]) for status, words in VERDICTS.items() if measured.statuses.get(status)
+    ]
     if measured.dropped:
         counts.append(say("{n} dropped by their results", n=measured.dropped))
     yield say("calculated {n} to measure: {counts}", n=measured.variants, counts=", ".join(counts))
