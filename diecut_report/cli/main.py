@@ -21,7 +21,7 @@ import click
 
 from diecut_report import __version__
 from diecut_report.cli import exit_codes, verdict
-from diecut_report.cli.checking import check, validate
+from diecut_report.cli.checking import check
 from diecut_report.cli.design import advise, influence, solve
 from diecut_report.cli.drafting import new
 from diecut_report.cli.exchange import diff, extract, render, verify
@@ -53,6 +53,7 @@ from diecut_report.cli.report_options import detail_given, only_given, report_fo
 from diecut_report.cli.signing import sign
 from diecut_report.cli.study import batch, take, variants
 from diecut_report.cli.template import template_option
+from diecut_report.cli.validating import validate
 from diecut_report.config.discovery import Discovery, DuplicateKind, UnknownKind
 from diecut_report.errors import PluginError, Problem, Unwritable, UserError
 from diecut_report.languages.catalogues import SOURCE_LANGUAGE
@@ -269,23 +270,10 @@ def schema(kind: str | None, folders: tuple[Path, ...], quiet: bool) -> int:
     return PLUGIN_BROKE if broken else PASSED
 
 
-program.add_command(new)
-program.add_command(validate)
-program.add_command(check)
-program.add_command(batch)
-program.add_command(variants)
-program.add_command(take)
-program.add_command(extract)
-program.add_command(verify)
-program.add_command(render)
-program.add_command(diff)
-program.add_command(sign)
-program.add_command(live)
-program.add_command(solve)
-program.add_command(advise)
-program.add_command(influence)
-program.add_command(new_plugin)
-program.add_command(check_plugin)
+OTHERS = (new, validate, check, batch, variants, take, extract, verify, render, diff, sign, live, solve, advise, influence, new_plugin,
+          check_plugin)  # fmt: skip
+for _command in OTHERS:
+    program.add_command(_command)
 
 
 # --- verdict ---------------------------------------------------------------------------------------------------------
