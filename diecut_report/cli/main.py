@@ -31,6 +31,7 @@ from diecut_report.cli.given import source
 from diecut_report.cli.kit import check_plugin, new_plugin
 from diecut_report.cli.language import asked_language, language_option, of_environment
 from diecut_report.cli.live import live
+from diecut_report.cli.optimise import optimise
 from diecut_report.cli.output import (
     BAD_INPUT,
     FAULT,
@@ -270,7 +271,7 @@ def schema(kind: str | None, folders: tuple[Path, ...], quiet: bool) -> int:
     return PLUGIN_BROKE if broken else PASSED
 
 
-OTHERS = (new, validate, check, batch, variants, take, extract, verify, render, diff, sign, live, solve, advise, influence, new_plugin,
+OTHERS = (new, validate, check, batch, variants, take, extract, verify, render, diff, sign, live, solve, advise, influence, optimise, new_plugin,
           check_plugin)  # fmt: skip
 for _command in OTHERS:
     program.add_command(_command)
