@@ -65,7 +65,9 @@ def _read(file: Path) -> ApiExample:
     values = {name: value for name, value in _assigned(tree) if name in SAID}
     kinds = {_kind(value): name for name, value in _assigned(tree) if _is_mechanism(value)}
     words = " ".join((ast.get_docstring(tree) or "").split())
-    return ApiExample(file, text, words, shows, kinds, {name: ast.literal_eval(value) for name, value in values.items()})
+    return ApiExample(
+        file, text, words, shows, kinds, {name: ast.literal_eval(value) for name, value in values.items()}
+    )
 
 
 def _imported(tree: ast.Module) -> set[str]:
