@@ -234,10 +234,7 @@ def plugins(folders: tuple[Path, ...], quiet: bool) -> int:
                 say("    source {id}: {citation}", id=source.id, citation=phrase(source.citation))
                 for source in mechanism.sources
             ]
-        except DuplicateKind as fault:
-            tell([str(fault)])
-            codes.append(PLUGIN_BROKE)
-        except PluginError as error:
+        except (DuplicateKind, PluginError) as error:
             tell([str(error)])
             codes.append(PLUGIN_BROKE)
     emit("".join(f"{line}\n" for line in lines))
