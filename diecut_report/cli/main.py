@@ -25,6 +25,7 @@ from diecut_report.cli.checking import check
 from diecut_report.cli.design import advise, influence, solve
 from diecut_report.cli.drafting import new
 from diecut_report.cli.exchange import diff, extract, render, verify
+from diecut_report.cli.file_schemas import OF_FILES, schema_of_file
 from diecut_report.cli.formats import formats_of
 from diecut_report.cli.given import source
 from diecut_report.cli.kit import check_plugin, new_plugin
@@ -45,6 +46,7 @@ from diecut_report.cli.output import (
     tell_problems,
     tell_written,
     usage,
+    without_output,
 )
 from diecut_report.cli.progress import Progress
 from diecut_report.cli.report_options import detail_given, only_given, report_formats
@@ -215,7 +217,7 @@ def calc(config: Path, target: Path | None, strict: bool, folders: tuple[Path, .
 
     to_file = None if target == Path("-") else target
     # a plugin that prints does not spoil the JSON
-    with Progress(quiet) as progress, redirect_stdout(sys.stderr):
+    with Progress(quiet) as progress, without_output() if to_file is None else redirect_stdout(sys.stderr):
         discovery = Discovery(folders)
         outcome, text = pipeline.calc(source(config, discovery), discovery, progress, to_file)
     if to_file is None:
@@ -230,7 +232,7 @@ def plugins(folders: tuple[Path, ...], quiet: bool) -> int:
     discovery, codes, lines = Discovery(folders), [PASSED], []
     for kind, origins in discovery.origins.items():
         try:
-            with redirect_stdout(sys.stderr):
+            with without_output():
                 mechanism = discovery.mechanism(kind)
             title = said(mechanism.title, kind)
             lines += [f"{kind} {mechanism.version}: {title}", say("    from {origin}", origin=origins[0].told)]
@@ -240,31 +242,29 @@ def plugins(folders: tuple[Path, ...], quiet: bool) -> int:
             ]
         except DuplicateKind as fault:
             tell([str(fault)])
-            codes.append(BAD_INPUT)
+            codes.append(PLUGIN_BROKE)
         except PluginError as error:
             tell([str(error)])
             codes.append(PLUGIN_BROKE)
     emit("".join(f"{line}\n" for line in lines))
-    return BAD_INPUT if BAD_INPUT in codes else max(codes)
+    return max(codes)
 
 
 @program.command()
 @click.argument("kind", required=False, shell_complete=completion.kinds)
 @common
 def schema(kind: str | None, folders: tuple[Path, ...], quiet: bool) -> int:
-    """JSON Schema of the config, of one KIND's block, or of a study file (KIND study), for editors."""
+    """JSON Schema of the config, of one KIND's block, of a study file (KIND study), or of the results file (KIND results)."""
     from diecut_report.config.schema import config_schema, kind_schema
 
-    if kind == "study":
-        from diecut_report.study.definition.schema import study_schema
-
-        emit(json.dumps(study_schema(), indent=2, ensure_ascii=False) + "\n")
+    if kind in OF_FILES:
+        emit(json.dumps(schema_of_file(kind), indent=2, ensure_ascii=False) + "\n")
         return PASSED
     discovery = Discovery(folders)
     found, broken = {}, {}
     for name in [kind] if kind else discovery.origins:
         try:
-            with redirect_stdout(sys.stderr):
+            with without_output():
                 found[name] = discovery.mechanism(name)
         except (UnknownKind, DuplicateKind) as fault:
             raise UserError(Problem(str(fault))) from None

@@ -205,11 +205,13 @@ class _ConfigReader:
                 self.with_partners.append(name)
             else:
                 self._probe(name, kind)
-        except (UnknownKind, DuplicateKind) as fault:
+        except UnknownKind as fault:
             self.problems.append(place.problem(("kind",), seeming_latin(kind) or str(fault)))
-        except PluginError as error:
+        except (DuplicateKind, PluginError) as error:
             self.instances[name] = None
-            self.broken[name] = _of_instance(error, name)
+            self.broken[name] = _of_instance(
+                error if isinstance(error, PluginError) else PluginError(str(error), kind), name
+            )
 
     def _probe(self, name: str, kind: str) -> None:
         """Ask the plugin once what it gives with these inputs, so that what is wrong with it shows here."""
