@@ -3,10 +3,8 @@
 from __future__ import annotations
 
 import json
-import sys
 import webbrowser
 from collections.abc import Iterator
-from contextlib import redirect_stdout
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -23,6 +21,7 @@ from diecut_report.cli.output import (
     emit,
     tell,
     tell_written,
+    without_output,
 )
 from diecut_report.languages.phrases import Phrase, phrase
 from diecut_report.languages.speech import said, say, spoken_language
@@ -81,7 +80,7 @@ def check_plugin(
         )
     found: list[CheckedPlugin] = []
     for kind in kinds:
-        with redirect_stdout(sys.stderr):
+        with without_output():
             for each in checked(known, kind, configs, asked_language() or spoken_language()):
                 if isinstance(each, CheckedPlugin):
                     found.append(each)

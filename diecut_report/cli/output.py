@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+import ctypes
 import inspect
 import io
 import os
 import re
 import sys
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
+from contextlib import contextmanager, redirect_stdout, suppress
 from copy import copy
 from pathlib import Path
 from typing import Any, TypeVar
@@ -126,6 +128,26 @@ def emit(text: str) -> bool:
             Problem(Phrase("Standard output cannot be written: {reason}", reason=reason(error)))
         ) from error
     return True
+
+
+@contextmanager
+def without_output() -> Iterator[None]:
+    """Let what plugins write meanwhile go to standard error, also by a library or a process of theirs: it would spoil what is asked for.
+
+    What the program itself writes there meanwhile (-o /dev/stdout) goes there too.
+    """
+    if sys.stdout is not None:
+        sys.stdout.flush()
+    kept = os.dup(1)
+    try:
+        os.dup2(2, 1)
+        with redirect_stdout(sys.stderr):
+            yield
+    finally:
+        with suppress(AttributeError):  # a system whose library does not tell what it holds back
+            ctypes.CDLL(None).fflush(None)
+        os.dup2(kept, 1)
+        os.close(kept)
 
 
 def _close_output() -> None:
