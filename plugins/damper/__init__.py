@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from diecut_report.api import Check, Mechanism, Source
+from diecut_report.plugins.damper.example import EXAMPLE
 from diecut_report.plugins.damper.figures import FIGURES
 from diecut_report.plugins.damper.formulas import SLENDEREST
 from diecut_report.plugins.damper.inputs import Damper
@@ -18,6 +19,7 @@ MECHANISM = Mechanism(
     "energy. From energy, rubber and pad follow the length of the blocks, their stress, strain and force, the time and deceleration of "
     "the stop, the rebound and the heat; the blocks are checked against buckling, and against a drive that still pushes.",
     inputs=Damper,
+    example=EXAMPLE,
     chapters=SECTIONS,
     key_results=("kinetic_energy", "free_length", "adopted_length", "stress", "strain", "deflection", "peak_force", "peak_deceleration",
                  "stop_time", "rebound_velocity", "heat_power", "slenderness", "driven_deflection", "driven_stress"),
@@ -30,6 +32,10 @@ MECHANISM = Mechanism(
               demand="stress", limit="allowable_stress", unit="MPa", tolerance=ROUNDING,
               sized_unless=("adopted_length",), demand_label="stress", limit_label="allowed", source="002 eq. 22",
               consequence="the block is too short to take up the energy; {advice}."),
+        Check(id="dynamic_stiffness", check_class="strength", title="Stiffness of the rubber at the impact",
+              demand="dynamic_stiffness_factor", limit="stiffness_borne", unit="1", tolerance=ROUNDING, sized_unless=("adopted_length",),
+              demand_label="dynamic to static stiffness", limit_label="with which the stress is the allowed one", source="002 eq. 22",
+              consequence="at the speed of the impact the rubber is too stiff for the block's length; {advice}."),
         Check(id="slenderness", check_class="strength", title="Buckling of the block",
               demand="slenderness", limit=SLENDEREST, unit="1", tolerance=ROUNDING,
               demand_label="length over the smaller side", limit_label="straight up to", source="block with clamped ends",

@@ -14,12 +14,15 @@ DONE = (
     "cli",
     "config",
     "conditions",
+    "drafting",
     "exchange/signing*",
     "exchange/verification*",
     "optimisation",
     "quantities",
     "given_files*",
+    "kit",
     "pipeline*",
+    "scripting",
 )
 ERRORS = {"Problem", "UnitError", "ConditionError", "BadParameter", "UsageError", "Unresolved"}
 WORDS = re.compile(r"[A-Za-z]{2,}[,;:]? [a-z]{2,}")

@@ -61,17 +61,27 @@ class Study:
         return self.data.get("sample") is not None
 
 
-def load_study(path: Path, discovery: Discovery, places: Mapping[str, Path] | None = None) -> Study:
-    """Read a study and its base; UserError with all problems of both, each with its file, line, column and key.
+def load_study(given: Path | Tree, discovery: Discovery, places: Mapping[str, Path] | None = None) -> Study:
+    """Read a study (or take what was read of it) and its base; UserError with all problems of both, each with file, line, column and key.
 
     PluginError where a plugin of the base is broken.
 
     ``places``: where the files are that the study names, where they are not sought from its folder.
     """
-    reader = _StudyReader(path, yaml_tree.load(path), discovery, places or {})
+    tree = given if isinstance(given, Tree) else yaml_tree.load(given)
+    reader = _StudyReader(Path(tree.file), tree, discovery, places or {})
     study = reader.study()
     if study is None or reader.problems:
-        raise UserError(_in_order(reader.problems, str(path)))
+        raise UserError(_in_order(reader.problems, tree.file))
+    return study
+
+
+def study_of(tree: Tree, base: Config, discovery: Discovery) -> Study:
+    """Return the study of a text, of a base that is read already; UserError with all problems of it."""
+    reader = _StudyReader(Path(tree.file), tree, discovery, {}, base)
+    study = reader.study()
+    if study is None or reader.problems:
+        raise UserError(_in_order(reader.problems, tree.file))
     return study
 
 
@@ -88,6 +98,7 @@ class _StudyReader:
     tree: Tree
     discovery: Discovery
     places: Mapping[str, Path]
+    given: Config | None = None
     problems: list[Problem] = field(default_factory=list)
 
     def __post_init__(self) -> None:
@@ -176,8 +187,8 @@ class _StudyReader:
 
     def _base(self) -> Config | None:
         """The base, or None with its problems; these name its own file."""
-        if "base" not in self.data:
-            return None
+        if self.given is not None or "base" not in self.data:
+            return self.given
         path = self._find(self.data["base"])
         if not path.exists():
             words = f"there is no file {path}. The base is sought from the study's folder; check its name."
