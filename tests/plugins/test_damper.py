@@ -371,7 +371,9 @@ def test_the_rubbers_stiffness_at_the_impact_is_not_taken_for_that_at_rest_witho
     unsaid = {check["id"]: check for check in mechanism_results(calculated(block), {})["checks"]}["dynamic_stiffness"]
     assert (unsaid["status"], unsaid["missing"]) == ("not_checked", ["dynamic_stiffness_factor"])
     borne = number(calculated(block), "stiffness_borne")
-    assert borne == pytest.approx(700 / 555.56, rel=1e-5)  # 555.56 mm of the worked example bear the allowed stress at rest
+    assert borne == pytest.approx(
+        700 / 555.56, rel=1e-5
+    )  # 555.56 mm of the worked example bear the allowed stress at rest
     for factor, status in ((borne * 0.999, "pass"), (borne * 1.001, "fail")):
         found = checks(calculated(block | {"dynamic_stiffness_factor": factor}))
         assert found["dynamic_stiffness"]["status"] == found["stress"]["status"] == status
