@@ -1,4 +1,4 @@
-"""The commands that judge files: ``validate`` reads configurations and studies, ``check`` calculates many machines."""
+"""The command ``check``, which calculates many machines."""
 
 from __future__ import annotations
 
@@ -25,16 +25,13 @@ from diecut_report.cli.output import (
     common,
     emit,
     tell,
-    tell_problems,
     tell_written,
 )
 from diecut_report.cli.progress import Progress
 from diecut_report.cli.verdict import WORDS
-from diecut_report.config import yaml_tree
 from diecut_report.config.catalogues import catalogues_for, spoken_catalogues
 from diecut_report.config.discovery import Discovery
-from diecut_report.config.standard_input import SHOWN
-from diecut_report.errors import PluginError, Problem, UserError
+from diecut_report.errors import Problem, UserError
 from diecut_report.languages.phrases import Counted, Phrase, phrase
 from diecut_report.languages.speech import localised, said, speaking
 
@@ -55,42 +52,6 @@ HEADS = (
     phrase("warnings"),
 )
 path_of = click.Path(path_type=Path)
-
-
-@click.command(cls=HelpfulCommand, epilog=exit_codes.OF_FILES)
-@click.argument("files", metavar="FILE…", nargs=-1, required=True, type=path_of)
-@common
-def validate(files: tuple[Path, ...], folders: tuple[Path, ...], quiet: bool) -> int:
-    """Judge configurations and studies without their results; all problems of all files are reported."""
-    discovery, codes = Discovery(folders), []
-    for file in files:
-        try:
-            with redirect_stdout(sys.stderr):
-                broken = _broken(file, discovery)
-            tell(str(error) if len(files) == 1 else f"{file}: " + phrase(str(error)) for error in broken)
-            codes.append(PLUGIN_BROKE if broken else PASSED)
-        except UserError as error:
-            tell_problems(error.problems)
-            codes.append(BAD_INPUT)
-        if codes[-1] == PASSED and not quiet:
-            tell([Phrase("{file}: valid", file=SHOWN if file == DASH else file)])
-    return BAD_INPUT if BAD_INPUT in codes else max(codes)
-
-
-def _broken(file: Path, discovery: Discovery) -> tuple[PluginError, ...]:
-    """The plugins that are broken; UserError with all that is wrong with the file."""
-    from diecut_report import pipeline
-
-    tree = from_standard_input() if file == DASH else yaml_tree.load(file)
-    if not (isinstance(tree.data, dict) and "base" in tree.data and "mechanisms" not in tree.data):
-        return pipeline.validate(tree, discovery)
-    from diecut_report.study.definition.study_file import load_study
-
-    try:
-        load_study(tree, discovery)
-    except PluginError as error:
-        return (error,)
-    return ()
 
 
 @click.command(cls=HelpfulCommand, epilog=exit_codes.OF_CHECKS)

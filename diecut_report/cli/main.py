@@ -20,16 +20,18 @@ from typing import TYPE_CHECKING, NoReturn
 import click
 
 from diecut_report import __version__
-from diecut_report.cli import exit_codes, verdict
-from diecut_report.cli.checking import check, validate
+from diecut_report.cli import completion, exit_codes, verdict
+from diecut_report.cli.checking import check
 from diecut_report.cli.design import advise, influence, solve
 from diecut_report.cli.drafting import new
 from diecut_report.cli.exchange import diff, extract, render, verify
+from diecut_report.cli.file_schemas import OF_FILES, schema_of_file
 from diecut_report.cli.formats import formats_of
 from diecut_report.cli.given import source
 from diecut_report.cli.kit import check_plugin, new_plugin
 from diecut_report.cli.language import asked_language, language_option, of_environment
 from diecut_report.cli.live import live
+from diecut_report.cli.optimise import optimise
 from diecut_report.cli.output import (
     BAD_INPUT,
     FAULT,
@@ -52,6 +54,7 @@ from diecut_report.cli.report_options import detail_given, only_given, report_fo
 from diecut_report.cli.signing import sign
 from diecut_report.cli.study import batch, take, variants
 from diecut_report.cli.template import template_option
+from diecut_report.cli.validating import validate
 from diecut_report.config.discovery import Discovery, DuplicateKind, UnknownKind
 from diecut_report.errors import PluginError, Problem, Unwritable, UserError
 from diecut_report.languages.catalogues import SOURCE_LANGUAGE
@@ -160,10 +163,17 @@ config_argument = click.argument("config", type=click.Path(path_type=Path))
 @click.option(
     "--detail",
     metavar="DETAIL",
+    shell_complete=completion.details,
     callback=detail_given,
     help="brief, standard or full, in place of the configuration's (standard).",
 )
-@click.option("--only", metavar="NAMES", callback=only_given, help="Report these mechanisms alone: drive,clutch.")
+@click.option(
+    "--only",
+    metavar="NAMES",
+    shell_complete=completion.mechanisms,
+    callback=only_given,
+    help="Report these mechanisms alone: drive,clutch.",
+)
 @template_option
 @verdict.strict_option
 @common
@@ -239,16 +249,14 @@ def plugins(folders: tuple[Path, ...], quiet: bool) -> int:
 
 
 @program.command()
-@click.argument("kind", required=False)
+@click.argument("kind", required=False, shell_complete=completion.kinds)
 @common
 def schema(kind: str | None, folders: tuple[Path, ...], quiet: bool) -> int:
-    """JSON Schema of the config, of one KIND's block, or of a study file (KIND study), for editors."""
+    """JSON Schema of the config, of one KIND's block, of a study file (KIND study), or of the results file (KIND results)."""
     from diecut_report.config.schema import config_schema, kind_schema
 
-    if kind == "study":
-        from diecut_report.study.definition.schema import study_schema
-
-        emit(json.dumps(study_schema(), indent=2, ensure_ascii=False) + "\n")
+    if kind in OF_FILES:
+        emit(json.dumps(schema_of_file(kind), indent=2, ensure_ascii=False) + "\n")
         return PASSED
     discovery = Discovery(folders)
     found, broken = {}, {}
@@ -267,23 +275,10 @@ def schema(kind: str | None, folders: tuple[Path, ...], quiet: bool) -> int:
     return PLUGIN_BROKE if broken else PASSED
 
 
-program.add_command(new)
-program.add_command(validate)
-program.add_command(check)
-program.add_command(batch)
-program.add_command(variants)
-program.add_command(take)
-program.add_command(extract)
-program.add_command(verify)
-program.add_command(render)
-program.add_command(diff)
-program.add_command(sign)
-program.add_command(live)
-program.add_command(solve)
-program.add_command(advise)
-program.add_command(influence)
-program.add_command(new_plugin)
-program.add_command(check_plugin)
+OTHERS = (new, validate, check, batch, variants, take, extract, verify, render, diff, sign, live, solve, advise, influence, optimise, new_plugin,
+          check_plugin)  # fmt: skip
+for _command in OTHERS:
+    program.add_command(_command)
 
 
 # --- verdict ---------------------------------------------------------------------------------------------------------

@@ -109,9 +109,9 @@ def _verdict(machine: ProvedMachine, found: FoundValue) -> Phrase:
     if not found.failing:
         words = "calculated as a machine of its own: no check fails; governing: {check}"
         return Phrase(words, check=machine.governing or phrase("none"))
-    words = "calculated as a machine of its own: {n} check fails: {checks}"
+    one = "calculated as a machine of its own: {n} check fails: {checks}"
     many = "calculated as a machine of its own: {n} checks fail: {checks}"
-    return Counted(len(found.failing), words, many, checks=", ".join(found.failing))
+    return Counted(len(found.failing), one, many, checks=", ".join(found.failing))
 
 
 def _nearest(answer: Answer) -> Iterator[str]:
@@ -125,9 +125,9 @@ def _nearest(answer: Answer) -> Iterator[str]:
             words, input=design.name, typed=near.typed, asked=asked.name, value=value, end=_end(near), fails=fails
         )
     if answer.always:
-        words = "whatever it is, {checks} fails: change another input first; `advise` looks for one"
+        one = "whatever it is, {checks} fails: change another input first; `advise` looks for one"
         many = "whatever it is, {checks} fail: change another input first; `advise` looks for one"
-        yield Counted(len(answer.always), words, many, checks=", ".join(answer.always))
+        yield Counted(len(answer.always), one, many, checks=", ".join(answer.always))
     elif near is not None:
         yield phrase("give another range with --from and --to, or change another input")
 
