@@ -27,7 +27,7 @@ class Part(NamedTuple):
 
 PARTS = (
     Part("Using it", ("tutorial-use*", "questions", "live", "studies", "results", "reports-and-revisions", "office-files", "house-style",
-                      "own-tables", "limits", "mending-a-press", "python*")),
+                      "own-tables", "own-repository", "limits", "mending-a-press", "python*")),
     Part("Examples", ("gallery/index", "reports")),
     Part("Writing a mechanism", ("tutorial*", "plugins", "how-to/index*", "how-to/*", "reference/index")),
     Part("Whether to trust it", ("trust", "validation", "standards")),
