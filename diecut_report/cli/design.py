@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
+from diecut_report.cli import completion
 from diecut_report.cli.given import source
 from diecut_report.cli.output import CHECK_FAILED, PASSED, HelpfulCommand, common, emit, tell, tell_written
 from diecut_report.cli.progress import Progress
@@ -35,7 +36,13 @@ target_option = click.option(
 
 @click.command(cls=HelpfulCommand)
 @click.argument("config", type=path_of)
-@click.option("--vary", required=True, metavar="INPUT", help="The input to solve for, such as drive.crank_length.")
+@click.option(
+    "--vary",
+    required=True,
+    metavar="INPUT",
+    shell_complete=completion.inputs,
+    help="The input to solve for, such as drive.crank_length.",
+)
 @click.option(
     "--for", "asked", required=True, metavar="QUESTION",
     help='`drive.crank_torque_peak = 400 N*m`, with = <= or >=; or `max press.productivity`, `min cylinder.mass`.',
@@ -82,10 +89,13 @@ def solve(
 @click.option(
     "--free",
     metavar="INPUT",
+    shell_complete=completion.inputs,
     multiple=True,
     help="An input that may be changed; may be given several times (default: sizes, angles and ratios).",
 )
-@click.option("--keep", metavar="INPUT", multiple=True, help="An input that stays as it is.")
+@click.option(
+    "--keep", metavar="INPUT", shell_complete=completion.inputs, multiple=True, help="An input that stays as it is."
+)
 @target_option
 @form_option
 @common
@@ -142,6 +152,7 @@ def _share(_context: click.Context, _option: click.Parameter, percent: float) ->
     "--tolerance",
     "tolerances",
     metavar="INPUT=SIZE",
+    shell_complete=completion.inputs,
     multiple=True,
     help="drive.crank_length=0.1 mm: an input that scatters by as much to both sides; may be given several times.",
 )

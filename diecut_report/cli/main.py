@@ -20,7 +20,7 @@ from typing import TYPE_CHECKING, NoReturn
 import click
 
 from diecut_report import __version__
-from diecut_report.cli import exit_codes, verdict
+from diecut_report.cli import completion, exit_codes, verdict
 from diecut_report.cli.checking import check
 from diecut_report.cli.design import advise, influence, solve
 from diecut_report.cli.drafting import new
@@ -163,10 +163,17 @@ config_argument = click.argument("config", type=click.Path(path_type=Path))
 @click.option(
     "--detail",
     metavar="DETAIL",
+    shell_complete=completion.details,
     callback=detail_given,
     help="brief, standard or full, in place of the configuration's (standard).",
 )
-@click.option("--only", metavar="NAMES", callback=only_given, help="Report these mechanisms alone: drive,clutch.")
+@click.option(
+    "--only",
+    metavar="NAMES",
+    shell_complete=completion.mechanisms,
+    callback=only_given,
+    help="Report these mechanisms alone: drive,clutch.",
+)
 @template_option
 @verdict.strict_option
 @common
@@ -242,7 +249,7 @@ def plugins(folders: tuple[Path, ...], quiet: bool) -> int:
 
 
 @program.command()
-@click.argument("kind", required=False)
+@click.argument("kind", required=False, shell_complete=completion.kinds)
 @common
 def schema(kind: str | None, folders: tuple[Path, ...], quiet: bool) -> int:
     """JSON Schema of the config, of one KIND's block, of a study file (KIND study), or of the results file (KIND results)."""

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from diecut_report.expressions import Array
-from diecut_report.optimisation.front import Known
+from diecut_report.optimisation.front import Known, filled
 from diecut_report.optimisation.generation import asked_of
 from diecut_report.study.analysis.stored_variants import Stored, quoted
 from diecut_report.study.definition.study_file import Study
@@ -57,7 +57,7 @@ def _broken(study: Study, stored: Stored) -> dict[str, Array]:
         if constraint.outputs:
             names = ", ".join(f"{quoted(name)} AS c{n}" for n, name in enumerate(constraint.paths))
             columns = stored.connection.execute(f"SELECT {names} FROM v ORDER BY variant").fetchnumpy()
-            rows = {name: _values(columns[f"c{n}"]) for n, name in enumerate(constraint.paths)}
+            rows = {name: filled(columns[f"c{n}"]) for n, name in enumerate(constraint.paths)}
             found[constraint.text] = constraint.shortfall(rows) > 0
     telling = sorted((name for name, broken in found.items() if broken.any()), key=lambda name: -int(found[name].sum()))
     return {name: found[name] for name in telling[:MOST]}
@@ -65,12 +65,6 @@ def _broken(study: Study, stored: Stored) -> dict[str, Array]:
 
 def _truths(values: Array) -> Array:
     return np.asarray(values.filled(False) if isinstance(values, np.ma.MaskedArray) else values, dtype=bool)
-
-
-def _values(values: Array) -> Array:
-    if isinstance(values, np.ma.MaskedArray):
-        return np.asarray(values.filled(np.nan if values.dtype.kind == "f" else None))
-    return np.asarray(values)
 
 
 def _together(broken: dict[str, Array]) -> tuple[str, ...]:

@@ -71,18 +71,20 @@ def known(stored: Stored) -> Known:
     names = ["variant", "status", "governing", VIOLATION.name, *asked, *inputs]
     labelled = ", ".join(f"{name} AS c{n}" for n, name in enumerate(names))
     found = stored.connection.execute(f"SELECT {labelled} FROM v ORDER BY variant").fetchnumpy()
-    columns = [_filled(found[f"c{n}"]) for n in range(len(names))]
+    columns = [filled(found[f"c{n}"]) for n in range(len(names))]
     signs = np.array([1.0 if goal.is_less else -1.0 for goal in goals])
     costs = np.column_stack(columns[4 : 4 + len(goals)]).astype(float) * signs
     given = {column.name: values for column, values in zip(stored.varied, columns[4 + len(goals) :], strict=True)}
     return Known(columns[0], columns[1], columns[2], columns[3].astype(float), costs, given)
 
 
-def _filled(values: Any) -> Array:
-    """A column of DuckDB as an array; what is missing is NaN, or nothing."""
-    if isinstance(values, np.ma.MaskedArray):
-        return np.asarray(values.filled(np.nan if values.dtype.kind == "f" else None))
-    return np.asarray(values)
+def filled(values: Any) -> Array:
+    """Return a column of DuckDB as an array; what is missing is NaN, or nothing."""
+    if not isinstance(values, np.ma.MaskedArray):
+        return np.asarray(values)
+    if values.dtype.kind == "f":
+        return np.asarray(values.filled(np.nan))
+    return np.where(np.ma.getmaskarray(values), None, np.asarray(values.data, dtype=object))
 
 
 def found_front(study: Study, stored: Stored, there: Known) -> FoundFront:
