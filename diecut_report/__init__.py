@@ -1,3 +1,79 @@
-"""Design reports for die-cutting presses: a YAML description in, a checked calculation document out."""
+"""Design reports for die-cutting presses: a YAML description in, a checked calculation document out.
+
+In scripts and notebooks: ``import diecut_report as dr; results = dr.load("press.yaml").calculate()`` (docs/python.md).
+"""
+
+from typing import TYPE_CHECKING, Any
 
 __version__ = "0.1.0"
+
+if TYPE_CHECKING:
+    from diecut_report.errors import ConfigError, PluginError, Problem, UnknownName, Unwritable, UserError
+    from diecut_report.scripting.loaded_press import LoadedPress
+    from diecut_report.scripting.loading import load, load_results, loads
+    from diecut_report.scripting.mechanism_results import MechanismResults
+    from diecut_report.scripting.parts import CheckList, CheckResult, CurveResult, FigureResult, PhaseResult
+    from diecut_report.scripting.press_inputs import PressInput
+    from diecut_report.scripting.questions import InfluenceTable, MendedPress, Solution
+    from diecut_report.scripting.results import Results
+    from diecut_report.scripting.sweeps import SweepTable
+    from diecut_report.scripting.typed_values import linspace
+    from diecut_report.scripting.values import InputValue, QuantityValue
+
+__all__ = [
+    "CheckList",
+    "CheckResult",
+    "ConfigError",
+    "CurveResult",
+    "FigureResult",
+    "InfluenceTable",
+    "InputValue",
+    "LoadedPress",
+    "MechanismResults",
+    "MendedPress",
+    "PhaseResult",
+    "PluginError",
+    "PressInput",
+    "Problem",
+    "QuantityValue",
+    "Results",
+    "Solution",
+    "SweepTable",
+    "UnknownName",
+    "Unwritable",
+    "UserError",
+    "__version__",
+    "linspace",
+    "load",
+    "load_results",
+    "loads",
+]
+_HOMES = {
+    "errors": ("ConfigError", "PluginError", "Problem", "UnknownName", "Unwritable", "UserError"),
+    "scripting.loaded_press": ("LoadedPress",),
+    "scripting.loading": ("load", "load_results", "loads"),
+    "scripting.mechanism_results": ("MechanismResults",),
+    "scripting.parts": ("CheckList", "CheckResult", "CurveResult", "FigureResult", "PhaseResult"),
+    "scripting.press_inputs": ("PressInput",),
+    "scripting.questions": ("InfluenceTable", "MendedPress", "Solution"),
+    "scripting.results": ("Results",),
+    "scripting.sweeps": ("SweepTable",),
+    "scripting.typed_values": ("linspace",),
+    "scripting.values": ("InputValue", "QuantityValue"),
+}
+_HOME_OF = {name: home for home, names in _HOMES.items() for name in names}
+
+
+def __getattr__(name: str) -> Any:
+    """Return what scripts use, loaded when it is asked for: the command line does without it."""
+    if name not in _HOME_OF:
+        raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
+    from importlib import import_module
+
+    found = globals()[name] = getattr(import_module(f"{__name__}.{_HOME_OF[name]}"), name)
+    return found
+
+
+def __dir__() -> list[str]:
+    """Return what scripts use."""
+    return __all__

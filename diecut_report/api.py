@@ -7,6 +7,7 @@ from diecut_report.contract.chapters import Chapter, Steps
 from diecut_report.contract.charts import chart_panel, fill, level, line, mark, vertical
 from diecut_report.contract.checks import Check
 from diecut_report.contract.code_steps import ComputedCurve, Fact, PartCurves, PartNames, PartTable
+from diecut_report.contract.example import ExampleBlock, ForEach, Wired
 from diecut_report.contract.figures import (
     BarGroup,
     Bars,
@@ -77,6 +78,7 @@ from diecut_report.contract.steps import (
     Words,
 )
 from diecut_report.contract.varying import Extremes, Varying
+from diecut_report.contract.version import CONTRACT
 from diecut_report.expressions import GRAVITY, Constant, Formula, arccos, as_angle, as_number, formula
 from diecut_report.languages.phrases import Phrase, joined, named, phrase
 from diecut_report.languages.tokens import worded
@@ -94,6 +96,7 @@ from diecut_report.standards import (
 )
 
 __all__ = [
+    "CONTRACT",
     "GRAVITY",
     "POINTS",
     "Abscissa",
@@ -125,8 +128,10 @@ __all__ = [
     "Derivative",
     "Drawing",
     "Erratum",
+    "ExampleBlock",
     "Extremes",
     "Fact",
+    "ForEach",
     "Formula",
     "FromCurve",
     "FromPress",
@@ -182,6 +187,7 @@ __all__ = [
     "Value",
     "Varying",
     "View",
+    "Wired",
     "Words",
     "arc",
     "arccos",

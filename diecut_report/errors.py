@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import difflib
 from collections.abc import Iterable
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 from diecut_report.languages.phrases import Phrase, joined
 
@@ -16,7 +16,8 @@ class Problem:
     """One thing that a user must fix, and where.
 
     `message` says in whole sentences what is wrong, what was given, what is allowed and what to do.
-    `line` and `column` count from 1; `path` is the key path, such as "mechanisms.drive.crank_speed".
+    `line` and `column` count from 1; `path` is the key path, such as "mechanisms.drive.crank_speed". `allowed` is the range of
+    the key, or its choices, where it has some.
     """
 
     message: str
@@ -24,6 +25,12 @@ class Problem:
     line: int | None = None
     column: int | None = None
     path: str = ""
+    allowed: str = field(default="", compare=False)
+
+    @property
+    def key(self) -> str:
+        """Return the key path."""
+        return self.path
 
     def __str__(self) -> str:
         """The one-line form that editors and terminals can follow: `press.yaml:12:5: path: message`."""
@@ -48,6 +55,16 @@ class UserError(Exception):
 
 class Unwritable(UserError):
     """What was asked for cannot be written: the disk is full, or standard output is closed (exit code 74)."""
+
+
+class ConfigError(UserError):
+    """What a script gives is wrong: a configuration, a value, a question; or the machine cannot exist."""
+
+
+class UnknownName(UserError, KeyError, AttributeError):
+    """A script asks for what is not there; the words tell the nearest name that is. It is a KeyError and an AttributeError, too."""
+
+    __str__ = UserError.__str__
 
 
 class PluginError(Exception):

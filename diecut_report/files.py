@@ -30,10 +30,10 @@ MISNAMED = {
 """Faults of the name that was given: another one helps. The others are faults of the disk."""
 
 
-def write_all(files: Mapping[Path, bytes], keep: Path, *, through: bool = False) -> None:
+def write_all(files: Mapping[Path, bytes], keep: Path | None, *, through: bool = False) -> None:
     """Write all files, or none and raise UserError in words; folders that are missing are made.
 
-    ``keep`` is a file that must not be written over: the config itself. With ``through`` a device or a pipe that the user
+    ``keep`` is a file that must not be written over: the config itself, where there is one. With ``through`` a device or a pipe that the user
     names is written into; else it is replaced, as a link always is.
     """
     with ExitStack() as stack:
@@ -73,8 +73,8 @@ def _steps(place: Path) -> Iterator[Path]:
         yield place
 
 
-def _refuse_config(path: Path, keep: Path) -> None:
-    if path.exists() and keep.exists() and path.samefile(keep):
+def _refuse_config(path: Path, keep: Path | None) -> None:
+    if keep is not None and path.exists() and keep.exists() and path.samefile(keep):
         words = phrase("This is the configuration itself; it would be written over. Choose another place with -o.")
         raise UserError(Problem(words, str(path)))
 

@@ -17,6 +17,7 @@ from diecut_report.languages.catalogues import SOURCE_LANGUAGE, Catalogues
 from diecut_report.languages.phrases import Phrase, phrase
 from diecut_report.limits import MAX_PRINTED_MECHANISMS
 from diecut_report.results.changes import changes
+from diecut_report.results.doubtful_plugins import doubtful
 from diecut_report.results.results_file import encoded, results_text
 
 if TYPE_CHECKING:
@@ -106,7 +107,7 @@ def calc(
     text = results_text(results)
     if target is not None:
         _write({target: encoded(text)}, config, through=True)
-    return ReportOutcome(results, (target,) if target else (), broken), text
+    return ReportOutcome(results, (target,) if target else (), broken, tuple(doubtful(results))), text
 
 
 def report(
@@ -130,7 +131,7 @@ def report(
     files = {folder / f"{stem}.{ending}": content for ending, content in contents.items()}
     _write(files, config)
     faults = (*broken, *(_broken(results, places, lost) for lost in (*undrawn, *unwritten)))
-    return ReportOutcome(results, tuple(files), faults, tuple(untranslated(results, catalogues)))
+    return ReportOutcome(results, tuple(files), faults, (*untranslated(results, catalogues), *doubtful(results)))
 
 
 def catalogues_of(results: Data, discovery: Discovery, formats: Sequence[str], file: str = "") -> Catalogues:

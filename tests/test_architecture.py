@@ -33,17 +33,22 @@ LAYERS = [
     {"api"},
     {"files", "given_files", "code_files", "pictures"},
     {"declaration"},
+    {"formula_checks"},
     {"config"},
     {"engine"},
-    {"testing"},
     {"results"},
     {"report"},
     {"house_folder"},
     {"pipeline"},
     {"exchange"},
     {"study"},
+    {"testing"},
     {"design"},
+    {"drafting"},
+    {"scripting"},
+    {"optimisation"},
     {"live"},
+    {"kit"},
     {"cli"},
     {"__main__"},
 ]
@@ -54,7 +59,7 @@ ONLY_IN = {  # library: the modules of the program that may import it
     "dask": r"(?!)",  # its client is all that is needed
     "distributed": r"diecut_report\.study\.execution\.dask_cluster",
     "duckdb": r"diecut_report\.study\.(analysis|summary)\.\w+",
-    "matplotlib": r"diecut_report\.(report\.figures|study\.summary)(\.\w+)?",
+    "matplotlib": r"diecut_report\.(report\.figures|study\.summary|optimisation\.charts)(\.\w+)?",
     "openpyxl": r"diecut_report\.(study\.(tables\.workbooks|storage\.spreadsheets)|report\.office\.workbook)",
     "docx": r"diecut_report\.report\.office\.word_(file|styles)",
     "pyarrow": r"diecut_report\.study\.(storage|tables)\.\w+",
@@ -67,6 +72,7 @@ ONLY_IN = {  # library: the modules of the program that may import it
     "starlette": r"diecut_report\.live\.application",
     "uvicorn": r"diecut_report\.live\.server",
     "watchfiles": r"diecut_report\.live\.application",
+    "pymoo": r"diecut_report\.optimisation\.(search|progress)",
     "weasyprint": r"diecut_report\.report\.page_engine",
     "pydyf": r"diecut_report\.report\.page_engine",
     "ezdxf": r"diecut_report\.report\.profile_files",
@@ -118,6 +124,10 @@ def within(module: str, package: str) -> bool:
 
 
 def own_imports(name: str) -> set[str]:
+    if (
+        name == "diecut_report"
+    ):  # what it offers to scripts is loaded when it is asked for (tests/scripting/test_offered.py)
+        return set()
     return {module for module in imports(name) if module in PROGRAM} - {name}
 
 

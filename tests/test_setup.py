@@ -113,3 +113,36 @@ def test_an_old_python_is_named_with_its_version_and_nothing_is_made(checkout: P
     assert done.returncode == 2
     assert "Python 3.9.2" in done.stderr
     assert not (checkout / ".venv").exists()
+
+
+@pytest.fixture
+def ready(checkout: Path) -> Path:
+    """A checkout that is set up, with a program that says where it was started and with what."""
+    shutil.copy(ROOT / "make-report", checkout)
+    (checkout / "scripts" / "setup.sh").write_text("exit 0\n", "utf-8")
+    program = checkout / ".venv" / "bin" / "python"
+    program.parent.mkdir(parents=True)
+    program.write_text('#!/bin/sh\necho "$PWD: $*"\n', "utf-8")
+    program.chmod(0o755)
+    return checkout
+
+
+def make_report(ready: Path, folder: Path, *arguments: str) -> str:
+    command = ["sh", str(ready / "make-report"), *arguments]
+    return subprocess.run(command, cwd=folder, capture_output=True, text=True, timeout=60, check=True).stdout
+
+
+def test_a_report_of_ones_own_goes_to_build_of_the_current_folder_unless_told_otherwise(
+    ready: Path, tmp_path: Path
+) -> None:
+    own = "-P -m diecut_report report -o build"
+    assert make_report(ready, tmp_path, "my press.yaml") == f"{tmp_path}: {own} my press.yaml\n"
+    assert (
+        make_report(ready, tmp_path, "a.yaml", "-o", "out") == f"{tmp_path}: {own} a.yaml -o out\n"
+    )  # the last one holds
+
+
+def test_the_example_goes_to_build_of_the_checkout(ready: Path, tmp_path: Path) -> None:
+    first, last = make_report(ready, tmp_path).splitlines()
+    assert first == f"{ready}: -P -m diecut_report report configs/flat_cylinder_press.yaml -o build"
+    assert f"{ready}/build/flat_cylinder_press.pdf" in last

@@ -4,11 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from pathlib import Path
-from typing import get_args
+from typing import NamedTuple, get_args
 
 from pydantic_core import PydanticUndefined
 
 from diecut_report.config.discovery import Discovery
+from diecut_report.contract.checks import Check
 from diecut_report.contract.inputs import Block, CurveInput, Meta, OneOf, Quantity, Text, meta_of, nested
 from diecut_report.contract.mechanism import Mechanism
 from diecut_report.contract.spectra import SpectrumLine
@@ -34,16 +35,18 @@ def page(mechanism: Mechanism) -> Iterator[str]:
     yield "Made from the plugin's declaration by `python tools/make_mechanism_pages.py`.\n"
     yield "## Inputs\n"
     yield from _table("key", "symbol", "unit", "default", "allowed", "meaning")
-    yield from _inputs(mechanism.inputs)
-    yield from _choices(mechanism.inputs)
+    for each in input_rows(mechanism.inputs):
+        yield f"| `{each.key}` | {each.symbol} | {each.unit} | {each.default} | {each.allowed} | {each.meaning} |"
+    yield from (f"\n{rule}" for rule in choices(mechanism.inputs))
     yield "\n## Outputs\n"
     yield "Units are those of the results file. Optional chapters need the inputs named.\n"
     yield from _table("id", "symbol", "unit", "meaning", "source", "needs")
-    yield from _outputs(mechanism)
+    for out in output_rows(mechanism):
+        yield f"| {out.name} | {out.symbol} | {out.unit} | {out.meaning} | {out.source} | {out.needs} |"
     yield "\n## Checks\n"
     yield from _table("id", "class", "demanded", "limited by", "source")
     yield from (
-        f"| `{c.of_part(0, 'NAME').id if c.named_by else c.id}` | {c.check_class} | {c.demand_label} | {c.limit_label} | {c.source} |"
+        f"| `{check_id(c)}` | {c.check_class} | {c.demand_label} | {c.limit_label} | {c.source} |"
         for c in mechanism.checks
     )
     yield "\n## Assumptions\n"
@@ -60,22 +63,49 @@ def _table(*columns: str) -> Iterator[str]:
     yield f"| {' | '.join('---' for _ in columns)} |"
 
 
-def _inputs(model: type[Block], prefix: str = "") -> Iterator[str]:
-    """A line for each key, those of a block below it (``gears[].driver_teeth`` for a list of blocks)."""
+class InputRow(NamedTuple):
+    """What a page tells of an input; its texts are Markdown."""
+
+    key: str
+    symbol: str
+    unit: str
+    default: str
+    allowed: str
+    meaning: str
+
+
+class OutputRow(NamedTuple):
+    """What a page tells of an output; its texts are Markdown."""
+
+    name: str
+    symbol: str
+    unit: str
+    meaning: str
+    source: str
+    needs: str
+
+
+def check_id(check: Check) -> str:
+    """Return the id of a check; of named parts with NAME for the part's."""
+    return check.of_part(0, "NAME").id if check.named_by else check.id
+
+
+def input_rows(model: type[Block], prefix: str = "") -> Iterator[InputRow]:
+    """Yield what is told of each key, those of a block below it (``gears[].driver_teeth`` for a list of blocks)."""
     for name, field in model.model_fields.items():
         meta, inner = meta_of(model, name), nested(field.annotation)
         if meta is not None:
-            told = f"{_unit(meta)} | {_default(meta, field.default)} | {_allowed(meta, field.annotation)} | {meta.description}"
-            yield f"| `{prefix}{name}` | {meta.symbol} | {told} |"
+            told = _unit(meta), _default(meta, field.default), _allowed(meta, field.annotation), meta.description
+            yield InputRow(f"{prefix}{name}", meta.symbol, *told)
         if inner:
-            yield from _inputs(inner[0], f"{prefix}{name}{'[]' if inner[1] else ''}.")
+            yield from input_rows(inner[0], f"{prefix}{name}{'[]' if inner[1] else ''}.")
 
 
-def _choices(model: type[Block]) -> Iterator[str]:
-    """What must be given of several, in words."""
+def choices(model: type[Block]) -> Iterator[str]:
+    """Yield what must be given of several, in words."""
     for rule in model.one_of:
         key, _, text = rule.when.partition("=")
-        yield f"\nWith `{key}: {text}` give {_groups(rule)}." if key else f"\nGive {_groups(rule)}."
+        yield f"With `{key}: {text}` give {_groups(rule)}." if key else f"Give {_groups(rule)}."
 
 
 def _groups(rule: OneOf) -> str:
@@ -103,7 +133,8 @@ def _default(meta: Meta, default: object) -> str:
     return "optional" if default is None or default == [] else str(default)
 
 
-def _outputs(mechanism: Mechanism) -> Iterator[str]:
+def output_rows(mechanism: Mechanism) -> Iterator[OutputRow]:
+    """Yield what is told of each output, and of each curve of a spectrum."""
     seen: set[str] = set()
     for section, step in mechanism.steps:
         if step.output and not isinstance(step, SILENT) and step.id not in seen:
@@ -115,8 +146,8 @@ def _outputs(mechanism: Mechanism) -> Iterator[str]:
             yield _output(f"`{curve.id}` (a curve)", curve, _si(curve), "")
 
 
-def _output(name: str, told: Step | SpectrumLine, shown: str, needs: str) -> str:
-    return f"| {name} | {told.symbol} | {shown} | {told.description} | {told.source} | {needs} |"
+def _output(name: str, told: Step | SpectrumLine, shown: str, needs: str) -> OutputRow:
+    return OutputRow(name, told.symbol, shown, told.description, told.source, needs)
 
 
 def _si(declared: Step | SpectrumLine) -> str:

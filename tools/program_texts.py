@@ -13,7 +13,8 @@ import click
 from jinja2 import Environment, nodes
 
 from diecut_report.cli.main import program
-from diecut_report.config.model import Press
+from diecut_report.config.model import Press, Project
+from diecut_report.contract.inputs import fields
 from diecut_report.declaration.texts import inputs_texts, is_text
 from diecut_report.engine.printing import methods, tables
 from diecut_report.languages.translation import CITATION, EQUATIONS
@@ -92,6 +93,7 @@ def _sources() -> Iterator[ProgramText]:
 
 def _press() -> Iterator[str]:
     yield from (text for text, _ in inputs_texts(Press))
+    yield from (meta.description for _, meta in fields(Project))
 
 
 def _phrases() -> Iterator[str]:
@@ -129,6 +131,7 @@ def _help() -> Iterator[str]:
     """What the commands and their options do."""
     for command in (program, *program.commands.values()):
         yield cleandoc(command.help or "")
+        yield from filter(None, (command.epilog,))
         yield from (option.help for option in command.params if isinstance(option, click.Option) and option.help)
     yield from ("Show this message and exit.", "Usage:", "Options", "Commands", "required")
 

@@ -4,17 +4,19 @@ from __future__ import annotations
 
 import json
 import sys
+from collections.abc import Iterable
 from contextlib import redirect_stdout
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import click
 
-from diecut_report.cli.output import CHECK_FAILED, PASSED, HelpfulCommand, common, emit, tell
+from diecut_report.cli.given import source
+from diecut_report.cli.output import CHECK_FAILED, PASSED, HelpfulCommand, common, emit, tell, tell_written
 from diecut_report.cli.progress import Progress
-from diecut_report.cli.study import source
 from diecut_report.config.discovery import Discovery
-from diecut_report.languages.speech import say
+from diecut_report.languages.phrases import Phrase, phrase
+from diecut_report.languages.speech import said, say
 
 if TYPE_CHECKING:
     from diecut_report.config.loader import Config
@@ -59,19 +61,19 @@ def solve(
 
     with Progress(quiet) as progress, redirect_stdout(sys.stderr):
         discovery = Discovery(folders)
-        progress("reading the configuration")
+        progress(phrase("reading the configuration"))
         loaded = _loaded(config, discovery)
         design = design_input(loaded, vary)
         ends = (_end(design, low, "--from"), _end(design, high, "--to"))
         is_new = design.today is None and ends[0] is not None
         what = question(with_input(loaded, design, ends[0] or 0.0) if is_new else loaded, asked)
-        progress(f"solving for {design.name}")
+        progress(Phrase("solving for {input}", input=design.name))
         answer = solved(loaded, discovery, what, design, passing=passing, low=ends[0], high=ends[1])
         if target is not None and answer.machine is not None:
             _write(loaded, answer.machine, target)
-    emit(_json(data(answer)) if form == "json" else "".join(f"{line}\n" for line in lines(answer)))
+    emit(_json(data(answer)) if form == "json" else _text(lines(answer)))
     if target is not None and not quiet:
-        tell([f"written: {target}" if answer.machine is not None else f"not written: {target}"])
+        _tell_target(target, answer.machine)
     return PASSED if answer.found else CHECK_FAILED
 
 
@@ -95,19 +97,27 @@ def advise(
 
     Exit codes: 0 a machine that passes was found (or passes already), 1 none was found, 2 bad input, 3 a plugin broke.
     """
-    from diecut_report.design.advice import data, lines, mended
+    from diecut_report.design.advice import data, mended
+    from diecut_report.design.advice_text import lines
 
     with Progress(quiet) as progress, redirect_stdout(sys.stderr):
         discovery = Discovery(folders)
-        progress("reading the configuration")
+        progress(phrase("reading the configuration"))
         loaded = _loaded(config, discovery)
         found = mended(loaded, discovery, free=free, keep=keep, tell=progress)
         if target is not None and found.machine is not None:
             _write(loaded, found.machine, target)
-    emit(_json(data(found)) if form == "json" else "".join(f"{line}\n" for line in lines(found)))
+    emit(_json(data(found)) if form == "json" else _text(lines(found)))
     if target is not None and not quiet:
-        tell([f"written: {target}" if found.machine is not None else f"not written: {target}"])
+        _tell_target(target, found.machine)
     return CHECK_FAILED if found.before.checks("fail") and found.machine is None else PASSED
+
+
+def _share(_context: click.Context, _option: click.Parameter, percent: float) -> float:
+    """A share of a number that is given in percent; NaN, which passes any bound, is none."""
+    if percent != percent:
+        raise click.BadParameter(say("{given} is not a number of percent", given=repr(percent)))
+    return percent / 100
 
 
 @click.command(cls=HelpfulCommand)
@@ -121,9 +131,10 @@ def advise(
 )
 @click.option(
     "--by",
-    "percent",
+    "share",
     metavar="PERCENT",
     type=click.FloatRange(0, 100, min_open=True),
+    callback=_share,
     default=10.0,
     help="By how much each input is lowered and raised (default: 10).",
 )
@@ -160,7 +171,7 @@ def advise(
 )
 @common
 def influence(
-    config: Path, names: tuple[str, ...], percent: float, tolerances: tuple[str, ...], distribution: Any, count: int, seed: int,
+    config: Path, names: tuple[str, ...], share: float, tolerances: tuple[str, ...], distribution: Any, count: int, seed: int,
     target: Path | None, form: str, folders: tuple[Path, ...], quiet: bool,
 ) -> int:  # fmt: skip
     """Tell what matters: how far each input moves the governing checks, and how probable it is that checks hold within tolerances.
@@ -172,15 +183,15 @@ def influence(
 
     with Progress(quiet) as progress, redirect_stdout(sys.stderr):
         discovery = Discovery(folders)
-        progress("reading the configuration")
+        progress(phrase("reading the configuration"))
         loaded = _loaded(config, discovery)
         sizes = dict(_tolerance(loaded, each) for each in tolerances)
-        progress("changing one input after the other")
-        found = tornados(loaded, names, percent / 100, sizes)
-        progress("drawing machines within tolerances")
+        progress(phrase("changing one input after the other"))
+        found = tornados(loaded, names, share, sizes)
+        progress(phrase("drawing machines within tolerances"))
         drawn = within_tolerances(loaded, sizes, distribution, count, seed) if sizes else None
-    told = {"text": lambda: "".join(f"{line}\n" for line in lines(found, drawn)), "json": lambda: _json(data(found, drawn)),
-            "html": lambda: page(found, drawn, config.name)}[form]()  # fmt: skip
+    told = {"text": lambda: _text(lines(found, drawn)), "json": lambda: _json(data(found, drawn)),
+            "html": lambda: page(found, drawn, Path(loaded.tree.name).name)}[form]()  # fmt: skip
     if target is None:
         emit(told)
     else:
@@ -201,7 +212,9 @@ def _tolerance(config: Config, given: str) -> tuple[DesignInput, float]:
     try:
         value = parse_quantity(size, design.meta.unit)
     except UnitError as fault:
-        raise click.BadParameter(f"{name}: {fault}", param_hint="--tolerance") from None
+        raise click.BadParameter(
+            said(Phrase("{name}: {fault}", name=name, fault=fault)), param_hint="--tolerance"
+        ) from None
     if value <= 0:
         raise click.BadParameter(
             say("{name}: {size} is not above zero", name=name, size=size), param_hint="--tolerance"
@@ -214,7 +227,7 @@ def _save(target: Path, text: str, config: Path, quiet: bool) -> None:
 
     write_all({target: text.encode()}, keep=config, through=True)
     if not quiet:
-        tell([f"written: {target}"])
+        tell_written([target])
 
 
 def _loaded(config: Path, discovery: Discovery) -> Config:
@@ -233,13 +246,27 @@ def _end(design: DesignInput, given: str | None, option: str) -> float | None:
     try:
         return design.read(given)
     except ValueError as fault:
-        raise click.BadParameter(f"{design.name}: {fault}", param_hint=option) from None
+        raise click.BadParameter(
+            said(Phrase("{name}: {fault}", name=design.name, fault=fault)), param_hint=option
+        ) from None
 
 
 def _write(config: Config, machine: ProvedMachine, target: Path) -> None:
     from diecut_report.design.proved_machine import write_config
 
     write_config(config.tree, machine, target)
+
+
+def _tell_target(target: Path, machine: ProvedMachine | None) -> None:
+    if machine is not None:
+        tell_written([target])
+    else:
+        tell([Phrase("not written: {path}", path=target)])
+
+
+def _text(lines: Iterable[str]) -> str:
+    """Lines in the language that is spoken."""
+    return "".join(f"{said(line)}\n" for line in lines)
 
 
 def _json(found: dict[str, Any]) -> str:

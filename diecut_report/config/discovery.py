@@ -3,7 +3,8 @@
 Kinds come from three places: the program's own folder of plugins, the entry points (group "diecut_report.plugins",
 the name is the kind) of installed packages, and local folders. A folder of plugins may hold a list ``kinds.yaml``
 (``KIND: FILE.py`` or ``KIND: FILE.py:ATTRIBUTE``); without it each ``NAME.py`` and each folder ``NAME`` with an
-``__init__.py`` is the kind NAME. The attribute that holds the mechanism is MECHANISM unless it is named.
+``__init__.py`` is the kind NAME; the project of a package (pyproject.toml) gives the kinds that it announces. The attribute that
+holds the mechanism is MECHANISM unless it is named.
 
 A file ``extend_NAME.py`` of a local folder, or an entry point of the group "diecut_report.extensions", is not a kind: it is run
 before a configuration is read, to add to a registry (such as the motion laws).
@@ -25,7 +26,9 @@ from types import ModuleType
 from typing import Any
 
 from diecut_report.config import yaml_tree
-from diecut_report.config.source_hashes import file_of, module_hash, note_plugin
+from diecut_report.config.announced_kinds import announced
+from diecut_report.config.contract_version import other_program, refuse_other_contract
+from diecut_report.config.source_hashes import file_of, module_hash, note_check, note_plugin
 from diecut_report.contract.mechanism import Mechanism
 from diecut_report.contract.place import Misdeclared
 from diecut_report.errors import PluginError, Problem, UserError, nearest
@@ -117,6 +120,7 @@ class Discovery:
 
 def _loaded(origin: Origin) -> Mechanism | PluginError:
     try:
+        refuse_other_contract(origin.file)
         found = origin.load()
         digest = module_hash(origin.file())
     except (Exception, SystemExit) as cause:
@@ -135,6 +139,7 @@ def _sound(origin: Origin, mechanism: Mechanism) -> Mechanism | PluginError:
     """A mechanism of which nothing that it declares is wrong."""
     from diecut_report.config import press_defaults
     from diecut_report.declaration import faults_at_load
+    from diecut_report.formula_checks.remembered_faults import faults_of_formulas
 
     try:
         found = [str(fault) for fault in faults_at_load(mechanism) or press_defaults.faults(mechanism)]
@@ -143,6 +148,8 @@ def _sound(origin: Origin, mechanism: Mechanism) -> Mechanism | PluginError:
         error.__cause__ = cause
         return error
     if not found:
+        for each in (mechanism, *(comparison.mechanism for comparison in mechanism.comparisons)):
+            note_check(each, faults_of_formulas(each))
         return mechanism
     head = f"{origin.told} declares what cannot be"
     return PluginError(f"{head}: {found[0]}" if len(found) == 1 else "\n  ".join([f"{head}:", *found]), origin.kind)
@@ -155,8 +162,9 @@ def said(cause: BaseException) -> str:
     frames = [f for f in traceback.extract_tb(cause.__traceback__) if not f.filename.startswith("<")]
     own = [f for f in frames if not _is_foreign(Path(f.filename))] or frames
     tells_place = isinstance(cause, SyntaxError | FormulaError)
-    place = f" ({Path(own[-1].filename).name}:{own[-1].lineno})" if own and not tells_place else ""
-    return f"{type(cause).__name__}: {' '.join(str(cause).split())}{place}"
+    declared = Path(getattr(cause, "at", "")).name  # of what is not proved, which the engine tells
+    place = f" ({declared or f'{Path(own[-1].filename).name}:{own[-1].lineno}'})" if own and not tells_place else ""
+    return f"{type(cause).__name__}: {other_program(cause) or ' '.join(str(cause).split())}{place}"
 
 
 PROGRAM = Path(__file__).parents[1]
@@ -204,10 +212,11 @@ def _local(folder: Path) -> Iterator[Origin]:
         raise UserError(
             Problem(phrase("There is no such folder of plugins. Check the name given with --plugins."), str(folder))
         )
-    listed = _listed(folder) if (folder / LIST).is_file() else {name: (name, ATTRIBUTE) for name in _names_in(folder)}
+    each = announced(folder, GROUP) or {name: (name, "") for name in _names_in(folder)}
+    listed = _listed(folder) if (folder / LIST).is_file() else each
     for kind, (name, attribute) in listed.items():
         file = _file_of(folder, name)
-        yield Origin(kind, str(file), partial(_of_file, file, attribute), partial(Path, file))
+        yield Origin(kind, str(file), partial(_of_file, file, attribute or ATTRIBUTE), partial(Path, file))
 
 
 def _names_in(folder: Path) -> list[str]:

@@ -166,6 +166,8 @@ class Instance:
         slot = max((s for s in self.slots if s.key == key[: len(s.key)]), key=lambda s: len(s.key))
         value = slot.value
         for part in key[len(slot.key) :]:  # within a block that is there by default
+            if value is None:  # an optional block that is not given
+                return None
             value = getattr(value, part) if isinstance(part, str) else value[part]
         is_own = slot.key == key and isinstance(slot.meta, Quantity | CurveInput)
         return slot.meta.validate(value) if is_own and value is not None and slot.meta else value

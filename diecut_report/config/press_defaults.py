@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from diecut_report.config.model import Press
-from diecut_report.contract.inputs import FromPress, Quantity, fields
+from diecut_report.contract.inputs import Block, FromPress, Quantity, fields, nested
 from diecut_report.contract.mechanism import Mechanism
 from diecut_report.declaration.input_places import of_input
 from diecut_report.declaration.words import Fault
@@ -19,11 +19,20 @@ def faults(mechanism: Mechanism) -> Iterator[Fault]:
     """Yield the inputs with a default that the press can never give."""
     for path, meta in fields(mechanism.inputs):
         if isinstance(meta, Quantity) and meta.press is not None:
-            for text in _wrong(meta, meta.press):
+            for text in _wrong(meta, meta.press, _is_required(mechanism.inputs, path)):
                 yield Fault(of_input(mechanism.inputs, path, mechanism.at), f"input {path}", text)
 
 
-def _wrong(meta: Quantity, press: FromPress) -> Iterator[str]:
+def _is_required(model: type[Block], path: str) -> bool:
+    head, _, rest = path.partition(".")
+    field = model.model_fields[head]
+    inner = nested(field.annotation) if rest else None
+    return _is_required(inner[0], rest) if inner else field.is_required()
+
+
+def _wrong(meta: Quantity, press: FromPress, is_required: bool) -> Iterator[str]:
+    if is_required:
+        yield f"must be given, so that {press.path} is never taken; write Annotated[float | None, …] = None"
     given = NUMBERS.get(press.path)
     if given is None:
         known = ", ".join(NUMBERS)

@@ -24,6 +24,7 @@ ASIDE = ("plugins", "templates", "configs")  # plugins have hashes of their own,
 
 _of_mechanism: WeakKeyDictionary[Mechanism, str] = WeakKeyDictionary()
 _foreign: WeakKeyDictionary[Mechanism, str] = WeakKeyDictionary()
+_faults: WeakKeyDictionary[Mechanism, tuple[str, ...]] = WeakKeyDictionary()  # of those whose formulas were judged
 _when_loaded: dict[Path, str] = {}  # a module that is loaded stays as it was, whatever becomes of its file
 
 
@@ -41,9 +42,22 @@ def plugin_hash(mechanism: Mechanism | None) -> str:
 
 
 def plugin_code(mechanism: Mechanism | None) -> dict[str, str]:
-    """Return what results tell of the code of a mechanism's plugin: its hash and, unless it is the program's own, its file."""
-    file = _foreign.get(mechanism, "") if mechanism else ""
-    return {"plugin_sha256": plugin_hash(mechanism)} | ({"plugin_file": file} if file else {})
+    """Return what results tell of the code of a mechanism's plugin: its hash and, unless it is the program's own, its file and check."""
+    file, faults = (_foreign.get(mechanism, ""), _faults.get(mechanism)) if mechanism else ("", None)
+    told = {"plugin_file": file} if file else {}
+    if faults is not None:
+        told["plugin_check"] = "failed" if faults else "passed"
+    return {"plugin_sha256": plugin_hash(mechanism)} | told
+
+
+def plugin_faults(mechanism: Mechanism | None) -> tuple[str, ...]:
+    """Return what is wrong with the formulas of a foreign plugin; nothing where that was not judged."""
+    return _faults.get(mechanism, ()) if mechanism else ()
+
+
+def note_check(mechanism: Mechanism, faults: tuple[str, ...]) -> None:
+    """Note what is wrong with the formulas of a foreign plugin, which may still be used."""
+    _faults.setdefault(mechanism, faults)
 
 
 def note_plugin(mechanism: Mechanism, digest: str, foreign: Path | None = None) -> None:

@@ -184,8 +184,16 @@ class _Fault:
 
     def problem(self) -> Problem:
         if self.type == "missing":
-            return self.place.absent(self.key, self._missing())
-        return self.place.problem(self.key, self.message(), at_key=self.type == "extra_forbidden")
+            return replace(self.place.absent(self.key, self._missing()), allowed=self._allowed())
+        found = self.place.problem(self.key, self.message(), at_key=self.type == "extra_forbidden")
+        return replace(found, allowed=self._allowed())
+
+    def _allowed(self) -> str:
+        """The range of the key, or its choices."""
+        meta = None if self.type == "extra_forbidden" or not self.key else declared(self.model, self.key)
+        if isinstance(meta, Quantity):
+            return meta.allowed
+        return ", ".join(self._options()) if self.type in ("literal_error", "enum") else ""
 
     def message(self) -> str:
         words: dict[str, Callable[[], str]] = {
@@ -193,16 +201,8 @@ class _Fault:
             "value_error": lambda: str(self.context["error"]),
             "literal_error": self._choice,
             "enum": self._choice,
-            "too_short": lambda: Phrase(
-                "has {actual_length} entries; at least {min_length} needed",
-                actual_length=self.context["actual_length"],
-                min_length=self.context["min_length"],
-            ),
-            "too_long": lambda: Phrase(
-                "has {actual_length} entries; at most {max_length} allowed",
-                actual_length=self.context["actual_length"],
-                max_length=self.context["max_length"],
-            ),
+            "too_short": lambda: Phrase("has {actual_length} entries; at least {min_length} needed", self.context),
+            "too_long": lambda: Phrase("has {actual_length} entries; at most {max_length} allowed", self.context),
             "string_too_short": lambda: phrase("is empty; give a text"),
         }
         return words.get(self.type, self._other)()
@@ -233,10 +233,13 @@ class _Fault:
             own=", ".join(own + known),
         )
 
-    def _choice(self) -> str:
+    def _options(self) -> list[str]:
         expected = str(self.context["expected"]).replace(" or ", ", ")
         choices = [choice.strip("'") for choice in expected.split(", ")]
-        choices += self.place.named.get(self.key, ())[:NAMED]
+        return [*choices, *self.place.named.get(self.key, ())[:NAMED]]
+
+    def _choice(self) -> str:
+        choices = self._options()
         near = nearest(self.given, choices) if isinstance(self.given, str) and self.given not in choices else ""
         return Phrase(
             "is {given}{near}; allowed: {choices}", given=told(self.given), near=near, choices=", ".join(choices)

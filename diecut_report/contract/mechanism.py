@@ -9,6 +9,7 @@ from functools import cached_property
 from diecut_report.contract.chapters import Chapter
 from diecut_report.contract.checks import Check
 from diecut_report.contract.code_steps import ComputedCurve, Fact
+from diecut_report.contract.example import ExampleBlock
 from diecut_report.contract.figures import Figure
 from diecut_report.contract.inputs import CurveInput, Inputs, fields, list_inputs
 from diecut_report.contract.part_steps import Lookup, Neighbour, Running
@@ -137,7 +138,7 @@ class Partner:
 class Mechanism:
     """Declare a kind of mechanism: inputs, calculation, checks, figures, and what is said of it in the report.
 
-    ``key_results`` are the ids of the outputs that the report's summary shows.
+    ``key_results`` are the ids of the outputs that the report's summary shows. ``example`` are inputs with which a configuration begins.
     """
 
     kind: str
@@ -156,6 +157,7 @@ class Mechanism:
     comparisons: tuple[Comparison, ...] = ()
     partners: tuple[Partner, ...] = ()
     spectra: tuple[Spectrum, ...] = ()
+    example: ExampleBlock | None = None
     at: str = placed()
 
     @cached_property

@@ -107,7 +107,7 @@ class Root(Step):
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class Abscissa(Step):
-    """Declare what curves run over, [0, period): sampled at ``points`` (an input's id); shown in print at the place ``shown_at``.
+    """Declare what curves run over, [0, period): sampled at ``points`` (an input's id); shown in print at the place ``shown_at`` (any number).
 
     ``period`` is a number, or the id of one. ``intervals`` are those of the search grid in each smooth piece: fewer are enough
     where breakpoints leave the pieces short. ``speed`` is the id of how fast it is run through, from which phases have

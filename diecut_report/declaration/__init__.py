@@ -9,6 +9,7 @@ from diecut_report.declaration import (
     conditions,
     documents,
     doubled,
+    examples,
     figures,
     formulas,
     idle_chapters,
@@ -49,6 +50,7 @@ PARTS = (
     spectra,
     documents,
     symbols,
+    examples,
 )
 
 __all__ = ["Fault", "faults", "faults_at_load"]

@@ -26,7 +26,11 @@ def content(mechanism: Mechanism) -> str:
     found = hashlib.sha256(__version__.encode())
     texts = [(key.path, key.texts) for key in world(mechanism.inputs).keys.values()]
     found.update(repr((mechanism.kind, texts)).encode())
-    check = (file for part in ("declaration", "contract", "expressions") for file in (OWN / part).glob("*.py"))
+    check = (
+        file
+        for part in ("declaration", "contract", "expressions", "formula_checks")
+        for file in (OWN / part).glob("*.py")
+    )
     for file in sorted({*files(mechanism), *check}):
         found.update(str(file).encode() + hashlib.sha256(file.read_bytes()).digest())
     return found.hexdigest()

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Iterator, Sequence
+from collections.abc import Callable, Iterable
 from dataclasses import dataclass
 from typing import Any
 
@@ -11,15 +11,16 @@ import numpy as np
 from diecut_report.config.discovery import Discovery
 from diecut_report.config.loader import Config
 from diecut_report.design.advised import Advised, advised
-from diecut_report.design.changeable import changeable
-from diecut_report.design.design_inputs import DesignInput, design_input
-from diecut_report.design.mending import MendingPath, conflict
+from diecut_report.design.changeable import changeable, named_paths
+from diecut_report.design.conflicts import CheckConflict, conflict_of, scattered
+from diecut_report.design.design_inputs import DesignInput
+from diecut_report.design.mending import MendingPath
 from diecut_report.design.proved_machine import ProvedMachine, proved
-from diecut_report.design.typed_changes import fewer, rounded
+from diecut_report.design.typed_changes import fewer, passes, rounded
 from diecut_report.design.varied_machines import VariedMachines, varied
+from diecut_report.errors import Problem, UserError
 from diecut_report.expressions import Array
-from diecut_report.quantities.formatting import with_unit
-from diecut_report.quantities.units import UnitError, number_and_unit
+from diecut_report.languages.phrases import phrase
 from diecut_report.study.definition.base_inputs import MECHANISMS, Input
 
 Tell = Callable[[str], None]
@@ -40,15 +41,14 @@ class InputChange:
 class Mended:
     """Hold what became of a machine: its checks before, the changes, the machine with them (None where none passes), why none does.
 
-    ``left`` are the checks that fail at the best machine that was found, ``conflict`` those of them and others that cannot hold together
-    there, as far as can be told. ``advised`` says how many of the changes are what the checks themselves advise.
+    ``left`` are the checks that fail at the best machine that was found, ``conflict`` those of them and others that do not hold together.
     """
 
     before: ProvedMachine
     changes: tuple[InputChange, ...] = ()
     machine: ProvedMachine | None = None
     left: tuple[str, ...] = ()
-    conflict: tuple[str, ...] = ()
+    conflict: CheckConflict | None = None
     free: int = 0
     calculated: int = 0
 
@@ -58,10 +58,14 @@ class Mended:
         return float(sum(abs(each.share) for each in self.changes if each.share is not None))
 
 
+Choices = dict[Input, str]
+"""Texts and yes/no that are advised."""
+
+
 class _Machines:
     """Calculates machines by the shares of their inputs that are changed; counts them."""
 
-    def __init__(self, config: Config, inputs: list[DesignInput], choices: list[tuple[Input, str]]) -> None:
+    def __init__(self, config: Config, inputs: list[DesignInput], choices: Choices) -> None:
         self.config, self.inputs, self.choices, self.count = config, inputs, choices, 0
         self.today = np.array([each.today for each in inputs], dtype=float)
 
@@ -70,7 +74,7 @@ class _Machines:
         self.count += count
         values = self.today * (1.0 + shares)
         given: dict[Input, Any] = {each.asked: values[:, index] for index, each in enumerate(self.inputs)}
-        return varied(self.config, given | {asked: [text] * count for asked, text in self.choices}, count)
+        return varied(self.config, given | {asked: [text] * count for asked, text in self.choices.items()}, count)
 
 
 def mended(
@@ -81,30 +85,50 @@ def mended(
     UserError where nothing is free to be changed, or the machine cannot be as it is.
     """
     before = proved(config.tree, {}, discovery)
+    numbers, only = named_paths(config, free)
+    _, kept = named_paths(config, keep)
     if not before.checks("fail"):
         return Mended(before)
-    kept = {design_input(config, name).asked.path for name in keep}
-    only = {design_input(config, name).asked.path for name in free}
     advice = advised(config, before.checks("fail"))
     advice.leave_out(lambda path: path in kept or bool(only and path not in only))
-    inputs = changeable(config, free, keep, [each.name for each, _ in advice.numbers.values()])
-    run = _Machines(config, inputs, list(advice.choices.values()))
+    further = [each.name for each, _ in advice.numbers.values()]
+    inputs = changeable(config, numbers, kept, further) if numbers or not only else []
+    if not inputs and not advice.choices:
+        words = phrase("nothing is free to be changed: name more inputs by --free, or keep fewer by --keep.")
+        raise UserError(Problem(words, config.tree.file))
+    run = _Machines(config, inputs, dict(advice.choices.values()))
     path = MendingPath(run, inputs, _start(run, inputs, advice))
-    path.go(tell)
+    if inputs:
+        path.go(tell)
+        path = path if path.passes else _again(path, tell)
     if not path.passes:
-        return _unmended(before, path, inputs, run)
-    tell("leaving out what is not needed")
-    share, typed = rounded(run, inputs, fewer(run, path.share))
-    changes = [*_numbers(inputs, share, typed), *_choices(config, advice)]
+        touched = {each.asked.instance for each in inputs} | {asked.instance for asked in run.choices}
+        why = conflict_of(config, path, touched, tell)
+        return Mended(before, (), None, tuple(path.made.failing(0)), why, len(inputs), run.count)
+    tell(phrase("leaving out what is not needed"))
+    return _shortest(config, discovery, before, run, path.share)
+
+
+def _shortest(config: Config, discovery: Discovery, before: ProvedMachine, run: _Machines, share: Array) -> Mended:
+    """The machine that passes with what is needed alone, and with few digits; proved."""
+    for asked in list(run.choices):
+        without = _Machines(config, run.inputs, {each: text for each, text in run.choices.items() if each is not asked})
+        if passes(without(share[None])).all():
+            run.choices = without.choices
+    share, typed = rounded(run, run.inputs, fewer(run, share))
+    changes = [*_numbers(run.inputs, share, typed), *_choices(config, run.choices)]
     machine = proved(config.tree, {each.stands: each.after for each in changes}, discovery)
     left = tuple(name for name, _ in machine.checks("fail"))
-    return Mended(before, tuple(changes), machine if not left else None, left, (), len(inputs), run.count)
+    return Mended(before, tuple(changes), machine if not left else None, left, None, len(run.inputs), run.count)
 
 
-def _unmended(before: ProvedMachine, path: MendingPath, inputs: list[DesignInput], run: _Machines) -> Mended:
-    against = conflict(path.planes, path.share, inputs) if path.planes else []
-    left = tuple(path.made.failing(0))
-    return Mended(before, (), None, left, tuple(against), len(inputs), run.count)
+def _again(path: MendingPath, tell: Tell) -> MendingPath:
+    """The search begun anew at the best of many machines that are scattered; the better of both."""
+    places = scattered(len(path.inputs))
+    found = path.merits(path.run(places), places)
+    other = MendingPath(path.run, path.inputs, places[int(np.argmin(found))])
+    other.go(tell)
+    return other if other.passes or other.merit < path.merit else path
 
 
 def _start(run: _Machines, inputs: list[DesignInput], advice: Advised) -> Array:
@@ -135,9 +159,9 @@ def _numbers(inputs: list[DesignInput], share: Array, typed: dict[int, str]) -> 
     ]
 
 
-def _choices(config: Config, advice: Advised) -> list[InputChange]:
+def _choices(config: Config, choices: Choices) -> list[InputChange]:
     found = []
-    for asked, text in advice.choices.values():
+    for asked, text in choices.items():
         instance = config.instances[asked.instance]
         assert instance is not None
         _, stands = instance.place.stands(asked.key)
@@ -147,51 +171,9 @@ def _choices(config: Config, advice: Advised) -> list[InputChange]:
     return found
 
 
-def lines(found: Mended) -> Iterator[str]:
-    """Yield what became of the machine, in words."""
-    failing = [name for name, _ in found.before.checks("fail")]
-    if not failing:
-        yield f"no check fails: nothing is to be mended (governing: {found.before.governing or 'none'})"
-        return
-    yield f"{_counted(failing)} today: {', '.join(failing)}"
-    if found.machine is None:
-        yield from _without(found)
-        return
-    yield f"with {len(found.changes)} change{'s' if len(found.changes) > 1 else ''} none fails, calculated as a machine of its own:"
-    width = max(len(each.name) for each in found.changes)
-    for each in found.changes:
-        share = "" if each.share is None else f"  ({100 * each.share:+.2g} %)"
-        yield f"  {each.name.ljust(width)}  {each.before or 'not given'} → {_said(each.after)}{share}"
-    yield f"sum of the changes: {100 * found.size:.3g} % of today's values; governing: {found.machine.governing}"
-    warned = [name for name, _ in found.machine.checks("warn")]
-    if warned:
-        yield f"with a warning: {', '.join(warned)}"
-
-
-def _said(typed: str) -> str:
-    """A value as it is typed, with its unit as one writes it."""
-    try:
-        number, own = number_and_unit(typed)
-    except UnitError:  # a text or a yes/no
-        return typed
-    return with_unit(f"{number}", own or "1")
-
-
-def _without(found: Mended) -> Iterator[str]:
-    yield f"none of the {found.calculated} machines that were calculated with other values of {found.free} inputs passes"
-    yield f"of the best of them {_counted(found.left)}: {', '.join(found.left)}"
-    if found.conflict:
-        yield f"as far as can be told there, these cannot hold together: {', '.join(found.conflict)}"
-    yield "let more inputs be changed with --free, or change what the machine is made of"
-
-
-def _counted(names: Sequence[str]) -> str:
-    return f"{len(names)} check{'s fail' if len(names) > 1 else ' fails'}"
-
-
 def data(found: Mended) -> dict[str, Any]:
     """Return the same as plain data."""
-    machine = found.machine
+    machine, why = found.machine, found.conflict
     return {
         "schema_version": 1,
         "failing": [name for name, _ in found.before.checks("fail")],
@@ -200,7 +182,7 @@ def data(found: Mended) -> dict[str, Any]:
         "machine": None if machine is None else {"status": machine.status, "governing": machine.governing,
                                                  "warnings": [name for name, _ in machine.checks("warn")]},
         "left": list(found.left),
-        "conflict": list(found.conflict),
+        "conflict": None if why is None else {"checks": list(why.checks), "proved": why.is_proved, "least": why.is_least},
         "free": found.free,
         "calculated": found.calculated,
     }  # fmt: skip

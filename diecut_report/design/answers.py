@@ -10,6 +10,7 @@ from typing import Any, Literal
 from diecut_report.design.design_inputs import DesignInput
 from diecut_report.design.proved_machine import ProvedMachine
 from diecut_report.design.questions import DesignQuestion
+from diecut_report.languages.phrases import Counted, Phrase, phrase
 
 Role = Literal["root", "lower", "upper", "extreme", "today", "nearest"]
 
@@ -40,7 +41,8 @@ class Answer:
     """Hold what was found: the answers, the nearest first; the ranges of values in which it holds; the places where the
     asked number jumps over the value; the proof of the first.
 
-    Without an answer ``nearest`` is the value that comes nearest. ``reached`` is what is asked for today (NaN where that is nothing).
+    Without an answer ``nearest`` is the value that comes nearest, and ``always`` are the checks that fail with every value, where all are to pass.
+    ``reached`` is what is asked for today (NaN where that is nothing).
     """
 
     question: DesignQuestion
@@ -54,58 +56,84 @@ class Answer:
     nearest: FoundValue | None = None
     machine: ProvedMachine | None = None
     passing: bool = False
+    always: tuple[str, ...] = ()
 
 
 def lines(answer: Answer) -> Iterator[str]:
     """Yield what is found, in words."""
-    design, asked = answer.design, answer.question.quantity
-    today = "" if design.today is None else f"today {design.told(design.today)}"
+    design, asked, today = answer.design, answer.question.quantity, answer.design.today
+    passing = phrase(" with all checks passing") if answer.passing else ""
     reached = "" if math.isnan(answer.reached) else f", {asked.name} {asked.told(answer.reached)}"
-    yield f"{answer.question.told}{' with all checks passing' if answer.passing else ''}, by {design.name} ({today or 'not given today'}{reached})"
-    yield from (f"  {line}" for line in (_found(answer) if answer.found else _nearest(answer)))
+    now = phrase("not given today") if today is None else Phrase("today {value}", value=design.told(today))
+    words = "{question}{passing}, by {input} ({now}{reached})"
+    yield Phrase(words, question=answer.question.told, passing=passing, input=design.name, now=now, reached=reached)
+    yield from (_indented(line) for line in (_found(answer) if answer.found else _nearest(answer)))
     for place in answer.jumps:
-        yield f"  at {design.told(place)} {asked.name} jumps over {asked.told(answer.question.value)} and does not take that value"
+        jump = "  at {place} {asked} jumps over {value} and does not take that value"
+        yield Phrase(jump, place=design.told(place), asked=asked.name, value=asked.told(answer.question.value))
+
+
+def _indented(line: str) -> Phrase:
+    return Phrase("  {line}", line=line)
 
 
 def _found(answer: Answer) -> Iterator[str]:
     design, asked, machine = answer.design, answer.question.quantity, answer.machine
     first = answer.found[0]
-    what = "holds today already" if first.role == "today" else f"{design.name} = {first.typed}"
-    yield f"{what}: {asked.name} is {asked.told(first.reached)}{_end(first)}"
+    what = phrase("holds today already") if first.role == "today" else f"{design.name} = {first.typed}"
+    yield Phrase(
+        "{what}: {asked} is {value}{end}", what=what, asked=asked.name, value=asked.told(first.reached), end=_end(first)
+    )
     if machine is not None:
         yield _verdict(machine, first)
     if first.beyond:
-        yield f"just beyond it fails {', '.join(first.beyond)}"
+        yield Phrase("just beyond it fails {checks}", checks=", ".join(first.beyond))
     for low, high in answer.ranges:
-        ends = (f"{each.typed}{' (end of the search)' if each.at_end else ''}" for each in (low, high))
-        yield f"it holds from {' to '.join(ends)}"
+        yield Phrase("it holds from {low} to {high}", low=_side(low), high=_side(high))
     if not answer.ranges:
         for each in answer.found[1:]:
-            yield f"also {design.name} = {each.typed}: {asked.name} is {asked.told(each.reached)}"
+            words = "also {input} = {typed}: {asked} is {value}"
+            yield Phrase(words, input=design.name, typed=each.typed, asked=asked.name, value=asked.told(each.reached))
+
+
+def _side(found: FoundValue) -> str:
+    return Phrase("{value} (end of the search)", value=found.typed) if found.at_end else found.typed
 
 
 def _end(found: FoundValue) -> str:
-    return ", at the end of the range that was searched" if found.at_end else ""
+    return phrase(", at the end of the range that was searched") if found.at_end else ""
 
 
-def _verdict(machine: ProvedMachine, found: FoundValue) -> str:
+def _verdict(machine: ProvedMachine, found: FoundValue) -> Phrase:
     """The machine that was calculated alone."""
     if not found.failing:
-        return f"calculated as a machine of its own: no check fails; governing: {machine.governing or 'none'}"
-    count = len(found.failing)
-    return f"calculated as a machine of its own: {count} check{'s fail' if count > 1 else ' fails'}: {', '.join(found.failing)}"
+        words = "calculated as a machine of its own: no check fails; governing: {check}"
+        return Phrase(words, check=machine.governing or phrase("none"))
+    one = "calculated as a machine of its own: {n} check fails: {checks}"
+    many = "calculated as a machine of its own: {n} checks fail: {checks}"
+    return Counted(len(found.failing), one, many, checks=", ".join(found.failing))
 
 
 def _nearest(answer: Answer) -> Iterator[str]:
     design, asked, near = answer.design, answer.question.quantity, answer.nearest
-    yield f"no value of {design.name} from {design.told(answer.low)} to {design.told(answer.high)} does"
+    ends = {"low": design.told(answer.low), "high": design.told(answer.high)}
+    yield Phrase("no value of {input} from {low} to {high} does", input=design.name, **ends)
     if near is not None:
-        yield f"nearest: {design.name} = {near.typed}, where {asked.name} is {asked.told(near.reached)}{_end(near)}{_fails(near)}"
-        yield "give another range with --from and --to, or change another input"
+        words = "nearest: {input} = {typed}, where {asked} is {value}{end}{fails}"
+        value, fails = asked.told(near.reached), _fails(near)
+        yield Phrase(
+            words, input=design.name, typed=near.typed, asked=asked.name, value=value, end=_end(near), fails=fails
+        )
+    if answer.always:
+        one = "whatever it is, {checks} fails: change another input first; `advise` looks for one"
+        many = "whatever it is, {checks} fail: change another input first; `advise` looks for one"
+        yield Counted(len(answer.always), one, many, checks=", ".join(answer.always))
+    elif near is not None:
+        yield phrase("give another range with --from and --to, or change another input")
 
 
 def _fails(found: FoundValue) -> str:
-    return f", and these checks fail: {', '.join(found.failing)}" if found.failing else ""
+    return Phrase(", and these checks fail: {checks}", checks=", ".join(found.failing)) if found.failing else ""
 
 
 def data(answer: Answer) -> dict[str, Any]:
@@ -120,6 +148,7 @@ def data(answer: Answer) -> dict[str, Any]:
         "solutions": [_data(each) for each in answer.found],
         "ranges": [[_data(each) for each in ends] for ends in answer.ranges],
         "jumps": list(answer.jumps),
+        "always": list(answer.always),
         "nearest": None if answer.nearest is None else _data(answer.nearest),
         "machine": None if machine is None else {"status": machine.status, "governing": machine.governing,
                                                  "failing": [name for name, _ in machine.checks("fail")]},

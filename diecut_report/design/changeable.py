@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable
+from collections.abc import Container, Iterable
 
 from diecut_report.config.loader import Config
 from diecut_report.config.model import PRESS
-from diecut_report.design.design_inputs import DesignInput, design_input, given_numbers
+from diecut_report.contract.inputs import Quantity
+from diecut_report.design.design_inputs import DesignInput, any_input, design_input, given_numbers
 from diecut_report.errors import Problem, UserError
+from diecut_report.languages.phrases import Phrase
 
 FORM = ("m", "rad")  # SI units of sizes and angles, which give a part its form
 RATIO = re.compile(r"(^|_)ratio($|_)")
@@ -19,23 +21,41 @@ FIXED_BASES = ("standard", "catalogue", "measured")
 
 
 def changeable(
-    config: Config, free: Iterable[str], keep: Iterable[str], advised: Iterable[str] = ()
+    config: Config, free: Iterable[str], keep: Container[str], advised: Iterable[str] = ()
 ) -> list[DesignInput]:
-    """Return the inputs that may be changed: those named by ``free``, else sizes, angles and ratios, and what is advised, but for ``keep``.
+    """Return the inputs that may be changed: numbers named by ``free``, else sizes, angles and ratios, and what is advised, but for those paths.
 
     What the press is for, limits, loads, materials and numbers of parts stay as they are unless they are named.
-    UserError where nothing is left.
+    UserError where one of those that are named has no value.
     """
-    named = [design_input(config, name) for name in free]
-    kept = {design_input(config, name).asked.path for name in keep}
-    if not named:
+    if free:
+        named = [design_input(config, name) for name in free]
+        _require_values(config, named)
+    else:
         own = [each for each in given_numbers(config) if _is_form(config, each)]
         named = own + [design_input(config, name) for name in advised]
-    found = {each.asked.path: each for each in named if each.asked.path not in kept and each.today}
-    if not found:
-        words = "nothing is free to be changed: name inputs that have a value today and are not zero by --free, or keep fewer by --keep."
-        raise UserError(Problem(words, config.tree.file))
+    found = {each.asked.path: each for each in named if each.asked.path not in keep and each.today}
     return list(found.values())
+
+
+def named_paths(config: Config, names: Iterable[str]) -> tuple[list[str], set[str]]:
+    """Return of names of inputs those that stand for a number, and the paths of all, also of texts and yes/no."""
+    numbers, paths = [], set()
+    for name in names:
+        asked = any_input(config, name)
+        if isinstance(asked.meta, Quantity):
+            numbers.append(name)
+            paths.add(design_input(config, name).asked.path)
+        else:
+            paths.add(asked.path)
+    return numbers, paths
+
+
+def _require_values(config: Config, named: Iterable[DesignInput]) -> None:
+    for each in named:
+        if not each.today:
+            words = "{input} has no value today, or is zero, and has no share that could be changed; give it one first."
+            raise UserError(Problem(Phrase(words, input=each.name), config.tree.file, path="--free"))
 
 
 def _is_form(config: Config, design: DesignInput) -> bool:

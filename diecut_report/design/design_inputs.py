@@ -15,6 +15,7 @@ from diecut_report.config.targets import Target
 from diecut_report.config.yaml_tree import KeyPath
 from diecut_report.contract.inputs import POINTS, SI, Quantity
 from diecut_report.errors import Problem, UserError
+from diecut_report.languages.phrases import Phrase, phrase
 from diecut_report.quantities.formatting import number_text, outward, with_unit
 from diecut_report.quantities.units import UnitError, number_and_unit, unit
 from diecut_report.study.definition.base_inputs import MECHANISMS, Input, UnknownPath, find_input, with_values
@@ -84,11 +85,15 @@ class DesignInput:
 
 def design_input(config: Config, name: str) -> DesignInput:
     """Return the input that a name stands for, also where it refers to it; UserError in words where it cannot be changed."""
-    path = _whole_path(config, name)
+    return _followed(config, any_input(config, name), name)
+
+
+def any_input(config: Config, name: str) -> Input:
+    """Return the input of a name, be it a number, a text or a yes/no; UserError in words where there is none."""
     try:
-        return _followed(config, find_input(config, path), name)
+        return find_input(config, _whole_path(config, name))
     except UnknownPath as fault:
-        raise UserError(Problem(f"{name} {fault}", config.tree.file)) from None
+        raise UserError(Problem(Phrase("{name} {fault}", name=name, fault=fault), config.tree.file)) from None
 
 
 def with_input(config: Config, design: DesignInput, value: float) -> Config:
@@ -138,18 +143,22 @@ def _followed(config: Config, asked: Input, name: str) -> DesignInput:
             raise UserError(Problem(_calculated(target, asked, name), config.tree.file))
         asked = find_input(config, _path(target))
     if not isinstance(asked.meta, Quantity):
-        words = f"{name} is a text, a choice or a yes/no; name an input that is a number."
-        raise UserError(Problem(words, config.tree.file))
+        words = "{name} is a text, a choice or a yes/no; name an input that is a number."
+        raise UserError(Problem(Phrase(words, name=name), config.tree.file))
+    if asked.meta is POINTS:
+        words = "{name} says how densely curves are listed; the machine is the same with any number of points."
+        raise UserError(Problem(Phrase(words, name=name), config.tree.file))
     return _made(config, asked)
 
 
-def _calculated(target: Target, asked: Input, name: str) -> str:
-    what = "an expression" if target.expression else "an output"
-    origins = ", ".join(sorted({single.path for single in target.single}))
-    return (
-        f"{name} follows from {what}, {target.told}, and is not changed by itself; "
-        f"change an input that {origins} follows from, or write a number at {asked.path} first."
+def _calculated(target: Target, asked: Input, name: str) -> Phrase:
+    words = (
+        "{name} follows from {what}, {told}, and is not changed by itself; "
+        "change an input that {origins} follows from, or write a number at {path} first."
     )
+    what = phrase("an expression") if target.expression else phrase("an output")
+    origins = ", ".join(sorted({single.path for single in target.single}))
+    return Phrase(words, name=name, what=what, told=target.told, origins=origins, path=asked.path)
 
 
 def _path(target: Target) -> str:

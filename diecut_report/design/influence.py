@@ -14,6 +14,7 @@ from diecut_report.design.questions import AskedNumber, quantity
 from diecut_report.design.varied_machines import CHECKS, UTILISATION, VariedMachines, varied
 from diecut_report.errors import Problem, UserError
 from diecut_report.expressions import Array
+from diecut_report.languages.phrases import Phrase, phrase
 
 Distribution = Literal["normal", "uniform"]
 MOST_CHECKS = 5  # governing checks that are looked at where nothing is asked
@@ -79,19 +80,34 @@ def tornados(
 
     Without names these are the utilisations of the checks that govern. UserError where there is nothing to look at.
     """
+    for each in tolerances:
+        _require_scatter(each)
     own = {each.asked.path for each in tolerances}
     inputs = [*tolerances, *(each for each in given_numbers(config) if each.today and each.asked.path not in own)]
     if not inputs:
-        raise UserError(
-            Problem("nothing is given as a number that is not zero, so nothing has an influence.", config.tree.file)
-        )
+        words = phrase("nothing is given as a number that is not zero, so nothing has an influence.")
+        raise UserError(Problem(words, config.tree.file))
     steps = [tolerances.get(each) or _step(each, share) for each in inputs]
     asked = [quantity(config, name) for name in names]
     made = _beside(config, inputs, steps, asked)
     if not made.exists[0]:
-        raise UserError(Problem(str(made.reasons[0]), config.tree.file))
+        raise UserError(Problem(made.reasons[0], config.tree.file))
     asked = asked or [quantity(config, name) for name in _governing(made)]
+    for number in asked:
+        _require_value(config, made, number)
     return [_tornado(made, each, inputs, steps) for each in asked]
+
+
+def _require_scatter(design: DesignInput) -> None:
+    if design.is_whole or design.today is None:
+        words = "{input} is a whole number or has no value today, so that it has no tolerance."
+        raise UserError(Problem(Phrase(words, input=design.name), path="--tolerance"))
+
+
+def _require_value(config: Config, made: VariedMachines, asked: AskedNumber) -> None:
+    if not np.isfinite(made.values(asked.column)[0]):
+        words = "{asked} has no value today: an input that it needs is not given, or the check is not made."
+        raise UserError(Problem(Phrase(words, asked=asked.name), config.tree.file, path="--of"))
 
 
 def _step(design: DesignInput, share: float) -> float:
@@ -153,9 +169,8 @@ def within_tolerances(
     draws = np.random.default_rng(seed)
     given = {}
     for design, tolerance in tolerances.items():
-        if design.is_whole or design.today is None:
-            words = f"{design.name} is a whole number or has no value today, so that it has no tolerance."
-            raise UserError(Problem(words, path="--tolerance"))
+        _require_scatter(design)
+        assert design.today is not None
         off = (
             draws.normal(0.0, tolerance / IN_TOLERANCE, count)
             if distribution == "normal"

@@ -8,7 +8,7 @@ best machine is kept, whatever the planes said.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Collection, Sequence
 from dataclasses import dataclass, field
 
 import numpy as np
@@ -16,6 +16,7 @@ import numpy as np
 from diecut_report.design.design_inputs import DesignInput
 from diecut_report.design.varied_machines import MARGIN, SIZE, VariedMachines
 from diecut_report.expressions import Array
+from diecut_report.languages.phrases import Phrase
 
 REGIONS = (0.03, 0.1, 0.3)  # shares of today's values within which the planes are tried
 PARTS = (0.25, 0.5, 0.75, 1.0)  # of a step
@@ -24,6 +25,7 @@ PENALTY = 50.0  # of a share by which a check is beyond its limit, beside a shar
 ROOM = 0.002  # slack that a plane is to leave, so that its curvature does not break the check
 STEPS, TRIES = 25, 3  # at most; and how often the regions shrink before it is given up
 SMALLEST = 1e-3  # share of the size of all changes by which a step must make it less
+FEASIBLE = 1e-2  # the same, where it is only asked whether some checks can hold together
 UNFIT = 1e6  # of a machine that cannot be
 
 Run = Callable[[Array], VariedMachines]
@@ -36,11 +38,15 @@ Planes = tuple[list[str], Array, Array]
 
 @dataclass
 class MendingPath:
-    """Hold where the search is: the changes as shares of today's values, what that machine's checks say, and how far it went."""
+    """Hold where the search is: the changes as shares of today's values, what that machine's checks say, and how far it went.
+
+    ``among``: only these checks are to hold, whatever the others do; None for all.
+    """
 
     run: Run
     inputs: Sequence[DesignInput]
     share: Array
+    among: Collection[str] | None = None
     made: VariedMachines = field(init=False)
     sizes: dict[str, float] = field(init=False)
     merit: float = field(init=False)
@@ -54,17 +60,26 @@ class MendingPath:
 
     @property
     def passes(self) -> bool:
-        return str(self.made.status[0]) in ("pass", "warn")
+        return bool(self.made.exists[0]) and not self.failing
 
-    def go(self, tell: Callable[[str], None]) -> None:
-        """Take steps as long as they make the machine better, or the changes smaller."""
+    @property
+    def failing(self) -> list[str]:
+        """Return the checks that are to hold and fail."""
+        return [name for name in self.made.failing(0) if self._is_asked(name)]
+
+    def _is_asked(self, name: str) -> bool:
+        return self.among is None or name in self.among
+
+    def go(self, tell: Callable[[str], None], *, until_it_holds: bool = False) -> None:
+        """Take steps as long as they make the machine better, or the changes smaller; or only until all holds."""
         scale, tries = 1.0, 0
-        while self.steps < STEPS and tries < TRIES:
+        while self.steps < STEPS and tries < TRIES and not (until_it_holds and self.passes):
             before, had_passed = self.merit, self.passes
-            tell(f"mending: step {self.steps + 1}, {len(self.made.failing(0))} checks fail")
+            tell(Phrase("mending: step {step}, failing checks: {n}", step=self.steps + 1, n=len(self.failing)))
             self._step(scale)
             self.steps += 1
-            is_better = self.merit < before - SMALLEST * max(before, 1e-9)
+            least = SMALLEST if self.among is None else FEASIBLE
+            is_better = self.merit < before - least * max(before, 1e-9)
             tries = 0 if is_better else tries + 1
             scale = scale if is_better else scale / 5
             if had_passed and not is_better:
@@ -106,7 +121,7 @@ class MendingPath:
     def merits(self, made: VariedMachines, shares: Array) -> Array:
         """Return of each machine the size of its changes, with what its failing checks are beyond their limits; the least is the best."""
         beyond = np.zeros(made.count)
-        for name in made.checks:
+        for name in filter(self._is_asked, made.checks):
             slack = np.nan_to_num(self._slack(made, name))
             beyond += np.where(made.check(name) == "fail", np.maximum(-slack, 0.0) + ROOM, 0.0)
         return np.where(made.exists, PENALTY * beyond + np.abs(shares).sum(axis=1), UNFIT)
@@ -125,7 +140,7 @@ class MendingPath:
         beside = np.concatenate([np.zeros((1, count)), NUDGE * np.eye(count), -NUDGE * np.eye(count)]) + self.share
         made = self.run(beside)
         names, slacks, slopes = [], [], []
-        for name in made.checks:
+        for name in filter(self._is_asked, made.checks):
             own = self._slack(made, name)
             if not np.isfinite(own[0]) or (made.check(name) == "warn").any():
                 continue
@@ -146,26 +161,3 @@ def _ends(inputs: Sequence[DesignInput], share: Array, region: float) -> tuple[A
     low = np.maximum(share - region, ends[:, 0] + inner)
     high = np.minimum(share + region, ends[:, 1] - inner)
     return np.minimum(low, share), np.maximum(high, share)
-
-
-def conflict(found: Planes, share: Array, inputs: Sequence[DesignInput]) -> list[str]:
-    """Return checks that, as far as the planes tell, cannot hold together though each of them left out lets the others hold."""
-    names, slack, slope = found
-    kept = list(range(len(names)))
-    if _can_hold(slack, slope, share, inputs, kept):
-        return []
-    for index in range(len(names)):
-        fewer = [each for each in kept if each != index]
-        if not _can_hold(slack, slope, share, inputs, fewer):
-            kept = fewer
-    return [names[index] for index in kept]
-
-
-def _can_hold(slack: Array, slope: Array, share: Array, inputs: Sequence[DesignInput], kept: list[int]) -> bool:
-    from scipy.optimize import linprog
-
-    low, high = _ends(inputs, share, REGIONS[-1])
-    bounds = list(zip(low.tolist(), high.tolist(), strict=True))
-    limit = slack[kept] - slope[kept] @ share
-    found = linprog(np.zeros(len(share)), -slope[kept], limit, bounds=bounds, method="highs")
-    return bool(found.status == 0)

@@ -12,6 +12,7 @@ from diecut_report.config.model import PRESS
 from diecut_report.design.design_inputs import design_input
 from diecut_report.design.varied_machines import CHECKS, UTILISATION, narrowed, quantities
 from diecut_report.errors import Problem, UserError, nearest
+from diecut_report.languages.phrases import Phrase, phrase
 from diecut_report.quantities.formatting import told
 from diecut_report.quantities.units import UnitError, parse_quantity, unit
 from diecut_report.study.definition.base_inputs import Input
@@ -71,15 +72,15 @@ def question(config: Config, text: str) -> DesignQuestion:
     compared = COMPARED.fullmatch(text)
     if compared is None:
         words = (
-            f"{text!r} is not a question; write one such as “drive.crank_torque_peak = 400 N*m”, "
+            "{text} is not a question; write one such as “drive.crank_torque_peak = 400 N*m”, "
             "“cylinder.mass <= 90 kg” or “max press.productivity”."
         )
-        raise UserError(Problem(words, path="--for"))
+        raise UserError(Problem(Phrase(words, text=repr(text)), path="--for"))
     asked = quantity(config, compared["name"])
     try:
         return DesignQuestion(asked, SIGNS[compared["sign"]], parse_quantity(compared["value"], asked.unit))
     except UnitError as fault:
-        raise UserError(Problem(f"{asked.name}: {fault}", path="--for")) from None
+        raise UserError(Problem(Phrase("{name}: {fault}", name=asked.name, fault=fault), path="--for")) from None
 
 
 def quantity(config: Config, name: str) -> AskedNumber:
@@ -108,8 +109,9 @@ def _utilisation(config: Config, home: str, check: str) -> AskedNumber:
     known = [each.name for each in columns_of(config) if each.name.endswith(UTILISATION)]
     if column not in known:
         own = [name for name in known if name.startswith(f"{home}.")]
-        words = f"{home}.checks.{check} is not a check{nearest(column, own or known)}."
-        raise UserError(Problem(words, config.tree.file))
+        words = "{home}.checks.{check} is not a check{near}."
+        near = nearest(column, own or known)
+        raise UserError(Problem(Phrase(words, home=home, check=check, near=near), config.tree.file))
     return AskedNumber(column, column, "1", home)
 
 
@@ -118,21 +120,22 @@ def _is_input(config: Config, home: str, own: str) -> bool:
     return instance is not None and own.split(".")[0] in instance.model.model_fields
 
 
-def _unknown(config: Config, home: str, own: str) -> str:
+def _unknown(config: Config, home: str, own: str) -> Phrase:
     mechanisms = [name for name in config.instances if name != PRESS]
     if home not in config.instances:
-        return (
-            f"{home}.{own}: there is no mechanism {home!r}{nearest(home, mechanisms)}. Known: {', '.join(mechanisms)}."
-        )
+        words = "{name}: there is no mechanism {home}{near}. Known: {known}."
+        near = nearest(home, mechanisms)
+        return Phrase(words, name=f"{home}.{own}", home=repr(home), near=near, known=", ".join(mechanisms))
     known = [name.removeprefix(f"{home}.") for name in quantities(config) if name.startswith(f"{home}.")]
     if not own:
-        return f"{home} names no number; add one, as in {home}.{next(iter(known), 'output')}."
-    return (
-        f"{home}.{own} is neither a number that {home} gives nor an input of it{nearest(own, known) or _listed(known)}."
-    )
+        words = "{home} names no number; add one, as in {example}."
+        return Phrase(words, home=home, example=f"{home}.{next(iter(known), 'output')}")
+    words = "{name} is neither a number that {home} gives nor an input of it{near}."
+    return Phrase(words, name=f"{home}.{own}", home=home, near=nearest(own, known) or _listed(known))
 
 
-def _listed(names: Iterable[str]) -> str:
+def _listed(names: Iterable[str]) -> Phrase:
     every = list(names)
-    more = f" and {len(every) - SHOWN} more" if len(every) > SHOWN else ""
-    return f"; it gives {', '.join(every[:SHOWN])}{more}"
+    if len(every) > SHOWN:
+        return Phrase("; it gives {names} and {n} more", names=", ".join(every[:SHOWN]), n=len(every) - SHOWN)
+    return Phrase("; it gives {names}", names=", ".join(every) or phrase("none"))

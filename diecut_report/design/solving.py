@@ -18,6 +18,7 @@ from diecut_report.design.typed_answers import typed_answers
 from diecut_report.design.varied_machines import VariedMachines, varied
 from diecut_report.errors import Problem, UserError
 from diecut_report.expressions import Array
+from diecut_report.languages.phrases import Phrase
 
 POINTS = 33  # of the range, at which a machine is calculated before roots are searched between them
 WIDER = 3.0  # the range reaches from today's value divided by this to so many times it
@@ -59,11 +60,9 @@ def _proved(answer: Answer, config: Config, discovery: Discovery) -> Answer:
             found=(replace(first, reached=reached, failing=failing), *answer.found[index + 1 :]),
             machine=machine,
         )
-    words = (
-        f"{answer.design.name} = {answer.found[0].typed} answers, but the rest of the machine cannot be as it is then: "
-        f"{faults[0].problems[0].message}"
-    )
-    raise UserError(Problem(words, config.tree.file))
+    words = "{input} = {typed} answers, but the rest of the machine cannot be as it is then: {reason}"
+    what = {"input": answer.design.name, "typed": answer.found[0].typed, "reason": faults[0].problems[0].message}
+    raise UserError(Problem(Phrase(words, what), config.tree.file))
 
 
 def _range(design: DesignInput, low: float | None, high: float | None) -> tuple[float, float]:
@@ -71,14 +70,16 @@ def _range(design: DesignInput, low: float | None, high: float | None) -> tuple[
     least, most = design.bounds
     today = design.today
     if (low is None or high is None) and not today:
-        words = f"{design.name} has no value today; give the range to search with --from and --to."
-        raise UserError(Problem(words, path="--vary"))
+        words = "{input} has no value today; give the range to search with --from and --to."
+        raise UserError(Problem(Phrase(words, input=design.name), path="--vary"))
     around = sorted((today / WIDER, today * WIDER)) if today else (math.nan, math.nan)
     first = max(around[0], least) if low is None else low
     last = min(around[1], most) if high is None else high
     if not first < last:
-        words = f"{design.name}: the range from {design.told(first)} to {design.told(last)} is empty; give --from below --to."
-        raise UserError(Problem(words, path="--from"))
+        words = "{input}: the range from {low} to {high} is empty; give --from below --to."
+        raise UserError(
+            Problem(Phrase(words, input=design.name, low=design.told(first), high=design.told(last)), path="--from")
+        )
     return first, last
 
 
@@ -116,7 +117,10 @@ class _RangeSearch:
         else:
             ranges = self._ranges(x, self.holds(made, y))
             answer = replace(answer, found=tuple(self._of_ranges(ranges)), ranges=tuple(ranges))
-        return answer if answer.found else replace(answer, nearest=self._nearest(x, made, y))
+        if answer.found:
+            return answer
+        always = _always_failing(made) if self.passing else ()
+        return replace(answer, nearest=self._nearest(x, made, y), always=always)
 
     def _places(self, low: float, high: float) -> Array:
         """Where the range is looked at: at equal ratios where it is wide, today's value among them; whole numbers all."""
@@ -134,14 +138,16 @@ class _RangeSearch:
         known = y[np.isfinite(y)]
         name, asked = self.design.name, self.question.quantity.name
         if not made.exists.any():
-            reason = next(filter(None, made.reasons), "no reason is known")
-            words = f"no machine of the range of {name} can be calculated: {reason}"
-            raise UserError(Problem(words, self.config.tree.file))
+            words = "no machine of the range of {input} can be calculated: {reason}"
+            reason = next(filter(None, made.reasons))
+            raise UserError(Problem(Phrase(words, input=name, reason=reason), self.config.tree.file))
         if not len(known):
-            raise UserError(Problem(f"{asked} has no value in the whole range of {name}.", self.config.tree.file))
+            words = "{asked} has no value in the whole range of {input}."
+            raise UserError(Problem(Phrase(words, asked=asked, input=name), self.config.tree.file))
         if np.ptp(known) <= SAME * np.abs(known).max() and len(y) > 1:
-            words = f"{asked} does not vary with {name}: it is {self.question.quantity.told(float(known[0]))} in the whole range."
-            raise UserError(Problem(words, self.config.tree.file))
+            words = "{asked} does not vary with {input}: it is {value} in the whole range."
+            value = self.question.quantity.told(float(known[0]))
+            raise UserError(Problem(Phrase(words, asked=asked, input=name, value=value), self.config.tree.file))
 
     def _today(self, x: Array, y: Array) -> float:
         index = np.flatnonzero(x == (np.nan if self.design.today is None else self.design.today))
@@ -177,7 +183,7 @@ class _RangeSearch:
         new = np.array([each for each in dict.fromkeys(x.tolist()) if each not in self.known])
         if len(new):
             self._keep(new, self.machines(new))
-        found = np.array([self.known[each] for each in x.tolist()])
+        found = np.reshape([self.known[each] for each in x.tolist()], (len(x), 2))
         return found[:, 0], found[:, 1]
 
     def _keep(self, x: Array, made: VariedMachines) -> None:
@@ -268,9 +274,15 @@ class _RangeSearch:
         if not self.design.is_whole and self.question.kind == "=":
             value, _ = greatest(lambda places: -np.abs(self._off(places)), x, -away)
         else:
-            value = float(x[np.argmin(away)])
+            best = x[away <= away.min()]  # where all are as far away the one that is nearest to today's
+            value = float(best[np.argmin(np.abs(best - (self.design.today or best[0])))])
         found = self._judged([(value, "nearest")])
         return replace(found[0], at_end=value in (x[0], x[-1])) if found else None
+
+
+def _always_failing(made: VariedMachines) -> tuple[str, ...]:
+    """The checks that fail in every machine that can be calculated."""
+    return tuple(name for name in made.checks if (made.check(name)[made.exists] == "fail").all())
 
 
 def _existing(values: Array) -> list[slice]:

@@ -126,15 +126,22 @@ def quantities(config: Config) -> dict[str, ResultColumn]:
 
 def narrowed(config: Config, names: Iterable[str]) -> Config:
     """Return the configuration with these mechanisms alone, and those that they follow from: what else there is need not be calculated."""
-    wanted, left = {PRESS}, [PRESS, *names]
-    while left:
-        name = left.pop()
-        wanted.add(name)
-        own = (target for node, target in config.links.items() if node[0] == name)
-        left += [each.instance for target in own for each in target.single if each.instance not in wanted]
+    wanted = {PRESS, *upstream(config, [PRESS, *names])}
     instances = {name: instance for name, instance in config.instances.items() if name in wanted}
     links = {node: target for node, target in config.links.items() if node[0] in wanted}
     return replace(config, instances=instances, links=links, order=tuple(n for n in config.order if n[0] in wanted))
+
+
+def upstream(config: Config, names: Iterable[str]) -> set[str]:
+    """Return these mechanisms and all that they follow from, the press too where they do."""
+    found: set[str] = set()
+    left = list(names)
+    while left:
+        name = left.pop()
+        found.add(name)
+        own = (target for node, target in config.links.items() if node[0] == name)
+        left += [each.instance for target in own for each in target.single if each.instance not in found]
+    return found
 
 
 def _slack(made: CalculatedVariants) -> dict[str, Array]:

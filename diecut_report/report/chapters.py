@@ -49,6 +49,7 @@ def chapter(
         version=mechanism.get("plugin_version", ""),
         source_sha256=mechanism.get("plugin_sha256", ""),
         source_file=mechanism.get("plugin_file", ""),
+        source_check=found if (found := mechanism.get("plugin_check", "")) in ("passed", "failed") else "",
         status=mechanism["status"],
         error=mechanism.get("error", ""),
     )

@@ -99,13 +99,14 @@ ENGLISH: dict[str, str] = {
     # programme
     "calculated_by": "Calculated by", "version": "version", "plugin": "Mechanism", "plugin_version": "Version", "kind": "Kind",
     "source_hash": "source", "libraries": "With", "extension": "Extension",
+    "plugin_passed": "declarations and formulas checked", "plugin_failed": "declarations checked, formulas with faults",
     "carried": "Carried with this report", "carried_results": "Results", "attached": "attached to this PDF",
     "verified": "diecut-report verify calculates it again and tells what differs.",
     "config_file": "Configuration file", "sha256": "SHA-256",
     "failed_text": "This mechanism could not be calculated.", "failed_comparison": "This comparison could not be calculated.",
     "skipped_text": "This mechanism was not calculated, since what it refers to was not.",
     # office files
-    "si_value": "Value, SI", "si_unit": "Unit, SI", "basis": "Basis", "note": "Note", "class": "Class", "message": "Message",
+    "si_value": "Value, SI", "si_unit": "Unit, SI", "basis": "Basis", "note": "Note", "allowed": "Allowed", "class": "Class", "message": "Message",
     "key_result": "Key result", "yes": "yes", "time_ms": "Time, ms",
 }  # fmt: skip
 COUNTED = {  # what is said of a number ``n`` of things, with its form for one where English has another

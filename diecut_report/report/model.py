@@ -148,6 +148,7 @@ class PrintedChapter:
     status: str
     source_sha256: str = ""
     source_file: str = ""
+    source_check: str = ""  # of a foreign plugin: passed or failed
     error: str = ""
     summary: str = ""
     assumptions: list[str] = field(default_factory=list)

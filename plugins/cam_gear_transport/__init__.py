@@ -5,6 +5,7 @@ from __future__ import annotations
 from diecut_report.api import Erratum, Mechanism, Profile, Source
 from diecut_report.plugins.cam_gear_transport import cams, motion, rolling, sheet
 from diecut_report.plugins.cam_gear_transport.checks import CHECKS
+from diecut_report.plugins.cam_gear_transport.example import EXAMPLE
 from diecut_report.plugins.cam_gear_transport.figures import FIGURES
 from diecut_report.plugins.cam_gear_transport.inputs import CAMS, CamGearTransport
 
@@ -17,6 +18,7 @@ MECHANISM = Mechanism(
     "turns, gear and conveyor dwell; while it stops, returns and starts again, they make their step. From the wanted dwell follow the "
     "radii, the phases, the motion of sector, gear and sheet, torque and forces, and the profiles of both cams.",
     inputs=CamGearTransport,
+    example=EXAMPLE,
     chapters=(rolling.rolling_chapter, rolling.phases, motion.sector, motion.gear, sheet.conveyor, sheet.rest, sheet.grippers, sheet.torques,
               *cams.SECTIONS),
     key_results=("radius_ratio", "gear_radius", "sector_radius", "time_dwell", "time_return", "angle_stop", "angle_start",

@@ -5,6 +5,7 @@ from __future__ import annotations
 from diecut_report.api import Mechanism, Source
 from diecut_report.plugins.circular_knife import cutting, geometry
 from diecut_report.plugins.circular_knife.checks import CHECKS
+from diecut_report.plugins.circular_knife.example import EXAMPLE
 from diecut_report.plugins.circular_knife.figures import FIGURES
 from diecut_report.plugins.circular_knife.inputs import CircularKnife
 
@@ -17,6 +18,7 @@ MECHANISM = Mechanism(
     "sliding of the edge, force, torque and work. The formulas are this project's own: only the first page of the source survives, with the "
     "geometry alone.",
     inputs=CircularKnife,
+    example=EXAMPLE,
     chapters=(geometry.reach, geometry.shear_range, geometry.edge, cutting.motion, cutting.forces, cutting.guillotine),
     key_results=("angle_start", "angle_end", "cut_time", "shear_angle_min", "shear_angle_max", "cut_speed_max", "sliding_ratio_max",
                  "effective_sharpening_angle_min", "force_max", "torque_max", "work", "guillotine_force_ratio"),

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from diecut_report.api import Check, Mechanism, Source
+from diecut_report.plugins.clutch.example import EXAMPLE
 from diecut_report.plugins.clutch.figures import FIGURES
 from diecut_report.plugins.clutch.inputs import Clutch
 from diecut_report.plugins.clutch.steps import SECTIONS
@@ -18,6 +19,7 @@ MECHANISM = Mechanism(
     "shoes and presses them against a drum. From the torque follow the pressing force, the engagement force, the release and the width "
     "of the shoes; with the driven inertia the heat, slip time and temperature of an engagement, with the gap the travel of the cone.",
     inputs=Clutch,
+    example=EXAMPLE,
     chapters=SECTIONS,
     key_results=("design_torque", "pressing_force", "engagement_force", "release_force", "self_locking", "shoe_width", "axial_travel",
                  "engagement_energy", "slip_time", "lining_temperature_rise"),

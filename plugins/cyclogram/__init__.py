@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from diecut_report.api import Check, CurveTable, Mechanism, Source
 from diecut_report.plugins.cyclogram import steps
+from diecut_report.plugins.cyclogram.example import EXAMPLE
 from diecut_report.plugins.cyclogram.figures import FIGURES
 from diecut_report.plugins.cyclogram.inputs import Cyclogram
 
@@ -22,6 +23,7 @@ MECHANISM = Mechanism(
     "leaves them room. The offset of one line may be found, the one with the greatest margins. The torques of all lines are added at "
     "the main shaft, where they all follow the press.",
     inputs=Cyclogram,
+    example=EXAMPLE,
     chapters=(steps.shaft, steps.interlocks, steps.station, steps.motions, steps.energies, steps.torques),
     key_results=("sheet_time", "line_offset", "best_margin", "productivity_limit", "clearance_least", "torque_mean", "torque_rms",
                  "torque_peak", "power_peak", "energy_fluctuation", "energy_exchange"),

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from diecut_report.api import Check, Erratum, Mechanism, Source
 from diecut_report.plugins.cylinder_drive import forces, linkage, timing
+from diecut_report.plugins.cylinder_drive.example import EXAMPLE
 from diecut_report.plugins.cylinder_drive.figures import FIGURES
 from diecut_report.plugins.cylinder_drive.inputs import CylinderDrive
 
@@ -17,6 +18,7 @@ MECHANISM = Mechanism(
     "in which the cylinder rolls over the die, there and back. One turn of the crank gives two working strokes with a pause at each end, so "
     "two sheets. Calculated are the motion of the cylinder, the moments on it, and torque, power and forces over a turn of the crank.",
     inputs=CylinderDrive,
+    example=EXAMPLE,
     chapters=(linkage.linkage_chapter, linkage.stroke, linkage.cutting, linkage.kinematics, forces.moments, forces.torque, forces.energy,
               timing.contact, forces.clearance, timing.phases, forces.teeth, forces.joints),
     key_results=("swing_angle", "sector_ratio", "stroke", "velocity_max", "acceleration_max", "cutting_moment", "crank_torque_peak",

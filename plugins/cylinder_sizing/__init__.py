@@ -5,6 +5,7 @@ from __future__ import annotations
 from diecut_report.api import Check, Erratum, Mechanism, Source
 from diecut_report.plugins.cylinder_sizing.calculation import CHAPTERS
 from diecut_report.plugins.cylinder_sizing.drawing import FIGURES
+from diecut_report.plugins.cylinder_sizing.example import EXAMPLE
 from diecut_report.plugins.cylinder_sizing.inputs import CylinderSizing
 
 MECHANISM = Mechanism(
@@ -15,6 +16,7 @@ MECHANISM = Mechanism(
     "the sheet conveyor pass under the flat while the cylinder dwells. From the sheet and the segment follow the radius, the "
     "mass, the inertia and the unbalance; the wall that is left at the flat is checked.",
     inputs=CylinderSizing,
+    example=EXAMPLE,
     chapters=CHAPTERS,
     key_results=("radius", "mass", "inertia", "static_unbalance", "center_of_mass_offset", "wall_at_flat", "cutting_arc_fraction",
                  "deflection"),

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from diecut_report.api import Check, Mechanism, Source
+from diecut_report.plugins.damper.example import EXAMPLE
 from diecut_report.plugins.damper.figures import FIGURES
 from diecut_report.plugins.damper.formulas import SLENDEREST
 from diecut_report.plugins.damper.inputs import Damper
@@ -18,6 +19,7 @@ MECHANISM = Mechanism(
     "energy. From energy, rubber and pad follow the length of the blocks, their stress, strain and force, the time and deceleration of "
     "the stop, the rebound and the heat; the blocks are checked against buckling, and against a drive that still pushes.",
     inputs=Damper,
+    example=EXAMPLE,
     chapters=SECTIONS,
     key_results=("kinetic_energy", "free_length", "adopted_length", "stress", "strain", "deflection", "peak_force", "peak_deceleration",
                  "stop_time", "rebound_velocity", "heat_power", "slenderness", "driven_deflection", "driven_stress"),

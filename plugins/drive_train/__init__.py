@@ -5,6 +5,7 @@ from __future__ import annotations
 from diecut_report.api import Mechanism, Source
 from diecut_report.plugins.drive_train import chain, motor, vbelt
 from diecut_report.plugins.drive_train.checks import CHECKS
+from diecut_report.plugins.drive_train.example import EXAMPLE
 from diecut_report.plugins.drive_train.figures import FIGURES
 from diecut_report.plugins.drive_train.inputs import DriveTrain
 from diecut_report.plugins.drive_train.toothed_belt import (
@@ -22,6 +23,7 @@ MECHANISM = Mechanism(
     "Calculated are ratios, speeds, torques and powers of all shafts, the belt with a standard length, the motor and its run-up, the "
     "flywheel from the torque over a turn, and, where there is one, the toothed belt that rolls the cylinder.",
     inputs=DriveTrain,
+    example=EXAMPLE,
     chapters=(chain.speeds, vbelt.vbelt_chapter, chain.efficiency, chain.turn, chain.powers, chain.balance, motor.motor_chapter, vbelt.count,
               vbelt.tensions, motor.flywheel, motor.run_up, *TOOTHED_BELT),
     key_results=("output_speed", "driven_diameter", "vbelt_standard_length", "center_distance", "vbelt_count", "power_required",

@@ -5,6 +5,7 @@ from __future__ import annotations
 from diecut_report.api import Erratum, Mechanism, Source
 from diecut_report.plugins.elastic_follower import motion, response
 from diecut_report.plugins.elastic_follower.checks import CHECKS, advice_chapter
+from diecut_report.plugins.elastic_follower.example import EXAMPLE
 from diecut_report.plugins.elastic_follower.figures import FIGURES
 from diecut_report.plugins.elastic_follower.inputs import ElasticFollower
 from diecut_report.plugins.elastic_follower.spectrum import SPECTRUM
@@ -17,6 +18,7 @@ MECHANISM = Mechanism(
     "moves from rest to rest, the link swings about it. Calculated are its motion, the peaks of its acceleration in the motion and after it, "
     "related to those of a rigid drive, its overshoot, and the torque of the drive; and which law of motion loads this link least.",
     inputs=ElasticFollower,
+    example=EXAMPLE,
     chapters=(motion.drive, motion.times, motion.by_law, motion.by_curve, response.response_chapter, response.settling, response.peaks_chapter,
               response.compared,
               advice_chapter),

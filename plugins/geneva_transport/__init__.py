@@ -6,6 +6,7 @@ from diecut_report.api import Mechanism, Source
 from diecut_report.plugins.geneva_transport import forces, motion
 from diecut_report.plugins.geneva_transport.checks import CHECKS
 from diecut_report.plugins.geneva_transport.comparison import COMPARED
+from diecut_report.plugins.geneva_transport.example import EXAMPLE
 from diecut_report.plugins.geneva_transport.figures import FIGURES
 from diecut_report.plugins.geneva_transport.inputs import GenevaTransport
 
@@ -17,6 +18,7 @@ MECHANISM = Mechanism(
     "a gear, sprocket and chain carry the step to the conveyor. For the rest of the turn the locking disc holds the wheel and the sheet "
     "dwells. From the number of slots and the centre distance follow the wheel's size, dwell, motion, torque, roller force and locking.",
     inputs=GenevaTransport,
+    example=EXAMPLE,
     chapters=(motion.geometry, motion.dwell, motion.motion_chapter, motion.conveyor, motion.rest, motion.grippers, forces.torque,
               forces.contact_chapter, forces.locking),
     key_results=("crank_radius", "wheel_radius", "step_angle", "dwell_fraction", "time_dwell", "sheet_step", "sheet_velocity_max",

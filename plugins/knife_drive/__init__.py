@@ -5,6 +5,7 @@ from __future__ import annotations
 from diecut_report.api import Erratum, Mechanism, Source
 from diecut_report.plugins.knife_drive import comparison, drives, rocker, working
 from diecut_report.plugins.knife_drive.checks import CHECKS
+from diecut_report.plugins.knife_drive.example import EXAMPLE
 from diecut_report.plugins.knife_drive.figures import FIGURES
 from diecut_report.plugins.knife_drive.inputs import KnifeDrive
 
@@ -16,6 +17,7 @@ MECHANISM = Mechanism(
     "rollers, which carry it off. Up to three drives of the knife are compared at one speed of the machine and one working depth: duration of "
     "the working stroke, speed at contact, acceleration of the paper by the knife and in the grip of the rollers, time on the table.",
     inputs=KnifeDrive,
+    example=EXAMPLE,
     chapters=(working.speeds, working.of_drive(working.PLANETARY, drives.PLANETARY),
               working.of_drive(working.CRANK_SLIDER, drives.CRANK_SLIDER), working.of_drive(working.CRANK_ROCKER, rocker.CRANK_ROCKER),
               comparison.best, comparison.why, comparison.grip),

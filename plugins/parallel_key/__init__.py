@@ -6,6 +6,7 @@ from diecut_report.api import Mechanism, Source
 from diecut_report.plugins.parallel_key import load, pressures
 from diecut_report.plugins.parallel_key.checks import CHECKS, advice
 from diecut_report.plugins.parallel_key.dimensions import dimensions
+from diecut_report.plugins.parallel_key.example import EXAMPLE
 from diecut_report.plugins.parallel_key.figures import FIGURES
 from diecut_report.plugins.parallel_key.inputs import ParallelKey
 
@@ -16,6 +17,7 @@ MECHANISM = Mechanism(
     summary="Pressure of the shaft's keyway, the hub's and the key, and shear of the key, under the equivalent and the greatest torque. Where the "
     "key's length is left out, the least standard one is taken that is enough.",
     inputs=ParallelKey,
+    example=EXAMPLE,
     chapters=(load.cycle, load.load, dimensions, pressures.allowed, pressures.needed, pressures.pressures, advice),
     key_results=("key_length", "key_force", "pressure_shaft", "pressure_hub", "safety", "governing"),
     checks=CHECKS,

@@ -5,6 +5,7 @@ from __future__ import annotations
 from diecut_report.api import Erratum, Mechanism, Source
 from diecut_report.plugins.platen_press import motion, torque
 from diecut_report.plugins.platen_press.checks import CHECKS
+from diecut_report.plugins.platen_press.example import EXAMPLE
 from diecut_report.plugins.platen_press.figures import FIGURES
 from diecut_report.plugins.platen_press.inputs import PlatenPress
 
@@ -16,6 +17,7 @@ MECHANISM = Mechanism(
     "relax after the dead centre while the platen stands. Calculated are contact and dwell, the platen's ideal and true motion, the force of the "
     "rods, the torque at the main shaft split into useful torque and friction, and work and power of a cycle.",
     inputs=PlatenPress,
+    example=EXAMPLE,
     chapters=(motion.machine, motion.contact, motion.motion_chapter, motion.window, torque.forces, torque.friction, torque.guides,
               torque.torque_chapter,
               torque.return_chapter,

@@ -5,6 +5,7 @@ from __future__ import annotations
 from diecut_report.api import Mechanism
 from diecut_report.plugins.press_consistency import drive, sheet
 from diecut_report.plugins.press_consistency.checks import CHECKS
+from diecut_report.plugins.press_consistency.example import EXAMPLE
 from diecut_report.plugins.press_consistency.figures import FIGURES
 from diecut_report.plugins.press_consistency.inputs import PressConsistency
 from diecut_report.plugins.press_consistency.partners import PARTNERS
@@ -18,6 +19,7 @@ MECHANISM = Mechanism(
     "dampers, the conveyor's mass against the wheel's inertia, the motor against a load that its flywheel smooths in part, the plays "
     "against the register.",
     inputs=PressConsistency,
+    example=EXAMPLE,
     chapters=(sheet.sides, sheet.rate, drive.inertia, drive.engagement, drive.coupling,
               drive.ends_chapter, sheet.conveyor, drive.motor_chapter, sheet.stopping, sheet.register),
     key_results=("step_room", "actual_rate", "crank_inertia_mean", "crank_inertia_max", "slip_heat", "equal_inertia", "way_inner", "way_outer",

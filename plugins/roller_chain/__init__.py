@@ -5,6 +5,7 @@ from __future__ import annotations
 from diecut_report.api import Mechanism, Source
 from diecut_report.plugins.roller_chain import geometry, loads, sizing, strength
 from diecut_report.plugins.roller_chain.checks import CHECKS
+from diecut_report.plugins.roller_chain.example import EXAMPLE
 from diecut_report.plugins.roller_chain.figures import FIGURES
 from diecut_report.plugins.roller_chain.inputs import RollerChain
 
@@ -15,6 +16,7 @@ MECHANISM = Mechanism(
     summary="A chain of ISO 606, series B, that drives a shaft or conveys: loop over two sprockets, unevenness by the polygon, tension of a strand "
     "over the cycle, safety against breaking, pressure of the joints. Where the chain is left out, the smallest that holds is taken.",
     inputs=RollerChain,
+    example=EXAMPLE,
     chapters=(loads.cycle, sizing.size, geometry.chain, geometry.loop, loads.motion, loads.useful, loads.tension, strength.safety, strength.rating,
               strength.limits),
     key_results=("pitch", "links", "center_distance_adjusted", "velocity", "useful_tension", "tension_peak", "safety_dynamic", "safety_static",

@@ -5,6 +5,7 @@ from __future__ import annotations
 from diecut_report.api import Mechanism, Source
 from diecut_report.plugins.rolling_bearing import life, loads
 from diecut_report.plugins.rolling_bearing.checks import CHECKS
+from diecut_report.plugins.rolling_bearing.example import EXAMPLE
 from diecut_report.plugins.rolling_bearing.figures import FIGURES
 from diecut_report.plugins.rolling_bearing.inputs import RollingBearing
 
@@ -16,6 +17,7 @@ MECHANISM = Mechanism(
     "cycle, the rating life with reliability and lubrication, the static safety, and the life of all together. Where a deep groove ball "
     "bearing or a cylindrical roller bearing is left out, the smallest of its series that holds is taken.",
     inputs=RollingBearing,
+    example=EXAMPLE,
     chapters=(loads.ratings, loads.loads, loads.static, life.motion, life.life, life.limits),
     key_results=("life_min", "governing_bearing", "system_life"),
     checks=CHECKS,

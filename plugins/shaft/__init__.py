@@ -5,6 +5,7 @@ from __future__ import annotations
 from diecut_report.api import Mechanism, Source
 from diecut_report.plugins.shaft import advice, geometry, sizing, steels, strength
 from diecut_report.plugins.shaft.checks import CHECKS
+from diecut_report.plugins.shaft.example import EXAMPLE
 from diecut_report.plugins.shaft.figures import FIGURES
 from diecut_report.plugins.shaft.inputs import Shaft
 
@@ -16,6 +17,7 @@ MECHANISM = Mechanism(
     "reactions, bending moment, torque, deflection, slopes, twist, the safety against fatigue and yield at each shoulder, notch, bearing and "
     "load, and the critical speed. Where a section's diameter is left out, the least preferred one is taken with which the shaft holds.",
     inputs=Shaft,
+    example=EXAMPLE,
     chapters=(
         sizing.diameters, geometry.sections, steels.steel, steels.own_steel, geometry.places, geometry.notches, geometry.endurance, strength.loads,
         strength.bending, strength.fatigue, strength.yielding, strength.critical, advice.enough,

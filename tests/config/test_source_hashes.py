@@ -12,6 +12,7 @@ from pathlib import Path
 
 import pytest
 
+from diecut_report import pipeline
 from diecut_report.cli.main import main
 from diecut_report.config.discovery import Discovery
 from diecut_report.config.loader import load_config
@@ -129,6 +130,23 @@ def test_results_and_report_tell_the_hashes(tmp_path: Path, capfd: pytest.Captur
         assert re.search(rf"source\s+{told[:12]}\s", page)
 
 
+def test_results_tell_whether_the_formulas_of_a_foreign_plugin_are_sound_and_judge_them_when_it_changes(
+    tmp_path: Path,
+) -> None:
+    text = (GOOD / "lever.py").read_text("utf-8")
+    wrong = text.replace("return force * arm", "return force + arm")
+    for number, (content, check) in enumerate(
+        [(text, "passed"), (wrong, "failed"), (wrong, "failed"), (text, "passed")]
+    ):
+        folder = tmp_path / str(number)
+        folder.mkdir()
+        saved(folder, content, "lever.py")
+        outcome, _ = pipeline.calc(saved(folder, LEVER), Discovery([folder]), lambda _: None)
+        assert outcome.results["mechanisms"]["a"]["plugin_check"] == check
+        words = ["The formulas of the plugin of 'lever' have faults, which `diecut-report check-plugin lever` tells."]
+        assert list(outcome.warnings) == (words if check == "failed" else [])
+
+
 def test_a_foreign_plugin_is_named_by_its_file_and_not_by_where_it_lies(tmp_path: Path) -> None:
     package = tmp_path / "secret place" / "lever"
     package.mkdir(parents=True)
@@ -140,7 +158,10 @@ def test_a_foreign_plugin_is_named_by_its_file_and_not_by_where_it_lies(tmp_path
         assert found["mechanisms"]["a"]["plugin_file"] == file and digest
         assert "plugin_file" not in found["mechanisms"]["clutch"]  # comes with the program
         page = re.sub(r"\s+", " ", re.sub(r"<[^>]+>", " ", render_html(found)))
-        assert f"{file} source {digest[:12]}" in page and "secret place" not in page + json.dumps(found)
+        assert (
+            f"{file} , declarations and formulas checked source {digest[:12]}" in page
+            and "secret place" not in page + json.dumps(found)
+        )
 
 
 def run(*arguments: str | Path) -> subprocess.CompletedProcess[str]:

@@ -2,13 +2,16 @@
 
 from __future__ import annotations
 
-from typing import Any
+from typing import Annotated, Any
 
 import numpy as np
 import pytest
 
+from diecut_report.api import POINTS, Chapter, Inputs, Mechanism, Quantity
 from diecut_report.config.discovery import Discovery
 from diecut_report.config.loader import load_config
+from diecut_report.contract.inputs import flatten
+from diecut_report.engine import calculate
 from diecut_report.engine.printing.items import section_items
 from diecut_report.report.chapters import chapter as chapter_of
 from diecut_report.report.equations import Equations
@@ -76,3 +79,21 @@ def test_the_report_says_at_the_chapters_head_where_curves_are_shown() -> None:
     part = chapter_of("A", "drive", results, Equations(Catalogue("en"), Typesetter().measure), Catalogue("en"))
     said = [section.shown for section in part.sections if section.shown]
     assert said and all(words.startswith("Curves are shown at φ = ") and words.endswith("°.") for words in said)
+
+
+class Turned(Inputs):
+    """A crank that is shown at an angle of its own."""
+
+    shown: Annotated[float, Quantity("φ_0", "deg", "Where it is shown", ge=0)] = 30
+    radius: Annotated[float, Quantity("r", "mm", "Radius", gt=0)] = 100
+    n_points: Annotated[int, POINTS] = 36
+
+
+@pytest.mark.parametrize(("shown", "printed"), [(30, "30"), (390, "30")])
+def test_curves_are_shown_at_any_number_that_an_abscissa_names(shown: float, printed: str) -> None:
+    motion = Chapter("Motion")
+    motion.abscissa("angle", "φ", "deg", "Angle", 2 * np.pi, shown_at="shown")
+    motion.value("height", "y", "mm", "Height", lambda radius, angle: radius * np.sin(angle))
+    crank = Mechanism(kind="crank", version="1", title="Crank", summary="", inputs=Turned, chapters=(motion,))
+    calc = calculate(crank, flatten(Turned.model_validate({"shown": shown})))
+    assert places(chapters(calc)["Motion"]) == {printed}

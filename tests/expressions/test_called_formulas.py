@@ -14,11 +14,11 @@ from diecut_report.engine import calculate
 from diecut_report.engine.numerics.codegen import Program
 from diecut_report.engine.printing.items import section_items
 from diecut_report.expressions import Formula, FormulaError, Node, evaluate
+from diecut_report.formula_checks.dimensions import dimensions
 from diecut_report.report.equations import Equations
 from diecut_report.report.i18n import Catalogue
 from diecut_report.report.latex import Latex, Linear
 from diecut_report.report.typeset import Typesetter
-from diecut_report.testing.dimensions import dimensions
 
 TWICE = Constant(2.0, "k_0", "1")
 

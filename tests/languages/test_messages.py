@@ -14,11 +14,14 @@ DONE = (
     "cli",
     "config",
     "conditions",
+    "drafting",
     "exchange/signing*",
     "exchange/verification*",
     "quantities",
     "given_files*",
+    "kit",
     "pipeline*",
+    "scripting",
 )
 ERRORS = {"Problem", "UnitError", "ConditionError", "BadParameter", "UsageError", "Unresolved"}
 WORDS = re.compile(r"[A-Za-z]{2,}[,;:]? [a-z]{2,}")

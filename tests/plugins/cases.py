@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-from dataclasses import dataclass
 from functools import cache
 from typing import Any
 
@@ -11,13 +9,14 @@ import numpy as np
 
 from diecut_report.config.discovery import Discovery
 from diecut_report.config.loader import load_config
-from diecut_report.contract.inputs import SI, Quantity, fields
-from diecut_report.contract.mechanism import Mechanism
-from diecut_report.engine import Calculation, CurveHandle, calculate
+from diecut_report.contract.inputs import SI
+from diecut_report.engine import Calculation, CurveHandle
 from diecut_report.mechanics.motion_laws import LAWS
 from diecut_report.quantities.units import unit
 from diecut_report.results.comparisons import Found
 from diecut_report.results.press_run import Run, compute
+from diecut_report.testing.many_machines import MachineCase as Case
+from diecut_report.testing.many_machines import Ranges
 from tests.configs import EXAMPLES
 from tests.machines import PUBLISHED_CYLINDER, PUBLISHED_DRIVE, UNBALANCED, inputs
 from tests.plugins import bearings, chains
@@ -41,41 +40,6 @@ OF_KINDS = {kind: DISCOVERY.mechanism(kind) for kind in DISCOVERY.origins}
 COMPARISONS = {c.mechanism.kind: c.mechanism for mechanism in OF_KINDS.values() for c in mechanism.comparisons}
 MECHANISMS = OF_KINDS | COMPARISONS
 CONFIGS = {path.stem: load_config(path, DISCOVERY) for path in EXAMPLES}
-
-Ranges = Mapping[str, tuple[float, float]]
-
-
-@dataclass(frozen=True)
-class Case:
-    """A machine: its inputs in SI as the engine takes them, and which of them vary widely, between which limits."""
-
-    mechanism: Mechanism
-    values: Mapping[str, Any]
-    widely: Ranges
-
-    def together(self, count: int, seed: int) -> tuple[dict[str, Any], Calculation]:
-        """So many machines at once, with the inputs in which they differ."""
-        varied = self.varied(count, seed)
-        return varied, calculate(self.mechanism, {**self.values, **varied}, count)
-
-    def varied(self, count: int, seed: int) -> dict[str, Any]:
-        """The inputs of so many machines, without those that they share: some differ widely, all other numbers a little."""
-        draw, known = np.random.default_rng(seed), dict(fields(self.mechanism.inputs))
-        found: dict[str, Any] = {}
-        for name, value in self.values.items():
-            meta, parts = known.get(name), value if isinstance(value, tuple) else (value,)
-            if not isinstance(meta, Quantity) or not all(isinstance(part, int | float) for part in parts):
-                continue
-            if name in self.widely:
-                drawn = draw.uniform(*self.widely[name], count)
-                found[name] = np.round(drawn) if meta.integer else drawn
-            elif not meta.integer:
-                rows = [
-                    np.where(meta.holds(near := part * draw.uniform(0.99, 1.01, count)), near, part) for part in parts
-                ]
-                found[name] = tuple(rows) if isinstance(value, tuple) else rows[0]
-        return found
-
 
 # Keys that the examples do not give, and limits (SI) wide enough that some machines cannot exist.
 KNIFE: dict[str, Any] = {"working_depth": 40, "signature_length": 273, "n_points": 72}

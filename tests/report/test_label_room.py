@@ -16,6 +16,7 @@ from matplotlib.backends.backend_svg import RendererSVG
 from matplotlib.text import Text
 
 from diecut_report.config.discovery import Discovery
+from diecut_report.languages.catalogues import Catalogues
 from diecut_report.pipeline import calc
 from diecut_report.report.figure_places import placed, rows_of
 from diecut_report.report.figures.by_type import build
@@ -25,6 +26,7 @@ from diecut_report.report.figures.sizes import Size
 from diecut_report.report.figures.style import load_fonts
 from diecut_report.report.figures.style import style as style_of
 from diecut_report.report.i18n import Catalogue
+from diecut_report.report.translated import translated
 from tests.configs import EXAMPLES
 
 TAIL = 2.2  # points of a line of text below its letters: so much two boxes may share without a letter touching another
@@ -41,7 +43,9 @@ class Box(NamedTuple):
     top: float
 
 
-def _boxes(figure: Mapping[str, Any], curves: Mapping[str, Any], size: Size) -> tuple[list[Box], float, float]:
+def _boxes(
+    figure: Mapping[str, Any], curves: Mapping[str, Any], size: Size, language: str = "en"
+) -> tuple[list[Box], float, float]:
     """The texts that are really drawn (ticks beyond an axis are not), and the size of the picture."""
     drawn: dict[Text, None] = {}
     draw = Text.draw
@@ -53,7 +57,7 @@ def _boxes(figure: Mapping[str, Any], curves: Mapping[str, Any], size: Size) -> 
 
     load_fonts()
     with mpl.rc_context(style_of("x")), pytest.MonkeyPatch.context() as patch:  # type: ignore[arg-type]
-        sheet = build(figure, curves, Catalogue("en"), size)
+        sheet = build(figure, curves, Catalogue(language), size)
         patch.setattr(Text, "draw", noted)
         sheet.set_dpi(72)
         renderer = RendererSVG(*(side * 72 for side in sheet.get_size_inches()), StringIO())
@@ -63,8 +67,8 @@ def _boxes(figure: Mapping[str, Any], curves: Mapping[str, Any], size: Size) -> 
     return found, width, height
 
 
-def _faults(figure: Mapping[str, Any], curves: Mapping[str, Any], size: Size) -> Iterator[str]:
-    boxes, width, height = _boxes(figure, curves, size)
+def _faults(figure: Mapping[str, Any], curves: Mapping[str, Any], size: Size, language: str = "en") -> Iterator[str]:
+    boxes, width, height = _boxes(figure, curves, size, language)
     for box in boxes:
         if min(box.left, box.bottom) < -EDGE or box.right > width + EDGE or box.top > height + EDGE:
             yield f"{figure['id']}: {box.text!r} leaves the picture"
@@ -88,10 +92,10 @@ def _drawn(results: Mapping[str, Any], *, paired: bool) -> Iterator[Drawn]:
             yield from ((e.figure, part["curves"], size) for e in row.figures if "error" not in e.figure)
 
 
-def _every(results: Mapping[str, Any], *, paired: bool) -> list[str]:
-    drawn = list(_drawn(results, paired=paired))
+def _every(results: Mapping[str, Any], *, paired: bool, language: str = "en") -> list[str]:
+    drawn = list(_drawn(translated(results, Catalogues(language)), paired=paired))
     assert drawn
-    return [fault for each in drawn for fault in _faults(*each)]
+    return [fault for each in drawn for fault in _faults(*each, language)]
 
 
 @pytest.mark.parametrize("paired", [False, True], ids=["large", "side by side"])
@@ -113,8 +117,23 @@ def test_texts_of_all_figures_keep_clear(results: dict[str, Any], paired: bool) 
 @pytest.mark.nightly
 @pytest.mark.parametrize("paired", [False, True], ids=["large", "side by side"])
 @pytest.mark.parametrize("config", EXAMPLES, ids=lambda path: path.stem)
-def test_texts_of_figures_keep_clear_in_every_example(config: Path, paired: bool) -> None:
-    assert _every(calc(config, Discovery([]), lambda _: None)[0].results, paired=paired) == []
+@pytest.mark.parametrize("language", ["en", "uk"])
+def test_texts_of_figures_keep_clear_in_every_example(config: Path, paired: bool, language: str) -> None:
+    assert _every(calc(config, Discovery([]), lambda _: None)[0].results, paired=paired, language=language) == []
+
+
+@pytest.mark.usefixtures("style")
+def test_titles_that_are_wider_than_their_diagram_stand_in_lines() -> None:
+    """Two long titles and a legend in rows, in the narrowest size."""
+    line = {"x": [0.0, 1.0], "y": [0.0, 1.0], "label": ""}
+    words = "A quantity with so long a name that no narrow diagram has room for it in one line"
+    panel = {
+        "title": words, "unit": "mm", "x": {"title": words, "symbol": "φ", "unit": "deg"}, "fills": [], "marks": [],
+        "lines": [line | {"label": f"law number {n} with a long name"} for n in range(3)], "levels": [], "verticals": [],
+    }  # fmt: skip
+    figure = {"id": "narrow", "type": "chart", "panels": [panel, panel]}
+    assert list(_faults(figure, {}, Size.HALF)) == []
+    assert sum("\n" in box.text for box in _boxes(figure, {}, Size.HALF)[0]) == 3
 
 
 def _crowded() -> LabelLayout:

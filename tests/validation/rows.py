@@ -9,6 +9,8 @@ from pathlib import Path
 from types import ModuleType
 from typing import Literal
 
+from diecut_report.testing.printed_values import rounds_to
+
 Verdict = Literal["agrees", "mistake", "cannot be reproduced"]
 
 
@@ -30,16 +32,9 @@ class Row:
     by_source: Callable[[], float] | None = None
     why: str = ""
 
-    @property
-    def rounding(self) -> float:
-        """Half a unit of the last printed digit."""
-        mantissa, _, exponent = self.printed.partition("e")
-        decimals = len(mantissa.partition(".")[2])
-        return 0.5 * 10.0 ** (int(exponent or 0) - decimals)
-
     def reproduces(self, value: float) -> bool:
         """Whether a value rounds to the printed number."""
-        return abs(value - float(self.printed)) <= self.rounding * (1 + 1e-9)
+        return rounds_to(value, self.printed)
 
 
 def modules() -> Iterator[ModuleType]:

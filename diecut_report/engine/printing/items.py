@@ -172,7 +172,7 @@ def _formula(calc: Calculation, part: Bound, step: Step, axis: str | None, elsew
     try:
         numeric = substitution.numeric(target, result["unit"], step.digits) if takes else None
     except Contradiction as found:
-        raise Unproven(contradicted(step, part, found)) from None
+        raise Unproven(contradicted(step, part, found), step.at) from None
     symbolic = substitution.symbolic()
     item: Item = {"equation": symbolic.to_json(), "substituted": numeric and numeric.to_json()}
     if defined := definitions(symbolic):
@@ -230,11 +230,10 @@ def _root(calc: Calculation, step: Root) -> Item:
         for side in (step.left, step.right)
     ]
     residual = number_text(calc.proof[step.id], 2)
-    method = "bracketed root search, proved by the relation shown, which was not used to find it"
     return _head(step) | {
         "type": "found",
         "relation": Node("cmp", ("==", *sides)).to_json(),
-        "method": method,
+        "method": METHODS["root"],
         "result": step_shown(calc, step, value_at(calc, step.id, None)),
         "residual": {"text": residual, "unit": "1"},
     }

@@ -8,6 +8,7 @@ from diecut_report.languages.phrases import Phrase
 
 EQUAL_TERMS = "the terms are equal up to the rounding of the computer, or so nearly that printed numbers do not show it"
 METHODS = {
+    "root": "bracketed root search, proved by the relation shown, which was not used to find it",
     "max": "bounded search on the curve within each smooth piece, one-sided limits at the breakpoints included",
     "mean": "Gauss–Legendre between the breakpoints, repeated with the doubled order",
     "derivative": "Chebyshev series between the breakpoints, differentiated; the series is compared with the curve at other places",

@@ -25,10 +25,12 @@ def shown_place(calc: Calculation, axis: str) -> tuple[Array, Array]:
     """Return the place of an abscissa at which formulas are shown, and the middle of its smooth piece, each of shape (1, 1)."""
     step = calc.steps[axis]
     assert isinstance(step, Abscissa)
-    if step.shown_at:
+    domain = calc.domains[axis]
+    if step.shown_at in calc.middle:  # of an extreme, which knows the piece that it lies in
         return calc[step.shown_at][:1], calc.middle[step.shown_at][:1]
-    place = calc.domains[axis].samples[:1, calc.domains[axis].samples.shape[1] // 8][:, None]
-    return place, calc.domains[axis].middle_of(place, rows=FIRST)
+    asked = np.mod(calc[step.shown_at][:1], domain.period[:1]) if step.shown_at else None
+    place = domain.samples[:1, domain.samples.shape[1] // 8][:, None] if asked is None else asked
+    return place, domain.middle_of(place, rows=FIRST)
 
 
 def value_at(calc: Calculation, name: str, axis: str | None, *, flag: bool = False, part: int | None = None) -> float:

@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 from diecut_report.quantities.units import pretty, to_display, unit
 from diecut_report.report.curves import continuous, period_of
-from diecut_report.report.figures.diagram import HEAD, Diagram
+from diecut_report.report.figures.diagram import HEAD, Diagram, further
 from diecut_report.report.figures.panel_data import Across, Line, Note, PanelData, SpanData, limits_of, range_of
 from diecut_report.report.figures.sizes import WIDTHS, Size
 from diecut_report.report.figures.style import canvas, marked, plain
@@ -60,12 +60,14 @@ def _sheet(panels: list[PanelData], words: Catalogue, size: Size) -> Figure:
     drawn = [Diagram(panel, wide, height) for panel in panels]
     for diagram in drawn[1:]:
         diagram.follow(drawn[0])
+    named = [foot == NAMED_FOOT for foot in feet]
+    feet = [foot + further(each.across) * below for foot, each, below in zip(feet, drawn, named, strict=True)]
     total = TOP + sum(diagram.head for diagram in drawn) + height * len(panels) + sum(feet)
     sheet, bottom = canvas(width, total), total - TOP
-    for diagram, foot in zip(drawn, feet, strict=True):
+    for diagram, foot, below in zip(drawn, feet, named, strict=True):
         bottom -= diagram.head + height
         axes = sheet.add_axes((LEFT / width, bottom / total, wide / width, height / total))
-        diagram.draw(axes, words, named=foot == NAMED_FOOT)
+        diagram.draw(axes, words, named=below)
         bottom -= foot
     return sheet
 

@@ -15,7 +15,19 @@ from diecut_report.report.figures.label_layout import SIZE, LabelLayout
 from diecut_report.report.figures.panel_data import Across, Frame, PanelData, framed, pieces
 from diecut_report.report.figures.shapes import hatching
 from diecut_report.report.figures.sizes import WIDTHS, Size
-from diecut_report.report.figures.style import ACCENT, INK, PALE, SOFT, marked, plain, symbol, text_size
+from diecut_report.report.figures.style import (
+    ACCENT,
+    FONT_SIZE,
+    INK,
+    LINE,
+    PALE,
+    SOFT,
+    marked,
+    plain,
+    symbol,
+    text_size,
+    wrapped,
+)
 from diecut_report.report.i18n import Catalogue
 from diecut_report.report.number_format import number
 
@@ -60,12 +72,16 @@ class Diagram:
         self.tags = self.names.tags if len(panel.lines) > 1 else []
         areas = [marked(panel.fills[index].label) for index in self.names.outside]
         self.told = [tag for tag in self.tags if tag] + areas
-        self.legend = legend(self.told, width, text_size(self._title())[0])
+        self.title = wrapped(self._title(), width)
+        self.legend = legend(self.told, width, text_size(self.title)[0])
+        self.across = wrapped(titled(*panel.across[:3]), width)
 
     @property
     def head(self) -> float:
         """The room that it needs above."""
-        return HEAD + (0.0 if self.legend is None or self.legend.beside else self.legend.rows * ROW)
+        return (
+            HEAD + further(self.title) + (0.0 if self.legend is None or self.legend.beside else self.legend.rows * ROW)
+        )
 
     def follow(self, first: Diagram) -> None:
         """Leave a legend in rows away that the first diagram has already."""
@@ -81,7 +97,7 @@ class Diagram:
         _ticks(axes, self.panel.across, self.frame, words)
         axes.tick_params(labelbottom=named)
         if named:
-            axes.set_xlabel(titled(*self.panel.across[:3]), labelpad=2)
+            axes.set_xlabel(self.across, labelpad=2)
         self._head(axes, handles)
         for text in self.names.texts:
             halo = {
@@ -106,10 +122,10 @@ class Diagram:
         return " ".join(parts) + (f", {shown}" if shown else "")
 
     def _head(self, axes: Axes, handles: list[Any]) -> None:
-        axes.set_title(self._title(), pad=4, y=1.0)  # where it stands is known: matplotlib need not look for room
+        axes.set_title(self.title, pad=4, y=1.0)  # where it stands is known: matplotlib need not look for room
         if self.legend is None:
             return
-        above = 1 + TITLE / self.frame.height
+        above = 1 + (TITLE + further(self.title)) / self.frame.height
         beside = self.legend.beside
         axes.legend(
             handles, [str(handle.get_label()) for handle in handles], loc="lower right" if beside else "lower left",
@@ -175,6 +191,11 @@ def legend(told: list[str], width: float, title: float) -> Legend | None:
         if total <= width:
             break
     return Legend(columns, -(-len(wide) // columns), beside=False)
+
+
+def further(text: str) -> float:
+    """Return the height of all lines of a text but its first, in points."""
+    return text.count("\n") * LINE * FONT_SIZE
 
 
 def titled(words: str, sign: str, shown: str) -> str:

@@ -25,6 +25,7 @@ MM = 72 / 25.4  # points
 FONT_SIZE = 8.5  # points
 BELOW = 1.2  # what the tails of letters take beyond a text's size, points
 LINE = 1.25  # from line to line of a text, in font sizes
+WORDS = re.compile(r"(?:(?<!\\)\$.*?(?<!\\)\$|\S)+")  # a symbol is one word, whatever stands in it
 Box = tuple[float, float, float, float]  # left, bottom, right, top
 
 
@@ -140,6 +141,18 @@ def text_size(text: str, size: float = FONT_SIZE) -> tuple[float, float]:
     lines = text.split("\n")
     sizes = [_line_size(line, size) for line in lines]
     return max(wide for wide, _ in sizes), max(high for _, high in sizes) + (len(lines) - 1) * LINE * size
+
+
+def wrapped(text: str, width: float, size: float = FONT_SIZE) -> str:
+    """Return a text in lines no wider than so many points, broken between words; a longer word stands on a line of its own."""
+    lines: list[str] = []
+    for word in WORDS.findall(text):
+        longer = f"{lines[-1]} {word}" if lines else word
+        if lines and text_size(longer, size)[0] <= width:
+            lines[-1] = longer
+        else:
+            lines.append(word)
+    return "\n".join(lines)
 
 
 def _line_size(text: str, size: float) -> tuple[float, float]:

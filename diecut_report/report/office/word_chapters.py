@@ -207,9 +207,15 @@ def closing(body: WordBody, document: ReportDocument, digest: str) -> None:
     ]
     body.table(columns, [
         [run(f"{part.letter} {part.title} (") + key(part.name) + run(")"), key(part.kind),
-         run(part.version or "–") + _hash(body, part.source_sha256), body.status(part.face)]
+         run(part.version or "–") + _foreign(body, part) + _hash(body, part.source_sha256), body.status(part.face)]
         for part in document.chapters
     ])  # fmt: skip
+
+
+def _foreign(body: WordBody, part: PrintedChapter) -> Inline:
+    """The file of a plugin that is not the program's own, and what was found of it."""
+    told = key(f" {part.source_file}") if part.source_file else ""
+    return told + (run(f", {body.words[f'plugin_{part.source_check}']}") if part.source_check else "")
 
 
 def _versions(program: Mapping[str, Any]) -> str:

@@ -31,6 +31,7 @@ from diecut_report.contract.inputs import (
 )
 from diecut_report.contract.unit_variants import in_form
 from diecut_report.errors import Problem, nearest
+from diecut_report.languages.phrases import Phrase, phrase
 
 MECHANISMS = "mechanisms"
 
@@ -72,18 +73,23 @@ def find_input(base: Config, path: str) -> Input:
     meta = declared(instance.model, key) if key else None
     if isinstance(meta, type):
         raise UnknownPath(
-            f"is a block or a list; vary one of its values, such as {path}.{_first(meta, instance, key)}."
+            Phrase(
+                "is a block or a list; vary one of its values, such as {path}.",
+                path=f"{path}.{_first(meta, instance, key)}",
+            )
         )
     if isinstance(meta, PhaseInput | MechanismInput):
-        raise UnknownPath("stands for something of another mechanism, which cannot be varied; vary what it is made of.")
+        words = "stands for something of another mechanism, which cannot be varied; vary what it is made of."
+        raise UnknownPath(phrase(words))
     if isinstance(meta, CurveInput):
-        raise UnknownPath("is a curve; curves cannot be varied, only numbers, texts and choices.")
+        raise UnknownPath(phrase("is a curve; curves cannot be varied, only numbers, texts and choices."))
     if meta is None:
         raise UnknownPath(_no_input(base, instance, keys))
     _check_list(instance.data, key)
     single = instance.model.spread.get(str(key[0]), ()) if len(key) == 1 else ()
     if any(name in instance.data for name in single):
-        raise UnknownPath(f"is given in the base by its single values; vary one of these: {', '.join(single)}.")
+        words = "is given in the base by its single values; vary one of these: {names}."
+        raise UnknownPath(Phrase(words, names=", ".join(single)))
     model = _home(instance.model, key)
     field = keys_of(model)[str(key[-1])].field
     return Input(path, instance.name, key, meta, _with_entries(instance, key, field.annotation), tuple(field.metadata))
@@ -103,35 +109,40 @@ def _instance(base: Config, path: str) -> tuple[Instance, list[str]]:
         raise UnknownPath(_no_instance(base, path))
     instance = base.instances[name]
     if instance is None:
-        raise UnknownPath(f"cannot be varied, as its plugin is broken: {base.broken.get(name, 'unknown')}")
+        words = "cannot be varied, as its plugin is broken: {error}"
+        raise UnknownPath(Phrase(words, error=base.broken.get(name, "unknown")))
     return instance, keys
 
 
-def _no_instance(base: Config, path: str) -> str:
+def _no_instance(base: Config, path: str) -> Phrase:
     first, *rest = path.split(".")
     names = [name for name in base.instances if name != PRESS]
     if first in names:
-        return f"is not a path of an input; write {MECHANISMS}.{path}."
+        return Phrase("is not a path of an input; write {path}.", path=f"{MECHANISMS}.{path}")
     if first == MECHANISMS and rest:
-        return f"there is no mechanism {rest[0]!r}{nearest(rest[0], names)}. Known: {', '.join(names)}."
+        words = "there is no mechanism {name}{near}. Known: {names}."
+        return Phrase(words, name=repr(rest[0]), near=nearest(rest[0], names), names=", ".join(names))
     if first == "project":
-        return f"is in the title block, which cannot be varied; vary fields of {PRESS} and inputs of {MECHANISMS}."
+        words = "is in the title block, which cannot be varied; vary fields of {press} and inputs of {mechanisms}."
+        return Phrase(words, press=PRESS, mechanisms=MECHANISMS)
     known = [found for name in base.instances for found in known_paths(base, name)]
     alike = next((found for found in known if found.endswith(f".{rest[-1] if rest else first}")), None)
-    near = f" (did you mean {alike!r}?)" if alike else nearest(path, known)
-    return f"is not a path of an input{near}; paths are {MECHANISMS}.NAME.KEY and {PRESS}.KEY. Mechanisms: {', '.join(names)}."
+    near = Phrase(" (did you mean {key}?)", key=repr(alike)) if alike else nearest(path, known)
+    words = "is not a path of an input{near}; paths are {mechanisms}.NAME.KEY and {press}.KEY. Mechanisms: {names}."
+    return Phrase(words, near=near, mechanisms=MECHANISMS, press=PRESS, names=", ".join(names))
 
 
-def _no_input(base: Config, instance: Instance, keys: list[str]) -> str:
-    name, told = ".".join(keys), f"of {instance.name}"
+def _no_input(base: Config, instance: Instance, keys: list[str]) -> Phrase:
+    name, known = ".".join(keys), _known(instance)
     if not keys:
-        return f"names no input; known {told}: {', '.join(_known(instance))}."
+        return Phrase("names no input; known of {home}: {names}.", home=instance.name, names=", ".join(known))
     if name == "kind":
-        return "cannot be varied; a mechanism keeps its kind in all variants."
+        return phrase("cannot be varied; a mechanism keeps its kind in all variants.")
     if name in instance.results:
-        return f"is an output {told}; only inputs can be varied{nearest(name, _known(instance))}."
-    near = nearest(name, _known(instance))
-    return f"{name!r} is not an input {told}{near}. Known: {', '.join(_known(instance))}."
+        words = "is an output of {home}; only inputs can be varied{near}."
+        return Phrase(words, home=instance.name, near=nearest(name, known))
+    words = "{name} is not an input of {home}{near}. Known: {names}."
+    return Phrase(words, name=repr(name), home=instance.name, near=nearest(name, known), names=", ".join(known))
 
 
 def known_paths(base: Config, name: str) -> list[str]:
@@ -162,7 +173,8 @@ def _home(model: type[Block], key: KeyPath) -> type[Block]:
 def _check_list(data: Any, key: KeyPath) -> None:
     for part in key:
         if isinstance(part, int) and part >= len(data or ()):
-            raise UnknownPath(f"the list has {len(data or ())} entries in the base, counted from 0.")
+            words = "the list has {n} entries in the base, counted from 0."
+            raise UnknownPath(Phrase(words, n=len(data or ())))
         known = part in data if isinstance(data, dict) else isinstance(data, list)
         data = data[part] if known else None
 

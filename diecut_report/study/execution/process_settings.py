@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import ctypes
+from collections.abc import Iterator
+from contextlib import contextmanager
 
 from threadpoolctl import threadpool_limits
 
@@ -17,6 +19,13 @@ def settle() -> None:
         1, "blas"
     )  # small products gain nothing by threads, and threads of several processes wait for each other
     keep_freed_memory()
+
+
+@contextmanager
+def one_thread() -> Iterator[None]:
+    """Let linear algebra take one thread meanwhile, as in the program's own processes: with more, sums may differ in their last digit."""
+    with threadpool_limits(1, "blas"):
+        yield
 
 
 def keep_freed_memory() -> None:

@@ -13,7 +13,7 @@ import pyarrow.parquet as pq
 from numpy.typing import NDArray
 
 from diecut_report.errors import Problem, UserError
-from diecut_report.study.storage.description import SCHEMA_VERSION, VARIANT, VERDICT, Description, Kind
+from diecut_report.study.storage.description import SCHEMA_VERSION, VARIANT, VERDICT, Description, Kind, ResultColumn
 
 Values = NDArray[Any] | Sequence[Any]
 TYPES: dict[Kind, Any] = {
@@ -31,11 +31,12 @@ MISSING = "This part of the results is missing. Calculate it again with --resume
 
 def schema_of(description: Description) -> pa.Schema:
     """Return the types of the columns, with unit, symbol and description of each, and where the results come from."""
-    fields = []
-    for column in description.all_columns:
-        about = {"unit": column.unit, "symbol": column.symbol, "description": column.description}
-        fields.append(pa.field(column.name, TYPES[column.kind], column.name != VARIANT.name, about))
-    return pa.schema(fields, provenance(description))
+    return pa.schema([_field(column) for column in description.all_columns], provenance(description))
+
+
+def _field(column: ResultColumn) -> pa.Field:
+    about = {"unit": column.unit, "symbol": column.symbol, "description": column.description}
+    return pa.field(column.name, TYPES[column.kind], column.name != VARIANT.name, about)
 
 
 def provenance(description: Description) -> dict[str, str]:
@@ -57,6 +58,18 @@ def table_of(schema: pa.Schema, columns: Mapping[str, Values], variants: NDArray
         raise ValueError(f"a part needs its status and no columns without description: {', '.join(strange)}")
     arrays = [array_of(field, columns.get(field.name), len(variants)) for field in schema if field.name != VARIANT.name]
     return pa.Table.from_arrays([pa.array(variants), *arrays], schema=schema)
+
+
+def described_table(columns: Mapping[ResultColumn, Values | None], count: int) -> pa.Table:
+    """Return columns of so many variants as a table in memory, with unit, symbol and description of each."""
+    fields = [_field(column) for column in columns]
+    arrays = [array_of(field, values, count) for field, values in zip(fields, columns.values(), strict=True)]
+    return pa.Table.from_arrays(arrays, schema=pa.schema(fields))
+
+
+def plain_table(rows: Sequence[Mapping[str, Any]]) -> pa.Table:
+    """Return rows of plain values as a table."""
+    return pa.Table.from_pylist([dict(row) for row in rows])
 
 
 def array_of(field: pa.Field, values: Values | None, count: int) -> pa.Array:

@@ -1,0 +1,118 @@
+"""The commands of plugin authors: ``new-plugin`` writes a mechanism that runs, ``check-plugin`` judges one."""
+
+from __future__ import annotations
+
+import json
+import webbrowser
+from collections.abc import Iterator
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import click
+
+from diecut_report.cli import exit_codes
+from diecut_report.cli.language import asked_language
+from diecut_report.cli.output import (
+    CHECK_FAILED,
+    PASSED,
+    PLUGIN_BROKE,
+    HelpfulCommand,
+    common,
+    emit,
+    tell,
+    tell_written,
+    without_output,
+)
+from diecut_report.languages.phrases import Phrase, phrase
+from diecut_report.languages.speech import said, say, spoken_language
+
+if TYPE_CHECKING:
+    from diecut_report.kit.checking import CheckedPlugin
+
+STATES = {
+    "pass": phrase("holds"),
+    "note": phrase("note"),
+    "not_tried": phrase("not tried"),
+    "fail": phrase("fails"),
+    "broke": phrase("broke"),
+}
+
+path_of = click.Path(path_type=Path)
+
+
+@click.command("new-plugin", cls=HelpfulCommand)
+@click.argument("name")
+@click.option(
+    "--package", "as_package", is_flag=True, help="As a package that can be installed, not a folder for --plugins."
+)
+@click.option("-o", "folder", metavar="DIR", type=path_of, help="The folder to make (default: NAME, here).")
+@common
+def new_plugin(name: str, as_package: bool, folder: Path | None, folders: tuple[Path, ...], quiet: bool) -> int:
+    """Write a new mechanism of the kind NAME that runs: plugin, tests, example, study, words."""
+    from diecut_report.kit.scaffold import scaffold
+
+    home = folder or Path(name)
+    written = scaffold(name, home, as_package=as_package)
+    if not quiet:
+        tell_written(written)
+        tell([Phrase("next: read {file}", file=home / "README.md")])
+    return PASSED
+
+
+@click.command("check-plugin", cls=HelpfulCommand, epilog=exit_codes.OF_PLUGIN)
+@click.argument("plugin", metavar="NAME|DIR")
+@click.option("--config", "configs", metavar="FILE", multiple=True, type=path_of,
+              help="A configuration with a machine to try it on (default: one that lies beside the plugin).")  # fmt: skip
+@click.option("--format", "form", default="text", type=click.Choice(["text", "json"]), help="text (default) or json.")
+@click.option("-o", "page", metavar="FILE", type=path_of, help="The rendered chapter (default: NAME.html, here).")
+@click.option("--open", "is_shown", is_flag=True, help="Show the rendered chapter in the browser.")
+@common
+def check_plugin(
+    plugin: str, configs: tuple[Path, ...], form: str, page: Path | None, is_shown: bool, folders: tuple[Path, ...], quiet: bool
+) -> int:  # fmt: skip
+    """Try a plugin on the rules of its contract, and set its chapter as HTML. Ends with 1 where a rule is broken."""
+    from diecut_report.kit.checking import CheckedPlugin, checked, meant
+
+    known, kinds = meant(plugin, folders)
+    if page is not None and len(kinds) > 1:
+        raise click.UsageError(
+            say("{folder} has {n} plugins; name one of them, or leave -o out.", folder=plugin, n=len(kinds))
+        )
+    found: list[CheckedPlugin] = []
+    for kind in kinds:
+        with without_output():
+            for each in checked(known, kind, configs, asked_language() or spoken_language()):
+                if isinstance(each, CheckedPlugin):
+                    found.append(each)
+    if form == "json":
+        emit(json.dumps([each.data for each in found], indent=2, ensure_ascii=False) + "\n")
+    else:
+        emit("".join(f"{line}\n" for each in found for line in _lines(each)))
+    for each in found:
+        _write_page(each, page or Path(f"{each.kind}.html"), configs, quiet, is_shown)
+    states = {each.status for each in found}
+    return PLUGIN_BROKE if "broke" in states else CHECK_FAILED if "fail" in states else PASSED
+
+
+def _lines(found: CheckedPlugin) -> Iterator[str]:
+    """What was found, a line for each rule, below it its faults."""
+    version = f" {found.mechanism.version}" if found.mechanism else ""
+    yield say("{kind}{version}, from {origin}", kind=found.kind, version=version, origin=found.told)
+    if found.error:
+        yield f"  {say('broke')}: {said(found.error)}"
+    for rule in found.rules:
+        told = f": {said(rule.told)}" if rule.told else ""
+        yield f"  {said(STATES[rule.status])}  {said(rule.title)}{told}"
+        yield from (f"      {said(fault)}" for fault in rule.faults)
+
+
+def _write_page(found: CheckedPlugin, page: Path, configs: tuple[Path, ...], quiet: bool, is_shown: bool) -> None:
+    from diecut_report.files import write_all
+
+    if not found.page:
+        return
+    write_all({page: found.page.encode()}, keep=configs[0] if configs else page.parent)
+    if not quiet:
+        tell_written([page])
+    if is_shown:
+        webbrowser.open(page.resolve().as_uri())

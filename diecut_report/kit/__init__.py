@@ -1,0 +1,1 @@
+"""Tests what a plugin author writes and checks plugins with."""

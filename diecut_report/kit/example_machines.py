@@ -1,0 +1,59 @@
+"""Machines to try a plugin on: of the configurations that are named, or of those that lie beside the plugin."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterable, Iterator
+from importlib.resources import as_file, files
+from pathlib import Path
+
+from diecut_report.config.discovery import Discovery, Origin
+from diecut_report.config.loader import Config, load_config
+from diecut_report.errors import UserError
+
+FOLDERS = (".", "examples", "configs")
+LEVELS = 3  # folders above a plugin in which its examples are sought
+INSTALLED = "site-packages"
+LARGEST = 1_000_000  # bytes of a file that is looked through
+
+
+def named_machine(files: Iterable[Path], kind: str, discovery: Discovery) -> tuple[Config, str] | None:
+    """Return the first machine of a kind in these configurations with its name; UserError where one of them is wrong."""
+    for file in files:
+        config = load_config(file, discovery)
+        for name, own in config.kinds.items():
+            if own == kind:
+                return config, name
+    return None
+
+
+def machine_beside(origin: Origin, discovery: Discovery) -> tuple[Config, str] | None:
+    """Return the first machine of a kind in a configuration beside its plugin that is sound, with its name; None where there is none."""
+    for file in _files(origin):
+        try:
+            found = named_machine([file], origin.kind, discovery)
+        except UserError:
+            continue  # a configuration of something else, which its user knows
+        if found:
+            return found
+    return None
+
+
+def _files(origin: Origin) -> Iterator[Path]:
+    """The configurations near a plugin that name its kind."""
+    kind = re.compile(rf"\bkind:\s*[\"']?{re.escape(origin.kind)}\b")
+    for folder in _folders(origin):
+        for file in sorted(folder.glob("*.yaml")):
+            if file.is_file() and file.stat().st_size < LARGEST and kind.search(file.read_text("utf-8", "replace")):
+                yield file
+
+
+def _folders(origin: Origin) -> Iterator[Path]:
+    if origin.is_own:
+        with as_file(files("diecut_report.configs")) as examples:
+            yield examples
+        return
+    for level, home in enumerate(origin.file().resolve().parents):
+        if level >= LEVELS or home.name == INSTALLED:
+            return
+        yield from (home / name for name in FOLDERS if (home / name).is_dir())

@@ -1,0 +1,159 @@
+"""The inputs of a loaded press as a script sees them: path, value, range, what they rest on."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+from typing import Any, Literal, get_args, get_origin, overload
+
+from diecut_report.config.basis import GIVEN, Basis
+from diecut_report.config.instances import Instance, Slot
+from diecut_report.config.loader import Config
+from diecut_report.config.model import PRESS
+from diecut_report.config.yaml_tree import KeyPath
+from diecut_report.contract.inputs import InOtherUnit, Quantity, Text
+from diecut_report.errors import ConfigError, Problem
+from diecut_report.languages.phrases import Phrase
+from diecut_report.quantities.formatting import given_shown
+from diecut_report.scripting.parts import unknown
+from diecut_report.scripting.spoken import told_in
+from diecut_report.scripting.values import QuantityValue
+from diecut_report.study.definition.base_inputs import MECHANISMS, UnknownPath, find_input
+
+
+@dataclass(frozen=True)
+class PressInput:
+    """Hold an input of the press or of a mechanism: its path (``drive.crank_length``), the kind of its mechanism, and its value (SI).
+
+    ``value`` is None where it follows from something else: ``typed`` is what stands in the file, empty for a default. ``unit`` is that in
+    which a bare number counts, ``allowed`` the range in it. ``basis`` is what it rests on, ``note`` what is noted of it.
+    """
+
+    path: str
+    kind: str
+    value: QuantityValue | None
+    typed: str
+    unit: str
+    allowed: str
+    symbol: str
+    description: str
+    basis: str
+    note: str
+
+    @property
+    def is_given(self) -> bool:
+        """Return whether it stands in the file; else it is a default."""
+        return bool(self.typed)
+
+    def __repr__(self) -> str:
+        return f"<{self.path}: {self.typed if self.value is None else self.value}>"
+
+
+class InputList(Sequence[PressInput]):
+    """Hold inputs in the order of the file: by number, or by path (``press.inputs["drive.crank_length"]``)."""
+
+    def __init__(self, inputs: Sequence[PressInput], language: str | None) -> None:
+        self._inputs, self.language = tuple(inputs), language
+
+    @overload
+    def __getitem__(self, which: int | str) -> PressInput: ...
+    @overload
+    def __getitem__(self, which: slice) -> InputList: ...
+    def __getitem__(self, which: int | str | slice) -> PressInput | InputList:
+        """Return an input; UnknownName where there is none of that path."""
+        if isinstance(which, slice):
+            return InputList(self._inputs[which], self.language)
+        if isinstance(which, int):
+            return self._inputs[which]
+        for each in self._inputs:
+            if each.path == which.removeprefix(f"{MECHANISMS}."):
+                return each
+        with told_in(self.language):
+            raise unknown(Phrase("there is no input"), which, [each.path for each in self._inputs])
+
+    def __len__(self) -> int:
+        return len(self._inputs)
+
+    def _ipython_key_completions_(self) -> list[str]:
+        return [each.path for each in self._inputs]
+
+    def __repr__(self) -> str:
+        return "\n".join(map(repr, self._inputs))
+
+    def _repr_html_(self) -> str:
+        from diecut_report.scripting.display import inputs_html
+
+        return inputs_html(self, self.language)
+
+
+def press_inputs(config: Config) -> Iterator[PressInput]:
+    """Yield all inputs that have a value, those that are given and the defaults."""
+    for instance in config.instances.values():
+        for slot in instance.slots if instance else ():
+            is_single = isinstance(slot.meta, Quantity | Text) and not isinstance(slot.value, list | dict)
+            if instance is not None and is_single and slot.value is not None:
+                yield _input(config, instance, slot)
+
+
+def _input(config: Config, instance: Instance, slot: Slot) -> PressInput:
+    path = ".".join(map(str, (instance.name, *slot.key)))
+    typed = str(instance.place.typed(slot.key) or "")
+    is_followed = (instance.name, *slot.key) in config.links
+    basis, meta = instance.bases.get(slot.key, Basis()), slot.meta
+    kind = instance.mechanism.kind if instance.mechanism else ""
+    value = None if is_followed else _value(path, slot, instance.value(slot.key))
+    if not isinstance(meta, Quantity):
+        choices = ", ".join(_choices(config, path))
+        return PressInput(
+            path, kind, value, typed, "1", choices, "", meta.description if meta else "", basis.basis, basis.note
+        )
+    rests = basis.basis or (GIVEN if typed else "")
+    return PressInput(
+        path, kind, value, typed, meta.unit, meta.allowed, meta.symbol, meta.description, rests, basis.note
+    )
+
+
+def _choices(config: Config, path: str) -> list[str]:
+    """The texts that an input may have; none where it takes any."""
+    try:
+        annotation = find_input(config, whole_path(path)).annotation
+    except UnknownPath:  # of a key that cannot be varied
+        return []
+    kinds = (annotation, *get_args(annotation))
+    texts = [text for kind in kinds if get_origin(kind) is Literal for text in get_args(kind)]
+    return texts or (["true", "false"] if bool in kinds else [])
+
+
+def _value(path: str, slot: Slot, value: Any) -> QuantityValue | None:
+    meta = slot.meta
+    if isinstance(value, InOtherUnit):
+        return QuantityValue(value.value, value.unit, path)
+    if isinstance(meta, Quantity) and isinstance(value, int | float):
+        shown = given_shown(float(value), meta.unit)
+        return QuantityValue(
+            value, meta.parsed_unit.si, path, meta.symbol, meta.description, "", (shown["text"], shown["unit"])
+        )
+    if isinstance(value, bool | int | float | str):
+        return QuantityValue(value, "1", path, description=meta.description if meta else "")
+    return None
+
+
+def whole_path(name: str) -> str:
+    """Return the path of an input in the file, where its mechanism may be named alone."""
+    return name if name.split(".")[0] in (PRESS, MECHANISMS) else f"{MECHANISMS}.{name}"
+
+
+def stands(config: Config, name: str) -> KeyPath:
+    """Return the place in the file of what a path names: an input, or a field of ``project`` or ``report``; ConfigError in words."""
+    first, *rest = name.removeprefix(f"{MECHANISMS}.").split(".")
+    key: KeyPath = tuple(int(part) if part.isdigit() else part for part in rest)
+    if first in ("project", "report"):
+        return (first, *key)
+    try:
+        found = find_input(config, whole_path(name))
+    except UnknownPath as fault:
+        raise ConfigError(Problem(str(fault), config.tree.file, path=name)) from None
+    instance = config.instances[found.instance]
+    assert instance is not None, "an input of a broken plugin is not found"
+    tree, place = instance.place.stands(found.key)
+    return place if tree is config.tree else (*instance.place.root, *found.key)

@@ -1,0 +1,139 @@
+"""Questions to a press: the commands ``solve``, ``advise`` and ``influence``, with presses and quantities for answers."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from typing import Any, Generic, TypeVar
+
+from diecut_report.config.discovery import Discovery
+from diecut_report.config.loader import Config
+from diecut_report.design import advice, advice_text, influence, influence_text
+from diecut_report.design.answers import Answer, FoundValue, data, lines
+from diecut_report.design.design_inputs import DesignInput, design_input, with_input
+from diecut_report.design.questions import question
+from diecut_report.design.solving import solved
+from diecut_report.errors import ConfigError, Problem
+from diecut_report.languages.phrases import Phrase
+from diecut_report.quantities.units import number_and_unit
+from diecut_report.scripting.values import QuantityValue
+
+Data = dict[str, Any]
+PressT = TypeVar("PressT")
+Make = Callable[[Config], PressT]
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class Solution(Generic[PressT]):
+    """Hold the values of an input that answer (``values``, the nearest to today's first); ``press`` is the press with the first, calculated once.
+
+    Without one ``values`` is empty, ``nearest`` is the value that comes nearest, and ``press`` is None. ``data`` is what the command
+    gives as JSON; ``str`` what it says.
+    """
+
+    found: bool
+    values: tuple[QuantityValue, ...]
+    nearest: QuantityValue | None
+    press: PressT | None
+    data: Data
+    text: str
+
+    def __str__(self) -> str:
+        return self.text
+
+    __repr__ = __str__
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class MendedPress(Generic[PressT]):
+    """Hold the least changes with which no check fails: for each path what is to be typed; ``press`` is the press with them.
+
+    ``press`` is None where none was found, or where no check fails today. ``data`` is what the command gives as JSON; ``str`` what it says.
+    """
+
+    changes: dict[str, str]
+    press: PressT | None
+    data: Data
+    text: str
+
+    def __str__(self) -> str:
+        return self.text
+
+    __repr__ = __str__
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class InfluenceTable:
+    """Hold how far each input moves numbers, the greatest first. ``data`` is what the command gives as JSON; ``str`` what it says."""
+
+    data: Data
+    text: str
+
+    def __str__(self) -> str:
+        return self.text
+
+    __repr__ = __str__
+
+    def bars(self) -> list[Data]:
+        """Return for each number its inputs, one below the other: ``of``, ``path``, ``low`` and ``high`` (SI), as rows of a table."""
+        return [
+            {"of": each["name"], "path": bar["path"], "low": bar["low"], "high": bar["high"], "today": each["today"], "unit": each["unit"]}
+            for each in self.data["tornados"]
+            for bar in each["bars"]
+        ]  # fmt: skip
+
+
+def solved_press(
+    config: Config, discovery: Discovery, make: Make[PressT], vary: str, target: str, ends: tuple[str | None, str | None], *, passing: bool
+) -> Solution[PressT]:  # fmt: skip
+    """Return the answer to a question, as the command gives it; ``make`` makes a press of a configuration."""
+    design = design_input(config, vary)
+    low, high = _end(design, ends[0], "low"), _end(design, ends[1], "high")
+    is_new = design.today is None and low is not None
+    asked = question(with_input(config, design, low or 0.0) if is_new else config, target)
+    answer = solved(config, discovery, asked, design, passing=passing, low=low, high=high)
+    values = tuple(_value(answer, each) for each in answer.found)
+    near = None if answer.nearest is None else _value(answer, answer.nearest)
+    press = None if answer.machine is None else make(answer.machine.config)
+    return Solution(bool(values), values, near, press, data(answer), "\n".join(lines(answer)))
+
+
+def _end(design: DesignInput, given: str | None, name: str) -> float | None:
+    try:
+        return None if given is None else design.read(given)
+    except ValueError as fault:
+        raise ConfigError(Problem(fault.args[0], path=f"{name} of {design.name}")) from None
+
+
+def _value(answer: Answer, found: FoundValue) -> QuantityValue:
+    design = answer.design
+    number, own = number_and_unit(found.typed)
+    meta = design.meta
+    return QuantityValue(
+        found.value, meta.parsed_unit.si, design.name, meta.symbol, meta.description, "", (str(number), own or "1")
+    )
+
+
+def mended_press(
+    config: Config, discovery: Discovery, make: Make[PressT], free: tuple[str, ...], keep: tuple[str, ...]
+) -> MendedPress[PressT]:
+    """Return the smallest changes with which no check fails, as the command gives them."""
+    found = advice.mended(config, discovery, free=free, keep=keep, tell=lambda _: None)
+    press = None if found.machine is None else make(found.machine.config)
+    changes = {each.name: each.after for each in found.changes} if found.machine is not None else {}
+    return MendedPress(changes, press, advice.data(found), "\n".join(advice_text.lines(found)))
+
+
+def influence_of(config: Config, names: Sequence[str], share: float) -> InfluenceTable:
+    """Return what inputs do to numbers, as the command gives it; ConfigError where the share is not between 0 and 1."""
+    if not (math.isfinite(share) and 0 < share <= 1):
+        raise ConfigError(
+            Problem(
+                Phrase("{share} is not a share between 0 and 1, such as 0.1 for a tenth.", share=repr(share)),
+                path="share",
+            )
+        )
+    found = influence.tornados(config, list(names), share, {})
+    text = "\n".join(influence_text.lines(found, None))
+    return InfluenceTable(influence_text.data(found, None), text)

@@ -1,0 +1,281 @@
+"""The contract test of a plugin: rules that hold for each mechanism, tried on its declarations and on an example machine."""
+
+from __future__ import annotations
+
+import json
+import random
+import time
+from collections.abc import Callable, Iterable, Iterator, Mapping
+from dataclasses import dataclass, field
+from functools import cached_property
+from pathlib import Path
+from typing import Any
+
+from diecut_report.config.catalogues import catalogues_for
+from diecut_report.config.discovery import Discovery, said
+from diecut_report.config.loader import Config
+from diecut_report.contract.inputs import flatten
+from diecut_report.contract.mechanism import Mechanism
+from diecut_report.declaration import faults, faults_at_load
+from diecut_report.declaration.code_texts import code_texts
+from diecut_report.declaration.sources import own_files
+from diecut_report.declaration.texts import texts
+from diecut_report.engine import Impossible, Unproven, calculate
+from diecut_report.errors import UserError
+from diecut_report.formula_checks import forms, printing, quantities
+from diecut_report.formula_checks.idle import idle_inputs
+from diecut_report.languages.catalogues import SOURCE_LANGUAGE, built_in, languages
+from diecut_report.languages.phrases import Counted, Phrase, phrase
+from diecut_report.report import Rendering
+from diecut_report.results.checks import check_results
+from diecut_report.results.document import document
+from diecut_report.results.press_run import Run, compute
+from diecut_report.study.execution.time_limit import Overran, limited
+from diecut_report.testing.extreme_inputs import extreme_values, fault_of, numeric_inputs, with_value
+from diecut_report.testing.many_machines import MachineCase, one_of, unlike
+from diecut_report.testing.single_machine import Keys, WithMechanism, configured
+from diecut_report.testing.tried_rules import TITLES, TriedRule, at_place, by_id, rule
+
+TOGETHER, ALONE, SEED = 16, 4, 3  # machines at once, and those of them that are calculated alone too
+EXTREMES = 120  # single extreme values that are tried, of all those that there are
+TIMED, TIMED_ALONE = 1000, 5  # variants whose time is measured; where they are slow, so few
+LONGEST = 600.0  # seconds of a rule: a plugin may never come back
+DECLARED = ("declaration", "dimensions", "printed", "inputs")
+
+
+@dataclass
+class ContractTest:
+    """Try the rules of the contract on a mechanism and, where there is one, on a machine of a configuration.
+
+    ``page`` is the mechanism's chapter as HTML, once ``figures`` was tried; ``language`` that of the page.
+    """
+
+    mechanism: Mechanism
+    discovery: Discovery
+    config: Config | None = None
+    name: str = ""
+    language: str = SOURCE_LANGUAGE
+    page: str = field(default="", init=False)
+
+    def tried(self) -> Iterator[TriedRule]:
+        """Yield each rule with what was found; what needs a sound declaration or a machine is not tried without."""
+        first = self.tried_alone("declaration")
+        yield first
+        if first.status != "pass":
+            yield from self._left(list(TITLES)[1:])
+            return
+        for id in DECLARED[1:]:
+            yield self.tried_alone(id)
+        rest = list(TITLES)[len(DECLARED) :]
+        example = self.tried_alone("example")
+        yield example
+        if example.status != "pass":
+            yield from self._left(rest[1:])
+            return
+        for id in rest[1:]:
+            yield self.tried_alone(id)
+
+    def _left(self, ids: Iterable[str]) -> Iterator[TriedRule]:
+        yield from (TriedRule(id, "not_tried", phrase("not tried before what is above holds")) for id in ids)
+
+    def tried_alone(self, id: str) -> TriedRule:
+        """Return what one rule finds; where the plugin breaks in it, that is its fault."""
+        tried: Callable[[], TriedRule] = getattr(self, id)
+        try:
+            with limited(LONGEST):
+                return tried()
+        except Overran as cause:
+            words = Phrase("it did not come back within {seconds} s ({said})", seconds=f"{LONGEST:g}", said=said(cause))
+            return rule(id, "", [words], "broke")
+        except UserError as refused:
+            return rule(id, "", [str(problem) for problem in refused.problems])
+        except (Exception, SystemExit) as cause:
+            return rule(id, "", [said(cause)], "broke")
+
+    # --- what is declared --------------------------------------------------------------------------------------------
+
+    def declaration(self) -> TriedRule:
+        """Try whether what is declared can be."""
+        told = Phrase(
+            "steps: {steps}, checks: {checks}, figures: {figures}", steps=len(self.mechanism.steps),
+            checks=len(self.mechanism.checks), figures=len(self.mechanism.figures),
+        )  # fmt: skip
+        tried = (
+            faults if _is_built_in(self.mechanism) else faults_at_load
+        )  # what comes with the program imports itself by its name
+        return rule("declaration", told, map(str, tried(self.mechanism)))
+
+    def dimensions(self) -> TriedRule:
+        """Try whether the dimensions of the formulas balance, in each unit that holds by form."""
+        found = (
+            by_id(self.mechanism, text)
+            for form in forms(self.mechanism)
+            for text in quantities(form)
+            if " prints " not in text
+        )
+        return rule("dimensions", "", found)
+
+    def printed(self) -> TriedRule:
+        """Try whether each formula prints what it computes."""
+        return rule("printed", "", (by_id(self.mechanism, text) for text in printing(self.mechanism)))
+
+    def inputs(self) -> TriedRule:
+        """Try whether something takes each input."""
+        return rule("inputs", "", idle_inputs(self.mechanism))
+
+    # --- what a machine shows ----------------------------------------------------------------------------------------
+
+    def example(self) -> TriedRule:
+        """Try whether there is a machine, which calculates and prints; its self-tests hold, and nothing breaks."""
+        if self.config is None:
+            words = (
+                "there is no machine of this kind to try the rest on; give a configuration that has one with --config"
+            )
+            return TriedRule("example", "note", faults=(phrase(words),))
+        counts = self.results["mechanisms"].get(self.name, {}).get("counts")
+        if self.name in self.run.errors:
+            return rule("example", "", [str(self.run.errors[self.name].message)], "broke")
+        skipped = [text for name, text in self.run.skipped.items() if name == self.name]
+        told = Phrase("{file}, mechanism {name}", file=self.config.tree.name, name=self.name)
+        return rule("example", told, skipped or ([] if counts else [phrase("it gives no results")]))
+
+    @cached_property
+    def run(self) -> Run:
+        """Return the example's press, calculated."""
+        assert self.config is not None
+        return compute(self.config, lambda _: None)
+
+    @cached_property
+    def results(self) -> dict[str, Any]:
+        """Return its results, as a report has them."""
+        return document(self.run)
+
+    @cached_property
+    def case(self) -> MachineCase:
+        """Return the example's machine, with fewer samples of its curves."""
+        values = flatten(self.run.blocks[self.name])
+        return MachineCase(self.mechanism, values | ({"n_points": 72} if "n_points" in values else {}))
+
+    def alone(self) -> TriedRule:
+        """Try whether machines that are calculated together are each as alone; one that cannot take arrays is noted."""
+        told = Phrase("{count} machines at once, {alone} of them alone too", count=TOGETHER, alone=ALONE)
+        try:
+            found = list(unlike(self.case, TOGETHER, ALONE, SEED))
+        except (Impossible, Unproven):
+            raise
+        except Exception as cause:
+            words = "cannot take arrays, so that a study calculates it variant by variant: {said}"
+            return rule("alone", told, [Phrase(words, said=said(cause))], "note")
+        return rule("alone", told, (at_place(self.mechanism, name, text) for name, text in found))
+
+    def hostile(self) -> TriedRule:
+        """Try whether single extreme values give numbers, or are refused in words."""
+        assert self.config is not None
+        data, key = json.loads(json.dumps(self.config.tree.data, default=str)), ("mechanisms", self.name)
+        cases = [
+            (path, value)
+            for path, quantity in numeric_inputs(self.mechanism.inputs, data["mechanisms"][self.name], key)
+            for value in dict.fromkeys(extreme_values(quantity))
+            if path[-1] != "n_points"
+        ]
+        chosen = cases if len(cases) <= EXTREMES else random.Random(SEED).sample(cases, EXTREMES)
+        told = Phrase("{count} single extreme values", count=len(chosen))
+        return rule("hostile", told, self._extremes(data, chosen))
+
+    def _extremes(self, data: Mapping[str, Any], cases: Iterable[tuple[Any, Any]]) -> Iterator[str]:
+        assert self.config is not None
+        folder = Path(self.config.tree.file).parent
+        for path, value in cases:
+            fault = fault_of(with_value(data, path, value), self.discovery, lambda name: folder / name)
+            if fault:
+                yield at_place(
+                    self.mechanism, _input(path), Phrase("with {value}: {fault}", value=f"{value:g}", fault=fault)
+                )
+
+    def figures(self) -> TriedRule:
+        """Try whether all figures are drawn, and set the chapter."""
+        mechanism = self.results["mechanisms"][self.name]
+        made = [
+            at_place(self.mechanism, f["id"], f["error"])
+            for f in (*mechanism["figures"], *mechanism["exports"])
+            if "error" in f
+        ]
+        drawn = self._rendered(self.language)
+        told = Counted(len(mechanism["figures"]), "{n} figure", "{n} figures")
+        return rule("figures", told, [*made, *drawn])
+
+    def _rendered(self, language: str) -> list[str]:
+        """Set the mechanism's chapter alone; what cannot be drawn."""
+        shown = {**self.results, "project": {**self.results["project"], "language": language}}
+        shown["report"] = {**self.results["report"], "detail": "full", "only": [self.name]}
+        rendering = Rendering(shown, catalogues_for(language, [self.mechanism.kind], self.discovery))
+        page = rendering.html()
+        if language == self.language:
+            self.page = page
+        return [
+            at_place(self.mechanism, each.figure["id"], each.words)
+            for each in rendering.faults
+            if each.mechanism == self.name
+        ]
+
+    def languages(self) -> TriedRule:
+        """Try whether the chapter can be set in each language, and note the texts that have no words in it."""
+        others = [language for language in languages() if language != SOURCE_LANGUAGE]
+        broken = [fault for language in others for fault in self._rendered(language)]
+        if broken:
+            return rule("languages", "", broken)
+        found = (
+            Phrase("{language}: “{text}” ({of}) is not translated", language=language, text=text, of=of)
+            for language in others
+            for text, of in self.untranslated(language)
+        )
+        return rule("languages", ", ".join([SOURCE_LANGUAGE, *others]), found, "note")
+
+    def untranslated(self, language: str) -> Iterator[tuple[str, str]]:
+        """Yield the plugin's texts that neither its catalogue nor the program's has in a language, each with what it is of."""
+        known = catalogues_for(language, [], self.discovery)
+        own = [found for file in own_files(self.mechanism) for found in code_texts(file)]
+        for text, of in dict.fromkeys([*texts(self.mechanism), *own]):
+            if not any(catalogue.text(text) for catalogue in known.ahead(self.mechanism.kind)):
+                yield text, of
+
+    def speed(self) -> TriedRule:
+        """Tell how long a thousand variants take, as far as the mechanism itself is concerned."""
+        began = time.process_time()
+        try:
+            check_results(self.case.together(TIMED, SEED)[1])
+        except Exception:  # of arrays, which another rule tells
+            began = time.process_time()
+            varied = self.case.varied(TIMED_ALONE, SEED)
+            for i in range(TIMED_ALONE):
+                calculate(self.mechanism, {**self.case.values, **one_of(varied, i)})
+            return rule("speed", _seconds((time.process_time() - began) * TIMED / TIMED_ALONE), [])
+        return rule("speed", _seconds(time.process_time() - began), [])
+
+
+def _is_built_in(mechanism: Mechanism) -> bool:
+    own = built_in(mechanism.kind)
+    return own is not None and Path(mechanism.at).is_relative_to(own.parent)
+
+
+def _seconds(time_taken: float) -> str:
+    return Phrase("{seconds} s", seconds=f"{time_taken:.2g}")
+
+
+def _input(path: tuple[str | int, ...]) -> str:
+    """The id of an input by its place in the configuration."""
+    return ".".join(str(part) for part in path[2:] if not isinstance(part, int))
+
+
+def check_contract(
+    mechanism: Mechanism, inputs: Keys, *, press: Keys | None = None, others: Mapping[str, Keys] | None = None,
+    plugins: Iterable[str | Path] = (),
+) -> None:  # fmt: skip
+    """Raise AssertionError with all rules of the contract that a mechanism breaks, tried on the machine of these inputs.
+
+    The inputs are as for ``calculate``: take some that give as much of the mechanism as may be, also its optional inputs.
+    """
+    config = configured(mechanism, inputs, press, others, plugins)
+    test = ContractTest(mechanism, WithMechanism(mechanism, map(Path, plugins)), config, mechanism.kind)
+    broken = [each for each in test.tried() if each.status in ("fail", "broke")]
+    assert not broken, "\n".join(f"{each.title}: {fault}" for each in broken for fault in each.faults)

@@ -1,0 +1,92 @@
+"""Single extreme values put into a machine's inputs: numbers come out, or an error in words, and nothing else."""
+
+from __future__ import annotations
+
+import json
+import re
+from collections.abc import Iterator, Mapping
+from typing import Any
+
+from diecut_report.config import yaml_tree
+from diecut_report.config.discovery import Discovery
+from diecut_report.config.loader import load_config
+from diecut_report.config.own_tables import Find
+from diecut_report.config.yaml_tree import KeyPath
+from diecut_report.contract.inputs import Block, Quantity, meta_of, nested
+from diecut_report.contract.unit_variants import in_unit
+from diecut_report.errors import UserError
+from diecut_report.languages.phrases import Phrase
+from diecut_report.results.document import document
+from diecut_report.results.press_run import compute
+from diecut_report.results.results_file import results_text
+
+NOT_A_NUMBER = re.compile(r"(?<![\w.])[-+−]?(?:nan|inf|infinity)(?![\w])", re.IGNORECASE)
+BEYOND = (1e-300, 1e-12, 1e12, 1e300)
+BESIDE = 1e-6  # how far inside its bounds a value stands, as a share of it
+
+
+def extreme_values(quantity: Quantity) -> Iterator[float | int]:
+    """Yield the extremes of a quantity, in its display unit.
+
+    They are its bounds and just beside them, its plausible sizes and just within them, and far beyond.
+    """
+    limits = [limit for limit in (quantity.gt, quantity.ge, quantity.lt, quantity.le) if limit is not None]
+    least, most = (end / quantity.parsed_unit.factor for end in quantity.sizes.ends)
+    sizes = [least, least * (1 + BESIDE), most * (1 - BESIDE), most]
+    if quantity.integer:
+        yield from sorted(
+            {round(each) for each in (*limits, *sizes, *(limit + step for limit in limits for step in (-1, 1)))}
+        )
+        return
+    beside = [limit + sign * BESIDE * (abs(limit) or 1) for limit in limits for sign in (-1, 1)]
+    yield from (*limits, *beside, *sizes, *BEYOND, -0.0)
+    yield from (-each for each in (*sizes, *BEYOND))
+
+
+def numeric_inputs(model: type[Block], data: Mapping[str, Any], prefix: KeyPath) -> Iterator[tuple[KeyPath, Quantity]]:
+    """Yield the numeric inputs of a block and of the blocks that are given in it, the first of each list of them."""
+    for name in model.model_fields:
+        meta, block = meta_of(model, name), nested(model.model_fields[name].annotation)
+        given, key = data.get(name), (*prefix, name)
+        if block and isinstance(given, list) and given:
+            yield from numeric_inputs(block[0], given[0], (*key, 0))
+        elif block and isinstance(given, dict):
+            yield from numeric_inputs(block[0], given, key)
+        elif isinstance(meta, Quantity):
+            yield key, in_unit(meta, list(data))
+
+
+def with_value(config: Mapping[str, Any], key: KeyPath, value: Any) -> str:
+    """Return a configuration with another value as a text."""
+    changed = json.loads(json.dumps(config))
+    home: Any = changed
+    for part in key[:-1]:
+        home = home[part]
+    home[key[-1]] = value
+    return json.dumps(changed)
+
+
+def fault_of(text: str, discovery: Discovery, find: Find | None = None) -> str | None:
+    """Return what is wrong with the outcome of a configuration, None where it is numbers, or is refused in words."""
+    try:
+        run = compute(load_config(yaml_tree.parse(text, "press.yaml"), discovery, find=find), lambda _: None)
+        results = results_text(document(run))
+    except UserError as refusal:
+        odd = next((str(problem) for problem in refusal.problems if _odd(str(problem.message))), None)
+        return odd and Phrase("refused without words: {problem}", problem=odd)
+    except Exception as cause:
+        return f"{type(cause).__name__}: {cause}"
+    if broken := [*run.errors.values()]:
+        return Phrase("the plugin breaks: {error}", error=broken[0].message)
+    found = NOT_A_NUMBER.search(results)
+    if found is None:
+        return None
+    return Phrase(
+        "{value} in the results: {text}",
+        value=repr(found[0]),
+        text=results[max(0, found.start() - 80) : found.end() + 40],
+    )
+
+
+def _odd(words: str) -> bool:
+    return bool(NOT_A_NUMBER.search(words)) or not words

@@ -1,0 +1,183 @@
+"""Many machines at once are each machine alone: the same numbers, curves, verdicts and reasons."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass, field
+from functools import partial
+from typing import Any
+
+import numpy as np
+
+from diecut_report.contract.inputs import Quantity, fields
+from diecut_report.contract.mechanism import Mechanism
+from diecut_report.contract.result_names import named
+from diecut_report.contract.steps import Crossings
+from diecut_report.engine import Calculation, Impossible, Unproven, calculate
+from diecut_report.expressions import Array
+from diecut_report.languages.phrases import Phrase, phrase
+from diecut_report.results.checks import applies, judged
+
+CLOSE = 1e-9  # relative, of numbers and curves
+OF_SCALE = 1e-11  # of the greatest number of a unit: a difference of such numbers is not more exact than they are
+OF_PLACE = 1e-5  # of places that were found by search
+Ranges = Mapping[str, tuple[float, float]]
+
+
+@dataclass(frozen=True)
+class MachineCase:
+    """Hold a machine: its inputs in SI as the engine takes them, and which of them vary widely, between which limits."""
+
+    mechanism: Mechanism
+    values: Mapping[str, Any]
+    widely: Ranges = field(default_factory=dict)
+
+    def together(self, count: int, seed: int) -> tuple[dict[str, Any], Calculation]:
+        """Return so many machines at once, after the inputs in which they differ."""
+        varied = self.varied(count, seed)
+        return varied, calculate(self.mechanism, {**self.values, **varied}, count)
+
+    def varied(self, count: int, seed: int) -> dict[str, Any]:
+        """Return the inputs of so many machines, without those that they share: some differ widely, all other numbers a little."""
+        draw, known = np.random.default_rng(seed), dict(fields(self.mechanism.inputs))
+        found: dict[str, Any] = {}
+        for name, value in self.values.items():
+            meta, parts = known.get(name), value if isinstance(value, tuple) else (value,)
+            if not isinstance(meta, Quantity) or not all(isinstance(part, int | float) for part in parts):
+                continue
+            if name in self.widely:
+                drawn = draw.uniform(*self.widely[name], count)
+                found[name] = np.round(drawn) if meta.integer else drawn
+            elif not meta.integer:
+                rows = [_near(meta, part, draw, count) for part in parts]
+                found[name] = tuple(rows) if isinstance(value, tuple) else rows[0]
+        return found
+
+
+def _near(meta: Quantity, value: float, draw: np.random.Generator, count: int) -> Array:
+    """Values a little beside one, where they are allowed."""
+    near = value * draw.uniform(0.99, 1.01, count)
+    return np.where(meta.holds(near), near, value)
+
+
+def unlike(machine: MachineCase, count: int, alone: int, seed: int) -> Iterator[tuple[str, str]]:
+    """Yield what differs between machines together and alone: its id, and in words how. So many are tried alone, impossible ones too."""
+    varied, together = machine.together(count, seed)
+    impossible, possible = sorted(together.flaws), [i for i in range(count) if i not in together.flaws]
+    few = impossible[: max(alone // 3, alone - len(possible))]
+    for i in [*few, *possible[: alone - len(few)]]:
+        try:
+            single = calculate(machine.mechanism, {**machine.values, **one_of(varied, i)})
+        except Impossible as refused:
+            if together.flaws.get(i) not in refused.reasons:
+                yield (
+                    refused.key,
+                    _refused_alone(refused.message, together, i),
+                )
+        except Unproven as refused:
+            if together.flaws.get(i, ("", ""))[1] != str(refused):
+                yield "", _refused_alone(str(refused), together, i)
+        else:
+            yield from _differences(together, single, i)
+
+
+def _refused_alone(why: str, together: Calculation, i: int) -> str:
+    if i in together.flaws:
+        other = phrase(together.flaws[i][1])
+        return Phrase(
+            "a machine is refused alone ({why}), and among others for another reason ({other})",
+            why=phrase(why),
+            other=other,
+        )
+    return Phrase("a machine is refused alone ({why}), and calculated among others", why=phrase(why))
+
+
+def _among(found: str, alone: str) -> str:
+    return Phrase("is {found} among others, {alone} alone", found=found, alone=alone)
+
+
+def _differences(together: Calculation, alone: Calculation, i: int) -> Iterator[tuple[str, str]]:
+    if i in together.flaws:
+        key, message = together.flaws[i]
+        yield key, Phrase("a machine is refused among others ({why}), and calculated alone", why=phrase(message))
+        return
+    yield from unlike_numbers(together, alone, i)
+    yield from unlike_curves(together, alone, i)
+    yield from unlike_verdicts(together, alone, i)
+
+
+def one_of(varied: Mapping[str, Any], i: int) -> dict[str, Any]:
+    """Return the inputs of one of many machines."""
+    return {name: tuple(float(part[i]) for part in value) if isinstance(value, tuple) else float(value[i])
+            for name, value in varied.items()}  # fmt: skip
+
+
+def unlike_numbers(together: Calculation, alone: Calculation, i: int) -> Iterator[tuple[str, str]]:
+    """Yield the numbers, rows, texts and places of one among many that are not those of the same machine alone."""
+    scale = scales(alone)
+    for name in alone.values.keys() - together.values.keys():
+        yield name, phrase("is there for a machine alone, and not among others")
+    for name, values in together.values.items():
+        found, expected = values[i], alone.values[name][0] if name in alone.values else np.array([np.nan])
+        if values.dtype == object:
+            if list(found) != list(expected):
+                yield name, _among(", ".join(map(str, found)), ", ".join(map(str, expected)))
+            continue
+        length = min(len(found), len(expected))  # a list of crossings is as long as the machine that has most
+        within = OF_PLACE if is_place(together, name) else OF_SCALE * scale.get(unit_of(together, name), 0.0)
+        same = np.isclose(found[:length], expected[:length], rtol=CLOSE, atol=within, equal_nan=True)
+        if not same.all() or np.isfinite(found[length:]).any():
+            yield name, _among(_first(found[:length], ~same), _first(expected[:length], ~same))
+
+
+def _first(values: Array, unlike: Array) -> str:
+    places = np.flatnonzero(unlike)
+    return f"{values[places[0]]:.6g}" if len(places) else "–"
+
+
+def unit_of(calc: Calculation, name: str) -> str:
+    """Return the unit of a number; none for how many crossings there are."""
+    return "1" if name.endswith("_count") and name not in calc.steps else calc.step_or_input(name).unit
+
+
+def scales(calc: Calculation) -> dict[str, float]:
+    """Return the greatest number in each unit: a difference of such numbers is no more exact than they are."""
+    found: dict[str, float] = {}
+    numbers = {
+        name: values
+        for name, values in calc.inputs.items()
+        if isinstance(calc.meta.get(name), Quantity) and isinstance(values, np.ndarray)
+    }
+    for name, values in (numbers | calc.values | {name: calc.curve_samples(name) for name in calc.curves}).items():
+        if values.dtype != object and np.isfinite(values).any():
+            unit = unit_of(calc, name)
+            found[unit] = max(found.get(unit, 0.0), float(np.nanmax(np.abs(values))))
+    return found
+
+
+def is_place(calc: Calculation, name: str) -> bool:
+    """Return whether a number is a place that was found by search."""
+    found = named(name, calc.steps)
+    is_found = found is not None and found.role in ("place", "crossing")
+    return is_found or isinstance(calc.steps.get(name), Crossings)
+
+
+def unlike_curves(together: Calculation, alone: Calculation, i: int) -> Iterator[tuple[str, str]]:
+    """Yield the curves whose samples are not the machine's own."""
+    for name in alone.curves:
+        found, expected = together.curve_samples(name)[i], alone.curve_samples(name)[0]
+        great = float(np.max(np.abs(expected), initial=0.0))
+        same = np.isclose(found, expected, rtol=CLOSE, atol=CLOSE * great, equal_nan=True)
+        if not same.all():
+            yield name, _among(_first(found, ~same), _first(expected, ~same))
+
+
+def unlike_verdicts(together: Calculation, alone: Calculation, i: int) -> Iterator[tuple[str, str]]:
+    """Yield the checks whose verdict or utilisation is not the machine's own."""
+    for check in filter(partial(applies, alone), together.mechanism.checks):
+        found, own = judged(together, check), judged(alone, check)
+        same = np.isclose(found.ratio[i], own.ratio[0], rtol=1e-7, atol=1e-6, equal_nan=True)
+        if check.check_class == "numerical":  # what it compares is rounding, which is not the same twice
+            same = np.ones_like(same)
+        if not (same.all() and np.array_equal(found.held[i], own.held[0])):
+            yield check.id, phrase("the check has another verdict among others than alone")

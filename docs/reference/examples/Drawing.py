@@ -1,0 +1,90 @@
+"""A drawing to scale, in metres: all shapes, with the roles in which they are drawn; the crank moves on a screen."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from diecut_report.api import (
+    POINTS,
+    Annotated,
+    Chapter,
+    Drawing,
+    Inputs,
+    Mechanism,
+    Point,
+    Quantity,
+    Shape,
+    View,
+    arc,
+    arrow,
+    box,
+    circle,
+    dimension,
+    label,
+    point,
+    polyline,
+    radius_dimension,
+    region,
+)  # fmt: skip
+
+
+class CrankSlider(Inputs):
+    crank: Annotated[float, Quantity("r", "mm", "Crank", gt=0)]
+    rod: Annotated[float, Quantity("l", "mm", "Rod", gt=0)]
+    n_points: Annotated[int, POINTS] = 72
+
+
+motion = Chapter("Motion")
+motion.require(
+    "turns", lambda crank, rod: crank < rod, key="rod", message="is {rod}; it must be longer than the crank {crank}"
+)
+motion.abscissa("angle", "φ", "deg", "Crank angle", 2 * np.pi)
+motion.value(
+    "position", "x", "mm", "Position", lambda crank, rod, angle: crank * np.cos(angle) + np.sqrt(rod**2 - (crank * np.sin(angle)) ** 2),
+)  # fmt: skip
+motion.value("stroke", "s", "mm", "Stroke", lambda crank: 2 * crank)
+
+
+def pose(view: View, angle: float) -> list[Shape]:
+    """The links at a crank angle."""
+    pin: Point = (view["crank"] * np.cos(angle), view["crank"] * np.sin(angle))
+    slider: Point = (view.at("position", angle), 0.0)
+    return [
+        polyline([(0.0, 0.0), pin, slider], "link"),
+        point((0.0, 0.0), "pivot"),
+        point(pin, "joint"),
+        point(slider, "joint"),
+    ]
+
+
+def shapes(view: View) -> list[Shape]:
+    """All shapes; lengths in metres, angles in rad."""
+    r, x = view["crank"], view.at("position", np.pi / 3)
+    h = r / 3
+    return [
+        circle((0.0, 0.0), r, "ghost"),
+        arc((0.0, 0.0), 0.4 * r, 0.0, np.pi / 3, "mark"),
+        polyline([(-1.3 * r, 0.0), (x + 2 * r, 0.0)], "centerline"),
+        polyline([(x - r, -h), (x + r, -h)], "ground"),
+        region([(x - h, -h), (x + h, -h), (x + h, h), (x - h, h)]),
+        *pose(view, np.pi / 3),
+        radius_dimension((0.0, 0.0), r, 2.4, view.text("crank")),
+        dimension((x - h, h), (x + h, h), 0.5 * r, "slider"),
+        arrow((x + 1.8 * r, 0.0), (x + 0.6 * r, 0.0), text="F"),
+        label((-1.2 * r, -1.2 * r), "crank drive"),
+        box((x, -1.4 * r), 2 * r, 0.6 * r, ["frame"]),
+    ]
+
+
+MECHANISM = Mechanism(
+    kind="crank_slider", version="1.0", title="Crank drive", summary="A crank drive.", inputs=CrankSlider, chapters=(motion,),
+    figures=(
+        Drawing(id="drive", title="Crank drive", caption="To scale at 60° of the crank.", build=shapes, moving=pose, over="angle"),
+    ),
+)  # fmt: skip
+
+PRESS = """
+mechanisms:
+  drive: {kind: crank_slider, crank: 30 mm, rod: 90 mm}
+"""
+GIVES = {"drive.stroke": "60 mm"}

@@ -1,0 +1,26 @@
+"""What steps stand on beside inputs: where the fact does not hold they are left out, and the words say why."""
+
+from __future__ import annotations
+
+from diecut_report.api import Annotated, Chapter, Inputs, Mechanism, Quantity
+
+
+class Lines(Inputs):
+    one: Annotated[float, Quantity("n_1", "1/min", "Rate of one line", gt=0)]
+    other: Annotated[float, Quantity("n_2", "1/min", "Rate of the other line", gt=0)]
+    length: Annotated[float, Quantity("L", "mm", "Length of a sheet", gt=0)]
+
+
+rates = Chapter("Rates")
+rates.value("error", "δ", "%", "Difference of the rates", lambda one, other: abs(one - other) / one)
+rates.fact("rates_agree", lambda error: error <= 1e-6, "not calculated: the lines run at different rates")
+rates.value("speed", "v", "m/s", "Common speed", lambda one, length: one * length, needs=("rates_agree",))
+
+MECHANISM = Mechanism(kind="lines", version="1.0", title="Lines", summary="Two lines.", inputs=Lines, chapters=(rates,))
+
+PRESS = """
+mechanisms:
+  equal: {kind: lines, one: 60 1/min, other: 60 1/min, length: 700 mm}
+  unlike: {kind: lines, one: 60 1/min, other: 50 1/min, length: 700 mm}
+"""
+GIVES = {"equal.speed": "0.7 m/s", "unlike.error": "16.67 %"}

@@ -1,0 +1,45 @@
+"""A default that the press gives: the sheet's length, and a rate that follows from the productivity."""
+
+from __future__ import annotations
+
+from diecut_report.api import Annotated, Chapter, FromPress, Inputs, Mechanism, Quantity, formula
+
+
+@formula
+def doubled(rate):
+    """Two strokes for each sheet."""
+    return 2 * rate
+
+
+class Feeder(Inputs):
+    sheet_length: Annotated[
+        float | None,
+        Quantity("L", "mm", "Length of the sheet", gt=0, press=FromPress("press.sheet.length")),
+    ] = None
+    rate: Annotated[
+        float | None,
+        Quantity("k", "1/h", "Strokes", gt=0, press=FromPress("press.productivity", doubled)),
+    ] = None
+    share: Annotated[float, Quantity("s", "%", "Share of a stroke in which the sheet moves", gt=0, le=100)] = 50
+
+
+motion = Chapter("Motion")
+motion.value(
+    "speed", "v", "m/s", "Mean speed of the sheet", lambda sheet_length, rate, share: sheet_length * rate / share
+)
+
+MECHANISM = Mechanism(
+    kind="sheet_feeder",
+    version="1.0",
+    title="Sheet feeder",
+    summary="Speed of the sheet.",
+    inputs=Feeder,
+    chapters=(motion,),
+)
+
+PRESS = """
+press: {name: Example, productivity: 3600 1/h, sheet: {length: 700 mm, width: 500 mm, thickness: 0.5 mm}}
+mechanisms:
+  feeder: {kind: sheet_feeder}
+"""
+GIVES = {"feeder.speed": "2.8 m/s"}

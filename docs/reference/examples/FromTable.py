@@ -1,0 +1,36 @@
+"""A key that may name an entry in the user's own table beside the configuration, which then gives other keys."""
+
+from __future__ import annotations
+
+from typing import ClassVar
+
+from diecut_report.api import Annotated, Chapter, FromTable, Inputs, Mechanism, OneOf, Quantity, Text
+
+
+class Sprocket(Inputs):
+    one_of: ClassVar[tuple[OneOf, ...]] = (OneOf(("chain",), ("pitch",)),)
+    from_tables: ClassVar[tuple[FromTable, ...]] = (FromTable("chain", "chains", {"pitch": "pitch"}),)
+
+    chain: Annotated[str | None, Text("Chain, an entry of the table chains")] = None
+    pitch: Annotated[float | None, Quantity("p", "mm", "Pitch of the chain", gt=0)] = None
+    teeth: Annotated[int, Quantity("z", "1", "Teeth", ge=9, integer=True)]
+
+
+length = Chapter("Length")
+length.value("advance", "s", "mm", "Way of the chain in a turn", lambda pitch, teeth: pitch * teeth, needs=("pitch",))
+
+MECHANISM = Mechanism(
+    kind="sprocket", version="1.0", title="Sprocket", summary="Way of a chain.", inputs=Sprocket, chapters=(length,)
+)
+
+TABLES = """
+source: works standard 12
+chains:
+  long: {pitch: 50 mm}
+"""
+PRESS = """
+materials: tables.yaml
+mechanisms:
+  sprocket: {kind: sprocket, chain: long, teeth: 12}
+"""
+GIVES = {"sprocket.advance": "600 mm"}

@@ -1,0 +1,61 @@
+"""Numbers from tables: a row by its name, a value between rows, a standard's table, a file beside the plugin."""
+
+from __future__ import annotations
+
+from typing import Literal
+
+from diecut_report.api import (
+    Annotated,
+    Chapter,
+    Inputs,
+    Mechanism,
+    Quantity,
+    StandardFault,
+    StandardTable,
+    Text,
+    own_table,
+    standard_table,
+    table_beside,
+)  # fmt: skip
+
+BEARINGS: StandardTable = own_table(
+    title="Deep-groove ball bearings",
+    columns={"bore": "mm", "C": "kN"},
+    rows={"6204": (20, 13.5), "6205": (25, 14.8)},
+    sources=("one maker's list", "another maker's list"),
+)
+FACTORS = own_table(
+    title="Form factors",
+    columns={"teeth": "1", "Y": "1"},
+    rows=((12, 0.245), (15, 0.290), (20, 0.320)),
+    sources=("one book",),
+    only_source="others give other pressure angles",
+)
+PITCHES = standard_table("iso_606_pitches")  # a table of the program: docs/standards.md lists them
+
+try:
+    table_beside(__file__, "no_such_file.yaml")  # a YAML, JSON or CSV file in the plugin's folder
+except StandardFault as fault:
+    assert "no_such_file.yaml" in str(fault)
+
+
+class Drive(Inputs):
+    bearing: Annotated[Literal["6204", "6205"], Text("Bearing")]
+    chain: Annotated[Literal["08B", "10B"], Text("Chain")]
+    teeth: Annotated[float, Quantity("z", "1", "Teeth of the pinion", gt=0)]
+
+
+tables = Chapter("Tables")
+tables.lookup("bore", "d", "mm", "Bore", BEARINGS, by="bearing", column="bore")
+tables.lookup("pitch", "p", "mm", "Pitch", PITCHES, by="chain")
+tables.interpolated("form_factor", "Y", "1", "Form factor", FACTORS, of="teeth")
+
+MECHANISM = Mechanism(
+    kind="tabled_drive", version="1.0", title="Drive", summary="Numbers of tables.", inputs=Drive, chapters=(tables,)
+)
+
+PRESS = """
+mechanisms:
+  drive: {kind: tabled_drive, bearing: "6205", chain: 10B, teeth: 18}
+"""
+GIVES = {"drive.bore": "25 mm", "drive.pitch": "15.875 mm", "drive.form_factor": "0.308"}

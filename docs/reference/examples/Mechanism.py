@@ -1,0 +1,52 @@
+"""A whole mechanism: a bracket that carries a load, with a check, a source and an erratum of it."""
+
+from __future__ import annotations
+
+from diecut_report.api import Annotated, Chapter, Check, Erratum, Inputs, Mechanism, Quantity, Source
+
+
+class Bracket(Inputs):
+    force: Annotated[float, Quantity("F", "kN", "Load", gt=0)]
+    arm: Annotated[float, Quantity("a", "mm", "Distance of the load from the wall", gt=0)]
+    width: Annotated[float, Quantity("b", "mm", "Width of the bar", gt=0)]
+    height: Annotated[float, Quantity("h", "mm", "Height of the bar", gt=0)]
+    allowable_stress: Annotated[float | None, Quantity("[σ]", "MPa", "Allowed bending stress", gt=0)] = None
+
+
+bending = Chapter("Bending", text="The bar is clamped at the wall and loaded at its end.")
+bending.value("moment", "M", "N*m", "Bending moment at the wall", lambda force, arm: force * arm)
+bending.value("modulus", "W", "cm**3", "Section modulus", lambda width, height: width * height**2 / 6)
+bending.value("stress", "σ", "MPa", "Bending stress", lambda moment, modulus: moment / modulus, source="1")
+
+MECHANISM = Mechanism(
+    kind="bracket",
+    version="1.0",
+    title="Bracket",
+    summary="Bending of a bar that carries a load at its end.",
+    inputs=Bracket,
+    chapters=(bending,),
+    key_results=("stress",),
+    checks=(
+        Check(
+            id="stress",
+            check_class="strength",
+            title="Bending stress",
+            demand="stress",
+            limit="allowable_stress",
+            unit="MPa",
+            demand_label="stress",
+            limit_label="allowed",
+            needs=("allowable_stress",),
+            consequence="a higher bar lowers it by the square of its height.",
+        ),
+    ),
+    assumptions=("The bar's own weight is neglected.",),
+    sources=(Source("1", "Any book on the strength of materials, bending of straight bars."),),
+    errata=(Erratum("1", "The second edition prints h for h².", touches=("modulus",)),),
+)
+
+PRESS = """
+mechanisms:
+  bracket: {kind: bracket, force: 2 kN, arm: 300 mm, width: 20 mm, height: 60 mm, allowable_stress: 80 MPa}
+"""
+GIVES = {"bracket.moment": "600 N*m", "bracket.stress": "50 MPa"}

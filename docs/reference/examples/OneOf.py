@@ -1,0 +1,35 @@
+"""One of several groups of inputs: the torque, or the power with the speed."""
+
+from __future__ import annotations
+
+from typing import ClassVar
+
+from diecut_report.api import Annotated, Chapter, Inputs, Mechanism, OneOf, Quantity
+
+
+class Motor(Inputs):
+    one_of: ClassVar[tuple[OneOf, ...]] = (OneOf(("torque",), ("power", "speed")),)
+
+    torque: Annotated[float | None, Quantity("M", "N*m", "Torque", gt=0)] = None
+    power: Annotated[float | None, Quantity("P", "kW", "Power", gt=0)] = None
+    speed: Annotated[float | None, Quantity("n", "rpm", "Speed", gt=0)] = None
+    ratio: Annotated[float, Quantity("i", "1", "Ratio of the gear", gt=0)]
+
+
+torques = Chapter("Torques")
+torques.value("motor_torque", "M_m", "N*m", "Torque of the motor", lambda torque: torque, needs=("torque",))
+torques.value(
+    "motor_torque", "M_m", "N*m", "Torque of the motor", lambda power, speed: power / speed, needs=("power", "speed")
+)
+torques.value("gear_torque", "M_g", "N*m", "Torque behind the gear", lambda motor_torque, ratio: motor_torque * ratio)
+
+MECHANISM = Mechanism(
+    kind="motor", version="1.0", title="Motor", summary="Torque behind a gear.", inputs=Motor, chapters=(torques,)
+)
+
+PRESS = """
+mechanisms:
+  by_torque: {kind: motor, torque: 10 N*m, ratio: 5}
+  by_power: {kind: motor, power: 1.5 kW, speed: 1432 rpm, ratio: 5}
+"""
+GIVES = {"by_torque.gear_torque": "50 N*m", "by_power.gear_torque": "50.01 N*m"}

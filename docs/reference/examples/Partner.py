@@ -1,0 +1,55 @@
+"""A kind that fills its inputs from another mechanism of the press, and a comparison of both that is run by itself."""
+
+from __future__ import annotations
+
+from diecut_report.api import Annotated, Chapter, Comparison, Inputs, Mechanism, Partner, Quantity, Text
+
+
+class Crank(Inputs):
+    radius: Annotated[float, Quantity("r", "mm", "Radius of the crank", gt=0)]
+
+
+class Rod(Inputs):
+    crank: Annotated[str | None, Text("Crank that moves the rod; the only one of the press if it is left out")] = None
+    stroke: Annotated[float, Quantity("s", "mm", "Stroke", gt=0)]
+
+
+class Both(Inputs):
+    crank_radius: Annotated[float, Quantity("r", "mm", "Radius of the crank", gt=0)]
+    rod_stroke: Annotated[float, Quantity("s", "mm", "Stroke of the rod", gt=0)]
+
+
+strokes = Chapter("Stroke")
+strokes.value("stroke", "h", "mm", "Stroke of the crank", lambda radius: 2 * radius)
+half = Chapter("Half")
+half.value("half", "s_h", "mm", "Half of the stroke", lambda stroke: stroke / 2)
+ratio = Chapter("Ratio")
+ratio.value("ratio", "k", "1", "Stroke to radius", lambda rod_stroke, crank_radius: rod_stroke / crank_radius)
+
+COMPARED = Mechanism(
+    kind="stroke_ratio", version="1.0", title="Stroke ratio", summary="Compares.", inputs=Both, chapters=(ratio,)
+)
+CRANK = Mechanism(kind="crank", version="1.0", title="Crank", summary="Turns.", inputs=Crank, chapters=(strokes,))
+ROD = Mechanism(
+    kind="rod",
+    version="1.0",
+    title="Rod",
+    summary="Goes to and fro.",
+    inputs=Rod,
+    chapters=(half,),
+    partners=(Partner(key="crank", kinds=("crank",), takes={"stroke": "stroke"}),),
+    comparisons=(
+        Comparison(
+            kinds=("crank", "rod"),
+            mechanism=COMPARED,
+            takes={"crank_radius": ("crank", "radius"), "rod_stroke": ("rod", "stroke")},
+        ),
+    ),
+)
+
+PRESS = """
+mechanisms:
+  crank: {kind: crank, radius: 40 mm}
+  rod: {kind: rod}
+"""
+GIVES = {"rod.half": "40 mm"}

@@ -1,0 +1,64 @@
+"""When a mechanism works and rests, and others that take a phase of it, or the mechanism whole."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+
+from diecut_report.api import (
+    POINTS,
+    Annotated,
+    Chapter,
+    GivenMechanism,
+    GivenPhase,
+    Inputs,
+    Mechanism,
+    MechanismInput,
+    PhaseInput,
+    Quantity,
+)  # fmt: skip
+
+
+class Knife(Inputs):
+    begin: Annotated[float, Quantity("φ_1", "deg", "Where the cut begins", ge=0, lt=360)]
+    end: Annotated[float, Quantity("φ_2", "deg", "Where the cut ends", ge=0, lt=360)]
+    speed: Annotated[float, Quantity("n", "rpm", "Speed", gt=0)]
+    n_points: Annotated[int, POINTS] = 72
+
+
+class Guard(Inputs):
+    watched: Annotated[Any, PhaseInput("A", "deg", "Phase that is watched")]
+    mechanism: Annotated[Any, MechanismInput("Mechanism that is watched")]
+
+
+turn = Chapter("Turn")
+turn.abscissa("angle", "φ", "deg", "Angle of the knife", 2 * np.pi, speed="speed")
+turn.phase("cutting", "working", "Cutting", "angle", ("begin", "end"))
+turn.phase("idle", "moving", "Without a cut", "angle", rest_of=("cutting",))
+turn.value("width", "Δφ", "deg", "Angle of the cut", lambda begin, end: end - begin)
+
+
+def share(known):
+    """Share of the period in which the phase is there, by what other mechanisms are asked for."""
+    phase: GivenPhase = known["watched"]
+    other: GivenMechanism = known["mechanism"]
+    assert phase.name in other.phases and other.number("width") is not None
+    return sum(end - start for start, end in phase.intervals()) / phase.period()
+
+
+watching = Chapter("Watching")
+watching.prepared("found", share, ("watched", "mechanism"))
+watching.computed(
+    "share", "s", "%", "Share of the turn", lambda found: found, ("found",), "the sum of the phase's intervals"
+)
+
+KNIFE = Mechanism(kind="blade", version="1.0", title="Knife", summary="Cuts.", inputs=Knife, chapters=(turn,))
+GUARD = Mechanism(kind="guard", version="1.0", title="Guard", summary="Watches.", inputs=Guard, chapters=(watching,))
+
+PRESS = """
+mechanisms:
+  knife: {kind: blade, begin: 30 deg, end: 120 deg, speed: 60 rpm}
+  guard: {kind: guard, watched: "${knife.phases.cutting}", mechanism: knife}
+"""
+GIVES = {"guard.share": "25 %"}

@@ -1,0 +1,35 @@
+"""Curves about a pole, and bars in groups."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from diecut_report.api import POINTS, Annotated, BarGroup, Bars, Chapter, Inputs, Mechanism, Polar, Quantity, Series
+
+
+class Rotor(Inputs):
+    mean: Annotated[float, Quantity("M_m", "N*m", "Mean torque", gt=0)]
+    ripple: Annotated[float, Quantity("M_w", "N*m", "Ripple of the torque", ge=0)]
+    n_points: Annotated[int, POINTS] = 72
+
+
+torque = Chapter("Torque")
+torque.abscissa("angle", "φ", "deg", "Angle", 2 * np.pi)
+torque.value("torque", "M", "N*m", "Torque", lambda mean, ripple, angle: mean + ripple * np.cos(2 * angle))
+torque.reduction("torque_max", "M_max", "N*m", "Greatest torque", operation="max", of="torque")
+
+MECHANISM = Mechanism(
+    kind="rotor", version="1.0", title="Rotor", summary="Torque of a rotor.", inputs=Rotor, chapters=(torque,),
+    figures=(
+        Polar(id="about", title="Torque about the axis", caption="Distance from the pole: torque.", abscissa="angle", unit="N*m",
+              series=(Series(curve="torque", label="torque"),)),
+        Bars(id="parts", title="Parts of the torque", caption="Mean, ripple and greatest.",
+             groups=(BarGroup(label="torque", unit="N*m", bars=(("mean", "mean"), ("ripple", "ripple"), ("greatest", "torque_max"))),)),
+    ),
+)  # fmt: skip
+
+PRESS = """
+mechanisms:
+  rotor: {kind: rotor, mean: 10 N*m, ripple: 4 N*m}
+"""
+GIVES = {"rotor.torque_max": "14 N*m"}

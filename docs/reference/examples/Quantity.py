@@ -1,0 +1,44 @@
+"""Inputs of all sorts: bounds, a default, whole and listed numbers, a choice, yes or no, and what takes part in which case."""
+
+from __future__ import annotations
+
+from typing import Literal
+
+import numpy as np
+
+from diecut_report.api import Annotated, Chapter, Inputs, Mechanism, Quantity, Text
+
+
+class Wheel(Inputs):
+    speed: Annotated[float, Quantity("n", "rpm", "Speed of the wheel", gt=0, le=3000)]
+    teeth: Annotated[int, Quantity("z", "1", "Teeth of the wheel", ge=12, integer=True)]
+    pressure_angle: Annotated[float, Quantity("α", "deg", "Pressure angle", listed=(15, 20, 25))] = 20
+    use: Annotated[Literal["drive", "convey"], Text("What the wheel is for")] = "drive"
+    reversing: Annotated[bool, Text("Whether it turns both ways")] = False
+
+
+meshing = Chapter("Meshing")
+meshing.value(
+    "mesh_rate", "f_z", "1/s", "Teeth that mesh in a second", lambda speed, teeth: teeth * speed / (2 * np.pi)
+)
+meshing.value(
+    "changes",
+    "f_r",
+    "1/s",
+    "Changes of load in a second",
+    lambda mesh_rate: 2 * mesh_rate,
+    needs=("reversing=true", "use=drive"),
+)
+meshing.value(
+    "undercut", "z_g", "1", "Least teeth without undercut", lambda pressure_angle: 2 / np.sin(pressure_angle) ** 2
+)
+
+MECHANISM = Mechanism(
+    kind="wheel", version="1.0", title="Wheel", summary="Rate at which teeth mesh.", inputs=Wheel, chapters=(meshing,)
+)
+
+PRESS = """
+mechanisms:
+  wheel: {kind: wheel, speed: 60 rpm, teeth: 20, reversing: true}
+"""
+GIVES = {"wheel.mesh_rate": "20 1/s", "wheel.changes": "40 1/s", "wheel.undercut": "17.1"}

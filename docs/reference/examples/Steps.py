@@ -1,0 +1,33 @@
+"""A family of steps that two chapters share: once as it is, once for the other side, under other names."""
+
+from __future__ import annotations
+
+from diecut_report.api import Annotated, Chapter, Inputs, Mechanism, Quantity, Step, Steps, prefixed
+
+
+class Beam(Inputs):
+    load: Annotated[float, Quantity("F", "kN", "Load", gt=0)]
+    span: Annotated[float, Quantity("L", "mm", "Span", gt=0)]
+    place: Annotated[float, Quantity("a", "mm", "Distance of the load from the left end", ge=0)]
+
+
+family = Steps()
+family.value("arm", "b", "mm", "Arm of the load", lambda span, place: span - place)
+family.value("reaction", "R", "kN", "Reaction", lambda load, arm, span: load * arm / span)
+
+turned: tuple[Step, ...] = prefixed("right_", family, shared=(), symbol_suffix="_r")  # right_arm, right_reaction
+
+left = Chapter("Left support")
+left.add(family)
+right = Chapter("Right support", text="The same family, as if the right support were the left one.")
+right.add(turned)
+
+MECHANISM = Mechanism(
+    kind="beam", version="1.0", title="Beam", summary="Supports.", inputs=Beam, chapters=(left, right)
+)
+
+PRESS = """
+mechanisms:
+  beam: {kind: beam, load: 4 kN, span: 1 m, place: 250 mm}
+"""
+GIVES = {"beam.reaction": "3 kN"}

@@ -1,0 +1,32 @@
+"""What must hold, and a text made of numbers that its message names."""
+
+from __future__ import annotations
+
+from diecut_report.api import Annotated, Chapter, Inputs, Mechanism, Quantity
+
+
+class Spring(Inputs):
+    stroke: Annotated[float, Quantity("s", "mm", "Stroke", gt=0)]
+    free_length: Annotated[float, Quantity("L_0", "mm", "Length without load", gt=0)]
+    solid_length: Annotated[float, Quantity("L_c", "mm", "Length with coils on coils", gt=0)]
+
+
+travel = Chapter("Travel")
+travel.value(
+    "travel", "s_c", "mm", "Travel until coils touch", lambda free_length, solid_length: free_length - solid_length
+)
+travel.words("share", lambda stroke, travel: f"{stroke / travel:.0%}", ("stroke", "travel"))
+travel.require(
+    "fits", lambda stroke, travel: stroke < travel, key="stroke",
+    message="is {stroke}, {share} of the travel; at most {travel:down} is possible",
+)  # fmt: skip
+
+MECHANISM = Mechanism(
+    kind="spring", version="1.0", title="Spring", summary="Travel of a spring.", inputs=Spring, chapters=(travel,)
+)
+
+PRESS = """
+mechanisms:
+  spring: {kind: spring, stroke: 20 mm, free_length: 60 mm, solid_length: 25 mm}
+"""
+GIVES = {"spring.travel": "35 mm"}

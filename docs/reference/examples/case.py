@@ -1,0 +1,32 @@
+"""A value chosen by conditions: the branch taken is printed with its condition; a text may be chosen too."""
+
+from __future__ import annotations
+
+from diecut_report.api import Annotated, Case, Chapter, Inputs, Mechanism, Quantity, case
+
+
+class Column(Inputs):
+    slenderness: Annotated[float, Quantity("λ", "1", "Slenderness", gt=0)]
+
+
+buckling = Chapter("Buckling")
+BRANCHES: tuple[Case, ...] = (
+    case(lambda slenderness: 1 + slenderness / 200, "of a short column", lambda slenderness: slenderness < 60),
+    case(lambda slenderness: (slenderness / 50) ** 2, "of a slender column"),
+)
+buckling.choice("factor", "ω", "1", "Factor of buckling", *BRANCHES)
+buckling.choice(
+    "kind", "K", "1", "Kind of column",
+    case("short", "below 60", lambda slenderness: slenderness < 60), case("slender", "60 and above"),
+)  # fmt: skip
+
+MECHANISM = Mechanism(
+    kind="column", version="1.0", title="Column", summary="Buckling of a column.", inputs=Column, chapters=(buckling,)
+)
+
+PRESS = """
+mechanisms:
+  one: {kind: column, slenderness: 40}
+  other: {kind: column, slenderness: 100}
+"""
+GIVES = {"one.factor": "1.2", "other.factor": "4", "other.kind": "slender"}

@@ -1,0 +1,60 @@
+"""Formulas that are more than a lambda: with intermediate terms, with a name in print, bound to other quantities, with constants."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from diecut_report.api import (
+    GRAVITY,
+    Annotated,
+    Chapter,
+    Constant,
+    Formula,
+    Inputs,
+    Mechanism,
+    Quantity,
+    as_number,
+    bind,
+    formula,
+)  # fmt: skip
+
+DENSITY = Constant(7850, "ρ", "kg/m**3")
+
+
+@formula
+def triangle_angle(a, b, c):
+    """Angle opposite to ``a`` by the law of cosines; ``arccos`` forgives what rounding carries beyond 1."""
+    cosine = (b**2 + c**2 - a**2) / (2 * b * c)
+    return np.arccos(cosine)
+
+
+@formula(printed_as="A")
+def ring(outer, inner):
+    """It prints as A(d_1, d_2), with its definition below; π is here a mere number, not an angle."""
+    return as_number(np.pi) / 4 * (outer**2 - inner**2)
+
+
+class Link(Inputs):
+    arm: Annotated[float, Quantity("a", "mm", "Arm", gt=0)]
+    rod: Annotated[float, Quantity("b", "mm", "Rod", gt=0)]
+    base: Annotated[float, Quantity("c", "mm", "Base", gt=0)]
+    outer: Annotated[float, Quantity("d_1", "mm", "Outer diameter of the rod", gt=0)]
+    inner: Annotated[float, Quantity("d_2", "mm", "Inner diameter of the rod", ge=0)]
+
+
+angles = Chapter("Angles and weight")
+angles.value("swing", "ψ", "deg", "Angle between arm and base", bind(triangle_angle, a="rod", b="arm", c="base"))
+angles.value("mass", "m", "kg", "Mass of the rod", lambda rod, outer, inner: DENSITY * rod * ring(outer, inner))
+angles.value("weight", "G", "N", "Weight of the rod", lambda mass: mass * GRAVITY)
+
+MECHANISM = Mechanism(
+    kind="link", version="1.0", title="Link", summary="A triangle of links.", inputs=Link, chapters=(angles,)
+)
+
+assert isinstance(ring, Formula) and ring.parameters == ("outer", "inner")
+
+PRESS = """
+mechanisms:
+  link: {kind: link, arm: 30 mm, rod: 50 mm, base: 40 mm, outer: 20 mm, inner: 10 mm}
+"""
+GIVES = {"link.swing": "90 deg", "link.weight": "0.9069 N"}

@@ -1,0 +1,111 @@
+"""Figures of the gripper chain."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from diecut_report.api import (
+    BarGroup,
+    Bars,
+    Chart,
+    Drawing,
+    Level,
+    Mark,
+    Panel,
+    Plot,
+    Series,
+    Shape,
+    View,
+    chart_panel,
+    line,
+    mark,
+)
+from gripper_chain.drawing import loop
+
+
+def wear(view: View) -> list[Shape]:
+    """Return how sag and pull of the slack strand change while the chain wears."""
+    elongation = np.linspace(0, 0.02, 61)
+    found = view.varied({"elongation": elongation}, "sag_share", "slack_tension")
+    axis, now = ("Elongation of the chain by wear", "ε", "%"), view["elongation"]
+    return [
+        chart_panel(
+            "Sag to the distance of the axes",
+            "%",
+            *axis,
+            lines=[line(elongation, found["sag_share"], "ζ")],
+            marks=[mark(now, view["sag_share"], "this chain")],
+        ),
+        chart_panel(
+            "Pull of the slack strand",
+            "N",
+            *axis,
+            lines=[line(elongation, found["slack_tension"], "F_s")],
+            marks=[mark(now, view["slack_tension"], "this chain")],
+        ),
+    ]
+
+
+FIGURES = (
+    Drawing(
+        id="loop",
+        title="Chain, bars and stations",
+        caption="The loop to scale: sprockets as polygons, the upper strand with its stations, the slack strand as a catenary, the gripper bars.",
+        build=loop,
+    ),
+    Plot(
+        id="tooth",
+        title="Polygon effect over a tooth",
+        caption="While the sprocket turns by a tooth the velocity rises and falls; where the next joint comes up, the acceleration jumps from "
+        "its least to its greatest value.",
+        abscissa="sprocket_angle",
+        panels=(
+            Panel(
+                title="Velocity",
+                unit="m/s",
+                series=(Series(curve="velocity", label="v_θ"),),
+                levels=(Level(value="chain_speed", label="mean"),),
+                range=(None, None),
+            ),
+            Panel(title="Acceleration", unit="m/s**2", series=(Series(curve="acceleration", label="a_θ"),)),
+            Panel(
+                title="Pull of a chain",
+                unit="N",
+                series=(Series(curve="tension", label="F_θ"),),
+                marks=(Mark(x="tension_max_at", y="tension_max", label="greatest"),),
+            ),
+        ),
+    ),
+    Bars(
+        id="pulls",
+        title="What the pull consists of",
+        caption="Parts of the greatest pull of a chain.",
+        groups=(
+            BarGroup(
+                label="Pull",
+                unit="N",
+                bars=(
+                    ("slack strand", "slack_tension"),
+                    ("centrifugal", "centrifugal_tension"),
+                    ("stations and rails", "useful_tension"),
+                    ("polygon", "polygon_tension"),
+                    ("all", "tension_max"),
+                ),
+            ),
+        ),
+    ),
+    Chart(
+        id="wear",
+        title="Wear",
+        caption="A worn chain hangs deeper and pulls less at its slack side, until the sprockets are moved apart.",
+        build=wear,
+    ),
+    Plot(
+        id="grippers",
+        title="Grippers over a turn of the main shaft",
+        caption="Opening of the grippers that pass the pick-up point.",
+        abscissa="main_angle",
+        needs=("cam",),
+        panels=(Panel(title="Opening", unit="mm", series=(Series(curve="gripper_opening", label="h_φ"),)),),
+    ),
+)

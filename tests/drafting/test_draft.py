@@ -1,0 +1,186 @@
+"""A draft of any kinds can be read and calculated; its mechanisms are wired to each other, and each key is explained."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator, Sequence
+from pathlib import Path
+from typing import Any
+
+import pytest
+import yaml
+from hypothesis import given
+from hypothesis import strategies as st
+
+from diecut_report import pipeline
+from diecut_report.config import yaml_tree
+from diecut_report.config.catalogues import catalogues_for
+from diecut_report.config.discovery import Discovery
+from diecut_report.config.loader import load_config
+from diecut_report.drafting.draft import Draft, draft
+from diecut_report.languages.speech import speaking
+from tests.configs import DISCOVERY
+from tests.examples import examples, few
+
+KINDS = [kind for kind, origins in Discovery().origins.items() if origins[0].is_own]
+OFF = re.compile(
+    r"^    # (\w+: (?:[^…#]|#(?! ))*?) *(# .*)?$", re.MULTILINE
+)  # a key that may be turned on, with a value
+CYLINDER = ["cylinder_sizing", "cylinder_drive", "clutch", "damper", "drive_train", "cyclogram"]
+
+
+def values(made: Draft) -> dict[str, Any]:
+    """The mechanisms of a draft, as another reader of YAML has them."""
+    return dict(yaml.safe_load(made.text)["mechanisms"])
+
+
+def validated(text: str) -> None:
+    assert load_config(yaml_tree.parse(text, "draft.yaml"), DISCOVERY).broken == {}
+
+
+def calculated(made: Draft) -> dict[str, Any]:
+    outcome, _ = pipeline.calc(yaml_tree.parse(made.text, "draft.yaml"), DISCOVERY, lambda _: None)
+    assert outcome.broken == ()
+    return outcome.results
+
+
+@pytest.mark.parametrize("kind", KINDS)
+def test_a_draft_of_each_kind_is_valid(kind: str) -> None:
+    made = draft([kind], DISCOVERY)
+    validated(made.text)
+    assert (made.guessed, made.open) == ((), ())
+
+
+@pytest.mark.parametrize("kinds", few([CYLINDER, *([kind] for kind in KINDS), KINDS], lambda kinds: kinds is CYLINDER))
+def test_a_draft_is_calculated_and_no_check_fails(kinds: Sequence[str]) -> None:
+    results = calculated(draft(kinds, DISCOVERY))
+    assert results["status"] in ("pass", "warn")
+    assert results["summary"]["assumed"]  # the values of an example are assumed
+
+
+SUBSETS = st.lists(st.sampled_from(KINDS), min_size=2, max_size=12)
+
+
+@examples(15)
+@given(SUBSETS)
+def test_a_draft_of_any_kinds_is_valid(kinds: list[str]) -> None:
+    made = draft(kinds, DISCOVERY)
+    validated(made.text)
+    assert len(values(made)) == len(kinds) + len(made.added)
+
+
+@pytest.mark.nightly
+@examples(5)
+@given(SUBSETS)
+def test_a_draft_of_any_kinds_is_calculated(kinds: list[str]) -> None:
+    results = calculated(draft(kinds, DISCOVERY))
+    assert {mechanism["status"] for mechanism in results["mechanisms"].values()} <= {"pass", "warn", "fail"}
+
+
+@pytest.mark.parametrize("kind", few(KINDS, lambda kind: kind == "damper"))
+def test_each_key_that_is_turned_off_has_a_default_that_may_be_turned_on(kind: str) -> None:
+    text = draft([kind], DISCOVERY).text
+    head = text.index("mechanisms:")
+    found = [each for each in OFF.finditer(text, head) if "instead of" not in whole(text, each.end())]
+    assert found
+    for each in found:
+        validated(f"{text[: each.start()]}    {each[1]}{text[each.end() :]}")
+
+
+def whole(text: str, end: int) -> str:
+    """The comment of a line, to its end in the next lines."""
+    start = text.rindex("\n", 0, end)
+    lines = text[start + 1 :].split("\n")
+    more = next(number for number, line in enumerate(lines[1:], 1) if not line.startswith(" " * 20 + " "))
+    return " ".join(line.rpartition("# ")[2] for line in lines[:more])
+
+
+def test_partners_are_referred_to_and_without_them_numbers_stand() -> None:
+    alone, together = (
+        values(draft(["cylinder_drive"], DISCOVERY)),
+        values(draft(["cylinder_drive", "cylinder_sizing"], DISCOVERY)),
+    )
+    assert alone["drive"]["cylinder_mass"] == {"value": "104 kg", "basis": "assumed"}
+    assert together["drive"]["cylinder_mass"] == "${cylinder.mass}"
+    assert together["drive"]["cylinder_length"] == "${cylinder.generatrix_length}"
+
+
+def test_the_second_of_a_kind_belongs_to_the_second_of_another_one() -> None:
+    made = values(
+        draft(["cylinder_sizing", "cylinder_drive:left", "cylinder_sizing:other", "cylinder_drive"], DISCOVERY)
+    )
+    assert list(made) == ["cylinder", "left", "other", "drive"]
+    assert made["left"]["cylinder_mass"] == "${cylinder.mass}" and made["drive"]["cylinder_mass"] == "${other.mass}"
+    names = values(draft(["clutch", "clutch", "clutch:clutch_2", "damper"], DISCOVERY))
+    assert list(names) == ["clutch", "clutch_3", "clutch_2", "damper"]
+
+
+def test_what_a_kind_cannot_be_without_is_added() -> None:
+    made = draft(["cyclogram:all"], DISCOVERY)
+    assert [(new.name, asking.name) for new, asking in made.added] == [("drive", "all"), ("cross", "all")]
+    assert [line["mechanism"] for line in values(made)["all"]["lines"]] == ["drive", "cross"]
+
+
+def test_each_drive_is_a_line_of_the_cyclogram() -> None:
+    made = values(draft(["cylinder_drive:a", "cylinder_drive:b", "cam_gear_transport", "cyclogram"], DISCOVERY))
+    assert [line["mechanism"] for line in made["timing"]["lines"]] == ["a", "b", "feeder"]
+
+
+def test_each_key_stands_once_with_its_symbol_meaning_and_range() -> None:
+    lines = draft(["clutch"], DISCOVERY).text.splitlines()
+    (radius,) = [line for line in lines if "shoe_radius:" in line]
+    assert radius.split("  # ") == [
+        "    shoe_radius: {value: 180 mm, basis: assumed}          ".rstrip()
+        + " " * (len(radius.split("  # ")[0]) - 48),
+        "r: Radius of the drum, on which the shoes rub; > 0 mm",
+    ]
+    keys = DISCOVERY.mechanism("clutch").inputs.model_fields
+    assert {key: sum(bool(re.match(rf" +(# )?{key}:", line)) for line in lines) for key in keys} == dict.fromkeys(
+        keys, 1
+    )
+    (force,) = [line for line in lines if "allowable_slip_time:" in line]
+    assert force.strip().startswith("# allowable_slip_time: … s") and "without it not checked: Time" in force
+    assert max(map(len, lines)) <= 150
+
+
+def test_a_draft_in_ukrainian_explains_in_ukrainian() -> None:
+    with speaking("uk", catalogues_for("uk", KINDS, DISCOVERY)):
+        made = draft(KINDS, DISCOVERY)
+    validated(made.text)
+    data = yaml.safe_load(made.text)
+    assert data["project"]["language"] == "uk"
+    english = [part for part in comments(made.text) if re.search(r"\b(the|of|default|without)\b", part)]
+    assert english == []
+
+
+def comments(text: str) -> Iterator[str]:
+    for line in text.splitlines():
+        found = re.search(r"(?:^|\s)# (?!\w+:)(.*)", line)
+        if found and "diecut-report" not in found[1] and not re.fullmatch(r"[\w./:${}… -]+", found[1]):
+            yield found[1].replace("one of", "")
+
+
+@pytest.fixture
+def foreign(tmp_path: Path) -> Discovery:
+    """A plugin without an example, and one with one."""
+    text = """from diecut_report.api import Annotated, Chapter, ExampleBlock, Inputs, Mechanism, Quantity, Wired
+class Hook(Inputs):
+    force: Annotated[float, Quantity("F", "kN", "Load", gt=0)]
+    angle: Annotated[float, Quantity("a", "deg", "Angle", gt=0, le=5)]
+step = Chapter("Hook")
+step.value("pull", "P", "N", "Pull", lambda force: 2 * force)
+MECHANISM = Mechanism(kind="KIND", version="1", title="Hook", summary="A hook.", inputs=Hook, chapters=(step,)EXAMPLE)
+"""
+    (tmp_path / "hook.py").write_text(text.replace("KIND", "hook").replace("EXAMPLE", ""), "utf-8")
+    example = ', example=ExampleBlock("lift", {"force": Wired("${<damper>.force_max}", otherwise="3 kN"), "angle": 4})'
+    (tmp_path / "crane.py").write_text(text.replace("KIND", "crane").replace("EXAMPLE", example), "utf-8")
+    return Discovery([tmp_path])
+
+
+def test_a_foreign_plugin_gives_its_example_and_what_it_does_not_give_is_guessed_and_told(foreign: Discovery) -> None:
+    made = draft(["hook", "crane", "crane"], foreign)
+    found = values(made)
+    assert found["lift"]["force"] == {"value": "3 kN", "basis": "assumed"} and "lift_2" in found
+    assert found["hook"]["force"] == {"value": "10 kN", "basis": "assumed"}
+    assert found["hook"]["angle"] == {"value": "1 deg", "basis": "assumed"}
+    assert made.guessed == ("hook.force", "hook.angle")

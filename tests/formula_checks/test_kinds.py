@@ -1,0 +1,436 @@
+"""The angle is a dimension of formulas: where the radian drops is beside a length, or is said."""
+
+from __future__ import annotations
+
+import types
+from collections.abc import Iterator
+from dataclasses import replace
+from functools import cache
+from importlib import import_module
+from itertools import islice
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pint
+import pytest
+
+from diecut_report.api import (
+    Abscissa,
+    Accumulated,
+    Annotated,
+    Chapter,
+    Check,
+    Constant,
+    Derivative,
+    Formula,
+    Inputs,
+    Mechanism,
+    Quantity,
+    Reduction,
+    Root,
+    Step,
+    Value,
+    Words,
+    arccos,
+    as_angle,
+    as_number,
+    bind,
+    formula,
+)
+from diecut_report.contract.between import Between
+from diecut_report.contract.binding import Bound
+from diecut_report.engine import calculate
+from diecut_report.expressions import Node
+from diecut_report.formula_checks import check_mechanism, forms
+from diecut_report.formula_checks.dimensions import dimensions, formulas, units_of
+from diecut_report.formula_checks.kinds import (
+    ANGLE,
+    ANGLE_AT,
+    NUMBER,
+    Found,
+    KindError,
+    kind_given,
+)
+from diecut_report.mechanics import common
+from diecut_report.quantities.units import DIMENSIONS, unit
+
+
+class Wheel(Inputs):
+    speed: Annotated[float, Quantity("ω", "rpm", "Angular speed", gt=0)] = 100
+    rate: Annotated[float, Quantity("n", "1/min", "Turns", gt=0)] = 100
+    angle: Annotated[float, Quantity("φ", "deg", "Angle", gt=0)] = 30
+    radius: Annotated[float, Quantity("r", "mm", "Radius", gt=0)] = 40
+    velocity: Annotated[float, Quantity("v", "m/s", "Speed", gt=0)] = 2
+    torque: Annotated[float, Quantity("M", "N*m", "Torque", gt=0)] = 5
+    inertia: Annotated[float, Quantity("J", "kg*m**2", "Inertia", gt=0)] = 3
+    stiffness: Annotated[float, Quantity("c", "N*m/rad", "Stiffness", gt=0)] = 3
+    mass: Annotated[float, Quantity("m", "kg", "Mass", gt=0)] = 3
+    share: Annotated[float, Quantity("k", "1", "Share", gt=0)] = 0.5
+    n_points: Annotated[int, Quantity("N", "1", "Samples", ge=36, integer=True)] = 36
+
+
+def wheel(*steps: Step, checks: tuple[Check, ...] = ()) -> Mechanism:
+    """A mechanism of these steps, and of a text that takes all inputs, so that none is without a use."""
+    told = Words(id="inputs_told", function=lambda *given: str(given), takes=tuple(Wheel.model_fields))
+    chapters = (Chapter("Steps", steps=(*steps, told)),)
+    return Mechanism(kind="wheel", version="1", title="Wheel", summary="", inputs=Wheel, chapters=chapters, checks=checks)  # fmt: skip
+
+
+def value(made: Formula | Bound, unit: str) -> Value:
+    """A step with this formula and unit."""
+    return Value(id="x", symbol="x", unit=unit, description="Quantity", formula=made)
+
+
+@formula
+def product(first: Any, second: Any) -> Any:
+    return first * second
+
+
+@formula
+def quotient(above: Any, below: Any) -> Any:
+    return above / below
+
+
+@formula
+def quotient_as_angle(above: Any, below: Any) -> Any:
+    return as_angle(above / below)
+
+
+@formula
+def inverse(speed: Any) -> Any:
+    return 1 / speed
+
+
+@formula
+def number_of(quantity: Any) -> Any:
+    return as_number(quantity)
+
+
+@formula
+def angle_of(quantity: Any) -> Any:
+    return as_angle(quantity)
+
+
+@formula
+def turns_of(speed: Any) -> Any:
+    return speed / (2 * np.pi)
+
+
+@formula
+def turning(rate: Any) -> Any:
+    return 2 * np.pi * rate
+
+
+@formula
+def turn_time(speed: Any) -> Any:
+    return 2 * np.pi / speed
+
+
+@formula
+def line_stiffness(mass: Any, speed: Any) -> Any:
+    return mass * speed**2
+
+
+@formula
+def line_stiffness_said(mass: Any, speed: Any) -> Any:
+    return mass * as_number(speed) ** 2
+
+
+@formula
+def other_side(angle: Any) -> Any:
+    return np.pi - angle
+
+
+@formula
+def is_less_than_a_turn(angle: Any) -> Any:
+    return angle < 2 * np.pi
+
+
+@formula
+def is_less_than_one(angle: Any) -> Any:
+    return angle < 1
+
+
+@formula
+def sine(quantity: Any) -> Any:
+    return np.sin(quantity)
+
+
+@formula
+def arc_cosine(share: Any) -> Any:
+    return arccos(share)
+
+
+@formula
+def direction(share: Any) -> Any:
+    return np.arctan2(share, 1)
+
+
+@formula
+def along(angle: Any, radius: Any) -> Any:
+    return radius + radius * angle
+
+
+@formula
+def greater(angle: Any, share: Any) -> Any:
+    return np.maximum(angle, share)
+
+
+@formula
+def either(angle: Any, share: Any) -> Any:
+    return np.where(angle > 0, share, angle)
+
+
+@formula
+def swinging(stiffness: Any, inertia: Any) -> Any:
+    return as_angle(np.sqrt(stiffness / inertia))
+
+
+@formula
+def swinging_unsaid(stiffness: Any, inertia: Any) -> Any:
+    return np.sqrt(stiffness / inertia)
+
+
+@formula
+def grown(angle: Any) -> Any:
+    return np.exp(angle)
+
+
+@formula
+def angle_without_length(velocity: Any, radius: Any, speed: Any) -> Any:
+    return (velocity - radius * speed) / radius
+
+
+SOUND = {
+    "v = ω·r": value(bind(product, first="speed", second="radius"), "m/s"),
+    "P = M·ω": value(bind(product, first="torque", second="speed"), "W"),
+    "W = M·φ": value(bind(product, first="torque", second="angle"), "J"),
+    "M = c·φ": value(bind(product, first="stiffness", second="angle"), "N*m"),
+    "ω said of v/r": value(bind(quotient_as_angle, above="velocity", below="radius"), "rpm"),
+    "ω said of sqrt(c/J)": value(swinging, "rad/s"),
+    "n = ω/2π": value(turns_of, "Hz"),
+    "ω = 2π·n": value(turning, "rpm"),
+    "T = 2π/ω": value(turn_time, "s"),
+    "π − φ": value(other_side, "deg"),
+    "φ < 2π": value(is_less_than_a_turn, "1"),
+    "sin φ": value(bind(sine, quantity="angle"), "1"),
+    "arccos k": value(arc_cosine, "deg"),
+    "arctan2": value(direction, "deg"),
+    "r + r·φ": value(along, "mm"),
+    "rad/s said to be 1/s": value(bind(number_of, quantity="speed"), "1/s"),
+    "1/s said to be rad/s": value(bind(angle_of, quantity="rate"), "rad/s"),
+    "m·ω² said": value(line_stiffness_said, "N/m"),
+    "zero as an angle": value(common.zero, "deg"),
+}
+UNSOUND = {
+    "rad/s as Hz": (value(bind(common.same, quantity="speed"), "Hz"), "gives rad/s, declared is 1/s"),
+    "rad/s as 1/min": (value(bind(common.same, quantity="speed"), "1/min"), "gives rad/s, declared is 1/s"),
+    "1/min as rpm": (value(bind(common.same, quantity="rate"), "rpm"), "gives 1/s, declared is rad/s"),
+    "rad as 1": (value(bind(common.same, quantity="angle"), "1"), "gives rad, declared is 1"),
+    "ω = v/r": (value(bind(quotient, above="velocity", below="radius"), "rad/s"), "gives 1/s, declared is rad/s"),
+    "ω = sqrt(c/J)": (value(swinging_unsaid, "rad/s"), "declared is rad/s"),
+    "T = 1/ω": (value(inverse, "s"), "gives s/rad, declared is s"),
+    "ω/2π as rad/s": (value(turns_of, "rad/s"), "gives 1/s, declared is rad/s"),
+    "2π·n as Hz": (value(turning, "Hz"), "gives rad/s, declared is 1/s"),
+    "m·ω² as N/m": (value(line_stiffness, "N/m"), "declared is N/m"),
+    "φ < 1": (value(is_less_than_one, "1"), "angle < 1 brings together rad .angle. and a pure number .1."),
+    "sin k": (value(bind(sine, quantity="share"), "1"), "quantity is a pure number, rad is needed"),
+    "sin ω": (value(bind(sine, quantity="speed"), "1"), "quantity is rad/s, rad is needed"),
+    "arccos φ": (value(bind(arc_cosine, share="angle"), "deg"), "share is rad, a pure number is needed"),
+    "arccos as 1": (value(arc_cosine, "1"), "gives rad, declared is 1"),
+    "max(φ, k)": (value(greater, "1"), "brings together rad .angle. and a pure number .share."),
+    "φ or k": (value(either, "1"), "brings together a pure number .share. and rad .angle."),
+    "exp φ": (value(grown, "1"), "angle is rad, a pure number is needed"),
+    "(v − ω·r)/r": (value(angle_without_length, "rad/s"), "gives 1/s, declared is rad/s"),
+    "a number said to be one": (value(bind(number_of, quantity="share"), "1"), "says that rad drops, but quantity is a pure number already"),
+    "an angle said to be one": (value(bind(angle_of, quantity="speed"), "rad/s"), "says that rad comes in, but quantity is rad/s already"),
+}  # fmt: skip
+
+
+@pytest.mark.parametrize("name", SOUND)
+def test_the_radian_drops_beside_a_length_or_where_it_is_said(name: str) -> None:
+    check_mechanism(wheel(SOUND[name]))
+
+
+@pytest.mark.parametrize("name", UNSOUND)
+def test_an_angle_is_no_number_elsewhere(name: str) -> None:
+    step, words = UNSOUND[name]
+    with pytest.raises(AssertionError, match=words):
+        check_mechanism(wheel(step))
+
+
+TURN = Abscissa(id="place", symbol="χ", unit="deg", description="Place", period=2 * np.pi)
+RISE = value(bind(product, first="share", second="place"), "deg")
+REST: dict[str, Any] = {"symbol": "y", "description": "Quantity"}
+
+
+@pytest.mark.parametrize(
+    ("made", "unit", "found"),
+    [
+        (Accumulated(id="y", of="x", **REST), "rad**2", "1"),
+        (Reduction(id="y", of="x", operation="integral", **REST), "rad**2", "deg"),
+        (Derivative(id="y", of="x", **REST), "1", "rad"),
+        (Reduction(id="y", of="x", operation="max", **REST), "rad", "1"),
+    ],
+)
+def test_what_runs_over_an_angle_has_its_unit(made: Step, unit: str, found: str) -> None:
+    check_mechanism(wheel(TURN, RISE, replace(made, unit=unit)))
+    with pytest.raises(AssertionError, match=r"declared is|is in 1, x in deg"):
+        check_mechanism(wheel(TURN, RISE, replace(made, unit=found)))
+
+
+def test_the_work_of_a_turn_needs_no_word() -> None:
+    over = value(bind(product, first="torque", second="place"), "N*m")
+    work = Reduction(id="y", of="x", operation="integral", unit="J", **REST)
+    check_mechanism(wheel(TURN, over, work))
+
+
+@formula
+def beyond(u: Any, share: Any) -> Any:
+    return u - share
+
+
+def test_the_sides_of_a_relation_are_both_angles() -> None:
+    root = Root(id="u", unit="1", equation=beyond, unknown="u", low=common.zero, high=formula(lambda: 1),
+                left=bind(common.same, quantity="u"), right=bind(common.same, quantity="angle"), **REST)  # fmt: skip
+    with pytest.raises(AssertionError, match="the relation equals a pure number with rad"):
+        check_mechanism(wheel(root))
+
+
+def test_a_check_compares_rpm_with_no_frequency() -> None:
+    check = Check(id="c", check_class="strength", title="c",
+                  demand="speed", limit=3.0, unit="1/min", demand_label="", limit_label="", consequence="")  # fmt: skip
+    with pytest.raises(AssertionError, match="check c: is in 1/min, speed in rpm"):
+        check_mechanism(wheel(value(bind(common.same, quantity="speed"), "rpm"), checks=(check,)))
+
+
+def test_what_is_said_computes_and_prints_nothing() -> None:
+    above, below = Node("sym", ("above",)), Node("sym", ("below",))
+    assert quotient_as_angle.tree == quotient.tree == Node("/", (above, below))
+    assert quotient_as_angle(3.0, 2.0) == 1.5
+    angles = np.linspace(0, 1, 5)
+    assert as_angle(angles) is angles and as_number(angles) is angles
+    said = wheel(value(bind(quotient_as_angle, above="velocity", below="radius"), "rpm"))
+    assert calculate(said, Wheel().model_dump())["x"][0, 0] == pytest.approx(50)
+
+
+def test_what_a_called_formula_says_is_heard() -> None:
+    @formula
+    def outer(velocity: Any, radius: Any) -> Any:
+        return 2 * quotient_as_angle(velocity, radius)
+
+    kinds = {"velocity": unit("m/s").kind, "radius": unit("m").kind}
+    assert kind_given(outer, kinds) == unit("rad/s").kind
+
+
+@formula
+def raised(base: Any, exponent: Any) -> Any:
+    return base**exponent
+
+
+@formula
+def third_root(base: Any) -> Any:
+    return base ** (1 / 3)
+
+
+def test_a_power_with_a_unit_needs_a_plain_number_as_exponent() -> None:
+    assert kind_given(third_root, {"base": unit("m**3").kind}) == unit("m").kind
+    assert kind_given(raised, {"base": NUMBER, "exponent": NUMBER}) == NUMBER
+    with pytest.raises(KindError, match="exponent is rad"):
+        kind_given(raised, {"base": NUMBER, "exponent": ANGLE})
+    with pytest.raises(KindError, match="base is m,"):
+        kind_given(raised, {"base": unit("m").kind, "exponent": NUMBER})
+
+
+# --- all formulas that there are --------------------------------------------------------------------------------------
+
+
+@cache
+def built_in() -> tuple[Mechanism, ...]:
+    """All mechanisms of the program and the comparison, in each of their forms."""
+    folder = Path(import_module("diecut_report.plugins").__path__[0])
+    kinds = [import_module(f"diecut_report.plugins.{p.parent.name}").MECHANISM for p in sorted(folder.glob("*/__init__.py"))]  # fmt: skip
+    compared = import_module("diecut_report.plugins.geneva_transport.comparison").COMPARISON
+    return tuple(form for mechanism in (*kinds, compared) for form in forms(mechanism))
+
+
+REGISTRY: Any = pint.LazyRegistry()
+
+
+def with_units(made: Formula) -> Any:
+    """The formula's function with its constants, and those of the formulas it calls, as pint's quantities."""
+
+    def carried(part: Any) -> Any:
+        if isinstance(part, Constant):
+            return REGISTRY.Quantity(float(part), part.unit)
+        return with_units(part) if isinstance(part, Formula) else part
+
+    function = made.function
+    named = {n: carried(function.__globals__[n]) for n in function.__code__.co_names if n in function.__globals__}
+    return types.FunctionType(function.__code__, {**function.__globals__, **named})
+
+
+def by_pint(link: Bound, units: dict[str, str]) -> tuple[float, ...] | None:
+    """The exponents that pint finds for what a formula gives, which counts no angle; None for a plain zero."""
+    given = [REGISTRY.Quantity(np.float64(0.6 + 0.01 * i), units[name]) if isinstance(name, str) else name
+             for i, name in enumerate(link.names.values())]  # fmt: skip
+    with np.errstate(all="ignore"):
+        result = with_units(link.formula)(*given)
+    if not isinstance(result, pint.Quantity):
+        return None if result == 0 else (0.0,) * ANGLE_AT
+    found: Any = result.dimensionality
+    return tuple(float(found.get(f"[{name}]", 0)) for name in DIMENSIONS[:ANGLE_AT])
+
+
+def of_formulas(mechanism: Mechanism) -> Iterator[tuple[str, Bound, Found]]:
+    units = units_of(mechanism)
+    for step, _, link in formulas(mechanism):
+        taken = {p: unit(units[n]).kind if isinstance(n, str) else float(n) for p, n in link.names.items()}
+        yield step.id, link, kind_given(link.formula, taken)
+
+
+@pytest.mark.parametrize("each", [4, pytest.param(1, marks=pytest.mark.nightly)])
+def test_but_for_the_angle_kinds_are_those_of_pint(each: int) -> None:
+    """CI asks for each fourth formula."""
+    seen = 0
+    for mechanism in built_in():
+        for name, link, found in islice(of_formulas(mechanism), None, None, each):
+            if isinstance(link.formula, Between):  # takes plain numbers of a table: its kinds have a test of their own
+                continue
+            expected = by_pint(link, units_of(mechanism))
+            if found is not None and expected is not None:
+                seen += 1
+                assert found[:ANGLE_AT] == pytest.approx(expected), f"{mechanism.kind}: {name}"
+    assert seen > 1000 / each
+
+
+OTHER_ANGLE = {"rad": "1", "1": "rad", "rad/s": "1/s", "1/s": "rad/s", "rad/s**2": "1/s**2"}
+
+
+def exchanged(mechanism: Mechanism) -> Iterator[tuple[str, Mechanism]]:
+    """The mechanism with one value's unit taken for the same without (or with) rad; conditions and plain zeros apart."""
+    plain = {name for name, _, found in of_formulas(mechanism) if found is None}
+    for chapter in mechanism.chapters:
+        for place, step in enumerate(chapter.steps):
+            if (
+                isinstance(step, Value)
+                and not step.is_condition
+                and step.id not in plain
+                and unit(step.unit).si in OTHER_ANGLE
+            ):
+                other = replace(step, unit=OTHER_ANGLE[unit(step.unit).si])
+                steps = (*chapter.steps[:place], other, *chapter.steps[place + 1 :])
+                chapters = tuple(replace(c, steps=steps) if c is chapter else c for c in mechanism.chapters)
+                yield step.id, replace(mechanism, chapters=chapters)  # fmt: skip
+
+
+@pytest.mark.parametrize("each", [4, pytest.param(1, marks=pytest.mark.nightly)])
+def test_no_value_passes_with_the_radian_exchanged(each: int) -> None:
+    """CI tries each fourth."""
+    tried = 0
+    for mechanism in built_in():
+        for name, wrong in islice(exchanged(mechanism), None, None, each):
+            tried += 1
+            assert any(fault.startswith(f"{name}:") for fault in dimensions(wrong)), f"{mechanism.kind}: {name}"
+    assert tried > 300 / each

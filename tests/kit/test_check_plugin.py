@@ -1,0 +1,195 @@
+"""``check-plugin`` tries each rule of the contract, and tells what is wrong with file and line."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+
+import pytest
+
+from diecut_report.cli.main import main
+from diecut_report.config.discovery import Discovery
+from diecut_report.config.loader import load_config
+from diecut_report.kit.scaffold import contents
+from diecut_report.testing import ContractTest, check_contract
+from diecut_report.testing.tried_rules import TITLES, TriedRule
+from tests.configs import BROKEN, SMALL, saved
+
+Capture = pytest.CaptureFixture[str]
+SOUND = contents("toggle", as_package=False)
+
+
+def toggle(folder: Path, *changes: tuple[str, str]) -> Path:
+    """The project of a new mechanism with changes in its plugin."""
+    for place, content in SOUND.items():
+        file = folder / "toggle" / place
+        file.parent.mkdir(parents=True, exist_ok=True)
+        for old, new in changes if file.name == "toggle.py" else ():
+            assert old in content
+            content = content.replace(old, new)
+        file.write_text(content, "utf-8")
+    return folder / "toggle"
+
+
+def contract(folder: Path, *changes: tuple[str, str]) -> ContractTest:
+    """The contract test of a mechanism with changes."""
+    home = toggle(folder, *changes)
+    known = Discovery([home / "plugins"])
+    config = load_config(home / "examples" / "toggle.yaml", known)
+    return ContractTest(known.mechanism("toggle"), known, config, "toggle")
+
+
+def found(test: ContractTest, rule: str) -> TriedRule:
+    """What is found of one rule."""
+    return test.tried_alone(rule)
+
+
+@pytest.mark.wheel
+def test_a_sound_plugin_holds_all_rules_and_is_shown(
+    tmp_path: Path, capfd: Capture, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    home = toggle(tmp_path)
+    monkeypatch.chdir(home)
+    assert main(["check-plugin", "toggle", "--plugins", "plugins", "--language", "uk"]) == 0
+    told = capfd.readouterr()
+    lines = told.out.splitlines()
+    assert lines[0] == "toggle 0.1, з plugins/toggle.py" and len(lines) == 1 + len(TITLES)
+    assert all(line.startswith("  дотримано  ") for line in lines[1:]) and "Приклад машини: " in told.out
+    assert told.err == "записано: toggle.html\n"
+    page = (home / "toggle.html").read_text("utf-8")
+    assert "Пружини виштовхувача" in page and "Характеристика" in page
+
+
+MISTAKES = {
+    "dimensions": (("wire**4 / (8", "wire**3 / (8"), ("toggle.py:58: spring_rate: ", "gives Pa, declared is N/m")),
+    "inputs": (
+        ("    # A limit", '    spare: Annotated[float, Quantity("z", "mm", "Spare")] = 1\n    # A limit'),
+        ("toggle.py:", "input spare: nothing takes it"),
+    ),
+    "figures": (('view["travel"], 25', 'view["trvel"], 25'), ("toggle.py:", "characteristic: ", "there is no number 'trvel'")),
+}  # fmt: skip
+
+
+@pytest.mark.parametrize("rule", MISTAKES)
+def test_a_mistake_is_told_with_its_rule_file_and_line(tmp_path: Path, rule: str) -> None:
+    change, words = MISTAKES[rule]
+    tried = found(contract(tmp_path, change), rule)
+    assert tried.status == "fail"
+    assert any(all(part in fault for part in words) for fault in tried.faults), tried.faults
+
+
+def odd(body: str) -> tuple[tuple[str, str], tuple[str, str]]:
+    """Changes that add a quantity by plain code."""
+    head, total = 'EN_13906 = "EN 13906-1"\n', 'springs.total("rate"'
+    computed = 'springs.computed("odd", "o", "N", "Odd", odd, ("travel",), "in words")\n'
+    return (total, f"{computed}{total}"), (head, f"{head}\n\ndef odd(travel):\n    {body}\n\n")
+
+
+def test_a_machine_that_is_another_one_among_others_is_told(tmp_path: Path) -> None:
+    tried = found(contract(tmp_path, *odd("return travel * 1e5 * len(travel)")), "alone")
+    assert tried.status == "fail" and "toggle.py:" in tried.faults[0]
+    assert "odd: is " in tried.faults[0] and " among others, " in tried.faults[0]
+
+
+def test_a_plugin_that_cannot_take_arrays_is_noted(tmp_path: Path) -> None:
+    test = contract(tmp_path, *odd("return travel.item() * 1e5"))
+    assert found(test, "alone").status == "note" and found(test, "speed").status == "pass"
+    words = "cannot take arrays, so that a study calculates it variant by variant: ValueError"
+    assert words in found(test, "alone").faults[0]
+
+
+def test_a_plugin_that_breaks_for_an_extreme_value_is_told(tmp_path: Path) -> None:
+    tried = found(contract(tmp_path, *odd("return {True: travel}[bool((travel < 1.0).all())] * 1e5")), "hostile")
+    assert tried.status == "fail"
+    assert (
+        "toggle.py:41: travel: with 100000: the plugin breaks: " in tried.faults[0]
+        and "KeyError: False (toggle.py:53)" in tried.faults[0]
+    )
+
+
+def test_a_value_that_is_not_a_number_is_told(tmp_path: Path) -> None:
+    tried = found(contract(tmp_path, *odd("return travel * float('nan')")), "example")
+    assert tried.status != "pass" and "odd" in tried.faults[0]
+
+
+def test_a_plugin_that_never_comes_back_is_told(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    test = contract(tmp_path, *odd("while True: pass"))
+    monkeypatch.setattr("diecut_report.testing.contract.LONGEST", 0.2)
+    tried = found(test, "example")
+    assert (
+        tried.status == "broke"
+        and "it did not come back within 0.2 s" in tried.faults[0]
+        and "toggle.py:53" in tried.faults[0]
+    )
+
+
+def test_an_untranslated_text_is_noted(tmp_path: Path) -> None:
+    tried = found(contract(tmp_path, ('title="Springs of an ejector"', 'title="Springs that eject"')), "languages")
+    assert tried.status == "note"
+    assert list(tried.faults) == ["uk: “Springs that eject” (mechanism) is not translated"]
+
+
+def test_authors_may_assert_the_contract(tmp_path: Path) -> None:
+    keys = {"springs": [{"wire": "3 mm", "coil": "24 mm", "turns": 8}], "travel": "10 mm"}
+    mechanism = contract(tmp_path, ("wire**4 / (8", "wire**3 / (8")).mechanism
+    with pytest.raises(AssertionError, match=r"Dimensions of formulas: toggle.py:58: spring_rate: "):
+        check_contract(mechanism, keys)
+
+
+def test_a_plugin_that_breaks_in_its_example_ends_with_3(tmp_path: Path, capfd: Capture) -> None:
+    home = toggle(tmp_path, *odd("raise RuntimeError('it fell over')"))
+    assert main(["check-plugin", str(home), "--format", "json"]) == 3
+    (whole,) = json.loads(capfd.readouterr().out)
+    rules = {rule["rule"]: rule for rule in whole["rules"]}
+    assert whole["status"] == rules["example"]["status"] == "broke" and rules["figures"]["status"] == "not_tried"
+    assert "RuntimeError: it fell over (toggle.py:" in rules["example"]["faults"][0]
+
+
+def test_plugins_that_cannot_be_loaded_end_with_3_and_the_others_are_tried(capfd: Capture) -> None:
+    assert main(["check-plugin", str(BROKEN), "--format", "json"]) == 3
+    whole = {each["kind"]: each for each in json.loads(capfd.readouterr().out)}
+    assert "No module named 'library_that_is_not_there'" in whole["breaks_at_import"]["error"]
+    assert whole["breaks_in_calculation"]["rules"][0]["status"] == "pass"
+
+
+def test_a_declaration_that_cannot_be_is_told_with_all_its_faults(tmp_path: Path, capfd: Capture) -> None:
+    home = toggle(tmp_path, ('demand="stress"', 'demand="stres"'), ('"rate", "force")', '"rate", "forc")'))
+    assert main(["check-plugin", str(home)]) == 3
+    told = capfd.readouterr().out
+    assert "check stress: takes stres, which nothing gives (did you mean 'stress'?)" in told and "forc" in told
+
+
+def test_a_broken_rule_ends_with_1_and_without_a_machine_the_rest_is_not_tried(tmp_path: Path, capfd: Capture) -> None:
+    home = toggle(tmp_path, MISTAKES["dimensions"][0])
+    (home / "examples" / "toggle.yaml").unlink()
+    assert main(["check-plugin", str(home)]) == 1
+    out = capfd.readouterr().out
+    assert "  fails  Dimensions of formulas\n      toggle.py:58: spring_rate: " in out
+    assert (
+        "note  Example machine\n      there is no machine of this kind to try the rest on; give a configuration" in out
+    )
+    assert "not tried  Extreme inputs: not tried before what is above holds" in out
+
+
+@pytest.mark.parametrize(
+    ("arguments", "words"),
+    [
+        (("nothing",), "'nothing' is not a known kind"),
+        (("no/folder",), "no/folder: There is no such folder of plugins"),
+        (("{tmp}",), "There is no plugin in this folder"),
+        (("clutch", "--config", "{tmp}/none.yaml"), "none.yaml"),
+        (("damper", "--config", "{tmp}/press.yaml"), "There is no mechanism of the kind 'damper' in it."),
+    ],
+)  # fmt: skip
+def test_what_cannot_be_asked_ends_with_2(
+    tmp_path: Path, capfd: Capture, arguments: tuple[str, ...], words: str
+) -> None:
+    saved(tmp_path, SMALL)
+    assert main(["check-plugin", *(part.format(tmp=tmp_path) for part in arguments)]) == 2
+    assert words in capfd.readouterr().err
+
+
+@pytest.mark.nightly
+@pytest.mark.parametrize("kind", ["clutch", "geneva_transport", "platen_press", "gear_pair"])
+def test_kinds_of_the_program_hold_the_rules(tmp_path: Path, capfd: Capture, kind: str) -> None:
+    assert main(["check-plugin", kind, "-o", str(tmp_path / "page.html")]) == 0, capfd.readouterr().out

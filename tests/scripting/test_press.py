@@ -1,0 +1,160 @@
+"""A press in a script: loaded from a file, a text, a mapping; its inputs; other values; what is wrong, with its places."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+import pint
+import pytest
+
+import diecut_report as dr
+from diecut_report.cli.main import main
+from tests.configs import GOOD, HEAD, saved
+
+TEXT = (
+    HEAD
+    + """\
+  a: {kind: lever, force: 2 kN, arm: {value: 90 mm, basis: assumed, note: from the layout}}  # the lever
+  b: {kind: lever, force: "${a.moment} / (50 mm)", grade: coarse}
+"""
+)
+Capture = pytest.CaptureFixture[str]
+
+
+@pytest.fixture
+def press(tmp_path: Path) -> dr.LoadedPress:
+    return dr.load(saved(tmp_path, TEXT), plugins=[GOOD])
+
+
+def test_a_file_a_text_and_a_mapping_give_the_same_machine(press: dr.LoadedPress) -> None:
+    data = {
+        "schema_version": 1, "project": {"title": "Test"}, "press": {"name": "P", "productivity": 6000},
+        "mechanisms": {"a": {"kind": "lever", "force": dr.QuantityValue(2000.0, "N"), "arm": pint.Quantity(9, "cm")}},
+    }  # fmt: skip
+    made = [press.calculate(), dr.loads(TEXT, plugins=[GOOD]).calculate(), dr.load(data, plugins=GOOD).calculate()]
+    assert [each["a"].moment.value for each in made] == [180.0] * 3
+    assert made[0]["b"].moment.si == pytest.approx(180 / 0.05 * 0.1)
+
+
+def test_inputs_tell_path_value_unit_range_and_what_they_rest_on(press: dr.LoadedPress) -> None:
+    arm, force = press.inputs["a.arm"], press.inputs["b.force"]
+    assert (arm.value, arm.typed, arm.unit, arm.allowed) == (
+        dr.QuantityValue(0.09, "m"),
+        "90 mm",
+        "mm",
+        "> 0 mm, ≤ 1000 mm",
+    )
+    assert (arm.basis, arm.note, arm.kind) == ("assumed", "from the layout", "lever")
+    assert (force.value, force.typed) == (None, "${a.moment} / (50 mm)")
+    assert press.inputs["mechanisms.a.teeth"].value == 20 and not press.inputs["a.teeth"].is_given
+    assert press.inputs["a.grade"].allowed == "fine, coarse"
+    assert press.inputs["press.sheet.length"].value == dr.QuantityValue(700, "mm")
+    assert press.instances == {"a": "lever", "b": "lever"}
+
+
+@pytest.mark.parametrize(
+    "value",
+    [
+        "0.12 m",
+        120,
+        120.0,
+        np.float64(120),
+        np.int64(120),
+        dr.QuantityValue(12, "cm"),
+        pint.Quantity(12, "cm"),
+        pint.Quantity(0.12, "m"),
+    ],
+)
+def test_other_values_give_another_press_and_leave_the_first_as_it_is(press: dr.LoadedPress, value: object) -> None:
+    other = press.with_values({"a.arm": value, "b.hard": True, "b.grade": "fine", "project.title": "A: b"})
+    assert other.inputs["a.arm"].value == dr.QuantityValue(0.12, "m") and other.title == "A: b"
+    assert other.calculate()["a"].moment.value == pytest.approx(240)
+    assert press.inputs["a.arm"].value == dr.QuantityValue(0.09, "m") and press.text == TEXT
+    assert "# the lever" in other.text and "basis: assumed" in other.text
+    assert other.inputs["b.hard"].value is not None and other.inputs["b.hard"].value.value is True
+
+
+def test_a_reference_is_written_over_and_may_be_given(press: dr.LoadedPress) -> None:
+    other = press.with_values({"b.force": "3 kN", "a.arm": "${press.sheet.length} / 7"})
+    assert [other.calculate()[name].moment.value for name in "ab"] == pytest.approx([200, 300])
+
+
+def test_no_values_are_the_same_press(press: dr.LoadedPress) -> None:
+    assert press.with_values({}) is press
+
+
+def test_all_that_is_wrong_with_values_is_told_at_once_with_its_places(press: dr.LoadedPress) -> None:
+    with pytest.raises(dr.ConfigError) as caught:
+        press.with_values({"a.forc": 1, "a.arm": "2 m", "b.teeth": "20 kg", "a.width": [1, 2], "a.moment": 3})
+    told = {problem.path: problem for problem in caught.value.problems}
+    assert set(told) == {"a.forc", "a.width", "a.moment", "mechanisms.a.arm.value", "mechanisms.b.teeth"}
+    assert "did you mean 'force'?" in told["a.forc"].message and "is an output" in told["a.moment"].message
+    arm = told["mechanisms.a.arm.value"]
+    assert (arm.line, arm.column, arm.allowed) == (5, 46, "> 0 mm, ≤ 1000 mm") and "out of range" in arm.message
+    assert arm.file == press.config.tree.file
+
+
+def test_an_error_says_what_the_command_says(tmp_path: Path, capfd: Capture) -> None:
+    file = saved(tmp_path, TEXT.replace("2 kN", "2 kg").replace("coarse", "corse"))
+    for language in ("en", "uk"):
+        main(["validate", str(file), "--plugins", str(GOOD), "--language", language])
+        with pytest.raises(dr.ConfigError) as caught:
+            dr.load(file, plugins=[GOOD], language=language)
+        assert str(caught.value) == capfd.readouterr().err.rstrip("\n")
+    first, second = caught.value.problems
+    assert (first.allowed, second.allowed, second.line, second.column) == ("> 0 kN", "fine, coarse", 6, 59)
+
+
+def test_a_mapping_has_no_lines(tmp_path: Path) -> None:
+    with pytest.raises(dr.ConfigError) as caught:
+        dr.load(
+            {
+                "schema_version": 1,
+                "project": {"title": "T"},
+                "press": {"name": "P"},
+                "mechanisms": {"a": {"kind": "levr"}},
+            },
+            plugins=[GOOD],
+        )
+    (problem,) = caught.value.problems
+    assert (
+        str(problem).startswith("mechanisms.a.kind: 'levr' is not a known kind (did you mean 'lever'?)")
+        and problem.line is None
+    )
+
+
+def test_an_impossible_machine_is_told_with_its_place(press: dr.LoadedPress) -> None:
+    assert press.validate() == ()
+    wrong = press.with_values({"a.teeth": 200})
+    (problem,) = wrong.validate()
+    assert (problem.path, problem.line) == ("mechanisms.a.teeth", 5) and "a hundred at most" in problem.message
+    with pytest.raises(dr.ConfigError, match="a hundred at most"):
+        wrong.calculate()
+
+
+def test_a_press_is_saved_as_text(press: dr.LoadedPress, tmp_path: Path) -> None:
+    file = press.with_values({"a.arm": "80 mm"}).save(tmp_path / "other" / "press.yaml")
+    assert file.read_text("utf-8") == TEXT.replace("90 mm", "80 mm")
+    with pytest.raises(dr.UserError, match="a folder has this name"):
+        press.save(tmp_path)
+
+
+def test_an_unknown_name_tells_the_nearest(press: dr.LoadedPress) -> None:
+    with pytest.raises(KeyError) as caught:
+        press.inputs["a.forze"]
+    assert (
+        isinstance(caught.value, dr.UnknownName)
+        and str(caught.value) == "there is no input 'a.forze' (did you mean 'a.force'?)."
+    )
+
+
+def test_an_unknown_language_is_refused() -> None:
+    with pytest.raises(dr.ConfigError, match="'xx', of which the program has no catalogue; allowed: en, uk"):
+        dr.loads(TEXT, language="xx")
+
+
+def test_a_press_is_shown_by_its_name_and_inputs(press: dr.LoadedPress) -> None:
+    assert repr(press).startswith("<press P of ") and repr(press).endswith(": a, b>")
+    html = press.with_values({"a.remark": "<script>alert(1)</script>"})._repr_html_()
+    assert "a.arm" in html and "90\N{NO-BREAK SPACE}mm" in html and "&lt;script&gt;" in html and "<script" not in html

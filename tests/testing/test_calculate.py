@@ -1,0 +1,123 @@
+"""``calculate`` gives the numbers of one machine by their ids, as a report has them, and errors in words."""
+
+from __future__ import annotations
+
+import json
+import math
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+
+from diecut_report.config.loader import load_config
+from diecut_report.errors import PluginError
+from diecut_report.results.document import document
+from diecut_report.results.press_run import compute
+from diecut_report.testing import MechanismFound, NotGiven, Refused, calculate, load
+from tests.configs import BROKEN, DISCOVERY, GOOD, HEAD, saved
+
+LEVER = load("lever", GOOD)
+
+
+def lever(**changes: Any) -> MechanismFound:
+    """The lever of these tests with changes."""
+    return calculate(LEVER, {"force": "2 kN", "arm": "150 mm", "speed": "10 rpm", **changes})
+
+
+def test_a_number_has_its_value_in_si_and_in_other_units() -> None:
+    found = lever()["moment"]
+    assert (found.value, found.unit, found.symbol, found.shown) == (300.0, "N*m", "M", "300 N·m")
+    assert found.to("kN*m") == pytest.approx(0.3) and float(found) == 300
+    with pytest.raises(ValueError, match=r"moment is in N·m, which is not of the kind of mm"):
+        found.to("mm")
+
+
+def test_it_is_what_a_report_has(tmp_path: Path) -> None:
+    text = (
+        HEAD
+        + "  lever: {kind: lever, force: 2 kN, arm: 150 mm, width: 20 mm, parts: [{length: 2 mm}, {length: 3 mm}]}\n"
+    )
+    run = compute(load_config(saved(tmp_path, text), DISCOVERY), lambda _: None)
+    keys = {"force": "2 kN", "arm": "150 mm", "width": "20 mm", "parts": [{"length": "2 mm"}, {"length": "3 mm"}]}
+    press = {"productivity": "6000 1/h", "sheet": {"length": "700 mm", "thickness": "0.6 mm"}}
+    found, whole = calculate(LEVER, keys, press=press).data, document(run)["mechanisms"]["lever"]
+    assert json.dumps(found["outputs"]) == json.dumps(whole["outputs"]) and found["curves"] == whole["curves"]
+
+
+def test_numbers_of_numpy_are_numbers() -> None:
+    assert (
+        calculate(LEVER, {"force": np.float64(2), "teeth": np.int64(30), "speed": "10 rpm"})["inputs.arm"].to("mm")
+        == 100
+    )
+    with pytest.raises(TypeError, match="is not what a configuration may hold"):
+        calculate(LEVER, {"force": object()})
+
+
+def test_inputs_texts_places_curves_and_rows_are_there() -> None:
+    found = lever(parts=[{"length": "2 mm"}, {"length": "3 mm"}])
+    assert found["size"].value == "large" and found["grade"].value == "fine" and "pressure" not in found
+    assert found["torque_max_at"].to("deg") == pytest.approx(90)
+    assert found.row("parts.length", "mm") == (2, 3) and found["parts.1.length"].to("mm") == 3
+    curve = found.curves["torque"]
+    assert curve.abscissa == "angle" and max(curve.to("kN*m")) == pytest.approx(0.3)
+    assert found.curves["angle"].values[9] == pytest.approx(math.pi / 2)
+
+
+@pytest.mark.parametrize(
+    ("name", "words"),
+    [
+        ("momnt", r"lever gives no 'momnt' \(did you mean 'moment'\?\)"),
+        ("torque", r"torque is a curve; ask .curves\['torque'\]"),
+        ("parts.length", r"parts.length has a number for each part; ask .row\('parts.length'\), or one of them as"),
+    ],
+)
+def test_what_is_not_there_is_told_with_what_is(name: str, words: str) -> None:
+    with pytest.raises(NotGiven, match=words):
+        lever(parts=[{"length": "2 mm"}])[name]
+
+
+def test_checks_have_their_verdicts() -> None:
+    made = lever(allowable_moment="200 N*m").checks["moment"]
+    assert (made.status, made.demand, made.limit, made.utilisation) == ("fail", 300.0, 200.0, 1.5)
+    assert lever().checks["moment"].status == "not_checked" and lever().checks["moment"].limit is None
+
+
+def test_phases_have_their_intervals() -> None:
+    keys = {"slots": 6, "center_distance": "200 mm", "crank_speed": "100 rpm", "roller_radius": "10 mm"}
+    found = calculate(load("geneva_transport"), keys)
+    phase = next(each for each in found.phases.values() if each.role == "working" or each.role == "moving")
+    turn = sum(end - start for start, end in phase.intervals)
+    assert turn == pytest.approx(2 * math.pi * (6 - 2) / 12)  # the crank's share of motion of a six-slot cross
+
+
+def test_other_mechanisms_and_their_curves_may_be_referred_to() -> None:
+    first = {"kind": "lever", "force": "1 kN"}
+    keys, press = {"force": "2 kN", "load": "${first.torque}"}, {"productivity": "6000 1/h"}
+    found = calculate(LEVER, keys, press=press, others={"first": first}, plugins=[GOOD])
+    assert found["taken_max"].value == pytest.approx(100)
+
+
+def test_inputs_that_are_not_allowed_are_told_in_words() -> None:
+    with pytest.raises(Refused) as caught:
+        lever(arm="-3 mm", teth=12)
+    first, second = sorted(caught.value.problems)
+    assert first == "arm: -3 mm is out of range; allowed: > 0 mm, ≤ 1000 mm"
+    assert second.startswith("teth: is an unknown key (did you mean 'teeth'?).")
+
+
+def test_a_machine_that_cannot_be_is_told_in_words() -> None:
+    with pytest.raises(Refused, match="teeth: is 120; a hundred at most"):
+        lever(teeth=120)
+
+
+def test_a_plugin_that_breaks_is_told_with_file_and_line() -> None:
+    with pytest.raises(PluginError, match=r"RuntimeError: the plugin fell over \(breaks_in_calculation.py:15\)"):
+        calculate(load("breaks_in_calculation", BROKEN), {})
+
+
+def test_a_kind_that_is_not_there_is_told() -> None:
+    with pytest.raises(LookupError, match="'levr' is not a known kind"):
+        load("levr", GOOD)
+    with pytest.raises(PluginError, match="No module named 'library_that_is_not_there'"):
+        load("breaks_at_import", BROKEN)

@@ -1,0 +1,1 @@
+"""What others write with the program: the packages and repositories in ``examples/``, used as they would use them."""

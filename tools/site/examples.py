@@ -1,0 +1,124 @@
+"""The example configurations: what the program says of them, and their reports."""
+
+from __future__ import annotations
+
+import re
+import tempfile
+from collections.abc import Mapping
+from pathlib import Path
+from typing import Any, NamedTuple
+
+import yaml
+
+from diecut_report import pipeline
+from diecut_report.config.discovery import Discovery
+from diecut_report.design.followed_advice import followed
+from diecut_report.report.figure_places import placed, sketch
+from diecut_report.report.figures.by_type import render
+from diecut_report.report.figures.sizes import Size
+from diecut_report.report.figures.style import Svg
+from diecut_report.report.i18n import Catalogue
+from diecut_report.report.scope import letter, parts
+from diecut_report.study.analysis.assumed import moves
+from tools.site.sources import ROOT
+
+CONFIGS = ROOT / "configs"
+SMALL = ("circular_knife",)  # which alone a quick site calculates
+FIRST = (
+    "circular_knife",
+    "platen_press_zppt30",
+    "folding_knife",
+    "flat_cylinder_press",
+)  # where a kind is rather looked for
+WORDS = Catalogue("en")
+
+
+class Example(NamedTuple):
+    """An example configuration: its name, its text and what it holds; its results and its report where these were made."""
+
+    name: str
+    text: str
+    config: Mapping[str, Any]
+    results: Mapping[str, Any] | None = None
+    report: bytes = b""
+
+    @property
+    def title(self) -> str:
+        """Return what it is called in its own words."""
+        return str(self.config["project"]["title"])
+
+
+class Shown(NamedTuple):
+    """Where a kind of mechanism is shown: the example, the name and the letter of the mechanism there, and its results if there are."""
+
+    example: Example
+    kind: str
+    name: str
+    letter: str
+    mechanism: Mapping[str, Any] | None
+
+    @property
+    def is_own(self) -> bool:
+        """Return whether the configuration has a block for it; a comparison has none."""
+        return self.name in self.example.config["mechanisms"]
+
+
+def configurations() -> list[Path]:
+    """Return the files of the example configurations, those first in which a mechanism is rather looked for."""
+    found = [file for file in sorted(CONFIGS.glob("*.yaml")) if "mechanisms" in yaml.safe_load(file.read_text("utf-8"))]
+    ranks = {name: rank for rank, name in enumerate(FIRST)}
+    return sorted(found, key=lambda file: ranks.get(file.stem, len(ranks)))
+
+
+def examples(*, quick: bool) -> list[Example]:
+    """Return all examples with their results and reports; of a quick site the small ones have them alone."""
+    return [_example(file, calculated=not quick or file.stem in SMALL) for file in configurations()]
+
+
+def _example(file: Path, *, calculated: bool) -> Example:
+    text = file.read_text(encoding="utf-8")
+    plain = Example(file.stem, text, yaml.safe_load(text))
+    if not calculated:
+        return plain
+    with tempfile.TemporaryDirectory() as folder:
+        made = pipeline.report(file, Discovery(), _silent, Path(folder), ("html",), weigh=moves, follow=followed)
+        return plain._replace(results=made.results, report=(Path(folder) / f"{file.stem}.html").read_bytes())
+
+
+def _silent(_: str) -> None:
+    """Tell nothing of the way."""
+
+
+def shown_kinds(found: list[Example]) -> dict[str, Shown]:
+    """Return for each kind the first example that has it; comparisons are known where they are calculated."""
+    kinds: dict[str, Shown] = {}
+    for example in found:
+        if example.results is None:
+            for name, given in example.config["mechanisms"].items():
+                kinds.setdefault(given["kind"], Shown(example, given["kind"], name, "", None))
+        else:
+            for index, (name, made) in enumerate(parts(example.results)):
+                kinds.setdefault(made["kind"], Shown(example, made["kind"], name, letter(index), made))
+    return kinds
+
+
+def drawn(shown: Shown) -> tuple[Svg, str] | None:
+    """Return the sketch of a mechanism, if it has none to scale its first figure, and its caption; None where there is no figure."""
+    if shown.mechanism is None:
+        return None
+    figures = [each for each in placed(shown.letter, shown.mechanism) if "error" not in each.figure]
+    chosen = sketch(figures) or figures[:1]
+    if not chosen:
+        return None
+    figure = chosen[0].figure
+    return render(figure, shown.mechanism["curves"], WORDS, shown.kind, Size.LOW), str(figure["caption"])
+
+
+def block(shown: Shown) -> str:
+    """Return the block of a mechanism as it stands in its configuration, without the comments of what follows it."""
+    lines = shown.example.text.splitlines()
+    start = next(number for number, line in enumerate(lines) if re.match(rf"  {re.escape(shown.name)}:", line))
+    end = next((n for n in range(start + 1, len(lines)) if re.match(r" {0,2}[^ #]", lines[n])), len(lines))
+    while not lines[end - 1].strip() or re.match(r" {0,2}#", lines[end - 1]):
+        end -= 1
+    return "\n".join(["mechanisms:", *lines[start:end]])
