@@ -9,7 +9,7 @@ from typing import Any, Generic, TypeVar
 
 from diecut_report.config.discovery import Discovery
 from diecut_report.config.loader import Config
-from diecut_report.design import advice, influence, influence_text
+from diecut_report.design import advice, advice_text, influence, influence_text
 from diecut_report.design.answers import Answer, FoundValue, data, lines
 from diecut_report.design.design_inputs import DesignInput, design_input, with_input
 from diecut_report.design.questions import question
@@ -122,7 +122,7 @@ def mended_press(
     found = advice.mended(config, discovery, free=free, keep=keep, tell=lambda _: None)
     press = None if found.machine is None else make(found.machine.config)
     changes = {each.name: each.after for each in found.changes} if found.machine is not None else {}
-    return MendedPress(changes, press, advice.data(found), "\n".join(advice.lines(found)))
+    return MendedPress(changes, press, advice.data(found), "\n".join(advice_text.lines(found)))
 
 
 def influence_of(config: Config, names: Sequence[str], share: float) -> InfluenceTable:
