@@ -78,6 +78,7 @@ from diecut_report.contract.steps import (
     Words,
 )
 from diecut_report.contract.varying import Extremes, Varying
+from diecut_report.contract.version import CONTRACT
 from diecut_report.expressions import GRAVITY, Constant, Formula, arccos, as_angle, as_number, formula
 from diecut_report.languages.phrases import Phrase, joined, named, phrase
 from diecut_report.languages.tokens import worded
@@ -95,6 +96,7 @@ from diecut_report.standards import (
 )
 
 __all__ = [
+    "CONTRACT",
     "GRAVITY",
     "POINTS",
     "Abscissa",

@@ -27,6 +27,11 @@ class Problem:
     path: str = ""
     allowed: str = field(default="", compare=False)
 
+    @property
+    def key(self) -> str:
+        """Return the key path."""
+        return self.path
+
     def __str__(self) -> str:
         """The one-line form that editors and terminals can follow: `press.yaml:12:5: path: message`."""
         place = ":".join(str(part) for part in (self.file, self.line, self.column) if part not in ("", None))

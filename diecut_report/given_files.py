@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import os
 import stat
+import sys
 from collections.abc import Iterable, Iterator
 from contextlib import contextmanager
 from io import BufferedReader
@@ -36,6 +37,28 @@ def content(path: Path, most: int, wanted: str) -> bytes:
         found = file.read(most + 1)  # bounded too: a file may grow, and some of the system's state no size
     if len(found) > most:
         _refuse_size(path, len(found), most)
+    return found
+
+
+def standard_input(most: int, name: str) -> bytes:
+    """Return what standard input gives until its end; UserError where that is more than ``most`` bytes, or where it is closed.
+
+    ``name`` is what messages call it.
+    """
+    if sys.stdin is None:
+        raise UserError(Problem(phrase("Standard input is closed. Name a file."), name))
+    try:
+        found = sys.stdin.buffer.read(most + 1)
+    except (OSError, ValueError) as error:
+        words = Phrase(
+            "Standard input cannot be read: {told}. Name a file.", told=getattr(error, "strerror", None) or error
+        )
+        raise UserError(Problem(words, name)) from error
+    if len(found) > most:
+        words = Phrase(
+            "Standard input holds more than {most} MB, which is the most that is read.", most=f"{most / 1e6:g}"
+        )
+        raise UserError(Problem(words, name))
     return found
 
 

@@ -131,6 +131,7 @@ def _help() -> Iterator[str]:
     """What the commands and their options do."""
     for command in (program, *program.commands.values()):
         yield cleandoc(command.help or "")
+        yield from filter(None, (command.epilog,))
         yield from (option.help for option in command.params if isinstance(option, click.Option) and option.help)
     yield from ("Show this message and exit.", "Usage:", "Options", "Commands", "required")
 

@@ -1,4 +1,4 @@
-"""The commands that judge files: ``validate`` reads configurations and studies, ``check`` calculates many machines."""
+"""The command ``check``, which calculates many machines."""
 
 from __future__ import annotations
 
@@ -10,7 +10,9 @@ from typing import TYPE_CHECKING
 
 import click
 
+from diecut_report.cli import exit_codes
 from diecut_report.cli.formats import formats_of
+from diecut_report.cli.given import DASH, from_standard_input
 from diecut_report.cli.language import asked_language
 from diecut_report.cli.output import (
     BAD_INPUT,
@@ -23,19 +25,18 @@ from diecut_report.cli.output import (
     common,
     emit,
     tell,
-    tell_problems,
     tell_written,
 )
 from diecut_report.cli.progress import Progress
 from diecut_report.cli.verdict import WORDS
-from diecut_report.config import yaml_tree
 from diecut_report.config.catalogues import catalogues_for, spoken_catalogues
 from diecut_report.config.discovery import Discovery
-from diecut_report.errors import PluginError, Problem, UserError
+from diecut_report.errors import Problem, UserError
 from diecut_report.languages.phrases import Counted, Phrase, phrase
 from diecut_report.languages.speech import localised, said, speaking
 
 if TYPE_CHECKING:
+    from diecut_report.config.yaml_tree import Tree
     from diecut_report.study.machines.calculation import CheckedMachine
     from diecut_report.study.machines.verdicts import Verdict
 
@@ -53,43 +54,7 @@ HEADS = (
 path_of = click.Path(path_type=Path)
 
 
-@click.command(cls=HelpfulCommand)
-@click.argument("files", metavar="FILE…", nargs=-1, required=True, type=path_of)
-@common
-def validate(files: tuple[Path, ...], folders: tuple[Path, ...], quiet: bool) -> int:
-    """Judge configurations and studies without their results; all problems of all files are reported."""
-    discovery, codes = Discovery(folders), []
-    for file in files:
-        try:
-            with redirect_stdout(sys.stderr):
-                broken = _broken(file, discovery)
-            tell(str(error) if len(files) == 1 else f"{file}: " + phrase(str(error)) for error in broken)
-            codes.append(PLUGIN_BROKE if broken else PASSED)
-        except UserError as error:
-            tell_problems(error.problems)
-            codes.append(BAD_INPUT)
-        if codes[-1] == PASSED and not quiet:
-            tell([Phrase("{file}: valid", file=file)])
-    return BAD_INPUT if BAD_INPUT in codes else max(codes)
-
-
-def _broken(file: Path, discovery: Discovery) -> tuple[PluginError, ...]:
-    """The plugins that are broken; UserError with all that is wrong with the file."""
-    from diecut_report import pipeline
-
-    tree = yaml_tree.load(file)
-    if not (isinstance(tree.data, dict) and "base" in tree.data and "mechanisms" not in tree.data):
-        return pipeline.validate(tree, discovery)
-    from diecut_report.study.definition.study_file import load_study
-
-    try:
-        load_study(file, discovery)
-    except PluginError as error:
-        return (error,)
-    return ()
-
-
-@click.command(cls=HelpfulCommand)
+@click.command(cls=HelpfulCommand, epilog=exit_codes.OF_CHECKS)
 @click.argument("given", metavar="CONFIG|FOLDER…", nargs=-1, required=True, type=path_of)
 @click.option("-o", "folder", metavar="DIR", type=path_of, help="Also write a summary of all machines there.")
 @click.option("--strict", is_flag=True, help="Warnings and checks without a limit count as failed.")
@@ -110,9 +75,10 @@ def check(given: tuple[Path, ...], folder: Path | None, strict: bool, formats: l
     from diecut_report.study.machines.verdicts import compared, in_language
 
     files = configurations(given)
+    read = [from_standard_input() if file == DASH else file for file in files]
     discovery = Discovery(folders)
     with Progress(quiet) as progress, redirect_stdout(sys.stderr):
-        found = _calculated(files, folders, jobs, progress)
+        found = _calculated(read, folders, jobs, progress)
     made = compared(in_language(found, spoken_catalogues(discovery)))
     for verdict in made.verdicts:
         tell(f"{verdict.machine}: " + phrase(line) if verdict.status == "error" else line for line in verdict.words)
@@ -125,7 +91,7 @@ def check(given: tuple[Path, ...], folder: Path | None, strict: bool, formats: l
 
 
 def _calculated(
-    files: Sequence[Path], folders: Sequence[Path], jobs: int | None, progress: Progress
+    files: Sequence[Path | Tree], folders: Sequence[Path], jobs: int | None, progress: Progress
 ) -> list[CheckedMachine]:
     """What came out of each file, in their order."""
     from diecut_report.study.machines.calculation import machines

@@ -11,9 +11,10 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
+from diecut_report.cli import completion
+from diecut_report.cli.given import source
 from diecut_report.cli.output import CHECK_FAILED, PASSED, HelpfulCommand, common, emit, tell, tell_written
 from diecut_report.cli.progress import Progress
-from diecut_report.cli.study import source
 from diecut_report.config.discovery import Discovery
 from diecut_report.languages.phrases import Phrase, phrase
 from diecut_report.languages.speech import said, say
@@ -35,7 +36,13 @@ target_option = click.option(
 
 @click.command(cls=HelpfulCommand)
 @click.argument("config", type=path_of)
-@click.option("--vary", required=True, metavar="INPUT", help="The input to solve for, such as drive.crank_length.")
+@click.option(
+    "--vary",
+    required=True,
+    metavar="INPUT",
+    shell_complete=completion.inputs,
+    help="The input to solve for, such as drive.crank_length.",
+)
 @click.option(
     "--for", "asked", required=True, metavar="QUESTION",
     help='`drive.crank_torque_peak = 400 N*m`, with = <= or >=; or `max press.productivity`, `min cylinder.mass`.',
@@ -82,10 +89,13 @@ def solve(
 @click.option(
     "--free",
     metavar="INPUT",
+    shell_complete=completion.inputs,
     multiple=True,
     help="An input that may be changed; may be given several times (default: sizes, angles and ratios).",
 )
-@click.option("--keep", metavar="INPUT", multiple=True, help="An input that stays as it is.")
+@click.option(
+    "--keep", metavar="INPUT", shell_complete=completion.inputs, multiple=True, help="An input that stays as it is."
+)
 @target_option
 @form_option
 @common
@@ -142,6 +152,7 @@ def _share(_context: click.Context, _option: click.Parameter, percent: float) ->
     "--tolerance",
     "tolerances",
     metavar="INPUT=SIZE",
+    shell_complete=completion.inputs,
     multiple=True,
     help="drive.crank_length=0.1 mm: an input that scatters by as much to both sides; may be given several times.",
 )
@@ -191,7 +202,7 @@ def influence(
         progress(phrase("drawing machines within tolerances"))
         drawn = within_tolerances(loaded, sizes, distribution, count, seed) if sizes else None
     told = {"text": lambda: _text(lines(found, drawn)), "json": lambda: _json(data(found, drawn)),
-            "html": lambda: page(found, drawn, config.name)}[form]()  # fmt: skip
+            "html": lambda: page(found, drawn, Path(loaded.tree.name).name)}[form]()  # fmt: skip
     if target is None:
         emit(told)
     else:

@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING
 
 import click
 
+from diecut_report.cli import completion
 from diecut_report.cli.output import (
     BAD_INPUT,
     CHECK_FAILED,
@@ -35,7 +36,7 @@ STANDARD_OUTPUT, SHOWN = Path("-"), "<stdout>"
 
 
 @click.command("new", cls=HelpfulCommand)
-@click.argument("kinds", metavar="[KIND[:NAME] …]", nargs=-1)
+@click.argument("kinds", metavar="[KIND[:NAME] …]", nargs=-1, shell_complete=completion.kinds)
 @click.option(
     "-o", "target", metavar="FILE", type=click.Path(path_type=Path), help="Where to write (default: standard output)."
 )

@@ -11,8 +11,9 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from diecut_report.cli import verdict
+from diecut_report.cli import exit_codes, verdict
 from diecut_report.cli.formats import formats_of
+from diecut_report.cli.given import source
 from diecut_report.cli.language import asked_language
 from diecut_report.cli.output import (
     CHECK_FAILED,
@@ -25,7 +26,6 @@ from diecut_report.cli.output import (
     tell_written,
 )
 from diecut_report.cli.progress import Progress
-from diecut_report.cli.study import source
 from diecut_report.cli.template import template_option
 from diecut_report.config.catalogues import spoken_catalogues
 from diecut_report.config.discovery import Discovery
@@ -150,7 +150,7 @@ def _value(value: object) -> str:
     return text if len(text) <= 80 else f"{text[:80]}…"
 
 
-@click.command(cls=HelpfulCommand)
+@click.command(cls=HelpfulCommand, epilog=exit_codes.OF_CHECKS)
 @click.argument("results", metavar="RESULTS.json", type=path_of)
 @click.option("-o", "folder", metavar="DIR", default=".", type=path_of, help="Where to write (default: here).")
 @click.option(

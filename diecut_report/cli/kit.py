@@ -3,15 +3,14 @@
 from __future__ import annotations
 
 import json
-import sys
 import webbrowser
 from collections.abc import Iterator
-from contextlib import redirect_stdout
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 import click
 
+from diecut_report.cli import exit_codes
 from diecut_report.cli.language import asked_language
 from diecut_report.cli.output import (
     CHECK_FAILED,
@@ -22,6 +21,7 @@ from diecut_report.cli.output import (
     emit,
     tell,
     tell_written,
+    without_output,
 )
 from diecut_report.languages.phrases import Phrase, phrase
 from diecut_report.languages.speech import said, say, spoken_language
@@ -59,7 +59,7 @@ def new_plugin(name: str, as_package: bool, folder: Path | None, folders: tuple[
     return PASSED
 
 
-@click.command("check-plugin", cls=HelpfulCommand)
+@click.command("check-plugin", cls=HelpfulCommand, epilog=exit_codes.OF_PLUGIN)
 @click.argument("plugin", metavar="NAME|DIR")
 @click.option("--config", "configs", metavar="FILE", multiple=True, type=path_of,
               help="A configuration with a machine to try it on (default: one that lies beside the plugin).")  # fmt: skip
@@ -80,7 +80,7 @@ def check_plugin(
         )
     found: list[CheckedPlugin] = []
     for kind in kinds:
-        with redirect_stdout(sys.stderr):
+        with without_output():
             for each in checked(known, kind, configs, asked_language() or spoken_language()):
                 if isinstance(each, CheckedPlugin):
                     found.append(each)

@@ -8,6 +8,7 @@ from typing import Any, TypeVar
 
 import click
 
+from diecut_report.cli import completion
 from diecut_report.errors import Problem, UserError
 from diecut_report.languages.catalogues import SOURCE_LANGUAGE, UnknownLanguage, known, languages
 from diecut_report.languages.phrases import Phrase
@@ -55,6 +56,12 @@ def language_option(command: Command) -> Command:
     """Give a command the option ``--language``, of which it need not know."""
     words = "Language of messages and documents (en, uk), in place of the environment's and the project's."
     option = click.option(
-        "--language", metavar="LANGUAGE", is_eager=True, expose_value=False, callback=_language, help=words
+        "--language",
+        metavar="LANGUAGE",
+        is_eager=True,
+        expose_value=False,
+        callback=_language,
+        help=words,
+        shell_complete=completion.spoken,
     )
     return option(command)

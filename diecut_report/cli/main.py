@@ -20,15 +20,18 @@ from typing import TYPE_CHECKING, NoReturn
 import click
 
 from diecut_report import __version__
-from diecut_report.cli import verdict
-from diecut_report.cli.checking import check, validate
+from diecut_report.cli import completion, exit_codes, verdict
+from diecut_report.cli.checking import check
 from diecut_report.cli.design import advise, influence, solve
 from diecut_report.cli.drafting import new
 from diecut_report.cli.exchange import diff, extract, render, verify
+from diecut_report.cli.file_schemas import OF_FILES, schema_of_file
 from diecut_report.cli.formats import formats_of
+from diecut_report.cli.given import source
 from diecut_report.cli.kit import check_plugin, new_plugin
 from diecut_report.cli.language import asked_language, language_option, of_environment
 from diecut_report.cli.live import live
+from diecut_report.cli.optimise import optimise
 from diecut_report.cli.output import (
     BAD_INPUT,
     FAULT,
@@ -44,12 +47,14 @@ from diecut_report.cli.output import (
     tell_problems,
     tell_written,
     usage,
+    without_output,
 )
 from diecut_report.cli.progress import Progress
 from diecut_report.cli.report_options import detail_given, only_given, report_formats
 from diecut_report.cli.signing import sign
-from diecut_report.cli.study import batch, source, take, variants
+from diecut_report.cli.study import batch, take, variants
 from diecut_report.cli.template import template_option
+from diecut_report.cli.validating import validate
 from diecut_report.config.discovery import Discovery, DuplicateKind, UnknownKind
 from diecut_report.errors import PluginError, Problem, Unwritable, UserError
 from diecut_report.languages.catalogues import SOURCE_LANGUAGE
@@ -121,7 +126,7 @@ def _version(context: click.Context, _: click.Parameter, asked: bool) -> None:
         context.exit()
 
 
-@click.group(cls=HelpfulGroup, context_settings={"help_option_names": ["-h", "--help"]})
+@click.group(cls=HelpfulGroup, context_settings={"help_option_names": ["-h", "--help"]}, epilog=exit_codes.OF_PROGRAM)
 @click.option(
     "--version", is_flag=True, is_eager=True, expose_value=False, callback=_version, help="Show the version and exit."
 )
@@ -136,7 +141,7 @@ config_argument = click.argument("config", type=click.Path(path_type=Path))
 # --- commands --------------------------------------------------------------------------------------------------------
 
 
-@program.command()
+@program.command(epilog=exit_codes.OF_CHECKS)
 @config_argument
 @click.option(
     "-o", "folder", metavar="DIR", default=".", type=click.Path(path_type=Path), help="Where to write (default: here)."
@@ -158,10 +163,17 @@ config_argument = click.argument("config", type=click.Path(path_type=Path))
 @click.option(
     "--detail",
     metavar="DETAIL",
+    shell_complete=completion.details,
     callback=detail_given,
     help="brief, standard or full, in place of the configuration's (standard).",
 )
-@click.option("--only", metavar="NAMES", callback=only_given, help="Report these mechanisms alone: drive,clutch.")
+@click.option(
+    "--only",
+    metavar="NAMES",
+    shell_complete=completion.mechanisms,
+    callback=only_given,
+    help="Report these mechanisms alone: drive,clutch.",
+)
 @template_option
 @verdict.strict_option
 @common
@@ -188,7 +200,7 @@ def report(
     return _verdict(outcome, discovery, quiet, strict)
 
 
-@program.command()
+@program.command(epilog=exit_codes.OF_CHECKS)
 @config_argument
 @click.option(
     "-o", "target", metavar="FILE", type=click.Path(path_type=Path), help="Write to a file, not to standard output."
@@ -201,7 +213,7 @@ def calc(config: Path, target: Path | None, strict: bool, folders: tuple[Path, .
 
     to_file = None if target == Path("-") else target
     # a plugin that prints does not spoil the JSON
-    with Progress(quiet) as progress, redirect_stdout(sys.stderr):
+    with Progress(quiet) as progress, without_output() if to_file is None else redirect_stdout(sys.stderr):
         discovery = Discovery(folders)
         outcome, text = pipeline.calc(source(config, discovery), discovery, progress, to_file)
     if to_file is None:
@@ -216,7 +228,7 @@ def plugins(folders: tuple[Path, ...], quiet: bool) -> int:
     discovery, codes, lines = Discovery(folders), [PASSED], []
     for kind, origins in discovery.origins.items():
         try:
-            with redirect_stdout(sys.stderr):
+            with without_output():
                 mechanism = discovery.mechanism(kind)
             title = said(mechanism.title, kind)
             lines += [f"{kind} {mechanism.version}: {title}", say("    from {origin}", origin=origins[0].told)]
@@ -224,33 +236,28 @@ def plugins(folders: tuple[Path, ...], quiet: bool) -> int:
                 say("    source {id}: {citation}", id=source.id, citation=phrase(source.citation))
                 for source in mechanism.sources
             ]
-        except DuplicateKind as fault:
-            tell([str(fault)])
-            codes.append(BAD_INPUT)
-        except PluginError as error:
+        except (DuplicateKind, PluginError) as error:
             tell([str(error)])
             codes.append(PLUGIN_BROKE)
     emit("".join(f"{line}\n" for line in lines))
-    return BAD_INPUT if BAD_INPUT in codes else max(codes)
+    return max(codes)
 
 
 @program.command()
-@click.argument("kind", required=False)
+@click.argument("kind", required=False, shell_complete=completion.kinds)
 @common
 def schema(kind: str | None, folders: tuple[Path, ...], quiet: bool) -> int:
-    """JSON Schema of the config, of one KIND's block, or of a study file (KIND study), for editors."""
+    """JSON Schema of the config, of one KIND's block, of a study file (KIND study), or of the results file (KIND results)."""
     from diecut_report.config.schema import config_schema, kind_schema
 
-    if kind == "study":
-        from diecut_report.study.definition.schema import study_schema
-
-        emit(json.dumps(study_schema(), indent=2, ensure_ascii=False) + "\n")
+    if kind in OF_FILES:
+        emit(json.dumps(schema_of_file(kind), indent=2, ensure_ascii=False) + "\n")
         return PASSED
     discovery = Discovery(folders)
     found, broken = {}, {}
     for name in [kind] if kind else discovery.origins:
         try:
-            with redirect_stdout(sys.stderr):
+            with without_output():
                 found[name] = discovery.mechanism(name)
         except (UnknownKind, DuplicateKind) as fault:
             raise UserError(Problem(str(fault))) from None
@@ -263,23 +270,10 @@ def schema(kind: str | None, folders: tuple[Path, ...], quiet: bool) -> int:
     return PLUGIN_BROKE if broken else PASSED
 
 
-program.add_command(new)
-program.add_command(validate)
-program.add_command(check)
-program.add_command(batch)
-program.add_command(variants)
-program.add_command(take)
-program.add_command(extract)
-program.add_command(verify)
-program.add_command(render)
-program.add_command(diff)
-program.add_command(sign)
-program.add_command(live)
-program.add_command(solve)
-program.add_command(advise)
-program.add_command(influence)
-program.add_command(new_plugin)
-program.add_command(check_plugin)
+OTHERS = (new, validate, check, batch, variants, take, extract, verify, render, diff, sign, live, solve, advise, influence, optimise, new_plugin,
+          check_plugin)  # fmt: skip
+for _command in OTHERS:
+    program.add_command(_command)
 
 
 # --- verdict ---------------------------------------------------------------------------------------------------------

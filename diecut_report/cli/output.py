@@ -2,18 +2,21 @@
 
 from __future__ import annotations
 
+import ctypes
 import inspect
 import io
 import os
 import re
 import sys
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
+from contextlib import contextmanager, redirect_stdout, suppress
 from copy import copy
 from pathlib import Path
 from typing import Any, TypeVar
 
 import click
 
+from diecut_report.cli.exit_codes import DONE, HEAD
 from diecut_report.cli.language import language_option
 from diecut_report.cli.progress import is_styled
 from diecut_report.errors import TOLD, Problem, Unwritable
@@ -127,6 +130,26 @@ def emit(text: str) -> bool:
     return True
 
 
+@contextmanager
+def without_output() -> Iterator[None]:
+    """Let what plugins write meanwhile go to standard error, also by a library or a process of theirs: it would spoil what is asked for.
+
+    What the program itself writes there meanwhile (-o /dev/stdout) goes there too.
+    """
+    if sys.stdout is not None:
+        sys.stdout.flush()
+    kept = os.dup(1)
+    try:
+        os.dup2(2, 1)
+        with redirect_stdout(sys.stderr):
+            yield
+    finally:
+        with suppress(AttributeError):  # a system whose library does not tell what it holds back
+            ctypes.CDLL(None).fflush(None)
+        os.dup2(kept, 1)
+        os.close(kept)
+
+
 def _close_output() -> None:
     os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())  # what is still buffered goes nowhere
 
@@ -208,6 +231,12 @@ class HelpfulCommand(click.Command):
         spoken = copy(self)
         spoken.help = said(inspect.cleandoc(self.help or ""))
         return super(HelpfulCommand, spoken).get_short_help_str(limit)
+
+    def format_epilog(self, ctx: click.Context, formatter: click.HelpFormatter) -> None:
+        """Write with which codes it ends, where what it does has not told that."""
+        if HEAD not in (self.help or ""):
+            formatter.write_paragraph()
+            formatter.write_text(self.epilog or DONE)
 
     def get_help_option(self, ctx: click.Context) -> click.Option | None:
         """The option --help."""

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import os
 import sys
 from collections.abc import Iterator, Mapping
 from contextlib import closing, redirect_stdout
@@ -11,7 +10,9 @@ from typing import TYPE_CHECKING
 
 import click
 
+from diecut_report.cli import exit_codes
 from diecut_report.cli.formats import formats_of
+from diecut_report.cli.given import DASH, RESULTS
 from diecut_report.cli.language import asked_language
 from diecut_report.cli.output import (
     CHECK_FAILED,
@@ -29,12 +30,9 @@ from diecut_report.languages.phrases import Counted, Phrase, phrase
 from diecut_report.languages.speech import say
 
 if TYPE_CHECKING:
-    from diecut_report.config.discovery import Discovery
-    from diecut_report.pipeline import Source
     from diecut_report.study.execution.study_run import StudyOutcome
 
 EXPORTS = ("csv", "xlsx")
-RESULTS = "study.json"  # what makes a folder one of a study's results
 
 
 SEPARATORS, DECIMALS, UNITS = ("comma", "semicolon", "tab"), ("point", "comma"), ("si", "display")
@@ -53,7 +51,7 @@ def _numbers(_context: click.Context, _option: click.Parameter, given: str) -> l
     return list(dict.fromkeys(map(int, parts)))
 
 
-@click.command(cls=HelpfulCommand)
+@click.command(cls=HelpfulCommand, epilog=exit_codes.OF_STUDY)
 @click.argument("study", required=False, type=path_of)
 @click.option("-o", "folder", metavar="DIR", type=path_of, help="Where to write (default: the study's name, here).")
 @click.option(
@@ -71,15 +69,22 @@ def _numbers(_context: click.Context, _option: click.Parameter, given: str) -> l
     callback=formats_of(lambda: EXPORTS, may_be_none=True),
     help="Also write all variants as csv,xlsx.",
 )
+@click.option(
+    "--chunk-limit",
+    "chunk_limit",
+    metavar="SECONDS",
+    type=click.FloatRange(0),
+    help="How long a part of the study may take before it is ended as in error; 0 for any time (default: many times as long as others).",
+)
 @click.option("--yes", is_flag=True, help="Calculate also a very large sample without being asked.")
 @common
 def batch(study: Path | None, folder: Path | None, resume: Path | None, jobs: int | None, dask: str | None, formats: list[str],
-          yes: bool, folders: tuple[Path, ...], quiet: bool) -> int:  # fmt: skip
+          chunk_limit: float | None, yes: bool, folders: tuple[Path, ...], quiet: bool) -> int:  # fmt: skip
     """Calculate all variants of a STUDY, and write them with a summary and full reports of some."""
     from diecut_report.study import command
 
     target = _target(study, folder, resume)
-    where = command.Where(jobs, dask, tuple(str(path.absolute()) for path in folders), asked_language())
+    where = command.Where(jobs, dask, tuple(str(path.absolute()) for path in folders), asked_language(), chunk_limit)
     try:
         with redirect_stdout(sys.stderr), command.Shown(quiet) as shown:
             outcome = command.run(
@@ -101,6 +106,8 @@ def _target(study: Path | None, folder: Path | None, resume: Path | None) -> Pat
         raise click.UsageError(say("--resume names the folder; leave -o out."))
     if study is None and resume is None:
         raise click.UsageError(say("Name a study file, or a folder to continue with --resume DIR."))
+    if study == DASH:
+        raise click.UsageError(say("A study is read from a file, so that its run can be continued. Save it to one."))
     return resume or folder or Path(Path(str(study)).stem)
 
 
@@ -232,20 +239,3 @@ def take(variant: str, file: Path, digits: int | None, folders: tuple[Path, ...]
         words = "it names {name}, which is sought beside it; the study keeps a copy: {copy}"
         tell(say(words, name=name, copy=copy) for name, copy in missing.items())
     return PASSED
-
-
-def source(config: Path, discovery: Discovery) -> Source:
-    """Return the configuration that a command names: its file, or for DIR#ID that of a stored variant, ``DIR-ID.yaml``."""
-    folder, _, number = str(config).rpartition("#")
-    if not folder or not number.isdigit() or os.path.exists(config) or not os.path.exists(Path(folder) / RESULTS):
-        return config
-    from diecut_report.study.analysis.variant_config import variant_config
-
-    name = f"{Path(folder).resolve().name}-{number}.yaml"
-    return variant_config(
-        Path(folder),
-        int(number),
-        discovery,
-        name,
-        lambda words: tell([Phrase("warning: {words}", words=phrase(words))]),
-    )

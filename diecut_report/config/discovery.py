@@ -27,6 +27,7 @@ from typing import Any
 
 from diecut_report.config import yaml_tree
 from diecut_report.config.announced_kinds import announced
+from diecut_report.config.contract_version import other_program, refuse_other_contract
 from diecut_report.config.source_hashes import file_of, module_hash, note_check, note_plugin
 from diecut_report.contract.mechanism import Mechanism
 from diecut_report.contract.place import Misdeclared
@@ -119,6 +120,7 @@ class Discovery:
 
 def _loaded(origin: Origin) -> Mechanism | PluginError:
     try:
+        refuse_other_contract(origin.file)
         found = origin.load()
         digest = module_hash(origin.file())
     except (Exception, SystemExit) as cause:
@@ -160,8 +162,9 @@ def said(cause: BaseException) -> str:
     frames = [f for f in traceback.extract_tb(cause.__traceback__) if not f.filename.startswith("<")]
     own = [f for f in frames if not _is_foreign(Path(f.filename))] or frames
     tells_place = isinstance(cause, SyntaxError | FormulaError)
-    place = f" ({Path(own[-1].filename).name}:{own[-1].lineno})" if own and not tells_place else ""
-    return f"{type(cause).__name__}: {' '.join(str(cause).split())}{place}"
+    declared = Path(getattr(cause, "at", "")).name  # of what is not proved, which the engine tells
+    place = f" ({declared or f'{Path(own[-1].filename).name}:{own[-1].lineno}'})" if own and not tells_place else ""
+    return f"{type(cause).__name__}: {other_program(cause) or ' '.join(str(cause).split())}{place}"
 
 
 PROGRAM = Path(__file__).parents[1]

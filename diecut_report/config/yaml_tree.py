@@ -114,9 +114,9 @@ class Tree:
         return nodes
 
 
-def load(path: Path) -> Tree:
-    """Read a YAML file. UserError with all that is wrong with it, or the reason why it cannot be read."""
-    raw = content(path, MAX_BYTES, phrase("a YAML file"))
+def load(path: Path, raw: bytes | None = None) -> Tree:
+    """Read a YAML file, or take what it holds. UserError with all that is wrong with it, or the reason why it cannot be read."""
+    raw = content(path, MAX_BYTES, phrase("a YAML file")) if raw is None else raw
     try:
         text = raw.decode("utf-8-sig")
     except UnicodeDecodeError as error:

@@ -40,7 +40,11 @@ class Impossible(Exception):
 
 
 class Unproven(Exception):
-    """Report that a result did not meet the equation or check that proves it; nothing is printed then."""
+    """Report that a result did not meet the equation or check that proves it; nothing is printed then. ``at`` is where it is declared."""
+
+    def __init__(self, words: str, at: str = "") -> None:
+        super().__init__(words)
+        self.at = at
 
 
 @dataclass(frozen=True)

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager
 from dataclasses import dataclass, field
+from functools import partial
 from hashlib import sha256
 from pathlib import Path
 from tempfile import TemporaryDirectory
@@ -79,14 +80,15 @@ def verify(
     again = parsed(encoded(text), "")
     program = _program(results["program"], again["program"])
     numbers = agreement(_numbers(results), _numbers(again))
-    is_set = pages and carried.form != "json"
+    is_same = program[1] and not numbers.differences
+    setting = partial(_set_again, carried, tell, house, discovery)
     return Verification(
         program,
         list(_plugins(_calculated(results), _calculated(again))),
         _config(carried),
         numbers,
-        _pages(carried, tell, house, signed, discovery, is_same=program[1] and not numbers.differences)
-        if is_set
+        _pages(carried, signed, _why_not_compared(carried, house, is_same=is_same), setting)
+        if pages and carried.form != "json"
         else None,
         outcome.broken,
         tuple(signed),
@@ -215,29 +217,35 @@ def _resolved(data: Data) -> Data:
     return {**data, "project": project}
 
 
-def _pages(
-    carried: CarriedResults,
-    tell: Callable[[str], None],
-    house: HouseStyle | None,
-    signed: list[Signature],
-    discovery: Discovery,
-    *,
-    is_same: bool,
-) -> Told:
-    """Whether the document is what this program makes of the results in it; not where these are not its own."""
+def _why_not_compared(carried: CarriedResults, house: HouseStyle | None, *, is_same: bool) -> str:
+    """Why the document cannot be held against what this program makes of the results in it; nothing where it can."""
     if not is_same:
-        return phrase("not compared, since the program or the numbers are others"), True
+        return phrase("not compared, since the program or the numbers are others")
     asked = template_of(carried.results)
-    if asked != (house.sha256 if house else ""):
-        own = (
-            Phrase("templates of their own (SHA-256 {asked})", asked=asked[:SHORT])
-            if asked
-            else phrase("the program's templates alone")
-        )
-        return Phrase("not compared, since they are set with {own}; --template DIR names the templates", own=own), True
+    if asked == (house.sha256 if house else ""):
+        return ""
+    own = (
+        Phrase("templates of their own (SHA-256 {asked})", asked=asked[:SHORT])
+        if asked
+        else phrase("the program's templates alone")
+    )
+    return Phrase("not compared, since they are set with {own}; --template DIR names the templates", own=own)
+
+
+def _set_again(
+    carried: CarriedResults, tell: Callable[[str], None], house: HouseStyle | None, discovery: Discovery
+) -> bytes:
+    """What this program makes of the results in a document, in the document's form."""
     catalogues = pipeline.catalogues_of(carried.results, discovery, [carried.form], str(carried.path))
     contents, _ = document(carried.results, [carried.form], tell, str(carried.path), catalogues, house)
-    made = contents[carried.form]
+    return contents[carried.form]
+
+
+def _pages(carried: CarriedResults, signed: list[Signature], reason: str, setting: Callable[[], bytes]) -> Told:
+    """Whether the document is what is set again of its results; not where there is a reason against comparing."""
+    if reason:
+        return reason, True
+    made = setting()
     if carried.content == made:
         return phrase("byte for byte what the program makes of these results"), True
     if carried.form == "pdf" and carried.content.startswith(made):

@@ -48,7 +48,7 @@ def _spectrum(spectrum: Spectrum) -> Data:
 
 def _curve(step: Step | SpectrumLine, values: Any, display: str) -> Data:
     if not np.isfinite(np.asarray(values, dtype=float)).all():
-        raise Unproven(f"{step.description} ({step.id}) is a curve that has no value at some of its places")
+        raise Unproven(f"{step.description} ({step.id}) is a curve that has no value at some of its places", step.at)
     return {"unit": unit(step.unit).si, "values": np.asarray(values, dtype=float).tolist(), "symbol": step.symbol,
             "description": step.description, "display_unit": display, "source": step.source,
             **({"source_symbol": step.source_symbol} if isinstance(step, Step) and step.source_symbol else {})}  # fmt: skip

@@ -37,7 +37,8 @@ class CheckResult:
     """Hold a check: what the machine needs (``demand``) against what it may (``limit``), and the verdict.
 
     ``status`` is ``pass``, ``warn``, ``fail`` or ``not_checked``, where ``missing`` names the keys that it needs; ``check_class`` is
-    ``function``, ``strength``, ``practice`` or ``numerical``; ``utilisation`` is a share of 1, None where it cannot be told.
+    ``function``, ``strength``, ``practice`` or ``numerical``; ``margin`` is
+    below zero where the limit is not kept; ``utilisation`` is a share of 1, None where it cannot be told.
     """
 
     name: str
@@ -49,17 +50,11 @@ class CheckResult:
     demand: QuantityValue | None
     operator: str
     limit: QuantityValue | None
+    margin: QuantityValue | None
     utilisation: float | None
     message: str
     source: str
     missing: tuple[str, ...]
-
-    @property
-    def margin(self) -> QuantityValue | None:
-        """Return by how much the limit is kept, below zero where it is not; None where nothing is compared."""
-        if self.demand is None or self.limit is None:
-            return None
-        return QuantityValue(self.limit.si - self.demand.si, self.demand.unit, f"{self.name}.margin")
 
     def __repr__(self) -> str:
         share = "" if self.utilisation is None else f" {100 * self.utilisation:.1f} %"
@@ -68,15 +63,17 @@ class CheckResult:
 
 def check_result(mechanism: str, data: Data) -> CheckResult:
     """Return a check of the results."""
-    sides = {side: data.get(side) for side in ("demand", "limit")}
-    shown = {side: data.get(f"{side}_display") for side in sides}
-    demand, limit = (
-        None if value is None else QuantityValue(value, data["unit"], display=_shown(shown[side]))
+    demand, limit = data["demand"], data["limit"]
+    margin = None if demand is None or limit is None else limit - demand
+    sides = {"demand": demand, "limit": limit, "margin": margin}
+    shown = {
+        side: None if value is None else QuantityValue(value, data["unit"], display=_shown(data[f"{side}_display"]))
         for side, value in sides.items()
-    )
+    }
     return CheckResult(
-        f"{mechanism}.{data['id']}", mechanism, data["id"], str(data["title"]), data["class"], data["status"], demand, data["operator"],
-        limit, data["utilisation"], str(data["message"]), data["source"], tuple(data.get("missing", ())),
+        f"{mechanism}.{data['id']}", mechanism, data["id"], str(data["title"]), data["class"], data["status"], shown["demand"],
+        data["operator"], shown["limit"], shown["margin"], data["utilisation"], str(data["message"]), data["source"],
+        tuple(data.get("missing", ())),
     )  # fmt: skip
 
 

@@ -30,6 +30,7 @@ from diecut_report.report import Rendering
 from diecut_report.results.checks import check_results
 from diecut_report.results.document import document
 from diecut_report.results.press_run import Run, compute
+from diecut_report.study.execution.time_limit import Overran, limited
 from diecut_report.testing.extreme_inputs import extreme_values, fault_of, numeric_inputs, with_value
 from diecut_report.testing.many_machines import MachineCase, one_of, unlike
 from diecut_report.testing.single_machine import Keys, WithMechanism, configured
@@ -38,6 +39,7 @@ from diecut_report.testing.tried_rules import TITLES, TriedRule, at_place, by_id
 TOGETHER, ALONE, SEED = 16, 4, 3  # machines at once, and those of them that are calculated alone too
 EXTREMES = 120  # single extreme values that are tried, of all those that there are
 TIMED, TIMED_ALONE = 1000, 5  # variants whose time is measured; where they are slow, so few
+LONGEST = 600.0  # seconds of a rule: a plugin may never come back
 DECLARED = ("declaration", "dimensions", "printed", "inputs")
 
 
@@ -80,7 +82,11 @@ class ContractTest:
         """Return what one rule finds; where the plugin breaks in it, that is its fault."""
         tried: Callable[[], TriedRule] = getattr(self, id)
         try:
-            return tried()
+            with limited(LONGEST):
+                return tried()
+        except Overran as cause:
+            words = Phrase("it did not come back within {seconds} s ({said})", seconds=f"{LONGEST:g}", said=said(cause))
+            return rule(id, "", [words], "broke")
         except UserError as refused:
             return rule(id, "", [str(problem) for problem in refused.problems])
         except (Exception, SystemExit) as cause:
@@ -91,7 +97,7 @@ class ContractTest:
     def declaration(self) -> TriedRule:
         """Try whether what is declared can be."""
         told = Phrase(
-            "{steps} steps, {checks} checks, {figures} figures", steps=len(self.mechanism.steps),
+            "steps: {steps}, checks: {checks}, figures: {figures}", steps=len(self.mechanism.steps),
             checks=len(self.mechanism.checks), figures=len(self.mechanism.figures),
         )  # fmt: skip
         tried = (

@@ -31,7 +31,7 @@ MECHANISM = Mechanism(
               "{release_force}; {release_advice}."),
         Check(id="pressure", check_class="strength", title="Pressure of the lining",
               demand="pressure", limit="allowable_pressure", tolerance=ROUNDING, unit="MPa",
-              only_with=("shoe_width",), demand_label="pressure", limit_label="allowed", source="002 eq. 17",
+              sized_unless=("shoe_width",), demand_label="pressure", limit_label="allowed", source="002 eq. 17",
               consequence="the given shoes are too narrow; {pressure_advice}."),
         Check(id="width_ratio", check_class="practice", title="Width of the shoes", demand="width_ratio", limit=0.5, tolerance=ROUNDING, unit="1",
               demand_label="width to diameter", limit_label="accepted", source="this method",
@@ -71,7 +71,8 @@ MECHANISM = Mechanism(
         "The shoes are cylindrical, rigid and press evenly on the share of the circumference that they cover; friction between shoes and "
         "their axial stop and the springs that draw them back are left out.",
         "The friction of the lining on the drum and that of the cone under the shoes are two values, each the same at rest and in motion.",
-        "The driving shaft keeps its speed; the driven side starts from rest, and the load torque is the same while the clutch slips.",
+        "The driving shaft keeps its speed; the driven side starts from rest, and the load torque is the same while the clutch slips. "
+        "Without load_torque_at_engagement there is none: the clutch engages while nothing is cut. A load makes more heat.",
         "All heat of an engagement goes into the drum, evenly over the surface that the shoes sweep; the little that the lining takes is "
         "left out, so the temperature lies on the safe side. The drum's wall is thicker than the depth that the heat reaches.",
         "Mean temperature: the drum gives off the mean power by its cooled surface alone.",

@@ -39,6 +39,14 @@ def stress(kinetic_energy: Any, elastic_modulus: Any, damper_count: Any, area: A
 
 
 @formula
+def stiffness_borne(
+    kinetic_energy: Any, modulus: Any, damper_count: Any, area: Any, adopted_length: Any, allowable_stress: Any
+) -> Any:
+    """How much stiffer than at rest the rubber may be, so that the stress does not exceed the allowable one."""
+    return damper_count * area * adopted_length * allowable_stress**2 / (2 * kinetic_energy * modulus)
+
+
+@formula
 def force(stress: Any, area: Any) -> Any:
     """Force on one damper."""
     return stress * area

@@ -48,6 +48,10 @@ load = Chapter("Load at the adopted length")
 load.value("stress", "σ", "MPa", "Greatest compression stress", f.stress, source="002 eq. 22")
 load.value("strain", "ε", "1", "Greatest strain", lambda stress, elastic_modulus: stress / elastic_modulus, source="002 eq. 19")
 load.value("peak_force", "P", "N", "Greatest force on one damper", f.force, source="002 eq. 20")
+load.value("stiffness_borne", "k_d,max", "1", "Dynamic stiffness over the static one with which the stress is the allowed one",
+           bind(f.stiffness_borne, modulus="elastic_modulus"), source="002 eq. 22", lacks=("dynamic_stiffness_factor",))
+load.value("stiffness_borne", "k_d,max", "1", "Dynamic stiffness over the static one with which the stress is the allowed one",
+           bind(f.stiffness_borne, modulus="static_modulus"), source="002 eq. 22", needs=("dynamic_stiffness_factor",))
 load.value("deflection", "h", "mm", "Greatest deflection", f.deflection, source="002 eq. 21")
 
 loss = Chapter("Loss of an impact")

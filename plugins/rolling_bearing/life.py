@@ -90,8 +90,9 @@ life.part_table("life_table", "Life of all bearings", "bearings", ("life_revolut
 
 limits = Chapter("Limits of practice")
 limits.lookup("static_usual", "s_0,u", "1", "Usual static safety", STATIC_SAFETIES, by="bearings.type", source=PRACTICE, output=False, named_by=NAMES)
-value(limits, "static_required", "[s_0]_i", "1", "Static safety that is required: as given", bind(lambda given, usual: given + 0 * usual,
-      given="required_static_safety", usual="static_usual"), needs=("required_static_safety",), source="input", output=False)
+limits.computed("static_required", "[s_0]_i", "1", "Static safety that is required: as given",
+                lambda given, usual: np.broadcast_to(given, usual.shape), ("required_static_safety", "static_usual"), "the same for each bearing",
+                over="bearings", named_by=NAMES, needs=("required_static_safety",), source="input", output=False)
 value(limits, "static_required", "[s_0]_i", "1", "Static safety that is required: the usual one", lambda static_usual: static_usual,
       lacks=("required_static_safety",), source=PRACTICE, output=False)
 limits.lookup("least_share", "c_min", "1", "Least load as a share of C", {"deep_groove": 0.01, "ball": 0.01, "roller": 0.02}, by="bearings.type",

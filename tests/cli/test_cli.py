@@ -168,7 +168,7 @@ def test_plugins_tells_broken_and_doubled_ones(tmp_path: Path, capfd: Capture) -
     assert "lever 0.1" in out and "breaks_at_import" not in out
     assert [line.split("'")[1] for line in err.splitlines()] == ["breaks_at_import", "no_mechanism", "other_name"]
     (tmp_path / "lever.py").touch()
-    assert run("plugins", "--plugins", tmp_path) == 2
+    assert run("plugins", "--plugins", tmp_path) == 3
     assert f"comes from {tmp_path / 'lever.py'} and from {GOOD / 'lever.py'}" in capfd.readouterr().err
 
 

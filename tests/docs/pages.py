@@ -142,10 +142,13 @@ class PageRun:
         self.names = test.globs
 
     def _program(self, arguments: list[str]) -> str:
-        told = io.StringIO()
+        raw = io.BytesIO()
+        told = io.TextIOWrapper(raw, "utf-8", write_through=True)
         with contextlib.redirect_stdout(told), contextlib.redirect_stderr(told):
-            main(arguments)
-        return told.getvalue().replace(f"{self.folder}/", "")
+            code = main(arguments)
+        text = raw.getvalue().decode("utf-8")
+        assert code in (0, 1), text
+        return text.replace(f"{self.folder}/", "")
 
     def _python(self, arguments: list[str]) -> str:
         told = io.StringIO()

@@ -112,6 +112,17 @@ def test_a_value_that_is_not_a_number_is_told(tmp_path: Path) -> None:
     assert tried.status != "pass" and "odd" in tried.faults[0]
 
 
+def test_a_plugin_that_never_comes_back_is_told(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    test = contract(tmp_path, *odd("while True: pass"))
+    monkeypatch.setattr("diecut_report.testing.contract.LONGEST", 0.2)
+    tried = found(test, "example")
+    assert (
+        tried.status == "broke"
+        and "it did not come back within 0.2 s" in tried.faults[0]
+        and "toggle.py:53" in tried.faults[0]
+    )
+
+
 def test_an_untranslated_text_is_noted(tmp_path: Path) -> None:
     tried = found(contract(tmp_path, ('title="Springs of an ejector"', 'title="Springs that eject"')), "languages")
     assert tried.status == "note"

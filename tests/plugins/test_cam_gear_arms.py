@@ -62,3 +62,16 @@ def test_wheels_of_one_tooth_are_some_and_of_none_are_not() -> None:
         False,
         False,
     ]
+
+
+def test_where_no_whole_degree_passes_a_tenth_does(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Stands for a machine whose pressure angle is the accepted one but at 37.3°, and by 0.2° to either side."""
+    machine = rocker("cycloidal")
+    accepted = machine.accepted - arms.CLEAR
+
+    def steep(_: object, __: object, ___: float, places: np.ndarray) -> np.ndarray:
+        return np.asarray(accepted + abs(places - 37.3 * DEGREE) - 0.2 * DEGREE)
+
+    monkeypatch.setattr(arms, "pressure_angles", steep)
+    found = arms._best(machine, arms.motion(machine), machine.arm_length, 100 * DEGREE, True)
+    assert found == (37.3, pytest.approx(accepted - 0.2 * DEGREE, rel=1e-9))

@@ -15,7 +15,7 @@ from scipy.optimize import brentq
 from diecut_report.engine import Impossible, calculate
 from diecut_report.expressions import Array
 from diecut_report.plugins.clutch import MECHANISM
-from diecut_report.results.mechanism import mechanism_results
+from diecut_report.results.mechanism import Provenance, mechanism_results
 from tests.machines import inputs, number
 from tests.plugins.clutches import BASE, checks, clutch
 
@@ -118,8 +118,11 @@ def test_the_lining_carries_the_torque() -> None:
     assert number(sized, "lining_width") == number(sized, "shoe_width") == number(calc, "shoe_width")
 
 
-def test_a_given_width_is_checked_and_a_sized_one_not() -> None:
-    assert "pressure" not in checks(clutch())
+def test_a_width_is_checked_and_one_that_is_sized_reaches_the_allowed_pressure() -> None:
+    sized = checks(clutch())["pressure"]
+    assert (sized["status"], sized["sized_to_limit"]) == ("pass", True) and sized["utilisation"] == pytest.approx(1)
+    left_out = mechanism_results(clutch(), {"allowable_pressure": Provenance("given")})["absent"]
+    assert "allowable_pressure" not in str(left_out)
     needed = number(clutch(), "shoe_width")
     wide, narrow = (checks(clutch(shoe_width=f"{needed * share!r} m"))["pressure"] for share in (1.001, 0.999))
     assert (wide["status"], narrow["status"]) == ("pass", "fail")
@@ -157,10 +160,12 @@ def test_what_is_not_given_is_said_and_left_out() -> None:
         assert key in absent
     assert {"pv", "slip_time", "axial_travel", "lining_temperature_rise"}.isdisjoint(results["outputs"])
     made = {check["id"]: check for check in results["checks"]}
-    assert {name for name, check in made.items() if check["status"] != "not_checked"} == {"releases", "width_ratio"}
-    assert (
-        made["pv"]["missing"] == ["speed", "allowable_pv"] and "pressure" not in made
-    )  # the sized width has no pressure of its own
+    assert {name for name, check in made.items() if check["status"] != "not_checked"} == {
+        "releases",
+        "width_ratio",
+        "pressure",  # that the width is sized to
+    }
+    assert made["pv"]["missing"] == ["speed", "allowable_pv"]
 
 
 # --- bad input -------------------------------------------------------------------------------------------------------

@@ -21,7 +21,7 @@ from diecut_report.plugins.damper import MECHANISM
 from diecut_report.results.mechanism import mechanism_results
 from tests.configs import problems, saved
 from tests.machines import inputs, number
-from tests.plugins.dampers import calculated, passing, told
+from tests.plugins.dampers import calculated, checks, passing, told
 from tests.validation.rows_damper import WORKED, damper
 
 ROLLING: dict[str, Any] = {"mass": "80 kg", "inertia": "0.9 kg*m**2", "rolling_radius": "105 mm"}
@@ -364,6 +364,19 @@ def test_a_stiffer_rubber_at_the_impact_is_a_stiffer_rubber(rubber: dict[str, An
     for name in ("elastic_modulus", "free_length", "stress", "strain", "deflection", "peak_force"):
         assert number(quick, name) == pytest.approx(number(stiffer, name), rel=1e-12)
     assert number(quick, "static_modulus") == pytest.approx(number(still, "elastic_modulus"), rel=1e-15)
+
+
+def test_the_rubbers_stiffness_at_the_impact_is_not_taken_for_that_at_rest_without_a_word() -> None:
+    block = WORKED | {"adopted_length": "700 mm"}
+    unsaid = {check["id"]: check for check in mechanism_results(calculated(block), {})["checks"]}["dynamic_stiffness"]
+    assert (unsaid["status"], unsaid["missing"]) == ("not_checked", ["dynamic_stiffness_factor"])
+    borne = number(calculated(block), "stiffness_borne")
+    assert borne == pytest.approx(
+        700 / 555.56, rel=1e-5
+    )  # 555.56 mm of the worked example bear the allowed stress at rest
+    for factor, status in ((borne * 0.999, "pass"), (borne * 1.001, "fail")):
+        found = checks(calculated(block | {"dynamic_stiffness_factor": factor}))
+        assert found["dynamic_stiffness"]["status"] == found["stress"]["status"] == status
 
 
 def test_a_length_sized_for_the_rubber_at_rest_is_overstressed_by_its_dynamic_stiffness() -> None:

@@ -326,3 +326,8 @@ def test_lengths_of_a_tooth_grow_with_the_module() -> None:
     half, whole = pair(module=2), pair(module=4)
     for name in lengths:
         assert number(whole, name) == pytest.approx(2 * number(half, name), rel=1e-9), name
+
+
+def test_a_film_that_bears_less_lowers_the_safety_against_pitting_in_proportion() -> None:
+    whole, thin = (number(pair(HELICAL, film_factor=factor), "pitting_safety_1") for factor in (1.0, 0.8))
+    assert thin == pytest.approx(0.8 * whole, rel=1e-12)

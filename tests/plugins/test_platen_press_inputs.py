@@ -5,6 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 from typing import Any
 
+import numpy as np
 import pytest
 from jsonschema import Draft202012Validator
 
@@ -147,3 +148,14 @@ def test_an_impossible_press_is_refused_in_words(changes: dict[str, Any], key: s
         platen(**changes)
     assert refused.value.key == key
     assert words in refused.value.message.replace("−", "-")
+
+
+def test_carriages_that_need_all_that_the_platen_opens_have_no_window() -> None:
+    sizes = {
+        "crank_radius": "0.125 m",
+        "drive_deformation": "0.0078125 m",
+    }  # 2r less the stretch: 0.2421875 m, exact in binary
+    calc = platen(**sizes, carriage_clearance="0.242 m")
+    assert number(calc, "window_start") < np.pi < number(calc, "window_end")
+    with pytest.raises(Impossible, match="less than what the platen"):
+        platen(**sizes, carriage_clearance="0.2421875 m")

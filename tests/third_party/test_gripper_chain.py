@@ -40,6 +40,13 @@ def test_its_own_tests_pass(folder: Path) -> None:
 
 
 @pytest.mark.nightly
+def test_it_keeps_all_rules_of_the_contract(folder: Path, tmp_path: Path) -> None:
+    done = command(folder, "check-plugin", "gripper_chain", "--config", CONFIG, "-o", tmp_path / "chapter.html")
+    told = done.stdout.splitlines()[1:]
+    assert done.returncode == 0 and all(line.startswith("  holds  ") for line in told) and len(told) >= 9, done.stdout
+
+
+@pytest.mark.nightly
 @pytest.mark.parametrize(("language", "title"), [("en", "Slack strand"), ("uk", "Ведена вітка")])
 def test_it_is_reported_in_both_languages(folder: Path, tmp_path: Path, language: str, title: str) -> None:
     done = command(folder, "report", CONFIG, "-o", tmp_path, "--language", language, "--detail", "full")

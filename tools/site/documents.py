@@ -15,7 +15,7 @@ AT_ROOT = ("README", "ARCHITECTURE", "CONTRIBUTING", "DECISIONS", "CHANGELOG", "
 START = "index"
 GALLERY = "docs/mechanisms"  # its pages are those of the gallery, which tell more
 GENERATED = ("gallery/", "reference/")  # folders whose pages stand in the contents of their index
-OWN_FOLDERS = ("docs/mechanisms", "docs/site", "docs/reference")
+OWN_FOLDERS = ("docs/mechanisms", "docs/site")
 
 
 class Part(NamedTuple):

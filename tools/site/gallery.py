@@ -118,7 +118,7 @@ def _step(step: Step, formulas: list[str], typeset: Formulas) -> Iterator[str]:
     told += [f"source: {plain(step.source)}"] if step.source else []
     yield from (" · ".join(filter(None, told)), "")
     if formulas:
-        yield from html(*(f'<div class="eq" tabindex="0">{formula}</div>' for formula in formulas))
+        yield from html(*(f'<div class="eq">{formula}</div>' for formula in formulas))
 
 
 def _must_hold(step: Require, typeset: Formulas) -> str:
@@ -158,7 +158,7 @@ def _outputs(mechanism: Mechanism) -> Iterator[str]:
 
 def _checks(mechanism: Mechanism) -> Iterator[str]:
     yield from table(
-        ("check", "class", "demanded", "", "limited by", "where it fails", "source"),
+        ("check", "class", "demanded", "is", "limited by", "where it fails", "source"),
         (
             (f"{plain(c.title)}<br>{code(check_id(c))}", c.check_class, plain(c.demand_label), _sign(c), plain(c.limit_label),
              plain(str(c.consequence)), plain(c.source))

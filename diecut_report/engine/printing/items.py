@@ -172,7 +172,7 @@ def _formula(calc: Calculation, part: Bound, step: Step, axis: str | None, elsew
     try:
         numeric = substitution.numeric(target, result["unit"], step.digits) if takes else None
     except Contradiction as found:
-        raise Unproven(contradicted(step, part, found)) from None
+        raise Unproven(contradicted(step, part, found), step.at) from None
     symbolic = substitution.symbolic()
     item: Item = {"equation": symbolic.to_json(), "substituted": numeric and numeric.to_json()}
     if defined := definitions(symbolic):

@@ -20,7 +20,7 @@ def require(calc: Calculation, asking: str, curve: str) -> None:
     for variant, found in switches.faults(calc, curve):
         words = _words(calc, found)
         if calc.count == 1:
-            raise Unproven(words)
+            raise Unproven(words, calc.curves[curve].at)
         calc.flaws[variant] = asking, words
 
 

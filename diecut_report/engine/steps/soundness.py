@@ -37,7 +37,7 @@ def prove(calc: Calculation, step: Step, residual: Array, tolerance: float) -> N
 def mark(calc: Calculation, step: Step, bad: Array, words: str) -> None:
     """Refuse a single machine in words; mark these among several."""
     if calc.count == 1:
-        raise Unproven(words)
+        raise Unproven(words, step.at)
     calc.flaws |= {int(variant): (step.id, words) for variant in np.flatnonzero(bad)}
 
 

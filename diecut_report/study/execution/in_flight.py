@@ -165,7 +165,8 @@ class _InFlightChunks:
 def _gave_up(chunk: Chunk) -> UserError:
     words = (
         f"The process that calculates {chunk} ended by itself {TRIES} times or more; most often memory ran "
-        "out. What was finished is kept: continue with --resume, and with fewer --jobs or workers with more memory."
+        "out, or a plugin computed far longer than --chunk-limit allows. "
+        "What was finished is kept: continue with --resume, and with fewer --jobs or workers with more memory."
     )
     return UserError(Problem(words))
 

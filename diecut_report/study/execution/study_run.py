@@ -27,6 +27,7 @@ from diecut_report.study.execution.engines import (
     results,
 )
 from diecut_report.study.execution.result_columns import columns_of, curve_columns
+from diecut_report.study.execution.time_limit import ChunkClock
 from diecut_report.study.storage.description import Description, ResultColumn, StudySource
 from diecut_report.study.storage.store import Store
 
@@ -55,13 +56,15 @@ Tell = Callable[[Counts], None]
 class Where:
     """Say where a study is calculated: so many processes here, or a Dask scheduler's address.
 
-    ``language``: that of its documents, in place of the project's.
+    ``language``: that of its documents, in place of the project's. ``chunk_limit``: the seconds that a chunk may take, 0 for any
+    time; None for what follows from the chunks before it.
     """
 
     jobs: int | None = None
     dask: str | None = None
     plugins: Sequence[str] = ()
     language: str | None = None
+    chunk_limit: float | None = None
 
 
 @dataclass
@@ -74,6 +77,7 @@ class StudyOutcome:
     broken: dict[str, str] = field(default_factory=dict)  # plugins that broke for some variants, and why
     broken_reports: dict[str, str] = field(default_factory=dict)  # plugins that broke in full reports, and why
     notes: tuple[str, ...] = ()  # what else the user should know
+    overran: int = 0  # chunks that were ended for taking too long
 
     @property
     def is_failed(self) -> bool:
@@ -82,8 +86,10 @@ class StudyOutcome:
 
     @property
     def is_broken(self) -> bool:
-        """Return whether a plugin broke for all variants, or in a full report: a single variant in error does not count."""
-        return bool(self.broken_reports) or (bool(self.broken) and self.counts["error"] == self.counts["variants"])
+        """Return whether a plugin broke for all variants, in a full report, or never came back: a single variant in error does not count."""
+        return bool(self.broken_reports or self.overran) or (
+            bool(self.broken) and self.counts["error"] == self.counts["variants"]
+        )
 
 
 def run_study(study: Study, directory: Path, where: Where, *, resume: bool, tell: Tell) -> StudyOutcome:
@@ -92,6 +98,7 @@ def run_study(study: Study, directory: Path, where: Where, *, resume: bool, tell
     with store.lock():
         store.start(facts(study))
         began, before = time.monotonic(), float(store.state.get("seconds") or 0)
+        overran = 0
         slow, broken = dict(store.state.get("slow") or {}), dict(store.state.get("broken") or {})
 
         def noted() -> None:
@@ -102,11 +109,12 @@ def run_study(study: Study, directory: Path, where: Where, *, resume: bool, tell
             for done in _calculated(study, store, where, tell):
                 slow |= done.slow  # noted with each part: a run that is killed later has reported it
                 broken |= done.broken
+                overran += done.seconds is None
                 noted()
         finally:  # an interrupted run has spent its time too
             noted()
         store.finish({}, without_value(study))
-    return StudyOutcome(store, store.state["counts"], slow, broken)
+    return StudyOutcome(store, store.state["counts"], slow, broken, overran=overran)
 
 
 def _calculated(study: Study, store: Store, where: Where, tell: Tell) -> Iterator[worker.Done]:
@@ -123,11 +131,16 @@ def _calculated(study: Study, store: Store, where: Where, tell: Tell) -> Iterato
     missing = store.description.parts - len(there)
     if not missing:
         return
-    chunks = (worker.Chunk(index, store.rows(index).start, store.rows(index).stop)
-              for index in range(store.description.parts) if index not in there)  # fmt: skip
+    clock = ChunkClock(where.chunk_limit)
+    rows = {index: store.rows(index) for index in range(store.description.parts) if index not in there}
+    chunks = (
+        worker.Chunk(i, own.start, own.stop, clock.limit(len(own))) for i, own in rows.items()
+    )  # when it is begun
     with engine_for(study, where, missing) as engine:
         for chunk, done in results(engine, worker.calculate, chunks):
             store.write_part(chunk.part, done.columns)
+            if done.seconds is not None:
+                clock.measure(chunk.stop - chunk.start, done.seconds)
             counts.done += chunk.stop - chunk.start
             counts.variants += len(done.columns["status"])
             counts.failed += int(np.sum(done.columns["status"] == "fail"))
@@ -136,8 +149,8 @@ def _calculated(study: Study, store: Store, where: Where, tell: Tell) -> Iterato
             yield done
 
 
-def engine_for(study: Study, where: Where, chunks: int) -> Engine:
-    """A Dask cluster where one is named, a pool of processes for a large study, this process for a small one."""
+def engine_for(study: Study, where: Where, chunks: int, rows: int | None = None) -> Engine:
+    """A Dask cluster where one is named, a pool of processes for many rows (of the sample), this process for few."""
     warm = Warm(
         _key(study, where),
         worker.load,
@@ -146,7 +159,7 @@ def engine_for(study: Study, where: Where, chunks: int) -> Engine:
     if where.dask:
         return dask_cluster(where.dask, warm)
     jobs = min(where.jobs or os.cpu_count() or 1, chunks)
-    return Pool(jobs, warm) if jobs > 1 and (where.jobs or study.sample.count > SMALL) else InProcess(warm)
+    return Pool(jobs, warm) if jobs > 1 and (where.jobs or (rows or study.sample.count) > SMALL) else InProcess(warm)
 
 
 def _key(study: Study, where: Where) -> str:

@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 import tempfile
+import time
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
+from multiprocessing import parent_process
 from pathlib import Path, PurePath
 from typing import Any
 
@@ -17,30 +19,34 @@ from diecut_report.expressions import Array
 from diecut_report.study.conditions.constraints import Constraint
 from diecut_report.study.definition.study_file import Study, load_study
 from diecut_report.study.execution.process_settings import settle
-from diecut_report.study.execution.variant_rows import Rows, calculate_rows
+from diecut_report.study.execution.time_limit import Overran, blamed, limited
+from diecut_report.study.execution.variant_rows import Given, Rows, calculate_rows
 
 Values = Array | list[str]
 
 
 @dataclass(frozen=True)
 class Chunk:
-    """Hold a piece of the sample: the part file that it makes, and its rows."""
+    """Hold a piece of the sample: the part file that it makes, its rows, and the seconds that it may take (None for any time)."""
 
     part: int
     start: int
     stop: int
+    limit: float | None = field(default=None, repr=False)
 
 
 @dataclass
 class Done:
     """Hold a chunk's columns by name, ready for its part file.
 
-    ``slow`` names kinds that were calculated one by one, ``broken`` those whose plugin broke, and why.
+    ``slow`` names kinds that were calculated one by one, ``broken`` those whose plugin broke, and why. ``seconds`` is how long it
+    took; of a chunk that was ended for taking too long it is None.
     """
 
     columns: dict[str, Array]
     slow: dict[str, str] = field(default_factory=dict)
     broken: dict[str, str] = field(default_factory=dict)
+    seconds: float | None = None
 
 
 def load(study: bytes, files: Mapping[str, bytes], plugins: Sequence[str], sources: Mapping[str, str]) -> Study:
@@ -80,11 +86,25 @@ def calculate(study: Study, chunk: Chunk) -> Done:
     columns: dict[str, Array] = {"variant": chunk.start + kept}
     columns |= {path: np.asarray(values, dtype=_kind(values)) for path, values in given.items()}
     inputs = {study.inputs[path]: values for path, values in given.items()}
-    rows = calculate_rows(study.base, inputs, len(kept), study.curves)
+    rows, seconds = _rows(study, inputs, len(kept), chunk.limit)
     left = _left(study, rows, given)
     columns |= {name: values for name, values in rows.columns.items() if _is_kept(study, name)}
     columns |= {"status": rows.status, "governing": rows.governing, "error": rows.errors}
-    return Done({name: values[left] for name, values in columns.items()}, rows.slow, rows.broken)
+    return Done({name: values[left] for name, values in columns.items()}, rows.slow, rows.broken, seconds)
+
+
+def _rows(study: Study, inputs: Given, count: int, limit: float | None) -> tuple[Rows, float | None]:
+    """The variants, and how long they took; all in error, and None, where they took too long."""
+    began = time.monotonic()
+    try:
+        with limited(limit, own_process=parent_process() is not None):
+            rows = calculate_rows(study.base, inputs, count, study.curves)
+        return rows, time.monotonic() - began
+    except Overran as overran:
+        kind, words = blamed(overran, study.base, limit or 0.0, count)
+        rows = Rows(count, study.curves, broken={kind: words})
+        rows.status[:], rows.errors[:] = "error", f"plugin {kind!r}: {words}"
+        return rows, None
 
 
 def _left(study: Study, rows: Rows, given: Mapping[str, Values]) -> Array:

@@ -75,13 +75,13 @@ def is_study(tree: Tree) -> bool:
 
 
 def machines(
-    files: Sequence[Path], folders: Sequence[str], jobs: int | None = None
+    files: Sequence[Path | Tree], folders: Sequence[str], jobs: int | None = None
 ) -> Iterator[tuple[int, CheckedMachine]]:
     """Yield each configuration's number and what came out, in the order in which they are ready."""
     warm = Warm(sha256(repr((folders, os.getcwd())).encode()).hexdigest(), _loaded, (tuple(folders),))
     count = min(jobs or os.cpu_count() or 1, len(files))
     engine: Engine = Pool(count, warm) if count > 1 else InProcess(warm)
-    chunks = [(number, str(path)) for number, path in enumerate(files)]
+    chunks = [(number, given if isinstance(given, Tree) else str(given)) for number, given in enumerate(files)]
     with engine:
         for (number, _), made in results(engine, calculated, chunks):
             yield number, made
@@ -92,26 +92,27 @@ def _loaded(folders: tuple[str, ...]) -> Discovery:
     return Discovery(tuple(map(Path, folders)))
 
 
-def calculated(discovery: Discovery, chunk: tuple[int, str]) -> CheckedMachine:
-    """Return what comes out of a file."""
+def calculated(discovery: Discovery, chunk: tuple[int, str | Tree]) -> CheckedMachine:
+    """Return what comes out of a file, or of what was read of it."""
     from diecut_report import pipeline
 
-    file = chunk[1]
+    given = chunk[1] if isinstance(chunk[1], Tree) else Path(chunk[1])
+    file = given.file if isinstance(given, Tree) else str(given)
     try:
         with open(os.devnull, "w") as nowhere, redirect_stdout(nowhere):  # a plugin may print
-            outcome, _ = pipeline.calc(Path(file), discovery, lambda _: None)
+            outcome, _ = pipeline.calc(given, discovery, lambda _: None)
     except UserError as error:
-        return CheckedMachine(file, BAD, {}, [str(problem) for problem in _all_faults(file, discovery, error)])
+        return CheckedMachine(file, BAD, {}, [str(problem) for problem in _all_faults(given, discovery, error)])
     status = BROKEN if outcome.broken else str(outcome.results["status"])
     return CheckedMachine(file, status, _lean(outcome.results), [str(error) for error in outcome.broken])
 
 
-def _all_faults(file: str, discovery: Discovery, error: UserError) -> Sequence[Problem]:
+def _all_faults(given: Path | Tree, discovery: Discovery, error: UserError) -> Sequence[Problem]:
     """All that is wrong with a file: calculating stops at the first kind of it."""
     from diecut_report import pipeline
 
     try:
-        pipeline.validate(Path(file), discovery)
+        pipeline.validate(given, discovery)
     except UserError as more:
         return more.problems
     return error.problems

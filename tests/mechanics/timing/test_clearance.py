@@ -131,3 +131,17 @@ def test_of_some_machines_come_their_own_numbers_and_those_that_all_share() -> N
     some = clearance.Station(column, np.array([[0.7]]), 0.2, True, 0.1, column / 2, 0.02).of(np.array([2, 0]))
     assert some.radius.tolist() == [[0.5], [0.3]] and some.step.tolist() == [[0.25], [0.15]]
     assert (some.half_angle.tolist(), some.stroke, some.with_feed) == ([[0.7]], 0.2, True)
+
+
+@pytest.mark.parametrize("way", [-0.07, -0.02, 0.03, 0.08])
+@pytest.mark.parametrize("turned", [0.3, 2.0, 4.5])
+def test_of_carriages_that_follow_closely_those_on_both_sides_of_the_axis_count(turned: float, way: float) -> None:
+    at = replace(station(0.0, with_feed=True), carriage_width=0.01, step=0.15)  # less than the cylinder is wide
+    tilt = turned if turned <= np.pi else turned - 2 * np.pi
+    axis = np.array([at.radius * turned - at.stroke / 2, at.radius])
+    points = outline(at.radius, at.half_angle, tilt) + axis
+    middles = axis[0] + way + at.step * np.arange(-3, 4)
+    expected = min(each.min() for m in middles if len(each := points[abs(points[:, 0] - m) <= 0.005, 1]))
+    found = clearance.carriage_clearance(at, np.array([turned]), middles[:1])[0]
+    high = 0.9 * at.radius  # above it points of an outline do not tell the height
+    assert min(found, high) == pytest.approx(min(expected, high), abs=5e-4)

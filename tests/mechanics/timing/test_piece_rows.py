@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from diecut_report.expressions import Array
-from diecut_report.mechanics.timing.piece_rows import PieceRows
+from diecut_report.mechanics.timing.piece_rows import PieceRows, vertices
 
 
 def test_a_machine_without_values_leaves_those_behind_it_alone() -> None:
@@ -20,3 +20,12 @@ def test_a_machine_without_values_leaves_those_behind_it_alone() -> None:
         found = PieceRows.of(wave, np.full((5, 1), np.nan), 8).excess.range
     assert found[[0, 2, 4]] == pytest.approx(np.array([1.0, 3.0, 2.0]) / np.pi, rel=1e-12)  # ∫ sin is (1 − cos)/2π
     assert not np.isfinite(found[[1, 3]]).any()
+
+
+@pytest.mark.parametrize("bend", [0.3, 1.0, 40.0])
+def test_the_vertex_of_a_parabola_is_found_between_its_samples(bend: float) -> None:
+    tops = np.array([[3.4], [2.7], [5.0]])
+    heights = -bend * (np.arange(9) - tops) ** 2
+    assert vertices(heights) == pytest.approx([0.4, -0.3, 0.0], abs=1e-12)
+    ends = -bend * (np.arange(9) - np.array([[-1.2], [9.3]])) ** 2
+    assert (vertices(ends) == 0).all()  # the greatest is the first or the last

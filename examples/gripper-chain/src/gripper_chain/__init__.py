@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from diecut_report.api import CurveTable, Erratum, Mechanism, Source
 from gripper_chain.checks import CHECKS
+from gripper_chain.example import EXAMPLE
 from gripper_chain.figures import FIGURES
 from gripper_chain.inputs import GripperChain
 from gripper_chain.polygon import bars, chain, polygon
@@ -52,5 +53,6 @@ MECHANISM = Mechanism(
             ("catenary", "slack_tension", "parabola_tension", "parabola_error"),
         ),
     ),
+    example=EXAMPLE,
     exports=(CurveTable(id="tooth", title="Polygon effect over a tooth", columns=("sprocket_angle",)),),
 )

@@ -1,0 +1,52 @@
+"""What a command is given to read: a configuration, a variant of a study, or what standard input holds."""
+
+from __future__ import annotations
+
+import os
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import click
+
+from diecut_report.cli.output import tell
+from diecut_report.config.standard_input import SHOWN, load_standard_input
+from diecut_report.config.yaml_tree import Tree
+from diecut_report.errors import Problem, UserError
+from diecut_report.languages.phrases import Phrase, phrase
+
+if TYPE_CHECKING:
+    from diecut_report.config.discovery import Discovery
+    from diecut_report.pipeline import Source
+
+RESULTS = "study.json"  # what makes a folder one of a study's results
+DASH = Path("-")
+READ = "diecut_report.standard_input"
+
+
+def source(config: Path, discovery: Discovery) -> Source:
+    """Return the configuration that a command names: its file, standard input for ``-``, or for DIR#ID that of a stored variant."""
+    if config == DASH:
+        return from_standard_input()
+    folder, _, number = str(config).rpartition("#")
+    if not folder or not number.isdigit() or os.path.exists(config) or not os.path.exists(Path(folder) / RESULTS):
+        return config
+    from diecut_report.study.analysis.variant_config import variant_config
+
+    name = f"{Path(folder).resolve().name}-{number}.yaml"
+    return variant_config(
+        Path(folder),
+        int(number),
+        discovery,
+        name,
+        lambda words: tell([Phrase("warning: {words}", words=phrase(words))]),
+    )
+
+
+def from_standard_input() -> Tree:
+    """Return what standard input holds; UserError where the command has read it already."""
+    meta = click.get_current_context().meta
+    if meta.get(READ):
+        words = phrase("Standard input has been read already; give - once, and files beside it.")
+        raise UserError(Problem(words, SHOWN))
+    meta[READ] = True
+    return load_standard_input()

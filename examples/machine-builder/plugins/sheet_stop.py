@@ -1,0 +1,76 @@
+"""A sprung stop that catches sheets: how far it gives way, and with what force."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from diecut_report.api import Annotated, Chapter, Check, Inputs, Mechanism, Quantity, Source
+
+
+class SheetStop(Inputs):
+    sheet_mass: Annotated[float, Quantity("m", "g", "Mass of a sheet", gt=0)]
+    stop_mass: Annotated[float, Quantity("m_a", "g", "Mass of the stop's bar", gt=0)]
+    speed: Annotated[float, Quantity("v", "m/s", "Speed with which the sheet arrives", gt=0)]
+    stiffness: Annotated[float, Quantity("c", "N/mm", "Stiffness of the stop's springs", gt=0)]
+    room: Annotated[float, Quantity("s", "mm", "Way for which there is room", gt=0)]
+    allowable_force: Annotated[float | None, Quantity("[F]", "N", "Force that bends no edge", gt=0)] = None
+
+
+impact = Chapter(
+    "Impact", text="The sheet and the bar go on together (plastic impact); then the springs take their energy."
+)
+impact.value(
+    "speed_after",
+    "v_1",
+    "m/s",
+    "Speed of both after the impact",
+    lambda sheet_mass, stop_mass, speed: sheet_mass * speed / (sheet_mass + stop_mass),
+    source="momentum",
+)
+impact.value(
+    "way",
+    "x",
+    "mm",
+    "Way of the stop",
+    lambda speed_after, sheet_mass, stop_mass, stiffness: speed_after * np.sqrt((sheet_mass + stop_mass) / stiffness),
+    source="energy",
+)
+impact.value("force", "F", "N", "Force of the springs", lambda stiffness, way: stiffness * way)
+
+MECHANISM = Mechanism(
+    kind="sheet_stop",
+    version="1.0",
+    title="Sheet stop",
+    summary="A sprung stop catches a sheet.",
+    inputs=SheetStop,
+    chapters=(impact,),
+    key_results=("way", "force"),
+    checks=(
+        Check(
+            id="room",
+            check_class="function",
+            title="Room behind the stop",
+            demand="way",
+            limit="room",
+            unit="mm",
+            demand_label="way",
+            limit_label="room",
+            source="energy",
+            consequence="the bar strikes the frame; take stiffer springs.",
+        ),
+        Check(
+            id="edge",
+            check_class="strength",
+            title="Edge of the sheet",
+            demand="force",
+            limit="allowable_force",
+            unit="N",
+            demand_label="force",
+            limit_label="allowed",
+            source="WS 7",
+            consequence="the edge of the sheet is bent; take softer springs.",
+        ),
+    ),
+    assumptions=("The sheet stays at the stop; friction below it is left out.",),
+    sources=(Source("WS 7", "Works standard 7, Sheet stops."),),
+)

@@ -1,0 +1,150 @@
+"""Whatever a plugin does wrong is told with plugin, file and line; the others' results stand, and the exit code is 3."""
+
+from __future__ import annotations
+
+import json
+import re
+from pathlib import Path
+
+import pytest
+
+from diecut_report.cli.main import main
+from tests.configs import GOOD, LEVER, saved
+
+Capture = pytest.CaptureFixture[str]
+PLUGIN = """\
+import numpy as np
+
+from diecut_report.api import (
+    Annotated, Chapter, Drawing, Inputs, Mechanism, Quantity, polyline)
+
+
+class Bad(Inputs):
+    x: Annotated[float, Quantity("x", "mm", "Length", gt=0)] = 10
+
+
+def code(x):
+    {code}
+
+
+chapter = Chapter("Only")
+chapter.value("a", "a", "mm", "A", lambda x: 2 * x)
+{step}
+
+
+def draw(view):
+    {draw}
+
+
+FIGURE = Drawing(id="sketch", title="Sketch", caption="", build=draw)
+{head}
+MECHANISM = Mechanism(kind="faulty", version="1", title="T", summary="", inputs=Bad, chapters=(chapter,), figures=({figures}))
+"""
+COMPUTED = 'chapter.computed("b", "b", "mm", "B", code, ("x",), "by code")'
+BAD = {  # what stands where in the plugin, and what is told of it
+    "missing library": ({"head": "import no_such_library"}, "ModuleNotFoundError: No module named 'no_such_library' (faulty.py:25)"),
+    "newer contract": ({"head": "CONTRACT = 7"}, "it is written for contract 7, this program (0.1.0) has contract 1; install a newer version"),
+    "older contract": ({"head": "CONTRACT = 0"}, "has contract 1; take a newer version of the plugin"),
+    "name of another version": (
+        {"head": "from diecut_report.api import Wormhole"},
+        "diecut_report.api of this version (0.1.0) has no 'Wormhole'; the plugin is written for another version (faulty.py:25)",
+    ),
+    "exception": ({"code": "raise RuntimeError('fell over')"}, "RuntimeError: fell over (faulty.py:12)"),
+    "end of the program": ({"code": "raise SystemExit(0)"}, "SystemExit: 0 (faulty.py:12)"),
+    "not a number": ({"code": "return x * np.nan"}, "B (b) has no value with these inputs (faulty.py:17)"),
+    "infinite": ({"code": "return x * np.inf"}, "B (b) has no value with these inputs (faulty.py:17)"),
+    "wrong shape": ({"code": "return np.ones((3, 4))"}, "faulty.py:17: step b: its function code gives an array of shape (3, 4)"),
+    "nothing": ({"code": "pass"}, "faulty.py:17: step b: its function code gives None; it must return a number"),
+    "output that is not declared": (
+        {"step": 'chapter.value("b", "b", "mm", "B", lambda q: q)'}, "faulty.py:17: step b: takes q, which nothing gives",
+    ),
+    "message that names nothing": (
+        {"step": 'chapter.require("r", lambda x: x > 0, key="x", message="is {nope}")'}, "faulty.py:17: step r: the message names nope",
+    ),
+    "prepared without what is taken": (
+        {"code": "return {}", "step": 'chapter.prepared("p", code, ("x",))\nchapter.computed("b", "b", "mm", "B", lambda p: p["q"], ("p",), "m")'},
+        "KeyError: 'q' (faulty.py:18)",
+    ),
+}  # fmt: skip
+DRAWN = {
+    "a figure that asks for what is not there": (
+        "return [polyline([(0, view['nope'])])]",
+        "there is no number 'nope' in this machine",
+    ),
+    "a figure of a shape that nobody knows": ("return [{'shape': 'cube'}]", "cannot be drawn"),
+    "a figure that breaks": ("return 1 / 0", "ZeroDivisionError: division by zero"),
+}
+LATER = {"code": "return x", "step": COMPUTED, "draw": "return []", "head": "", "figures": ""}
+
+
+def plugin(folder: Path, **parts: str) -> str:
+    """A folder with a bad plugin."""
+    (folder / "plugins").mkdir(exist_ok=True)
+    text = PLUGIN
+    for key, part in {**LATER, **parts}.items():
+        text = text.replace(f"{{{key}}}", part)
+    saved(folder / "plugins", text, "faulty.py")
+    return str(folder / "plugins")
+
+
+def reported(folder: Path, capfd: Capture, formats: str, **parts: str) -> tuple[str, dict[str, dict[str, object]]]:
+    """What is told of a press with a lever and a bad mechanism, and the mechanisms of its results."""
+    folders = ("--plugins", plugin(folder, **parts), "--plugins", str(GOOD))
+    config = saved(folder, LEVER + "  faulty: {kind: faulty}\n")
+    assert main(["report", str(config), *folders, "-o", str(folder), "--format", formats, "--quiet"]) == 3
+    return capfd.readouterr().err, json.loads((folder / "press.json").read_text("utf-8"))["mechanisms"]
+
+
+@pytest.mark.parametrize("name", BAD)
+def test_a_plugin_that_is_bad_costs_its_mechanism_alone(tmp_path: Path, capfd: Capture, name: str) -> None:
+    parts, words = BAD[name]
+    told, results = reported(tmp_path, capfd, "json", **parts)
+    assert told.startswith("mechanism 'faulty' of plugin 'faulty': ") and words in told and "Traceback" not in told
+    assert re.search(r"faulty\.py", told)
+    assert results["a"]["status"] == "pass" and results["faulty"]["status"] == "error"
+
+
+@pytest.mark.parametrize("name", DRAWN)
+def test_a_bad_figure_costs_itself_alone(tmp_path: Path, capfd: Capture, name: str) -> None:
+    draw, words = DRAWN[name]
+    told, results = reported(tmp_path, capfd, "html,json", draw=draw, figures="FIGURE,")
+    assert "plugin 'faulty': figure 'sketch'" in told and words in told and re.search(r"faulty\.py:2[14]\)", told)
+    assert results["a"]["status"] == "pass" and results["faulty"]["status"] == "pass"
+
+
+def test_two_plugins_of_one_kind_are_both_told_and_the_others_stand(tmp_path: Path, capfd: Capture) -> None:
+    other = tmp_path / "other"
+    other.mkdir()
+    folders = ("--plugins", plugin(tmp_path), "--plugins", plugin(other), "--plugins", str(GOOD))
+    config = saved(tmp_path, LEVER + "  faulty: {kind: faulty}\n")
+    assert main(["calc", str(config), *folders]) == 3
+    out, err = capfd.readouterr()
+    files = f"{tmp_path / 'plugins' / 'faulty.py'} and from {other / 'plugins' / 'faulty.py'}"
+    assert (
+        f"mechanism 'faulty' of plugin 'faulty': The kind 'faulty' comes from {files}. Remove or rename one of them."
+        in err
+    )
+    assert json.loads(out)["mechanisms"]["a"]["status"] == "pass"
+
+
+WRITES = "print('by-print'); import os, subprocess; os.write(1, b'by-write'); subprocess.run(['echo', 'by-process']); return x"
+
+
+@pytest.mark.parametrize(
+    "command", [["calc", "CONFIG"], ["plugins"], ["schema", "faulty"], ["check-plugin", "faulty", "--format", "json"]]
+)
+def test_what_a_plugin_writes_does_not_spoil_what_is_asked_for(
+    tmp_path: Path, capfd: Capture, command: list[str]
+) -> None:
+    folders = (
+        "--plugins",
+        plugin(tmp_path, code=WRITES, head=f"\n{WRITES.removesuffix('; return x')}\n"),
+        "--plugins",
+        str(GOOD),
+    )
+    config = saved(tmp_path, LEVER + "  faulty: {kind: faulty}\n")
+    assert main([*[str(config) if part == "CONFIG" else part for part in command], *folders, "--quiet"]) in (0, 1)
+    out, err = capfd.readouterr()
+    assert not re.search("by-", out) and all(w in err for w in ("by-print", "by-write", "by-process"))
+    if command != ["plugins"]:
+        json.loads(out)

@@ -1,0 +1,107 @@
+"""A plugin that never comes back costs its chunk: its variants are in error with plugin, file and line, the others are kept."""
+
+from __future__ import annotations
+
+import threading
+import time
+from pathlib import Path
+from typing import Any
+
+import pyarrow.parquet as pq
+import pytest
+
+from diecut_report.cli.main import main
+from diecut_report.study.execution import study_run
+from diecut_report.study.execution.time_limit import ChunkClock, Overran, limited
+from tests.configs import saved
+from tests.study.test_broken_plugins import BASE, COMPUTED, PLUGIN
+
+Capture = pytest.CaptureFixture[str]
+pytestmark = pytest.mark.usefixtures("without_summary")
+STUDY = """\
+schema_version: 1
+base: press.yaml
+sample: {method: grid}
+vary: {mechanisms.m.x: {from: 1 mm, to: 4 mm, count: 8}}
+"""
+LOOP = """
+    while np.any(x > 3e-3):
+        pass
+"""
+HELD_BACK = """
+    while np.any(x > 3e-3):
+        try:
+            time.sleep(0.01)
+        except BaseException:
+            held.append(1)
+            if len(held) > 1:
+                raise
+"""
+
+
+def ran(folder: Path, loop: str, monkeypatch: pytest.MonkeyPatch, *options: str) -> int:
+    """The exit code of a study in chunks of two variants, whose last two never come back."""
+    text = PLUGIN.format(step=COMPUTED).replace("def small(x: Any) -> Any:", f"def small(x: Any) -> Any:{loop}")
+    text = text.replace('    if np.any(x > 2.5e-3):\n        raise LookupError("too long for the table")\n', "")
+    (folder / "plugins").mkdir()
+    saved(folder / "plugins", "import time\n\nheld: list[int] = []\n" + text, "breaking.py")
+    saved(folder, BASE)
+    monkeypatch.setattr(study_run, "PART", (2, 2))
+    study = saved(folder, STUDY, "study.yaml")
+    return main(["batch", str(study), "-o", str(folder / "out"), "--plugins", str(folder / "plugins"), *options])
+
+
+def rows(folder: Path) -> list[dict[str, Any]]:
+    found: list[dict[str, Any]] = pq.read_table(folder / "out" / "variants").to_pylist()
+    return found
+
+
+@pytest.mark.parametrize(
+    ("loop", "options"), [(LOOP, ()), (HELD_BACK, ()), (LOOP, ("--jobs", "2"))], ids=["loop", "held back", "pool"]
+)
+def test_a_chunk_that_never_ends_is_ended_and_the_others_are_kept(
+    tmp_path: Path, capfd: Capture, monkeypatch: pytest.MonkeyPatch, loop: str, options: tuple[str, ...]
+) -> None:
+    limit = "3" if options else "0.3"  # a process first loads the program, which counts for nothing
+    assert ran(tmp_path, loop, monkeypatch, "--chunk-limit", limit, *options) == 3
+    assert [row["status"] for row in rows(tmp_path)] == ["pass"] * 4 + ["error"] * 4
+    words = f"it took longer than {limit} s for 2 variants, and was ended (breaking.py:"
+    assert rows(tmp_path)[7]["error"].startswith(f"plugin 'breaking': {words}")
+    told = capfd.readouterr().err
+    assert "8 variants: 4 pass, 4 error." in told
+    assert f"plugin 'breaking' broke; variants that it broke for are in error, the others are kept: {words}" in told
+    assert "--chunk-limit sets how long it may take" in told
+
+
+def test_a_limit_follows_from_the_slowest_chunk_before() -> None:
+    clock = ChunkClock()
+    assert clock.limit(100) == 120 + 5 * 100  # nothing is known: generous
+    clock.measure(100, 2.0)
+    clock.measure(100, 1.0)
+    assert clock.limit(50) == 120 + 30 * 0.02 * 50
+    assert ChunkClock(7).limit(5) == 7 and ChunkClock(0).limit(5) is None
+
+
+def test_a_thread_that_is_not_the_main_one_is_interrupted_too() -> None:
+    ended: list[bool] = []
+
+    def work() -> None:
+        try:
+            with limited(0.1):
+                while True:
+                    time.sleep(0.001)
+        except Overran:
+            ended.append(True)
+
+    thread = threading.Thread(target=work)
+    thread.start()
+    thread.join(10)
+    assert ended == [True]
+
+
+def test_what_ends_in_time_is_left_alone() -> None:
+    with limited(0.05):
+        pass
+    with limited(None):
+        time.sleep(0.06)
+    time.sleep(0.06)  # no alarm rings afterwards

@@ -1,0 +1,46 @@
+"""Verdicts of many machines are those of each alone; of a self-test the rounding may be another, not the verdict."""
+
+from __future__ import annotations
+
+from typing import Annotated
+
+import numpy as np
+import pytest
+
+from diecut_report.api import Chapter, Check, Inputs, Mechanism, Quantity
+from diecut_report.contract.checks import CheckClass
+from diecut_report.engine import calculate
+from diecut_report.testing.many_machines import unlike_verdicts
+
+
+class Rounded(Inputs):
+    """An input that only says how many machines there are."""
+
+    length: Annotated[float, Quantity("l", "mm", "Length", gt=0)] = 10
+
+
+def differences(check_class: CheckClass, each: float) -> list[str]:
+    """The checks that differ between three machines together and one alone; their error grows with their number."""
+    chapter = Chapter("Error")
+    chapter.computed(
+        "error", "e", "1", "Error", lambda length: np.full(length.shape, each * len(length)), ("length",), "made up"
+    )
+    check = Check(id="error", check_class=check_class, title="Error", demand="error", limit=1e-9, unit="1", demand_label="error",
+                  limit_label="accepted", consequence="it is wrong.")  # fmt: skip
+    rounded = Mechanism(
+        kind="rounded", version="1", title="Rounded", summary="", inputs=Rounded, chapters=(chapter,), checks=(check,)
+    )
+    together, alone = (
+        calculate(rounded, {"length": np.array([0.01, 0.02, 0.03])}, 3),
+        calculate(rounded, {"length": 0.01}),
+    )
+    return [id for id, _ in unlike_verdicts(together, alone, 0)]
+
+
+@pytest.mark.parametrize(("check_class", "each", "found"), [
+    ("numerical", 1e-13, []), ("practice", 1e-13, ["error"]), ("numerical", 6e-10, ["error"]),
+])  # fmt: skip
+def test_a_self_test_compares_rounding_which_is_not_the_same_twice(
+    check_class: CheckClass, each: float, found: list[str]
+) -> None:
+    assert differences(check_class, each) == found
