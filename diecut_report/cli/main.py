@@ -178,20 +178,13 @@ config_argument = click.argument("config", type=click.Path(path_type=Path))
 @verdict.strict_option
 @common
 def report(
-    config: Path,
-    folder: Path,
-    formats: list[str],
-    previous: Path | None,
-    detail: str | None,
-    only: tuple[str, ...],
-    house: HouseStyle | None,
-    strict: bool,
-    folders: tuple[Path, ...],
-    quiet: bool,
-) -> int:
+    config: Path, folder: Path, formats: list[str], previous: Path | None, detail: str | None, only: tuple[str, ...],
+    house: HouseStyle | None, strict: bool, folders: tuple[Path, ...], quiet: bool,
+) -> int:  # fmt: skip
     """Calculate and write NAME.html, NAME.pdf and NAME.json; on demand NAME.docx and NAME.xlsx."""
     from diecut_report import pipeline
     from diecut_report.design.followed_advice import followed
+    from diecut_report.design.report_influence import influenced
     from diecut_report.exchange.sides import side
     from diecut_report.study.analysis.assumed import moves
 
@@ -199,7 +192,9 @@ def report(
         discovery = Discovery(folders)
         former = None if previous is None else side(source(previous, discovery), discovery, progress)[0]
         given, asked = source(config, discovery), pipeline.AskedReport(asked_language(), detail, only, house)
-        outcome = pipeline.report(given, discovery, progress, folder, formats, asked, moves, former, followed)
+        outcome = pipeline.report(
+            given, discovery, progress, folder, formats, asked, moves, former, followed, influenced
+        )
     if not quiet:
         tell_written(outcome.written)
     return _verdict(outcome, discovery, quiet, strict)

@@ -61,7 +61,7 @@ class Verification:
 
 def verify(
     carried: CarriedResults, discovery: Discovery, tell: Callable[[str], None], weigh: pipeline.Weigh, *, pages: bool = True,
-    trusted: Path | None = None, house: HouseStyle | None = None, follow: pipeline.Follow | None = None,
+    trusted: Path | None = None, house: HouseStyle | None = None, follow: pipeline.Follow | None = None, matter: pipeline.Matter | None = None,
 ) -> Verification:  # fmt: skip
     """Calculate the configuration of a report again and hold the report against that; without ``pages`` its numbers alone.
 
@@ -72,8 +72,11 @@ def verify(
     signed = signatures(carried.content, trusted) if carried.form == "pdf" else []
     weighing = weigh if "moves" in results["summary"] else None
     following = follow if "advice" in results["summary"] else None
+    mattering = matter if "influence" in results else None
     with _tables(carried) as find:
-        outcome, text = pipeline.calc(_tree(carried), discovery, tell, weigh=weighing, find=find, follow=following)
+        outcome, text = pipeline.calc(
+            _tree(carried), discovery, tell, weigh=weighing, find=find, follow=following, matter=mattering
+        )
     again = parsed(encoded(text), "")
     program = _program(results["program"], again["program"])
     numbers = agreement(_numbers(results), _numbers(again))

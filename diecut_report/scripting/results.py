@@ -155,12 +155,15 @@ class Results(Mapping[str, MechanismResults]):
         data = self._printable.copied()
         if self.config is not None and not self.errors:
             from diecut_report.design.followed_advice import followed
+            from diecut_report.design.report_influence import influenced
             from diecut_report.study.analysis.assumed import moves
 
             if data["summary"]["assumed"]:
                 data["summary"]["moves"] = moves(self.config, data)
             if data["summary"]["fail"] and (found := followed(self.config, data)):
                 data["summary"]["advice"] = found
+            if matters := influenced(self.config):
+                data["influence"] = matters
         return data
 
     # --- shown -------------------------------------------------------------------------------------------------------
