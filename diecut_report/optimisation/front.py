@@ -84,7 +84,9 @@ def filled(values: Any) -> Array:
         return np.asarray(values)
     if values.dtype.kind == "f":
         return np.asarray(values.filled(np.nan))
-    return np.where(np.ma.getmaskarray(values), None, np.asarray(values.data, dtype=object))
+    found: Array = np.array(values.data, dtype=object)
+    found[np.ma.getmaskarray(values)] = None
+    return found
 
 
 def found_front(study: Study, stored: Stored, there: Known) -> FoundFront:
